@@ -1,7 +1,7 @@
 # /// script
 # dependencies = ["stepaside"]
 # ///
-"""Let NAO walk with other gaits, and see what feedback is good for.
+"""Compare gaits of NAO under a push, with and without feedback.
 
 Run it alone: ``python examples/change_gait.py``.
 """
@@ -32,7 +32,7 @@ for name, gait in gaits.items():
             duration=seconds,
             gait=gait,
             control=control,
-            # Somebody bumps into it from the right, 0.6 N s, for 0.1 s.
+            # A push from the right: 0.6 N s over 0.1 s.
             pushes=(Push(0.6, 0.6 * seconds, 1.57),),
         )
         run = run_walk(walk)

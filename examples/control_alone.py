@@ -1,10 +1,10 @@
 # /// script
 # dependencies = ["stepaside"]
 # ///
-"""Control a NAO where there is no simulator: sensors in, joint angles out.
+"""Control a NAO without a simulator: measurements in, joint angles out.
 
-The body here is the simplest there is: its joints are where they are asked
-to be. A robot on a desk, or your own simulator, would stand in its place.
+The body here is trivial: its joints are at their targets. A real robot or
+another simulator would take its place.
 """
 
 import sys
@@ -15,39 +15,40 @@ from time import perf_counter  # noqa: E402
 
 import numpy as np  # noqa: E402
 
-from stepaside import (  # noqa: E402  # noqa: E402
+from stepaside import (  # noqa: E402
     ControlSettings,
     Evasion,
     GaitSettings,
     Measurement,
     Sighting,
     build_scheme,
-    load_robot,  # noqa: E402
+    load_robot,
 )
 
 TICK = 0.004  # [s]
 at_rest = np.array([0.0, 0.0, 9.81])  # specific force, in [m/s^2]
 forces = np.full(8, 6.5)  # at the corners of the soles, in [N]
 
-mind = build_scheme(
+controller = build_scheme(
     Evasion(), load_robot("nao"), GaitSettings(), ControlSettings(), tick=TICK
 )
 spent, worst = 0.0, 0.0
 for tick in range(2500):
     now = tick * TICK
-    # Somebody comes at 0.15 m/s, straight ahead, and stops at 0.5 m.
-    seen = Sighting(now, 0.0, max(0.5, 1.4 - 0.15 * now))
+    # The pursuer approaches straight ahead at 0.15 m/s, and stops at 0.5 m.
+    sighting = Sighting(now, 0.0, max(0.5, 1.4 - 0.15 * now))
     measured = Measurement(
-        now, mind.joint_targets, np.zeros(3), at_rest, forces, seen
+        now, controller.joint_targets, np.zeros(3), at_rest, forces, sighting
     )
     began = perf_counter()
-    targets = mind.update(measured)
+    targets = controller.update(measured)
     took = perf_counter() - began
     spent, worst = spent + took, max(worst, took)
-    if mind.begun is not None:
-        x, y, heading = mind.begun.landing
+    if controller.begun is not None:
+        step = controller.begun
+        x, y, heading = step.landing
         print(
-            f"{now:6.2f} s  {mind.phase.value}: {mind.begun.foot.name.lower()}"
+            f"{now:6.2f} s  {controller.phase.value}: {step.foot.name.lower()}"
             f" foot to ({x:6.3f}, {y:6.3f}) m, {heading:6.3f} rad"
         )
 print(f"{len(targets)} joints; a tick took {1e6 * spent / 2500:.0f} us in the")

@@ -1,7 +1,7 @@
 # /// script
 # dependencies = ["stepaside"]
 # ///
-"""Keep a run in a folder, load it again, and write its offline page.
+"""Write a run to a folder, load it again, and write its offline page.
 
 Run it alone: ``python examples/keep_runs.py``; it writes run/ and run.html.
 """
@@ -27,8 +27,10 @@ if not folder.exists():
     write_run(folder, run_duel(DuelSettings(seed=3, duration=seconds)))
 run = load_run(folder, DuelRun)
 
-print(f"{folder} holds {run.name}, {run.duration:.1f} s, seed "
-      f"{run.settings.seed}")  # fmt: skip
+print(
+    f"{folder} holds {run.name}, {run.duration:.1f} s, seed "
+    f"{run.settings.seed}"
+)
 for name, track in run.tracks.items():
     x, y, heading = track.torso[-1]
     print(f"{name:<8} ends at ({x:6.3f}, {y:6.3f}) m, {heading:6.3f} rad")

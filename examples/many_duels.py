@@ -1,9 +1,9 @@
 # /// script
 # dependencies = ["stepaside"]
 # ///
-"""Play duels side by side on all cores: how much does a worse body cost?
+"""Compare duels of ideal and hardware-like bodies, on all cores.
 
-Any executor of ``concurrent.futures`` will do, on one machine or on many.
+Any executor of ``concurrent.futures`` works, on one machine or on many.
 Run it alone: ``python examples/many_duels.py``.
 """
 
@@ -16,7 +16,7 @@ FEEDBACK = ControlSettings(method="measured", feedback=True)
 
 
 def main(seconds: float, seeds: range) -> None:
-    """Play every body from every start, and tabulate."""
+    """Play all bodies from all initial poses, and print a table."""
     duels = {
         (body, seed): DuelSettings(
             seed=seed,

@@ -1,7 +1,7 @@
 # /// script
 # dependencies = ["stepaside"]
 # ///
-"""An evader of your own: aside from afar, back when the pursuer is near."""
+"""Custom evader: aside at a distance, backward when the pursuer is near."""
 
 import sys
 from dataclasses import dataclass
@@ -28,21 +28,21 @@ class BackAndAside:
     saturated: bool = False
 
     def begin(self) -> st.EvasionMemory:
-        """Nobody has come near yet."""
+        """Return the memory before the first decision."""
         return st.EvasionMemory()
 
     def decide(
         self, knowledge: st.Knowledge, memory: st.EvasionMemory
     ) -> tuple[st.Intent, st.EvasionMemory]:
-        """Evade as the paper does, at an angle that the distance decides."""
-        room = 2.0 * knowledge.distance - 1.0  # from 0.5 m on, up to 1 m
-        angle = 0.5 * pi * min(max(room, 0.0), 1.0)
+        """Evade as in the paper, at an angle that depends on the distance."""
+        blend = 2.0 * knowledge.distance - 1.0  # 0 at 0.5 m, 1 at 1 m
+        angle = 0.5 * pi * min(max(blend, 0.0), 1.0)
         return st.Evasion(angle=angle).decide(knowledge, memory)
 
 
 def main(duration: float) -> None:
-    """Play it against moving aside, in both bodies."""
-    body = Unicycle(0.1, 0.2)  # NAO's, in path time: 0.4 s in 0.547 s
+    """Compare it with moving aside, with unicycles and with humanoids."""
+    body = Unicycle(0.1, 0.2)  # of NAO, in path time: 0.4 s per 0.547 s
     for name in ("evasion", f"{__file__}:BackAndAside"):
         game = st.play_strategies(
             st.Pursuit(),
@@ -61,9 +61,11 @@ def main(duration: float) -> None:
             ("humanoids", duel.summary.min_distance_m, duel.evader.torso),
         ):
             floor = np.hypot(*(path - path[0])[:, :2].T).max()
-            who = "aside" if name == "evasion" else "own"
-            print(f"{who} {bodies}: closest approach {closest:.2f} m, floor "
-                  f"used {floor:.2f} m")  # fmt: skip
+            strategy = "aside" if name == "evasion" else "own"
+            print(
+                f"{strategy} {bodies}: closest approach {closest:.2f} m, "
+                f"floor used {floor:.2f} m"
+            )
 
 
 if __name__ == "__main__":

@@ -15,8 +15,8 @@ from stepaside import Direction, Foot, GaitSettings, ManeuverPlanner
 
 planner = ManeuverPlanner(GaitSettings())
 
-# The pursuer is seen 40 degrees to the left; the evader, which walks
-# backward, turns until it stands across the line of sight (eq. 5).
+# The pursuer is 40 degrees to the left; the evader, which walks backward,
+# turns until its heading is perpendicular to the line of sight (eq. 5).
 began = perf_counter()
 plan = planner.plan(
     radians(40.0 - 90.0),

@@ -1,7 +1,7 @@
 # /// script
 # dependencies = ["stepaside"]
 # ///
-"""Play a duel of two NAOs in physics, take its arrays, draw its figure.
+"""Play a duel of two NAOs in physics, read its arrays, draw its figure.
 
 Run it alone: ``python examples/play_duel.py``; it writes duel.png.
 """
@@ -23,15 +23,15 @@ print(f"{run.outcome.value}: {run.message}")
 print(f"closest approach {run.summary.min_distance_m:.3f} m")
 if run.theory is not None:
     radius, distance, angle = run.theory
-    print(f"theory's circle: {distance:.3f} m apart, {angle:.0f} deg")
+    print(f"circle of theory: {distance:.3f} m apart, {angle:.0f} deg")
 print(
-    f"at the end:      {run.distance[-1]:.3f} m apart, "
+    f"at the end:       {run.distance[-1]:.3f} m apart, "
     f"{run.orientation[-1]:.0f} deg"
 )
 
-# Tracks are arrays, one row every 20 ms; what a player lacks is None.
-way = np.diff(run.evader.com[:, :2], axis=0)
-print(f"the evader's CoM went {np.hypot(*way.T).sum():.2f} m")
+# One row every 20 ms; arrays that a player lacks are None.
+steps = np.diff(run.evader.com[:, :2], axis=0)
+print(f"the evader's CoM moved {np.hypot(*steps.T).sum():.2f} m")
 assert run.evader.landings is not None
 print(f"in {len(run.evader.landings)} footsteps")
 

@@ -1,7 +1,7 @@
 # /// script
 # dependencies = ["stepaside"]
 # ///
-"""Games of two unicycles: a circle, a certificate, two thousand starts.
+"""Games of two unicycles: circle, certificate and two thousand starts.
 
 Run it alone: ``python examples/unicycle_games.py``.
 """
@@ -20,7 +20,7 @@ from stepaside import (
     simulate,
 )
 
-game = make_game(0.1, 0.1, 0.2, 0.2)  # speeds [m/s], gains [1/s]: the paper's
+game = make_game(0.1, 0.1, 0.2, 0.2)  # speeds [m/s], gains [1/s]
 
 circle = find_circle(0.1, 0.1, 0.2, 0.2)
 print(

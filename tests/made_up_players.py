@@ -72,10 +72,16 @@ class FakePlayer:
         self.truth: Any = FakeTruth(x, y)
         self.begun: StepStarted | None = None
         self.reports: Any = ()
+        self.is_ready = True
+        self.starts = 0
         self.is_moving = self.has_fallen = False
         self.closed = 0
         self.does: dict[int, Callable[[], None]] = {}
         self.seen: dict[str, Any] = {}
+
+    def start(self) -> None:
+        """Count it."""
+        self.starts += 1
 
     def tick(self) -> None:
         """Do what was told for this tick."""

@@ -12,14 +12,12 @@ from click.testing import CliRunner, Result
 from stepaside.cli.main import main
 from stepaside.cli.options.settings_builder import changed
 from stepaside.cli.plan_settings import PlanSettings
-from stepaside.core.errors import ConfigurationError
 from stepaside.games.configuration_file import (
     dump_configuration,
     parse_settings,
 )
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.walk_settings import WalkSettings
-from stepaside.locomotion.zmp.control_settings import StabiliserSettings
 from stepaside.planning import PRESETS
 from stepaside.sim.body_settings import BODIES
 from stepaside.sim.camera_settings import CLUTTER
@@ -287,27 +285,7 @@ def test_plan_and_robustness_take_files_of_duels(file: Path) -> None:
     assert refused.exit_code == 2 and "unknown entry weather" in refused.stderr
 
 
-def test_old_entries_are_renamed_or_ignored(
-    tmp_path: Path,
-) -> None:
-    file = tmp_path / "old.toml"
-    file.write_text(
-        "[body]\nplay = 0.02\n[control.stabiliser]\nankle = 0.2\n"
-        "lead_blend = 0.5\nprediction_blend = 0.4\n",
-        encoding="utf-8",
-    )
-    for name in ("duel", "walk"):
-        found = settings(f"{name} --config {file}")
-        assert found.body.backlash == 0.02
-        # Obsolete entries are ignored.
-        stabiliser = changed(StabiliserSettings(), {"ankle": 0.2})
-        assert found.control.stabiliser == stabiliser
-    file.write_text("[body]\nplay = 0.02\nbacklash = 0.01", encoding="utf-8")
-    with pytest.raises(ConfigurationError, match=r"body\.play is the old"):
-        parse_settings(WalkSettings, tomllib.loads(file.read_text()), "here")
-
-
-def test_incomplete_file_is_refused(
+def test_a_file_that_lacks_what_it_must_say_is_refused(
     tmp_path: Path,
 ) -> None:
     file = tmp_path / "walk.toml"
@@ -384,7 +362,9 @@ def test_map_seen_implies_cameras(command: str, tmp_path: Path) -> None:
     assert printed(f"{command} --map seen")["sensing"] == "ideal"
     refused = run(f"{room} --sensing ideal --print-config")
     assert refused.exit_code == 2
-    assert "sensing must be 'cameras' where the map is seen" in refused.stderr
+    assert (
+        "sensing must be 'cameras' with map.source = 'seen'" in refused.stderr
+    )
     file = tmp_path / "told.toml"
     file.write_text('sensing = "ideal"\n', encoding="utf-8")
     assert run(f"{room} --config {file} --print-config").exit_code == 2

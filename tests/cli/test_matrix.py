@@ -295,7 +295,7 @@ def test_live_duel_is_stepped_pushed_and_drawn(
         if name in case.walkers:
             session.push(number, 2.5, pi / 2)
             continue
-        with pytest.raises(ConfigurationError, match="who is a person"):
+        with pytest.raises(ConfigurationError, match="which is a person"):
             session.push(number, 2.5, pi / 2)
     solved: set[str] = set()
 

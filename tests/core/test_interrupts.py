@@ -13,7 +13,7 @@ from stepaside.core.interrupts import (
     interruptible,
 )
 from stepaside.games.outcome import Outcome
-from stepaside.games.player_record import PlayerRecord
+from stepaside.games.recorder import PlayerRecord
 from stepaside.games.walk_game import run_walk
 from stepaside.games.walk_settings import WalkSettings
 

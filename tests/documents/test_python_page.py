@@ -22,7 +22,8 @@ def test_every_block_of_the_page_runs(
         exec(compile(block, "docs/python.md", "exec"), names)
     assert (tmp_path / "duel.pdf").stat().st_size > 10_000
     assert (tmp_path / "kept.html").stat().st_size > 10_000
-    assert str(names["mind"].phase) == "Phase.WALKING"  # type: ignore[attr-defined]
+    phase = names["controller"].phase  # type: ignore[attr-defined]
+    assert str(phase) == "Phase.WALKING"
 
 
 def test_every_example_is_named_on_the_page() -> None:

@@ -1,4 +1,4 @@
-"""Games of one, two and three: figures, pages and films show everybody."""
+"""Games of one, two and three players in figures, pages and films."""
 
 import json
 import re
@@ -35,7 +35,7 @@ PUSH = np.array([[0.1, 0.1, 0.3, -0.2, 0.0, 0.8]])
 
 @cache
 def game(count: int) -> Run:
-    """Robots that walk abreast, a metre apart; the last one is pushed."""
+    """Return robots that walk abreast, 1 m apart; the last is pushed."""
     alone = run_walk(WalkSettings(duration=0.4))
     tracks = {
         name: _beside(alone.walker, float(number))
@@ -69,7 +69,9 @@ by_count = pytest.mark.parametrize("count", [1, 2, 3])
 
 
 @by_count
-def test_a_run_knows_who_played_and_what_a_pair_has(count: int) -> None:
+def test_a_run_has_its_players_and_the_distance_of_the_first_two(
+    count: int,
+) -> None:
     run = game(count)
     assert run.players == run.robots == NAMES[:count]
     assert run.theory is None and run.safety is None and run.circle is None
@@ -96,7 +98,7 @@ def test_players_have_the_colours_of_their_roles_or_their_own() -> None:
 
 
 @by_count
-def test_everybody_is_in_the_figure(
+def test_every_player_is_in_the_figure(
     count: int, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     figures: list[Figure] = []
@@ -131,7 +133,7 @@ def test_everybody_is_in_the_figure(
 
 
 @by_count
-def test_everybody_is_on_the_page(count: int, tmp_path: Path) -> None:
+def test_every_player_is_on_the_page(count: int, tmp_path: Path) -> None:
     run, file = game(count), tmp_path / "run.html"
     write_page(run, file)
     text = file.read_text(encoding="utf-8")
@@ -148,7 +150,7 @@ def test_everybody_is_on_the_page(count: int, tmp_path: Path) -> None:
 
 
 @by_count
-def test_everybody_is_in_the_film(count: int) -> None:
+def test_every_player_is_in_the_film(count: int) -> None:
     run = game(count)
     drawn = mujoco.MjvScene(RunScene(run).model, maxgeom=5000)
     film_layers.decorate(drawn, run=run, index=20, trail=0.8)
@@ -170,7 +172,7 @@ def _of(drawn: mujoco.MjvScene, colour: str) -> list[Any]:
 
 
 @by_count
-def test_everybody_is_in_the_layers_of_a_replay(count: int) -> None:
+def test_every_player_is_in_the_layers_of_a_replay(count: int) -> None:
     run = game(count)
     drawn: dict[tuple[str, str], Array] = {}
     layers = SimpleNamespace(
@@ -188,7 +190,7 @@ def test_everybody_is_in_the_layers_of_a_replay(count: int) -> None:
     assert (("line of sight", "both") in drawn) is (count > 1)
 
 
-def test_an_arrow_ends_where_the_push_was_felt() -> None:
+def test_an_arrow_ends_where_the_push_was_applied() -> None:
     lines = pushes_at(PUSH, 0.5)
     np.testing.assert_allclose(lines[0, 1, :2], (0.3, -0.2))
     np.testing.assert_allclose(

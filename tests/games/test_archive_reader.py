@@ -1,4 +1,4 @@
-"""Test that arrays are read as they were written."""
+"""Test reading arrays of run folders."""
 
 from pathlib import Path
 from typing import Any
@@ -15,14 +15,14 @@ KNOWN = frozenset({"rows"})
 @pytest.mark.parametrize("shape", [(), (5,), (4, 3), (1, 7), (0, 3)])
 @pytest.mark.parametrize("kind", ["<f4", "<f8"])
 @pytest.mark.parametrize("packed", [False, True])
-def test_an_array_is_what_was_written(
+def test_an_array_is_read_as_written(
     shape: tuple[int, ...],
     order: Any,
     kind: str,
     packed: bool,
     tmp_path: Path,
 ) -> None:
-    """By rows or by columns, packed or not."""
+    """In row and column order, compressed or not."""
     rows = np.random.default_rng(1).normal(size=shape).astype(kind)
     file = tmp_path / "arrays.npz"
     save = np.savez_compressed if packed else np.savez

@@ -1,4 +1,4 @@
-"""Settings as values and as files: what is allowed, what comes back."""
+"""Test settings as values and as configuration files."""
 
 from collections.abc import Callable
 from dataclasses import FrozenInstanceError, asdict, fields, replace
@@ -58,7 +58,7 @@ RANGES: list[tuple[Callable[..., Any], str, float, float]] = [
 
 
 @pytest.mark.parametrize(("kind", "name", "low", "high"), RANGES)
-def test_a_range_holds_its_edges_and_nothing_beyond(
+def test_a_range_includes_its_limits_and_nothing_beyond(
     kind: Callable[..., Any], name: str, low: float, high: float
 ) -> None:
     beyond = [low - (1 if isinstance(low, int) else 1e-6), nan, -inf]
@@ -85,7 +85,7 @@ def test_a_range_holds_its_edges_and_nothing_beyond(
     ],
     ids=lambda value: type(value).__name__,
 )
-def test_settings_are_values_that_nobody_changes(value: Any) -> None:
+def test_settings_are_immutable(value: Any) -> None:
     for field in fields(value):
         with pytest.raises(FrozenInstanceError):
             setattr(value, field.name, getattr(value, field.name))
@@ -95,7 +95,9 @@ def test_settings_are_values_that_nobody_changes(value: Any) -> None:
 @pytest.mark.parametrize(
     ("name", "low", "high"), [("time_step", 1e-5, 0.01), ("tick", 1e-5, 0.1)]
 )
-def test_the_clock_has_its_range(name: str, low: float, high: float) -> None:
+def test_physics_settings_have_ranges(
+    name: str, low: float, high: float
+) -> None:
     for value in (low, high):
         PhysicsSettings(time_step=min(value, 0.01), tick=value)
     for value in (0.9 * low, 1.1 * high):
@@ -107,7 +109,7 @@ def test_the_clock_has_its_range(name: str, low: float, high: float) -> None:
     ("time_step", "tick", "steps"),
     [(0.002, 0.002, 1), (0.002, 0.012, 6), (0.001, 0.1, 100), (3e-5, 9e-5, 3)],
 )
-def test_a_tick_has_whole_steps(
+def test_a_tick_has_a_whole_number_of_time_steps(
     time_step: float, tick: float, steps: int
 ) -> None:
     physics = PhysicsSettings(time_step=time_step, tick=tick)
@@ -115,7 +117,9 @@ def test_a_tick_has_whole_steps(
 
 
 @pytest.mark.parametrize("tick", [0.001, 0.0008, 0.0031, 0.00400001])
-def test_a_tick_that_no_steps_fill_is_refused(tick: float) -> None:
+def test_a_tick_that_is_no_multiple_of_the_time_step_is_refused(
+    tick: float,
+) -> None:
     with pytest.raises(ConfigurationError, match="whole multiple"):
         PhysicsSettings(time_step=0.002, tick=tick)
 
@@ -128,14 +132,14 @@ def test_a_tick_that_no_steps_fill_is_refused(tick: float) -> None:
         ({"pursuer": "dog"}, "pursuer"),
     ],
 )
-def test_a_duel_refuses_what_it_does_not_know(
+def test_a_duel_refuses_unknown_choices(
     changes: dict[str, Any], message: str
 ) -> None:
     with pytest.raises(ConfigurationError, match=message):
         DuelSettings(**changes)
 
 
-def test_rates_below_zero_are_refused_even_without_end() -> None:
+def test_negative_rates_are_refused_even_infinite_ones() -> None:
     for rate in (-inf, 0.0, -1.0):
         with pytest.raises(ConfigurationError, match="rate"):
             SightSettings(rate=rate)
@@ -152,12 +156,12 @@ def test_a_strategy_is_its_own_setting() -> None:
     assert usual.side_hysteresis == pytest.approx(radians(20.0))
 
 
-def test_a_strategy_that_no_evader_takes_is_refused_at_once() -> None:
+def test_an_invalid_strategy_is_refused_at_once() -> None:
     with pytest.raises(ValueError, match="safety"):
         Evasion(safety_radius=-1.0)
 
 
-def test_a_body_may_ask_for_its_own_control_period() -> None:
+def test_a_body_may_set_the_control_period() -> None:
     physics = PhysicsSettings()
     assert with_cycle(physics, BodySettings()) is physics
     asked = with_cycle(physics, BodySettings(cycle=0.012))
@@ -177,7 +181,7 @@ def test_a_body_may_ask_for_its_own_control_period() -> None:
         ("backlash", 0.001),
     ],
 )
-def test_any_effect_on_servos_makes_them_honest(
+def test_any_servo_effect_enables_the_servo_model(
     name: str, value: float
 ) -> None:
     effects: dict[str, Any] = {name: value}
@@ -198,19 +202,19 @@ def test_any_effect_on_servos_makes_them_honest(
         "force_gain_error",
     ],
 )
-def test_any_error_of_a_sensor_spoils_them(name: str) -> None:
+def test_any_sensor_error_enables_the_error_model(name: str) -> None:
     effects: dict[str, Any] = {name: 1 if "cycles" in name else 0.1}
     body = replace(BodySettings(), **effects)
     assert body.has_sensor_errors and body.has_ideal_servos
 
 
-def test_wrong_masses_leave_servos_and_sensors_alone() -> None:
+def test_mass_errors_enable_neither_servo_nor_sensor_models() -> None:
     body = BodySettings(mass_error=0.1, com_error=0.01, cycle=0.012)
     assert body.has_ideal_servos and not body.has_sensor_errors
 
 
 def test_presets_are_those_of_the_documents() -> None:
-    """docs/walking.md gives these values with their source."""
+    """Values are those of docs/walking.md, with their source."""
     assert BODIES["ideal"] == BodySettings()
     assert asdict(BODIES["delayed"]) == asdict(BodySettings()) | {
         "cycle": 0.012,
@@ -239,7 +243,7 @@ def test_presets_are_those_of_the_documents() -> None:
 
 
 def test_starts_fill_their_ranges_and_repeat() -> None:
-    """Distance, pursuer and evader, as the docstring gives the ranges."""
+    """Distance and offsets of both, in the ranges of the docstring."""
     drawn = [draw_start(DuelSettings(seed=seed)) for seed in range(400)]
     for name, low, high in (
         ("distance", 0.6, 1.5),
@@ -252,7 +256,7 @@ def test_starts_fill_their_ranges_and_repeat() -> None:
     assert draw_start(DuelSettings(seed=7)) == drawn[7]
 
 
-def test_what_a_start_gives_is_kept_and_the_rest_drawn_as_ever() -> None:
+def test_given_start_values_are_kept_and_others_drawn_unchanged() -> None:
     whole = draw_start(DuelSettings(seed=5))
     for name in ("distance", "pursuer_offset", "evader_offset"):
         given = StartSettings(**{name: 0.5})
@@ -263,7 +267,7 @@ def test_what_a_start_gives_is_kept_and_the_rest_drawn_as_ever() -> None:
     assert away.evader_offset == whole.evader_offset
 
 
-def test_a_configuration_comes_back_as_it_was(tmp_path: Path) -> None:
+def test_a_configuration_is_read_as_written(tmp_path: Path) -> None:
     settings = DuelSettings(
         seed=9,
         duration=33.0,
@@ -278,7 +282,7 @@ def test_a_configuration_comes_back_as_it_was(tmp_path: Path) -> None:
     assert load_configuration(file) == settings
 
 
-def test_whole_numbers_are_taken_for_real_ones_alone() -> None:
+def test_integers_are_converted_to_floats_but_not_conversely() -> None:
     settings = parse_configuration({"duration": 30}, "here")
     assert settings.duration == 30.0 and isinstance(settings.duration, float)
     given = parse_configuration({"start": {"distance": 1}}, "here")
@@ -297,10 +301,10 @@ def test_whole_numbers_are_taken_for_real_ones_alone() -> None:
         ({"start": {"distance": True}}, "here: start.distance must be"),
     ],
 )
-def test_true_and_false_are_no_numbers(
+def test_booleans_are_not_accepted_as_numbers(
     entries: dict[str, Any], message: str
 ) -> None:
-    """Python takes them for 1 and 0: a duel of one second."""
+    """Python converts them to 1 and 0: a duel of one second."""
     with pytest.raises(ConfigurationError, match=message):
         parse_configuration(entries, "here")
 
@@ -321,7 +325,7 @@ def test_errors_in_a_configuration_are_named(
         parse_configuration(entries, "here")
 
 
-def test_files_that_are_no_configuration_are_refused(tmp_path: Path) -> None:
+def test_invalid_configuration_files_are_refused(tmp_path: Path) -> None:
     broken = tmp_path / "broken.toml"
     with pytest.raises(ConfigurationError, match=r"broken\.toml"):
         load_configuration(broken)

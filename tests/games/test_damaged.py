@@ -1,4 +1,4 @@
-"""Run folders that are not as they were written are refused in one line."""
+"""Test that damaged run folders are refused in one line."""
 
 import json
 import os
@@ -17,7 +17,7 @@ from click.testing import CliRunner
 from stepaside.cli.main import main
 from stepaside.core.errors import ConfigurationError
 from stepaside.games import archive_reader as reading
-from stepaside.games.array_checks import KINDS
+from stepaside.games.array_checks import ARRAY_SPECS
 from stepaside.games.duel import run_duel
 from stepaside.games.duel_run import DuelRun
 from stepaside.games.duel_settings import DuelSettings
@@ -36,11 +36,11 @@ Damage = Callable[[Path], None]
 
 @pytest.fixture(scope="module")
 def played() -> DuelRun:
-    """A duel, whose evader has all that anybody can have."""
+    """Return a duel whose evader has every array."""
     run = run_duel(DuelSettings(duration=0.2))
     rows = {
         key: np.zeros((len(run.times), kind.columns or 7))
-        for key, kind in KINDS.items()
+        for key, kind in ARRAY_SPECS.items()
         if getattr(run.evader, key) is None and key != "sight"
     }
     return replace(
@@ -62,7 +62,7 @@ def text(name: str, content: str | bytes) -> Damage:
 
 
 def void(_: Any) -> None:
-    """Give nothing back."""
+    """Return nothing, whatever the argument."""
 
 
 def arrays(change: Callable[[dict[str, Any]], Any]) -> Damage:
@@ -212,7 +212,7 @@ DAMAGES: dict[str, Damage] = {
     **{f"{n} is a pipe": piped(n) for n in (SUMMARY, CONFIGURATION)},
     "configuration is a link": linked(CONFIGURATION),
 }
-for key, kind in KINDS.items():
+for key, kind in ARRAY_SPECS.items():
     if key == "sight":
         continue
     name = f"evader_{key}"
@@ -240,7 +240,7 @@ def test_a_damaged_folder_is_refused(folder: Path, kind: str) -> None:
 
 @pytest.mark.parametrize("kind", ["terabytes", "summary 'null'", "no archive"])
 @pytest.mark.parametrize("command", ["replay --html x", "compare --output x"])
-def test_commands_refuse_it_in_one_line(
+def test_commands_refuse_a_damaged_folder_in_one_line(
     folder: Path, kind: str, command: str
 ) -> None:
     DAMAGES[kind](folder)
@@ -251,30 +251,30 @@ def test_commands_refuse_it_in_one_line(
     assert list(folder.parent.iterdir()) == [folder]
 
 
-def test_every_array_of_a_track_is_checked() -> None:
-    assert set(KINDS) == set(Trajectory.__dataclass_fields__)
+def test_every_array_of_a_trajectory_is_checked() -> None:
+    assert set(ARRAY_SPECS) == set(Trajectory.__dataclass_fields__)
 
 
-def test_arrays_of_nobody_are_refused_by_name(folder: Path) -> None:
+def test_arrays_of_unknown_players_are_refused_by_name(folder: Path) -> None:
     member("strange", header("(10**12,)"))(folder)
-    with pytest.raises(ConfigurationError, match="holds 'strange'"):
+    with pytest.raises(ConfigurationError, match="unknown array 'strange'"):
         load_run(folder)
 
 
-def test_more_than_all_arrays_may_have_is_not_read(
+def test_arrays_beyond_the_size_limit_are_not_read(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     each("evader_landings", lambda rows: np.zeros((1000, 5)))(folder)
     size = (folder / TRAJECTORIES).stat().st_size
-    monkeypatch.setattr(reading, "LARGEST", size + 1)
+    monkeypatch.setattr(reading, "MAX_ARRAY_BYTES", size + 1)
     with pytest.raises(ConfigurationError, match="at most .* bytes"):
         load_run(folder)
-    monkeypatch.setattr(reading, "LARGEST", size - 1)
+    monkeypatch.setattr(reading, "MAX_ARRAY_BYTES", size - 1)
     with pytest.raises(ConfigurationError, match="must be a file of"):
         load_run(folder)
 
 
-def test_a_run_of_other_robots_has_no_stage(played: DuelRun) -> None:
+def test_a_run_of_other_robots_has_no_scene(played: DuelRun) -> None:
     qpos = played.pursuer.qpos
     assert qpos is not None
     for changed in (qpos[:, :-1], None):

@@ -1,4 +1,4 @@
-"""A day of maneuvers leaves a control process as it was."""
+"""Test that control over a day does not accumulate memory."""
 
 import json
 import subprocess
@@ -19,7 +19,7 @@ BLOCK = 512  # most that one block of Python's has, in [bytes]
 
 
 @pytest.mark.parametrize("kind", ["open loop", "feedback", "eyes"])
-def test_maneuvers_leave_no_memory_behind(kind: str) -> None:
+def test_maneuvers_do_not_accumulate_memory(kind: str) -> None:
     """Whole control, nothing made up but the body: it fits into a day.
 
     Blocks that each maneuver left would add up: over all those of a day to

@@ -1,4 +1,4 @@
-"""Test the game in physics: the circle, its mirror image, its ends."""
+"""Test duels in physics: circle, symmetry and endings."""
 
 from dataclasses import replace
 from functools import cache
@@ -68,7 +68,7 @@ def test_evader_stands_until_its_safety_area_is_entered() -> None:
 
 
 def test_released_evader_comes_to_rest() -> None:
-    """The pursuer heads elsewhere at first, and the distance grows."""
+    """The pursuer first heads away, and the distance grows."""
     settings = DuelSettings(
         duration=14.0,
         start=StartSettings(0.7, 3.1, 0.0),
@@ -84,7 +84,7 @@ def test_released_evader_comes_to_rest() -> None:
 
 
 def test_falls_are_detected_and_end_the_duel() -> None:
-    """Strides of 10 cm in a quarter of a second need feedback, at least."""
+    """Strides of 10 cm in 0.25 s are not stable without feedback."""
     gait = GaitSettings(
         single_support=0.24, double_support=0.04, stride=0.1, speed=0.25
     )
@@ -125,7 +125,7 @@ def soles_on_the_floor(
 @SHARED
 @pytest.mark.parametrize("name", ["pursuer", "evader"])
 def test_planned_footsteps_are_walked_in_physics(name: str) -> None:
-    """Step and turn of the feet on the floor are the plan's, within 2 %."""
+    """Step length and turn of the feet match the plan within 2 %."""
     arrays = play(11).arrays()
     landings = arrays[f"{name}_landings"]
     last = arrays["times_s"][-1] - 0.3
@@ -143,12 +143,12 @@ def test_planned_footsteps_are_walked_in_physics(name: str) -> None:
 
 
 def step_of(places: Array) -> float:
-    """Mean distance between successive footsteps, in [m]."""
+    """Return the mean distance between successive footsteps, in [m]."""
     return float(np.hypot(*np.diff(places, axis=0).T).mean())
 
 
 def turn_of(headings: Array) -> float:
-    """Mean turn from one footstep to the next, in [rad]."""
+    """Return the mean turn between successive footsteps, in [rad]."""
     return float(np.diff(np.unwrap(headings)).mean())
 
 

@@ -1,4 +1,4 @@
-"""Test the circle of a duel: theory's, and when the players are on it."""
+"""Test the circle of theory and the convergence of a duel to it."""
 
 from dataclasses import replace
 from math import pi
@@ -29,13 +29,13 @@ from stepaside.strategies import Evasion
 
 
 def since(record: Record, settings: DuelSettings = SETTINGS) -> float | None:
-    """When a record says that they are on the circle."""
+    """Return the time from which a record is on the circle, in [s]."""
     places = record.places["pursuer"], record.places["evader"]
     return converged_at(record.times, *places, settings, theory_of(settings))
 
 
 def test_theory_is_the_circle_of_the_settings() -> None:
-    """Level 0: radius 4v/(pi k) for both, headings a right angle apart."""
+    """Radius 4v/(pi k) for both, headings a right angle apart."""
     gait = SETTINGS.gait
     radius = 4.0 * gait.speed / (pi * gait.gain)
     assert THEORY.radius_evader_m == pytest.approx(radius)
@@ -47,8 +47,8 @@ def test_theory_is_the_circle_of_the_settings() -> None:
     assert theory_of(sliding).radius_evader_m == pytest.approx(0.5)
 
 
-def test_a_person_walks_the_same_circle_at_its_own_pace() -> None:
-    """Time is scaled by the gait's pace; lengths and angles are not."""
+def test_a_person_walks_the_same_circle_at_the_real_time_scale() -> None:
+    """The gait scales time; lengths and angles are unchanged."""
     gait = SETTINGS.gait
     pace = gait.path_interval / gait.step_duration
     assert pace < 0.9
@@ -85,7 +85,7 @@ def test_distance_is_in_the_plane() -> None:
         (30.0, 750.0, 0.0),
     ],
 )
-def test_headings_are_apart_by_the_smaller_angle(
+def test_the_angle_between_headings_is_the_smaller_one(
     pursuer: float, evader: float, apart: float
 ) -> None:
     one = np.radians([[0.0, 0.0, pursuer]])
@@ -95,7 +95,7 @@ def test_headings_are_apart_by_the_smaller_angle(
         np.testing.assert_allclose(found, apart, atol=1e-9)
 
 
-def test_the_mean_over_a_cycle_takes_out_the_sway_alone() -> None:
+def test_the_mean_over_a_cycle_removes_only_the_sway() -> None:
     times: Array = 0.02 * np.arange(500, dtype=float)
     sway = np.sin(2.0 * pi * times / 0.5)
     mean = cycle_mean(3.0 + 0.1 * times + sway, times, 0.5)
@@ -106,7 +106,7 @@ def test_the_mean_over_a_cycle_takes_out_the_sway_alone() -> None:
     np.testing.assert_allclose(cycle_mean(np.full(500, 3.0), times, 0.5), 3.0)
 
 
-def test_the_mean_at_the_ends_is_over_what_there_is() -> None:
+def test_the_mean_at_the_ends_is_over_the_available_samples() -> None:
     times = np.arange(5.0)
     mean = cycle_mean(np.array([0.0, 3.0, 6.0, 0.0, 9.0]), times, 3.0)
     np.testing.assert_allclose(mean, [1.5, 3.0, 3.0, 5.0, 4.5])
@@ -164,7 +164,7 @@ def test_just_outside_the_band_they_never_converge(share: float) -> None:
     assert since(Record(apart=still(angle))) is None
 
 
-def test_who_leaves_the_circle_has_not_converged_before() -> None:
+def test_convergence_counts_only_after_the_last_departure() -> None:
     right, off = THEORY.distance_m, 1.2 * THEORY.distance_m
 
     def left(times: Array) -> Array:
@@ -185,7 +185,7 @@ def test_the_last_five_seconds_must_be_on_the_circle() -> None:
 
 
 @pytest.mark.parametrize("samples", [3, 9, 55])
-def test_a_cycle_that_the_end_cuts_is_not_judged(samples: int) -> None:
+def test_a_truncated_cycle_at_the_end_is_not_evaluated(samples: int) -> None:
     """Sway whose half cycles are off, but whose whole ones are not.
 
     However few samples a cycle has.
@@ -201,8 +201,8 @@ def test_a_cycle_that_the_end_cuts_is_not_judged(samples: int) -> None:
     assert found is not None and found < CYCLE
 
 
-def test_the_last_whole_cycle_is_judged() -> None:
-    """Who leaves the circle 0.8 of a cycle before the end is seen to."""
+def test_the_last_complete_cycle_is_evaluated() -> None:
+    """A departure 0.8 of a cycle before the end is detected."""
     left = 60.0 - 0.8 * CYCLE
     far = 1.12 * THEORY.distance_m
     gone = Record(stepped(left, THEORY.distance_m, far))

@@ -1,4 +1,4 @@
-"""Figures of a duel, from records whose figures are known."""
+"""Test summaries of duels on records with known values."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -36,7 +36,7 @@ from stepaside.strategies import Evasion
 def planned(
     times: Any = (), jump: float = 0.0, margin: float | None = None
 ) -> PlanningTimes:
-    """How a player planned who began one step more than it planned."""
+    """Return planning times of a player with one step more than plans."""
     return PlanningTimes(len(times) + 1, np.array(times), jump, margin)
 
 
@@ -57,7 +57,7 @@ def figures(
     wall_time: float = 3.0,
     captured_at: float | None = None,
 ) -> dict[str, Any]:
-    """Figures of a duel, as they are told."""
+    """Return the summary of a duel, as plain values."""
     match: Any = SimpleNamespace(
         world=SimpleNamespace(time=duration),
         message="played",
@@ -79,8 +79,8 @@ def figures(
     ).to_json()
 
 
-def test_figures_are_those_of_the_last_third() -> None:
-    """Before it everything is otherwise; all are those of the places."""
+def test_a_summary_is_of_the_last_third() -> None:
+    """Earlier samples differ; distances are of reference points."""
     made = Record(stepped(40.0, 2.0, 0.93), stepped(40.0, 0.2, 1.5))
     found = figures(made)
     assert found["distance_m"] == pytest.approx(0.93)
@@ -97,7 +97,7 @@ def test_each_robot_has_its_own_radius() -> None:
     assert found["evader"] == {"radius_m": pytest.approx(0.7)}
 
 
-def test_figures_of_the_last_third_are_means() -> None:
+def test_values_of_the_last_third_are_means() -> None:
     def swayed(times: Array) -> Array:
         return 0.9 + np.where(times < 50.0, 0.1, -0.1)
 
@@ -107,7 +107,7 @@ def test_figures_of_the_last_third_are_means() -> None:
     assert angle == pytest.approx(degrees(0.9), abs=0.01)
 
 
-def test_a_straight_way_has_no_radius() -> None:
+def test_a_straight_path_has_no_radius() -> None:
     made = Record()
     made.places["evader"][:] = 0.25  # stands
     found = figures(made)
@@ -115,7 +115,7 @@ def test_a_straight_way_has_no_radius() -> None:
     assert (found["evader"]["radius_m"] or 0.0) < 1e-6
 
 
-def test_a_summary_says_what_the_duel_was() -> None:
+def test_a_summary_has_seed_duration_start_and_trigger() -> None:
     found = figures(Record(), duration=30.0 + 1e-12)
     assert found["outcome"] == "completed" and found["message"] == "played"
     assert found["seed"] == 1 and found["duration_s"] == 30.0
@@ -148,7 +148,7 @@ def test_a_summary_says_what_the_duel_was() -> None:
     }
 
 
-def test_capture_and_contact_are_told_each() -> None:
+def test_capture_and_contact_are_reported_separately() -> None:
     """A duel goes on after capture; contact ends it."""
     found = figures(Record(), captured_at=17.5)
     assert found["captured_at_s"] == 17.5 and found["outcome"] == "completed"
@@ -156,7 +156,7 @@ def test_capture_and_contact_are_told_each() -> None:
     assert found["captured_at_s"] is None and found["outcome"] == "contact"
 
 
-def test_planning_times_are_told_in_microseconds() -> None:
+def test_planning_times_are_in_microseconds() -> None:
     times = np.arange(1, 102)[::-1] * 1e-6
     halves = {"pursuer": planned(times[:40]), "evader": planned(times[40:])}
     found = figures(Record(), planning=halves)
@@ -171,8 +171,8 @@ def test_planning_times_are_told_in_microseconds() -> None:
     assert figures(Record(), wall_time=0.0)["real_time_factor"] > 1e9
 
 
-def test_planning_of_both_is_put_together() -> None:
-    """Maneuvers are added, the worst jump and margin counts, of whom ever."""
+def test_planning_of_both_players_is_combined() -> None:
+    """Maneuvers are added; the worst jump and margin of both count."""
     one, other = planned([0.1, 0.2], 0.1, 0.04), planned([0.2], 0.2, 0.02)
     for pursuer, evader in ((one, other), (other, one)):
         both = {"pursuer": pursuer, "evader": evader}
@@ -186,19 +186,19 @@ def test_planning_of_both_is_put_together() -> None:
 
 
 @pytest.mark.parametrize("outcome", Outcome)
-def test_a_summary_says_how_the_duel_ended(outcome: Outcome) -> None:
+def test_a_summary_has_outcome_and_message(outcome: Outcome) -> None:
     assert figures(Record(), outcome=outcome)["outcome"] == outcome.value
 
 
 @pytest.mark.parametrize("count", [1, 2])
-def test_a_duel_that_ended_at_once_has_figures(count: int) -> None:
+def test_a_duel_that_ended_at_once_has_a_summary(count: int) -> None:
     found = figures(Record(times=TIMES[:count]), duration=0.0)
     assert found["distance_m"] == pytest.approx(THEORY.distance_m)
     assert found["converged_at_s"] is None
     assert found["real_time_factor"] == 0.0
 
 
-def test_a_figure_that_does_not_exist_is_none() -> None:
+def test_a_value_that_does_not_exist_is_none() -> None:
     back = replace(SETTINGS, strategy=Evasion(angle=0.0))
     theory = figures(Record(), settings=back)["theory"]
     assert theory["exists"] is False
@@ -206,7 +206,7 @@ def test_a_figure_that_does_not_exist_is_none() -> None:
     assert theory["relative_orientation_deg"] is None
 
 
-def test_what_was_seen_is_told_for_each_robot_and_both() -> None:
+def test_perception_is_summarised_for_each_robot_and_both() -> None:
     none = ErrorSpread(None, None)
     eyes = SightSummary(none, none, 0.9, 0, 0.0, 2.0)
     both = PerceptionSummary("raycast", 0.8, 1, 2.0)
@@ -217,7 +217,7 @@ def test_what_was_seen_is_told_for_each_robot_and_both() -> None:
     assert (found["camera"], found["detection_rate"]) == ("raycast", 0.8)
 
 
-def test_a_person_is_compared_with_the_template_at_its_pace(
+def test_a_person_is_compared_with_the_template_in_real_time(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     asked: dict[str, Any] = {}
@@ -248,8 +248,8 @@ def test_a_person_is_compared_with_the_template_at_its_pace(
     assert found["theory"]["closest_approach_m"] is None
 
 
-def test_no_circle_stands_beside_a_game_that_was_to_end_before_it() -> None:
-    """Unless the players came to it all the same."""
+def test_no_circle_is_given_if_contact_is_forecast_before_it() -> None:
+    """Unless the players converged to it nevertheless."""
     away = replace(SETTINGS, start=StartSettings(1.0, 0.1, pi))
     missed = Record(still(1.5), still(2.0))
     theory = figures(missed, settings=away)["theory"]

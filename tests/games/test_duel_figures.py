@@ -1,4 +1,4 @@
-"""Test the figures of a duel as they are told and read again."""
+"""Test that summaries of duels are written and read again."""
 
 import json
 from copy import deepcopy
@@ -54,8 +54,8 @@ WITH_A_PERSON = figures(
 
 
 @pytest.mark.parametrize("told", [BLIND, SEEING, WITH_A_PERSON])
-def test_figures_are_read_as_they_were_told(told: DuelSummary) -> None:
-    """Through JSON as text, too."""
+def test_a_summary_is_read_as_written(told: DuelSummary) -> None:
+    """Through JSON text, too."""
     plain = told.to_json()
     assert DuelSummary.from_json(plain, "test") == told
     again = json.loads(json.dumps(plain))
@@ -64,7 +64,7 @@ def test_figures_are_read_as_they_were_told(told: DuelSummary) -> None:
     assert json.dumps(found.to_json()) == json.dumps(plain)
 
 
-def test_what_was_seen_lies_beside_the_other_figures() -> None:
+def test_perception_entries_are_beside_the_others() -> None:
     plain = SEEING.to_json()
     assert plain["pursuer"] == {
         "radius_m": 0.63,
@@ -83,7 +83,7 @@ def test_what_was_seen_lies_beside_the_other_figures() -> None:
     assert "run_folder" not in blind and "camera" not in blind
 
 
-def test_telling_figures_leaves_them_as_they_are() -> None:
+def test_conversion_to_json_does_not_change_a_summary() -> None:
     SEEING.to_json()["pursuer"]["lost_s"] = 9.0
     assert SEEING.pursuer.sight is not None
     assert SEEING.pursuer.sight.lost_s == 0.0
@@ -93,7 +93,7 @@ def test_telling_figures_leaves_them_as_they_are() -> None:
     assert plain == before
 
 
-def test_whole_numbers_are_real_ones_where_those_are_asked_for() -> None:
+def test_integers_are_converted_to_floats_where_expected() -> None:
     plain = BLIND.to_json() | {"distance_m": 1, "triggered_at_s": 2}
     found = DuelSummary.from_json(plain, "test")
     assert isinstance(found.distance_m, float) and found.distance_m == 1.0
@@ -122,7 +122,7 @@ def test_whole_numbers_are_real_ones_where_those_are_asked_for() -> None:
         ({"camera": "raycast"}, "sight"),
     ],
 )
-def test_a_damaged_figure_is_refused_by_name(
+def test_a_damaged_entry_is_refused_by_name(
     changes: dict[str, Any], word: str
 ) -> None:
     with pytest.raises(ConfigurationError) as refused:
@@ -141,7 +141,7 @@ def test_a_damaged_figure_is_refused_by_name(
         *("pursuer", "evader"),
     ],
 )
-def test_a_figure_that_every_duel_has_may_not_be_missing(name: str) -> None:
+def test_a_required_entry_may_not_be_missing(name: str) -> None:
     plain = BLIND.to_json()
     del plain[name]
     with pytest.raises(ConfigurationError, match=f"^here: .*{name}"):
@@ -149,6 +149,6 @@ def test_a_figure_that_every_duel_has_may_not_be_missing(name: str) -> None:
 
 
 @pytest.mark.parametrize("plain", [None, 3, "text", [BLIND.to_json()]])
-def test_what_is_no_object_holds_no_figures(plain: Any) -> None:
+def test_a_value_that_is_no_object_is_no_summary(plain: Any) -> None:
     with pytest.raises(ConfigurationError, match="here must hold one JSON"):
         DuelSummary.from_json(plain, "here")

@@ -1,4 +1,4 @@
-"""Duels of robots with honest bodies, that need feedback."""
+"""Test duels of robots with hardware-like bodies and feedback."""
 
 from functools import cache
 from math import pi
@@ -31,14 +31,14 @@ def hardware(**changes: Any) -> DuelSettings:
     )
 
 
-def test_who_never_walked_has_no_margin() -> None:
+def test_a_robot_that_never_walked_has_no_zmp_margin() -> None:
     summary = run_duel(hardware(duration=0.1)).summary
     assert summary.min_zmp_margin_m is None and summary.replans == 0
     assert summary.max_com_velocity_jump_m_s == 0.0
     assert summary.plan_time_us.median is summary.plan_time_us.p99 is None
 
 
-def test_both_robots_of_a_hardware_duel_have_honest_bodies() -> None:
+def test_both_robots_of_a_hardware_duel_have_servo_and_sensor_models() -> None:
     duel = Duel(hardware())
     assert duel.world.physics.tick == 0.012
     masses = []
@@ -64,7 +64,7 @@ def hardware_duel() -> DuelRun:
 
 
 def test_hardware_robots_play_the_game_with_feedback() -> None:
-    """One comes, the other steps aside and turns away; nobody falls."""
+    """The evader steps aside and turns away; neither robot falls."""
     result = hardware_duel()
     assert result.outcome is Outcome.COMPLETED
     assert result.duration == pytest.approx(12.0)
@@ -99,7 +99,7 @@ def test_hardware_robots_play_the_game_with_feedback() -> None:
 
 @pytest.mark.parametrize("name", ["pursuer", "evader"])
 def test_hardware_robots_walk_where_their_footsteps_are(name: str) -> None:
-    """Torso against the middle of the last two footsteps, in the world."""
+    """Torso relative to the center of the last two footsteps."""
     result = hardware_duel()
     arrays = result.arrays()
     landings = arrays[f"{name}_landings"]

@@ -1,4 +1,4 @@
-"""How a duel begins, is counted and ends."""
+"""Test how a duel begins, is evaluated and ends."""
 
 from math import pi
 from typing import Any
@@ -34,7 +34,7 @@ def walkers(duel: Duel) -> list[Walker]:
     return [player for player in duel.players if isinstance(player, Walker)]
 
 
-def test_robots_stand_where_the_start_says() -> None:
+def test_robots_begin_at_the_poses_of_the_start() -> None:
     duel = begun()
     pursuer, evader = (player.truth for player in duel.players)
     assert [player.name for player in duel.players] == ["pursuer", "evader"]
@@ -49,7 +49,7 @@ def test_robots_stand_where_the_start_says() -> None:
     assert duel.triggered_at is None and duel.triggered_distance is None
 
 
-def test_strategies_and_sight_belong_to_their_robots() -> None:
+def test_each_robot_has_its_own_strategy_and_sensor() -> None:
     strategy = Evasion(angle=0.4, safety_radius=0.7)
     pursuer, evader = walkers(begun(strategy=strategy))
     assert evader.scheme.decisions.strategy == strategy
@@ -80,7 +80,7 @@ def lay_down(duel: Duel, number: int) -> None:
         ((0, 1), "pursuer and evader fell at 0.02 s"),
     ],
 )
-def test_a_fall_ends_a_duel_and_is_told(
+def test_a_fall_ends_a_duel_and_is_reported(
     monkeypatch: pytest.MonkeyPatch, fallen: tuple[int, ...], message: str
 ) -> None:
     tick = Duel.tick
@@ -99,7 +99,7 @@ def test_a_fall_ends_a_duel_and_is_told(
 
 
 def touching(distance: float, *names: str, **changes: Any) -> tuple[Any, str]:
-    """Outcome where bodies are in contact at a distance, and its words."""
+    """Return outcome and message with bodies in contact at a distance."""
     duel = begun(start=StartSettings(distance, 0.0, 0.0), **changes)
     world: Any = duel.world
     world.robots_touch = lambda: True
@@ -107,8 +107,8 @@ def touching(distance: float, *names: str, **changes: Any) -> tuple[Any, str]:
     return duel.tick(), duel.message
 
 
-def test_contact_is_looked_for_where_there_can_be_any() -> None:
-    """Robots two arm spans apart cannot touch each other, only things."""
+def test_contact_is_checked_where_it_is_possible() -> None:
+    """Robots two arm spans apart can only touch obstacles."""
     both = ("evader", "pursuer")
     words = "evader and pursuer touched at 0.00 s"
     assert touching(0.6, *both) == (Outcome.CONTACT, words)
@@ -126,10 +126,10 @@ def test_without_contact_a_near_duel_goes_on() -> None:
     assert duel.tick() is None
 
 
-def test_a_duel_notes_its_closest_and_when_the_evader_began(
+def test_closest_approach_and_trigger_are_recorded(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """The evader is who plays last; that the pursuer walks is no trigger."""
+    """The last player triggers; motion of the pursuer does not."""
     duel = begun()
     pursuer, evader = walkers(duel)
     ways = iter((1.0, 0.9, 0.95, 0.85))
@@ -156,7 +156,7 @@ def test_a_duel_notes_its_closest_and_when_the_evader_began(
 def test_capture_is_the_first_time_at_the_capture_distance(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """The game goes on, nearer and away again, and the first time stays."""
+    """The game goes on, and the first time is kept."""
     duel = begun()
     ways = iter((0.4, CAPTURE_DISTANCE, 0.3, 0.4, 0.2))
     monkeypatch.setattr(Duel, "torsos_apart", property(lambda _: next(ways)))
@@ -173,7 +173,7 @@ def test_capture_is_the_first_time_at_the_capture_distance(
 @pytest.mark.parametrize(
     ("duration", "ticks"), [(0.04, 10), (0.0399, 10), (0.0401, 11)]
 )
-def test_a_duel_lasts_as_long_as_asked(duration: float, ticks: int) -> None:
+def test_a_duel_lasts_its_duration(duration: float, ticks: int) -> None:
     result = run_duel(DuelSettings(start=START, duration=duration))
     assert result.outcome is Outcome.COMPLETED
     assert result.duration == pytest.approx(0.004 * ticks)
@@ -194,10 +194,10 @@ def test_a_duel_lasts_as_long_as_asked(duration: float, ticks: int) -> None:
     assert summary.duration_s == pytest.approx(result.duration)
 
 
-def test_figures_of_both_robots_are_put_together(
+def test_planning_of_both_robots_is_combined(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """Of the players' planning, as the recorder has it."""
+    """From the planning times of the recorder."""
     told = {
         "pursuer": PlanningTimes(2, np.array([0.1, 0.2]), 0.2, 0.02),
         "evader": PlanningTimes(3, np.array([0.2, 0.2]), 0.1, 0.03),
@@ -210,7 +210,7 @@ def test_figures_of_both_robots_are_put_together(
     assert summary.min_zmp_margin_m == 0.02
 
 
-def test_legs_that_lose_their_reference_end_a_duel_and_it_is_kept(
+def test_an_unreachable_reference_ends_a_duel_and_it_is_recorded(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     tick = Walker.tick
@@ -231,7 +231,7 @@ def test_legs_that_lose_their_reference_end_a_duel_and_it_is_kept(
     assert result.summary.replans == 1
 
 
-def test_a_duel_without_a_record_grows_by_nothing() -> None:
+def test_a_duel_without_a_record_stores_nothing() -> None:
     duel = Duel(DuelSettings(start=START), recorded=False)
     assert duel.observers == () and duel.witness is None
     for _ in range(11):
@@ -239,7 +239,7 @@ def test_a_duel_without_a_record_grows_by_nothing() -> None:
     assert duel.recorder.times.size == 0
 
 
-def test_progress_is_told_at_most_five_times_a_second(
+def test_progress_is_reported_at_most_five_times_a_second(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     clock(monkeypatch, 0.11)
@@ -254,7 +254,7 @@ def test_progress_is_told_at_most_five_times_a_second(
     assert factor == pytest.approx(0.5 / (0.11 * 6))
 
 
-def test_an_interrupted_duel_is_kept_and_its_robots_closed(
+def test_an_interrupted_duel_is_recorded_and_its_robots_closed(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     closed: list[str] = []
@@ -273,7 +273,7 @@ def test_an_interrupted_duel_is_kept_and_its_robots_closed(
     assert closed == ["pursuer", "evader"]
 
 
-def test_an_error_closes_the_robots_too(
+def test_an_error_closes_the_robots_as_well(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     closed: list[str] = []

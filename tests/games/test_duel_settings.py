@@ -1,4 +1,4 @@
-"""Every setting has one range: docstring, table and check say the same."""
+"""Test that docstring, table and check of each setting agree."""
 
 from typing import Any
 
@@ -24,7 +24,7 @@ OTHERS = sorted(SETTINGS.keys() - NUMBERS - LISTS.keys())
 
 
 @pytest.mark.parametrize("path", NUMBERS)
-def test_the_docstring_says_the_range(path: str) -> None:
+def test_the_docstring_has_the_range(path: str) -> None:
     setting = SETTINGS[path]
     allowed: Range = setting.kind.ranges[setting.name]
     assert allowed.words in meanings(setting.kind)[setting.name]
@@ -32,7 +32,7 @@ def test_the_docstring_says_the_range(path: str) -> None:
 
 
 @pytest.mark.parametrize("path", OTHERS)
-def test_what_has_no_range_is_no_number(path: str) -> None:
+def test_settings_without_a_range_are_no_numbers(path: str) -> None:
     default = SETTINGS[path].default
     assert default is None or isinstance(default, bool | str), default
 
@@ -46,7 +46,7 @@ def numbers_of(name: str) -> list[click.Parameter]:
 
 
 @pytest.mark.parametrize("name", all_commands())
-def test_every_number_of_a_command_has_two_ends(name: str) -> None:
+def test_every_number_of_a_command_has_two_limits(name: str) -> None:
     for param in numbers_of(name):
         kind: Any = param.type
         assert kind not in (click.INT, click.FLOAT), param.opts
@@ -56,7 +56,7 @@ def test_every_number_of_a_command_has_two_ends(name: str) -> None:
             assert kind.is_bounded, param.opts
 
 
-def test_a_range_holds_its_ends_and_what_is_named() -> None:
+def test_a_range_includes_its_limits_and_named_values() -> None:
     closed = Range(1.0, 2.0, "m", "why", also=(None, 0.0))
     held: list[Any] = [1, 1.0, 2.0, None, 0.0, 0]
     assert all(closed.holds(v) for v in held)
@@ -70,7 +70,7 @@ def test_a_range_holds_its_ends_and_what_is_named() -> None:
     assert half_open.text == "(1, 2]" and half_open.words == "above 1 to 2"
 
 
-def test_a_message_names_value_rule_unit_and_what_was_got() -> None:
+def test_a_message_has_name_rule_unit_and_value() -> None:
     wanted = r"^x must lie in \[1, 2\] \[m\], got 3$"
     with pytest.raises(StepAsideError, match=wanted):
         Range(1.0, 2.0, "m", "why").check(3, "x")
@@ -79,7 +79,7 @@ def test_a_message_names_value_rule_unit_and_what_was_got() -> None:
     assert len(str(refused.value)) < 200
 
 
-def test_sections_and_truth_are_of_their_types() -> None:
+def test_sections_and_booleans_have_their_types() -> None:
     check_settings(PhysicsSettings())
     for path in OTHERS:
         setting = SETTINGS[path]

@@ -1,4 +1,4 @@
-"""Figures of duels, plans and comparisons, read back from their axes."""
+"""Test figures of duels, plans and comparisons by their axes."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -44,7 +44,7 @@ CYCLE = 2.0 * SETTINGS.gait.step_duration
 
 @cache
 def record() -> dict[str, Trajectory]:
-    """Robots that walk along, one behind the other, with some sway."""
+    """Return robots that walk one behind the other, with some sway."""
     sway = 0.02 * np.sin(2.0 * pi * TIMES / CYCLE)
     tracks = {}
     for name, ahead, heading in (("pursuer", 0.0, 0.4), ("evader", 1.0, 1.4)):
@@ -71,7 +71,7 @@ def record() -> dict[str, Trajectory]:
 def kept(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> Iterator[list[Figure]]:
-    """Figures that were drawn, instead of files."""
+    """Collect figures instead of writing files."""
     figures: list[Figure] = []
     monkeypatch.chdir(tmp_path)
 
@@ -91,25 +91,25 @@ def kept(
 
 
 def corners_of(patch: Any) -> Array:
-    """Corners of a polygon. Shape (n, 2)."""
+    """Return the corners of a polygon. Shape (n, 2)."""
     corners: Array = np.asarray(patch.get_path().vertices)[:4]
     return corners
 
 
 def line(axes: Any, label: str) -> Array:
-    """Points of the line with a label. Shape (n, 2)."""
+    """Return the points of the line with a label. Shape (n, 2)."""
     (found,) = [one for one in axes.lines if one.get_label() == label]
     return points_of(found)
 
 
 def points_of(drawn: Any) -> Array:
-    """Points of a line. Shape (n, 2)."""
+    """Return the points of a line. Shape (n, 2)."""
     points: Array = np.column_stack(drawn.get_data())
     return points
 
 
 def levels(axes: Any) -> dict[float, str]:
-    """Horizontal lines, by height."""
+    """Return the heights of horizontal lines."""
     return {
         float(one.get_ydata()[0]): to_hex(one.get_color())
         for one in axes.lines
@@ -127,7 +127,7 @@ def duel(kept: list[Figure], **theory: Any) -> Figure:
     return kept[-1]
 
 
-def test_a_duel_is_shown_at_four_times_with_the_way_so_far(
+def test_a_duel_is_shown_at_four_times_with_the_paths_so_far(
     kept: list[Figure],
 ) -> None:
     figure = duel(kept)
@@ -189,7 +189,7 @@ def test_paths_have_their_starts_ends_and_footsteps(
     assert np.hypot(*(wedge - end).T).max() < 0.2
 
 
-def test_distance_and_angle_are_drawn_beside_theory(
+def test_distance_and_angle_are_drawn_with_theory(
     kept: list[Figure],
 ) -> None:
     figure = duel(kept)
@@ -229,7 +229,7 @@ def test_distance_and_angle_are_drawn_beside_theory(
 def test_balance_is_leftward_of_each_robot_over_six_steps(
     kept: list[Figure],
 ) -> None:
-    """Whatever way it heads, the sway is what was put in."""
+    """For any heading, the lateral sway is that of the record."""
     figure = duel(kept)
     begin = TIMES[-1] - 6.0 * SETTINGS.gait.step_duration
     shown = TIMES[begin <= TIMES]
@@ -256,7 +256,7 @@ MOVING = MovingBox(0.5, -3.0, 0.3, 0.3, to=(0.5, 3.0), speed=0.2)
 
 
 @pytest.mark.parametrize("moving", [(), (MOVING,)])
-def test_a_room_has_its_clearance_where_balance_was(
+def test_a_room_shows_clearance_instead_of_balance(
     kept: list[Figure], moving: tuple[MovingBox, ...]
 ) -> None:
     room = Room(20.0, 16.0, (Disc(2.0, 5.0, 0.5),), moving=moving)
@@ -287,10 +287,10 @@ def test_every_line_over_time_has_a_name(kept: list[Figure]) -> None:
     assert names == ["every sample", "mean over a gait cycle"]
 
 
-def test_a_person_has_a_way_but_neither_footsteps_nor_balance(
+def test_a_person_has_a_path_but_neither_footsteps_nor_balance(
     kept: list[Figure],
 ) -> None:
-    """What a robot has is drawn as ever, and its balance takes the row."""
+    """The panel of the robot fills the row."""
     walked = record()["pursuer"]
     tracks = record() | {"pursuer": Trajectory(walked.com, walked.torso)}
     made = run_of(TIMES, tracks, settings=SETTINGS, theory=THEORY_OF_IT)
@@ -311,10 +311,10 @@ def test_a_person_has_a_way_but_neither_footsteps_nor_balance(
     assert len(paths.patches) == 4
 
 
-def test_a_duel_that_was_over_at_once_is_drawn_too(
+def test_a_duel_that_ended_at_once_is_drawn(
     kept: list[Figure],
 ) -> None:
-    """Interrupted before the first tick: one sample, and no step."""
+    """Interrupted before the first tick: one sample, no footstep."""
     first = {
         name: Trajectory(
             **{field: getattr(track, field)[:1] for field in FIELDS},
@@ -333,7 +333,7 @@ def test_a_duel_that_was_over_at_once_is_drawn_too(
 
 
 @pytest.mark.parametrize("pose", [(1.0, 2.0, 0.5), (-1.0, 0.0, -2.0)])
-def test_a_wedge_points_where_the_robot_heads(
+def test_a_wedge_points_along_the_heading(
     pose: tuple[float, float, float],
 ) -> None:
     axes = Figure().add_subplot()
@@ -355,7 +355,7 @@ def test_a_wedge_points_where_the_robot_heads(
     assert to_hex(wedge.get_facecolor()) == PURSUER
 
 
-def test_soles_lie_where_they_landed_with_their_side() -> None:
+def test_soles_are_drawn_at_their_landings_with_their_side() -> None:
     axes = Figure().add_subplot()
     sole = SoleRectangle()
     rows = np.array([[0.0, 1.0, 0.3, 0.1, 0.4], [0.5, -1.0, 0.4, -0.1, 0.2]])
@@ -416,7 +416,7 @@ def run(name: str, settings: DuelSettings = SETTINGS) -> DuelRun:
     return run_of(TIMES, record(), settings=settings, name=name)
 
 
-def test_a_comparison_has_every_run_and_the_theory_that_they_share(
+def test_a_comparison_has_every_run_and_their_common_theory(
     kept: list[Figure],
 ) -> None:
     runs = [run(f"run {i}") for i in range(5)]
@@ -471,7 +471,7 @@ def test_a_comparison_has_the_theory_of_every_run(
 
 
 @pytest.mark.parametrize("count", [1, 2, 20, 41, 300])
-def test_a_mean_has_no_hook_at_its_ends(count: int) -> None:
+def test_a_mean_is_undistorted_at_its_ends(count: int) -> None:
     """On a slope the mean of whole cycles is the slope itself."""
     times: Array = 0.02 * np.arange(count, dtype=float)
     values: Array = 0.3 * times + 1.0

@@ -1,4 +1,4 @@
-"""What the template says of a duel, against an integrator of its own."""
+"""Test the forecast of a duel against an independent integrator."""
 
 import json
 from dataclasses import replace
@@ -16,6 +16,7 @@ from stepaside.games.duel_circle import no_circle_because, pace_of, theory_of
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.forecast import ExpectedEnd, Forecast, forecast
 from stepaside.games.initial_poses import with_start
+from stepaside.games.template_approach import play_template
 from stepaside.sim.camera_settings import SceneSettings
 from stepaside.sim.person_settings import PersonSettings
 from stepaside.strategies import Evasion
@@ -25,7 +26,7 @@ BASE = DuelSettings(duration=80.0, start=START)
 
 
 def told(settings: DuelSettings) -> Forecast:
-    """Forecast of a duel of which the template says something."""
+    """Return the forecast of a duel that has one."""
     found = forecast(with_start(settings))
     assert found is not None
     return found
@@ -40,7 +41,7 @@ def turning(gain: float) -> DuelSettings:
 
 
 def closest(settings: DuelSettings, step: float = 0.005) -> float:
-    """Closest approach of the unicycles, by the laws (1)-(4) themselves."""
+    """Return the closest approach of the unicycles by the laws (1)-(4)."""
     gait, start = settings.gait, settings.start
     assert start.distance is not None
     assert start.pursuer_offset is not None
@@ -66,7 +67,7 @@ def closest(settings: DuelSettings, step: float = 0.005) -> float:
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_a_plain_duel_is_expected_on_the_circle(seed: int) -> None:
+def test_a_default_duel_is_expected_on_the_circle(seed: int) -> None:
     found = told(DuelSettings(seed=seed, duration=90.0))
     assert found.expected is ExpectedEnd.CIRCLE
     assert found.circle_since_s is not None
@@ -91,13 +92,13 @@ def test_a_plain_duel_is_expected_on_the_circle(seed: int) -> None:
 def test_the_closest_approach_is_that_of_the_unicycles(
     settings: DuelSettings,
 ) -> None:
-    """But for the first double support, and turning held over a step."""
+    """Except for the first double support and decisions once per step."""
     assert told(settings).closest_m == pytest.approx(
         closest(settings), abs=0.08
     )
 
 
-def test_a_mirrored_duel_is_told_alike() -> None:
+def test_a_mirrored_duel_has_the_same_forecast() -> None:
     for offsets in ((0.9, 0.5), (-0.3, 2.8)):
         one, other = (
             told(replace(BASE, start=StartSettings(0.9, s * a, s * b)))
@@ -108,7 +109,7 @@ def test_a_mirrored_duel_is_told_alike() -> None:
 
 
 @pytest.mark.parametrize("gain", [0.6, 0.8, 1.2])
-def test_a_circle_on_which_two_bodies_do_not_fit_is_contact(
+def test_a_circle_too_small_for_two_bodies_is_contact(
     gain: float,
 ) -> None:
     settings = turning(gain)
@@ -117,13 +118,14 @@ def test_a_circle_on_which_two_bodies_do_not_fit_is_contact(
     found = told(settings)
     assert found.expected is ExpectedEnd.CONTACT
     assert found.words == (
-        f"contact likely: the template comes to {found.closest_m:.2f} m, "
-        "bodies are clear of each other from 0.40 m on"
+        f"contact likely: closest approach of the templates "
+        f"{found.closest_m:.2f} m, bodies are clear of each other from 0.40 m "
+        "on"
     )
 
 
 @pytest.mark.parametrize("offset", [pi, -3.0, 2.8])
-def test_an_evader_that_looks_away_is_expected_to_be_touched(
+def test_contact_is_expected_with_an_evader_that_faces_away(
     offset: float,
 ) -> None:
     settings = replace(BASE, start=replace(START, evader_offset=offset))
@@ -131,7 +133,7 @@ def test_an_evader_that_looks_away_is_expected_to_be_touched(
 
 
 @pytest.mark.parametrize("release", [0.81, 0.85, 0.899])
-def test_an_evader_that_ends_inside_the_circle_has_none(
+def test_a_release_distance_within_the_circle_gives_no_circle(
     release: float,
 ) -> None:
     settings = playing(release_distance=release)
@@ -160,7 +162,7 @@ def test_an_evader_by_time_has_no_circle() -> None:
         (PersonSettings(halt_after=inf), True),
     ],
 )
-def test_only_a_person_who_keeps_steering_has_a_circle(
+def test_only_a_person_that_keeps_steering_has_a_circle(
     person: PersonSettings, exists: bool
 ) -> None:
     settings = replace(BASE, pursuer="person", person=person)
@@ -170,7 +172,7 @@ def test_only_a_person_who_keeps_steering_has_a_circle(
         assert "the person" in no_circle_because(settings)
 
 
-def test_nothing_is_told_of_other_games() -> None:
+def test_other_games_have_no_forecast() -> None:
     room = SceneSettings(plan=Room(3.0, 3.0))
     for settings in (
         replace(BASE, start=StartSettings(), room=room),
@@ -197,7 +199,7 @@ def duel(folder: Path, *options: str) -> Result:
         ([], "later"),
     ],
 )
-def test_a_summary_says_what_was_expected(
+def test_a_summary_has_the_forecast(
     tmp_path: Path, options: list[str], expected: str
 ) -> None:
     result = duel(tmp_path, *options)
@@ -216,7 +218,7 @@ def test_a_summary_says_what_was_expected(
     assert ("expected outcome" in result.stderr) is none
 
 
-def test_contact_is_said_beforehand(tmp_path: Path) -> None:
+def test_expected_contact_is_printed_beforehand(tmp_path: Path) -> None:
     options = ("--gain", "1.2", "--distance", "0.5", "--json")
     words = ["duel", "--seed", "7", "--duration", "9", *options]
     result = CliRunner().invoke(main, words)
@@ -226,7 +228,23 @@ def test_contact_is_said_beforehand(tmp_path: Path) -> None:
     assert theory["distance_m"] is None
     assert theory["closest_approach_m"] < 0.4
     assert summary["min_distance_m"] < 0.6
-    assert (
-        result.stderr.strip()
-        == f"stepaside: expected outcome: {theory['words']}"
-    )
+    assert result.stderr.strip() == f"stepaside: expected is {theory['words']}"
+
+
+def test_the_templates_of_a_duel_are_played_once(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Equal settings have one forecast; a changed one is its own."""
+    plays: list[float] = []
+
+    def count(*args: Any, duration: float, **options: Any) -> Any:
+        plays.append(duration)
+        return play_template(*args, duration=duration, **options)
+
+    monkeypatch.setattr("stepaside.games.forecast.play_template", count)
+    settings = with_start(DuelSettings(seed=77, duration=3.0))
+    first = forecast(settings)
+    assert forecast(with_start(DuelSettings(seed=77, duration=3.0))) == first
+    assert plays == [3.0]
+    forecast(replace(settings, duration=4.0))
+    assert plays == [3.0, 4.0]

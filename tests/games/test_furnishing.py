@@ -1,4 +1,4 @@
-"""Test that a duel's world holds what the duel asks for, and no more."""
+"""Test that the world of a duel has exactly its objects."""
 
 from dataclasses import replace
 
@@ -34,7 +34,7 @@ PASSED = replace(PERSON, passers=(Passer(0.8, 3.0), Passer(0.0, 4.0)))
         ),
     ],
 )
-def test_a_world_has_what_its_duel_asks_for(
+def test_a_world_has_the_objects_of_its_duel(
     settings: DuelSettings, wanted: set[str], lit: bool
 ) -> None:
     spec = mujoco.MjSpec()

@@ -1,4 +1,4 @@
-"""Test that what was measured, planned or recorded stays as it was."""
+"""Test that measurements, plans and records are not changed later."""
 
 from collections.abc import Iterator
 from dataclasses import fields, is_dataclass
@@ -25,7 +25,7 @@ from stepaside.sim.body_settings import BODIES
 
 
 def arrays_in(value: Any, depth: int = 0) -> Iterator[np.ndarray]:
-    """Arrays in a value, wherever in it."""
+    """Return all arrays nested in a value."""
     if isinstance(value, np.ndarray):
         yield value
     elif depth > 6:
@@ -48,12 +48,12 @@ class Kept:
         self._arrays: list[tuple[str, np.ndarray, np.ndarray]] = []
 
     def keep(self, name: str, value: Any) -> None:
-        """Keep a value of a name."""
+        """Store a value under a name."""
         for array in arrays_in(value):
             self._arrays.append((name, array, array.copy()))
 
     def check(self) -> None:
-        """See whether all is as it was."""
+        """Check that all stored values are unchanged."""
         names = {name for name, *_ in self._arrays}
         for name, array, before in self._arrays:
             np.testing.assert_array_equal(array, before, err_msg=name)
@@ -61,10 +61,10 @@ class Kept:
 
 
 @pytest.mark.parametrize("body", ["ideal", "hardware"])
-def test_what_a_duel_handed_out_does_not_change_as_it_goes_on(
+def test_values_returned_by_a_duel_do_not_change_later(
     body: str,
 ) -> None:
-    """Readings, targets, plans, snapshots and arrays of the record."""
+    """Measurements, targets, plans, snapshots and recorded arrays."""
     settings = DuelSettings(
         duration=3.0, start=StartSettings(0.7, 0.1, 0.1), body=BODIES[body]
     )
@@ -101,10 +101,10 @@ def test_what_a_duel_handed_out_does_not_change_as_it_goes_on(
     kept.check()
 
 
-def test_legs_that_were_found_stay_where_they_were_seen(
+def test_detected_legs_do_not_depend_on_the_posture(
     tmp_path: Path,
 ) -> None:
-    """Whatever posture the model is moved to afterwards."""
+    """Also after the model has moved to another posture."""
     path = stranger.mjcf(tmp_path)
     found = survey(path, [])
     kept = Kept()
@@ -118,7 +118,7 @@ def test_legs_that_were_found_stay_where_they_were_seen(
     kept.check()
 
 
-def test_plans_that_were_made_stay_what_they_were() -> None:
+def test_plans_do_not_change_after_planning() -> None:
     planner, kept = ManeuverPlanner(GaitSettings()), Kept()
     for bearing in (0.3, -0.8, 1.2):
         for foot in Foot:

@@ -1,4 +1,4 @@
-"""Test the clock of a served world, with time that is set by hand."""
+"""Test the clock of a served simulation, with a simulated time."""
 
 import socket
 from typing import Any
@@ -8,13 +8,13 @@ import pytest
 
 from stepaside.core.errors import ConfigurationError
 from stepaside.drivers.joint.frame_clock import TICK
-from stepaside.games.lockstep import PRESSED, STEADY, Lockstep
+from stepaside.games.lockstep import PRESSED_TICKS, READY_TICKS, Lockstep
 
 from lola_fakes import Clock  # isort: skip
 
 
 class FakeServer:
-    """A server whose client answers at once, or never."""
+    """Server whose client answers at once, or never."""
 
     def __init__(self, *, answers: bool = True, ready: bool = True) -> None:
         self.answers, self.connected = answers, True
@@ -23,7 +23,7 @@ class FakeServer:
         self.log: list[str] = []
 
     def fileno(self) -> int:
-        """Something that never becomes readable."""
+        """Return a descriptor that never becomes readable."""
         return self.pair[0].fileno()
 
     def speak(self) -> None:
@@ -31,7 +31,7 @@ class FakeServer:
         self.log.append("speak")
 
     def hear(self) -> bool:
-        """Whether nobody is waited for."""
+        """Return whether no command is awaited."""
         return self.answers or not self.connected
 
     def act(self) -> None:
@@ -43,7 +43,7 @@ class FakeServer:
         self.log.append("press" if pressed else "release")
 
     def drop(self, why: str) -> None:
-        """Lose the client."""
+        """Disconnect the client."""
         self.connected = False
         self.log.append(why)
 
@@ -61,7 +61,7 @@ def exchange_of(
     return exchange, clock
 
 
-def test_ticks_are_12_ms_apart_whatever_the_world_takes() -> None:
+def test_ticks_are_12_ms_apart_for_any_computing_time() -> None:
     exchange, clock = exchange_of(FakeServer())
     began = clock.now
     for _ in range(50):
@@ -71,7 +71,7 @@ def test_ticks_are_12_ms_apart_whatever_the_world_takes() -> None:
     assert exchange.late == 0
 
 
-def test_a_tick_that_begins_more_than_6_ms_late_is_counted() -> None:
+def test_a_tick_more_than_6_ms_late_is_counted() -> None:
     exchange, clock = exchange_of(FakeServer())
     for lag in (0.0, TICK + 0.0055, TICK + 0.001, 3 * TICK, 0.0):
         clock.now += lag
@@ -81,7 +81,7 @@ def test_a_tick_that_begins_more_than_6_ms_late_is_counted() -> None:
     assert exchange.late == 3 and exchange.histogram()["< 6"] == 1
 
 
-def test_a_world_that_was_frozen_does_not_race_to_catch_up() -> None:
+def test_a_stall_is_not_caught_up_with() -> None:
     exchange, clock = exchange_of(FakeServer())
     exchange.before(None)  # type: ignore[arg-type]
     clock.now += 1.0
@@ -92,20 +92,18 @@ def test_a_world_that_was_frozen_does_not_race_to_catch_up() -> None:
     assert clock.now - resumed == pytest.approx(10 * TICK)
 
 
-def test_buttons_are_pressed_once_all_are_ready_and_let_go_for_the_start() -> (
-    None
-):
+def test_buttons_are_pressed_when_all_are_ready_and_then_released() -> None:
     first, second = FakeServer(), FakeServer()
     exchange, _ = exchange_of(first, second)
     exchange.gather(60.0)
     words = first.log
-    assert words.index("press") == 2 * STEADY
+    assert words.index("press") == 2 * READY_TICKS
     assert words[-1] == "release"
-    assert words[words.index("press") :].count("speak") == PRESSED
+    assert words[words.index("press") :].count("speak") == PRESSED_TICKS
     assert first.log == second.log
 
 
-def test_who_is_not_ready_in_time_is_not_waited_for() -> None:
+def test_a_client_that_is_not_ready_in_time_ends_the_wait() -> None:
     exchange, clock = exchange_of(FakeServer(), FakeServer(ready=False))
     began = clock.now
     with pytest.raises(ConfigurationError, match="1 of 2 robots .* within 2"):
@@ -113,7 +111,7 @@ def test_who_is_not_ready_in_time_is_not_waited_for() -> None:
     assert clock.now - began < 2.1
 
 
-def test_in_lock_step_a_silent_client_is_dropped_and_the_world_goes_on(
+def test_in_lock_step_a_silent_client_is_dropped_and_the_game_goes_on(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     silent = FakeServer(answers=False)

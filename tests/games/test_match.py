@@ -1,4 +1,4 @@
-"""Test the one loop in which players play, on players that are made up."""
+"""Test the match loop on fake players."""
 
 import numpy as np
 import pytest
@@ -10,8 +10,8 @@ from stepaside.games.outcome import Outcome
 from stepaside.games.recorder import Recorder
 
 
-def test_three_players_act_in_turn_and_time_passes_for_all() -> None:
-    """Who looks on does so before anybody has moved, and after all have."""
+def test_three_players_act_in_turn_before_physics_advances() -> None:
+    """Observers are called before and after all players act."""
     watcher = FakeObserver()
     match, world, players = game(0.0, 2.0, 5.0, observers=[watcher])
     outcome, _ = play(match, 3 * TICK)
@@ -38,17 +38,17 @@ def test_any_number_may_play(count: int) -> None:
 @pytest.mark.parametrize(
     ("duration", "ticks"), [(0.04, 10), (0.0399, 10), (0.0401, 11)]
 )
-def test_a_game_lasts_as_long_as_asked(duration: float, ticks: int) -> None:
+def test_a_game_lasts_its_duration(duration: float, ticks: int) -> None:
     match, world, _ = game(0.0, 2.0)
     assert play(match, duration)[0] is Outcome.COMPLETED
     assert world.ticks == ticks
 
 
 @pytest.mark.parametrize("clumsy", [0, 1, 2])
-def test_legs_that_lose_their_reference_end_a_game_and_it_is_kept(
+def test_an_unreachable_reference_ends_a_game_and_it_is_recorded(
     clumsy: int,
 ) -> None:
-    """Of any player; those after it do not act any more."""
+    """Of any player; players after it do not act any more."""
     watcher = FakeObserver()
     match, world, players = game(0.0, 2.0, 5.0)
     recorder = Recorder(players, tick=TICK)
@@ -66,7 +66,7 @@ def test_legs_that_lose_their_reference_end_a_game_and_it_is_kept(
     assert all(len(t.com) == 4 for t in recorder.tracks().values())
 
 
-def test_a_strategy_that_fails_ends_a_game_and_it_is_kept() -> None:
+def test_a_failing_strategy_ends_a_game_and_it_is_recorded() -> None:
     watcher = FakeObserver()
     match, world, players = game(0.0, 2.0, observers=[watcher])
     players[1].does[3] = raising(StrategyError("KeyError: 'x'"))
@@ -79,10 +79,10 @@ def test_a_strategy_that_fails_ends_a_game_and_it_is_kept() -> None:
 
 @pytest.mark.parametrize("at", [10, 12])
 @pytest.mark.parametrize("who", [0, 1, 2])
-def test_an_interrupted_game_is_kept_and_its_players_let_go(
+def test_an_interrupted_game_is_recorded_and_its_players_closed(
     who: int, at: int
 ) -> None:
-    """No instant is kept twice, even one that was begun."""
+    """No instant is recorded twice, even an incomplete one."""
     watcher = FakeObserver()
     match, world, players = game(0.0, 2.0, 5.0)
     recorder = Recorder(players, tick=TICK)
@@ -97,7 +97,7 @@ def test_an_interrupted_game_is_kept_and_its_players_let_go(
     np.testing.assert_allclose(recorder.times, [0.0, 0.02, 0.04, *rest])
 
 
-def test_another_error_lets_the_players_go_too() -> None:
+def test_any_other_error_closes_the_players_as_well() -> None:
     watcher = FakeObserver()
     match, _, players = game(0.0, 2.0, observers=[watcher])
     players[1].does[3] = raising(RuntimeError("a bolt came loose"))
@@ -110,10 +110,10 @@ def test_another_error_lets_the_players_go_too() -> None:
 @pytest.mark.parametrize(
     ("fallen", "who"), [((0,), "a"), ((2,), "c"), ((0, 2), "a and c")]
 )
-def test_a_fall_of_anybody_ends_a_game(
+def test_a_fall_of_any_player_ends_a_game(
     fallen: tuple[int, ...], who: str
 ) -> None:
-    """Who falls on another has fallen."""
+    """A player that falls onto another has fallen."""
     match, world, players = game(0.0, 0.5, 1.0)
     world.contacts = ("a", "b")
     for number in fallen:
@@ -127,7 +127,7 @@ def test_a_fall_of_anybody_ends_a_game(
     ("places", "asked"),
     [((0.0, 0.79), 1), ((0.0, 0.81), 0), ((0.0, 3.0, 3.5), 1), ((0.0,), 0)],
 )
-def test_contact_is_looked_for_where_any_two_are_near(
+def test_contact_is_checked_where_any_two_players_are_near(
     places: tuple[float, ...], asked: int
 ) -> None:
     match, world, _ = game(*places)
@@ -138,15 +138,17 @@ def test_contact_is_looked_for_where_any_two_are_near(
     assert match.message == ("b and c touched at 0.01 s" if asked else "")
 
 
-def test_things_are_in_reach_of_everybody_always() -> None:
+def test_contact_is_always_checked_with_obstacles() -> None:
     match, world, _ = game(0.0, has_things=True)
     world.contacts = ("a", "thing 0")
     assert match.tick() is Outcome.CONTACT
     assert match.message == "a and thing 0 touched at 0.00 s"
 
 
-def test_the_closest_and_the_first_move_of_the_last_are_noted() -> None:
-    """Distances are those of the first two; it is the last who evades."""
+def test_closest_approach_and_first_motion_of_the_evader_are_recorded() -> (
+    None
+):
+    """Distances are of the first two players; the last one evades."""
     match, _, players = game(0.0, 5.0, 50.0)
     others = []
 
@@ -164,7 +166,7 @@ def test_the_closest_and_the_first_move_of_the_last_are_noted() -> None:
     assert match.triggered_distance == 2.0
 
 
-def test_who_never_moves_is_never_triggered() -> None:
+def test_a_player_that_never_moves_is_never_triggered() -> None:
     match, _, _ = game(0.0, 5.0)
     play(match, 0.1)
     assert match.triggered_at is None and match.triggered_distance is None
@@ -185,7 +187,7 @@ def test_progress_is_told_at_most_five_times_a_second(
     assert wall == pytest.approx(0.11 * 6)
 
 
-def test_who_plays_alone_is_at_no_distance(
+def test_a_single_player_has_no_distance(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     clock(monkeypatch, 1.0)
@@ -195,7 +197,7 @@ def test_who_plays_alone_is_at_no_distance(
     assert told == [Progress(0.1, None, 0.1)]
 
 
-def test_a_word_of_progress_may_interrupt(
+def test_a_progress_report_may_interrupt(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     clock(monkeypatch, 1.0)
@@ -210,3 +212,25 @@ def test_a_word_of_progress_may_interrupt(
     assert match.message == "interrupted at 0.10 s"
     assert len(watcher.ended_with) == 1
     assert [player.closed for player in players] == [1, 1]
+
+
+def test_a_game_begins_when_all_players_are_ready() -> None:
+    """Each is told once; earlier motion of the evader is no trigger."""
+    match, world, players = game(0.0, 5.0)
+    players[0].is_ready = False
+    players[1].is_moving = True
+
+    def finish() -> None:
+        players[0].is_ready = True
+
+    players[0].does[2] = finish
+    for _ in range(3):
+        match.tick()
+        assert match.started_at is None and match.triggered_at is None
+        assert [player.starts for player in players] == [0, 0]
+    begun = world.time
+    for _ in range(2):
+        match.tick()
+        assert match.started_at == begun
+        assert [player.starts for player in players] == [1, 1]
+    assert match.triggered_at == pytest.approx(begun + world.physics.tick)

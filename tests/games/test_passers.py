@@ -1,4 +1,4 @@
-"""Test people who pass while another comes."""
+"""Test people who pass while another person approaches."""
 
 from dataclasses import replace
 from math import cos, hypot, pi, radians, sin
@@ -26,7 +26,7 @@ EVADER = Pose(3.0, -1.0, 2.5)
 
 
 def duel(*passers: Passer, **changes: Any) -> DuelSettings:
-    """A person who comes slowly from 3 m ahead of the evader."""
+    """Return a duel with a person at low speed, 3 m ahead of the evader."""
     settings = DuelSettings(
         duration=3.0,
         pursuer="person",
@@ -39,7 +39,7 @@ def duel(*passers: Passer, **changes: Any) -> DuelSettings:
 
 @pytest.mark.parametrize("bearing", [0.0, 1.2, -2.0, pi])
 @pytest.mark.parametrize("miss", [1.2, -0.4])
-def test_a_passer_comes_from_where_it_is_told_and_misses(
+def test_a_passer_approaches_from_its_direction_and_passes(
     bearing: float, miss: float
 ) -> None:
     passer = Passer(0.8, 4.0, bearing, miss)
@@ -63,11 +63,11 @@ def test_a_passer_comes_from_where_it_is_told_and_misses(
 
 
 def trunk(model: mujoco.MjModel, data: mujoco.MjData, name: str) -> Any:
-    """Place of the trunk of a figure, in [m]."""
+    """Return the position of the trunk of a figure, in [m]."""
     return data.mocap_pos[int(model.body(f"{name}/trunk").mocapid[0])][:2]
 
 
-def test_a_passer_walks_in_the_world_and_on_the_stage_again() -> None:
+def test_a_passer_walks_in_the_world_and_in_the_replay() -> None:
     passers = Passer(0.8, 3.0, 1.5, 1.5), Passer(0.3, 2.5, -1.0, 1.3, "child")
     game = Duel(settings := duel(*passers, duration=0.4))
     evader = game.frames[1]
@@ -87,22 +87,22 @@ def test_a_passer_walks_in_the_world_and_on_the_stage_again() -> None:
         assert place == pytest.approx((there.x, there.y), abs=1e-9)
 
 
-def test_who_runs_into_a_passer_is_told() -> None:
+def test_contact_with_a_passer_is_reported() -> None:
     run = run_duel(duel(Passer(1.5, 1.6, 1.0, 0.0)))
     assert run.outcome.value == "contact"
     assert run.message.startswith("evader and passer 1 touched at ")
     assert run.summary.touched == ["evader", "passer 1"]
 
 
-def test_the_evader_with_ideal_sight_is_told_of_who_comes_alone() -> None:
-    """Nothing of its duel changes, to the bit."""
+def test_ideal_sight_reports_only_the_pursuer() -> None:
+    """The duel is the same to the bit."""
     alone = run_duel(duel(duration=1.0))
     passed = run_duel(duel(Passer(0.8, 3.0, 1.5, 1.5), duration=1.0))
     np.testing.assert_array_equal(alone.evader.torso, passed.evader.torso)
     assert passed.outcome.value == "completed"
 
 
-def test_passers_stand_in_configurations(tmp_path: Any) -> None:
+def test_passers_are_part_of_configurations(tmp_path: Any) -> None:
     settings = duel(Passer(0.8, 3.0, 1.5, -1.5, "child"), Passer(0.0, 2.0))
     file = tmp_path / "duel.toml"
     file.write_text(dump_configuration(settings), encoding="utf-8")
@@ -131,13 +131,13 @@ def test_passers_stand_in_configurations(tmp_path: Any) -> None:
         ("0.8@3:x", "must be an angle"),
     ],
 )
-def test_bad_passers_are_refused(given: str, message: str) -> None:
+def test_invalid_passers_are_refused(given: str, message: str) -> None:
     words = ["duel", "--pursuer", "person", "--passer", given]
     result = CliRunner().invoke(main, words)
     assert result.exit_code == 2 and message in result.stderr
 
 
-def test_passers_need_a_person_who_comes_and_a_figure() -> None:
+def test_passers_need_a_person_as_pursuer_and_a_figure() -> None:
     with pytest.raises(ConfigurationError, match="passers need a person"):
         DuelSettings(passers=(Passer(0.8, 3.0),))
     with pytest.raises(ConfigurationError, match="passer figure must be"):

@@ -1,4 +1,4 @@
-"""A person instead of the pursuing robot."""
+"""Test a person as pursuer."""
 
 import json
 from math import pi
@@ -33,7 +33,7 @@ def walk(person: PersonSettings, start: Pose, evader: Pose) -> PersonMotion:
     return PersonMotion(person, start, evader[:2])
 
 
-def test_a_straight_walk_passes_at_its_miss() -> None:
+def test_a_straight_walk_passes_at_its_miss_distance() -> None:
     person = PersonSettings("straight", 0.5, miss=0.7)
     motion = walk(person, Pose(0.0, 0.0, 0.0), Pose(3.0, 0.0, pi))
     nearest = 10.0
@@ -73,7 +73,7 @@ def test_a_recorded_path_is_walked(tmp_path: Path) -> None:
         ("time,x,y\n1,0,0\n0,1,0\n", "increase"),
     ],
 )
-def test_bad_paths_are_refused(
+def test_invalid_paths_are_refused(
     tmp_path: Path, text: str, message: str
 ) -> None:
     file = tmp_path / "walk.csv"
@@ -82,7 +82,7 @@ def test_bad_paths_are_refused(
         read_path(file)
 
 
-def test_a_person_who_passes_outside_triggers_nothing() -> None:
+def test_a_person_that_passes_outside_triggers_nothing() -> None:
     person = PersonSettings("straight", 0.5, miss=1.3)
     result = run_duel(duel_with(person, 6.0))
     summary = result.summary
@@ -92,8 +92,8 @@ def test_a_person_who_passes_outside_triggers_nothing() -> None:
     assert summary.min_distance_m == pytest.approx(theory, abs=0.05)
 
 
-def test_a_slow_person_is_evaded_and_keeps_near_to_theory() -> None:
-    """The robot loses what the person walks before its first step lands."""
+def test_a_slow_person_is_evaded_close_to_theory() -> None:
+    """The robot loses the person's path until its first step lands."""
     result = run_duel(duel_with(PersonSettings("steer", 0.073, 0.146), 40.0))
     summary = result.summary
     assert summary.outcome == "completed"
@@ -121,7 +121,7 @@ def test_a_robots_duel_has_no_person_in_it() -> None:
     assert model.nmocap == 0 and "pursuer/trunk" not in names
 
 
-def test_the_template_evader_gets_away_from_a_slower_one() -> None:
+def test_the_template_evader_escapes_from_a_slower_pursuer() -> None:
     def approach(speed: float) -> float:
         person = PersonSettings("straight", speed)
         return template_approach(
@@ -139,7 +139,7 @@ def test_the_template_evader_gets_away_from_a_slower_one() -> None:
     assert approach(0.2) < 0.1 < approach(0.05)
 
 
-def test_the_command_line_takes_a_person(tmp_path: Path) -> None:
+def test_the_command_line_accepts_a_person(tmp_path: Path) -> None:
     folder = tmp_path / "run"
     arguments = [
         *("duel", "--pursuer", "person", "--person-path", "straight"),

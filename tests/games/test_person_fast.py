@@ -1,4 +1,4 @@
-"""A person comes at the pace of people, and the fast gait steps aside."""
+"""Test the fast gait against a person at walking speed."""
 
 from math import atan2, pi, radians, sin
 from typing import Any
@@ -26,7 +26,7 @@ TIMED = Evasion(trigger="time")
 def met(
     speed: float, *, miss: float = 0.0, bearing: float = 0.0, far: float = 6.0
 ) -> float:
-    """Closest approach of a straight walk to the template, in [m]."""
+    """Return the closest approach of a straight walk to the template [m]."""
     return template_meeting(
         lambda pose, evader: PersonMotion(
             PersonSettings("straight", speed, miss=miss), pose, evader
@@ -40,7 +40,7 @@ def met(
 
 
 def duel(**changes: Any) -> DuelSettings:
-    """A person at 1 m/s straight at an evader that faces it, but for 20°."""
+    """Return a duel with a person at 1 m/s, 20 deg off the evader's front."""
     return DuelSettings(
         duration=7.0,
         gait=FAST,
@@ -52,8 +52,8 @@ def duel(**changes: Any) -> DuelSettings:
     )
 
 
-def test_somebody_at_one_metre_a_second_is_let_past() -> None:
-    """And then the robot stands again."""
+def test_a_person_at_one_metre_a_second_is_evaded() -> None:
+    """Afterwards the robot stands again."""
     game = Duel(duel())
     outcome, wall_time = play(game, 9.0)
     assert outcome is Outcome.COMPLETED
@@ -66,14 +66,14 @@ def test_somebody_at_one_metre_a_second_is_let_past() -> None:
     assert summary.min_distance_m == pytest.approx(theory, abs=0.15)
 
 
-def test_somebody_who_passes_by_moves_nobody() -> None:
+def test_a_person_that_passes_by_triggers_nothing() -> None:
     run = run_duel(duel(miss=1.2))
     assert run.outcome is Outcome.COMPLETED
     assert run.summary.triggered_at_s is None
 
 
 @pytest.mark.parametrize("bearing", [0.0, 1.5, -3.0])
-def test_the_template_keeps_whoever_comes_at_a_distance(
+def test_the_template_keeps_a_person_at_a_distance(
     bearing: float,
 ) -> None:
     slow, quick = met(0.3, bearing=bearing), met(1.6, bearing=bearing)
@@ -85,7 +85,7 @@ def test_the_template_keeps_whoever_comes_at_a_distance(
     assert met(1.0, miss=0.4) == pytest.approx(met(1.0, miss=-0.4), abs=1e-9)
 
 
-def test_the_template_steps_aside_as_theory_s_unicycle_does() -> None:
+def test_the_template_steps_aside_as_the_unicycle_of_theory() -> None:
     """Facing the person, until it is where the robot was."""
     speed = 2.0  # so fast that it stops at nobody's side
     late = FAST.start_support
@@ -94,7 +94,7 @@ def test_the_template_steps_aside_as_theory_s_unicycle_does() -> None:
     assert met(speed, far=9.0) == pytest.approx(aside, abs=0.02)
 
 
-def test_who_walks_faster_comes_from_farther() -> None:
+def test_a_faster_person_begins_farther_away() -> None:
     def drawn(speed: float) -> float:
         start = draw_start(
             DuelSettings(pursuer="person", person=PersonSettings(speed=speed))

@@ -1,4 +1,4 @@
-"""A robot whose record cannot be written plays on, and its record is kept."""
+"""Test that a player goes on if its record cannot be written."""
 
 import resource
 import shutil
@@ -43,7 +43,7 @@ def tick(number: int) -> VelocityTick:
 def place(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> Iterator[Callable[..., Path]]:
-    """Folder to record to, on a small file system if asked for."""
+    """Return a folder for the record, optionally on a small file system."""
     (tmp_path / "spare").mkdir()
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "spare"))
     with ExitStack() as stack:
@@ -57,7 +57,7 @@ def place(
 
 
 def play(folder: Path, strike: Callable[[], None]) -> None:
-    """Record so many ticks, in whose midst something happens."""
+    """Record a number of ticks, with an event half way."""
     limits = resource.getrlimit(resource.RLIMIT_FSIZE)
     with ExitStack() as stack:
         # Before the test is over: what tells of it may be a file, too.
@@ -72,7 +72,7 @@ def play(folder: Path, strike: Callable[[], None]) -> None:
 
 
 @pytest.mark.parametrize("gone", [shutil.rmtree, taken])
-def test_a_record_whose_folder_goes_is_whole_elsewhere(
+def test_a_record_whose_folder_is_deleted_is_complete_elsewhere(
     place: Callable[..., Path], tmp_path: Path, gone: Callable[[Path], Any]
 ) -> None:
     folder = place(small=False)
@@ -84,7 +84,7 @@ def test_a_record_whose_folder_goes_is_whole_elsewhere(
     assert not folder.exists()
 
 
-def test_a_record_on_a_full_disk_is_kept_elsewhere(
+def test_a_record_on_a_full_disk_is_moved_elsewhere(
     place: Callable[..., Path], tmp_path: Path
 ) -> None:
     folder = place(small=True)
@@ -96,7 +96,7 @@ def test_a_record_on_a_full_disk_is_kept_elsewhere(
     assert {file.name for file in folder.iterdir()} <= AS_IT_GOES
 
 
-def test_a_record_that_lies_nowhere_costs_nothing_but_itself(
+def test_a_record_that_cannot_be_written_at_all_does_not_stop_the_play(
     place: Callable[..., Path], tmp_path: Path
 ) -> None:
     folder = place(small=False)
@@ -104,7 +104,7 @@ def test_a_record_that_lies_nowhere_costs_nothing_but_itself(
         play(folder, lambda: short_of(folder.parent))
 
 
-def test_what_goes_wrong_else_is_told_first(
+def test_other_errors_are_reported_first(
     place: Callable[..., Path],
 ) -> None:
     folder = place(small=False)
@@ -117,7 +117,7 @@ def test_what_goes_wrong_else_is_told_first(
         play(folder, fall)
 
 
-def test_a_record_that_can_be_written_lies_where_it_should(
+def test_a_writable_record_is_in_its_folder(
     place: Callable[..., Path], tmp_path: Path
 ) -> None:
     folder = place(small=False)

@@ -1,4 +1,4 @@
-"""Test where a robot whose joints were moved believed itself to be."""
+"""Test the trajectory of a robot by its own odometry."""
 
 from math import atan2, pi
 
@@ -8,7 +8,11 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from stepaside.core.poses import Array, Pose, wrap_angle
-from stepaside.games.play_joint_path import PRESSED, OdometryPath, _quaternion
+from stepaside.games.play_joint_path import (
+    MIN_FOOT_FORCE,
+    OdometryPath,
+    _quaternion,
+)
 from stepaside.games.play_rows import PlayedRows
 from stepaside.games.trajectory import Trajectory
 from stepaside.planning import Foot, GaitSettings
@@ -23,7 +27,7 @@ TILT = (0.07, -0.05)
 
 
 def believed(forces: Array, foot: Foot = Foot.LEFT) -> Trajectory:
-    """Track of a robot that stands on a foot and leans, at one instant."""
+    """Return the trajectory of a leaning robot at one instant."""
     columns = {
         "joint_positions": BENT[None],
         "gyro": np.zeros((1, 3)),
@@ -42,7 +46,7 @@ def believed(forces: Array, foot: Foot = Foot.LEFT) -> Trajectory:
 
 
 def shown(track: Trajectory) -> mujoco.MjData:
-    """The body of a track, as MuJoCo moves it."""
+    """Return the torso of a trajectory in MuJoCo."""
     model = NAO.compile()
     data = mujoco.MjData(model)
     assert track.qpos is not None
@@ -53,8 +57,8 @@ def shown(track: Trajectory) -> mujoco.MjData:
 
 
 @pytest.mark.parametrize("seed", range(10))
-def test_a_quaternion_is_the_turn_of_its_angles(seed: int) -> None:
-    """Yaw, then pitch, then roll, as SciPy has it."""
+def test_a_quaternion_is_the_rotation_of_its_angles(seed: int) -> None:
+    """Yaw, then pitch, then roll, as in SciPy."""
     angles = np.random.default_rng(seed).uniform(-pi, pi, 3) * [1, 0.5, 1]
     roll, pitch, yaw = angles.tolist()
     w, *vector = _quaternion(roll, pitch, yaw)
@@ -66,7 +70,9 @@ def test_a_quaternion_is_the_turn_of_its_angles(seed: int) -> None:
 
 
 @pytest.mark.parametrize("foot", Foot)
-def test_it_stands_on_its_foot_and_leans_as_it_measured(foot: Foot) -> None:
+def test_the_robot_stands_on_its_support_foot_with_the_measured_tilt(
+    foot: Foot,
+) -> None:
     track = believed(np.zeros(8), foot)
     data = shown(track)
     name = NAO.left_foot if foot is Foot.LEFT else NAO.right_foot
@@ -85,8 +91,8 @@ def test_it_stands_on_its_foot_and_leans_as_it_measured(foot: Foot) -> None:
 
 
 @pytest.mark.parametrize("foot", Foot)
-def test_the_zmp_is_midway_between_what_bears(foot: Foot) -> None:
-    """By weight; four sensors are under each foot."""
+def test_the_zmp_is_the_center_of_the_foot_forces(foot: Foot) -> None:
+    """Four sensors are under each foot."""
     random = np.random.default_rng(2)
     under = FORWARD.force_sensors()
     for forces in (*np.diag(np.full(8, 30.0)), random.uniform(0, 9, 8)):
@@ -101,17 +107,20 @@ def test_the_zmp_is_midway_between_what_bears(foot: Foot) -> None:
         np.testing.assert_allclose(track.zmp[0], wanted, atol=1e-6)
 
 
-def test_feet_that_hardly_press_have_no_zmp() -> None:
-    for total, known in ((0.9 * PRESSED, False), (1.1 * PRESSED, True)):
+def test_small_foot_forces_give_no_zmp() -> None:
+    for total, known in (
+        (0.9 * MIN_FOOT_FORCE, False),
+        (1.1 * MIN_FOOT_FORCE, True),
+    ):
         zmp = believed(np.full(8, total / 8.0)).zmp
         assert zmp is not None and bool(np.isfinite(zmp).all()) is known
 
 
 @pytest.mark.parametrize("foot", Foot)
-def test_each_mind_has_its_odometry_midway_between_the_feet(
+def test_the_odometry_of_each_controller_begins_midway_between_the_feet(
     foot: Foot,
 ) -> None:
-    """A robot that stands still is where it was, whichever mind tells it."""
+    """A robot at rest does not move when its controller restarts."""
     data = shown(believed(np.zeros(8), foot))
     feet = [data.site(name).xpos for name in (NAO.left_foot, NAO.right_foot)]
     x, y, _ = np.mean(feet, axis=0).tolist()

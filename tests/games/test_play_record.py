@@ -1,4 +1,4 @@
-"""Test that what a player kept replays: where it was, and whom it saw."""
+"""Test replays of plays: motion of the player and its sightings."""
 
 import json
 from dataclasses import replace
@@ -41,13 +41,13 @@ START = StartSettings(distance=0.7, pursuer_offset=0.1, evader_offset=0.2)
 
 
 def log_at(folder: Path, settings: PlaySettings) -> PlayLog:
-    """A log beside its configuration."""
+    """Return a log in a folder with its configuration."""
     beside = {"configuration.toml": dump_configuration(settings)}
     return PlayLog(folder, {"role": settings.role}, beside)
 
 
 def look_at(log: PlayLog, walker: Walker) -> None:
-    """Keep what a walker measures and wants, tick by tick."""
+    """Log measurements and intents of a walker, tick by tick."""
     read, write = walker.robot.read, walker.robot.write
     measured: list[Any] = []
 
@@ -78,7 +78,7 @@ def look_at(log: PlayLog, walker: Walker) -> None:
 
 
 class Walked:
-    """An evader that walked a while, its truth and its record."""
+    """Evader after a walk, with its true motion and its record."""
 
     def __init__(self, folder: Path) -> None:
         settings = DuelSettings(
@@ -106,7 +106,7 @@ def walked(tmp_path_factory: pytest.TempPathFactory) -> Walked:
     return Walked(tmp_path_factory.mktemp("plays") / "play")
 
 
-def test_a_player_is_where_it_was_to_what_its_feet_slip(
+def test_the_replayed_path_is_the_true_one_up_to_slip(
     walked: Walked,
 ) -> None:
     run, frame = walked.run, walked.frame.inverse()
@@ -128,7 +128,7 @@ def test_a_player_is_where_it_was_to_what_its_feet_slip(
     assert off[:, 2].max() < 0.01
 
 
-def test_the_other_is_where_it_was_seen(walked: Walked) -> None:
+def test_the_opponent_is_at_its_sightings(walked: Walked) -> None:
     run, frame = walked.run, walked.frame.inverse()
     other = run.tracks["pursuer"].torso
     for row in range(0, len(other), 10):
@@ -144,7 +144,7 @@ def test_the_other_is_where_it_was_seen(walked: Walked) -> None:
     assert run.summary.closest_m == pytest.approx(closest, abs=0.01)
 
 
-def test_it_comes_back_from_its_folder_and_is_sealed(walked: Walked) -> None:
+def test_a_play_is_read_from_its_folder_with_checksums(walked: Walked) -> None:
     loaded = load_run(walked.folder, PlayRun)
     assert loaded.summary == walked.run.summary
     assert loaded.settings == EVADER
@@ -157,13 +157,13 @@ def test_it_comes_back_from_its_folder_and_is_sealed(walked: Walked) -> None:
     told = file.read_text()
     file.write_text(told.replace("long enough", "for ever"))
     try:
-        with pytest.raises(ConfigurationError, match="not as it was written"):
+        with pytest.raises(ConfigurationError, match="was modified"):
             load_run(walked.folder)
     finally:
         file.write_text(told)
 
 
-def test_a_record_that_was_cut_off_replays_as_far_as_it_goes(
+def test_a_truncated_record_is_replayed_to_its_end(
     walked: Walked, tmp_path: Path
 ) -> None:
     cut = tmp_path / "cut"
@@ -180,7 +180,9 @@ def test_a_record_that_was_cut_off_replays_as_far_as_it_goes(
         load_run(cut)
 
 
-def test_it_is_drawn_and_told_of(walked: Walked, tmp_path: Path) -> None:
+def test_a_play_has_a_figure_and_a_summary(
+    walked: Walked, tmp_path: Path
+) -> None:
     stage = RunScene(walked.run)
     stage.put(50)
     assert stage.model.body("pursuer/trunk").mocapid[0] >= 0
@@ -199,7 +201,7 @@ def test_it_is_drawn_and_told_of(walked: Walked, tmp_path: Path) -> None:
 
 
 def circling(log: PlayLog, offset: float) -> None:
-    """A unicycle on a circle of 1 m, round somebody who stands in it."""
+    """Return a unicycle on a circle of 1 m around its opponent."""
     for tick in range(200):
         angle = 0.01 * tick
         pose = Pose(np.cos(angle), np.sin(angle), angle + 0.5 * np.pi)
@@ -220,7 +222,9 @@ def circling(log: PlayLog, offset: float) -> None:
     log.close()
 
 
-def test_a_robot_that_walks_by_itself_is_a_template(tmp_path: Path) -> None:
+def test_a_robot_with_its_own_walk_is_shown_as_a_template(
+    tmp_path: Path,
+) -> None:
     settings = replace(EVADER, role="pursuer", language="ros2")
     circling(log_at(tmp_path / "p", settings), 1.7e9)
     run = seal_play(tmp_path / "p", settings, Outcome.COMPLETED, "done")
@@ -236,7 +240,7 @@ def test_a_robot_that_walks_by_itself_is_a_template(tmp_path: Path) -> None:
     assert load_run(tmp_path / "p").players == ("pursuer", "evader")
 
 
-def test_who_saw_nobody_is_alone(tmp_path: Path) -> None:
+def test_without_a_sighting_a_play_has_one_player(tmp_path: Path) -> None:
     log = log_at(tmp_path / "p", EVADER)
     at = Pose(0.0, 0.0, 0.0)
     rest = VelocityCommand(0.0, 0.0)
@@ -251,14 +255,16 @@ def test_who_saw_nobody_is_alone(tmp_path: Path) -> None:
     RunScene(run).put(0)
 
 
-def test_one_clock_goes_on_where_a_robots_clock_begins_anew() -> None:
+def test_record_time_continues_where_a_robot_clock_restarts() -> None:
     times = np.array([-0.024, -0.012, 0.0, 0.012, 900.0, 900.012, 0.0, 0.0])
     wanted = 0.012 * np.array([0, 1, 2, 3, 4, 5, 6, 6])
     np.testing.assert_allclose(one_clock(times), wanted, atol=1e-9)
 
 
-def test_planning_is_told_in_microseconds(walked: Walked) -> None:
-    """The median of all plans, of which a step that rests has none."""
+def test_the_planning_time_of_a_play_is_in_microseconds(
+    walked: Walked,
+) -> None:
+    """The median of all plans; a halt has no planning time."""
     spent = read_rows(walked.folder)["begun"][:, 5]
     spent = spent[~np.isnan(spent)]
     assert len(spent) > 2

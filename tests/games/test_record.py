@@ -1,4 +1,4 @@
-"""Records of runs: every column holds what its name says."""
+"""Test that each recorded array holds the quantity of its name."""
 
 from math import pi
 from types import SimpleNamespace
@@ -19,7 +19,7 @@ NAMES = ("a", "b")
 
 
 def tell(player: FakePlayer, number: int, row: int = 0) -> None:
-    """Let a player show values that tell whose and what they are."""
+    """Give a player values that identify player and quantity."""
     base = 100.0 * number
     walk = SimpleNamespace(
         reference=SimpleNamespace(com=(base + 8.0, base + 9.0, 0.3)),
@@ -47,7 +47,7 @@ def recorder(
 
 
 def sample(made: Recorder, match: Match) -> None:
-    """Take one sample, whatever the clock says."""
+    """Take one sample at any time."""
     made._sample(match)
 
 
@@ -59,7 +59,7 @@ def arrays_of(made: Recorder) -> dict[str, Array]:
 
 
 def test_a_record_holds_each_quantity_under_its_name() -> None:
-    """References are in odometry, which the frame of the second turns."""
+    """References are in odometry, whose frame is rotated for the second."""
     made, match, world, players = recorder()
     made.before(match)
     world.ticks = 5
@@ -138,8 +138,8 @@ def test_landings_are_in_the_world_with_their_side() -> None:
     )
 
 
-def test_planning_is_told_of_each_player() -> None:
-    """A halt is a step, but no maneuver that was planned."""
+def test_planning_times_are_recorded_for_each_player() -> None:
+    """A halt is a step without a planned maneuver."""
     made, match, _, players = recorder()
     steps = (
         begun(velocity_jump=1e-3),
@@ -158,7 +158,7 @@ def test_planning_is_told_of_each_player() -> None:
     assert nothing.velocity_jump == 0.0 and nothing.zmp_margin is None
 
 
-def test_headings_pass_their_wrap_without_a_jump() -> None:
+def test_headings_are_unwrapped() -> None:
     made, match, _, players = recorder()
     for heading in (3.0, -3.1, -2.9):
         players[0].seen["torso"] = Pose(0.0, 0.0, heading)
@@ -168,7 +168,7 @@ def test_headings_pass_their_wrap_without_a_jump() -> None:
     np.testing.assert_allclose(headings, expected)
 
 
-def test_an_empty_record_keeps_its_shapes() -> None:
+def test_an_empty_record_has_the_usual_shapes() -> None:
     made, match, _, _ = recorder()
     assert made.times.shape == (0,)
     for track in made.tracks().values():
@@ -178,8 +178,8 @@ def test_an_empty_record_keeps_its_shapes() -> None:
     assert arrays_of(made)["a_landings"].shape == (0, 5)
 
 
-def test_what_a_player_lacks_is_none_in_its_track() -> None:
-    """A person walks by no plan of ours; NaN fills no gaps."""
+def test_missing_quantities_are_none_in_a_trajectory() -> None:
+    """A person has no plan; arrays are not filled with NaN."""
     made, match, _, players = recorder()
     players[0].seen = {}
     for _ in range(3):
@@ -200,7 +200,7 @@ def test_what_a_player_lacks_is_none_in_its_track() -> None:
         ("frame", {"landings"}),
     ],
 )
-def test_a_robot_of_which_less_is_known_lacks_that_alone(
+def test_a_robot_without_plans_lacks_only_its_references(
     lacking: str, arrays: set[str]
 ) -> None:
     made, match, _, players = recorder()
@@ -215,7 +215,7 @@ def test_a_robot_of_which_less_is_known_lacks_that_alone(
         assert value is None or value.shape == (2, 2)
 
 
-def test_a_foot_force_that_is_none_in_flight_is_nan_in_the_record() -> None:
+def test_the_zmp_in_flight_is_nan_in_the_record() -> None:
     made, match, _, players = recorder()
     sample(made, match)
     players[0].seen["zmp"] = (np.nan, np.nan)
@@ -224,7 +224,7 @@ def test_a_foot_force_that_is_none_in_flight_is_nan_in_the_record() -> None:
     assert np.isfinite(zmp[0]).all() and np.isnan(zmp[1]).all()
 
 
-def test_tracks_that_were_handed_out_stay_as_they_were() -> None:
+def test_returned_trajectories_do_not_change_later() -> None:
     made, match, _, players = recorder()
     sample(made, match)
     first = made.tracks()["a"]
@@ -236,7 +236,7 @@ def test_tracks_that_were_handed_out_stay_as_they_were() -> None:
 
 
 def test_samples_are_taken_when_due_and_at_the_end() -> None:
-    """The last one once only."""
+    """The last one only once."""
     for ticks, expected in ((12, [0.0, 0.02, 0.04, 0.048]), (10, None)):
         made, match, world, _ = recorder()
         for _ in range(ticks):

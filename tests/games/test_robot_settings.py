@@ -1,4 +1,4 @@
-"""Test that a description's gait, control and distances are played with."""
+"""Test settings of gait, control and games from descriptions."""
 
 import json
 import math
@@ -33,7 +33,7 @@ NAO = load_robot("nao")
 
 
 def changed_nao(folder: Path, **changes: str) -> str:
-    """A copy of NAO whose description says something else."""
+    """Return a copy of NAO with another description."""
     folder.mkdir(exist_ok=True)
     text = (NAO.folder / "robot.toml").read_text(encoding="utf-8")
     for old, new in changes.items():
@@ -44,13 +44,15 @@ def changed_nao(folder: Path, **changes: str) -> str:
     return str(folder)
 
 
-def test_nao_walks_the_gait_of_the_paper() -> None:
+def test_nao_has_the_gait_of_the_paper() -> None:
     assert settings_of_robot("nao") == RobotSettings()
     assert with_robot(DuelSettings(), "nao") == DuelSettings()
     assert with_robot(WalkSettings(), "nao") == WalkSettings()
 
 
-def test_a_robot_brings_gait_control_and_distances(tmp_path: Path) -> None:
+def test_a_description_gives_gait_control_and_distances(
+    tmp_path: Path,
+) -> None:
     robot = changed_nao(
         tmp_path,
         **{
@@ -89,7 +91,7 @@ def test_a_robot_brings_gait_control_and_distances(tmp_path: Path) -> None:
         ("closed-form", "guess", ConfigurationError, "method"),
     ],
 )
-def test_what_no_robot_can_do_is_refused_by_name(
+def test_invalid_descriptions_are_refused_by_name(
     old: str, new: str, error: type[Exception], message: str, tmp_path: Path
 ) -> None:
     robot = changed_nao(tmp_path, **{old: new})
@@ -98,13 +100,15 @@ def test_what_no_robot_can_do_is_refused_by_name(
 
 
 def given(*words: str) -> dict[str, Any]:
-    """Configuration that a command would use."""
+    """Return the configuration that a command would use."""
     result = CliRunner().invoke(main, [*words, "--print-config"])
     assert result.exit_code == 0, result.output
     return tomllib.loads(result.stdout)
 
 
-def test_files_and_options_win_over_the_robot(tmp_path: Path) -> None:
+def test_files_and_options_take_precedence_over_the_description(
+    tmp_path: Path,
+) -> None:
     robot = changed_nao(
         tmp_path / "robot",
         **{"stride = 0.04": "stride = 0.03", "gain = 0.2": "gain = 0.25"},
@@ -152,7 +156,7 @@ def test_two_players_may_be_different_robots(tmp_path: Path) -> None:
 
 
 def test_theory_of_different_gaits_is_in_real_time() -> None:
-    """A slower clock of one gait is a slower unicycle."""
+    """A gait with a slower time scale is a slower unicycle."""
     slow = GaitSettings(single_support=0.85, double_support=0.244)
     gait = GaitSettings()
     assert pace_of(slow) == pytest.approx(0.5 * pace_of(gait))
@@ -173,8 +177,8 @@ def test_theory_of_different_gaits_is_in_real_time() -> None:
     assert same == theory_of(DuelSettings())
 
 
-def test_equal_gaits_of_other_clocks_end_on_the_circle_of_the_paper() -> None:
-    """Real time only scales: the circle of equal players stays."""
+def test_equal_gaits_reach_the_circle_of_the_paper_at_any_time_scale() -> None:
+    """Time is scaled; the circle of equal players is unchanged."""
     slow = GaitSettings(single_support=0.85, double_support=0.244)
     both = RobotSettings(gait=slow)
     settings = DuelSettings(pursuer_robot=both, evader_robot=both)

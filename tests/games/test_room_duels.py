@@ -1,4 +1,4 @@
-"""A duel in a room: solids in the world, starts, contacts, files."""
+"""Test duels in rooms: obstacles, starts, contacts and files."""
 
 from dataclasses import replace
 from math import pi
@@ -44,8 +44,8 @@ def placed(room: Room, **changes: Any) -> DuelSettings:
     return DuelSettings(room=SceneSettings(plan=room), **changes)
 
 
-def test_solids_stand_in_the_world_as_in_the_room() -> None:
-    """Rays down from above strike what the room says stands there."""
+def test_obstacles_in_the_world_are_those_of_the_room() -> None:
+    """Rays from above hit the obstacles of the room."""
     spec = mujoco.MjSpec()
     add_solids(spec, FULL)
     model = spec.compile()
@@ -64,14 +64,14 @@ def test_solids_stand_in_the_world_as_in_the_room() -> None:
             assert down == pytest.approx(wanted, abs=1e-6)
 
 
-def test_solids_are_named_by_what_they_are() -> None:
+def test_obstacles_are_named_by_their_kind() -> None:
     names = [name for name, _ in named_solids(FULL)]
     assert names[:4] == ["disc 1", "box 1", "polygon 1", "wall 1"]
     assert len(set(names)) == len(FULL.solids) == 7
 
 
-def test_a_box_is_as_its_file_says_in_the_world() -> None:
-    """Width, depth and heading, to the bit; a wall is one, too."""
+def test_a_box_has_the_size_and_heading_of_its_file() -> None:
+    """To the bit; walls too."""
     spec = mujoco.MjSpec()
     file = {
         "boxes": [{"x": 0.4, "y": -0.7, "width": 0.3, "depth": 0.2}],
@@ -98,7 +98,7 @@ def test_a_box_is_as_its_file_says_in_the_world() -> None:
     assert model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_MESH
 
 
-def test_players_start_where_the_room_says() -> None:
+def test_players_begin_at_the_starts_of_the_room() -> None:
     room = replace(FULL, starts=STARTS)
     duel = Duel(placed(room))
     for player, start in zip(duel.players, STARTS, strict=True):
@@ -112,7 +112,7 @@ def test_players_start_where_the_room_says() -> None:
     assert again.start == told and again.room == duel.settings.room
 
 
-def test_starts_that_a_room_lacks_are_drawn_by_the_seed() -> None:
+def test_starts_missing_in_a_room_are_drawn_from_the_seed() -> None:
     first, second = (Duel(placed(FULL, seed=s)).frames for s in (1, 2))
     assert first == Duel(placed(FULL, seed=1)).frames != second
 
@@ -133,14 +133,12 @@ def test_starts_that_a_room_lacks_are_drawn_by_the_seed() -> None:
         ),
     ],
 )
-def test_rooms_in_which_no_game_can_be_are_refused(
-    room: Room, words: str
-) -> None:
+def test_unplayable_rooms_are_refused(room: Room, words: str) -> None:
     with pytest.raises(ConfigurationError, match=words):
         Duel(placed(room))
 
 
-def test_a_room_leaves_no_choice_of_start_nor_a_person() -> None:
+def test_a_room_excludes_other_starts_and_people() -> None:
     room = replace(FULL, starts=STARTS)
     with pytest.raises(ConfigurationError, match="start.distance must be"):
         Duel(placed(room, start=StartSettings(distance=1.0)))
@@ -160,8 +158,8 @@ def test_a_configuration_keeps_the_room() -> None:
         assert read.room.plan.starts == room.starts
 
 
-def test_who_touches_what_ends_a_duel_and_is_named() -> None:
-    """An evader that knows of nothing walks backwards into a pillar."""
+def test_contact_with_an_obstacle_ends_a_duel_and_names_it() -> None:
+    """An evader without a map walks backward into a pillar."""
     starts = (Pose(1.1, 0.0, pi), Pose(0.5, 0.0, 0.0))
     settings = placed(
         Room(3.0, 3.0, (Disc(0.2, 0.0, 0.08),), starts=starts),
@@ -185,7 +183,7 @@ def refusal(*words: str) -> str:
     return result.output
 
 
-def test_bad_rooms_are_refused_in_one_line(tmp_path: Path) -> None:
+def test_invalid_rooms_are_refused_in_one_line(tmp_path: Path) -> None:
     file = tmp_path / "room.toml"
     for text, words in (
         ("polygons = [{corners = [[0,0],[1,1],[1,0],[0,1]]}]", "cross itself"),

@@ -1,4 +1,4 @@
-"""Test robots that see, in physics, with cameras made of rays."""
+"""Test duels with camera sensing, rendered by ray casting."""
 
 from dataclasses import replace
 from functools import cache
@@ -57,7 +57,7 @@ def perception_of(walker: Walker) -> Perception:
     return walker.scheme.senses.perception
 
 
-def test_robots_that_see_begin_as_those_that_know() -> None:
+def test_robots_with_cameras_begin_as_those_with_ideal_sight() -> None:
     result = play()
     assert result.outcome is Outcome.COMPLETED
     summary = result.summary.to_json()
@@ -74,7 +74,7 @@ def test_robots_that_see_begin_as_those_that_know() -> None:
     assert summary["evader"]["distance_error_m"]["median"] < 0.05
 
 
-def test_the_same_seed_sees_the_same() -> None:
+def test_equal_seeds_give_equal_detections() -> None:
     settings = replace(SEEING, duration=2.0)
     one, other = run_duel(settings).arrays(), run_duel(settings).arrays()
     assert {"pursuer_sight", "evader_sight"} <= one.keys() == other.keys()
@@ -82,8 +82,8 @@ def test_the_same_seed_sees_the_same() -> None:
         np.testing.assert_array_equal(values, other[name])
 
 
-def test_the_pursuer_finds_who_is_behind_its_view() -> None:
-    """It begins with its back half turned, scans and halts nowhere."""
+def test_the_pursuer_finds_an_opponent_outside_its_view() -> None:
+    """It begins facing away, scans, and does not halt."""
     start = StartSettings(1.3, radians(-88.0), 0.0)
     settings = replace(SEEING, start=start, duration=5.0)
     pursuer = run_duel(settings).pursuer
@@ -109,10 +109,10 @@ def test_the_pursuer_finds_who_is_behind_its_view() -> None:
 
 
 @pytest.mark.parametrize("distance", [0.5, 0.65, 0.8])
-def test_the_evader_is_not_blind_below_the_near_limit(
+def test_the_evader_tracks_below_the_near_limit_of_its_camera(
     distance: float,
 ) -> None:
-    """Depth camera and sonars alone still tell bearing and distance."""
+    """Depth camera and sonars alone give bearing and distance."""
     start = StartSettings(distance, 0.0, radians(15.0))
     duel = Duel(replace(SEEING, start=start))
     pursuer, evader = (walker.robot for walker in walkers(duel))
@@ -136,8 +136,8 @@ def test_the_evader_is_not_blind_below_the_near_limit(
     assert seen.distance == pytest.approx(duel.distance, abs=0.06)
 
 
-def test_a_person_who_is_near_is_one_and_not_lost() -> None:
-    """Two legs that swing, the trunk above the view, a sonar's echoes."""
+def test_a_person_nearby_is_one_track_and_not_lost() -> None:
+    """Two legs that swing, the trunk above the view, echoes of sonars."""
     person = PersonSettings("steer", 0.073, 0.146)
     start = StartSettings(0.95, 0.0, radians(10.0))
     settings = replace(SEEING, pursuer="person", person=person, start=start)
@@ -160,8 +160,8 @@ def test_a_person_who_is_near_is_one_and_not_lost() -> None:
     assert np.median(ranges) < 0.08 and max(ranges) < 0.3
 
 
-def test_belief_about_the_own_body_is_true_while_walking() -> None:
-    """Encoders and tilt place the eyes within a centimeter or so."""
+def test_the_estimated_camera_pose_is_true_while_walking() -> None:
+    """Encoders and tilt give the camera position within 1 cm or so."""
     duel = Duel(replace(SEEING, duration=4.0))
     pursuer = walkers(duel)[0]
     perception, truth = perception_of(pursuer), pursuer.truth
@@ -183,7 +183,7 @@ def test_belief_about_the_own_body_is_true_while_walking() -> None:
     assert np.abs(np.degrees(headings)).max() < 6.0
 
 
-def test_dropped_and_late_images_are_dropped_and_late() -> None:
+def test_images_are_dropped_and_delayed_as_set() -> None:
     cameras = replace(RAYS, drop_frames=0.5, added_latency=0.2)
     duel = Duel(replace(SEEING, cameras=cameras, duration=4.0))
     pursuer = walkers(duel)[0]
@@ -219,7 +219,7 @@ def test_depth_images_keep_to_their_limits() -> None:
     assert len(np.unique(values)) < 0.6 * len(values)
 
 
-def test_robots_run_into_things() -> None:
+def test_robots_collide_with_objects() -> None:
     things = [RoomObject("red box", 0.15, 0.0)]
     start = StartSettings(1.3, 0.0, 0.0)
     settings = replace(SEEING, start=start, room=SceneSettings(things=things))
@@ -227,7 +227,7 @@ def test_robots_run_into_things() -> None:
     assert result.outcome in (Outcome.CONTACT, Outcome.FALL)
 
 
-def test_a_room_is_a_configuration() -> None:
+def test_a_scene_is_part_of_the_configuration() -> None:
     room = SceneSettings(things=list(CLUTTER))
     settings = replace(SEEING, room=room)
     text = dump_configuration(settings)
@@ -249,14 +249,14 @@ def test_a_room_is_a_configuration() -> None:
         lambda: choose_renderer("glfw"),
     ],
 )
-def test_senses_that_cannot_be_are_refused(make: object) -> None:
+def test_invalid_sensing_is_refused(make: object) -> None:
     assert callable(make)
     with pytest.raises(ConfigurationError):
         make()
 
 
-def test_rendering_and_rays_see_the_same() -> None:
-    """Where the machine renders, both cameras find it in one direction."""
+def test_rendering_and_ray_casting_agree() -> None:
+    """Both renderers give the same direction, where available."""
     renderer = choose_renderer("auto")
     if renderer not in BACKENDS:
         pytest.skip("no off-screen graphics (EGL, OSMesa) on this machine")
@@ -276,7 +276,7 @@ def test_rendering_and_rays_see_the_same() -> None:
     assert azimuths[renderer] == pytest.approx(-10.0, abs=1.5)
 
 
-def test_sonars_hear_what_stands_before_the_chest() -> None:
+def test_sonars_detect_an_obstacle_in_front_of_the_chest() -> None:
     duel = Duel(replace(SEEING, start=StartSettings(0.6, 0.0, 0.0)))
     mujoco.mj_forward(duel.world.model, duel.world.data)
     eyes = walkers(duel)[1].robot.eyes

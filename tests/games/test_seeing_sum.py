@@ -1,4 +1,4 @@
-"""Test what a duel with cameras says of both who see."""
+"""Test the evaluation of perception in duels with camera sensing."""
 
 from dataclasses import replace
 from types import SimpleNamespace
@@ -44,13 +44,13 @@ SETTINGS = DuelSettings(
 
 
 def saw(lost: float) -> SightSummary:
-    """Figures of a robot that was lost for a time, in [s]."""
+    """Return the summary of a robot that was lost for a time, in [s]."""
     none = ErrorSpread(None, None)
     return SightSummary(none, none, None, 0, 0.0, lost)
 
 
 def judged(colour: FrameCounts, depth: FrameCounts, lost: float) -> Any:
-    """A judge of a robot that was lost for a time."""
+    """Return the evaluator of a robot that was lost for a time."""
     return SimpleNamespace(
         colour=colour,
         depth=depth,
@@ -68,13 +68,13 @@ def prepared(*names: str, **changes: Any) -> CameraSenses:
 
 
 def at(ticks: int) -> Any:
-    """A game at one of its ticks."""
+    """Return a match at one of its ticks."""
     return SimpleNamespace(
         world=SimpleNamespace(ticks=ticks, time=0.004 * ticks)
     )
 
 
-def test_figures_are_of_both_robots_and_both_cameras() -> None:
+def test_the_report_combines_both_robots_and_both_cameras() -> None:
     judges = {
         "pursuer": judged(FrameCounts(10, 9, 1), FrameCounts(), 0.5),
         "evader": judged(FrameCounts(20, 12, 3), FrameCounts(10, 3, 5), 1.25),
@@ -94,20 +94,20 @@ def test_figures_are_of_both_robots_and_both_cameras() -> None:
     assert nothing.detection_rate is None and list(each) == ["evader"]
 
 
-def test_seeing_takes_one_core() -> None:
+def test_perception_uses_one_core() -> None:
     cv2.setNumThreads(2)
     prepared()
     assert cv2.getNumThreads() == 1
 
 
-def test_who_is_prepared_has_a_perception_of_its_own() -> None:
+def test_each_robot_has_its_own_perception() -> None:
     both = prepared().perceptions
     assert list(both) == ["pursuer", "evader"]
     assert both["pursuer"] is not both["evader"]
     assert list(prepared("evader").perceptions) == ["evader"]
 
 
-def test_each_looks_for_the_trim_of_the_other() -> None:
+def test_each_robot_detects_the_trim_of_its_opponent() -> None:
     minds = prepared().perceptions
     hues = {
         name: mind._detector.appearance.hue for name, mind in minds.items()
@@ -116,7 +116,9 @@ def test_each_looks_for_the_trim_of_the_other() -> None:
     assert hues["evader"] == 0  # red, of the pursuer
 
 
-def test_only_the_evader_feels_depth(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_only_the_evader_has_a_depth_camera(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     opened: list[tuple[Any, ...]] = []
 
     def open_eyes(*arguments: Any, with_depth: bool, looks_low: Any) -> Any:
@@ -135,10 +137,10 @@ def test_only_the_evader_feels_depth(monkeypatch: pytest.MonkeyPatch) -> None:
     assert all(a[2] == "torso" and a[5:7] == ("raycast", 5) for a in opened)
 
 
-def test_each_is_judged_by_the_truth_of_the_other(
+def test_each_robot_is_evaluated_by_the_true_state_of_its_opponent(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """Five stills within the duel, at square times from near its begin."""
+    """Five stills within the duel, at quadratic times."""
     made: list[tuple[Any, ...]] = []
 
     def judge(*a: Any, wears_trim: bool) -> None:
@@ -162,7 +164,7 @@ def test_each_is_judged_by_the_truth_of_the_other(
     assert roots[0] == pytest.approx(0.5 * np.diff(roots)[0])
 
 
-def test_who_opens_eyes_in_a_duel_is_judged() -> None:
+def test_each_robot_with_cameras_is_evaluated() -> None:
     duel = Duel(replace(SETTINGS, duration=1.0))
     witness = duel.witness
     assert witness is not None and list(witness.judges) == list(PLAYERS)
@@ -179,7 +181,7 @@ def test_who_opens_eyes_in_a_duel_is_judged() -> None:
     duel.close()
 
 
-def test_a_person_opens_no_eyes() -> None:
+def test_a_person_has_no_cameras() -> None:
     duel = Duel(replace(SETTINGS, duration=1.0, pursuer="person"))
     witness = duel.witness
     assert witness is not None and list(witness.judges) == ["evader"]
@@ -195,12 +197,12 @@ def test_a_person_opens_no_eyes() -> None:
     duel.close()
 
 
-def test_an_ideal_duel_has_no_witness() -> None:
+def test_a_duel_with_ideal_sight_has_no_sight_observer() -> None:
     duel = Duel(DuelSettings(seed=5))
     assert duel.witness is None and duel.observers == (duel.recorder,)
 
 
-def test_both_judges_sample_at_one_instant_when_it_is_due() -> None:
+def test_both_evaluators_sample_at_the_same_instants() -> None:
     times: list[float] = []
     one: Any = SimpleNamespace(sample=times.append)
     both = SightObserver({"pursuer": one, "evader": one}, "raycast", every=5)
@@ -209,7 +211,7 @@ def test_both_judges_sample_at_one_instant_when_it_is_due() -> None:
     assert times == pytest.approx([0.0, 0.0, 0.02, 0.02, 0.04, 0.04])
 
 
-def test_both_judges_look_at_every_tick() -> None:
+def test_both_evaluators_observe_every_tick() -> None:
     looked: list[str] = []
     judges: dict[str, Any] = {
         name: SimpleNamespace(look=lambda name=name: looked.append(name))
@@ -234,7 +236,7 @@ def test_both_judges_look_at_every_tick() -> None:
         (0.0, 8.0, 0.0),
     ],
 )
-def test_everybody_begins_well_inside_the_walls(
+def test_players_begin_well_inside_the_walls(
     asked: float, distance: float, there: float
 ) -> None:
     settings = DuelSettings(
@@ -247,10 +249,10 @@ def test_everybody_begins_well_inside_the_walls(
 @pytest.mark.parametrize("side", [-1.0, 1.0])
 @pytest.mark.parametrize("axis", [0, 1])
 @pytest.mark.parametrize("who", [0, 1])
-def test_the_walls_of_a_room_stand_beyond_every_start(
+def test_the_walls_of_a_room_are_beyond_every_start(
     who: int, axis: int, side: float
 ) -> None:
-    """Whichever player begins far out, and on whichever side."""
+    """For either player far out, on any side."""
     starts = [Pose(0.5, 0.0, 0.0), Pose(-0.5, 0.0, 0.0)]
     far = side * 4.5
     starts[who] = Pose(far, 0.0, 0.0) if axis == 0 else Pose(0.0, far, 0.0)
@@ -259,7 +261,7 @@ def test_the_walls_of_a_room_stand_beyond_every_start(
     assert walls_of(settings) == pytest.approx(8.0)
 
 
-def test_no_wall_stands_between_a_robot_and_who_comes_fast() -> None:
+def test_no_wall_is_between_a_robot_and_a_fast_person() -> None:
     settings = with_start(
         DuelSettings(
             pursuer="person",
@@ -278,7 +280,7 @@ def test_no_wall_stands_between_a_robot_and_who_comes_fast() -> None:
     assert spec.geom("wall 1 0").pos[0] - evader.x == pytest.approx(3.5)
 
 
-def test_who_maps_a_room_begins_when_the_evader_has_looked_behind() -> None:
+def test_robots_that_map_a_room_wait_for_the_start_of_the_game() -> None:
     room = SceneSettings(plan=make_room(RoomRecipe(discs=1), 3))
     mapping = prepared(
         seed=3,
@@ -287,9 +289,7 @@ def test_who_maps_a_room_begins_when_the_evader_has_looked_behind() -> None:
         room=room,
         map=MapSettings(source="seen"),
     ).perceptions
-    arounds = {name: each.around for name, each in mapping.items()}
-    assert arounds["pursuer"].company == [mapping["evader"]]
-    assert arounds["evader"].company == []
-    assert mapping["pursuer"].looking and mapping["evader"].looking
+    for each in mapping.values():
+        assert not each.is_ready and not each.started and each.looking
     for each in prepared().perceptions.values():
-        assert not each.looking and not each.around.company
+        assert each.is_ready and not each.looking

@@ -1,4 +1,4 @@
-"""Test duels whose control comes over sockets, against duels in one."""
+"""Test duels with control over sockets against duels in one process."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -43,7 +43,7 @@ def client(
     ticks: list[JointTick],
     sees_as: str | None,
 ) -> None:
-    """One player, until its robot is gone."""
+    """Play one player until its robot disconnects."""
 
     def open_eyes() -> CameraChannel:
         assert address.cameras is not None
@@ -106,7 +106,7 @@ def clients(
 def test_in_lock_step_the_duel_is_the_one_played_in_one_process(
     tmp_path: Path,
 ) -> None:
-    """To what single precision on the wire leaves of it."""
+    """Up to the single precision of the wire format."""
     settings = DuelSettings(
         seed=7,
         duration=3.0,
@@ -133,10 +133,10 @@ def test_in_lock_step_the_duel_is_the_one_played_in_one_process(
     assert not any(Path(a.path).exists() for a in addresses.values())
 
 
-def test_with_cameras_it_is_the_one_played_in_one_process(
+def test_with_cameras_a_served_duel_is_the_one_played_in_one_process(
     tmp_path: Path,
 ) -> None:
-    """Images travel beside the frames, each with the one it belongs to."""
+    """Each image travels with the frame that it belongs to."""
     pytest.importorskip("cv2")
     settings = DuelSettings(
         seed=7,
@@ -160,7 +160,7 @@ def test_with_cameras_it_is_the_one_played_in_one_process(
 
 
 def check_record(served: DuelRun, played: DuelRun, folder: Path) -> None:
-    """It is kept as any duel, but for what only control knows."""
+    """Check that the record is complete except for plans."""
     assert served.settings == played.settings
     np.testing.assert_array_equal(served.times, played.times)
     for name, track in served.tracks.items():
@@ -174,7 +174,7 @@ def check_record(served: DuelRun, played: DuelRun, folder: Path) -> None:
     RunScene(served).put(len(served.times) - 1)
 
 
-def test_a_world_waits_for_clients_no_longer_than_it_is_told(
+def test_the_wait_for_clients_is_limited(
     tmp_path: Path,
 ) -> None:
     offers = {"evader": LolaOffer(LolaAddress(path=str(tmp_path / "e")))}
@@ -184,6 +184,6 @@ def test_a_world_waits_for_clients_no_longer_than_it_is_told(
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_world_with_another_tick_is_not_served(tmp_path: Path) -> None:
+def test_a_duel_with_another_tick_is_not_served(tmp_path: Path) -> None:
     with pytest.raises(ConfigurationError, match="tick of 0.012"):
         serve_duel(DuelSettings(), {})

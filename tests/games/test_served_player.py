@@ -1,4 +1,4 @@
-"""Test a robot of the world as LoLA's server moves it."""
+"""Test a simulated robot whose joints LoLA's server commands."""
 
 from types import SimpleNamespace
 from typing import Any
@@ -6,12 +6,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.games.served_player import MOVED, ServedBody
+from stepaside.games.served_player import MOVING, ServedBody
 from stepaside.perception.measurement import Measurement
 
 
 class FakeRobot:
-    """A robot of a world, which notes what is asked."""
+    """Simulated robot that records commands."""
 
     def __init__(self) -> None:
         self.world = SimpleNamespace(ticks=0)
@@ -23,7 +23,7 @@ class FakeRobot:
     weight = 48.0
 
     def read(self) -> Measurement:
-        """Another measurement each time, as noise makes it."""
+        """Return another measurement each time, as with noise."""
         self.readings += 1
         nothing = np.zeros(3)
         return Measurement(
@@ -41,15 +41,15 @@ def body_of() -> tuple[Any, FakeRobot]:
     return ServedBody(robot), robot
 
 
-def test_sensors_are_read_once_a_tick_however_often_they_are_asked() -> None:
+def test_sensors_are_read_once_per_tick() -> None:
     body, robot = body_of()
     assert [body.sensors().time for _ in range(3)] == [1.0, 1.0, 1.0]
     robot.world.ticks = 1
     assert [body.sensors().time for _ in range(3)] == [2.0, 2.0, 2.0]
 
 
-def test_a_robot_in_a_world_that_stands_still_reads_as_one_at_rest() -> None:
-    """It has weight on its feet, or it would not be let walk."""
+def test_a_waiting_robot_reports_the_sensors_of_one_at_rest() -> None:
+    """Without foot forces its client would not let it walk."""
     body, _ = body_of()
     held = body.sensors()
     assert held.accelerometer.tolist() == [0.0, 0.0, 9.81]
@@ -59,7 +59,7 @@ def test_a_robot_in_a_world_that_stands_still_reads_as_one_at_rest() -> None:
     assert body.sensors().time == held.time
 
 
-def test_a_robot_that_is_held_does_nothing() -> None:
+def test_a_waiting_robot_ignores_commands() -> None:
     body, robot = body_of()
     body.command(np.ones(3), np.ones(3))
     assert robot.written == robot.shares == []
@@ -79,16 +79,16 @@ def test_a_robot_moves_once_a_target_has_left_the_stance() -> None:
         (1.1, True),
         (0.0, True),
     ):
-        body.command(stance + [0.0, offset * MOVED], np.ones(2))
+        body.command(stance + [0.0, offset * MOVING], np.ones(2))
         assert body.is_moving == moves
 
 
-def test_who_only_looks_about_does_not_move() -> None:
+def test_head_motion_does_not_count_as_moving() -> None:
     robot: Any = FakeRobot()
     body = ServedBody(robot, head=[1])
     body.let_go()
     for turned in (0.0, 1.0):
         body.command(np.array([0.1, turned]), np.ones(2))
         assert not body.is_moving
-    body.command(np.array([0.1 + 1.1 * MOVED, 1.0]), np.ones(2))
+    body.command(np.array([0.1 + 1.1 * MOVING, 1.0]), np.ones(2))
     assert body.is_moving

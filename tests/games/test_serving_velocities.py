@@ -1,4 +1,4 @@
-"""Test duels of robots that walk by themselves, driven over wires."""
+"""Test served duels of robots commanded by velocities."""
 
 import os
 from collections.abc import Callable
@@ -50,7 +50,7 @@ def playing_of(body: VelocityBody, strategy: Strategy) -> VelocityLoop:
 
 
 class NoWire:
-    """Player and robot in one process: every fourth tick a report."""
+    """Player and robot in one process, with a report every fourth tick."""
 
     def __init__(self, robot: VelocityWalker, strategy: Strategy) -> None:
         self._robot, self._ticks, self._velocity = robot, 0, REST
@@ -80,7 +80,7 @@ class NoWire:
 
 @pytest.fixture(scope="module")
 def distance_without_a_wire() -> float:
-    """Distance in the end of a duel in one process, in [m]."""
+    """Return the final distance of a duel in one process, in [m]."""
     duel = Duel(SETTINGS, recorded=False)
     players = []
     for player in duel.players:
@@ -100,7 +100,7 @@ def client(
     states: list[DrivingState],
     over: Event,
 ) -> None:
-    """One player, until the duel is over."""
+    """Play one player until the duel is over."""
     body = open_body()
     playing = playing_of(body, strategy)
     while not over.is_set():
@@ -112,7 +112,7 @@ def served(
     offers: dict[str, Offer],
     bodies: dict[str, Callable[[], VelocityBody]],
 ) -> tuple[float, list[DrivingState]]:
-    """Least distance of a served duel, and what its players did."""
+    """Return the smallest distance of a served duel, and its plays."""
     states: list[DrivingState] = []
     over = Event()
     threads = [
@@ -132,10 +132,10 @@ def served(
     return found.run.summary.min_distance_m, states
 
 
-def test_over_ros2_in_lock_step_the_duel_is_the_one_without_a_wire(
+def test_over_ros2_in_lock_step_the_duel_is_the_one_in_one_process(
     distance_without_a_wire: float,
 ) -> None:
-    """Topics carry doubles: nothing is lost on the way."""
+    """Topics carry doubles, without loss."""
     pytest.importorskip("cyclonedds")
     from stepaside.drivers.ros2.dds_domain import DdsParticipant
     from stepaside.drivers.ros2.ros2_body import Ros2Body

@@ -1,4 +1,4 @@
-"""Test the judge of sight on beliefs and images whose truth is known."""
+"""Test the evaluation of perception on detections of known truth."""
 
 from dataclasses import astuple
 from math import atan2, cos, hypot, inf, nan, radians, sin
@@ -25,7 +25,7 @@ HEAD = SimpleNamespace(body="head", top=TOP, depth=DEPTH)
 
 
 class Truth:
-    """A true state, as a test has it."""
+    """True state set by a test."""
 
     def __init__(self, x: float, y: float, heading: float, z: float) -> None:
         self.position, self.heading = (x, y), heading
@@ -33,12 +33,12 @@ class Truth:
 
 
 def thoughtless() -> Any:
-    """What stands for a perception: it believes what a test says."""
+    """Return a fake perception with settable sightings."""
     return SimpleNamespace(sighting=None, searching=False, reports=[])
 
 
 class Scene:
-    """A judge of a robot whose head a test turns and moves."""
+    """Evaluator of a robot whose head a test moves."""
 
     def __init__(
         self,
@@ -74,7 +74,7 @@ class Scene:
         )
 
     def stand(self, mount: Mount, azimuth: float, away: float) -> None:
-        """Put the other where a camera sees it, at the camera's height."""
+        """Put the opponent at a position in a camera frame, at its height."""
         axes = self.frame @ mount.axes
         eye = self.place + self.frame @ mount.place
         point = eye + axes @ (away * np.array([cos(azimuth), sin(azimuth), 0]))
@@ -82,7 +82,7 @@ class Scene:
         self.other.com = point
 
     def believe(self, bearing: float, away: float = 1.0) -> None:
-        """Believe the other to be somewhere."""
+        """Set the sighting of the robot."""
         self.mind.sighting = Sighting(0.0, bearing, away)
 
 
@@ -98,14 +98,14 @@ def depth(time: float = 0.0) -> DepthImage:
 def show(
     scene: Scene, image: ColourImage | DepthImage, *azimuths: float
 ) -> None:
-    """Take an image that is found to show things, in degrees."""
+    """Take an image with detections at angles, in [deg]."""
     scene.judge.note(image)
     angles = tuple(radians(a) for a in azimuths)
     scene.judge.judge(FrameReport(image, angles))
 
 
 def rows(scene: Scene, errors: list[float | None]) -> None:
-    """Sample beliefs that are off by so many degrees, None if lost."""
+    """Sample sightings with bearing errors, in [deg]; None if lost."""
     true = atan2(0.2, 1.2)
     for i, error in enumerate(errors):
         scene.mind.sighting = None
@@ -114,7 +114,7 @@ def rows(scene: Scene, errors: list[float | None]) -> None:
         scene.judge.sample(i * PERIOD)
 
 
-def test_time_with_a_belief_far_off_is_misled_time() -> None:
+def test_time_with_a_large_bearing_error_is_misled_time() -> None:
     scene = Scene()
     rows(scene, [0.0, 21.0, -21.0, 30.0, 19.0, -19.0, None, 180.0])
     figures = scene.judge.figures()
@@ -122,7 +122,7 @@ def test_time_with_a_belief_far_off_is_misled_time() -> None:
     assert figures.lost_s == pytest.approx(1 * PERIOD)
 
 
-def test_errors_of_bearing_are_taken_the_short_way() -> None:
+def test_bearing_errors_are_wrapped() -> None:
     scene = Scene()
     scene.own.heading = radians(-175.0) + atan2(0.2, 1.2)
     for i, belief in enumerate((172.0, 178.0, -178.0)):
@@ -135,7 +135,7 @@ def test_errors_of_bearing_are_taken_the_short_way() -> None:
     assert figures.misled_s == 0.0
 
 
-def test_who_searches_is_lost_even_with_a_belief() -> None:
+def test_a_searching_robot_is_lost_even_with_a_sighting() -> None:
     scene = Scene()
     scene.believe(0.0)
     for i in range(5):
@@ -144,7 +144,7 @@ def test_who_searches_is_lost_even_with_a_belief() -> None:
     assert scene.judge.figures().lost_s == pytest.approx(2 * PERIOD)
 
 
-def test_samples_hold_beliefs_beside_the_truth() -> None:
+def test_samples_hold_sightings_and_the_truth() -> None:
     scene = Scene()
     scene.own.heading = 0.5
     scene.judge.sample(1.0)
@@ -160,7 +160,7 @@ def test_samples_hold_beliefs_beside_the_truth() -> None:
     )
 
 
-def test_spread_of_errors_leaves_out_when_all_was_lost() -> None:
+def test_errors_exclude_samples_without_a_sighting() -> None:
     scene = Scene()
     true = hypot(0.2, 1.2)
     rows(scene, [None, None])
@@ -183,7 +183,7 @@ def test_without_samples_there_are_no_errors() -> None:
     assert scene.judge.figures().misled_s == 0.0  # one sample lasts nil
 
 
-def test_rates_are_shares_of_the_frames_that_could_have_found_it() -> None:
+def test_rates_are_fractions_of_the_frames_with_the_opponent_in_view() -> None:
     assert FrameCounts().rate is None
     assert FrameCounts(shown=8, found=2).rate == 0.25
 
@@ -193,7 +193,7 @@ def test_rates_are_shares_of_the_frames_that_could_have_found_it() -> None:
 def test_frames_count_as_shown_found_and_false(
     yaw: float, side: float
 ) -> None:
-    """Ten degrees decide whether a detection is of the other."""
+    """A detection within ten degrees is of the opponent."""
     scene = Scene(yaw)
     scene.stand(TOP, side * radians(20.0), 1.2)
     show(scene, colour(), side * 20.0)
@@ -244,7 +244,7 @@ def test_depth_shows_only_what_is_well_in_range(
     assert scene.judge.colour.shown == 1
 
 
-def test_the_middle_of_the_other_must_be_in_view() -> None:
+def test_the_center_of_the_opponent_must_be_in_view() -> None:
     scene = Scene()
     scene.stand(TOP, 0.0, 1.0)
     for lift, shown in ((0.38, 1), (0.46, 0), (-0.37, 1), (-0.46, 0)):
@@ -256,8 +256,8 @@ def test_the_middle_of_the_other_must_be_in_view() -> None:
         scene.other.com = level
 
 
-def test_things_are_no_false_detections_of_the_depth_camera() -> None:
-    """A colour camera that takes them for the other is wrong."""
+def test_objects_are_no_false_detections_of_the_depth_camera() -> None:
+    """For a colour camera they are."""
     eye = np.array([0.3, -0.2]) + DEPTH.place[:2]
     scene = Scene(0.0, [(9.0, 9.0), (eye[0] + 2.0, eye[1] - 1.0)])
     scene.stand(DEPTH, 0.3, 1.5)
@@ -273,7 +273,7 @@ def test_things_are_no_false_detections_of_the_depth_camera() -> None:
     assert scene.judge.colour.false == 1
 
 
-def test_what_was_not_noted_is_not_judged_nor_twice() -> None:
+def test_each_noted_image_is_evaluated_once() -> None:
     scene = Scene()
     image = colour()
     scene.judge.judge(FrameReport(image, (1.0,)))
@@ -285,7 +285,7 @@ def test_what_was_not_noted_is_not_judged_nor_twice() -> None:
     scene.judge.note(SonarEcho(0.0, "left", 0.5))
 
 
-def test_an_image_in_which_nobody_was_sought_is_not_judged() -> None:
+def test_an_image_without_a_search_is_not_evaluated() -> None:
     scene = Scene()
     scene.stand(TOP, 0.0, 1.0)
     image = colour()
@@ -295,8 +295,8 @@ def test_an_image_in_which_nobody_was_sought_is_not_judged() -> None:
     assert not scene.judge._true and not scene.judge.stills["colour"]
 
 
-def test_a_look_notes_what_is_exposed_and_judges_what_is_reported() -> None:
-    """What is exposed and reported at one tick too; each tick once."""
+def test_each_tick_notes_exposed_images_and_evaluates_reports() -> None:
+    """Also if both happen in one tick."""
     scene = Scene()
     scene.stand(TOP, 0.0, 1.0)
     one, late = colour(), colour(0.1)
@@ -314,7 +314,7 @@ def test_a_look_notes_what_is_exposed_and_judges_what_is_reported() -> None:
     assert scene.judge.colour == FrameCounts(2, 2, 0)
 
 
-def test_without_eyes_there_is_nothing_to_note() -> None:
+def test_without_cameras_no_image_is_noted() -> None:
     scene = Scene()
     blind: Any = scene.judge._robot
     blind.eyes = None
@@ -336,7 +336,7 @@ def test_stills_are_the_first_images_at_their_times() -> None:
     assert len(scene.judge.stills["depth"]) == 1
 
 
-def test_a_person_without_trim_counts_in_depth_images_alone() -> None:
+def test_a_person_counts_only_in_depth_images() -> None:
     scene = Scene(wears_trim=False)
     scene.stand(TOP, 0.0, 1.5)
     show(scene, colour())

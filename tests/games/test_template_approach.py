@@ -1,4 +1,4 @@
-"""Test people who meet the template of an evader by laws."""
+"""Test games of people and the template of an evader."""
 
 from dataclasses import replace
 from math import atan2, cos, pi, sin
@@ -17,7 +17,7 @@ EVADER = Evasion(trigger="time", contact_time=4.0)
 
 
 def met(frame: Pose, speed: float = 0.5, strategy: object = EVADER) -> float:
-    """Closest approach of who comes straight on, in some frame."""
+    """Return the closest approach of a straight walk, in a rotated frame."""
     person = PersonSettings("straight", speed)
 
     def motion(start: Pose, evader: Place) -> PersonMotion:
@@ -35,7 +35,7 @@ def met(frame: Pose, speed: float = 0.5, strategy: object = EVADER) -> float:
 
 
 @pytest.mark.parametrize("strategy", [EVADER, Evasion(safety_radius=2.0)])
-def test_no_place_and_no_direction_of_a_meeting_is_special(
+def test_the_closest_approach_is_invariant_to_the_frame(
     strategy: Evasion,
 ) -> None:
     here = met(Pose(0.0, 0.0, 0.0), strategy=strategy)
@@ -45,7 +45,7 @@ def test_no_place_and_no_direction_of_a_meeting_is_special(
 
 
 class Leaving:
-    """Walks straight backward at a pace, away from who comes."""
+    """Strategy that walks straight backward at a time scale."""
 
     direction, saturated = Direction.BACKWARD, False
 
@@ -63,8 +63,8 @@ class Leaving:
 
 
 @pytest.mark.parametrize("pace", [1.0, 0.5])
-def test_a_template_walks_in_the_time_of_its_gait(pace: float) -> None:
-    """After its first support, a stride in a step, slower at its pace."""
+def test_a_template_walks_in_path_time(pace: float) -> None:
+    """After the first support, one stride per step, at its time scale."""
     walker = Leaving(pace)
     met(Pose(0.0, 0.0, 0.0), 0.3, walker)
     first, second, *rest = walker.told
@@ -81,7 +81,7 @@ def test_a_template_walks_in_the_time_of_its_gait(pace: float) -> None:
     assert back.x == pytest.approx(8 * GAIT.stride, rel=0.05)
 
 
-def test_a_template_is_told_velocities_in_its_own_frame() -> None:
+def test_velocities_are_known_in_the_frame_of_the_template() -> None:
     walker = Leaving(1.0)
     for frame in (Pose(0.0, 0.0, 0.0), Pose(1.0, 2.0, 1.3)):
         walker.told.clear()
@@ -94,7 +94,7 @@ def test_a_template_is_told_velocities_in_its_own_frame() -> None:
         assert known.velocity == pytest.approx(back[:2], abs=1e-6)
 
 
-def test_a_person_who_is_slower_is_met_no_nearer() -> None:
+def test_a_slower_person_comes_no_closer() -> None:
     near = [met(Pose(0.0, 0.0, 0.0), speed) for speed in (0.3, 0.6, 1.2)]
     assert near == sorted(near, reverse=True)
     calm = replace(EVADER, calmest=0.5)

@@ -1,4 +1,4 @@
-"""Test what a player leaves behind: tracks, and how it planned."""
+"""Test recorded trajectories and planning times."""
 
 from dataclasses import fields
 from math import degrees
@@ -39,7 +39,7 @@ def arrays_of(*names: str) -> dict[str, Array]:
     return {name: generator.random(SHAPES[name]) for name in names}
 
 
-def test_arrays_of_a_track_cannot_be_written_to() -> None:
+def test_arrays_of_a_trajectory_are_read_only() -> None:
     track = Trajectory(**arrays_of(*SHAPES))
     assert set(SHAPES) == {field.name for field in fields(Trajectory)}
     for name in SHAPES:
@@ -50,14 +50,16 @@ def test_arrays_of_a_track_cannot_be_written_to() -> None:
         np.testing.assert_array_equal(values, before)
 
 
-def test_the_place_stands_for_a_player_and_the_torso_if_none_is_kept() -> None:
+def test_the_reference_point_is_that_of_the_torso_if_none_is_recorded() -> (
+    None
+):
     track = Trajectory(**arrays_of(*SHAPES))
     assert track.unicycle is track.place
     older = Trajectory(**arrays_of("com", "torso"))
     assert older.unicycle is older.torso
 
 
-def test_a_run_is_judged_by_the_places() -> None:
+def test_the_distance_of_a_run_is_between_reference_points() -> None:
     there = [track_at(0.0, 0.0, 0.2), track_at(3.0, 4.0, 1.2)]
     tracks = dict(zip(("pursuer", "evader"), there, strict=True))
     run = run_of(np.arange(2.0), tracks, converged_at_s=0.0)
@@ -68,7 +70,7 @@ def test_a_run_is_judged_by_the_places() -> None:
 
 
 def track_at(x: float, y: float, heading: float) -> Trajectory:
-    """Somebody who stays at a place, with the torso elsewhere."""
+    """Return a trajectory at one reference point, with the torso elsewhere."""
     rows = np.tile([x, y, heading], (2, 1))
     return Trajectory(rows + 0.7, rows + [0.3, 0.1, 0.5] + x, rows)
 
@@ -77,10 +79,10 @@ def track_at(x: float, y: float, heading: float) -> Trajectory:
     "names",
     [tuple(SHAPES), ("com", "torso"), ("com", "torso", "zmp", "sight")],
 )
-def test_a_track_is_told_by_name_and_found_again(
+def test_a_trajectory_is_converted_to_arrays_and_back(
     names: tuple[str, ...],
 ) -> None:
-    """What it lacks has no name, and is None again."""
+    """Missing arrays have no name, and are None again."""
     track = Trajectory(**arrays_of(*names))
     told = track.arrays("evader")
     assert set(told) == {f"evader_{name}" for name in names}
@@ -96,15 +98,15 @@ def test_a_track_is_told_by_name_and_found_again(
 
 
 @pytest.mark.parametrize("name", ["com", "torso"])
-def test_a_track_without_what_everybody_has_is_none(name: str) -> None:
+def test_a_trajectory_without_required_arrays_is_refused(name: str) -> None:
     arrays = Trajectory(**arrays_of(*SHAPES)).arrays("evader")
     del arrays[f"evader_{name}"]
     with pytest.raises(KeyError, match=f"evader_{name}"):
         tracks_in(arrays, ("evader",))
 
 
-def test_margins_are_those_of_the_parts_that_were_walked() -> None:
-    """What a plan would have asked for later is not counted."""
+def test_margins_are_of_the_executed_parts() -> None:
+    """Later parts of a plan do not count."""
     plans: list[Any] = [
         SimpleNamespace(
             schedule=SimpleNamespace(first_step_duration=duration),
@@ -117,7 +119,7 @@ def test_margins_are_those_of_the_parts_that_were_walked() -> None:
     assert margin_of([]) is None
 
 
-def test_the_margin_of_real_plans_is_the_least_of_theirs() -> None:
+def test_the_margin_of_plans_is_the_smallest_of_each() -> None:
     plans = [plan_of("start"), plan_of("walk"), plan_of("halt")]
     margins = [p.margin(p.schedule.first_step_duration) for p in plans]
     assert len(set(margins)) > 1 and min(margins) > 0.0

@@ -1,4 +1,4 @@
-"""A gait that legs lose while walking ends a duel as data, not as an error."""
+"""Test that unreachable references end a duel as an outcome."""
 
 import json
 import re
@@ -34,7 +34,7 @@ LONG = 60.0  # [s]; no event of a loop that runs comes as late as this
 
 
 def settings_of(pursuer: str) -> DuelSettings:
-    """A duel in which a robot walks at once, and cannot for long."""
+    """Return a duel in which a robot walks at once, but not for long."""
     return DuelSettings(
         duration=4.0,
         pursuer=pursuer,
@@ -46,7 +46,7 @@ def settings_of(pursuer: str) -> DuelSettings:
 
 @pytest.fixture(scope="module", autouse=True)
 def impatient() -> Iterator[None]:
-    """Legs that give up before their robot falls."""
+    """Make legs fail before their robot falls."""
     with pytest.MonkeyPatch.context() as patched:
         patched.setattr(kinematics, "LOST", 0.02)
         yield
@@ -58,8 +58,8 @@ def run(request: pytest.FixtureRequest) -> DuelRun:
     return run_duel(settings_of(pursuer))
 
 
-def test_legs_that_lose_the_reference_end_the_duel(run: DuelRun) -> None:
-    """Everything up to then is recorded, and it is told who it was."""
+def test_an_unreachable_reference_ends_the_duel(run: DuelRun) -> None:
+    """The record is complete up to then, and the robot is named."""
     assert run.outcome is Outcome.UNREACHABLE
     assert run.summary.outcome == "unreachable"
     assert run.message == run.summary.message
@@ -82,7 +82,7 @@ def test_legs_that_lose_the_reference_end_the_duel(run: DuelRun) -> None:
     assert run.words(last) == run.message != run.words(last - 1)
 
 
-def test_its_run_folder_is_whole(run: DuelRun, tmp_path: Path) -> None:
+def test_its_run_folder_is_complete(run: DuelRun, tmp_path: Path) -> None:
     folder = tmp_path / "lost"
     figure = write_run(folder, run)
     assert figure.is_file() and figure.stat().st_size > 10_000
@@ -94,10 +94,10 @@ def test_its_run_folder_is_whole(run: DuelRun, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("as_json", [True, False])
-def test_the_command_line_tells_it_as_an_outcome(
+def test_the_command_line_reports_it_as_an_outcome(
     tmp_path: Path, as_json: bool
 ) -> None:
-    """As after a fall: the folder is there, and the status is success."""
+    """As after a fall: a run folder, and exit status 0."""
     config, folder = tmp_path / "far.toml", tmp_path / "lost"
     text = dump_configuration(settings_of("robot"))
     config.write_text(text, encoding="utf-8")
@@ -117,7 +117,7 @@ def test_the_command_line_tells_it_as_an_outcome(
     assert (folder / "duel.png").is_file()
 
 
-def test_a_live_duel_ends_with_it_and_can_begin_again() -> None:
+def test_a_live_duel_ends_and_can_be_restarted() -> None:
     session = LiveSession(settings_of("robot"))
     try:
         done = Event()
@@ -137,8 +137,8 @@ def test_a_live_duel_ends_with_it_and_can_begin_again() -> None:
         session.close()
 
 
-def test_a_gait_that_cannot_even_be_stood_is_refused() -> None:
-    """Nothing was played then, so there is nothing to keep."""
+def test_a_gait_with_an_unreachable_stance_is_refused() -> None:
+    """No game was played, so no run is written."""
     tall = replace(settings_of("robot"), gait=GaitSettings(com_height=0.5))
     with pytest.raises(ReachError, match="reaches at most"):
         run_duel(tall)

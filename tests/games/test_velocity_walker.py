@@ -1,4 +1,4 @@
-"""Test robots of our world that walk by themselves, as they are told."""
+"""Test simulated robots commanded by velocities."""
 
 from dataclasses import replace
 from math import atan2, hypot
@@ -25,7 +25,7 @@ STEP = 0.547  # of the gait, in [s]
 
 
 class Told:
-    """Tells a robot the same all the time, until it is told otherwise."""
+    """Source of a constant velocity, until it is changed."""
 
     def __init__(self, velocity: VelocityCommand) -> None:
         self.velocity = velocity
@@ -40,7 +40,7 @@ class Told:
 
 @pytest.fixture(scope="module")
 def walked() -> tuple[VelocityWalker, VelocityWalker, list[VelocityCommand]]:
-    """Two robots that were told to walk for 5 s, and then to rest for 3 s."""
+    """Return two robots that walked for 5 s, then rested for 3 s."""
     duel = Duel(SETTINGS, recorded=False)
     told = [Told(VelocityCommand(0.06, 0.1)), Told(VelocityCommand(-0.2, 0.2))]
     players = []
@@ -59,7 +59,7 @@ def walked() -> tuple[VelocityWalker, VelocityWalker, list[VelocityCommand]]:
     return players[0], players[1], before
 
 
-def test_a_robot_walks_as_it_is_told_and_rests_when_it_is_told(
+def test_a_robot_walks_at_its_command_and_rests_on_command(
     walked: tuple[VelocityWalker, VelocityWalker, list[VelocityCommand]],
 ) -> None:
     ahead, back, before = walked
@@ -86,7 +86,7 @@ def test_odometry_is_where_the_robot_is(
         assert abs(wrap_angle(heading - robot.truth.heading)) < 0.05
 
 
-def test_the_sight_that_is_offered_counts_from_the_odometry(
+def test_the_served_sighting_is_in_odometry(
     walked: tuple[VelocityWalker, VelocityWalker, list[VelocityCommand]],
 ) -> None:
     own, other, _ = walked
@@ -101,7 +101,7 @@ def test_the_sight_that_is_offered_counts_from_the_odometry(
     assert bearing == pytest.approx(atan2(left, ahead), abs=0.05)
 
 
-def test_a_robot_may_keep_to_itself_what_it_sees() -> None:
+def test_a_robot_may_serve_no_sighting() -> None:
     player = Duel(SETTINGS, recorded=False).players[0]
     assert isinstance(player, Walker)
     assert VelocityWalker(player).state().sighting is not None
@@ -109,8 +109,8 @@ def test_a_robot_may_keep_to_itself_what_it_sees() -> None:
     assert silent.state().sighting is None
 
 
-def test_a_robot_that_is_driven_makes_up_for_its_turns_once() -> None:
-    """By what it is told; its own control would do so again."""
+def test_turns_of_a_commanded_robot_are_calibrated_once() -> None:
+    """Against commands; its controller does not calibrate them again."""
     control = replace(SETTINGS.control, learn_turns=True)
     duel = Duel(replace(SETTINGS, control=control), recorded=False)
     player = duel.players[0]
@@ -119,8 +119,8 @@ def test_a_robot_that_is_driven_makes_up_for_its_turns_once() -> None:
     assert VelocityWalker(player).scheme.decisions.turns is None
 
 
-def test_a_hardware_like_robot_turns_by_as_much_as_it_is_told() -> None:
-    """Its feet twist and its joints give, which only the gyro can see."""
+def test_a_hardware_like_robot_turns_by_its_command() -> None:
+    """Feet twist and joints yield, which only the gyro measures."""
     hardware = replace(SETTINGS, seed=7, body=BODIES["hardware"])
     duel = Duel(hardware, recorded=False)
     players = []
@@ -143,8 +143,8 @@ def test_a_hardware_like_robot_turns_by_as_much_as_it_is_told() -> None:
     np.testing.assert_allclose(rates, 0.12, rtol=0.03)
 
 
-def test_what_is_offered_of_the_other_is_from_the_heading_of_then() -> None:
-    """Seen from its own frame at the time of the sighting, while it turns."""
+def test_a_served_sighting_is_relative_to_the_heading_of_its_time() -> None:
+    """Also while the robot turns."""
     duel = Duel(SETTINGS, recorded=False)
     players = []
     for player in duel.players:

@@ -1,4 +1,4 @@
-"""Figures of a walk, from records whose figures are known."""
+"""Test summaries of walks on records with known values."""
 
 from math import degrees, pi, sin
 from typing import Any
@@ -25,7 +25,7 @@ TIMES = 2.0 + STEP * TIMES
 
 
 def record(times: Array = TIMES) -> dict[str, Array]:
-    """A robot that stands where it should, on one foot."""
+    """Return a robot that stands as planned, on one foot."""
     arrays = {name: np.zeros(len(times)) for name in COLUMNS}
     arrays["time"] = times
     return arrays
@@ -47,7 +47,7 @@ def figures(arrays: dict[str, Array], **changes: Any) -> dict[str, Any]:
     return told
 
 
-def test_a_summary_says_what_the_walk_was() -> None:
+def test_a_summary_has_the_settings_of_the_walk() -> None:
     found = figures(record(), duration=12.0 + 1e-12)
     expected = {
         "outcome": "completed",
@@ -84,10 +84,10 @@ PAIRS = [
 
 
 @pytest.mark.parametrize(("group", "name", "value", "wanted"), PAIRS)
-def test_an_error_is_of_what_is_named_and_after_the_warm_up(
+def test_errors_are_evaluated_after_the_warm_up(
     group: str, name: str, value: str, wanted: str
 ) -> None:
-    """Off by -0.04 and 0.01 in turn; wild before three seconds."""
+    """Alternately -0.04 and 0.01; large before three seconds."""
     arrays = record()
     steady = TIMES >= 3.0
     off = np.where(np.arange(len(TIMES)) % 2 == 0, -0.04, 0.01)
@@ -105,7 +105,7 @@ def test_an_error_is_of_what_is_named_and_after_the_warm_up(
             assert figures(arrays)[other_group][other]["max"] == 0.0
 
 
-def test_what_was_not_measured_is_left_out() -> None:
+def test_missing_measurements_are_excluded() -> None:
     arrays = record()
     arrays["zmp_x"][100:110] = np.nan
     arrays["zmp_x"][120:] = 0.3
@@ -119,7 +119,7 @@ def test_what_was_not_measured_is_left_out() -> None:
 
 
 def walked(ratio: float = 1.0, turned: float = 1.0) -> dict[str, Array]:
-    """A circle of a metre at 0.05 m/s, swaying within each cycle."""
+    """Return a circle of 1 m at 0.05 m/s, with sway in each cycle."""
     arrays = record()
     angle = 0.05 * TIMES
     sway = 0.02 * np.sin(2.0 * pi * (TIMES - 3.0) / PERIOD)
@@ -135,7 +135,7 @@ def walked(ratio: float = 1.0, turned: float = 1.0) -> dict[str, Array]:
 
 
 def test_speed_and_turning_are_over_whole_cycles() -> None:
-    """Sway within a cycle is no way; angles may pass their wrap."""
+    """Sway within a cycle adds no path length; headings may wrap."""
     found = figures(walked(1.3, 0.9))
     chord = 2.0 * sin(0.05 * PERIOD / 2.0) / PERIOD
     assert found["speed_m_s"] == pytest.approx(1.3 * chord, rel=1e-6)
@@ -165,7 +165,7 @@ def test_the_part_of_a_cycle_at_the_end_does_not_count() -> None:
     assert figures(later)["yaw_ratio"] == pytest.approx(1.0, rel=1e-6)
 
 
-def test_without_way_or_turn_there_is_no_ratio() -> None:
+def test_without_path_or_turn_there_is_no_ratio() -> None:
     arrays = record()
     arrays["world_x"] = 0.1 * TIMES
     found = figures(arrays)
@@ -180,7 +180,7 @@ def test_without_way_or_turn_there_is_no_ratio() -> None:
         assert (figures(arrays)["yaw_ratio"] is not None) is exists
 
 
-def test_less_than_two_cycles_tell_no_speed() -> None:
+def test_less_than_two_cycles_give_no_speed() -> None:
     steady = np.flatnonzero(TIMES >= 3.0)[0]
     for extra, exists in ((-1, False), (2, True)):
         count = 2 * PER_CYCLE + extra
@@ -191,7 +191,7 @@ def test_less_than_two_cycles_tell_no_speed() -> None:
 
 
 def supports(slips: list[float], length: int, land: float) -> Array:
-    """A foot that slips in each single support and jumps between them."""
+    """Return a foot that slips in each single support."""
     single, x = [0.0] * 60, [0.0] * 60
     at = 0.0
     for slip in slips:
@@ -206,7 +206,7 @@ def supports(slips: list[float], length: int, land: float) -> Array:
     return np.array([single, x])
 
 
-def test_slip_is_the_way_of_the_foot_that_stands() -> None:
+def test_slip_is_the_displacement_of_the_support_foot() -> None:
     single, x = supports([0.003, 0.001, 0.002], 20, 0.05)
     times: Array = 2.5 + STEP * np.arange(len(x), dtype=float)
     arrays = record(times)
@@ -217,7 +217,7 @@ def test_slip_is_the_way_of_the_foot_that_stands() -> None:
     assert slip == pytest.approx(0.002, rel=1e-9)
 
 
-def test_a_foot_that_stands_fast_does_not_slip() -> None:
+def test_a_fixed_support_foot_has_no_slip() -> None:
     single, x = supports([0.0, 0.0, 0.0], 20, 0.05)
     times: Array = 2.5 + STEP * np.arange(len(x), dtype=float)
     arrays = record(times)
@@ -226,7 +226,9 @@ def test_a_foot_that_stands_fast_does_not_slip() -> None:
 
 
 @pytest.mark.parametrize(("length", "exists"), [(7, True), (6, False)])
-def test_slip_needs_a_whole_support(length: int, exists: bool) -> None:
+def test_slip_needs_a_complete_single_support(
+    length: int, exists: bool
+) -> None:
     single, x = supports([0.01, 0.01], length, 0.05)
     times: Array = 2.5 + STEP * np.arange(len(x), dtype=float)
     arrays = record(times)
@@ -234,7 +236,7 @@ def test_slip_needs_a_whole_support(length: int, exists: bool) -> None:
     assert (figures(arrays)["slip_per_step_m"] is not None) is exists
 
 
-def test_tilt_is_the_greatest_lean_in_any_direction() -> None:
+def test_tilt_is_the_greatest_in_any_direction() -> None:
     arrays = record()
     arrays["roll"][10], arrays["pitch"][10] = 1.0, 1.0  # warm-up
     arrays["roll"][200], arrays["pitch"][200] = -0.03, 0.04
@@ -249,7 +251,7 @@ def answer(time: float, feasible: bool, x: float, y: float) -> MpcResult:
     return MpcResult(**values)
 
 
-def test_the_solver_is_told_in_microseconds_and_metres() -> None:
+def test_the_solver_summary_is_in_microseconds_and_metres() -> None:
     answers = [answer(1e-6 * i, i > 2, 0.003, -0.004) for i in range(1, 101)]
     answers.append(answer(1.01e-4, True, 0.001, 0.0))
     found = figures(record(), answers=tuple(answers))["qp"]

@@ -1,4 +1,4 @@
-"""The fast gait in physics: quick, as planned, and level."""
+"""Test the fast gait in physics: speed, tracking and tilt."""
 
 from dataclasses import replace
 from math import pi
@@ -25,7 +25,7 @@ def walked(
     backward: bool = False,
     duration: float = 7.0,
 ) -> dict[str, Any]:
-    """Figures of a walk that did not fall."""
+    """Return the summary of a walk without a fall."""
     settings = WalkSettings(
         seed=3,
         duration=duration,
@@ -54,7 +54,9 @@ def test_an_ideal_body_walks_a_quarter_of_a_metre_a_second(
 @pytest.mark.parametrize(
     ("bearing", "backward"), [(pi / 4, True), (-pi / 4, False)]
 )
-def test_a_hardware_like_body_keeps_up(bearing: float, backward: bool) -> None:
+def test_a_hardware_like_body_walks_as_fast(
+    bearing: float, backward: bool
+) -> None:
     found = walked(
         body="hardware", bearing=bearing, backward=backward, duration=10.0
     )
@@ -63,8 +65,8 @@ def test_a_hardware_like_body_keeps_up(bearing: float, backward: bool) -> None:
         assert ratio == pytest.approx(1.0, abs=0.06)
 
 
-def test_without_the_reaction_of_the_leg_the_torso_rocks() -> None:
-    """And the sole has to bear a ZMP that is nowhere near the plan's."""
+def test_without_the_swing_reaction_the_torso_rocks() -> None:
+    """And the ZMP is far from its reference."""
     planned = walked(backward=True)
     ignored = walked(replace(FAST, swing_reaction=0.0), backward=True)
     assert ignored["tilt_max_deg"] > 1.5 * planned["tilt_max_deg"]
@@ -77,7 +79,7 @@ def test_without_the_reaction_of_the_leg_the_torso_rocks() -> None:
 
 
 def test_the_first_foot_lands_within_half_a_second() -> None:
-    """From the instant at which the robot begins, by the force it feels."""
+    """From the start of the walk, by the measured foot force."""
     walking = WalkGame(
         WalkSettings(gait=FAST, control=CONTROL, backward=True),
         recorded=False,

@@ -1,4 +1,4 @@
-"""Walks as runs: kept, drawn, shown again and compared, pushes and all."""
+"""Test walks as runs: stored, drawn, replayed and compared."""
 
 import json
 from dataclasses import replace
@@ -49,9 +49,7 @@ def folder(walked: WalkRun, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return place
 
 
-def test_a_walk_comes_back_from_its_folder(
-    folder: Path, walked: WalkRun
-) -> None:
+def test_a_walk_is_read_from_its_folder(folder: Path, walked: WalkRun) -> None:
     loaded = load_run(folder, WalkRun)
     check_same(loaded, walked)
     assert loaded.players == ("walker",) and loaded.robots == ("walker",)
@@ -65,7 +63,7 @@ def test_a_walk_comes_back_from_its_folder(
     np.testing.assert_array_equal(stage.data.qpos, qpos[40])
 
 
-def test_a_folder_is_refused_where_another_game_is_wanted(
+def test_a_folder_of_another_game_is_refused(
     folder: Path, tmp_path: Path
 ) -> None:
     with pytest.raises(ConfigurationError, match="a duel, got one of a walk"):
@@ -76,7 +74,7 @@ def test_a_folder_is_refused_where_another_game_is_wanted(
         load_run(tmp_path, WalkRun)
 
 
-def test_words_of_a_walk_change_with_what_happens(walked: WalkRun) -> None:
+def test_captions_of_a_walk_describe_its_state(walked: WalkRun) -> None:
     until = walked.stands_until
     assert until == pytest.approx(walked.settings.gait.start_support)
     for time, words in (
@@ -91,7 +89,7 @@ def test_words_of_a_walk_change_with_what_happens(walked: WalkRun) -> None:
     assert fell.words(0) == "the robot stands"
 
 
-def test_an_index_is_that_of_the_sample_at_a_time_or_next(
+def test_an_index_is_of_the_first_sample_at_or_after_a_time(
     walked: WalkRun,
 ) -> None:
     assert walked.index_at(0.0) == 0 and walked.index_at(0.04) == 2
@@ -137,7 +135,7 @@ def test_the_figure_of_a_walk_has_its_pushes(
     assert axes[3].get_xlim() == (0.0, 1.5)
 
 
-def test_a_walk_can_be_kept_compared_and_shown_again(tmp_path: Path) -> None:
+def test_a_walk_can_be_stored_compared_and_replayed(tmp_path: Path) -> None:
     def call(*words: str) -> Any:
         return CliRunner().invoke(main, list(words))
 
@@ -169,7 +167,7 @@ def test_a_walk_can_be_kept_compared_and_shown_again(tmp_path: Path) -> None:
     assert taken.exit_code == 2 and "new or an empty folder" in taken.output
 
 
-def test_speed_is_over_a_cycle_and_none_where_one_is_cut() -> None:
+def test_speed_is_over_a_cycle_and_none_at_the_ends() -> None:
     times = 0.02 * np.arange(200, dtype=float)
     sway = 0.03 * np.sin(2.0 * pi * times)
     places = np.column_stack([0.1 * times, 0.2 + sway])

@@ -1,4 +1,4 @@
-"""Walks: estimation, feedback, pushes, on ideal and on honest bodies."""
+"""Test walks: estimation, feedback and pushes on different bodies."""
 
 import json
 from dataclasses import replace
@@ -40,7 +40,7 @@ def check_rms(errors: dict[str, Any], **limits: float) -> None:
 def pushed(
     impulse: float, direction: float, phase: float, *, feedback: bool
 ) -> WalkRun:
-    """Straight walk, pushed at a phase of its fourth cycle, and 4 s more."""
+    """Return a straight walk with a push in its fourth cycle."""
     begins = GAIT.start_support + (READY if feedback else 0.0)
     time = begins + (3.0 + phase) * CYCLE
     settings = WalkSettings(
@@ -71,8 +71,8 @@ def check_recovery(result: WalkRun, heading: float) -> None:
     assert walked == pytest.approx(4.0 * SPEED, rel=0.08)
 
 
-def test_an_ideal_body_walks_as_planned_and_knows_what_it_does() -> None:
-    """Limits are about 1.5 times what was measured, a millimeter or so."""
+def test_an_ideal_body_walks_and_estimates_as_planned() -> None:
+    """Limits are about 1.5 times the measured errors, a mm or so."""
     result = run_walk(
         WalkSettings(duration=12.0, bearing=0.5, control=STABILISED)
     )
@@ -93,10 +93,10 @@ def test_an_ideal_body_walks_as_planned_and_knows_what_it_does() -> None:
 
 
 @pytest.mark.parametrize("backward", [False, True])
-def test_a_hardware_like_body_turns_and_goes_as_planned(
+def test_a_hardware_like_body_walks_and_turns_as_planned(
     backward: bool,
 ) -> None:
-    """With delay, play, noise and bias; the limits as for the ideal one."""
+    """With delay, backlash, noise and bias; limits as for the ideal one."""
     result = run_walk(
         WalkSettings(
             duration=20.0,
@@ -124,7 +124,7 @@ def test_a_hardware_like_body_turns_and_goes_as_planned(
 def test_without_feedback_a_hardware_like_body_walks_short_and_slides() -> (
     None
 ):
-    """So that the other tests show what feedback does."""
+    """The baseline for the tests of feedback."""
     settings = WalkSettings(duration=20.0, body=BODIES["hardware"])
     told = [
         run_walk(replace(settings, control=control)).summary.to_json()
@@ -143,7 +143,7 @@ def test_feedback_survives_sideways_pushes(phase: float, side: float) -> None:
     assert result.summary.push_impulse_n_s == pytest.approx(given, abs=0.02)
 
 
-def test_the_same_pushes_fell_the_open_loop() -> None:
+def test_the_same_pushes_make_the_open_loop_fall() -> None:
     """Two of the four: the others are against the sway."""
     survived = [
         pushed(1.2, side * pi / 2, phase, feedback=False).outcome
@@ -153,13 +153,15 @@ def test_the_same_pushes_fell_the_open_loop() -> None:
 
 
 @pytest.mark.parametrize("direction", [0.0, pi])
-def test_feedback_steps_out_of_a_push_along_the_walk(direction: float) -> None:
+def test_feedback_adapts_footsteps_to_a_push_along_the_walk(
+    direction: float,
+) -> None:
     result = pushed(2.4, direction, 0.0, feedback=True)
     check_recovery(result, heading=0.15)
     assert 1 <= result.summary.adapted_steps <= 3
 
 
-def test_a_walk_is_repeated_bit_by_bit_and_only_with_its_seed() -> None:
+def test_a_walk_is_repeated_to_the_bit_only_with_its_seed() -> None:
     settings = WalkSettings(
         seed=5,
         duration=4.0,
@@ -180,7 +182,7 @@ def run(*arguments: str) -> tuple[int, str, str]:
     return result.exit_code, result.stdout, result.stderr
 
 
-def test_walk_prints_what_it_measured() -> None:
+def test_walk_prints_its_summary() -> None:
     code, out, _ = run(
         *("--body", "hardware", "--duration", "8", "--json"),
         *("--push", "0.5@5:90deg", "--push", "0.3@6:0"),
@@ -204,7 +206,7 @@ def test_walk_prints_what_it_measured() -> None:
         (("--slope", "50deg"), "slope must lie in"),
     ],
 )
-def test_walk_refuses_in_one_line(
+def test_walk_reports_invalid_input_in_one_line(
     arguments: tuple[str, ...], message: str
 ) -> None:
     code, out, err = run(*arguments)

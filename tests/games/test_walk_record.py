@@ -1,4 +1,4 @@
-"""Records of walks: every column holds what its name says."""
+"""Test that each column of a walk holds the quantity of its name."""
 
 from types import SimpleNamespace
 from typing import Any
@@ -27,7 +27,7 @@ from stepaside.sim.physics_settings import PhysicsSettings
 
 @pytest.fixture(scope="module")
 def walking() -> WalkGame:
-    """A robot that has walked a few steps in a circle, with feedback."""
+    """Return a robot that has walked a few steps in a circle."""
     made = WalkGame(WalkSettings(bearing=0.6, control=STABILISED))
     for _ in range(1100):
         assert made.tick() is None
@@ -35,7 +35,7 @@ def walking() -> WalkGame:
 
 
 def recorder(walking: WalkGame) -> Recorder:
-    """One more recorder of a walk."""
+    """Return an additional recorder of a walk."""
     tick = walking.world.physics.tick
     return Recorder([walking.walker], tick=tick, closely=True)
 
@@ -53,8 +53,10 @@ def last(walking: WalkGame) -> dict[str, float]:
     return {name: float(values[0]) for name, values in arrays.items()}
 
 
-def test_a_walk_is_seen_from_the_foot_that_stands(walking: WalkGame) -> None:
-    """Truth, wish and estimate agree in a frame that all three share."""
+def test_a_walk_is_expressed_in_the_frame_of_the_support_foot(
+    walking: WalkGame,
+) -> None:
+    """True values, references and estimates agree in one frame."""
     walker = walking.walker
     seen = last(walking)
     assert seen["time"] == walking.world.time
@@ -85,10 +87,10 @@ def test_a_walk_is_seen_from_the_foot_that_stands(walking: WalkGame) -> None:
     assert abs(seen["com_x"]) < 0.06
 
 
-def test_vectors_turn_with_the_foot_and_points_move_too(
+def test_vectors_are_rotated_and_points_transformed(
     walking: WalkGame,
 ) -> None:
-    """The foot's place and heading, found again from the columns."""
+    """The pose of the foot is recovered from the columns."""
     walker = walking.walker
     seen = last(walking)
     foot = walker.scheme.step(walking.world.time).swing.other
@@ -130,7 +132,7 @@ def test_vectors_turn_with_the_foot_and_points_move_too(
         )
 
 
-def test_the_torsos_lean_is_roll_and_pitch(walking: WalkGame) -> None:
+def test_tilt_is_roll_and_pitch_of_the_torso(walking: WalkGame) -> None:
     data = walking.world.data
     before = data.qpos.copy()
     for roll, pitch in ((0.2, 0.1), (-0.3, 0.05)):
@@ -145,7 +147,7 @@ def test_the_torsos_lean_is_roll_and_pitch(walking: WalkGame) -> None:
     mujoco.mj_forward(walking.world.model, data)
 
 
-def test_what_was_estimated_is_seen_from_the_foot_too(
+def test_estimates_are_in_the_frame_of_the_support_foot(
     walking: WalkGame,
 ) -> None:
     walker = walking.walker
@@ -175,7 +177,7 @@ def test_what_was_estimated_is_seen_from_the_foot_too(
 
 
 def test_single_support_lasts_while_a_foot_swings() -> None:
-    """Not before the walk, and not while both feet stand."""
+    """Not before the walk, and not in double support."""
     walking = WalkGame(WalkSettings())
     assert last(walking)["single"] == 0.0
     gait = walking.settings.gait
@@ -203,8 +205,8 @@ def test_samples_of_a_walk_are_about_20_ms_apart(
     assert walking.recorder.times.shape == (0,)
 
 
-def test_what_is_asked_and_believed_is_placed_with_the_odometry() -> None:
-    """Seen from the foot, it is the same wherever odometry began."""
+def test_references_and_estimates_are_placed_with_the_odometry() -> None:
+    """In the frame of the foot the origin of odometry has no effect."""
     walking = WalkGame(WalkSettings(bearing=0.6, control=STABILISED))
     for _ in range(700):
         assert walking.tick() is None
@@ -230,8 +232,8 @@ def test_what_is_asked_and_believed_is_placed_with_the_odometry() -> None:
     assert turned == pytest.approx(frame.theta)
 
 
-def test_a_duel_is_not_looked_at_closely() -> None:
-    """Nor is anybody who believes nothing said to believe something."""
+def test_a_duel_records_no_foot_states() -> None:
+    """Nor estimates of a robot without feedback."""
     walking = WalkGame(WalkSettings())
     tick = walking.world.physics.tick
     plain = Recorder([walking.walker], tick=tick)
@@ -241,13 +243,11 @@ def test_a_duel_is_not_looked_at_closely() -> None:
     near = walking.recorder.tracks()["walker"]
     assert far.sole is far.support is far.velocity is far.estimate is None
     assert near.sole is not None and near.estimate is None
-    with pytest.raises(ValueError, match="if the record has it"):
+    with pytest.raises(ValueError, match="must have sole, support and tilt"):
         seen_from_foot(plain.times, far)
 
 
-def test_the_last_sample_counts_if_it_is_one_more_of_those_on_its_feet() -> (
-    None
-):
+def test_the_last_sample_counts_if_evenly_spaced_and_upright() -> None:
     even: Array = 0.02 * np.arange(4, dtype=float)
     cut: Array = np.array([0.0, 0.02, 0.04, 0.044])
     for outcome, stands in (
@@ -260,7 +260,7 @@ def test_the_last_sample_counts_if_it_is_one_more_of_those_on_its_feet() -> (
     assert on_its_feet(even[:0], Outcome.FALL).tolist() == []
 
 
-def test_what_a_walk_begins_and_a_solver_answers_is_noted() -> None:
+def test_steps_and_solver_results_are_collected() -> None:
     for keeps in (True, False):
         walking = WalkGame(WalkSettings(), recorded=keeps)
         scheme: Any = walking.walker.scheme

@@ -1,4 +1,4 @@
-"""How a walk begins, is counted and ends."""
+"""Test how a walk begins, is evaluated and ends."""
 
 from math import inf, pi
 from typing import Any
@@ -23,7 +23,7 @@ from stepaside.strategies import Walk
 
 
 def way(bearing: float, *, backward: bool = False) -> tuple[float, float]:
-    """How far forward and leftward a robot walks in 3.5 s, in [m]."""
+    """Return forward and leftward displacement after 3.5 s, in [m]."""
     walking = WalkGame(WalkSettings(bearing=bearing, backward=backward))
     x, y = walking.walker.truth.position
     while walking.world.time < 3.5:
@@ -33,7 +33,7 @@ def way(bearing: float, *, backward: bool = False) -> tuple[float, float]:
 
 
 def test_a_robot_walks_where_its_bearing_points() -> None:
-    """The circle to the left and the one to the right are mirror images."""
+    """Circles to the left and to the right are mirror images."""
     ahead, aside = way(0.0)
     assert ahead > 0.1 and abs(aside) < 0.02
     left, right = way(0.8), way(-0.8)
@@ -42,7 +42,7 @@ def test_a_robot_walks_where_its_bearing_points() -> None:
     assert way(0.0, backward=True)[0] < -0.1
 
 
-def test_the_settings_decide_the_role() -> None:
+def test_the_settings_decide_the_direction() -> None:
     for backward in (False, True):
         settings = WalkSettings(bearing=0.3, backward=backward)
         walker = WalkGame(settings).walker
@@ -68,7 +68,7 @@ def test_by_default_a_robot_walks_straight_ahead() -> None:
     assert walk.bearing == 0.0 and not walk.backward and walk.pushes == ()
 
 
-def test_a_fall_is_noticed_by_truth_reach_or_the_robot_itself() -> None:
+def test_a_fall_is_detected_by_truth_reach_or_the_robot_itself() -> None:
     walking = WalkGame(WalkSettings())
     assert walking.tick() is None
     scheme: Any = walking.walker.scheme
@@ -115,7 +115,7 @@ def test_a_walk_that_falls_ends_there(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.parametrize(
     ("duration", "ticks"), [(0.1, 25), (0.0999, 25), (0.1001, 26)]
 )
-def test_a_walk_lasts_as_long_as_asked(duration: float, ticks: int) -> None:
+def test_a_walk_lasts_its_duration(duration: float, ticks: int) -> None:
     result = run_walk(WalkSettings(duration=duration))
     assert result.outcome is Outcome.COMPLETED
     assert result.message == f"played {0.004 * ticks:.2f} s"
@@ -133,7 +133,7 @@ def test_a_walk_lasts_as_long_as_asked(duration: float, ticks: int) -> None:
     assert told.min_zmp_margin_m > 0.02
 
 
-def test_without_a_record_nothing_is_kept() -> None:
+def test_without_a_record_nothing_is_stored() -> None:
     result = run_walk(WalkSettings(duration=0.2), record=False)
     assert result.times.size == 0 and result.summary.min_zmp_margin_m is None
     assert result.outcome is Outcome.COMPLETED
@@ -165,13 +165,13 @@ def test_steps_and_pushes_of_a_walk_are_counted() -> None:
 
 
 def solved(iterations: int) -> MpcResult:
-    """Answer of a solver after some iterations."""
+    """Return the result of a solver after some iterations."""
     values: dict[str, Any] = dict.fromkeys(MpcResult._fields)
     values |= {"time": 1e-4, "feasible": True, "excess": (0.0, 0.0)}
     return MpcResult(**(values | {"iterations": iterations}))
 
 
-def test_what_feedback_did_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_feedback_is_summarised(monkeypatch: pytest.MonkeyPatch) -> None:
     tick = WalkGame.tick
 
     def adapted(walking: WalkGame) -> Outcome | None:
@@ -188,7 +188,7 @@ def test_what_feedback_did_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
     assert result.summary.qp.iterations == pytest.approx(1.0)
 
 
-def test_progress_of_a_walk_is_told_at_most_five_times_a_second(
+def test_progress_of_a_walk_is_reported_at_most_five_times_a_second(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     clock(monkeypatch, 0.11)
@@ -199,7 +199,9 @@ def test_progress_of_a_walk_is_told_at_most_five_times_a_second(
     assert factor == pytest.approx(1.0 / (0.11 * 11))
 
 
-def test_an_interrupted_walk_is_kept(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_interrupted_walk_is_recorded(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     clock(monkeypatch, 1.0)
 
     def interrupt(time: float) -> None:
@@ -223,7 +225,7 @@ def test_an_interrupted_walk_is_kept(monkeypatch: pytest.MonkeyPatch) -> None:
         ({"bearing": -3.15}, "bearing"),
     ],
 )
-def test_walks_that_nobody_can_walk_are_refused(
+def test_impossible_walks_are_refused(
     changes: dict[str, Any], name: str
 ) -> None:
     with pytest.raises(ConfigurationError, match=name):

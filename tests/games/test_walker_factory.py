@@ -1,4 +1,4 @@
-"""Test what a robot that stands in a room is told of it."""
+"""Test the knowledge of a robot about its room."""
 
 from types import SimpleNamespace
 from typing import Any
@@ -29,7 +29,7 @@ MIND: Any = SimpleNamespace(
 
 @pytest.fixture(autouse=True)
 def outline(monkeypatch: pytest.MonkeyPatch) -> Any:
-    """Outline of a robot that nobody need measure."""
+    """Return an outline without measuring a robot."""
     made: Any = SimpleNamespace(radius=0.25)
     measured = {("robot", GAIT): made}
     monkeypatch.setattr(
@@ -49,13 +49,13 @@ def known(room: Room | None = ROOM, **settings: Any) -> ClearanceSetup | None:
     )
 
 
-def test_who_plays_in_no_room_or_knows_none_keeps_clear_of_nothing() -> None:
+def test_without_a_known_room_there_is_no_clearance() -> None:
     assert known(None) is None
     assert known(None, source="seen") is None
     assert known(source="none") is None
 
 
-def test_a_given_room_is_known_as_it_is(outline: BodyOutline) -> None:
+def test_a_given_room_is_known_exactly(outline: BodyOutline) -> None:
     clearance = known(margin=0.07)
     assert clearance is not None
     assert clearance.outline is outline and clearance.margin == 0.07
@@ -64,7 +64,7 @@ def test_a_given_room_is_known_as_it_is(outline: BodyOutline) -> None:
 
 
 @pytest.mark.parametrize("unseen", ["free", "taken"])
-def test_a_seen_room_is_known_by_the_own_map(
+def test_a_mapped_room_is_known_by_the_map(
     unseen: str, outline: BodyOutline
 ) -> None:
     clearance = known(source="seen", unseen=unseen)
@@ -78,8 +78,8 @@ def test_a_seen_room_is_known_by_the_own_map(
     assert clearance.surroundings.solids.shapes == (PILLAR, *others)
 
 
-def test_who_reckons_with_a_body_reckons_with_the_own_one() -> None:
-    """With its outline, its margin and its sway, if that is more."""
+def test_the_body_radius_of_a_strategy_is_at_least_that_of_the_robot() -> None:
+    """With outline, margin and sway."""
     clearance = known(margin=0.07)
     assert clearance is not None
     needs = 0.25 + 0.07 + sway_of(GAIT)

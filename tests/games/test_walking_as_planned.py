@@ -1,4 +1,4 @@
-"""Test that an ideal body walks as far and turns as much as is planned."""
+"""Test that an ideal body walks and turns as planned."""
 
 import numpy as np
 import pytest
@@ -12,10 +12,7 @@ CYCLES = 12
 @pytest.mark.parametrize("backward", [False, True])
 @pytest.mark.parametrize("bearing", [0.0, 0.785])
 def test_an_ideal_body_walks_its_plan(backward: bool, bearing: float) -> None:
-    """Way and turn of whole gait cycles, within 1 %; without feedback.
-
-    Servos that gave way under load would be off by up to 1.3 % in way.
-    """
+    """Within 1 % over whole gait cycles, without feedback."""
     settings = WalkSettings(duration=20.0, bearing=bearing, backward=backward)
     gait = settings.gait
     cycle = 2.0 * gait.step_duration

@@ -1,4 +1,4 @@
-"""Test what is said of several robots that see: sums and shares of all."""
+"""Test sums and rates over several robots with cameras."""
 
 from types import SimpleNamespace
 from typing import Any
@@ -17,7 +17,7 @@ COUNT = st.integers(0, 50)
 
 @st.composite
 def tallies(draw: st.DrawFn) -> FrameCounts:
-    """Frames of a camera, of which some found what they showed."""
+    """Return the frames of a camera, some with detections."""
     shown = draw(COUNT)
     return FrameCounts(shown, draw(st.integers(0, shown)), draw(COUNT))
 

@@ -1,7 +1,6 @@
 """Test the scan of the room before a game."""
 
 from math import radians
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -68,18 +67,15 @@ def test_a_turning_body_covers_all_directions() -> None:
     assert share_seen(looked(behind=False)[1]) < 0.95
 
 
-def test_a_finished_scan_waits_without_turning() -> None:
+def test_after_turning_back_the_body_does_not_turn_again() -> None:
     gaze, around = Gaze(HEAD.coupling, TICK), RoomScan()
-    other = SimpleNamespace(looking=True)
-    around.behind, around.company = True, [other]
+    around.behind = True
     headings = np.array([0.0, -0.7, -1.4, -1.4, -0.7, 0.0, 0.1])
     turnings: list[float] = []
     for heading in START + np.repeat(headings, 100):
         around.look(gaze, len(turnings) * TICK / 4, heading)
         turnings.append(around.turning)
     assert turnings == [-1.0] * 200 + [1.0] * 300 + [0.0] * 200
-    assert around.lasts(gaze)
-    other.looking = False
     assert not around.lasts(gaze)
 
 
@@ -110,20 +106,22 @@ def test_a_turn_in_the_wrong_direction_is_reversed_too() -> None:
     assert around.turning == 0.0
 
 
-def test_a_game_begins_when_all_scans_are_done() -> None:
-    """Or when the longest duration has passed."""
-    _, _, around = looked(behind=False)
-    gaze = SimpleNamespace(scan_ends=2, search=lambda **_: None)
-    other = SimpleNamespace(looking=True)
-    assert not around.lasts(gaze)  # type: ignore[arg-type]
-    around.company.append(other)
-    assert around.lasts(gaze)  # type: ignore[arg-type]
-    around.look(gaze, 100.0, 0.0)  # type: ignore[arg-type]
-    assert not around.lasts(gaze)  # type: ignore[arg-type]
-    _, _, around = looked(behind=False)
-    other.looking = False
-    around.company.append(other)
-    assert not around.lasts(gaze)  # type: ignore[arg-type]
+@pytest.mark.parametrize("awaits_start", [True, False])
+def test_a_robot_that_is_ready_scans_on_until_the_start(
+    awaits_start: bool,
+) -> None:
+    perception = Perception(
+        *(NAO, HEAD, RED),
+        tick=TICK,
+        floor=FloorMap(),
+        awaits_start=awaits_start,
+    )
+    assert perception.looking and not perception.is_ready
+    perception._gaze.scan_ends = 2
+    assert perception.is_ready
+    assert perception.looking is awaits_start
+    perception.started = True
+    assert not perception.looking
 
 
 @pytest.mark.parametrize("direction", list(Direction))

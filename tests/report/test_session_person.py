@@ -59,7 +59,7 @@ def test_the_robot_is_pushed_and_the_person_is_not(
 ) -> None:
     """Who is refused loses nothing: the duel goes on, and pushes too."""
     before = session.duel
-    with pytest.raises(ConfigurationError, match="pursuer, who is a person"):
+    with pytest.raises(ConfigurationError, match="pursuer, which is a person"):
         session.push(0, 0.4, pi / 2)
     assert session.error is None and session.duel is before
     stepped(session, 0.1)
@@ -80,7 +80,7 @@ def test_the_push_button_says_that_a_person_is_not_pushed(
     add_push(gui, session, said.append)
     gui["Robot"].value = "pursuer"
     gui["Push"].press()
-    assert said == ["a push needs a robot, got pursuer, who is a person"]
+    assert said == ["a push needs a robot, got pursuer, which is a person"]
     gui["Robot"].value = "evader"
     gui["Push"].press()
     assert said[1:] == ["pushed the evader left by 0.5 N s"]

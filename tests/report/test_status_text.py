@@ -102,7 +102,7 @@ def test_nothing_is_said_of_a_time_that_cannot_be_told() -> None:
 @pytest.mark.parametrize(
     ("velocity", "said"),
     [
-        ((-0.1, 0.0), "the pursuer comes"),
+        ((-0.1, 0.0), "the pursuer approaches"),
         ((0.1, 0.0), "the pursuer moves away"),
         ((0.0, 0.1), "the pursuer walks"),
         (None, "the pursuer walks"),
@@ -140,7 +140,7 @@ def walked(velocity: float, bearing: float) -> DuelRun:
 @pytest.mark.parametrize("bearing", [0.0, 2.0, -1.0])
 def test_a_replay_says_so_too(bearing: float) -> None:
     for velocity, said in (
-        (0.2, "comes"),
+        (0.2, "approaches"),
         (-0.2, "moves away"),
         (0.0, "walks"),
     ):

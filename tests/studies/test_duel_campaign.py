@@ -148,7 +148,7 @@ def test_records_of_other_versions_are_done_again(
 
 
 def test_a_strategy_that_was_rewritten_is_another(tmp_path: Path) -> None:
-    """By its file's content; and pushes, which came later, count if any."""
+    """By its content; other settings, such as pushes, count as well."""
     file = tmp_path / "own.py"
     file.write_text("first")
     own = replace(SETTINGS, evader_strategy=f"{file}:Own")
@@ -164,7 +164,7 @@ def test_a_strategy_that_was_rewritten_is_another(tmp_path: Path) -> None:
 
 
 def test_the_key_of_a_default_duel_is_that_of_its_records() -> None:
-    """Entries that came after the records do not make them strange."""
+    """So that committed records are found by their settings."""
     results = Path(__file__).parents[2] / "docs" / "results"
     records = (results / "duels-ideal.jsonl").read_text("utf-8")
     key = json.loads(records.splitlines()[0])["key"]

@@ -153,14 +153,14 @@ def test_an_object_in_a_configuration_is_text() -> None:
         ({"strategy": "evasion"}, "must be an Evasion, got 'evasion'"),
         (
             {"strategy": Other(), "evader_strategy": "deflected"},
-            "must be an Evasion beside evader_strategy 'deflected'",
+            "must be an Evasion with evader_strategy 'deflected'",
         ),
         (
             {
                 "strategy": Evasion(angle=1.0),
                 "evader_strategy": Evasion(angle=2.0),
             },
-            "strategy must be left out",
+            "strategy must be omitted",
         ),
         ({"evader_strategy": "Own"}, "got 'Own'"),
     ],

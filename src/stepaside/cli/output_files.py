@@ -45,10 +45,6 @@ def writes_files(function: Callable[..., Any]) -> Callable[..., Any]:
             exit_interrupted(_saved_text(before, _files(context)))
         except SystemExit as status:
             exit_status = status
-        except Exception as error:
-            if isinstance(error, EXPECTED) or not was_interrupted():
-                raise
-            exit_interrupted(_saved_text(before, _files(context)))
         for failed in context.meta.get(FAILED, ())[:1]:
             raise failed
         if exit_status is not None:

@@ -1,4 +1,4 @@
-"""Games in physics: players, the one loop, and the run that it leaves."""
+"""Games in physics: players, match loop, recorded runs and run folders."""
 
 from ..core.lazy_exports import lazy_exports
 

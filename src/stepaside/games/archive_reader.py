@@ -1,8 +1,8 @@
-"""Files of a run folder, bounded before they are read.
+"""Size-limited reading of run folder files.
 
-A run folder may come from anywhere. A file is opened only if it is one, read
-only as far as it may be long, and an array only if its header says what an
-array of a run can be.
+A run folder may come from an untrusted source. Only regular files are opened,
+at most a fixed number of bytes is read, and an array is decoded only if its
+header describes an array that a run can contain.
 """
 
 import json
@@ -19,120 +19,139 @@ from numpy.lib import format as npy
 
 from ..core.poses import Array
 
-LONGEST_TEXT = 2**20  # of a configuration or a summary, in [bytes]
-LARGEST = 2**30  # of all arrays together, in [bytes]; a day has less
-MOST = 128  # arrays in a file
-HEADER = 512  # of an array, in [bytes]
+MAX_TEXT_BYTES = 2**20  # of a configuration or a summary
+MAX_ARRAY_BYTES = 2**30  # of all arrays together; a game of a day has less
+MAX_ARRAYS = 128  # in one file
+MAX_HEADER_BYTES = 512  # of one array
 
 
 def read_text(file: Path) -> str:
-    """Text of a file that is short and no link.
+    """Read a text file of at most 1 MiB; links are not followed.
 
     Raises:
-        ValueError: If it is longer, no file or no text.
+        ValueError: If the file is longer, not a regular file or not UTF-8.
         OSError: If it cannot be read.
     """
-    return bytes_of(file, LONGEST_TEXT).decode("utf-8")
+    return read_bytes(file, MAX_TEXT_BYTES).decode("utf-8")
 
 
 def read_json(file: Path) -> Any:
-    """Value of a JSON file; its numbers are finite.
+    """Read a JSON file whose numbers are all finite.
 
     Raises:
-        ValueError: If it is none, or nested too deep to be one of ours.
+        ValueError: If it is not JSON, nested too deep, or holds NaN or inf.
         OSError: If it cannot be read.
     """
     try:
-        value = json.loads(read_text(file), parse_constant=_refuse)
-        _check_numbers(value)
+        value = json.loads(read_text(file), parse_constant=_reject_constant)
+        _check_finite(value)
     except RecursionError as error:
-        raise ValueError("it is nested too deep") from error
+        raise ValueError("JSON is nested too deep") from error
     return value
 
 
 def read_arrays(file: Path, known: frozenset[str]) -> dict[str, Array]:
-    """Arrays of an ``npz`` file, real numbers all.
+    """Read the arrays of an ``npz`` file; all hold real numbers.
 
     Args:
         file: The file.
-        known: Names of the arrays that may be there.
+        known: Names of the arrays that may be present.
+
+    Returns:
+        Arrays by name.
 
     Raises:
-        ValueError: If an array is none, or larger than it may be.
-        OSError: If it cannot be read; zipfile raises others, too.
+        ValueError: If an array is malformed, unknown or too large.
+        OSError: If the file cannot be read; zipfile raises other exceptions
+            in addition.
     """
-    content = BytesIO(bytes_of(file, LARGEST))
+    content = BytesIO(read_bytes(file, MAX_ARRAY_BYTES))
     with ZipFile(content) as archive:
         members = archive.infolist()
         names = [member.filename for member in members]
-        if len(members) > MOST or len(set(names)) < len(names):
-            raise ValueError(f"it must hold at most {MOST} arrays, once each")
-        strange = {name.removesuffix(".npy") for name in names} - known
-        if strange:
-            raise ValueError(f"it holds {min(strange)!r:.40}, as no run does")
-        if sum(member.file_size for member in members) > LARGEST:
-            raise ValueError(f"its arrays must have at most {LARGEST} bytes")
-        return {
-            (name := member.filename.removesuffix(".npy")): _array(
-                archive, member, name
+        if len(members) > MAX_ARRAYS or len(set(names)) < len(names):
+            raise ValueError(
+                f"{file.name} must hold at most {MAX_ARRAYS} arrays with "
+                f"unique names, got {len(members)}"
             )
-            for member in members
-        }
+        unknown = {name.removesuffix(".npy") for name in names} - known
+        if unknown:
+            raise ValueError(
+                f"{file.name} holds an unknown array {min(unknown)!r:.40}"
+            )
+        size = sum(member.file_size for member in members)
+        if size > MAX_ARRAY_BYTES:
+            raise ValueError(
+                f"arrays of {file.name} must have at most {MAX_ARRAY_BYTES} "
+                f"bytes, got {size}"
+            )
+        arrays = {}
+        for member in members:
+            name = member.filename.removesuffix(".npy")
+            arrays[name] = _read_array(archive, member, name)
+        return arrays
 
 
-def bytes_of(file: Path, most: int) -> bytes:
-    """All of a file; it is not followed elsewhere, nor waited for."""
+def read_bytes(file: Path, limit: int) -> bytes:
+    """Read a regular file of at most ``limit`` bytes.
+
+    Links are not followed, and opening a pipe does not block.
+    """
     flags = os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0)
     handle = os.open(file, flags | getattr(os, "O_NONBLOCK", 0))
     with os.fdopen(handle, "rb") as stream:
-        about = os.fstat(handle)
-        if not S_ISREG(about.st_mode) or about.st_size > most:
-            raise ValueError(f"{file.name} must be a file of <= {most} bytes")
-        content = stream.read(most + 1)
-    if len(content) > most:
-        raise ValueError(f"{file.name} must be a file of <= {most} bytes")
+        status = os.fstat(handle)
+        if not S_ISREG(status.st_mode) or status.st_size > limit:
+            raise ValueError(f"{file.name} must be a file of <= {limit} bytes")
+        content = stream.read(limit + 1)
+    if len(content) > limit:
+        raise ValueError(f"{file.name} must be a file of <= {limit} bytes")
     return content
 
 
-def _array(archive: ZipFile, member: ZipInfo, name: str) -> Array:
+def _read_array(archive: ZipFile, member: ZipInfo, name: str) -> Array:
     if member.compress_type not in (ZIP_STORED, ZIP_DEFLATED):
-        raise ValueError(f"{name} is packed in a way of its own")
+        raise ValueError(f"{name} must be stored or deflated in the archive")
     with archive.open(member) as stream:
-        shape, by_columns, dtype = _header(stream, name)
+        shape, column_major, dtype = _read_header(stream, name)
         if dtype not in (np.dtype("<f4"), np.dtype("<f8")) or len(shape) > 2:
             raise ValueError(f"{name} must be a table of real numbers")
         size = dtype.itemsize * int(np.prod(shape, dtype=object))
         if not 0 <= size <= member.file_size:
-            raise ValueError(f"{name} claims more numbers than it has")
+            raise ValueError(
+                f"{name} is truncated: its header announces {size} bytes, "
+                f"got {member.file_size}"
+            )
         content = stream.read(size + 1)
     if len(content) != size:
-        raise ValueError(f"{name} has other numbers than it claims")
-    found: Array = np.frombuffer(content, dtype)
-    if by_columns:
-        return found.reshape(shape, order="F")
-    return found.reshape(shape)
+        raise ValueError(f"{name} must have {size} bytes, as its header says")
+    array: Array = np.frombuffer(content, dtype)
+    if column_major:
+        return array.reshape(shape, order="F")
+    return array.reshape(shape)
 
 
-def _header(stream: IO[bytes], name: str) -> tuple[Any, bool, Any]:
-    """Shape, whether columns come first, and kind of number."""
+def _read_header(stream: IO[bytes], name: str) -> tuple[Any, bool, Any]:
+    """Read shape, whether the order is column-major, and data type."""
     if npy.read_magic(stream) != (1, 0):
-        raise ValueError(f"{name} is an array of another format")
+        raise ValueError(f"{name} must be an array of npy format 1.0")
     try:
-        told = npy.read_array_header_1_0(stream, max_header_size=HEADER)
-    except Exception as error:  # it is a literal of Python, read as such
-        raise ValueError(f"{name} has no header of an array") from error
-    return told
+        return npy.read_array_header_1_0(
+            stream, max_header_size=MAX_HEADER_BYTES
+        )
+    except Exception as error:  # numpy parses it as a Python literal
+        raise ValueError(f"{name} has no valid npy header") from error
 
 
-def _refuse(word: str) -> NoReturn:
-    raise ValueError(f"{word} is no number")
+def _reject_constant(text: str) -> NoReturn:
+    raise ValueError(f"numbers must be finite, got {text}")
 
 
-def _check_numbers(value: Any) -> None:
+def _check_finite(value: Any) -> None:
     if isinstance(value, dict):
         value = list(value.values())
     if isinstance(value, list):
-        for each in value:
-            _check_numbers(each)
+        for item in value:
+            _check_finite(item)
     elif isinstance(value, float) and not isfinite(value):
-        raise ValueError("a number must be finite")
+        raise ValueError(f"numbers must be finite, got {value}")

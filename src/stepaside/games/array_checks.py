@@ -1,4 +1,4 @@
-"""What the arrays of a run are like: shapes, rows and numbers."""
+"""Validation of the arrays of a run: shapes, rows and finite values."""
 
 from collections.abc import Mapping
 from typing import NamedTuple
@@ -9,16 +9,16 @@ from ..core.errors import ConfigurationError
 from ..core.poses import Array
 from .trajectory import Trajectory
 
-FARTHEST = 1e6  # of any number in a run, in [m], [rad] or [s]
+MAX_VALUE = 1e6  # of any number in a run, in [m], [rad] or [s]
 
 
 class ArraySpec(NamedTuple):
-    """What an array of a player is like.
+    """Shape and range of one array of a player.
 
     Attributes:
-        columns: How many it has; None for any number from seven.
-        per_sample: Whether it has a row for each sample.
-        may_lack: Whether a number may be NaN, for what was not there.
+        columns: Number of columns; None for any number from seven.
+        per_sample: Whether it has one row per sample.
+        may_lack: Whether values may be NaN, for missing data.
     """
 
     columns: int | None
@@ -26,7 +26,7 @@ class ArraySpec(NamedTuple):
     may_lack: bool = False
 
 
-KINDS = {
+ARRAY_SPECS = {
     "com": ArraySpec(3),
     "torso": ArraySpec(3),
     "place": ArraySpec(3),
@@ -48,21 +48,21 @@ KINDS = {
 
 
 def check_times(times: Array, run: str) -> None:
-    """Refuse times that do not go on.
+    """Check that sample times are finite and strictly increasing.
 
     Args:
-        times: Of the samples, in [s].
+        times: Times of the samples, in [s].
         run: Name of the run, for messages.
 
     Raises:
-        ConfigurationError: If they are none.
+        ConfigurationError: If they are not, or there are none.
     """
     if times.ndim != 1 or len(times) == 0:
         raise ConfigurationError(
             f"times_s of run {run} must be a row of at least one time [s], "
             f"got shape {times.shape}"
         )
-    _check_numbers(times, "times_s", run, may_lack=False)
+    _check_values(times, "times_s", run, may_lack=False)
     if times[0] < 0.0 or not np.all(np.diff(times) > 0.0):
         raise ConfigurationError(
             f"times_s of run {run} must be >= 0 and increase [s]"
@@ -72,47 +72,47 @@ def check_times(times: Array, run: str) -> None:
 def check_tracks(
     tracks: Mapping[str, Trajectory], samples: int, run: str
 ) -> None:
-    """Refuse tracks that are not as tracks are.
+    """Check shapes and values of recorded trajectories.
 
     Args:
-        tracks: By name of the player.
-        samples: Rows that each has.
+        tracks: Trajectories by name of the player.
+        samples: Number of samples.
         run: Name of the run, for messages.
 
     Raises:
-        ConfigurationError: If an array has another shape, or a number that
-            is none.
+        ConfigurationError: If an array has another shape, or a value that
+            is not finite or too large.
     """
     for player, track in tracks.items():
-        for key, kind in KINDS.items():
+        for key, spec in ARRAY_SPECS.items():
             array = getattr(track, key)
             if array is not None:
-                _check(array, f"{player}_{key}", kind, samples, run)
+                _check(array, f"{player}_{key}", spec, samples, run)
 
 
 def _check(
-    array: Array, name: str, kind: ArraySpec, samples: int, run: str
+    array: Array, name: str, spec: ArraySpec, samples: int, run: str
 ) -> None:
-    wide = array.shape[1] if array.ndim == 2 else 0
-    fits = wide >= 7 if kind.columns is None else wide == kind.columns
-    if not fits or (kind.per_sample and len(array) != samples):
-        rows = samples if kind.per_sample else "any"
-        columns = ">= 7" if kind.columns is None else kind.columns
+    width = array.shape[1] if array.ndim == 2 else 0
+    fits = width >= 7 if spec.columns is None else width == spec.columns
+    if not fits or (spec.per_sample and len(array) != samples):
+        rows = samples if spec.per_sample else "any"
+        columns = ">= 7" if spec.columns is None else spec.columns
         raise ConfigurationError(
             f"{name} of run {run} must have shape ({rows}, {columns}), got "
             f"{array.shape}"
         )
-    _check_numbers(array, name, run, may_lack=kind.may_lack)
+    _check_values(array, name, run, may_lack=spec.may_lack)
 
 
-def _check_numbers(
+def _check_values(
     array: Array, name: str, run: str, *, may_lack: bool
 ) -> None:
-    right = np.abs(array) <= FARTHEST
+    valid = np.abs(array) <= MAX_VALUE
     if may_lack:
-        right |= np.isnan(array)
-    if not right.all():
+        valid |= np.isnan(array)
+    if not valid.all():
         raise ConfigurationError(
             f"{name} of run {run} must hold finite numbers of at most "
-            f"{FARTHEST:g}"
+            f"{MAX_VALUE:g}"
         )

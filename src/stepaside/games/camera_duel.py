@@ -1,4 +1,4 @@
-"""A duel of robots that see: eyes, perception and their judges."""
+"""Cameras, perception and its evaluation in a duel with camera sensing."""
 
 from collections.abc import Mapping, Sequence
 
@@ -31,17 +31,17 @@ from .outcome import Outcome
 from .sight_evaluation import EvaluatedImage, SightEvaluator
 from .sight_summary import PerceptionSummary, SightReport
 
-GLANCES = {"pursuer": SELDOM, "evader": OFTEN}  # around, to map
-STILLS = 5  # images that a duel keeps of each camera
+GLANCES = {"pursuer": SELDOM, "evader": OFTEN}  # between glances for the map
+STILLS = 5  # images that a run stores per camera
 
 
 class CameraSenses:
-    """Everything that a duel with cameras has and an ideal one has not.
+    """Camera sensing of a duel: renderer, scene, perception of each robot.
 
     Attributes:
-        renderer: What draws the colour images.
-        furnish: Puts walls, things and the depth camera into the world.
-        perceptions: What each robot sees with, by name.
+        renderer: Name of the renderer of the colour images.
+        furnish: Adds walls, objects and the depth camera to the world.
+        perceptions: Perception of each robot, by name.
     """
 
     def __init__(
@@ -52,19 +52,19 @@ class CameraSenses:
         *,
         tick: float,
     ) -> None:
-        """Prepare the senses of some robots.
+        """Prepare the perception of the robots of a duel.
 
         Args:
-            settings: Of the duel, with the start filled in.
-            description: The robots.
-            names: Who they are.
+            settings: Settings of the duel, with the initial poses filled in.
+            description: Description of the robots; all are of one model.
+            names: Names of the players that are robots.
             tick: Control period, in [s].
 
         Raises:
-            StepAsideError: If the robot has no head or the renderer does
-                not work here.
+            StepAsideError: If the robot has no head or the renderer is not
+                available.
         """
-        # One core draws, sees and walks; threads would only wait.
+        # The simulation is sequential; threads of OpenCV would only wait.
         cv2.setNumThreads(1)
         self._settings, self._description = settings, description
         self._head = load_head(description)
@@ -73,7 +73,7 @@ class CameraSenses:
         self._maps = (
             settings.room.plan is not None and settings.map.source == "seen"
         )
-        # Where people come the evader alone is a robot.
+        # The lower camera serves to detect people and to map the floor.
         self._low = tuple(names) if self._people or self._maps else ()
         self.furnish = furnisher(
             settings.room,
@@ -91,15 +91,13 @@ class CameraSenses:
                 floor=FloorMap() if self._maps else None,
                 glances=GLANCES[name] if self._maps else None,
                 people=self._people,
+                awaits_start=True,
             )
             for name in names
         }
-        for name, perception in self.perceptions.items():
-            if self._maps and name == "pursuer":
-                perception.around.company.append(self.perceptions["evader"])
 
     def eyes(self, world: World, name: str) -> SensorSuite:
-        """Open the eyes of a robot of a world."""
+        """Return the cameras and sonars of a robot of a world."""
         return SensorSuite(
             world,
             name,
@@ -117,9 +115,15 @@ class CameraSenses:
     def judge(
         self, robot: SimulatedRobot, other: GroundTruth, *, wears_trim: bool
     ) -> SightEvaluator:
-        """Judge of what a robot sees of another, who may wear its trim."""
+        """Return the evaluation of a robot's sightings of its opponent.
+
+        Args:
+            robot: The robot that sees.
+            other: True state of its opponent.
+            wears_trim: Whether the opponent wears the known colour.
+        """
         settings = self._settings
-        # Early on more happens: the times grow as squares.
+        # More happens early in a duel: the times grow quadratically.
         times = tuple(
             0.98 * settings.duration * ((i + 0.5) / (STILLS - 0.5)) ** 2
             for i in range(STILLS)
@@ -138,10 +142,10 @@ class CameraSenses:
 
 
 class SightObserver:
-    """Lets the judges look on while a game is played.
+    """Match observer that evaluates the perception of each robot.
 
     Attributes:
-        judges: One for each robot that sees, by name.
+        judges: Evaluators, by name of the robot.
     """
 
     def __init__(
@@ -151,40 +155,40 @@ class SightObserver:
         *,
         every: int,
     ) -> None:
-        """Look on.
+        """Observe a match.
 
         Args:
-            judges: Of each robot, by name.
-            renderer: What draws the colour images.
-            every: Control ticks between samples of their beliefs.
+            judges: Evaluators, by name of the robot.
+            renderer: Name of the renderer of the colour images.
+            every: Control ticks between samples of the sightings.
         """
         self.judges = dict(judges)
         self._renderer, self._every = renderer, every
 
     def before(self, match: Match) -> None:
-        """Compare what all believe with the truth, when it is due."""
+        """Compare sightings with the true state, when a sample is due."""
         if match.world.ticks % self._every == 0:
             for judge in self.judges.values():
                 judge.sample(match.world.time)
 
     def acted(self, match: Match) -> None:
-        """Judge what was seen at this tick."""
+        """Evaluate the detections of this tick."""
         for judge in self.judges.values():
             judge.look()
 
     def ended(self, match: Match, outcome: Outcome) -> None:
-        """Nothing is left to be seen."""
+        """Do nothing at the end of the game."""
 
     def sight(self) -> dict[str, Array]:
-        """Beliefs beside the truth, by name of the robot."""
+        """Return estimated and true sightings, by name of the robot."""
         return {name: judge.array() for name, judge in self.judges.items()}
 
     def stills(self) -> dict[str, dict[str, list[EvaluatedImage]]]:
-        """Images kept to be looked at, by robot and camera."""
+        """Return the stored images, by robot and camera."""
         return {name: judge.stills for name, judge in self.judges.items()}
 
     def figures(self) -> SightReport:
-        """Errors and rates."""
+        """Return errors and detection rates of all robots and of each."""
         tallies = [
             tally
             for judge in self.judges.values()

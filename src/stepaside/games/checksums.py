@@ -1,4 +1,4 @@
-"""Checksums of a run folder: whether it is as it was written."""
+"""Checksums of a run folder."""
 
 import hmac
 import re
@@ -7,19 +7,19 @@ from hashlib import sha256
 from pathlib import Path
 
 from ..core.errors import ConfigurationError
-from .archive_reader import LARGEST, bytes_of, read_text
+from .archive_reader import MAX_ARRAY_BYTES, read_bytes, read_text
 
 CHECKSUMS = "checksums.txt"
 LINE = re.compile(r"([0-9a-f]{64})  ([\w.-]+)")
 
 
 def seal(folder: Path) -> None:
-    """Write down the checksums of all files of a folder.
+    """Write the SHA-256 checksums of all files of a folder.
 
-    ``sha256sum --check checksums.txt`` reads them, too.
+    The file has the format of ``sha256sum --check``.
 
     Args:
-        folder: Of a run that is otherwise whole.
+        folder: Run folder whose other files are complete.
     """
     lines = [
         f"{sha256(file.read_bytes()).hexdigest()}  {file.name}\n"
@@ -30,19 +30,18 @@ def seal(folder: Path) -> None:
 
 
 def check_seal(folder: Path, names: Collection[str]) -> None:
-    """Refuse a folder that was altered since it was sealed.
+    """Check the files of a run folder against its checksums.
 
-    One without checksums is of an older version, or was altered on purpose,
-    and is taken as it is.
+    A folder without checksums was edited by hand and is not checked.
 
     Args:
-        folder: Of a run.
-        names: Files that are going to be read.
+        folder: Run folder.
+        names: Names of the files that will be read.
 
     Raises:
         ConfigurationError: If a file has another checksum, or none.
-        ValueError: If a file is no file, or too long.
-        OSError: If it cannot be read.
+        ValueError: If a file is not a regular file, or too long.
+        OSError: If a file cannot be read.
     """
     if not (folder / CHECKSUMS).exists():
         return
@@ -52,10 +51,11 @@ def check_seal(folder: Path, names: Collection[str]) -> None:
         if entry is not None and entry[2] in found:
             found[entry[2]] = entry[1]
     for name, wanted in found.items():
-        got = sha256(bytes_of(folder / name, LARGEST)).hexdigest()
+        content = read_bytes(folder / name, MAX_ARRAY_BYTES)
+        got = sha256(content).hexdigest()
         if not hmac.compare_digest(got, wanted):
             raise ConfigurationError(
-                f"{name} of run {folder} is not as it was written: its "
-                f"checksum differs from that of {CHECKSUMS}; without that "
-                "file it is read as it is"
+                f"{name} of run {folder} was modified: its checksum differs "
+                f"from that in {CHECKSUMS}; delete {CHECKSUMS} to read the "
+                "folder unchecked"
             )

@@ -1,4 +1,4 @@
-"""Configurations as files: TOML in, TOML out, for any settings."""
+"""Configuration files: settings read from and written to TOML."""
 
 import tomllib
 from collections.abc import Callable, Collection
@@ -22,26 +22,8 @@ from ..core.errors import (
 from .duel_settings import DuelSettings
 
 
-def renamed(entries: dict[str, Any], old: str, new: str) -> dict[str, Any]:
-    """Entries with an old name, if it is there, replaced by the new one.
-
-    Raises:
-        KeyError: If both are there.
-    """
-    section, deeper, old_rest = old.partition(".")
-    new_rest = new.partition(".")[2]
-    if deeper:
-        inner = entries.get(section)
-        if not isinstance(inner, dict):
-            return entries
-        return entries | {section: renamed(inner, old_rest, new_rest)}
-    if old in entries and new in entries:
-        raise KeyError(old)
-    return {new if key == old else key: v for key, v in entries.items()}
-
-
 def over(below: dict[str, Any], above: dict[str, Any]) -> dict[str, Any]:
-    """Entries of both; those above win."""
+    """Merge two nested tables; entries of ``above`` take precedence."""
     merged = below | above
     for key in below.keys() & above.keys():
         if isinstance(below[key], dict) and isinstance(above[key], dict):
@@ -49,17 +31,8 @@ def over(below: dict[str, Any], above: dict[str, Any]) -> dict[str, Any]:
     return merged
 
 
-def without(entries: dict[str, Any], old: str) -> dict[str, Any]:
-    """Entries without one."""
-    section, deeper, rest = old.partition(".")
-    inner = entries.get(section)
-    if deeper and isinstance(inner, dict):
-        return entries | {section: without(inner, rest)}
-    return {key: v for key, v in entries.items() if key != old}
-
-
 def with_tuples(kind: Any, entries: dict[str, Any]) -> dict[str, Any]:
-    """Entries with tuples for the lists that settings keep as such."""
+    """Replace lists by tuples where the settings class has tuples."""
     changed = dict(entries)
     hints = get_type_hints(kind)
     for key in entries.keys() & hints.keys():
@@ -73,19 +46,7 @@ def with_tuples(kind: Any, entries: dict[str, Any]) -> dict[str, Any]:
 
 S = TypeVar("S")  # a frozen dataclass of settings
 
-LONGEST = 2**20  # text of a configuration, in [characters]
-
-# Entries of older files, and what they are called today.
-RENAMED = {
-    "body.play": "body.backlash",
-}
-
-
-# Entries of older files that mean nothing any more.
-RETIRED = (
-    "control.stabiliser.lead_blend",
-    "control.stabiliser.prediction_blend",
-)
+MAX_CHARACTERS = 2**20  # of a configuration file
 
 
 def load_settings(
@@ -99,39 +60,42 @@ def load_settings(
 
     Args:
         kind: Class of the settings.
-        path: TOML file; what it leaves out keeps its default.
-        aside: Entries that are left aside, for they belong to others.
-        base: Settings whose values are the defaults; those of the class by
-            default.
+        path: TOML file; entries that it omits keep their defaults.
+        aside: Entries that are ignored, as they belong to other settings.
+        base: Settings whose values are the defaults; by default those of
+            the class.
+
+    Returns:
+        The settings.
 
     Raises:
-        ConfigurationError: If it is not TOML, or an entry is unknown, of
-            the wrong type or out of its range.
+        ConfigurationError: If the file is not TOML, or an entry is unknown,
+            of the wrong type or out of its range.
     """
     entries = load_entries(path)
     return parse_settings(kind, entries, str(path), aside=aside, base=base)
 
 
 def load_entries(path: Path) -> dict[str, Any]:
-    """Nested entries of a TOML file.
+    """Read the nested entries of a TOML file.
 
     Raises:
-        ConfigurationError: If it cannot be read, or is no TOML.
+        ConfigurationError: If the file cannot be read, or is not TOML.
     """
     try:
         with path.open("rb") as file:
-            text = file.read(LONGEST + 1).decode("utf-8")
+            text = file.read(MAX_CHARACTERS + 1).decode("utf-8")
     except (OSError, UnicodeDecodeError) as error:
         raise ConfigurationError(f"{path}: {error}") from error
     return read_entries(text, str(path))
 
 
 def says(path: Path, entry: str) -> bool:
-    """Whether a configuration that was read has an entry.
+    """Return whether a configuration file contains an entry.
 
     Args:
-        path: TOML file.
-        entry: Like ``control.method``.
+        path: TOML file that is known to be valid.
+        entry: Dotted name, like ``control.method``.
     """
     found: Any = tomllib.loads(path.read_text(encoding="utf-8"))
     for name in entry.split("."):
@@ -144,12 +108,12 @@ def says(path: Path, entry: str) -> bool:
 def read_settings(
     kind: type[S], text: str, source: str, *, aside: Collection[str] = ()
 ) -> S:
-    """Turn TOML into settings.
+    """Parse settings from TOML text.
 
     Args:
         kind: Class of the settings.
         text: TOML.
-        source: Where it comes from, for messages.
+        source: Origin of the text, for messages.
         aside: As :func:`load_settings`.
 
     Raises:
@@ -161,24 +125,24 @@ def read_settings(
 
 
 def read_entries(text: str, source: str) -> dict[str, Any]:
-    """Nested entries of TOML.
+    """Parse TOML text into nested entries.
 
     Args:
         text: TOML.
-        source: Where it comes from, for messages.
+        source: Origin of the text, for messages.
 
     Raises:
-        ConfigurationError: If it is none, or too long.
+        ConfigurationError: If the text is not TOML, or too long.
     """
-    if len(text) > LONGEST:
+    if len(text) > MAX_CHARACTERS:
         raise ConfigurationError(
-            f"{source} must have at most {LONGEST} characters"
+            f"{source} must have at most {MAX_CHARACTERS} characters"
         )
     try:
         return tomllib.loads(text)
     except RecursionError as error:
         raise ConfigurationError(f"{source} is nested too deep") from error
-    except ValueError as error:  # no TOML, or a number without end
+    except ValueError as error:  # not TOML, or an integer of too many digits
         raise ConfigurationError(f"{source}: {error}") from error
 
 
@@ -194,7 +158,7 @@ def parse_settings(
 
     Args:
         kind: Class of the settings.
-        entries: Sections and values; old names are taken for new ones.
+        entries: Sections and values.
         source: Where they come from, for messages.
         aside: As :func:`load_settings`.
         base: Likewise.
@@ -205,16 +169,7 @@ def parse_settings(
     own = {field.name for field in fields(kind)}  # type: ignore[arg-type]
     left = set(aside) - own
     entries = {key: v for key, v in entries.items() if key not in left}
-    for old, new in RENAMED.items():
-        try:
-            entries = renamed(entries, old, new)
-        except KeyError:
-            raise ConfigurationError(
-                f"{source}: {old} is the old name of {new}, "
-                "give one of them, not both"
-            ) from None
-    for old in RETIRED:
-        entries = without(entries, old)
+
     if base is not None:
         entries = over(plain_settings(base), entries)
     entries = with_tuples(kind, entries)
@@ -240,8 +195,9 @@ def parse_settings(
     except StepAsideError:
         raise
     except (AttributeError, TypeError, ValueError) as error:
-        raise ConfigurationError(  # a section where a list is due, or so
-            f"{source}: entries are not of their kinds: {error}"
+        # For example a table where a list is expected.
+        raise ConfigurationError(
+            f"{source}: an entry has the wrong type: {error}"
         ) from error
 
 
@@ -251,17 +207,17 @@ def load_configuration(path: AnyPath) -> DuelSettings:
 
 
 def parse_configuration(entries: dict[str, Any], source: str) -> DuelSettings:
-    """Turn entries into those of a duel; see :func:`parse_settings`."""
+    """Parse the settings of a duel; see :func:`parse_settings`."""
     return parse_settings(DuelSettings, entries, source)
 
 
 def dump_configuration(settings: Any) -> str:
-    """Text of the configuration that gives settings again, as TOML."""
+    """Return the TOML text from which the same settings are read."""
     return tomli_w.dumps(plain_settings(settings))
 
 
 def plain_settings(settings: Any) -> dict[str, Any]:
-    """Nested entries of settings, as a configuration has them."""
+    """Return settings as the nested entries of a configuration file."""
     if isinstance(settings, DuelSettings):
         settings = settings.named()
     entries: dict[str, Any] = _plain(_unfolded(settings))
@@ -269,7 +225,7 @@ def plain_settings(settings: Any) -> dict[str, Any]:
 
 
 def spelled_settings(settings: Any) -> dict[str, Any]:
-    """Settings for JSON, with what it has no number for spelled out."""
+    """Return settings for JSON; infinite values become text."""
     entries: dict[str, Any] = _spelled(plain_settings(settings))
     return entries
 
@@ -285,12 +241,12 @@ def _spelled(value: Any) -> Any:
         return {key: _spelled(entry) for key, entry in value.items()}
     if isinstance(value, list):
         return [_spelled(entry) for entry in value]
-    endless = isinstance(value, float) and not isfinite(value)
-    return str(value) if endless else value
+    infinite = isinstance(value, float) and not isfinite(value)
+    return str(value) if infinite else value
 
 
 def _as_float(value: Any) -> Any:
-    """Take whole numbers for real ones."""
+    """Convert integers to floats, but not booleans."""
     if isinstance(value, bool):
         raise dacite.WrongTypeError(float, value)
     try:
@@ -300,23 +256,23 @@ def _as_float(value: Any) -> Any:
 
 
 def _as_int(value: Any) -> Any:
-    """Refuse true and false, which Python takes for numbers."""
+    """Reject booleans, which are integers in Python."""
     if isinstance(value, bool):
         raise dacite.WrongTypeError(int, value)
     return value
 
 
 HOOKS: dict[type[Any], Callable[[Any], Any]]
-HOOKS = {float: _as_float, int: _as_int}  # what files have for numbers
+HOOKS = {float: _as_float, int: _as_int}  # numbers in TOML and JSON files
 
 
 def _as_room(value: Any) -> Any:
-    """Take the entries of a room file for a room."""
+    """Convert the entries of a room file to a room."""
     return room_of_entries(value) if isinstance(value, dict) else value
 
 
 def _unfolded(value: Any) -> Any:
-    """Settings as nested entries, and rooms as their files have them."""
+    """Convert settings to nested entries, and rooms to those of a file."""
     if isinstance(value, Room):
         return room_entries(value)
     if isinstance(value, list | tuple):
@@ -327,7 +283,7 @@ def _unfolded(value: Any) -> Any:
 
 
 def _plain(value: Any) -> Any:
-    """Leave out what is None, which TOML does not know."""
+    """Drop entries that are None, which TOML cannot represent."""
     if isinstance(value, dict):
         return {k: _plain(v) for k, v in value.items() if v is not None}
     if isinstance(value, list | tuple):

@@ -1,6 +1,7 @@
 """The game of pursuit and evasion, played in physics (paper, Sec. IV)."""
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import mujoco
@@ -21,7 +22,7 @@ from ..sim.person_motion import PersonMotion
 from ..sim.push import pushes_of
 from ..sim.world import World
 from ..strategies import Strategy, load_strategy
-from .duel_end import ended_duel
+from .duel_evaluation import summarise
 from .duel_run import DuelRun
 from .duel_settings import EVADER, PLAYERS, PURSUER, DuelSettings
 from .initial_poses import frames_of, with_start
@@ -38,13 +39,13 @@ if TYPE_CHECKING:
 
 
 class Duel(Match):
-    """A pursuer and an evader, ready to play.
+    """Match of one pursuer and one evader.
 
     Attributes:
-        settings: What decides the duel, with the start that was drawn.
-        frames: Where pursuer and evader stand at first.
-        recorder: What keeps the record, if one is kept.
-        witness: Who judges what they see, if they see with cameras.
+        settings: Settings of the duel, with the initial poses filled in.
+        frames: Initial poses of pursuer and evader in the world.
+        recorder: Recorder of the trajectories.
+        witness: Evaluation of the perception, if sensing is by cameras.
     """
 
     def __init__(
@@ -54,50 +55,51 @@ class Duel(Match):
         *,
         recorded: bool = True,
     ) -> None:
-        """Build the world and stand the players in it.
+        """Build the world and place the players in it.
 
         Args:
-            settings: What decides the duel.
-            observers: Who looks on besides the recorder.
-            recorded: Whether a record is kept, which grows with time.
+            settings: Settings of the duel.
+            observers: Observers in addition to the recorder.
+            recorded: Whether to record; the record grows with time.
 
         Raises:
-            StepAsideError: If the settings ask for what cannot be.
+            StepAsideError: If the settings contradict each other or cannot
+                be met by the robots.
         """
         self.settings = settings = with_start(settings)
         self.frames = frames = frames_of(settings)
-        setting = _Setting(settings, frames)
-        mujoco.mj_forward(setting.world.model, setting.world.data)
+        stage = _Stage(settings, frames)
+        mujoco.mj_forward(stage.world.model, stage.world.data)
         for name, pushes in pushes_of(
             settings.pushes, settings.robots
         ).items():
             if pushes:
-                setting.players[PLAYERS.index(name)].push(*pushes)
-        tick = setting.world.physics.tick
-        self.recorder = Recorder(setting.players, tick=tick)
+                stage.players[PLAYERS.index(name)].push(*pushes)
+        tick = stage.world.physics.tick
+        self.recorder = Recorder(stage.players, tick=tick)
         self.witness = (
-            setting.witness(every=self.recorder.every) if recorded else None
+            stage.witness(every=self.recorder.every) if recorded else None
         )
-        kept: list[MatchObserver] = [self.recorder]
+        recorders: list[MatchObserver] = [self.recorder]
         if self.witness is not None:
-            kept.append(self.witness)
+            recorders.append(self.witness)
         super().__init__(
-            setting.world,
-            setting.players,
-            (*(kept if recorded else ()), *observers),
+            stage.world,
+            stage.players,
+            (*(recorders if recorded else ()), *observers),
             has_things=bool(
                 settings.room.things or settings.room.plan or settings.passers
             ),
         )
 
     def run(self, outcome: Outcome, wall_time: float) -> DuelRun:
-        """What was played, as a value.
+        """Return the finished duel as a value.
 
         Args:
             outcome: How it ended.
-            wall_time: Time that it took, in [s].
+            wall_time: Time that the computation took, in [s].
         """
-        return ended_duel(
+        return make_duel_run(
             self.settings,
             self,
             outcome,
@@ -107,8 +109,8 @@ class Duel(Match):
         )
 
 
-class _Setting:
-    """A world with the players of a duel in it."""
+class _Stage:
+    """World of a duel with its players."""
 
     def __init__(
         self, settings: DuelSettings, frames: tuple[Pose, Pose]
@@ -120,10 +122,10 @@ class _Setting:
             name: load_robot(own.robot) for name, own in self._robots.items()
         }
         physics = with_cycle(settings.physics, settings.body)
-        self._seeing = _seeing(
+        self._senses = _camera_senses(
             settings, self._descriptions, walkers, physics.tick
         )
-        furnish = None if self._seeing is None else self._seeing.furnish
+        furnish = None if self._senses is None else self._senses.furnish
         self.world = World(
             self._descriptions,
             physics,
@@ -149,7 +151,7 @@ class _Setting:
             motion = PersonMotion(settings.person, frames[0], frames[1][:2])
             figure = FIGURES[settings.person.figure]
             person = PersonBody(self.world, PURSUER, motion, figure)
-        # Each must know the other before it stands: truths come first.
+        # A player's ideal sensor needs the true state of its opponent.
         self._watched = {
             name: watch(self.world, name, description, self._robots[name].gait)
             for name, description in self._descriptions.items()
@@ -166,12 +168,12 @@ class _Setting:
         self.players = (pursuer, evader)
 
     def _walker(self, name: str, strategy: str | Strategy) -> Walker:
-        """Stand a robot, with the senses that the settings give it."""
-        settings, seeing = self._settings, self._seeing
+        """Place a robot in the world, with the sensors of the settings."""
+        settings, senses = self._settings, self._senses
         own, description = self._robots[name], self._descriptions[name]
         frame = self._frames[PLAYERS.index(name)]
         ideal = None
-        if seeing is None:
+        if senses is None:
             other = PURSUER if name == EVADER else EVADER
             ideal = IdealLineOfSight(
                 self._truths[name],
@@ -190,8 +192,8 @@ class _Setting:
             body=settings.body,
             seed=settings.seed,
             sight=ideal,
-            eyes=None if seeing is None else seeing.eyes(self.world, name),
-            perception=None if seeing is None else seeing.perceptions[name],
+            eyes=None if senses is None else senses.eyes(self.world, name),
+            perception=None if senses is None else senses.perceptions[name],
             truth=self._watched[name],
             clearance=clearance_in(
                 settings.room.plan,
@@ -199,51 +201,99 @@ class _Setting:
                 description,
                 own.gait,
                 frame,
-                None if seeing is None else seeing.perceptions[name],
+                None if senses is None else senses.perceptions[name],
             ),
         )
 
     def witness(self, *, every: int) -> "SightObserver | None":
-        """Judges of what the robots see, if they see with cameras."""
-        if self._seeing is None:
+        """Return the evaluation of perception, if sensing is by cameras."""
+        if self._senses is None:
             return None
         from .camera_duel import SightObserver
 
         judges = {}
         for own, other in (self.players, self.players[::-1]):
             if isinstance(own, Walker):
-                judges[own.name] = self._seeing.judge(
+                judges[own.name] = self._senses.judge(
                     own.robot,
                     self._truths[other.name],
                     wears_trim=not isinstance(other, PersonPlayer),
                 )
-        return SightObserver(judges, self._seeing.renderer, every=every)
+        return SightObserver(judges, self._senses.renderer, every=every)
 
 
 def furnisher_of(
     settings: DuelSettings,
     furnish: Callable[[mujoco.MjSpec], None] | None = None,
 ) -> Callable[[mujoco.MjSpec], None] | None:
-    """What is put into the world besides the robots, if anything is.
+    """Return the function that adds everything but robots to the world.
 
     Args:
-        settings: Of the duel.
-        furnish: Puts in what the senses need.
+        settings: Settings of the duel.
+        furnish: Adds walls, objects and sensors for camera sensing.
+
+    Returns:
+        The function; None if there is nothing to add.
     """
-    plan, comes = settings.room.plan, settings.pursuer == "person"
-    if plan is None and not comes:
+    plan, has_person = settings.room.plan, settings.pursuer == "person"
+    if plan is None and not has_person:
         return furnish
 
-    def all_of_it(spec: mujoco.MjSpec) -> None:
+    def furnish_all(spec: mujoco.MjSpec) -> None:
         if furnish is not None:
             furnish(spec)
         if plan is not None:
             add_solids(spec, plan)
-        if comes:
+        if has_person:
             add_person(spec, PURSUER, FIGURES[settings.person.figure])
             add_passers(spec, settings.passers)
 
-    return all_of_it
+    return furnish_all
+
+
+def make_duel_run(
+    settings: DuelSettings,
+    match: Match,
+    outcome: Outcome,
+    recorder: Recorder,
+    witness: "SightObserver | None",
+    wall_time: float,
+) -> DuelRun:
+    """Return a finished duel as a value.
+
+    Args:
+        settings: Settings of the duel, with the initial poses filled in.
+        match: The match that was played.
+        outcome: How it ended.
+        recorder: Recorder of the trajectories.
+        witness: Evaluation of the perception, if sensing is by cameras.
+        wall_time: Time that the computation took, in [s].
+    """
+    tracks, times = recorder.tracks(), recorder.times
+    if witness is not None:
+        for name, rows in witness.sight().items():
+            tracks[name] = replace(tracks[name], sight=rows)
+    summary = summarise(
+        settings,
+        match,
+        outcome,
+        times,
+        tracks,
+        recorder.planning(),
+        None if witness is None else witness.figures(),
+        wall_time,
+    )
+    return DuelRun(
+        name=f"duel-seed{settings.seed}",
+        settings=settings,
+        outcome=outcome,
+        message=match.message,
+        duration=summary.duration_s,
+        times=times,
+        tracks=tracks,
+        summary=summary,
+        stills={} if witness is None else witness.stills(),
+    )
 
 
 def run_duel(
@@ -253,15 +303,17 @@ def run_duel(
     """Play a duel to its end.
 
     Args:
-        settings: What decides it.
+        settings: Settings of the duel.
         report: Called about five times a second with the progress. A
-            KeyboardInterrupt while playing ends the duel and keeps it.
+            KeyboardInterrupt while playing ends the duel; the part that was
+            played is returned.
 
     Returns:
-        The duel; the same settings give the same one, but for times.
+        The run. Equal settings give equal runs, except for computing times.
 
     Raises:
-        StepAsideError: If the settings ask for what cannot be.
+        StepAsideError: If the settings contradict each other or cannot be
+            met by the robots.
     """
     prefer_for(settings.duration)
     duel = Duel(settings)
@@ -269,13 +321,13 @@ def run_duel(
     return duel.run(outcome, wall_time)
 
 
-def _seeing(
+def _camera_senses(
     settings: DuelSettings,
     descriptions: Mapping[str, RobotDescription],
     names: tuple[str, ...],
     tick: float,
 ) -> "CameraSenses | None":
-    """Senses of a duel with cameras; an ideal one loads none of it."""
+    """Return the camera sensing of a duel; None with ideal sight."""
     if settings.sensing != "cameras":
         return None
     from .camera_duel import CameraSenses

@@ -1,4 +1,4 @@
-"""The circle of a duel: theory's, and when the players are on it."""
+"""Circle that a duel converges to in theory, and convergence of a run."""
 
 from math import degrees, isfinite
 
@@ -9,15 +9,15 @@ from ..planning import GaitSettings
 from ..theory.unicycle.circle_equations import Circle, find_circle
 from .duel_settings import EVADER, PURSUER, DuelSettings
 
-DISTANCE_BAND = 0.05  # of theory's distance
-ORIENTATION_BAND = 5.0  # of theory's angle, in [deg]
+DISTANCE_BAND = 0.05  # relative to the distance on the circle
+ORIENTATION_BAND = 5.0  # around the orientation on the circle, in [deg]
 
 
 def theory_of(settings: DuelSettings) -> Circle:
-    """Circle that the unicycles of a duel end on (level 0).
+    """Compute the circle that the unicycles of a duel converge to.
 
-    There is none where the game is another one; :func:`no_circle_because`
-    says why.
+    The circle does not exist where the game differs from that of the paper;
+    :func:`no_circle_because` gives the reason.
     """
     if _differs(settings) is not None:
         return Circle(exists=False)
@@ -28,10 +28,11 @@ def theory_of(settings: DuelSettings) -> Circle:
 
 
 def no_circle_because(settings: DuelSettings) -> str:
-    """Say why the unicycles of a duel end on no circle.
+    """Return the reason why the unicycles of a duel reach no circle.
 
     Args:
-        settings: Of a duel of which :func:`theory_of` knows no circle.
+        settings: Settings of a duel for which :func:`theory_of` returns a
+            circle that does not exist.
     """
     differs = _differs(settings)
     if differs is not None:
@@ -46,7 +47,7 @@ def no_circle_because(settings: DuelSettings) -> str:
 
 
 def _differs(settings: DuelSettings) -> str | None:
-    """What makes a game another one than the paper's, or None."""
+    """Return how a game differs from that of the paper, or None."""
     person = settings.person
     if settings.room.plan is not None:
         return "the paper has no rooms"
@@ -63,20 +64,20 @@ def _differs(settings: DuelSettings) -> str | None:
 
 
 def _circle_of(settings: DuelSettings) -> Circle:
-    """Circle of two unicycles that never cease to play."""
+    """Compute the circle of two unicycles that play without end."""
     strategy = settings.strategy
     gait = settings.robot_of(EVADER).gait
     speeds = gait.speed, gait.speed
     gains = gait.gain, gait.gain
     chasing = settings.robot_of(PURSUER).gait
     if settings.pursuer == "person":
-        # A person lives in real time, the gait in its own.
+        # A person's speed is in real time, that of a gait in path time.
         pace = pace_of(gait)
         person = settings.person
         speeds = person.speed, gait.speed * pace
         gains = person.gain, gait.gain * pace
     elif chasing != gait:
-        # So do two gaits that differ.
+        # Path times of different gaits differ: compare in real time.
         paces = pace_of(chasing), pace_of(gait)
         speeds = chasing.speed * paces[0], gait.speed * paces[1]
         gains = chasing.gain * paces[0], gait.gain * paces[1]
@@ -89,41 +90,52 @@ def _circle_of(settings: DuelSettings) -> Circle:
 
 
 def pace_of(gait: GaitSettings) -> float:
-    """How much of its path time a gait walks in a time, as a ratio."""
+    """Return the path time that a gait walks per unit of real time."""
     return gait.path_interval / gait.step_duration
 
 
 def distance_between(first: Array, second: Array) -> Array:
-    """Distance between two players over time, in [m]. Shape (n,).
+    """Compute the distance between two players over time.
 
     Args:
-        first: Place and heading of one, in [m] and [rad]. Shape (n, 3).
-        second: Those of the other.
+        first: Poses (x, y, heading) of one player in the world, in [m] and
+            [rad]. Shape (n, 3).
+        second: Poses of the other player. Shape (n, 3).
+
+    Returns:
+        Distance, in [m]. Shape (n,).
     """
-    apart = second - first
-    distance: Array = np.hypot(apart[:, 0], apart[:, 1])
+    offset = second - first
+    distance: Array = np.hypot(offset[:, 0], offset[:, 1])
     return distance
 
 
 def angle_between(first: Array, second: Array) -> Array:
-    """Angle between two headings over time, in [0, pi] [rad]. Shape (n,).
+    """Compute the angle between two headings over time.
 
     Args:
-        first: Place and heading of one, in [m] and [rad]. Shape (n, 3).
-        second: Those of the other.
+        first: Poses (x, y, heading) of one player in the world, in [m] and
+            [rad]. Shape (n, 3).
+        second: Poses of the other player. Shape (n, 3).
+
+    Returns:
+        Angle in [0, pi], in [rad]. Shape (n,).
     """
-    apart = second[:, 2] - first[:, 2]
-    angle: Array = np.abs((apart + np.pi) % (2.0 * np.pi) - np.pi)
+    difference = second[:, 2] - first[:, 2]
+    angle: Array = np.abs((difference + np.pi) % (2.0 * np.pi) - np.pi)
     return angle
 
 
 def cycle_mean(values: Array, times: Array, period: float) -> Array:
-    """Mean over a sliding gait cycle, which takes the sway out.
+    """Average over a sliding gait cycle, which removes the sway.
 
     Args:
         values: Samples. Shape (n,).
-        times: Their times, evenly spaced, in [s]. Shape (n,).
+        times: Evenly spaced times of the samples, in [s]. Shape (n,).
         period: Duration of a gait cycle (two steps), in [s].
+
+    Returns:
+        Averages, in the unit of the values. Shape (n,).
     """
     if len(times) < 3:
         return values
@@ -143,18 +155,23 @@ def converged_at(
     settings: DuelSettings,
     theory: Circle,
 ) -> float | None:
-    """Time from which the robots stay on the circle, in [s].
+    """Find the time from which the robots stay on the circle.
 
-    On the circle means: over a gait cycle the mean distance is within 5 %
-    and the mean angle between the headings within 5 degrees of theory's,
-    from then to the end, and for at least the last 5 s.
+    The robots are on the circle if, averaged over a gait cycle, their
+    distance is within 5 % and the angle between their headings within 5
+    degrees of the values on the circle, from then to the end, and for at
+    least the last 5 s.
 
     Args:
-        times: Of the samples, in [s]. Shape (n,).
-        pursuer: Its place and heading, in [m] and [rad]. Shape (n, 3).
-        evader: Those of the evader.
-        settings: What decided the duel.
+        times: Times of the samples, in [s]. Shape (n,).
+        pursuer: Poses (x, y, heading) in the world, in [m] and [rad]. Shape
+            (n, 3).
+        evader: Poses of the evader, likewise. Shape (n, 3).
+        settings: Settings of the duel.
         theory: Circle of its unicycles.
+
+    Returns:
+        Time, in [s]; None if the robots do not converge to the circle.
     """
     if not theory.exists or len(times) < 3:
         return None
@@ -167,7 +184,7 @@ def converged_at(
         np.abs(distance - theory.distance_m)
         > DISTANCE_BAND * theory.distance_m
     ) | (np.abs(angle - degrees(theory.headings_apart_rad)) > ORIENTATION_BAND)
-    # A window that the end cuts is no gait cycle: the last whole one counts.
+    # The last half cycle has truncated windows: use the last complete one.
     half = round(period / float(times[1] - times[0])) // 2
     if 0 < half < len(off):
         off[-half:] = off[-half - 1]

@@ -1,4 +1,4 @@
-"""The figures of a duel, beside what theory says."""
+"""Summary of a finished duel, compared with theory."""
 
 from collections.abc import Mapping
 from math import degrees, isfinite, pi
@@ -43,17 +43,17 @@ def summarise(
     seen: SightReport | None,
     wall_time: float,
 ) -> DuelSummary:
-    """Figures of a duel that is over.
+    """Compute the summary of a finished duel.
 
     Args:
-        settings: What decided it, with the start that was drawn.
-        match: The game.
+        settings: Settings of the duel, with the initial poses filled in.
+        match: The match that was played.
         outcome: How it ended.
-        times: Of the samples, in [s]. Shape (n,).
-        tracks: Record of each player, by name.
-        planning: How each planned, by name.
-        seen: Figures of what they saw, if with cameras.
-        wall_time: Time that it took, in [s].
+        times: Times of the samples, in [s]. Shape (n,).
+        tracks: Trajectory of each player, by name.
+        planning: Planning times of each player, by name.
+        seen: Evaluation of perception, with camera sensing.
+        wall_time: Time that the computation took, in [s].
     """
     pursuer, evader = (tracks[name].unicycle for name in PLAYERS)
     theory = theory_of(settings)
@@ -101,22 +101,24 @@ def summarise(
 
 
 def _theory(settings: DuelSettings, converged: float | None) -> TheorySummary:
-    """What theory says; no circle where contact was to come before it."""
-    circle, told = theory_of(settings), forecast(settings)
+    """Summarise theory; no circle if the forecast is contact before it."""
+    circle, expectation = theory_of(settings), forecast(settings)
     words = None if circle.exists else no_circle_because(settings)
-    if told is not None and told.expected is ExpectedEnd.CONTACT:
-        if converged is None:
+    if expectation is not None and converged is None:
+        if expectation.expected is ExpectedEnd.CONTACT:
             circle = Circle(exists=False)
     return TheorySummary(
-        _closest_approach(settings) if told is None else told.closest_m,
+        _closest_approach(settings)
+        if expectation is None
+        else expectation.closest_m,
         circle.exists,
         _number(circle.radius_evader_m),
         _number(circle.distance_m),
         _number(degrees(circle.headings_apart_rad)),
         _number(circle.radius_pursuer_m),
-        None if told is None else told.expected.value,
-        None if told is None else told.circle_since_s,
-        words if told is None else told.words,
+        None if expectation is None else expectation.expected.value,
+        None if expectation is None else expectation.circle_since_s,
+        words if expectation is None else expectation.words,
     )
 
 
@@ -142,24 +144,24 @@ def _player(
 
 
 def _closest_approach(settings: DuelSettings) -> float | None:
-    """Closest approach of a person to the evader's template, in [m]."""
+    """Compute the closest approach of a person to the evader's template."""
     start, gait = settings.start, settings.robot_of(EVADER).gait
     if settings.pursuer == "robot" or start.distance is None:
         return None
     if not settings.is_of_the_paper or settings.person.path == "visits":
         return None
-    places = (
+    initial = (
         lambda pose, evader: PersonMotion(settings.person, pose, evader),
         Pose(0.0, 0.0, start.pursuer_offset or 0.0),
         Pose(start.distance, 0.0, pi + (start.evader_offset or 0.0)),
     )
     if settings.strategy.trigger == "time":
         return template_meeting(
-            *places, settings.strategy, gait, duration=settings.duration
+            *initial, settings.strategy, gait, duration=settings.duration
         )
     pace = pace_of(gait)
     return template_approach(
-        *places,
+        *initial,
         speed=gait.speed * pace,
         gain=gait.gain * pace,
         angle=settings.strategy.angle,

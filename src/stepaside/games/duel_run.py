@@ -1,4 +1,4 @@
-"""A duel that was played, as a value."""
+"""Recorded duel."""
 
 from dataclasses import dataclass
 from math import degrees, isfinite
@@ -19,11 +19,11 @@ from .trajectory import Trajectory
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class DuelRun(Run):
-    """A duel that was played; see :class:`Run`.
+    """Recorded duel; see :class:`Run`.
 
     Attributes:
-        settings: What decided it, with the start that was drawn.
-        summary: Its figures.
+        settings: Settings of the duel, with the initial poses filled in.
+        summary: Its summary.
     """
 
     game: ClassVar[str] = "duel"
@@ -35,37 +35,42 @@ class DuelRun(Run):
 
     @property
     def robots(self) -> tuple[str, ...]:
-        """Those who are robots; the others are persons."""
+        """Names of the players that are robots; the others are persons."""
         return self.settings.robots
 
     @property
     def pursuer(self) -> Trajectory:
-        """Record of the pursuer."""
+        """Trajectory of the pursuer."""
         return self.tracks[PURSUER]
 
     @property
     def evader(self) -> Trajectory:
-        """Record of the evader."""
+        """Trajectory of the evader."""
         return self.tracks[EVADER]
 
     @property
     def distance(self) -> Array:
-        """Distance between the places, in [m]. Shape (n,)."""
+        """Distance between the reference points, in [m]. Shape (n,)."""
         return distance_between(self.pursuer.unicycle, self.evader.unicycle)
 
     @property
     def orientation(self) -> Array:
         """Angle between the headings, in [deg]. Shape (n,)."""
         angle = angle_between(self.pursuer.unicycle, self.evader.unicycle)
-        degs: Array = np.degrees(angle)
-        return degs
+        in_degrees: Array = np.degrees(angle)
+        return in_degrees
 
     @property
     def theory(self) -> tuple[float, float, float] | None:
-        """Radius [m], distance [m] and angle [deg] of theory's circle."""
-        circle, told = theory_of(self.settings), self.summary
-        off = told.theory.expected == "contact" and told.converged_at_s is None
-        if not circle.exists or off:
+        """Radius [m], distance [m] and angle [deg] on the circle of theory.
+
+        None if there is no circle, or the forecast was contact before it.
+        """
+        circle, summary = theory_of(self.settings), self.summary
+        converged = summary.converged_at_s is not None
+        if summary.theory.expected == "contact" and not converged:
+            return None
+        if not circle.exists:
             return None
         return (
             circle.radius_evader_m,
@@ -75,41 +80,41 @@ class DuelRun(Run):
 
     @property
     def circle(self) -> tuple[float, float, float] | None:
-        """Theory's circle, round where the players went in the end.
+        """Circle of theory, centered where the players walked in the end.
 
         Returns:
-            Center (x, y) in the world and radius, in [m]; None if they were
-            never on it.
+            Center (x, y) in the world and radius, in [m]; None if the
+            players did not converge to it.
         """
         theory, since = self.theory, self.summary.converged_at_s
         if theory is None or since is None:
             return None
         tail = self.times >= since
-        middles = [
+        centers = [
             track.unicycle[tail, :2].mean(axis=0)
             for track in self.tracks.values()
         ]
-        x, y = np.mean(middles, axis=0).tolist()
+        x, y = np.mean(centers, axis=0).tolist()
         return x, y, theory[0]
 
     @property
     def safety(self) -> SafetyArea | None:
-        """Area that the evader keeps free; None if it always evades."""
+        """Safety area of the evader; None if it always evades."""
         radius = self.settings.strategy.area
         return SafetyArea(EVADER, radius) if isfinite(radius) else None
 
     @property
     def plan(self) -> Room | None:
-        """Room that they play in, if they play in one."""
+        """Room of the game; None on an open floor."""
         return self.settings.room.plan
 
     @property
     def things(self) -> tuple[RoomObject, ...]:
-        """What stands about."""
+        """Objects in the room."""
         return tuple(self.settings.room.things)
 
     def words(self, index: int) -> str:
-        """What goes on at a sample."""
+        """Describe the state of the game at a sample, for captions."""
         time = float(self.times[index])
         triggered = self.summary.triggered_at_s
         converged = self.summary.converged_at_s
@@ -128,10 +133,10 @@ class DuelRun(Run):
         return "the evader is evading"
 
     def _approach_at(self, index: int) -> CourseApproach | None:
-        """Approach at a sample, over the gait cycle before it."""
+        """Return the approach over the gait cycle before a sample."""
         if len(self.times) < 2:
             return None
-        # The first samples have no cycle before them: the first one counts.
+        # Before one cycle has passed, use the first complete cycle.
         last = max(index, self.index_at(self.times[0] + self.settings.cycle))
         first = self.index_at(self.times[last] - self.settings.cycle)
         offsets = [

@@ -1,4 +1,4 @@
-"""Settings of a duel: one value that repeats it."""
+"""Settings of a duel: equal settings repeat it exactly."""
 
 from dataclasses import dataclass, field, fields, replace
 from math import pi
@@ -40,21 +40,21 @@ PURSUIT = "pursuit"  # of the paper, like EVASION
 
 @dataclass(frozen=True, slots=True)
 class StartSettings:
-    """Where the robots stand at first; what is left out, the seed draws.
+    """Initial poses of the players; omitted values are drawn from the seed.
 
     Attributes:
-        distance: Distance between the places of the robots, in [m]; drawn
-            between ``near`` and ``far``; 0 to 100 or none.
-        pursuer_offset: Heading of the pursuer from the direction of the
-            evader, in [rad]; drawn from -90 deg to 90 deg; -3.14159 to 3.14159
-            or none.
-        evader_offset: Heading of the evader from the direction of the pursuer,
-            in [rad]; drawn from -30 deg to 30 deg; -3.14159 to 3.14159 or
-            none.
-        least: Least distance at which the robots do not overlap, in [m]; 0 to
-            100.
-        near: Least distance that is drawn, in [m]; 0 to 100.
-        far: Greatest one, in [m]; 0 to 100.
+        distance: Distance between the reference points of the players, in
+            [m]; drawn between ``near`` and ``far``; 0 to 100 or none.
+        pursuer_offset: Heading of the pursuer relative to the line of sight
+            to the evader, in [rad]; drawn from -90 deg to 90 deg; -3.14159 to
+            3.14159 or none.
+        evader_offset: Heading of the evader relative to the line of sight to
+            the pursuer, in [rad]; drawn from -30 deg to 30 deg; -3.14159 to
+            3.14159 or none.
+        least: Smallest distance at which the robots cannot overlap, in [m]; 0
+            to 100.
+        near: Smallest distance that is drawn, in [m]; 0 to 100.
+        far: Greatest distance that is drawn, in [m]; 0 to 100.
     """
 
     distance: float | None = None
@@ -66,7 +66,9 @@ class StartSettings:
 
     ranges: ClassVar[Ranges] = {
         "distance": Range(
-            *(0.0, 100.0, "m"),
+            0.0,
+            100.0,
+            "m",
             "at ``least``, or they touch; farther, they never meet",
             also=(None,),
         ),
@@ -78,7 +80,7 @@ class StartSettings:
     }
 
     def __post_init__(self) -> None:
-        """Refuse starts that overlap or are not finite."""
+        """Validate ranges and the order of the distances."""
         check_settings(self)
         check_within(self.far, self.least, 100.0, "far", "m", ERROR)
         check_within(self.near, self.least, self.far, "near", "m", ERROR)
@@ -89,12 +91,12 @@ class StartSettings:
 
 @dataclass(frozen=True, slots=True)
 class RobotSettings:
-    """A robot, and how it walks.
+    """Robot of a player, with its gait and control.
 
     Attributes:
         robot: Name of a robot or folder of its description.
-        gait: How it walks.
-        control: How it controls its walk.
+        gait: Gait settings.
+        control: Control settings.
     """
 
     robot: str = "nao"
@@ -104,35 +106,35 @@ class RobotSettings:
 
 @dataclass(frozen=True, slots=True)
 class DuelSettings:
-    """Everything that decides a duel.
+    """Settings of a duel.
 
     Attributes:
         seed: Seed of every random draw; 0 to 3.40282e+38.
         duration: Simulated time, in [s]; 0.001 to 86400.
         robot: Name of a robot or folder of its description.
-        pursuer_robot: What the pursuer is and how it walks, if it is
-            another robot than ``robot``.
-        evader_robot: What the evader is, likewise.
-        start: Where the robots stand at first.
-        strategy: How an evader of the paper evades.
-        evader_strategy: What the evader plays: "evasion" as the paper's,
-            another name of :data:`~stepaside.strategies.STRATEGIES`, or
-            FILE.py:NAME; from Python also a strategy itself.
-        pursuer_strategy: What a pursuing robot plays, likewise.
-        gait: How both walk, but for one that is another robot.
-        sight: What they see.
+        pursuer_robot: Robot, gait and control of the pursuer, if it differs
+            from ``robot``.
+        evader_robot: Robot, gait and control of the evader, likewise.
+        start: Initial poses.
+        strategy: Settings of the evasion strategy of the paper.
+        evader_strategy: Strategy of the evader: "evasion" for that of the
+            paper, another name of :data:`~stepaside.strategies.STRATEGIES`, or
+            FILE.py:NAME; from Python also a strategy object.
+        pursuer_strategy: Strategy of a pursuing robot, likewise.
+        gait: Gait of both players, except for one with its own robot.
+        sight: Errors of the ideal line of sight.
         physics: Physics, floor and clock.
-        body: How far the bodies are from ideal ones.
-        control: How both control their walk, likewise.
+        body: Deviations of the bodies from ideal ones.
+        control: Control of both players, except for one with its own robot.
         sensing: "ideal" for the line of sight of ``sight``, or "cameras".
-        cameras: What they see with, if with cameras.
-        room: What stands around them.
-        map: What they know of the room that they play in.
+        cameras: Cameras and their renderer, with camera sensing.
+        room: Walls, objects and room of the game.
+        map: Knowledge of the room that the game is played in.
         pursuer: "robot", or "person".
-        person: How a person walks.
-        pushes: Who bumps into the robots.
-        passers: Who else walks by where a person comes; with ideal sight the
-            evader is told of the one who comes alone.
+        person: Motion of a person as pursuer.
+        pushes: Pushes on the robots.
+        passers: Further people who walk past, with a person as pursuer; ideal
+            sight reports only the pursuer to the evader.
     """
 
     __repr__ = brief_repr
@@ -163,7 +165,7 @@ class DuelSettings:
     ranges: ClassVar[Ranges] = {"seed": SEEDS, "duration": RUNTIME}
 
     def __post_init__(self) -> None:
-        """Refuse a negative seed, a duration that is none, other senses."""
+        """Validate ranges, strategies and combinations of settings."""
         for name, value in settled(
             self.strategy, self.evader_strategy, self.pursuer_strategy
         ).items():
@@ -172,7 +174,7 @@ class DuelSettings:
             isinstance(self.evader_strategy, str)
             and isinstance(self.pursuer_strategy, str)
         ):
-            self.named()  # checks all of it, with texts for strategies
+            self.named()  # validates the copy that holds names
             return
         check_settings(self)
         check_pursuer(self.pursuer)
@@ -180,18 +182,18 @@ class DuelSettings:
             check_strategy_name(getattr(self, name), name, recorded=True)
         if self.pursuer == "person" and self.pursuer_strategy != PURSUIT:
             raise ConfigurationError(
-                f"pursuer_strategy must be {PURSUIT!r} for a person, who "
-                f"walks as person.path says, got {self.pursuer_strategy!r}"
+                f"pursuer_strategy must be {PURSUIT!r} for a person, whose "
+                f"path is person.path, got {self.pursuer_strategy!r}"
             )
         if self.pursuer == "person" and self.room.plan is not None:
             raise ConfigurationError(
-                "room.plan must be left out for a person, who walks on an "
-                "open floor"
+                "room.plan must be omitted with a person as pursuer: people "
+                "walk on an open floor"
             )
         if self.room.plan is not None and self.map.source == "seen":
             if self.sensing != "cameras":
                 raise ConfigurationError(
-                    "sensing must be 'cameras' where the map is seen, "
+                    "sensing must be 'cameras' with map.source = 'seen', "
                     f"got {self.sensing!r}"
                 )
         if self.sensing not in SENSING:
@@ -204,12 +206,12 @@ class DuelSettings:
         check_count(self.passers, MOST_PASSERS, "passers")
         if self.passers and self.pursuer != "person":
             raise ConfigurationError(
-                "passers need a person who comes, got pursuer "
+                "passers need a person as pursuer, got pursuer "
                 f"{self.pursuer!r}"
             )
 
     def robot_of(self, player: str) -> RobotSettings:
-        """What a player is, and how it walks.
+        """Return robot, gait and control of a player.
 
         Args:
             player: "pursuer" or "evader".
@@ -227,7 +229,7 @@ class DuelSettings:
 
     @property
     def uses_evasion(self) -> bool:
-        """Whether a player plays by ``strategy``."""
+        """Whether a player uses the settings of ``strategy``."""
         played = (self.evader_strategy, self.pursuer_strategy)
         return any(
             each in OF_EVASION
@@ -238,7 +240,7 @@ class DuelSettings:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What a reader of the run must know, in sentences."""
+        """Remarks on the run for its readers, one sentence each."""
         named = self.named()
         found = []
         for name in ("evader_strategy", "pursuer_strategy"):
@@ -256,8 +258,8 @@ class DuelSettings:
         ]
         if unused and not self.uses_evasion:
             found.append(
-                f"without effect: {', '.join(unused)}, for no player plays "
-                f"by it (evader_strategy {named.evader_strategy})"
+                f"without effect: {', '.join(unused)}, as no player uses "
+                f"them (evader_strategy {named.evader_strategy})"
             )
         return tuple(found)
 
@@ -274,11 +276,11 @@ class DuelSettings:
 
     @property
     def both(self) -> str:
-        """Both players, in words."""
+        """Both players, as text: "both robots" or "both players"."""
         return "both robots" if self.pursuer == "robot" else "both players"
 
     @property
     def is_of_the_paper(self) -> bool:
-        """Whether both play as in the paper, so that its theory holds."""
+        """Whether both strategies are those of the paper, without a room."""
         played = (self.evader_strategy, self.pursuer_strategy)
         return self.room.plan is None and played == (EVASION, PURSUIT)

@@ -1,4 +1,4 @@
-"""The figures of a duel: what is said of it in numbers."""
+"""Summary of a duel."""
 
 from dataclasses import asdict, dataclass, field
 from typing import Any
@@ -9,7 +9,7 @@ from .summary_parsing import check_object, read_figures
 
 @dataclass(frozen=True, slots=True)
 class StartSummary:
-    """Where the players stood at first; see ``StartSettings``."""
+    """Initial poses of the players; see ``StartSettings``."""
 
     distance_m: float | None
     pursuer_offset_rad: float | None
@@ -18,21 +18,26 @@ class StartSummary:
 
 @dataclass(frozen=True, slots=True)
 class TheorySummary:
-    """What theory says of the same game.
+    """Theory of the same game.
 
     Attributes:
-        closest_approach_m: Of a person, or of the pursuer's template, to
-            the evader's template, in [m]; None where theory knows none.
-        exists: Whether there is a circle that the players can come to.
+        closest_approach_m: Closest approach of a person, or of the pursuer's
+            template, to the evader's template, in [m]; None where theory
+            gives none.
+        exists: Whether there is a circle that the players can reach.
         radius_m: Radius of the evader's circle, in [m].
-        distance_m: Between the players on it, in [m].
-        relative_orientation_deg: Between their headings, in [deg].
-        pursuer_radius_m: Radius of the pursuer's circle, in [m]; the same
-            for equal players.
-        expected: What the template says that two robots come to: "circle",
-            "later" than the duel lasts, "contact" or "no circle".
-        circle_since_s: Since when the template is on its circle, in [s].
-        words: The same in words; of other games, why there is no circle.
+        distance_m: Distance between the players on the circle, in [m].
+        relative_orientation_deg: Angle between their headings on the circle,
+            in [deg].
+        pursuer_radius_m: Radius of the pursuer's circle, in [m]; equal to
+            the evader's for equal players.
+        expected: Forecast of the templates of two robots: "circle", "later"
+            for a circle reached after the duration, "contact" or "no
+            circle".
+        circle_since_s: Time from which the templates are on the circle, in
+            [s].
+        words: The forecast as text; for other games, the reason why there
+            is no circle.
     """
 
     closest_approach_m: float | None
@@ -48,7 +53,7 @@ class TheorySummary:
 
 @dataclass(frozen=True, slots=True)
 class PlanTimes:
-    """Processor time of a maneuver, in [us]; None if none was planned."""
+    """Processor time of planning one maneuver, in [us]; None without any."""
 
     median: float | None
     p99: float | None
@@ -56,11 +61,12 @@ class PlanTimes:
 
 @dataclass(frozen=True, slots=True)
 class PlayerSummary:
-    """Figures of one player.
+    """Summary of one player.
 
     Attributes:
-        radius_m: Of the circle that its place went in the end, in [m].
-        sight: How well it saw, if with cameras.
+        radius_m: Radius of the circle fitted to its reference point in the
+            last third, in [m].
+        sight: Errors and rates of its perception, with camera sensing.
     """
 
     radius_m: float | None
@@ -69,41 +75,43 @@ class PlayerSummary:
 
 @dataclass(frozen=True, slots=True)
 class DuelSummary:
-    """Figures of a duel; radii, distance and angle of its last third.
+    """Summary of a duel; radii, distance and angle are of its last third.
 
-    The place of a player is the point that stands for it in the game: of a
-    robot that midway between its feet, of a person the trunk's axis.
+    The reference point of a robot is midway between its feet, that of a
+    person on the axis of the trunk.
 
     Attributes:
-        outcome: How it ended.
-        message: What ended it, in words.
-        seed: Of every random draw.
+        outcome: How the duel ended.
+        message: Reason for the end, as text.
+        seed: Seed of every random draw.
         duration_s: Simulated time, in [s].
-        start: Where they stood at first.
-        triggered_at_s: When the evader began to evade, in [s].
-        triggered_at_distance_m: True distance between the places then, in
-            [m].
-        distance_m: Mean distance between the places, in [m].
+        start: Initial poses.
+        triggered_at_s: Time at which the evader began to evade, in [s].
+        triggered_at_distance_m: True distance between the reference points
+            then, in [m].
+        distance_m: Mean distance between the reference points, in [m].
         relative_orientation_deg: Mean angle between the headings, in [deg].
-        min_distance_m: Least distance between the torsos, in [m].
-        captured_at_s: When that distance first was at most the capture
-            distance, in [s]; None if it never was. Contact is another
-            event: it ends a duel, with ``outcome`` and ``touched``.
-        converged_at_s: Since when they are on theory's circle, in [s].
-        replans: Maneuvers planned by both.
-        max_com_velocity_jump_m_s: Of a CoM reference at a replan, in [m/s].
-        min_zmp_margin_m: Least distance of a ZMP reference from the edge of
-            its support polygon, in [m]; None if nobody walked.
-        theory: What theory says.
-        plan_time_us: What planning took.
-        real_time_factor: Simulated time over the time that it took.
-        pursuer: Figures of the pursuer.
-        evader: Figures of the evader.
-        sight: Of both as to what they saw, if with cameras.
-        touched: Names of who and what met, if that ended it.
-        notes: What a reader must know, such as that the configuration does
-            not repeat the run.
-        run_folder: Where the run lies, if it was written.
+        min_distance_m: Smallest distance between the torsos, in [m].
+        captured_at_s: Time at which that distance first was at most the
+            capture distance, in [s]; None if it never was. Contact is
+            another event: it ends a duel, with ``outcome`` and ``touched``.
+        converged_at_s: Time from which the players are on the circle of
+            theory, in [s]; None if they did not converge.
+        replans: Maneuvers planned by both players.
+        max_com_velocity_jump_m_s: Greatest jump of the velocity of a CoM
+            reference at a replan, in [m/s].
+        min_zmp_margin_m: Smallest distance of a ZMP reference from the edge
+            of its support polygon, in [m]; None if no robot walked.
+        theory: Theory of the same game.
+        plan_time_us: Processor time of planning.
+        real_time_factor: Simulated time over computing time.
+        pursuer: Summary of the pursuer.
+        evader: Summary of the evader.
+        sight: Perception of both players together, with camera sensing.
+        touched: Names of the bodies in contact, if contact ended the duel.
+        notes: Remarks, such as that the configuration does not repeat the
+            run.
+        run_folder: Path of the run folder, if one was written.
     """
 
     outcome: str
@@ -132,7 +140,7 @@ class DuelSummary:
     run_folder: str | None = None
 
     def to_json(self) -> dict[str, Any]:
-        """Plain values by name, as ``--json`` prints them."""
+        """Return plain values by name, as printed by ``--json``."""
         plain = asdict(self)
         both = {"pursuer": self.pursuer, "evader": self.evader}
         for name, player in both.items():
@@ -149,14 +157,15 @@ class DuelSummary:
 
     @classmethod
     def from_json(cls, plain: Any, source: str) -> "DuelSummary":
-        """Read what :meth:`to_json` gave.
+        """Parse the output of :meth:`to_json`.
 
         Args:
             plain: Plain values by name.
-            source: Where they come from, for messages.
+            source: Origin of the values, for messages.
 
         Raises:
-            ConfigurationError: If it is no such thing; names what is off.
+            ConfigurationError: If an entry is missing or of the wrong type;
+                names the entry.
         """
         entries = lift(check_object(plain, source), SEEING)
         for name in ("pursuer", "evader"):

@@ -1,5 +1,6 @@
-"""What the template says of a duel before it is played."""
+"""Forecast of a duel by its templates."""
 
+from collections import deque
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -11,28 +12,28 @@ from .duel_settings import EVADER, PURSUER, DuelSettings
 from .initial_poses import frames_of
 from .template_approach import play_template
 
-LONGEST = 600.0  # of a game of templates, in [s]
+MAX_DURATION = 600.0  # of a game of templates, in [s]
 STEP = 0.05  # of its integration, in [s]
 
 
 class ExpectedEnd(StrEnum):
-    """How the template's game ends, as far as it is played."""
+    """How the game of the templates ends within the duration."""
 
     CIRCLE = "circle"
-    LATER = "later"  # on the circle, but not within the duration
+    LATER = "later"  # on the circle, but after the duration
     CONTACT = "contact"
     NO_CIRCLE = "no circle"
 
 
 @dataclass(frozen=True, slots=True)
 class Forecast:
-    """What the template says of a duel.
+    """Forecast of a duel.
 
     Attributes:
-        expected: How its game ends.
-        closest_m: Its closest approach, in [m].
-        circle_since_s: Since when it is on its circle, in [s].
-        words: The same, as a summary says it.
+        expected: How the game of the templates ends.
+        closest_m: Closest approach of the templates, in [m].
+        circle_since_s: Time from which they are on the circle, in [s].
+        words: The forecast as text.
     """
 
     expected: ExpectedEnd
@@ -42,19 +43,20 @@ class Forecast:
 
 
 def forecast(settings: DuelSettings) -> Forecast | None:
-    """Play the templates of two robots: their unicycles, without bodies.
+    """Play the game of the unicycle templates of two robots.
 
-    The evader decides step by step, as the robot does, by all settings of
-    its strategy; the pursuer steers at it at all times. Contact is expected
-    where they come nearer than two bodies are sure not to overlap: near that
-    distance it depends on how they are turned.
+    The evader decides step by step, as the robot does, with all settings of
+    its strategy; the pursuer steers towards it at all times. Contact is
+    expected if the templates come closer than ``start.least``, the distance
+    at which bodies cannot overlap: below it, contact depends on their
+    headings.
 
     Args:
-        settings: What decides the duel, with the start that was drawn.
+        settings: Settings of the duel, with the initial poses filled in.
 
     Returns:
-        The forecast; None where a person, a room or another strategy plays,
-        of which the template says nothing.
+        The forecast; None with a person, a room or another strategy, for
+        which the templates are no model.
     """
     start = settings.start
     drawn = (start.distance, start.pursuer_offset, start.evader_offset)
@@ -62,6 +64,20 @@ def forecast(settings: DuelSettings) -> Forecast | None:
         return None
     if None in drawn:
         return None
+    # A duel needs its forecast twice: before it and in its summary.
+    if _latest and _latest[-1][0] == settings:
+        return _latest[-1][1]
+    found = _play(settings)
+    _latest.append((settings, found))
+    return found
+
+
+_latest: deque[tuple[DuelSettings, Forecast]] = deque(maxlen=1)
+
+
+def _play(settings: DuelSettings) -> Forecast:
+    """Play the templates of a duel of two robots."""
+    start = settings.start
     chasing = settings.robot_of(PURSUER).gait
     pace = pace_of(chasing)
     steering = PersonSettings(
@@ -71,7 +87,7 @@ def forecast(settings: DuelSettings) -> Forecast | None:
     def motion(pose: Pose, evader: Place) -> PersonMotion:
         return PersonMotion(steering, pose, evader)
 
-    duration = min(settings.duration, LONGEST)
+    duration = min(settings.duration, MAX_DURATION)
     played = play_template(
         motion,
         *frames_of(settings),
@@ -87,8 +103,9 @@ def forecast(settings: DuelSettings) -> Forecast | None:
     if closest < start.least:
         expected, words = (
             ExpectedEnd.CONTACT,
-            f"contact likely: the template comes to {closest:.2f} m, bodies "
-            f"are clear of each other from {start.least:.2f} m on",
+            f"contact likely: closest approach of the templates "
+            f"{closest:.2f} m, bodies are clear of each other from "
+            f"{start.least:.2f} m on",
         )
     elif not circle.exists:
         expected, words = ExpectedEnd.NO_CIRCLE, no_circle_because(settings)

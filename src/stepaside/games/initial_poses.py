@@ -1,4 +1,4 @@
-"""Where the players stand at first."""
+"""Initial poses of the players of a duel."""
 
 from dataclasses import fields, replace
 from math import atan2, hypot, pi, radians
@@ -9,21 +9,21 @@ from ..core.poses import Pose, wrap_angle
 from ..core.random_streams import named_generator
 from .duel_settings import DuelSettings, StartSettings
 
-LEISURELY = 0.15  # speed up to which a person begins near by, in [m/s]
-AHEAD = 5.0  # time by which a faster one begins earlier, in [s]
-INSIDE = 1.0  # of the walls that are asked for everybody begins, in [m]
-APART = 3.5  # from a start to walls that stand elsewhere for it, in [m]
-SAME = 1e-6  # starts that differ less are one, in [m] and [rad]
+SLOW_SPEED = 0.15  # speed up to which a person begins nearby, in [m/s]
+LEAD_TIME = 5.0  # extra distance of a faster person over its speed, in [s]
+WALL_MARGIN = 1.0  # smallest distance of a start from the walls, in [m]
+WALL_DISTANCE = 3.5  # from a start to walls moved for it: camera range, [m]
+SAME = 1e-6  # tolerance within which starts are equal, in [m] and [rad]
 
 
 def draw_start(settings: DuelSettings) -> StartSettings:
-    """Fill in what a start leaves out, from the seed."""
+    """Draw the omitted values of a start from the seed."""
     generator = named_generator(settings.seed, "start")
     distance = generator.uniform(settings.start.near, settings.start.far)
     if settings.pursuer == "person":
         distance += 1.5  # whole strides away
-        # Who walks faster comes from farther, so as to be seen coming.
-        distance += AHEAD * max(0.0, settings.person.speed - LEISURELY)
+        # A faster person begins farther away, to be detected in time.
+        distance += LEAD_TIME * max(0.0, settings.person.speed - SLOW_SPEED)
     pursuer = generator.uniform(-pi / 2, pi / 2)
     evader = generator.uniform(-radians(30.0), radians(30.0))
     start = settings.start
@@ -38,10 +38,11 @@ def draw_start(settings: DuelSettings) -> StartSettings:
 
 
 def with_start(settings: DuelSettings) -> DuelSettings:
-    """Settings of the same duel with its start filled in.
+    """Return the settings of the same duel with its start filled in.
 
     Raises:
-        ConfigurationError: If a room has no place for the start.
+        ConfigurationError: If a room has no space for the start, or settings
+            and room give different starts.
     """
     plan = settings.room.plan
     if plan is None:
@@ -57,21 +58,21 @@ def with_start(settings: DuelSettings) -> DuelSettings:
 
 
 def start_of(starts: tuple[Pose, Pose]) -> StartSettings:
-    """How two players who stand somewhere stand to each other."""
+    """Return the start settings of poses of pursuer and evader."""
     (x, y, pursuer), (u, v, evader) = starts
-    sight = atan2(v - y, u - x)
+    line_of_sight = atan2(v - y, u - x)
     return StartSettings(
         hypot(u - x, v - y),
-        wrap_angle(pursuer - sight),
-        wrap_angle(evader - sight - pi),
+        wrap_angle(pursuer - line_of_sight),
+        wrap_angle(evader - line_of_sight - pi),
     )
 
 
 def frames_of(settings: DuelSettings) -> tuple[Pose, Pose]:
-    """Where pursuer and evader stand at first, in the world.
+    """Return the initial poses of pursuer and evader in the world.
 
     Args:
-        settings: With the start filled in.
+        settings: Settings of the duel, with the start filled in.
     """
     plan, start = settings.room.plan, settings.start
     if plan is not None and plan.starts is not None:
@@ -86,29 +87,34 @@ def frames_of(settings: DuelSettings) -> tuple[Pose, Pose]:
 
 
 def walls_of(settings: DuelSettings) -> float:
-    """Distance of the walls from the middle, in [m]; 0 for none.
+    """Return the distance of the walls from the origin.
 
-    Whoever begins beyond them would come through one, unseen until then: so
-    where a start is not well inside they stand beyond what a depth camera
-    sees from it.
+    A player that began outside the walls would pass through one, undetected
+    until then. If a start is not well inside, the walls are moved beyond the
+    range of a depth camera at that start.
 
     Args:
-        settings: Of the duel, with the start filled in.
+        settings: Settings of the duel, with the start filled in.
+
+    Returns:
+        Distance, in [m]; 0 without walls.
     """
     walls = settings.room.walls
     reach = max(abs(c) for frame in frames_of(settings) for c in frame[:2])
-    if not walls or reach + INSIDE <= walls:
+    if not walls or reach + WALL_MARGIN <= walls:
         return walls
-    return reach + APART
+    return reach + WALL_DISTANCE
 
 
-def _agreeing(asked: StartSettings, drawn: StartSettings) -> StartSettings:
-    """The start of a room, unless another one was asked for."""
+def _agreeing(given: StartSettings, drawn: StartSettings) -> StartSettings:
+    """Return the start of a room; reject a different one in the settings."""
     for field in fields(StartSettings):
-        wanted, there = getattr(asked, field.name), getattr(drawn, field.name)
-        if wanted is not None and not abs(wanted - there) < SAME:
+        value = getattr(given, field.name)
+        if value is None:
+            continue
+        if not abs(value - getattr(drawn, field.name)) < SAME:
             raise ConfigurationError(
-                f"start.{field.name} must be left out in a room, which says "
-                f"where the players stand, got {wanted:g}"
+                f"start.{field.name} must be omitted in a room, which gives "
+                f"the initial poses, got {value:g}"
             )
     return drawn

@@ -1,4 +1,4 @@
-"""The clock of a served world: frames out and answers in, every 12 ms."""
+"""Clock of a served simulation: sensor frames and commands every 12 ms."""
 
 import select
 from collections.abc import Callable, Sequence
@@ -12,55 +12,55 @@ from ..drivers.joint.frame_clock import TICK
 from .match import Match
 from .outcome import Outcome
 
-LATE = 0.006  # from which a tick is late, in [s]
-ANSWERING = 0.009  # time for answers in a tick, in [s]; the rest is physics
-STALLED = 0.1  # lag that is not caught up with, in [s]
-PATIENCE = 5.0  # for an answer in lock step, in [s]
-STEADY = 10  # ticks for which clients must hold their robots stiff
-PRESSED = 5  # ticks for which the chest buttons are pressed
-POLL = 0.0005  # between looks at who has no descriptor to wait on, in [s]
+LATE = 0.006  # delay from which a tick counts as late, in [s]
+ANSWER_TIME = 0.009  # for commands in a tick, in [s]; the rest is physics
+STALL = 0.1  # delay that is not caught up with, in [s]
+ANSWER_TIMEOUT = 5.0  # for a command in lock step, in [s]
+READY_TICKS = 10  # for which clients must hold their robots stiff
+PRESSED_TICKS = 5  # for which the chest buttons are pressed
+POLL_PERIOD = 0.0005  # for servers without a descriptor, in [s]
 
 
 class RobotServer(Protocol):
-    """What speaks for one robot that is played elsewhere."""
+    """Server of one robot that is controlled by another process."""
 
     @property
     def connected(self) -> bool:
-        """Whether somebody is there to play it."""
+        """Whether a client is connected."""
 
     @property
     def ready(self) -> bool:
-        """Whether the game may begin for it."""
+        """Whether the client is ready for the game to begin."""
 
     def fileno(self) -> int:
-        """Descriptor to wait on for answers; -1 without one."""
+        """Return the descriptor to wait on for commands; -1 without one."""
 
     def press(self, pressed: bool) -> None:
-        """Press the chest button, or let it go."""
+        """Press or release the chest button."""
 
     def speak(self) -> None:
-        """Say what the robot's sensors give."""
+        """Send the measurement of this tick."""
 
     def hear(self) -> bool:
-        """Take answers that have come; whether nobody is waited for."""
+        """Receive pending commands; return whether none is awaited."""
 
     def act(self) -> object:
-        """Let the robot do what was asked."""
+        """Apply the last command to the robot."""
 
     def drop(self, why: str) -> None:
-        """Let go of who is there, and say why."""
+        """Disconnect the client, with a reason."""
 
     def close(self) -> None:
-        """Stop speaking."""
+        """Stop serving."""
 
 
 class Lockstep:
-    """Lets a match and its clients keep time with each other.
+    """Match observer that synchronises a match with its clients.
 
     Attributes:
         late: Ticks that began more than 6 ms late.
-        lateness: How late each tick began, in [s].
-        unanswered: Frames whose answer did not come in their tick.
+        lateness: Delay of the beginning of each tick, in [s].
+        unanswered: Frames that were not answered in their tick.
     """
 
     def __init__(
@@ -71,13 +71,13 @@ class Lockstep:
         clock: Callable[[], float] = monotonic,
         pause: Callable[[float], None] = sleep,
     ) -> None:
-        """Keep time for servers.
+        """Synchronise a match with servers.
 
         Args:
-            servers: What speaks for each robot that is played elsewhere.
+            servers: Servers of the robots that other processes control.
             lock_step: Wait for every answer instead of for the clock.
-            clock: Time of this computer, in [s].
-            pause: Lets time pass, in [s].
+            clock: Returns the time of this computer, in [s].
+            pause: Sleeps for a time, in [s].
         """
         self._servers, self._lock_step = servers, lock_step
         self._clock, self._pause = clock, pause
@@ -91,27 +91,29 @@ class Lockstep:
         return sum(late > LATE for late in self.lateness)
 
     def histogram(self) -> dict[str, int]:
-        """Ticks by how late they began, in [ms]."""
+        """Return the number of ticks by delay, in [ms]."""
         edges = np.array([0.0, 0.25, 0.5, 1.0, 2.0, 4.0, 6.0, 12.0, np.inf])
         counts, _ = np.histogram(1e3 * np.array(self.lateness), edges)
         names = [f"< {edge:g}" for edge in edges[1:-1]] + [">= 12"]
         return dict(zip(names, counts.tolist(), strict=True))
 
     def gather(self, longest: float) -> None:
-        """Wait until every robot is ready, then press the buttons.
+        """Wait until every client is ready, then press the chest buttons.
 
-        The world stands still meanwhile. Walking begins with the frame
-        that says that the button was let go: the first of the match.
+        The simulation does not advance meanwhile. Walking begins with the
+        frame that reports the released button, which is the first of the
+        match.
 
         Args:
-            longest: Time to wait, in [s].
+            longest: Longest time to wait, in [s].
 
         Raises:
-            ConfigurationError: If a client does not come or get ready.
+            ConfigurationError: If a client does not connect or is not ready
+                in time.
         """
         until = self._clock() + longest
-        steady = 0
-        while steady < STEADY:
+        ready_ticks = 0
+        while ready_ticks < READY_TICKS:
             if self._clock() > until:
                 idle = sum(not s.ready for s in self._servers)
                 raise ConfigurationError(
@@ -120,10 +122,10 @@ class Lockstep:
                 )
             self._round()
             ready = all(server.ready for server in self._servers)
-            steady = steady + 1 if ready else 0
+            ready_ticks = ready_ticks + 1 if ready else 0
         for server in self._servers:
             server.press(True)
-        for _ in range(PRESSED):
+        for _ in range(PRESSED_TICKS):
             self._round()
         for server in self._servers:
             server.press(False)
@@ -131,8 +133,8 @@ class Lockstep:
         self.unanswered = 0
 
     def before(self, match: Match) -> None:
-        """Speak and listen before the players move."""
-        self._speak_and_hear()
+        """Exchange measurements and commands before the players act."""
+        self._exchange()
 
     def acted(self, match: Match) -> None:
         """Nothing to do."""
@@ -141,12 +143,12 @@ class Lockstep:
         """Nothing to do."""
 
     def _round(self) -> None:
-        """One tick of a world that stands still."""
-        self._speak_and_hear()
+        """Exchange frames for one tick without advancing the simulation."""
+        self._exchange()
         for server in self._servers:
             server.act()
 
-    def _speak_and_hear(self) -> None:
+    def _exchange(self) -> None:
         now = self._clock()
         if not self._lock_step:
             if now < self._due:
@@ -155,34 +157,34 @@ class Lockstep:
             late = max(0.0, now - self._due)
             self.lateness.append(late)
             # Frames after a stall must not outrun the clients' clocks.
-            begun = now if late > STALLED else self._due
+            begun = now if late > STALL else self._due
             self._due = begun + TICK
-            deadline = begun + ANSWERING
+            deadline = begun + ANSWER_TIME
         else:
-            deadline = now + PATIENCE
+            deadline = now + ANSWER_TIMEOUT
         for server in self._servers:
             server.speak()
-        self._hear(deadline)
+        self._receive(deadline)
 
-    def _hear(self, deadline: float) -> None:
-        """Take answers until all are there or time is up."""
+    def _receive(self, deadline: float) -> None:
+        """Receive commands until all have arrived or time is up."""
         while True:
             missing = [s for s in self._servers if not s.hear()]
             left = deadline - self._clock()
             if not missing:
                 if self._lock_step and not self._any_connected():
-                    self._pause(TICK)  # nobody to wait for: do not spin
+                    self._pause(TICK)  # no client to wait for: do not spin
                 return
             if left <= 0.0:
                 break
-            waited = [s for s in missing if s.fileno() >= 0]
-            if len(waited) < len(missing):
-                left = min(left, POLL)
-            select.select(waited, [], [], left)
+            selectable = [s for s in missing if s.fileno() >= 0]
+            if len(selectable) < len(missing):
+                left = min(left, POLL_PERIOD)
+            select.select(selectable, [], [], left)
         self.unanswered += len(missing)
         if self._lock_step:
             for server in missing:
-                server.drop(f"no answer for {PATIENCE:g} s in lock step")
+                server.drop(f"no answer for {ANSWER_TIMEOUT:g} s in lock step")
 
     def _any_connected(self) -> bool:
         return any(server.connected for server in self._servers)

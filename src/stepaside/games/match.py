@@ -1,4 +1,4 @@
-"""The one loop in which players play, whoever and how many they are."""
+"""Match loop: players in a simulated world, advanced tick by tick."""
 
 from collections.abc import Callable, Sequence
 from itertools import combinations
@@ -14,16 +14,16 @@ from ..sim.world import World
 from .outcome import Outcome
 from .player import Player
 
-TOLD = 0.2  # time that passes between two words of progress, in [s]
+REPORT_PERIOD = 0.2  # between two progress reports, in [s]
 
 
 class Progress(NamedTuple):
-    """How far a game has come.
+    """Progress of a game.
 
     Attributes:
         time: Simulated time, in [s].
-        distance: Between the places of the first two, in [m]; None if one
-            plays alone.
+        distance: Distance between the reference points of the first two
+            players, in [m]; None with one player.
         real_time_factor: Simulated time over time passed.
     """
 
@@ -33,33 +33,37 @@ class Progress(NamedTuple):
 
 
 class MatchObserver(Protocol):
-    """Whoever looks on: a recorder, a judge of sight, a page."""
+    """Observer of a match, such as a recorder or a live page."""
 
     def before(self, match: "Match") -> None:
-        """Look before anybody has moved at a tick."""
+        """Observe a tick before the players act."""
 
     def acted(self, match: "Match") -> None:
-        """Look when all have acted, before time passes."""
+        """Observe a tick after the players have acted, before physics."""
 
     def ended(self, match: "Match", outcome: Outcome) -> None:
-        """Look when the game is over."""
+        """Observe the end of the game."""
 
 
 class Match:
-    """Players in a world, tick by tick.
+    """One game that is being played.
 
     Attributes:
-        world: The physics.
-        players: Who plays, in the order in which they act.
-        observers: Who looks on.
-        message: What ended the game, in words; empty while it goes on.
-        touched: Names of who and what met, if that ended it.
-        min_distance: Least distance between the first two torsos, in [m].
-        captured_at: When that distance first was at most the capture
-            distance, in [s]; None if it never was. The game goes on.
-        triggered_at: When the last player began to move, in [s]; None if it
-            never did.
-        triggered_distance: Distance between the places then, in [m].
+        world: The simulation.
+        players: The players, in the order in which they act.
+        observers: The observers.
+        message: Reason for the end, as text; empty during the game.
+        touched: Names of the bodies in contact, if contact ended the game.
+        min_distance: Smallest distance so far between the first two torsos,
+            in [m].
+        captured_at: Time at which that distance first was at most the
+            capture distance, in [s]; None if it never was. The game goes on.
+        started_at: Time at which the game began, in [s]: all players were
+            ready, for example had scanned the room; None before.
+        triggered_at: Time at which the last player first moved in the game,
+            in [s]; None before. Motion before ``started_at`` does not count.
+        triggered_distance: Distance between the reference points then, in
+            [m].
     """
 
     def __init__(
@@ -70,13 +74,13 @@ class Match:
         *,
         has_things: bool = False,
     ) -> None:
-        """Begin a game.
+        """Prepare a match.
 
         Args:
-            world: The physics, in which everybody stands.
-            players: Who plays.
-            observers: Who looks on.
-            has_things: Whether there is more to bump into than players.
+            world: The simulation, with all players in it.
+            players: The players.
+            observers: The observers.
+            has_things: Whether there are obstacles besides the players.
         """
         self.world = world
         self.players = tuple(players)
@@ -86,12 +90,13 @@ class Match:
         self._has_things = has_things
         self.min_distance = self.torsos_apart
         self.captured_at: float | None = None
+        self.started_at: float | None = None
         self.triggered_at: float | None = None
         self.triggered_distance: float | None = None
 
     @property
     def distance(self) -> float | None:
-        """True distance between the places of the first two, in [m]."""
+        """True distance between the first two reference points, in [m]."""
         if len(self.players) < 2:
             return None
         (x, y), (u, v) = (player.truth.place for player in self.players[:2])
@@ -106,10 +111,10 @@ class Match:
         return torsos_apart(first.truth, second.truth)
 
     def player(self, name: str) -> Player:
-        """Player with a name.
+        """Return the player with a name.
 
         Raises:
-            KeyError: If nobody has it.
+            KeyError: If there is none.
         """
         for player in self.players:
             if player.name == name:
@@ -117,9 +122,10 @@ class Match:
         raise KeyError(name)
 
     def tick(self) -> Outcome | None:
-        """Play one control tick; an outcome if it ends the game."""
+        """Advance by one control tick; return the outcome at the end."""
         for observer in self.observers:
             observer.before(self)
+        self._start()
         for player in self.players:
             try:
                 player.tick()
@@ -140,12 +146,22 @@ class Match:
         self.world.step()
         return self._judge()
 
+    def _start(self) -> None:
+        """Begin the game once all players are ready."""
+        if self.started_at is not None:
+            return
+        if all(player.is_ready for player in self.players):
+            self.started_at = self.world.time
+            for player in self.players:
+                player.start()
+
     def _judge(self) -> Outcome | None:
-        """Apply the rules: who falls or touches has ended the game."""
+        """Apply the rules: a fall or a contact ends the game."""
         now, apart = self.world.time, self.torsos_apart
-        if self.triggered_at is None and self.players[-1].is_moving:
-            self.triggered_at = now
-            self.triggered_distance = self.distance
+        if self.started_at is not None and self.triggered_at is None:
+            if self.players[-1].is_moving:
+                self.triggered_at = now
+                self.triggered_distance = self.distance
         if apart is not None:
             assert self.min_distance is not None
             self.min_distance = min(self.min_distance, apart)
@@ -163,7 +179,7 @@ class Match:
         return None
 
     def _can_touch(self) -> bool:
-        """Whether anybody is near enough to touch another, or a thing."""
+        """Return whether a contact is possible at the present distances."""
         return self._has_things or any(
             torsos_apart(one.truth, other.truth)
             < one.truth.reach + other.truth.reach
@@ -171,7 +187,7 @@ class Match:
         )
 
     def close(self) -> None:
-        """Let everybody go."""
+        """Close all players."""
         for player in self.players:
             player.close()
 
@@ -181,25 +197,25 @@ def play(
     duration: float,
     report: Callable[[Progress], None] | None = None,
 ) -> tuple[Outcome, float]:
-    """Play a game to its end.
+    """Play a match to its end.
 
-    Whatever ends it, a KeyboardInterrupt included, what was played stays
-    with the observers, and the players are let go.
+    At any end, including a KeyboardInterrupt, the observers keep the record
+    of what was played, and the players are closed.
 
     Args:
-        match: The game.
+        match: The match.
         duration: Simulated time after which it is completed, in [s].
         report: Called about five times a second with the progress.
 
     Returns:
-        How it ended, and the time that it took, in [s].
+        Outcome, and computing time in [s].
     """
     ticks = ceil(duration / match.world.physics.tick - 1e-9)
     outcome = Outcome.COMPLETED
     began = perf_counter()
     try:
-        with DeferredInterrupt() as held:
-            outcome = _play_on(match, ticks, held, began, report)
+        with DeferredInterrupt() as interrupt:
+            outcome = _play_ticks(match, ticks, interrupt, began, report)
     except KeyboardInterrupt:
         outcome = Outcome.INTERRUPTED
         match.message = f"interrupted at {match.world.time:.2f} s"
@@ -213,24 +229,24 @@ def play(
     return outcome, wall
 
 
-def _play_on(
+def _play_ticks(
     match: Match,
     ticks: int,
-    held: DeferredInterrupt,
+    interrupt: DeferredInterrupt,
     began: float,
     report: Callable[[Progress], None] | None,
 ) -> Outcome:
-    """Play so many ticks, or to an end; an interrupt waits for whole ones."""
-    world, told = match.world, began
+    """Play a number of ticks, or to an end; interrupts wait for a tick."""
+    world, reported = match.world, began
     while world.ticks < ticks:
-        held.let_through()
+        interrupt.let_through()
         ended = match.tick()
         if ended is not None:
             return ended
         if report is not None and world.ticks % 25 == 0:
             now = perf_counter()
-            if now - told > TOLD:
-                told = now
+            if now - reported > REPORT_PERIOD:
+                reported = now
                 factor = world.time / (now - began)
                 report(Progress(world.time, match.distance, factor))
     return Outcome.COMPLETED

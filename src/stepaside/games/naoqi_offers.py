@@ -1,4 +1,4 @@
-"""Robots of our world on NAOqi, by velocity or by their joints."""
+"""Simulated robots offered over NAOqi, by velocity or by joints."""
 
 from typing import NamedTuple
 
@@ -15,21 +15,21 @@ from .walker import Walker
 
 
 class NaoqiOffer(NamedTuple):
-    """A robot that walks by itself, at velocities that are called for.
+    """Robot with its own walk, commanded by velocities.
 
     Attributes:
-        url: Where its services are, like tcp://127.0.0.1:PORT.
-        ideal_sight: Whether the true line of sight is told.
+        url: URL of its services, like tcp://127.0.0.1:PORT.
+        ideal_sight: Whether the true line of sight is served.
     """
 
     url: str
     ideal_sight: bool = True
 
     def serve(self, walker: Walker, *, lock_step: bool) -> OfferedPlayer:
-        """Offer a robot that keeps itself up."""
+        """Serve a robot that balances itself."""
         if lock_step:
             raise ConfigurationError(
-                "a robot on NAOqi cannot be played in lock step: its calls "
+                "a robot on NAOqi cannot be served in lock step: its calls "
                 "carry no time"
             )
         player = VelocityWalker(walker, offers_sight=self.ideal_sight)
@@ -46,18 +46,18 @@ class NaoqiOffer(NamedTuple):
 
 
 class NaoqiJointsOffer(NamedTuple):
-    """A robot whose joints are set by calls; who plays it keeps it up.
+    """Robot whose joints are set by calls; the client balances it.
 
     Attributes:
-        url: Where its services are, like tcp://127.0.0.1:PORT.
-        ideal_sight: Whether the true line of sight is told.
+        url: URL of its services, like tcp://127.0.0.1:PORT.
+        ideal_sight: Whether the true line of sight is served.
     """
 
     url: str
     ideal_sight: bool = True
 
     def serve(self, walker: Walker, *, lock_step: bool) -> OfferedPlayer:
-        """Offer a robot's joints."""
+        """Serve the joints of a robot."""
         body = ServedBody(walker.robot)
         server = NaoqiJointServer(
             self.url,

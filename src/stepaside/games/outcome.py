@@ -1,10 +1,10 @@
-"""How a game can end."""
+"""Outcomes of games."""
 
 from enum import Enum
 
 
 class Outcome(Enum):
-    """How a duel or a walk ended."""
+    """Outcome of a duel, a walk or a play."""
 
     COMPLETED = "completed"
     FALL = "fall"

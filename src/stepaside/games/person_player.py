@@ -1,4 +1,4 @@
-"""A player that is a person."""
+"""Player that is a person."""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
@@ -16,35 +16,40 @@ if TYPE_CHECKING:
 
 
 class PersonPlayer:
-    """A person who walks, whatever the robots do about it.
+    """Person with a prescribed motion.
 
     Attributes:
-        name: Who it is in the game.
-        person: The figure in the world.
-        truth: Where it is.
-        begun: None: its steps are no plans of ours.
-        reports: None: it sees with its own eyes.
+        name: Name of the player.
+        person: Body of the person in the world.
+        truth: Its true state.
+        begun: None: a person plans no footsteps.
+        reports: Empty: a person has no cameras.
+        is_ready: True.
         is_moving: True.
-        has_fallen: False: this person does not fall.
+        has_fallen: False: a person does not fall.
     """
 
     begun: StepStarted | None = None
     reports: "Sequence[FrameReport]" = ()
+    is_ready = True
     is_moving = True
     has_fallen = False
 
     def __init__(self, person: PersonBody, other: GroundTruth) -> None:
-        """Let a person know where the other is: people see."""
+        """Take a person and the true state of the robot that it watches."""
         self.name, self.person = person.name, person
         self.truth: GroundTruth = person.truth
         self._other = other
 
+    def start(self) -> None:
+        """Do nothing: a person begins with the simulation."""
+
     def tick(self) -> None:
-        """Walk on."""
+        """Advance the motion by one tick."""
         self.person.step(self._other.position)
 
     def snapshot(self) -> Snapshot:
-        """State of this instant."""
+        """Return the state at this instant."""
         truth = self.truth
         x, y, z = truth.com.tolist()
         return Snapshot(
@@ -56,14 +61,14 @@ class PersonPlayer:
         )
 
     def push(self, *pushes: Push) -> None:
-        """Refuse.
+        """Reject pushes.
 
         Raises:
             ConfigurationError: Always.
         """
         raise ConfigurationError(
-            f"a push needs a robot, got {self.name}, who is a person"
+            f"a push needs a robot, got {self.name}, which is a person"
         )
 
     def close(self) -> None:
-        """Nothing to let go of."""
+        """Do nothing: a person holds no resources."""

@@ -1,4 +1,4 @@
-"""What a player kept, turned into a run that replays."""
+"""Conversion of the rows recorded by a player at a robot into a run."""
 
 import json
 from pathlib import Path
@@ -18,7 +18,7 @@ from .duel_circle import cycle_mean, distance_between
 from .duel_settings import PLAYERS
 from .outcome import Outcome
 from .play_joint_path import OdometryPath
-from .play_rows import WORDS, PlayedRows, read_played
+from .play_rows import NOTES, PlayedRows, read_played
 from .play_run import PlayRun
 from .play_settings import PlaySettings
 from .play_sightings import sight_table, sightings_in, track_of_other
@@ -26,15 +26,15 @@ from .play_summary import Change, PlaySummary
 from .run_header import FORMAT, RunHeader
 from .trajectory import Trajectory
 
-MOST_CHANGES = 2000  # of what a robot did, that a summary tells
-LEAST_TURN = 0.5  # of a walk that a circle can be fitted to, in [rad]
+MAX_CHANGES = 2000  # of state, in a summary
+MIN_TURN = 0.5  # of a path to which a circle can be fitted, in [rad]
 SUMMARY, TRAJECTORIES = "summary.json", "trajectories.npz"
 CUT_OFF = "the record was cut off"
 
 
 def is_play(folder: Path) -> bool:
-    """Whether a folder holds rows of a player, finished or not."""
-    return all((folder / name).is_file() for name in (HEADER, ROWS, WORDS))
+    """Return whether a folder holds rows of a player, finished or not."""
+    return all((folder / name).is_file() for name in (HEADER, ROWS, NOTES))
 
 
 def run_of_play(
@@ -43,18 +43,18 @@ def run_of_play(
     outcome: Outcome = Outcome.FAILED,
     message: str = CUT_OFF,
 ) -> PlayRun:
-    """Turn what a player kept into a run.
+    """Convert the rows of a player into a run.
 
     Args:
-        folder: Where its rows lie.
-        settings: What it was told.
-        outcome: How it ended.
-        message: What ended it, in words.
+        folder: Folder of the rows.
+        settings: Settings of the player.
+        outcome: How the play ended.
+        message: Reason for the end, as text.
 
     Raises:
-        ConfigurationError: If there are no rows of such a player.
-        ValueError: If a file is too long, or none.
-        OSError: If it cannot be read.
+        ConfigurationError: If there are no valid rows.
+        ValueError: If a file is too long, or not a regular file.
+        OSError: If a file cannot be read.
     """
     name = folder.resolve().name
     rows = read_played(folder)
@@ -82,20 +82,20 @@ def run_of_play(
 def seal_play(
     folder: Path, settings: PlaySettings, outcome: Outcome, message: str
 ) -> PlayRun:
-    """Make a run folder of what a player kept, once it is over.
+    """Complete the run folder of a player that has ended.
 
-    Summary, trajectories and checksums are added; nothing is drawn, for a
-    robot has nothing to draw with.
+    Summary, trajectories and checksums are added. No figure is drawn, as the
+    computer of a robot need not have matplotlib.
 
     Args:
-        folder: Where its rows and its configuration lie.
-        settings: What it was told.
-        outcome: How it ended.
-        message: What ended it, in words.
+        folder: Folder of the rows and the configuration.
+        settings: Settings of the player.
+        outcome: How the play ended.
+        message: Reason for the end, as text.
 
     Raises:
-        ConfigurationError: If there are no rows of such a player.
-        OSError: If it cannot be written.
+        ConfigurationError: If there are no valid rows.
+        OSError: If the folder cannot be written.
         OutputError: Likewise.
     """
     run = run_of_play(folder, settings, outcome, message)
@@ -111,18 +111,18 @@ def seal_play(
 
 
 def _own(rows: PlayedRows, settings: PlaySettings, sight: Array) -> Trajectory:
-    """Record of who played."""
+    """Return the trajectory of the player itself."""
     if rows.moves_joints:
-        believed = OdometryPath(rows, load_robot(settings.robot))
-        return believed.track(settings.gait, sight)
+        path = OdometryPath(rows, load_robot(settings.robot))
+        return path.track(settings.gait, sight)
     sampled = rows.sampled
     torso = rows.columns["pose"][sampled].copy()
     torso[:, 2] = np.unwrap(torso[:, 2])
     com = torso.copy()
     com[:, 2] = 0.0
-    asked = [rows.columns[name][sampled] for name in ("wanted", "velocity")]
+    commands = [rows.columns[name][sampled] for name in ("wanted", "velocity")]
     return Trajectory(
-        com=com, torso=torso, sight=sight, command=np.hstack(asked)
+        com=com, torso=torso, sight=sight, command=np.hstack(commands)
     )
 
 
@@ -134,17 +134,16 @@ def _summary(
     outcome: Outcome,
     message: str,
 ) -> PlaySummary:
-    kind = RobotState if rows.moves_joints else DrivingState
-    walks = list(kind).index(kind.WALKING)
-    walking = rows.columns["state"] == walks
+    states = RobotState if rows.moves_joints else DrivingState
+    walking = rows.columns["state"] == list(states).index(states.WALKING)
     passed = np.diff(rows.times, prepend=0.0)
     walked = float(passed[walking].sum())
     seen = ~np.isnan(rows.columns["sighting"][:, 0])
     late = _last_third(rows, walking)[rows.sampled]
     own = tracks[settings.role]
-    apart = None
+    distance = None
     if len(tracks) > 1:
-        apart = distance_between(*(t.unicycle for t in tracks.values()))
+        distance = distance_between(*(t.unicycle for t in tracks.values()))
     smooth = np.column_stack(
         [cycle_mean(c, times, settings.cycle) for c in own.unicycle[:, :2].T]
     )
@@ -165,8 +164,8 @@ def _summary(
         way_m=float(np.hypot(*np.diff(smooth, axis=0).T).sum()),
         radius_m=_radius(smooth[late], own.unicycle[late, 2]),
         distance_m=None
-        if apart is None or not late.any()
-        else float(apart[late].mean()),
+        if distance is None or not late.any()
+        else float(distance[late].mean()),
         closest_m=float(nearest.min()) if len(nearest) else None,
         seen_share=float(passed[walking & seen].sum() / walked)
         if walked > 0.0
@@ -176,15 +175,15 @@ def _summary(
     )
 
 
-def _radius(way: Array, headings: Array) -> float | None:
-    """Radius of a way that turns enough for one, in [m]."""
-    if len(way) < 3 or np.ptp(headings) < LEAST_TURN:
+def _radius(path: Array, headings: Array) -> float | None:
+    """Return the radius of a path, in [m]; None if it turns too little."""
+    if len(path) < 3 or np.ptp(headings) < MIN_TURN:
         return None
-    return fit_circle(way)[1]
+    return fit_circle(path)[1]
 
 
 def _last_third(rows: PlayedRows, walking: Array) -> Array:
-    """Rows of the last third of the walk."""
+    """Return a mask of the rows in the last third of walking."""
     at = np.flatnonzero(walking)
     late = np.zeros(len(walking), dtype=bool)
     late[at[2 * len(at) // 3 :]] = True
@@ -192,9 +191,9 @@ def _last_third(rows: PlayedRows, walking: Array) -> Array:
 
 
 def _changes(rows: PlayedRows) -> tuple[Change, ...]:
-    times, told = rows.times, rows.changes[:MOST_CHANGES]
+    times, changes = rows.times, rows.changes[:MAX_CHANGES]
     return tuple(
-        Change(float(times[each.tick]), each.state, each.reason)
-        for each in told
-        if 0 <= each.tick < len(times)
+        Change(float(times[change.tick]), change.state, change.reason)
+        for change in changes
+        if 0 <= change.tick < len(times)
     )

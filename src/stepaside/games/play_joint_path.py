@@ -1,4 +1,4 @@
-"""The way of a robot whose joints were moved, as it believed itself."""
+"""Trajectory of a robot by its own odometry, from recorded joint angles."""
 
 from math import cos, sin
 
@@ -14,17 +14,17 @@ from ..robots.forward_kinematics import ForwardKinematics, MeasuredPosture
 from .play_rows import PlayedRows
 from .trajectory import Trajectory
 
-BELIEF = 0.5  # rate at which the accelerometer is believed, in [1/s]
-PRESSED = 1.0  # force on the feet below which they say nothing, in [N]
+ACCELEROMETER_GAIN = 0.5  # of the attitude filter, in [1/s]
+MIN_FOOT_FORCE = 1.0  # below which the ZMP is unknown, in [N]
 
 
 class OdometryPath:
-    """Puts a robot where it believed to be, row by row.
+    """Reconstruction of a robot's motion from its recorded rows.
 
-    It stands on the foot that control believed to stand, leans as its IMU
-    says, and has the joints that it measured. Each mind has an odometry of
-    its own, which begins midway between the feet: where they stood last in
-    that of the mind before.
+    In each row the robot stands on the support foot of its controller, with
+    the tilt of its IMU and the measured joint angles. Each controller that
+    was started has its own odometry, whose origin is midway between the last
+    feet positions in the odometry of the controller before it.
     """
 
     def __init__(
@@ -33,11 +33,11 @@ class OdometryPath:
         """Take the rows of a robot.
 
         Args:
-            rows: Of a player that moved joints.
-            description: Of the robot.
+            rows: Rows of a player that commanded joints.
+            description: Description of the robot.
 
         Raises:
-            ConfigurationError: If it is another robot.
+            ConfigurationError: If the number of joints differs.
         """
         self._rows, self._columns = rows, rows.columns
         self._forward = ForwardKinematics(description)
@@ -53,27 +53,30 @@ class OdometryPath:
         self._tilts = _tilts(rows)
 
     def track(self, gait: GaitSettings, sight: Array) -> Trajectory:
-        """Its way, at the samples of the run.
+        """Return the trajectory at the samples of the run.
 
         Args:
-            gait: How it walked.
-            sight: What it saw, as a track has it.
+            gait: Gait of the robot.
+            sight: Sightings, as in :class:`Trajectory`.
+
+        Returns:
+            Trajectory in the odometry of the first controller.
         """
         columns = self._columns
         sampled = self._rows.sampled
         frames = self._frames()
-        minds = columns["mind"]
-        made: dict[str, list[Array]] = {}
+        controllers = columns["mind"]
+        rows: dict[str, list[Array]] = {}
         for row in sampled.tolist():
-            frame = frames[float(minds[row])]
+            frame = frames[float(controllers[row])]
             posture, body = self._stand(row, frame)
             com = body.place + body.axes @ posture.com
             c, s = cos(body.heading), sin(body.heading)
-            ahead = gait.zmp_forward * np.array([c, s])
+            zmp_offset = gait.zmp_forward * np.array([c, s])
             for name, value in (
                 ("com", com),
                 ("torso", [*body.place[:2], body.heading]),
-                ("place", [*(com[:2] - ahead), body.heading]),
+                ("place", [*(com[:2] - zmp_offset), body.heading]),
                 ("qpos", self._qpos(row, body)),
                 ("zmp", self._zmp(row, posture, body)),
                 (
@@ -85,8 +88,8 @@ class OdometryPath:
                     frame.transform_points(columns["zmp_reference"][row]),
                 ),
             ):
-                made.setdefault(name, []).append(np.asarray(value))
-        arrays = {name: np.array(each) for name, each in made.items()}
+                rows.setdefault(name, []).append(np.asarray(value))
+        arrays = {name: np.array(values) for name, values in rows.items()}
         for name in ("place", "torso"):
             arrays[name][:, 2] = np.unwrap(arrays[name][:, 2])
         arrays["qpos"] = arrays["qpos"].astype(np.float32)
@@ -95,12 +98,13 @@ class OdometryPath:
         )
 
     def _frames(self) -> dict[float, Pose]:
-        """Odometry of each mind in that of the first."""
-        minds = self._columns["mind"]
-        last = np.append(np.flatnonzero(np.diff(minds)), len(minds) - 1)
+        """Return the odometry of each controller in that of the first."""
+        controllers = self._columns["mind"]
+        changes = np.flatnonzero(np.diff(controllers))
+        last_rows = np.append(changes, len(controllers) - 1)
         frames, frame = {}, Pose(0.0, 0.0, 0.0)
-        for row in last.tolist():
-            frames[float(minds[row])] = frame
+        for row in last_rows.tolist():
+            frames[float(controllers[row])] = frame
             posture, body = self._stand(row, frame)
             x, y, _ = (
                 body.place + body.axes @ posture.feet.mean(axis=0)
@@ -119,7 +123,7 @@ class OdometryPath:
         return posture, stand_on(posture, foot, support, (roll, pitch))
 
     def _qpos(self, row: int, body: StandingBody) -> Array:
-        """Place and quaternion of the torso, then all joints."""
+        """Return position and quaternion of the torso, then all joints."""
         measured = self._columns["joint_positions"][row].tolist()
         known = dict(self._standing)
         known |= dict(zip(self._tree.motors, measured, strict=True))
@@ -127,54 +131,56 @@ class OdometryPath:
             known[follower] = known.get(leader, 0.0)
         joints = [known.get(name, 0.0) for name in self._tree.joints]
         roll, pitch = self._tilts[row].tolist()
-        turned = _quaternion(roll, pitch, body.heading)
-        return np.array([*body.place, *turned, *joints])
+        quaternion = _quaternion(roll, pitch, body.heading)
+        return np.array([*body.place, *quaternion, *joints])
 
     def _zmp(
         self, row: int, posture: MeasuredPosture, body: StandingBody
     ) -> Array:
-        """Center of the foot forces; NaN where there are none."""
+        """Return the center of the foot forces; NaN without any force."""
         forces = self._columns["foot_forces"][row]
         total = float(forces.sum())
-        if not total > PRESSED:
+        if not total > MIN_FOOT_FORCE:
             return np.full(2, np.nan)
         flat = np.column_stack([self._sensors, np.zeros(len(forces))])
-        places = np.concatenate(
+        corners = np.concatenate(
             [
                 posture.feet[i] + flat[4 * i : 4 * i + 4] @ posture.frames[i].T
                 for i in range(2)
             ]
         )
-        middle = forces @ places / total
-        center: Array = (body.place + body.axes @ middle)[:2]
+        center_in_torso = forces @ corners / total
+        center: Array = (body.place + body.axes @ center_in_torso)[:2]
         return center
 
     def _landings(self, frames: dict[float, Pose]) -> Array:
-        begun, minds = self._columns["begun"], self._columns["mind"]
-        made = []
+        begun, controllers = self._columns["begun"], self._columns["mind"]
+        landings = []
         for row in np.flatnonzero(~np.isnan(begun[:, 0])).tolist():
             time, side, x, y, heading, _ = begun[row].tolist()
-            landed = frames[float(minds[row])].compose(Pose(x, y, heading))
-            made.append([time + float(self._rows.offset[row]), side, *landed])
-        return np.array(made, dtype=np.float64).reshape(-1, 5)
+            frame = frames[float(controllers[row])]
+            landing = frame.compose(Pose(x, y, heading))
+            time += float(self._rows.offset[row])
+            landings.append([time, side, *landing])
+        return np.array(landings, dtype=np.float64).reshape(-1, 5)
 
 
 def _tilts(rows: PlayedRows) -> Array:
-    """Roll and pitch by the IMU, in [rad]. Shape (rows, 2)."""
-    own = AttitudeFilter(BELIEF, 0.0, calibration=0.0)
+    """Estimate roll and pitch from the IMU, in [rad]. Shape (rows, 2)."""
+    attitude = AttitudeFilter(ACCELEROMETER_GAIN, 0.0, calibration=0.0)
     gyro, force = rows.columns["gyro"], rows.columns["accelerometer"]
     passed = np.diff(rows.times, prepend=0.0).tolist()
     tilts = np.zeros((len(gyro), 2))
     for row, duration in enumerate(passed):
-        own.update(gyro[row], force[row], (0.0, 0.0), duration)
-        tilts[row] = own.roll, own.pitch
+        attitude.update(gyro[row], force[row], (0.0, 0.0), duration)
+        tilts[row] = attitude.roll, attitude.pitch
     return tilts
 
 
 def _quaternion(
     roll: float, pitch: float, yaw: float
 ) -> tuple[float, float, float, float]:
-    """Rotation Rz(yaw) Ry(pitch) Rx(roll) as (w, x, y, z)."""
+    """Return the quaternion (w, x, y, z) of Rz(yaw) Ry(pitch) Rx(roll)."""
     (cr, sr), (cp, sp), (cy, sy) = (
         (cos(0.5 * a), sin(0.5 * a)) for a in (roll, pitch, yaw)
     )

@@ -1,4 +1,4 @@
-"""Rows that a player kept, bounded and checked, on one clock."""
+"""Rows recorded by a player at a robot, validated and on one clock."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -11,15 +11,16 @@ from numpy.typing import NDArray
 from ..core.errors import ConfigurationError
 from ..core.poses import Array
 from ..drivers.row_file import HEADER, ROWS, columns_in
-from .archive_reader import LARGEST, bytes_of, read_json
+from .archive_reader import MAX_ARRAY_BYTES, read_bytes, read_json
 from .summary_parsing import check_object, read_figures
 
-WORDS = "play.json"
-PERIOD = 0.02  # between samples of a run, at least about, in [s]
-LONGEST_GAP = 10.0  # between ticks of one clock, in [s]
-TICK = 0.012  # of rows that do not tell, in [s]
+NOTES = "play.json"
+PERIOD = 0.02  # approximate smallest period of the samples of a run, in [s]
+MAX_GAP = 10.0  # between ticks of one clock, in [s]
+DEFAULT_TICK = 0.012  # of rows whose times do not advance, in [s]
+# Width of each column: of all plays, and of those by joints or velocities.
 COMMON = {"times_s": 1, "sighting": 3, "state": 1}
-MOVED = {
+BY_JOINTS = {
     "gyro": 3,
     "accelerometer": 3,
     "foot_forces": 8,
@@ -30,18 +31,18 @@ MOVED = {
     "zmp_reference": 2,
     "begun": 6,
 }
-JOINTS = ("joint_positions", "targets")  # as many as the robot has
-DRIVEN = {"pose": 3, "wanted": 2, "velocity": 2}
+JOINTS = ("joint_positions", "targets")  # one column per joint
+BY_VELOCITY = {"pose": 3, "wanted": 2, "velocity": 2}
 
 
 @dataclass(frozen=True, slots=True)
 class StateChange:
-    """A change of state, as a player wrote it down.
+    """Change of a player's state.
 
     Attributes:
-        tick: Number of its row.
-        state: What it did from then on.
-        reason: Why.
+        tick: Index of its row.
+        state: New state.
+        reason: Reason, as text.
     """
 
     tick: int
@@ -51,10 +52,10 @@ class StateChange:
 
 @dataclass(frozen=True, slots=True)
 class PlayNotes:
-    """What a player wrote down beside its rows.
+    """Content of ``play.json``.
 
     Attributes:
-        changes: Of its state.
+        changes: Changes of state.
     """
 
     changes: tuple[StateChange, ...]
@@ -62,12 +63,12 @@ class PlayNotes:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PlayedRows:
-    """Rows of a player, with a clock that never goes back.
+    """Rows of a player, with a monotonic clock.
 
     Attributes:
         columns: Arrays by name. Shapes (rows,) or (rows, width).
-        times: Since the record began, in [s]. Shape (rows,).
-        changes: Of what the robot did.
+        times: Times since the record began, in [s]. Shape (rows,).
+        changes: Changes of state.
     """
 
     columns: Mapping[str, Array]
@@ -76,80 +77,83 @@ class PlayedRows:
 
     @property
     def moves_joints(self) -> bool:
-        """Whether joints were moved, rather than velocities given."""
+        """Whether joints were commanded, rather than velocities."""
         return "joint_positions" in self.columns
 
     @property
     def offset(self) -> Array:
-        """From the robot's clock to that of the record, in [s]. (rows,)."""
+        """Record time minus the robot's time, in [s]. Shape (rows,)."""
         offset: Array = self.times - self.columns["times_s"]
         return offset
 
     @property
     def sampled(self) -> NDArray[np.intp]:
-        """Rows that become samples of a run: evenly, and the last."""
+        """Indices of the rows that become samples: periodic, and the last."""
         passed = np.diff(self.times)
         new = np.flatnonzero(np.concatenate([[True], passed > 0.0]))
         gap = float(np.median(np.diff(self.times[new], append=np.inf)))
         chosen = new[:: max(1, round(PERIOD / max(gap, 1e-3)))]
-        whole = chosen[-1] == new[-1]
-        return chosen if whole else np.append(chosen, new[-1:])
+        has_last = chosen[-1] == new[-1]
+        return chosen if has_last else np.append(chosen, new[-1:])
 
 
 def read_played(folder: Path) -> PlayedRows:
-    """Read what a player kept; it may still be at it.
+    """Read the rows of a player, which may still be running.
 
     Args:
-        folder: Where it lies.
+        folder: Folder of the rows.
 
     Raises:
-        ConfigurationError: If there are no rows of a player.
-        ValueError: If a file is too long, or none.
-        OSError: If it cannot be read.
+        ConfigurationError: If there are no valid rows.
+        ValueError: If a file is too long, or not a regular file.
+        OSError: If a file cannot be read.
     """
     name = folder.resolve().name
     columns = check_object(read_json(folder / HEADER), f"{HEADER} of {name}")
     _check_columns(columns, name)
-    found = columns_in(bytes_of(folder / ROWS, LARGEST), columns)
+    found = columns_in(read_bytes(folder / ROWS, MAX_ARRAY_BYTES), columns)
     if not len(found["times_s"]):
         raise ConfigurationError(f"{ROWS} of {name} has no rows")
-    words = read_figures(
-        PlayNotes, read_json(folder / WORDS), f"{WORDS} of {name}"
+    notes = read_figures(
+        PlayNotes, read_json(folder / NOTES), f"{NOTES} of {name}"
     )
-    return PlayedRows(found, one_clock(found["times_s"]), words.changes)
+    return PlayedRows(found, one_clock(found["times_s"]), notes.changes)
 
 
 def one_clock(times: Array) -> Array:
-    """Times since the first row, on a clock that never goes back.
+    """Convert robot times to monotonic times since the first row.
 
-    A robot's clock begins anew with each walk, and is another one after a
-    session was lost: there one tick has passed.
+    A robot's clock restarts with each walk and after each lost connection.
+    At a restart one tick is taken to have passed.
 
     Args:
-        times: On the robot's clock, in [s]. Shape (rows,).
+        times: Times of the robot's clock, in [s]. Shape (rows,).
+
+    Returns:
+        Monotonic times, in [s]. Shape (rows,).
     """
     passed = np.diff(times)
     with np.errstate(invalid="ignore"):
-        right = (passed >= 0.0) & (passed < LONGEST_GAP)
-        usual = passed[right & (passed > 0.0)]
-    tick = float(np.median(usual)) if len(usual) else TICK
-    steps = np.where(right, passed, tick)
-    since: Array = np.concatenate([[0.0], np.cumsum(steps)])
-    return since
+        regular = (passed >= 0.0) & (passed < MAX_GAP)
+        positive = passed[regular & (passed > 0.0)]
+    tick = float(np.median(positive)) if len(positive) else DEFAULT_TICK
+    steps = np.where(regular, passed, tick)
+    elapsed: Array = np.concatenate([[0.0], np.cumsum(steps)])
+    return elapsed
 
 
 def _check_columns(columns: dict[str, Any], name: str) -> None:
-    moves = "joint_positions" in columns
-    wanted = COMMON | (MOVED if moves else DRIVEN)
-    joints = JOINTS if moves else ()
+    moves_joints = "joint_positions" in columns
+    expected = COMMON | (BY_JOINTS if moves_joints else BY_VELOCITY)
+    joints = JOINTS if moves_joints else ()
     sizes = {columns.get(key) for key in joints}
-    right = set(columns) == {*wanted, *joints}
-    right = right and all(columns[key] == n for key, n in wanted.items())
-    if moves:
-        right = right and len(sizes) == 1
-        right = right and all(type(n) is int and 0 < n < 256 for n in sizes)
-    if not right:
+    valid = set(columns) == {*expected, *joints}
+    valid = valid and all(columns[key] == n for key, n in expected.items())
+    if moves_joints:
+        valid = valid and len(sizes) == 1
+        valid = valid and all(type(n) is int and 0 < n < 256 for n in sizes)
+    if not valid:
         raise ConfigurationError(
             f"{HEADER} of {name} must hold the columns of a player: "
-            f"{', '.join([*wanted, *joints])}"
+            f"{', '.join([*expected, *joints])}"
         )

@@ -1,4 +1,4 @@
-"""What a player at a robot left behind, as a value."""
+"""Recorded play of one player at a robot."""
 
 from dataclasses import dataclass
 from math import isfinite
@@ -14,15 +14,15 @@ from .trajectory import Trajectory
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class PlayRun(Run):
-    """What one player knew of a game; see :class:`Run`.
+    """Recorded play of one player; see :class:`Run`.
 
-    The world of its tracks is its own odometry. The other is where it was
-    seen last, and is drawn as a template that faces who saw it: how it
-    truly headed nobody knows.
+    The frame of its trajectories is the player's own odometry. The opponent
+    is at its last sighting and is drawn as a template that faces the player,
+    as its heading is unknown.
 
     Attributes:
-        settings: What it was told.
-        summary: Its figures.
+        settings: Settings of the player.
+        summary: Its summary.
     """
 
     game: ClassVar[str] = "play"
@@ -34,39 +34,39 @@ class PlayRun(Run):
 
     @property
     def title(self) -> str:
-        """What it was, in a few words."""
+        """Title, for figures and pages."""
         settings = self.settings
         return f"Play of the {settings.role} over {settings.language}"
 
     @property
     def player(self) -> Trajectory:
-        """Record of who played."""
+        """Trajectory of the player itself."""
         return self.tracks[self.settings.role]
 
     @property
     def persons(self) -> tuple[str, ...]:
-        """Nobody: what is no robot is drawn as a template."""
+        """Empty: the opponent is drawn as a template."""
         return ()
 
     @property
     def orientation(self) -> Array | None:
-        """Nothing: how the other headed is not known."""
+        """None: the heading of the opponent is unknown."""
         return None
 
     @property
     def safety(self) -> SafetyArea | None:
-        """Area that an evader keeps free, if there is one."""
+        """Safety area of an evader; None for a pursuer."""
         radius = self.settings.strategy.area
         evades = self.settings.role == EVADER and isfinite(radius)
         return SafetyArea(EVADER, radius) if evades else None
 
     def words(self, index: int) -> str:
-        """What goes on at a sample."""
+        """Describe the state of the player at a sample, for captions."""
         if self.has_ended_at(index):
             return self.message
         time = float(self.times[index]) + 1e-9
-        said = "nothing is known yet"
+        text = "no state recorded yet"
         for change in self.summary.changes:
             if change.time_s <= time:
-                said = f"{change.state} ({change.reason})"
-        return said
+                text = f"{change.state} ({change.reason})"
+        return text

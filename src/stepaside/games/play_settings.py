@@ -1,4 +1,4 @@
-"""Settings of a player at a robot: what decides how it plays."""
+"""Settings of a player at a robot."""
 
 from dataclasses import dataclass, field
 from typing import ClassVar
@@ -20,17 +20,17 @@ LANGUAGES = LOLA, NAOQI, ROS2 = ("lola", "naoqi", "ros2")
 
 @dataclass(frozen=True, slots=True)
 class PlaySettings:
-    """What one player at one robot was told.
+    """Settings of one player at one robot.
 
     Attributes:
-        role: Who it is.
-        language: How the robot is spoken to.
+        role: "pursuer" or "evader".
+        language: Protocol of the robot: "lola", "naoqi" or "ros2".
         robot: Name of the robot or folder of its description.
-        plays: Strategy that it plays.
+        plays: Strategy of the player.
         strategy: Settings of the strategy.
-        gait: How it walks, or the template that it drives by.
-        control: How it controls its walk, where it moves joints.
-        dry_run: Whether nothing was commanded.
+        gait: Gait, or the template by which velocities are chosen.
+        control: Control of the walk, where joints are commanded.
+        dry_run: Whether no commands were sent.
     """
 
     __repr__ = brief_repr
@@ -47,7 +47,7 @@ class PlaySettings:
     ranges: ClassVar[Ranges] = {}
 
     def __post_init__(self) -> None:
-        """Refuse a role and a language that are none."""
+        """Validate strategy, role and language."""
         check_settings(self)
         check_strategy_name(self.plays, "plays")
         for name, known in (("role", PLAYERS), ("language", LANGUAGES)):
@@ -59,14 +59,14 @@ class PlaySettings:
 
     @property
     def other(self) -> str:
-        """Who it plays with."""
+        """Role of the opponent."""
         return PURSUER if self.role == EVADER else EVADER
 
     def robot_of(self, player: str) -> RobotSettings:
-        """What a player is, and how it walks; of the other it is assumed.
+        """Return robot, gait and control; the same is assumed of both.
 
         Args:
-            player: Its name.
+            player: Name of the player.
         """
         return RobotSettings(self.robot, self.gait, self.control)
 
@@ -77,15 +77,15 @@ class PlaySettings:
 
     @property
     def seed(self) -> int:
-        """Zero: nothing is drawn at a robot."""
+        """Zero: a play at a robot draws no random numbers."""
         return 0
 
     @property
     def physics(self) -> PhysicsSettings:
-        """Those by which it is drawn: a floor."""
+        """Default physics, of which a replay shows the floor."""
         return PhysicsSettings()
 
     @property
     def body(self) -> BodySettings:
-        """Those by which it is drawn."""
+        """Default body, for a replay."""
         return BodySettings()

@@ -1,4 +1,4 @@
-"""Where a player saw the other, in its own odometry."""
+"""Sightings of a player at a robot, in its own odometry."""
 
 import numpy as np
 
@@ -6,18 +6,19 @@ from ..core.poses import Array
 from .play_rows import PlayedRows
 from .trajectory import Trajectory
 
-SAME = 1e-6  # between two times of one sighting, in [s]
+SAME = 1e-6  # tolerance within which times are of one sighting, in [s]
 
 
 def sightings_in(rows: PlayedRows) -> Array:
-    """Each sighting once, and each loss.
+    """Extract each new sighting and each loss of the opponent.
 
     Returns:
-        When it became known and when it was taken, in [s], bearing [rad]
-        and distance [m]; NaN where nobody was seen any more. Shape (k, 4).
+        Time of arrival [s], time of measurement [s], bearing [rad] and
+        distance [m]; NaN after arrival where the opponent was lost. Shape
+        (k, 4).
     """
-    seen = rows.columns["sighting"]
-    taken = seen[:, 0] + rows.offset
+    sightings = rows.columns["sighting"]
+    taken = sightings[:, 0] + rows.offset
     lost = np.isnan(taken)
     before = np.concatenate([[np.nan], taken[:-1]])
     with np.errstate(invalid="ignore"):
@@ -25,15 +26,18 @@ def sightings_in(rows: PlayedRows) -> Array:
     gone = lost & ~np.isnan(before)
     chosen = np.flatnonzero(new | gone)
     return np.column_stack(
-        [rows.times[chosen], taken[chosen], seen[chosen, 1:]]
+        [rows.times[chosen], taken[chosen], sightings[chosen, 1:]]
     )
 
 
 def sight_table(found: Array) -> Array:
-    """Sightings as a run keeps them; the truth is not known. Shape (k, 6).
+    """Convert sightings to the array of a run, with the truth unknown.
 
     Args:
-        found: As of :func:`sightings_in`.
+        found: Sightings of :func:`sightings_in`. Shape (k, 4).
+
+    Returns:
+        Array ``sight`` of :class:`Trajectory`. Shape (k, 6).
     """
     unknown = np.full((len(found), 2), np.nan)
     lost = np.isnan(found[:, 1]).astype(float)
@@ -43,17 +47,21 @@ def sight_table(found: Array) -> Array:
 def track_of_other(
     found: Array, times: Array, own: Array
 ) -> Trajectory | None:
-    """Where the other was seen last; None if it never was.
+    """Return the trajectory of the opponent's last sightings.
 
     Args:
-        found: As of :func:`sightings_in`.
-        times: Of the samples, in [s]. Shape (n,).
-        own: Place and heading of who saw it, then. Shape (n, 3).
+        found: Sightings of :func:`sightings_in`. Shape (k, 4).
+        times: Times of the samples, in [s]. Shape (n,).
+        own: Poses (x, y, heading) of the player in odometry, in [m] and
+            [rad]. Shape (n, 3).
+
+    Returns:
+        Trajectory in odometry; None without a sighting.
     """
-    seen = found[~np.isnan(found[:, 1])]
-    if not len(seen):
+    sightings = found[~np.isnan(found[:, 1])]
+    if not len(sightings):
         return None
-    known, taken, bearing, distance = seen.T
+    arrived, taken, bearing, distance = sightings.T
     x, y, heading = (np.interp(taken, times, column) for column in own.T)
     toward = heading + bearing
     rows = np.column_stack(
@@ -63,8 +71,8 @@ def track_of_other(
             np.unwrap(toward + np.pi),
         ]
     )
-    # Before it was seen it stands where it will be seen first.
-    newest = np.searchsorted(known, times + 1e-9, side="right") - 1
+    # Before its first sighting the opponent is put at that sighting.
+    newest = np.searchsorted(arrived, times + 1e-9, side="right") - 1
     torso = rows[np.maximum(newest, 0)]
     com = torso.copy()
     com[:, 2] = 0.0

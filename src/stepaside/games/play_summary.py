@@ -1,4 +1,4 @@
-"""The figures of a player at a robot: what it did, as far as it knows."""
+"""Summary of a player at a robot, by its own odometry and sightings."""
 
 from dataclasses import asdict, dataclass
 from typing import Any
@@ -8,12 +8,12 @@ from .summary_parsing import read_figures
 
 @dataclass(frozen=True, slots=True)
 class Change:
-    """A change of what a robot does.
+    """Change of the state of a robot.
 
     Attributes:
-        time_s: When, in [s] since the record began.
-        state: What it does from then on.
-        reason: Why, in words.
+        time_s: Time since the record began, in [s].
+        state: New state.
+        reason: Reason, as text.
     """
 
     time_s: float
@@ -23,26 +23,26 @@ class Change:
 
 @dataclass(frozen=True, slots=True)
 class PlaySummary:
-    """Figures of one player, by its own odometry and its own sight.
+    """Summary of one player, by its own odometry and its own sightings.
 
     Attributes:
-        outcome: How it ended.
-        message: What ended it, in words.
-        role: Who it was.
-        language: How the robot was spoken to.
-        duration_s: Of the record, in [s].
-        walking_s: How long it might walk, in [s].
-        steps: Footsteps begun; None where the robot walked by itself.
-        way_m: How far it went, in [m], without the sway of a gait cycle.
-        radius_m: Of the circle on which it went in the last third of its
-            walk, in [m]; None if it hardly turned then.
-        distance_m: Mean distance to the other then, in [m]; None if it saw
-            nobody.
-        closest_m: Least distance at which it saw the other, in [m].
-        seen_share: Share of its walk with a sighting to act upon.
+        outcome: How the play ended.
+        message: Reason for the end, as text.
+        role: "pursuer" or "evader".
+        language: Protocol of the robot: "lola", "naoqi" or "ros2".
+        duration_s: Duration of the record, in [s].
+        walking_s: Time in the walking state, in [s].
+        steps: Footsteps begun; None where the robot has its own walk.
+        way_m: Length of the path, in [m], without the sway of a gait cycle.
+        radius_m: Radius of the circle fitted to the last third of the walk,
+            in [m]; None if the path hardly turns there.
+        distance_m: Mean distance to the opponent there, in [m]; None
+            without a sighting.
+        closest_m: Smallest distance of a sighting, in [m].
+        seen_share: Fraction of the walking time with a valid sighting.
         plan_time_us: Median processor time of a plan, in [us].
-        changes: What it did when, and why.
-        run_folder: Where the run lies, if it was written.
+        changes: Changes of state, with time and reason.
+        run_folder: Path of the run folder, if one was written.
     """
 
     outcome: str
@@ -62,7 +62,7 @@ class PlaySummary:
     run_folder: str | None = None
 
     def to_json(self) -> dict[str, Any]:
-        """Plain values by name."""
+        """Return plain values by name."""
         plain = asdict(self)
         plain["changes"] = list(plain["changes"])
         if self.run_folder is None:
@@ -71,13 +71,14 @@ class PlaySummary:
 
     @classmethod
     def from_json(cls, plain: Any, source: str) -> "PlaySummary":
-        """Read what :meth:`to_json` gave.
+        """Parse the output of :meth:`to_json`.
 
         Args:
             plain: Plain values by name.
-            source: Where they come from, for messages.
+            source: Origin of the values, for messages.
 
         Raises:
-            ConfigurationError: If it is no such thing; names what is off.
+            ConfigurationError: If an entry is missing or of the wrong type;
+                names the entry.
         """
         return read_figures(cls, plain, source)

@@ -1,4 +1,4 @@
-"""Whoever plays: a walking robot, a person, later a robot elsewhere."""
+"""Interface of a player: a simulated robot, a person or a served robot."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -17,26 +17,25 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Snapshot:
-    """A player at one instant, as far as it is known.
+    """State of a player at one instant.
 
-    What a player does not have is None: a person has no plan, a robot far
-    away no true posture.
+    Quantities that a player does not have are None: a person has no plan.
 
     Attributes:
-        name: Who it is.
+        name: Name of the player.
         time: The instant, in [s].
-        place: What stands for it in the game, in the world: of a robot the
-            point midway between its feet, of a person the trunk's axis; with
-            its heading.
+        place: Reference point and heading in the world. The reference point
+            of a robot is midway between its feet, that of a person on the
+            axis of the trunk.
         torso: Origin and heading of the torso in the world.
         com: CoM (x, y, z) in the world, in [m].
         frame: Pose of its odometry in the world.
-        walk: What it plans and asks of its body.
+        walk: State of its walk: plan, references and estimates.
         zmp: Center of its foot forces in the world, in [m]; NaN in flight.
-        posture: Position and quaternion of the torso, then its joints.
-            Shape (7 + joints,).
-        stance: How its torso and feet truly stand.
-        pushes: Last pushes that it was given.
+        posture: Position and quaternion of the torso in the world, then all
+            joint angles, in [m] and [rad]. Shape (7 + joints,).
+        stance: True state of torso and feet.
+        pushes: Pushes that have been applied or scheduled.
     """
 
     name: str
@@ -58,12 +57,12 @@ def snapshot_of(
     frame: Pose | None = None,
     walk: WalkState | None = None,
 ) -> Snapshot:
-    """State of a robot in the world at this instant.
+    """Return the state of a robot in the world at this instant.
 
     Args:
         robot: The robot.
-        frame: Pose of its odometry in the world, where it is known.
-        walk: What it plans, where it is known.
+        frame: Pose of its odometry in the world, if known.
+        walk: State of its walk, if known.
     """
     truth = robot.truth
     x, y, z = truth.com.tolist()
@@ -83,54 +82,61 @@ def snapshot_of(
 
 
 class Player(Protocol):
-    """Whoever plays.
+    """Player of a match.
 
     Attributes:
-        name: Who it is.
-        truth: Where it really is, for the rules of the game and the record.
-        begun: Step that it began at the last tick, if it did.
-        reports: What the images that reached it at the last tick show.
+        name: Name of the player.
+        truth: True state, for the rules of the game and the record.
+        begun: Step begun at the last tick, if any.
+        reports: Detections of the images that arrived at the last tick.
     """
 
     name: str
 
     @property
     def truth(self) -> GroundTruth:
-        """Where it really is."""
+        """True state."""
 
     @property
     def begun(self) -> StepStarted | None:
-        """Step that it began at the last tick, if it did."""
+        """Step begun at the last tick, if any."""
 
     @property
     def reports(self) -> "Sequence[FrameReport]":
-        """What the images that reached it at the last tick show."""
+        """Detections of the images that arrived at the last tick."""
+
+    @property
+    def is_ready(self) -> bool:
+        """Whether it is ready for the game to begin."""
 
     @property
     def is_moving(self) -> bool:
-        """Whether it walks, rather than stands and waits."""
+        """Whether it has left its standing state."""
 
     @property
     def has_fallen(self) -> bool:
-        """Whether it lies, or feels that it falls."""
+        """Whether it has fallen, or has detected a fall."""
+
+    def start(self) -> None:
+        """Receive the signal that the game begins."""
 
     def tick(self) -> None:
-        """Perceive, decide and act; time passes afterwards, for all.
+        """Perceive, decide and act; physics advances afterwards.
 
         Raises:
-            ReachError: If its legs lose what they are asked for.
+            ReachError: If its legs cannot reach their references.
             StrategyError: If its strategy gives no intent.
         """
 
     def snapshot(self) -> Snapshot:
-        """State of this instant."""
+        """Return the state at this instant."""
 
     def push(self, *pushes: Push) -> None:
-        """Let somebody push it, now or later.
+        """Schedule pushes, now or later.
 
         Raises:
-            ConfigurationError: If it is nobody who can be pushed.
+            ConfigurationError: If the player cannot be pushed.
         """
 
     def close(self) -> None:
-        """Let go of what it holds."""
+        """Release its resources."""

@@ -1,4 +1,4 @@
-"""How a robot of our world is offered to control that is elsewhere."""
+"""Simulated robots offered to other processes for control."""
 
 from typing import NamedTuple, Protocol
 
@@ -12,42 +12,40 @@ from .walker import Walker
 
 
 class OfferedPlayer(NamedTuple):
-    """A player whose control is elsewhere, and what speaks for it."""
+    """Player that another process controls, with its server."""
 
     player: Player
     server: RobotServer
 
 
 class Offer(Protocol):
-    """A language, and the place where it is spoken."""
+    """Protocol and address at which a robot is served."""
 
     def serve(self, walker: Walker, *, lock_step: bool) -> OfferedPlayer:
-        """Offer a robot.
+        """Serve a robot.
 
         Args:
-            walker: The robot; it is not to be used any more.
-            lock_step: Whether the world waits for answers.
+            walker: The robot; it must not be used afterwards.
+            lock_step: Whether the simulation waits for commands.
 
         Raises:
-            StepAsideError: If it cannot be offered there.
+            StepAsideError: If the robot cannot be served there.
         """
 
 
 class LolaOffer(NamedTuple):
-    """Joints over LoLA.
+    """Joints served over LoLA, with the images of a robot with cameras.
 
     Attributes:
-        address: Where the robot listens.
-        ideal_sight: Whether the true line of sight is offered beside.
-
-    What the cameras of a robot that has some see is always offered.
+        address: Address of the server.
+        ideal_sight: Whether the true line of sight is served as well.
     """
 
     address: LolaAddress
     ideal_sight: bool = True
 
     def serve(self, walker: Walker, *, lock_step: bool) -> OfferedPlayer:
-        """Offer a robot's joints; who plays it has to keep it up."""
+        """Serve the joints of a robot; the client has to balance it."""
         senses = walker.scheme.senses
         head: tuple[int, ...] = ()
         if isinstance(senses, CameraSight):

@@ -1,4 +1,4 @@
-"""What a robot's description says of its games, as settings."""
+"""Settings of gait, control and games from a robot description."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
@@ -12,21 +12,21 @@ from .configuration_file import parse_settings
 from .duel_settings import DuelSettings, RobotSettings, StartSettings
 
 S = TypeVar("S")
-UNITS = {"push_unit": "N s", "force_unit": "N"}  # of what is no length
+UNITS = {"push_unit": "N s", "force_unit": "N"}  # other fields are in [m]
 
 
 @dataclass(frozen=True, slots=True)
 class RobotGameSettings:
-    """Distances of a robot's games, and its unit of pushes.
+    """Distances of a robot's games, and its scales relative to NAO.
 
     Attributes:
-        safety_radius: Distance at which it evades, in [m].
-        start_least: Least distance at which a game may begin, in [m].
-        start_near: Least distance that is drawn for a start, in [m].
-        start_far: Greatest one, in [m].
-        push_unit: Impulse that does to it what 1 N s does to NAO, in [N s].
-        force_unit: Force that is to its weight what 1 N is to NAO's, in [N].
-        length_unit: Length that is to it what 1 m is to NAO, in [m].
+        safety_radius: Safety radius of the robot as evader, in [m].
+        start_least: Smallest distance at which a game may begin, in [m].
+        start_near: Smallest distance that is drawn for a start, in [m].
+        start_far: Greatest distance that is drawn for a start, in [m].
+        push_unit: Impulse equivalent to 1 N s on NAO, in [N s].
+        force_unit: Force equivalent to 1 N on NAO, by weight, in [N].
+        length_unit: Length equivalent to 1 m for NAO, by CoM height, in [m].
     """
 
     safety_radius: float
@@ -38,7 +38,7 @@ class RobotGameSettings:
     length_unit: float = 1.0
 
     def __post_init__(self) -> None:
-        """Refuse what is no distance."""
+        """Check that values are positive and distances in order."""
         for field in fields(self):
             unit = UNITS.get(field.name, "m")
             value = getattr(self, field.name)
@@ -52,19 +52,19 @@ class RobotGameSettings:
 
 
 def settings_of_robot(robot: str) -> RobotSettings:
-    """Gait and control of a robot, as its description says.
+    """Return gait and control of a robot, from its description.
 
     Args:
-        robot: Its name, or the folder of its description.
+        robot: Name of the robot, or folder of its description.
 
     Raises:
-        StepAsideError: If the description says what no robot can do.
+        StepAsideError: If the description is invalid.
     """
     return replace(settings_of(load_robot(robot)), robot=robot)
 
 
 def settings_of(description: RobotDescription) -> RobotSettings:
-    """Gait and control of a robot, as its description says; see above."""
+    """Return gait and control from a description."""
     source = str(description.folder / FILE)
     gait: dict[str, Any] = dict(description.gait)
     if description.sole:
@@ -79,7 +79,7 @@ def settings_of(description: RobotDescription) -> RobotSettings:
 
 
 def game_of(description: RobotDescription) -> RobotGameSettings | None:
-    """Distances of a robot's games; None if its file does not say."""
+    """Return the game settings of a description; None if it has none."""
     if not description.game:
         return None
     source = f"{description.folder / FILE}, game"
@@ -87,43 +87,42 @@ def game_of(description: RobotDescription) -> RobotGameSettings | None:
 
 
 def with_robot(settings: S, robot: str) -> S:
-    """Settings of another robot, with what its description says.
+    """Return settings for another robot, from its description.
 
-    That is its gait and its control, and of a duel the distances, too.
+    Gait and control are replaced, and in a duel also the distances.
 
     Args:
-        settings: Of a walk, a duel or something else with a robot; what is
-            not the robot's stays.
-        robot: Name of a robot, or the folder of its description.
+        settings: Settings of a walk, a duel or another game with a robot.
+        robot: Name of a robot, or folder of its description.
 
     Raises:
-        StepAsideError: If there is none, or its description says what no
-            robot can do.
+        StepAsideError: If there is no such robot, or its description is
+            invalid.
     """
     own = settings_of_robot(robot)
-    known = {field.name for field in fields(settings)}  # type: ignore[arg-type]
+    names = {field.name for field in fields(settings)}  # type: ignore[arg-type]
     values: dict[str, Any] = {
         field.name: getattr(own, field.name) for field in fields(own)
     }
     game = game_of(load_robot(robot))
     if isinstance(settings, DuelSettings) and game is not None:
-        values["strategy"] = _widened(settings.strategy, game)
-        values["start"] = _drawn_from(settings.start, game)
-    changed = {k: v for k, v in values.items() if k in known}
-    made: S = replace(settings, **changed)  # type: ignore[type-var]
-    return made
+        values["strategy"] = _with_radius(settings.strategy, game)
+        values["start"] = _with_distances(settings.start, game)
+    changes = {k: v for k, v in values.items() if k in names}
+    changed: S = replace(settings, **changes)  # type: ignore[type-var]
+    return changed
 
 
 def with_players(
     settings: DuelSettings, robots: Mapping[str, str]
 ) -> DuelSettings:
-    """Settings of a duel whose players are different robots.
+    """Return settings of a duel whose players are different robots.
 
-    The greater distances of both hold for the two.
+    Of each distance the greater of both robots is used.
 
     Args:
-        settings: Of the duel.
-        robots: Robot of each player that has one of its own, by player.
+        settings: Settings of the duel.
+        robots: Robots that differ from that of the settings, by player.
     """
     for player, robot in robots.items():
         own = settings_of_robot(robot)
@@ -133,7 +132,7 @@ def with_players(
         if game is None:
             continue
         start, strategy = settings.start, settings.strategy
-        wide = RobotGameSettings(
+        larger = RobotGameSettings(
             max(game.safety_radius, strategy.safety_radius),
             max(game.start_least, start.least),
             max(game.start_near, start.near),
@@ -142,17 +141,17 @@ def with_players(
         )
         settings = replace(
             settings,
-            strategy=_widened(strategy, wide),
-            start=_drawn_from(start, wide),
+            strategy=_with_radius(strategy, larger),
+            start=_with_distances(start, larger),
         )
     return settings
 
 
-def _widened(strategy: Any, game: RobotGameSettings) -> Any:
+def _with_radius(strategy: Any, game: RobotGameSettings) -> Any:
     return replace(strategy, safety_radius=game.safety_radius)
 
 
-def _drawn_from(
+def _with_distances(
     start: StartSettings, game: RobotGameSettings
 ) -> StartSettings:
     return replace(

@@ -1,4 +1,4 @@
-"""Robots of our world on ROS 2 topics."""
+"""Simulated robots offered on ROS 2 topics."""
 
 from ..drivers.joint.frame_clock import TICK
 from ..drivers.ros2.dds_domain import DdsParticipant
@@ -9,7 +9,7 @@ from .walker import Walker
 
 
 class Ros2Offer:
-    """A robot that walks by itself, at velocities from a topic."""
+    """Robot with its own walk, commanded by velocities from a topic."""
 
     def __init__(
         self,
@@ -19,19 +19,19 @@ class Ros2Offer:
         *,
         ideal_sight: bool = True,
     ) -> None:
-        """Offer a robot in a namespace.
+        """Choose the namespace of a robot.
 
         Args:
-            dds: Where.
-            clock: Tells the time of the world there.
-            namespace: With a slash before it, or empty.
-            ideal_sight: Whether the true line of sight is told.
+            dds: DDS participant of the simulation.
+            clock: Publisher of the simulated time.
+            namespace: Namespace with a leading slash, or empty.
+            ideal_sight: Whether the true line of sight is published.
         """
         self._dds, self._clock = dds, clock
         self._namespace, self._ideal_sight = namespace, ideal_sight
 
     def serve(self, walker: Walker, *, lock_step: bool) -> OfferedPlayer:
-        """Offer a robot that keeps itself up."""
+        """Serve a robot that balances itself."""
         player = VelocityWalker(walker, offers_sight=self._ideal_sight)
         server = Ros2Server(
             self._dds,

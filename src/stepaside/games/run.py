@@ -1,4 +1,4 @@
-"""A game that was played, as a value, whoever and how many played."""
+"""Recorded game as a value: settings, trajectories and summary."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 class GameSettings(Protocol):
-    """What decides a game, as far as every game has it."""
+    """Settings that every game has."""
 
     @property
     def seed(self) -> int:
@@ -34,10 +34,10 @@ class GameSettings(Protocol):
 
     @property
     def gait(self) -> GaitSettings:
-        """How its robots walk."""
+        """Gait of its robots."""
 
     def robot_of(self, player: str) -> RobotSettings:
-        """What a player is, and how it walks."""
+        """Return robot, gait and control of a player."""
 
     @property
     def cycle(self) -> float:
@@ -49,34 +49,34 @@ class GameSettings(Protocol):
 
     @property
     def body(self) -> BodySettings:
-        """How far its bodies are from ideal ones."""
+        """Deviations of its bodies from ideal ones."""
 
 
 class GameSummary(Protocol):
-    """What is said of a game in numbers."""
+    """Values that the summary of every game has."""
 
     @property
     def outcome(self) -> str:
-        """How it ended."""
+        """How the game ended."""
 
     @property
     def message(self) -> str:
-        """What ended it, in words."""
+        """Reason for the end, as text."""
 
     @property
     def duration_s(self) -> float:
         """Simulated time, in [s]."""
 
     def to_json(self) -> dict[str, Any]:
-        """Plain values by name."""
+        """Return plain values by name."""
 
 
 class SafetyArea(NamedTuple):
-    """A round area that a player keeps free.
+    """Circular safety area around a player.
 
     Attributes:
-        player: Whose it is.
-        radius: In [m].
+        player: Name of the player.
+        radius: Radius, in [m].
     """
 
     player: str
@@ -85,23 +85,23 @@ class SafetyArea(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Run:
-    """A game that was played: what decided it, how it went, its figures.
+    """Recorded game.
 
     Attributes:
-        name: What it is called; that of its folder if it came from one.
-        settings: What decided it.
-        outcome: How it ended.
-        message: What ended it, in words.
+        name: Name of the run; that of its folder if it was read from one.
+        settings: Settings of the game.
+        outcome: How the game ended.
+        message: Reason for the end, as text.
         duration: Simulated time, in [s].
         times: Times of the samples, in [s]. Shape (n,).
-        tracks: Record of each player, by name, in the order in which they
-            act.
-        summary: Its figures.
-        stills: Some of what robots with cameras saw, by robot and camera;
-            not kept on disk.
+        tracks: Trajectory of each player, by name, in the order in which
+            the players act.
+        summary: Summary of the game.
+        stills: Example images of robots with cameras, by robot and camera;
+            not stored on disk.
     """
 
-    game: ClassVar[str] = "game"  # what was played, in a word
+    game: ClassVar[str] = "game"  # name of the game
 
     name: str
     settings: GameSettings
@@ -116,7 +116,7 @@ class Run:
     )
 
     def __repr__(self) -> str:
-        """What was played, in one line."""
+        """Describe the run in one line."""
         return (
             f"{type(self).__name__}({self.name!r}, {self.message!r}, "
             f"{len(self.times)} samples of {' and '.join(self.players)})"
@@ -124,32 +124,32 @@ class Run:
 
     @property
     def plan(self) -> Room | None:
-        """Room that they play in, if they play in one."""
+        """Room of the game; None on an open floor."""
         return None
 
     @property
     def title(self) -> str:
-        """What it was, in a few words."""
+        """Title, for figures and pages."""
         return f"{self.game.capitalize()}, seed {self.settings.seed}"
 
     @property
     def players(self) -> tuple[str, ...]:
-        """Who played."""
+        """Names of the players."""
         return tuple(self.tracks)
 
     @property
     def robots(self) -> tuple[str, ...]:
-        """Those of them whose joints are known."""
+        """Names of the players whose joint angles are recorded."""
         return tuple(n for n, t in self.tracks.items() if t.qpos is not None)
 
     @property
     def persons(self) -> tuple[str, ...]:
-        """Those who are persons; who is neither is drawn as a template."""
+        """Names of the players that are drawn as persons."""
         return tuple(n for n in self.players if n not in self.robots)
 
     @property
     def pair(self) -> tuple[Trajectory, Trajectory] | None:
-        """Records of the first two; None if one played alone."""
+        """Trajectories of the first two players; None with one player."""
         if len(self.tracks) < 2:
             return None
         first, second, *_ = self.tracks.values()
@@ -157,7 +157,10 @@ class Run:
 
     @property
     def distance(self) -> Array | None:
-        """Between the places of the first two, in [m]. Shape (n,)."""
+        """Distance between the first two players, in [m]. Shape (n,).
+
+        It is measured between their reference points; None with one player.
+        """
         if self.pair is None:
             return None
         first, second = self.pair
@@ -165,48 +168,53 @@ class Run:
 
     @property
     def orientation(self) -> Array | None:
-        """Angle between the headings of the first two, in [deg]. (n,)."""
+        """Angle between the first two headings, in [deg]. Shape (n,).
+
+        None with one player.
+        """
         if self.pair is None:
             return None
         first, second = self.pair
-        degs: Array = np.degrees(
-            angle_between(first.unicycle, second.unicycle)
-        )
-        return degs
+        angle: Array = angle_between(first.unicycle, second.unicycle)
+        in_degrees: Array = np.degrees(angle)
+        return in_degrees
 
     @property
     def theory(self) -> tuple[float, float, float] | None:
-        """Radius [m], distance [m] and angle [deg] of theory's circle."""
+        """Radius [m], distance [m] and angle [deg] on the circle of theory."""
         return None
 
     @property
     def circle(self) -> tuple[float, float, float] | None:
-        """Center (x, y) and radius of theory's circle, in [m]."""
+        """Center (x, y) and radius of the circle of theory, in [m]."""
         return None
 
     @property
     def safety(self) -> SafetyArea | None:
-        """Area that somebody keeps free, if there is one."""
+        """Safety area of a player, if there is one."""
         return None
 
     @property
     def things(self) -> tuple[RoomObject, ...]:
-        """What stands about."""
+        """Objects in the room."""
         return ()
 
     def index_at(self, time: float) -> int:
-        """Number of the first sample at a time, in [s], or after it."""
+        """Return the index of the first sample at or after a time, in [s]."""
         index = int(np.searchsorted(self.times, time - 1e-9))
         return min(index, len(self.times) - 1)
 
     def has_ended_at(self, index: int) -> bool:
-        """Whether a sample is the last of a game that something ended."""
+        """Return whether a sample is the last of a game that ended early.
+
+        A game that was interrupted by the user counts as completed.
+        """
         last = index >= len(self.times) - 1
-        goes_on = (Outcome.COMPLETED, Outcome.INTERRUPTED)
-        return last and self.outcome not in goes_on
+        complete = (Outcome.COMPLETED, Outcome.INTERRUPTED)
+        return last and self.outcome not in complete
 
     def words(self, index: int) -> str:
-        """What goes on at a sample."""
+        """Describe the state of the game at a sample, for captions."""
         if self.has_ended_at(index):
             return self.message
         pushed = self.pushed_at(float(self.times[index]))
@@ -215,7 +223,7 @@ class Run:
         return f"{' and '.join(self.players)} in motion"
 
     def pushed_at(self, time: float) -> tuple[str, ...]:
-        """Who was pushed in the last second before a time, in [s]."""
+        """Return the players pushed in the last second before a time [s]."""
         found = []
         for name, track in self.tracks.items():
             if track.pushes is not None:
@@ -225,7 +233,7 @@ class Run:
         return tuple(found)
 
     def arrays(self) -> dict[str, Array]:
-        """Record as arrays by name: ``times_s``, ``pursuer_com``, ..."""
+        """Return all arrays by name: ``times_s``, ``pursuer_com``, ..."""
         found = {"times_s": self.times}
         for name, track in self.tracks.items():
             found |= track.arrays(name)

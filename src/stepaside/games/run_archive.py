@@ -1,4 +1,4 @@
-"""Run folders: a game on disk, read and written as a whole."""
+"""Run folders: a recorded game on disk."""
 
 import json
 from pathlib import Path
@@ -15,7 +15,6 @@ from .array_checks import check_times, check_tracks
 from .checksums import check_seal
 from .configuration_file import dump_configuration, read_settings
 from .duel_run import DuelRun
-from .older import without_fillers
 from .outcome import Outcome
 from .play_conversion import is_play, run_of_play
 from .play_run import PlayRun
@@ -31,11 +30,18 @@ R = TypeVar("R", bound=Run)
 CONFIGURATION = "configuration.toml"
 SUMMARY = "summary.json"
 TRAJECTORIES = "trajectories.npz"
-KINDS: dict[str, type[DuelRun] | type[WalkRun] | type[PlayRun]]
-KINDS = {kind.game: kind for kind in (DuelRun, WalkRun, PlayRun)}  # by game
-BROKEN = (  # what reading a file can raise, if it is not as it was written
-    *(ValueError, OSError, EOFError, KeyError, NotImplementedError),
-    *(BadZipFile, DeflateError, RuntimeError, MemoryError),
+RUN_CLASSES: dict[str, type[DuelRun] | type[WalkRun] | type[PlayRun]]
+RUN_CLASSES = {run.game: run for run in (DuelRun, WalkRun, PlayRun)}
+READ_ERRORS = (  # raised for damaged files
+    ValueError,
+    OSError,
+    EOFError,
+    KeyError,
+    NotImplementedError,
+    BadZipFile,
+    DeflateError,
+    RuntimeError,
+    MemoryError,
 )
 
 
@@ -43,8 +49,8 @@ def write_record(folder: Path, run: Run) -> None:
     """Write configuration, summary and trajectories into a folder.
 
     Args:
-        folder: It exists, and is nobody's yet.
-        run: The game.
+        folder: Existing folder without a run.
+        run: The run.
     """
     (folder / CONFIGURATION).write_text(
         dump_configuration(run.settings), encoding="utf-8"
@@ -67,16 +73,20 @@ def load_run(folder: AnyPath, kind: type[Run] = Run) -> Run:
     """Read a run folder.
 
     Args:
-        folder: What somebody wrote.
-        kind: What it must be a run of; of any game by default.
+        folder: The run folder.
+        kind: Required class of the run; by default that of any game.
+
+    Returns:
+        The run.
 
     Raises:
-        ConfigurationError: If it is none, of another game, or of a later
-            format.
+        ConfigurationError: If the folder is not a valid run folder, of
+            another game, or of another format.
     """
     folder = as_path(folder, "folder")
     if not (folder / SUMMARY).exists() and is_play(folder):
-        return _of_kind(_cut_off(folder), folder, kind)
+        _check_game(PlayRun, folder, kind)
+        return _load_unfinished_play(folder)
     for name in (CONFIGURATION, SUMMARY, TRAJECTORIES):
         if not (folder / name).is_file():
             raise ConfigurationError(
@@ -88,46 +98,40 @@ def load_run(folder: AnyPath, kind: type[Run] = Run) -> Run:
         check_seal(folder, (CONFIGURATION, SUMMARY, TRAJECTORIES))
         plain = read_json(folder / SUMMARY)
         text = read_text(folder / CONFIGURATION)
-        head = read_head(plain, name, tuple(KINDS))
+        head = read_head(plain, name, tuple(RUN_CLASSES))
         known = {f"{n}_{key}" for n in head.players for key in FIELDS}
         known.add("times_s")
         arrays = read_arrays(folder / TRAJECTORIES, frozenset(known))
     except ConfigurationError:
         raise
-    except BROKEN as error:
+    except READ_ERRORS as error:
         raise ConfigurationError(
             f"run {folder} cannot be read: {error or type(error).__name__}"
         ) from error
-    found = KINDS[head.game]
-    if not issubclass(found, kind):
-        raise ConfigurationError(
-            f"run {folder} must be one of a {kind.game}, got one of a "
-            f"{head.game}"
-        )
+    run_class = RUN_CLASSES[head.game]
+    _check_game(run_class, folder, kind)
     source = str(folder / CONFIGURATION)
-    settings = read_settings(found.settings_kind, text, source)
+    settings = read_settings(run_class.settings_kind, text, source)
     return read_record(name, settings, plain, arrays)
 
 
-def _of_kind(run: Run, folder: Path, kind: type[Run]) -> Run:
-    """A run, if it is one of a game."""
-    if not isinstance(run, kind):
+def _check_game(run_class: type[Run], folder: Path, kind: type[Run]) -> None:
+    if not issubclass(run_class, kind):
         raise ConfigurationError(
             f"run {folder} must be one of a {kind.game}, got one of a "
-            f"{run.game}"
+            f"{run_class.game}"
         )
-    return run
 
 
-def _cut_off(folder: Path) -> PlayRun:
-    """What a player kept that did not come to its end, or is still at it."""
+def _load_unfinished_play(folder: Path) -> PlayRun:
+    """Read a play that was cut off or is still running."""
     file = folder / CONFIGURATION
     try:
         settings = read_settings(PlaySettings, read_text(file), str(file))
         return run_of_play(folder, settings)
     except ConfigurationError:
         raise
-    except BROKEN as error:
+    except READ_ERRORS as error:
         raise ConfigurationError(
             f"run {folder} cannot be read: {error or type(error).__name__}"
         ) from error
@@ -136,26 +140,26 @@ def _cut_off(folder: Path) -> PlayRun:
 def read_record(
     name: str, settings: Any, plain: Any, arrays: dict[str, Array]
 ) -> Run:
-    """Turn what a folder holds into a run.
+    """Build a run from the content of a run folder.
 
     Args:
-        name: What the run is called.
-        settings: What decided it.
-        plain: Its summary, as JSON.
-        arrays: Its trajectories, by name.
+        name: Name of the run.
+        settings: Settings of the game.
+        plain: Summary, as JSON.
+        arrays: Arrays of the trajectories, by name.
 
     Raises:
-        ConfigurationError: If they are none, or of a later format.
+        ConfigurationError: If the content is invalid, or of another format.
     """
-    head = read_head(plain, name, tuple(KINDS))
+    head = read_head(plain, name, tuple(RUN_CLASSES))
     times, tracks = _times(arrays, name), _tracks(arrays, name, head)
     check_times(times, name)
     check_tracks(tracks, len(times), name)
     source = f"{SUMMARY} of run {name}"
-    told = head.without(check_object(plain, source))
-    kind: Any = KINDS[head.game]
-    summary = kind.summary_kind.from_json(told, source)
-    run: Run = kind(
+    entries = head.without(check_object(plain, source))
+    run_class: Any = RUN_CLASSES[head.game]
+    summary = run_class.summary_kind.from_json(entries, source)
+    run: Run = run_class(
         name=name,
         settings=settings,
         outcome=_outcome(summary.outcome, name),
@@ -168,13 +172,13 @@ def read_record(
     return run
 
 
-def _outcome(told: str, name: str) -> Outcome:
+def _outcome(value: str, name: str) -> Outcome:
     try:
-        return Outcome(told)
+        return Outcome(value)
     except ValueError as error:
         known = ", ".join(outcome.value for outcome in Outcome)
         raise ConfigurationError(
-            f"outcome of run {name} must be one of {known}, got {told!r}"
+            f"outcome of run {name} must be one of {known}, got {value!r}"
         ) from error
 
 
@@ -189,13 +193,11 @@ def _times(arrays: dict[str, Array], name: str) -> Array:
 def _tracks(
     arrays: dict[str, Array], name: str, head: RunHeader
 ) -> dict[str, Trajectory]:
-    """Tracks of all players."""
-    if head.version == 1:
-        arrays = without_fillers(arrays, head.players)
+    """Return the trajectories of all players."""
     try:
         return tracks_in(arrays, head.players)
     except KeyError as error:
         raise ConfigurationError(
-            f"{TRAJECTORIES} of run {name} has no array {error}; a player has "
-            f"{', '.join(FIELDS)}"
+            f"{TRAJECTORIES} of run {name} has no array {error}; arrays of a "
+            f"player are {', '.join(FIELDS)}"
         ) from error

@@ -1,4 +1,4 @@
-"""A duel in which control comes over sockets."""
+"""Duel whose robots other processes control over sockets."""
 
 from collections.abc import Callable, Mapping
 from contextlib import ExitStack
@@ -6,8 +6,7 @@ from typing import Any, NamedTuple
 
 from ..core.errors import ConfigurationError
 from ..drivers.joint.frame_clock import TICK
-from .duel import Duel
-from .duel_end import ended_duel
+from .duel import Duel, make_duel_run
 from .duel_run import DuelRun
 from .duel_settings import DuelSettings
 from .lockstep import Lockstep, RobotServer
@@ -20,13 +19,13 @@ from .walker import Walker
 
 
 class ServedDuel(NamedTuple):
-    """A served duel that is over.
+    """Finished served duel.
 
     Attributes:
-        run: What was played, as any other duel.
+        run: The recorded duel.
         late_ticks: Ticks that began more than 6 ms late.
-        lateness_ms: Ticks by how late they began.
-        unanswered: Frames whose answer did not come in their tick.
+        lateness_ms: Number of ticks by delay, in [ms].
+        unanswered: Frames that were not answered in their tick.
     """
 
     run: DuelRun
@@ -35,7 +34,7 @@ class ServedDuel(NamedTuple):
     unanswered: int
 
     def to_json(self) -> dict[str, Any]:
-        """Plain values, those of a duel and the clock's."""
+        """Return the summary of the duel and the timing, as plain values."""
         return self.run.summary.to_json() | {
             "late_ticks": self.late_ticks,
             "lateness_ms": self.lateness_ms,
@@ -51,26 +50,27 @@ def serve_duel(
     patience: float = 60.0,
     report: Callable[[Progress], None] | None = None,
 ) -> ServedDuel:
-    """Let other processes play a duel in our world.
+    """Play a duel whose robots are controlled by other processes.
 
-    Who is not offered is played here, by its own control.
+    Robots without an offer are controlled by this process.
 
     Args:
-        settings: What decides the duel; its clock must be LoLA's.
-        offers: How robots are offered, by name of the player.
-        lock_step: Whether the world waits for answers instead of for the
-            clock.
-        patience: How long to wait for clients, in [s].
+        settings: Settings of the duel; its control period must be that of
+            LoLA.
+        offers: Protocol and address of each served robot, by player.
+        lock_step: Whether the simulation waits for commands instead of for
+            the clock.
+        patience: Longest time to wait for clients, in [s].
         report: Called about five times a second with the progress.
 
     Raises:
-        StepAsideError: If the settings ask for what cannot be, a robot
-            cannot be offered, or a client does not come.
+        StepAsideError: If the settings cannot be met, a robot cannot be
+            served, or a client does not connect.
     """
     duel = Duel(settings, recorded=False)
     if duel.world.physics.tick != TICK:
         raise ConfigurationError(
-            f"a served world needs a tick of {TICK:g} [s], "
+            f"a served duel needs a tick of {TICK:g} [s], "
             f"got {duel.world.physics.tick:g}; choose --body delayed or "
             "hardware"
         )
@@ -93,7 +93,7 @@ def serve_duel(
         match = Match(duel.world, players, (exchange, recorder))
         outcome, wall = play(match, settings.duration, report)
     return ServedDuel(
-        ended_duel(duel.settings, match, outcome, recorder, None, wall),
+        make_duel_run(duel.settings, match, outcome, recorder, None, wall),
         exchange.late,
         exchange.histogram(),
         exchange.unanswered,

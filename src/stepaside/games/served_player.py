@@ -1,4 +1,4 @@
-"""Players whose control is elsewhere: bodies here, minds behind a wire."""
+"""Players whose joints another process commands."""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Protocol
@@ -17,129 +17,136 @@ from .player import Snapshot, snapshot_of
 if TYPE_CHECKING:
     from ..perception.frame_report import FrameReport
 
-MOVED = 0.05  # of a target from the stance before a robot moves, in [rad]
+MOVING = 0.05  # change of a target from which a robot moves, in [rad]
 
 
 class JointServer(Protocol):
-    """What speaks for a robot whose joints are moved from elsewhere."""
+    """Server of a robot whose joints another process commands."""
 
     def act(self) -> None:
-        """Let the robot do what was asked."""
+        """Apply the last command to the robot."""
 
     def close(self) -> None:
-        """Stop speaking."""
+        """Stop serving."""
 
 
 class ServedBody:
-    """A simulated robot as the server of its joints sees it.
+    """Simulated robot as seen by the server of its joints.
 
-    Until the game begins the world stands still: its sensors say the same
-    all the time, which is what they say of a robot that stands at rest, and
-    what is commanded does nothing.
+    Until the game begins the simulation does not advance: the sensors
+    constantly report a robot at rest, and commands are ignored.
 
     Attributes:
-        is_moving: Whether its targets have left the stance.
+        is_moving: Whether its targets have left the initial stance.
     """
 
     def __init__(
         self, robot: SimulatedRobot, head: Sequence[int] = ()
     ) -> None:
-        """Hold a robot that stands in its world.
+        """Take a robot that stands in its world.
 
         Args:
             robot: The robot.
-            head: Numbers of the joints that turn its head: who looks about
-                does not move.
+            head: Indices of the head joints, whose motion does not count as
+                moving.
         """
         self._robot, self._head = robot, list(head)
-        self._held = True
-        self._seen: Measurement | None = None
+        self._waiting = True
+        self._measurement: Measurement | None = None
         self._ticks = -1
         self._stance: Array | None = None
         self.is_moving = False
 
     def let_go(self) -> None:
-        """Let the game begin."""
-        self._held = False
+        """Begin the game: apply commands from now on."""
+        self._waiting = False
 
     def sensors(self) -> Measurement:
-        """What its sensors give: read once a tick, as noise is drawn."""
+        """Return the measurement of this tick; noise is drawn once."""
         ticks = self._robot.world.ticks
-        if self._seen is None or ticks != self._ticks:
-            self._seen, self._ticks = self._robot.read(), ticks
-        return self._at_rest(self._seen) if self._held else self._seen
+        if self._measurement is None or ticks != self._ticks:
+            self._measurement, self._ticks = self._robot.read(), ticks
+        if self._waiting:
+            return self._at_rest(self._measurement)
+        return self._measurement
 
-    def _at_rest(self, seen: Measurement) -> Measurement:
-        """Add gravity to what sensors give before the first step of physics.
+    def _at_rest(self, measurement: Measurement) -> Measurement:
+        """Add gravity and foot forces of a robot that stands.
 
-        Until then no force acts, neither in the torso nor on the soles.
+        Before the first step of physics the simulation has no forces.
         """
         forces = np.full_like(
-            seen.foot_forces, self._robot.weight / seen.foot_forces.size
+            measurement.foot_forces,
+            self._robot.weight / measurement.foot_forces.size,
         )
-        return seen._replace(
+        return measurement._replace(
             accelerometer=np.array([0.0, 0.0, GRAVITY]), foot_forces=forces
         )
 
     def command(self, targets: Array, stiffness: Array) -> None:
-        """Set joint targets, in [rad], and shares of the torque."""
-        if self._held:
+        """Set joint targets, in [rad], and stiffness from 0 to 1."""
+        if self._waiting:
             return
         if self._stance is None:
             self._stance = targets
-        moved = np.abs(targets - self._stance)
-        moved[self._head] = 0.0
-        self.is_moving = self.is_moving or bool(moved.max() > MOVED)
+        change = np.abs(targets - self._stance)
+        change[self._head] = 0.0
+        self.is_moving = self.is_moving or bool(change.max() > MOVING)
         self._robot.servos.soften(stiffness)
         self._robot.write(targets)
 
 
 class ServedPlayer:
-    """A robot in the world whose control is in another process.
+    """Simulated robot that another process controls.
 
     Attributes:
-        name: Who it is.
-        server: What speaks for it.
-        body: What the server moves.
-        truth: Where it really is.
-        begun: None: its plans are not known here.
-        reports: None: what it sees is not known here.
+        name: Name of the player.
+        server: Server of its joints.
+        body: Body that the server commands.
+        truth: True state.
+        is_ready: True: its server waits for the client before the match.
+        begun: None: its plans are unknown to this process.
+        reports: Empty: its detections are unknown to this process.
     """
 
+    is_ready = True
     begun: StepStarted | None = None
     reports: "Sequence[FrameReport]" = ()
 
     def __init__(
         self, robot: SimulatedRobot, body: ServedBody, server: JointServer
     ) -> None:
-        """Join a robot and what speaks for it."""
+        """Combine a robot, its served body and its server."""
         self.name = robot.name
         self.robot, self.body, self.server = robot, body, server
         self.truth: GroundTruth = robot.truth
 
     @property
     def is_moving(self) -> bool:
-        """Whether it walks, rather than stands and waits."""
+        """Whether its joint targets have left the initial stance."""
         return self.body.is_moving
 
     @property
     def has_fallen(self) -> bool:
-        """Whether it lies."""
+        """Whether it has fallen."""
         return self.truth.has_fallen
 
+    def start(self) -> None:
+        """Do nothing: its client begins with the released chest button."""
+
     def tick(self) -> None:
-        """Do what was asked for over the wire."""
+        """Apply the last command of the client."""
         self.server.act()
 
     def snapshot(self) -> Snapshot:
-        """State of this instant, as far as it is known here."""
+        """Return the state at this instant, without plans."""
         return snapshot_of(self.robot)
 
     def push(self, *pushes: Push) -> None:
-        """Let somebody push the torso, now or later."""
+        """Schedule pushes of the torso, now or later."""
         self.robot.push(*pushes)
 
     def close(self) -> None:
-        """Let go of client and eyes."""
+        """Close the server and the cameras."""
         self.server.close()
         self.robot.close()

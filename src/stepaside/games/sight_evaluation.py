@@ -1,4 +1,4 @@
-"""How well a robot sees, judged by the truth that it does not have."""
+"""Evaluation of a robot's perception against the true state."""
 
 from dataclasses import dataclass
 from math import atan2, radians
@@ -14,19 +14,19 @@ from ..sim.ground_truth import GroundTruth, torsos_apart
 from ..sim.simulated_robot import SimulatedRobot
 from .sight_summary import ErrorSpread, SightSummary
 
-AGREES = radians(10.0)  # within which a detection is of what it should be
-ASTRAY = radians(20.0)  # error of a belief that misleads
-MARGIN = 0.15  # beyond the near limit at which a body is in range, in [m]
+MATCH_ANGLE = radians(10.0)  # within which a detection matches the truth
+MISLED_ANGLE = radians(20.0)  # bearing error from which a robot is misled
+NEAR_MARGIN = 0.15  # beyond the near limit at which a body is in range, [m]
 
 
 @dataclass(slots=True)
 class FrameCounts:
-    """Frames of one camera.
+    """Counts of the frames of one camera.
 
     Attributes:
-        shown: Frames with the other in the field of view.
-        found: Of them, those that found it.
-        false: Detections of what is not there.
+        shown: Frames with the opponent in the field of view.
+        found: Frames among them with a detection of the opponent.
+        false: Detections that match no object.
     """
 
     shown: int = 0
@@ -35,17 +35,17 @@ class FrameCounts:
 
     @property
     def rate(self) -> float | None:
-        """Share of the frames with the other in view that found it."""
+        """Detection rate; None if the opponent was never in view."""
         return self.found / self.shown if self.shown else None
 
 
 @dataclass(slots=True)
 class EvaluatedImage:
-    """One image with what was found in it.
+    """Image with its detections and the true direction of the opponent.
 
     Attributes:
-        report: The image and what was found.
-        azimuth: True direction of the other from the camera's axis, in
+        report: Image and detections.
+        azimuth: True direction of the opponent from the camera's axis, in
             [rad].
     """
 
@@ -54,12 +54,12 @@ class EvaluatedImage:
 
 
 class SightEvaluator:
-    """Compares what a robot believes with what is.
+    """Comparison of a robot's detections and sightings with the truth.
 
     Attributes:
         colour: Frames of the colour camera.
         depth: Frames of the depth camera.
-        stills: Images kept to be looked at, by camera.
+        stills: Example images, by camera.
     """
 
     def __init__(
@@ -73,17 +73,17 @@ class SightEvaluator:
         *,
         wears_trim: bool = True,
     ) -> None:
-        """Watch one robot.
+        """Evaluate one robot.
 
         Args:
             robot: The robot.
-            other: Where what it should see really is.
-            perception: What it believes.
-            head: Its head.
-            things: Places of what else stands in the world, in [m].
-            still_times: When images are to be kept, in [s].
-            wears_trim: Whether the other has the colour that is looked for;
-                a person has none, so no colour frame can find one.
+            other: True state of its opponent.
+            perception: Perception of the robot.
+            head: Head of the robot.
+            things: Positions (x, y) of other objects in the world, in [m].
+            still_times: Times from which example images are stored, in [s].
+            wears_trim: Whether the opponent wears the colour of a robot; a
+                person does not, so colour frames cannot detect it.
         """
         self._wears_trim = wears_trim
         self._robot, self._other = robot, other
@@ -101,7 +101,7 @@ class SightEvaluator:
         self._still_times = still_times
 
     def look(self) -> None:
-        """Judge a tick, after the robot has perceived and before it moves."""
+        """Evaluate a tick, after perception and before physics."""
         eyes = self._robot.eyes
         for percept in () if eyes is None else eyes.exposed:
             self.note(percept)
@@ -109,87 +109,92 @@ class SightEvaluator:
             self.judge(report)
 
     def note(self, percept: Percept) -> None:
-        """Note the truth when a percept is taken."""
+        """Store the truth at the instant at which an image is taken."""
         if isinstance(percept, SonarEcho):
             return
         is_colour = isinstance(percept, ColourImage)
         mount = self._head.top if is_colour else self._head.depth
         if isinstance(percept, ColourImage) and percept.low:
             mount = self._head.bottom or mount
-        place, axes = self._camera(mount)
+        position, axes = self._camera(mount)
         target = np.array([*self._other.position, self._height()])
-        point = axes.T @ (target - place)
+        point = axes.T @ (target - position)
         shown = percept.camera.sees(point)
         shown &= self._wears_trim or not is_colour
         if isinstance(percept, DepthImage):
-            away = float(np.hypot(*point[:2]))
-            shown &= percept.near + MARGIN < away < percept.far
+            distance = float(np.hypot(*point[:2]))
+            shown &= percept.near + NEAR_MARGIN < distance < percept.far
         others = [
-            self._azimuth(axes.T @ (np.array([x, y, 0.2]) - place))
+            self._azimuth(axes.T @ (np.array([x, y, 0.2]) - position))
             for x, y in self._things
         ]
         self._true[percept] = (self._azimuth(point), shown, others)
 
     def judge(self, report: FrameReport) -> None:
-        """Compare what an image was found to show with the truth."""
+        """Compare the detections of an image with the truth."""
         truth = self._true.pop(report.image, None)
         if truth is None or not report.sought:
             return
         azimuth, shown, others = truth
         kind = "colour" if isinstance(report.image, ColourImage) else "depth"
-        tally = self.colour if kind == "colour" else self.depth
-        right = [
-            abs(wrap_angle(a - azimuth)) < AGREES for a in report.azimuths
+        counts = self.colour if kind == "colour" else self.depth
+        matches = [
+            abs(wrap_angle(a - azimuth)) < MATCH_ANGLE for a in report.azimuths
         ]
         if shown:
-            tally.shown += 1
-            tally.found += any(right)
+            counts.shown += 1
+            counts.found += any(matches)
+        # The depth camera also detects objects, which are not false.
         allowed = others if kind == "depth" else []
-        for angle, fits in zip(report.azimuths, right, strict=True):
+        for angle, fits in zip(report.azimuths, matches, strict=True):
             if not fits and not any(
-                abs(wrap_angle(angle - thing)) < 2.0 * AGREES
+                abs(wrap_angle(angle - thing)) < 2.0 * MATCH_ANGLE
                 for thing in allowed
             ):
-                tally.false += 1
-        kept = self.stills[kind]
-        if len(kept) < len(self._still_times):
-            if report.image.time >= self._still_times[len(kept)]:
-                kept.append(EvaluatedImage(report, azimuth))
+                counts.false += 1
+        stills = self.stills[kind]
+        if len(stills) < len(self._still_times):
+            if report.image.time >= self._still_times[len(stills)]:
+                stills.append(EvaluatedImage(report, azimuth))
 
     def sample(self, now: float) -> None:
-        """Compare the belief of this instant with the truth."""
+        """Record the present sighting and the truth."""
         own, other = self._robot.truth, self._other
         x, y = own.position
         u, v = other.position
         bearing = wrap_angle(atan2(v - y, u - x) - own.heading)
         distance = torsos_apart(own, other)
-        seen = self._perception.sighting
-        believed = (np.nan, np.nan)
-        if seen is not None:
-            believed = (seen.bearing, seen.distance)
-        lost = float(seen is None or self._perception.searching)
-        self._rows.append((now, *believed, bearing, distance, lost))
+        sighting = self._perception.sighting
+        estimated = (np.nan, np.nan)
+        if sighting is not None:
+            estimated = (sighting.bearing, sighting.distance)
+        lost = float(sighting is None or self._perception.searching)
+        self._rows.append((now, *estimated, bearing, distance, lost))
 
     def array(self) -> Array:
-        """Time, believed bearing and distance, true ones, whether lost.
+        """Return the recorded sightings beside the truth.
 
-        Shape (n, 6), in [s], [rad], [m], [rad], [m], [1].
+        Returns:
+            Time [s], estimated bearing [rad] and distance [m], true bearing
+            [rad] and distance [m], 1 while the opponent is lost. Shape
+            (n, 6).
         """
         return np.array(self._rows, dtype=np.float64).reshape(-1, 6)
 
     def figures(self) -> SightSummary:
-        """Errors and rates."""
+        """Return errors and detection rates."""
         rows = self.array()
-        off = np.abs(wrap_angles(rows[:, 1] - rows[:, 3]))
-        away = np.abs(rows[:, 2] - rows[:, 4])
+        bearing_error = np.abs(wrap_angles(rows[:, 1] - rows[:, 3]))
+        distance_error = np.abs(rows[:, 2] - rows[:, 4])
         period = float(np.diff(rows[:2, 0])[0]) if len(rows) > 1 else 0.0
-        known = np.isfinite(off)
+        known = np.isfinite(bearing_error)
+        misled = bearing_error[known] > MISLED_ANGLE
         return SightSummary(
-            bearing_error_deg=_spread(np.degrees(off[known])),
-            distance_error_m=_spread(away[known]),
+            bearing_error_deg=_spread(np.degrees(bearing_error[known])),
+            distance_error_m=_spread(distance_error[known]),
             detection_rate=self.colour.rate,
             false_detections=self.colour.false + self.depth.false,
-            misled_s=float((off[known] > ASTRAY).sum() * period),
+            misled_s=float(misled.sum() * period),
             lost_s=float(rows[:, 5].sum() * period),
             depth_detection_rate=self.depth.rate,
         )

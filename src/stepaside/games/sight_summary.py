@@ -1,4 +1,4 @@
-"""The figures of what robots with cameras saw."""
+"""Summaries of the perception of robots with cameras."""
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields
@@ -7,11 +7,11 @@ from typing import Any, NamedTuple
 
 @dataclass(frozen=True, slots=True)
 class ErrorSpread:
-    """Sizes of errors; None where there are none.
+    """Quantiles of absolute errors; None without any.
 
     Attributes:
-        median: Half of them are smaller.
-        p95: So are 95 % of them.
+        median: Median.
+        p95: 95 % quantile.
     """
 
     median: float | None
@@ -20,18 +20,17 @@ class ErrorSpread:
 
 @dataclass(frozen=True, slots=True)
 class SightSummary:
-    """How well one robot saw.
+    """Errors and detection rates of one robot.
 
     Attributes:
-        bearing_error_deg: Of the believed bearing, in [deg].
-        distance_error_m: Of the believed distance, in [m].
-        detection_rate: Share of its colour images with the other in view
-            that found it; None if there were none.
-        false_detections: Detections of what is not there.
-        misled_s: How long its bearing was off by more than 20 deg, in [s].
-        lost_s: How long it did not know where the other is, in [s].
-        depth_detection_rate: As ``detection_rate``, of the depth camera;
-            None if the other was never in its view.
+        bearing_error_deg: Error of the estimated bearing, in [deg].
+        distance_error_m: Error of the estimated distance, in [m].
+        detection_rate: Fraction of colour images with the opponent in view
+            in which it was detected; None if it never was in view.
+        false_detections: Detections that match no object.
+        misled_s: Time with a bearing error above 20 deg, in [s].
+        lost_s: Time without a sighting of the opponent, in [s].
+        depth_detection_rate: As ``detection_rate``, of the depth camera.
     """
 
     bearing_error_deg: ErrorSpread
@@ -43,7 +42,7 @@ class SightSummary:
     depth_detection_rate: float | None = None
 
     def to_json(self) -> dict[str, Any]:
-        """Plain values by name; without what no camera could tell."""
+        """Return plain values by name, without rates that are unknown."""
         plain = asdict(self)
         if self.depth_detection_rate is None:
             del plain["depth_detection_rate"]
@@ -52,13 +51,13 @@ class SightSummary:
 
 @dataclass(frozen=True, slots=True)
 class PerceptionSummary:
-    """How well all robots of a game saw.
+    """Detection rates of all robots of a game together.
 
     Attributes:
-        camera: What drew the colour images.
-        detection_rate: Of all cameras; see :class:`SightSummary`.
-        false_detections: Likewise.
-        lost_s: Of all robots, added, in [s].
+        camera: Name of the renderer of the colour images.
+        detection_rate: Rate over all cameras; see :class:`SightSummary`.
+        false_detections: Sum over all cameras.
+        lost_s: Sum over all robots, in [s].
     """
 
     camera: str
@@ -68,11 +67,11 @@ class PerceptionSummary:
 
 
 class SightReport(NamedTuple):
-    """Figures of what was seen in a game.
+    """Evaluation of perception in a game.
 
     Attributes:
-        all: Of all robots together.
-        each: Of each that has cameras, by name.
+        all: Summary of all robots together.
+        each: Summary of each robot with cameras, by name.
     """
 
     all: PerceptionSummary
@@ -84,12 +83,12 @@ SIGHT = frozenset(field.name for field in fields(SightSummary))
 
 
 def lift(plain: dict[str, Any], names: frozenset[str]) -> dict[str, Any]:
-    """Put figures of sight that lie among others under ``sight``.
+    """Move the entries of a perception summary under the key ``sight``.
 
     Args:
         plain: Plain values by name.
-        names: Of the figures of sight.
+        names: Names of the entries to move.
     """
-    seen = {key: value for key, value in plain.items() if key in names}
+    sight = {key: value for key, value in plain.items() if key in names}
     rest = {key: value for key, value in plain.items() if key not in names}
-    return rest | {"sight": seen or None}
+    return rest | {"sight": sight or None}

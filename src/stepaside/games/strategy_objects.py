@@ -1,4 +1,4 @@
-"""Strategies that settings are given as Python objects."""
+"""Strategies given to settings as Python objects."""
 
 from dataclasses import fields
 from typing import Any
@@ -11,20 +11,24 @@ EVASION = "evasion"
 
 
 def settled(strategy: Any, evader: Any, pursuer: Any) -> dict[str, Any]:
-    """Return entries of a duel in which names stand wherever they can.
+    """Replace strategy objects of a duel by names where possible.
 
-    An object that equals a strategy of the registry becomes its name. One of
-    the evader that was given as ``strategy``, like a subclass of
-    :class:`~stepaside.strategies.Evasion`, becomes what the evader plays.
+    An object that equals a strategy of the registry is replaced by its name.
+    An object that was given as ``strategy``, like a subclass of
+    :class:`~stepaside.strategies.Evasion`, becomes the evader's strategy.
 
     Args:
-        strategy: How an evader of the paper evades, or an own strategy.
-        evader: What the evader plays: a name or a strategy.
-        pursuer: What a pursuing robot plays, likewise.
+        strategy: Settings of the evasion of the paper, or a strategy object.
+        evader: Strategy of the evader: a name or an object.
+        pursuer: Strategy of a pursuing robot, likewise.
+
+    Returns:
+        Entries ``strategy``, ``evader_strategy`` and ``pursuer_strategy`` of
+        the settings.
 
     Raises:
-        ConfigurationError: If one is no strategy, or they contradict each
-            other.
+        ConfigurationError: If a value is not a strategy, or values
+            contradict each other.
     """
     for name, value in (
         ("strategy", strategy),
@@ -35,7 +39,7 @@ def settled(strategy: Any, evader: Any, pursuer: Any) -> dict[str, Any]:
     if type(strategy) is not Evasion:
         if evader != EVASION:
             raise ConfigurationError(
-                "strategy must be an Evasion beside evader_strategy "
+                "strategy must be an Evasion with evader_strategy "
                 f"{shown(evader)}, got a {type(strategy).__name__}"
             )
         strategy, evader = _base(strategy), strategy
@@ -45,8 +49,8 @@ def settled(strategy: Any, evader: Any, pursuer: Any) -> dict[str, Any]:
         if type(inner) is Evasion and _name(evader, inner) in OF_EVASION:
             if strategy not in (Evasion(), inner):
                 raise ConfigurationError(
-                    "strategy must be left out beside an evader_strategy "
-                    f"that holds another, got {shown(strategy)}"
+                    "strategy must be omitted with an evader_strategy that "
+                    f"contains another, got {shown(strategy)}"
                 )
             strategy = inner
         evader = _name(evader, strategy) or evader
@@ -60,26 +64,26 @@ def settled(strategy: Any, evader: Any, pursuer: Any) -> dict[str, Any]:
 
 
 def check_named(settings: Any) -> None:
-    """Refuse strategy objects where records are kept.
+    """Reject strategy objects where records are stored by settings.
 
     Args:
-        settings: Of a duel.
+        settings: Settings of a duel.
 
     Raises:
-        ConfigurationError: If a strategy has no name: records do not tell
-            one object from another of its class.
+        ConfigurationError: If a strategy has no name, as records cannot
+            distinguish two objects of the same class.
     """
     for name in ("evader_strategy", "pursuer_strategy"):
         played = getattr(settings, name)
         if not isinstance(played, str):
             raise ConfigurationError(
                 f"{name} must be a name or FILE.py:NAME where records are "
-                f"kept, got a Python object, {type(played).__name__}"
+                f"stored, got a Python object, {type(played).__name__}"
             )
 
 
 def _check(name: str, value: Any) -> None:
-    """Refuse what is neither a name nor like a strategy."""
+    """Check that a value is a name or has the methods of a strategy."""
     if isinstance(value, str) and name != "strategy":
         return
     if isinstance(value, type):
@@ -93,7 +97,7 @@ def _check(name: str, value: Any) -> None:
 
 
 def _base(strategy: Any) -> Evasion:
-    """What a subclass of the paper's evader has of it; else the default."""
+    """Return the settings of the paper's evasion that an object inherits."""
     if not isinstance(strategy, Evasion):
         return Evasion()
     values = {f.name: getattr(strategy, f.name) for f in fields(Evasion)}
@@ -101,7 +105,7 @@ def _base(strategy: Any) -> Evasion:
 
 
 def _name(played: Strategy, evasion: Evasion) -> str | None:
-    """Name in the registry of what plays the same; None if there is none."""
+    """Return the name in the registry of an equal strategy, or None."""
     for name, make in STRATEGIES.items():
         made = make(evasion)
         if type(made) is type(played) and made == played:

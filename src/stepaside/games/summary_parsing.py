@@ -1,4 +1,4 @@
-"""Figures of games, from plain values."""
+"""Parsing of summaries from plain JSON values."""
 
 from collections.abc import Mapping
 from typing import Any, TypeVar
@@ -12,14 +12,14 @@ F = TypeVar("F")
 
 
 def check_object(plain: Any, source: str) -> dict[str, Any]:
-    """Give an object of JSON back, or refuse what is none.
+    """Return a JSON object unchanged; reject any other value.
 
     Args:
-        plain: What JSON held.
-        source: Where it comes from, for messages.
+        plain: JSON value.
+        source: Origin of the value, for messages.
 
     Raises:
-        ConfigurationError: If it is something else.
+        ConfigurationError: If the value is not an object.
     """
     if not isinstance(plain, dict):
         raise ConfigurationError(
@@ -29,15 +29,16 @@ def check_object(plain: Any, source: str) -> dict[str, Any]:
 
 
 def read_figures(kind: type[F], plain: Any, source: str) -> F:
-    """Turn plain values into figures.
+    """Parse plain values into a summary.
 
     Args:
-        kind: Class of the figures.
+        kind: Class of the summary.
         plain: Values by name.
-        source: Where they come from, for messages.
+        source: Origin of the values, for messages.
 
     Raises:
-        ConfigurationError: If it is no such thing; names what is off.
+        ConfigurationError: If an entry is missing or of the wrong type;
+            names the entry.
     """
     entries: Mapping[str, Any] = check_object(plain, source)
     config = dacite.Config(type_hooks=HOOKS, cast=[tuple])

@@ -1,7 +1,7 @@
-"""A walk seen from the support foot.
+"""Walk in the frame of the support foot.
 
-Odometry and the world drift apart by slip, so what was asked, what was
-estimated and what is true are compared in the frame of the support foot.
+Odometry drifts from the world by slip. Therefore references, estimates and
+true values are compared in the frame of the support foot.
 """
 
 import numpy as np
@@ -12,46 +12,74 @@ from .outcome import Outcome
 from .trajectory import Trajectory
 
 COLUMNS = (
-    *("time", "support", "single", "com_x", "com_y", "velocity_x"),
-    *("velocity_y", "reference_x", "reference_y", "zmp_x", "zmp_y"),
-    *("zmp_reference_x", "zmp_reference_y", "roll", "pitch"),
-    *("estimated_com_x", "estimated_com_y", "estimated_velocity_x"),
-    *("estimated_velocity_y", "estimated_zmp_x", "estimated_zmp_y"),
-    *("estimated_roll", "estimated_pitch"),
-    *("world_x", "world_y", "heading", "asked_x", "asked_y"),
-    *("asked_heading", "foot_x", "foot_y"),
+    "time",
+    "support",
+    "single",
+    "com_x",
+    "com_y",
+    "velocity_x",
+    "velocity_y",
+    "reference_x",
+    "reference_y",
+    "zmp_x",
+    "zmp_y",
+    "zmp_reference_x",
+    "zmp_reference_y",
+    "roll",
+    "pitch",
+    "estimated_com_x",
+    "estimated_com_y",
+    "estimated_velocity_x",
+    "estimated_velocity_y",
+    "estimated_zmp_x",
+    "estimated_zmp_y",
+    "estimated_roll",
+    "estimated_pitch",
+    "world_x",
+    "world_y",
+    "heading",
+    "asked_x",
+    "asked_y",
+    "asked_heading",
+    "foot_x",
+    "foot_y",
 )
 
 
 def seen_from_foot(times: Array, track: Trajectory) -> dict[str, Array]:
-    """Columns of a walk, by the names of ``COLUMNS``. Shape (n,) each.
+    """Express a walk in the frame of the support foot.
 
-    What is true is seen from the true sole, what is asked or estimated from
-    where the plan has it.
+    True quantities are in the frame of the true sole, references and
+    estimates in that of the planned sole. Columns ``world_*`` and ``foot_*``
+    are the true positions of CoM and sole in the world, columns ``asked_*``
+    the references in odometry placed in the world.
 
     Args:
-        times: Of the samples, in [s]. Shape (n,).
-        track: Record of a robot that was looked at closely.
+        times: Times of the samples, in [s]. Shape (n,).
+        track: Trajectory with foot states and estimates.
+
+    Returns:
+        Columns by the names of ``COLUMNS``. Shape (n,) each.
 
     Raises:
-        ValueError: If it was not.
+        ValueError: If the trajectory has no foot states.
     """
     sole, support, tilt = track.sole, track.support, track.tilt
     if sole is None or support is None or tilt is None:
-        raise ValueError("a walk is seen from its foot if the record has it")
-    com, place = track.com[:, :2], support[:, 2:]
+        raise ValueError("the trajectory must have sole, support and tilt")
+    com, planned = track.com[:, :2], support[:, 2:]
     estimate = track.estimate
     if estimate is None:
         estimate = np.full((len(times), 8), np.nan)
     pairs = {
         "com": _point(sole, com),
-        "velocity": _turned(sole, track.velocity),
-        "reference": _point(place, track.com_reference),
+        "velocity": _vector(sole, track.velocity),
+        "reference": _point(planned, track.com_reference),
         "zmp": _point(sole, track.zmp),
-        "zmp_reference": _point(place, track.zmp_reference),
-        "estimated_com": _point(place, estimate[:, 0:2]),
-        "estimated_velocity": _turned(place, estimate[:, 2:4]),
-        "estimated_zmp": _point(place, estimate[:, 4:6]),
+        "zmp_reference": _point(planned, track.zmp_reference),
+        "estimated_com": _point(planned, estimate[:, 0:2]),
+        "estimated_velocity": _vector(planned, estimate[:, 2:4]),
+        "estimated_zmp": _point(planned, estimate[:, 4:6]),
         "world": com,
         "asked": track.com_reference,
         "foot": sole[:, :2],
@@ -61,7 +89,10 @@ def seen_from_foot(times: Array, track: Trajectory) -> dict[str, Array]:
         assert points is not None
         found |= {f"{name}_x": points[:, 0], f"{name}_y": points[:, 1]}
     found |= {"roll": tilt[:, 0], "pitch": tilt[:, 1]}
-    found |= {f"estimated_{n}": estimate[:, 6 + i] for i, n in _LEANS}
+    found |= {
+        "estimated_roll": estimate[:, 6],
+        "estimated_pitch": estimate[:, 7],
+    }
     assert track.heading_reference is not None
     found["heading"] = track.torso[:, 2]
     found["asked_heading"] = track.heading_reference[:, 0]
@@ -69,31 +100,35 @@ def seen_from_foot(times: Array, track: Trajectory) -> dict[str, Array]:
 
 
 def on_its_feet(times: Array, outcome: Outcome) -> NDArray[np.bool_]:
-    """Which samples are evenly spaced ones of a robot that does not lie.
+    """Return a mask of the evenly spaced samples of an upright robot.
 
-    The last sample of a game is of the instant at which it ended, whenever
-    that was. Shape (n,).
+    The last sample is at the end of the game, which may come between two
+    periods or after a fall.
+
+    Args:
+        times: Times of the samples, in [s]. Shape (n,).
+        outcome: How the game ended.
+
+    Returns:
+        Mask. Shape (n,).
     """
-    right: NDArray[np.bool_] = np.ones(len(times), dtype=bool)
+    mask: NDArray[np.bool_] = np.ones(len(times), dtype=bool)
     if len(times) > 2:
         period = times[1] - times[0]
-        right[-1] = abs(times[-1] - times[-2] - period) < 0.1 * period
+        mask[-1] = abs(times[-1] - times[-2] - period) < 0.1 * period
     if outcome in (Outcome.FALL, Outcome.CONTACT):
-        right[-1:] = False
-    return right
-
-
-_LEANS = tuple(enumerate(("roll", "pitch")))
+        mask[-1:] = False
+    return mask
 
 
 def _point(frames: Array, points: Array | None) -> Array:
-    """Points as seen in frames, sample by sample. Shape (n, 2)."""
+    """Transform points from the world to frames. Shape (n, 2)."""
     assert points is not None
-    return _turned(frames, points - frames[:, :2])
+    return _vector(frames, points - frames[:, :2])
 
 
-def _turned(frames: Array, vectors: Array | None) -> Array:
-    """Vectors as seen in frames, sample by sample. Shape (n, 2)."""
+def _vector(frames: Array, vectors: Array | None) -> Array:
+    """Rotate vectors from the world to frames. Shape (n, 2)."""
     assert vectors is not None
     c, s = np.cos(frames[:, 2]), np.sin(frames[:, 2])
     x, y = vectors[:, 0], vectors[:, 1]

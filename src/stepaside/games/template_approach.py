@@ -1,4 +1,4 @@
-"""Somebody who comes, and the template of an evader that steps aside."""
+"""Game of an approaching pursuer and the template of an evader."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -18,12 +18,13 @@ STEP = 0.01  # of the integration, in [s]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TemplateGame:
-    """A game of templates that was played.
+    """Motion of pursuer and evader in a finished game of templates.
 
     Attributes:
-        times: Of the samples, in [s]. Shape (n,).
-        pursuer: Its places and headings, in [m] and [rad]. Shape (n, 3).
-        evader: Those of the evader.
+        times: Times of the samples, in [s]. Shape (n,).
+        pursuer: Poses (x, y, heading) in the world, in [m] and [rad]. Shape
+            (n, 3).
+        evader: Poses of the evader, likewise. Shape (n, 3).
     """
 
     times: Array
@@ -33,8 +34,8 @@ class TemplateGame:
     @property
     def closest_m(self) -> float:
         """Closest approach, in [m]."""
-        apart = self.evader[:, :2] - self.pursuer[:, :2]
-        return float(np.hypot(apart[:, 0], apart[:, 1]).min())
+        offset = self.evader[:, :2] - self.pursuer[:, :2]
+        return float(np.hypot(offset[:, 0], offset[:, 1]).min())
 
 
 def template_meeting(
@@ -47,16 +48,23 @@ def template_meeting(
     duration: float,
     ready: float = 0.0,
 ) -> float:
-    """Closest approach of a person to the template of an evader, in [m].
+    """Compute the closest approach of a person to an evader's template.
 
-    The arguments are those of :func:`play_template`.
+    Args and model are those of :func:`play_template`.
+
+    Returns:
+        Closest approach, in [m].
     """
-    played = play_template(
-        *(motion, start, evader, strategy, gait),
+    game = play_template(
+        motion,
+        start,
+        evader,
+        strategy,
+        gait,
         duration=duration,
         ready=ready,
     )
-    return played.closest_m
+    return game.closest_m
 
 
 def play_template(
@@ -70,28 +78,32 @@ def play_template(
     ready: float = 0.0,
     step: float = STEP,
 ) -> TemplateGame:
-    """Play the template of an evader against a motion.
+    """Play the template of an evader against a prescribed motion.
 
-    The evader is a unicycle in gait time that plays its strategy and knows
-    where the other is and walks to. It decides step by step; while it stands
-    it decides at any time, and moves when its first double support is over.
+    The evader is a unicycle in path time that knows position and velocity of
+    its opponent exactly. It decides once per footstep; while it stands it
+    decides at any time, and moves after its first double support.
 
     Args:
-        motion: Begins a walk of the other.
-        start: Where it begins.
-        evader: Where the evader stands and heads.
-        strategy: Of the evader.
-        gait: How it walks.
-        duration: How long to look, in [s].
-        ready: Before this time it does not walk, in [s].
-        step: Of the integration, in [s].
+        motion: Returns the motion of the pursuer from its initial pose and
+            the evader's position.
+        start: Initial pose of the pursuer in the world.
+        evader: Initial pose of the evader in the world.
+        strategy: Strategy of the evader.
+        gait: Gait of the evader.
+        duration: Duration of the game, in [s].
+        ready: Time before which the evader does not walk, in [s].
+        step: Step of the integration, in [s].
+
+    Returns:
+        Motion of both.
     """
     limits = Limits(gait.speed, gait.gain, gait.stride, gait.step_duration)
     memory = strategy.begin()
     pose = begun = evader
     walk = motion(start, (evader.x, evader.y))
     rows = [(*walk.pose, *pose)]
-    intent: Intent | None = None  # None: it stands
+    intent: Intent | None = None  # None: the evader stands
     drives_from, decides_at = 0.0, ready
     velocity = (0.0, 0.0)
     for i in range(round(duration / step)):
@@ -104,8 +116,8 @@ def play_template(
             if not intent.walks:
                 intent = None
             else:
-                late = 0.0 if moving else gait.start_support / intent.pace
-                drives_from = now + late
+                delay = 0.0 if moving else gait.start_support / intent.pace
+                drives_from = now + delay
                 decides_at = drives_from + gait.step_duration / intent.pace
         before = walk.pose
         walk.advance(now + step, step, (pose.x, pose.y))
@@ -114,18 +126,13 @@ def play_template(
             (walk.pose.y - before.y) / step,
         )
         if intent is not None and now + step > drives_from:
-            pose = _driven(
+            pose = _pose_in_step(
                 begun, intent, gait, strategy, now + step - drives_from
             )
         rows.append((*walk.pose, *pose))
     poses = np.array(rows)
     times: Array = step * np.arange(len(rows), dtype=np.float64)
     return TemplateGame(times, poses[:, :3], poses[:, 3:])
-
-
-def _apart(one: Pose, other: Pose) -> float:
-    """Distance of two places, in [m]."""
-    return hypot(other.x - one.x, other.y - one.y)
 
 
 def _known(
@@ -136,37 +143,38 @@ def _known(
     limits: Limits,
     moving: bool,
 ) -> Knowledge:
-    """What an evader at a pose knows that sees all there is."""
-    bearing = atan2(person.y - pose.y, person.x - pose.x) - pose.theta
-    turned = Pose(0.0, 0.0, -pose.theta).compose(Pose(*velocity, 0.0))
+    """Return the exact knowledge of an evader at a pose."""
+    x, y = person.x - pose.x, person.y - pose.y
+    rotation = Pose(0.0, 0.0, -pose.theta)
+    velocity_in_evader = rotation.compose(Pose(*velocity, 0.0))
     return Knowledge(
         now,
-        wrap_angle(bearing),
-        _apart(pose, person),
+        wrap_angle(atan2(y, x) - pose.theta),
+        hypot(x, y),
         limits,
         pose=pose,
         moving=moving,
-        velocity=turned[:2],
+        velocity=velocity_in_evader[:2],
     )
 
 
-def _driven(
+def _pose_in_step(
     begun: Pose,
     intent: Intent,
     gait: GaitSettings,
     strategy: Strategy,
     since: float,
 ) -> Pose:
-    """Where a step has come to, by the gait's own clock."""
+    """Return the pose of the template at a time since the step began."""
     turn = gait.gain * intent.heading * gait.path_interval
-    share = min(intent.speed_factor, gait.stride_share(turn))
+    speed_factor = min(intent.speed_factor, gait.stride_share(turn))
     path = UnicycleTrajectory(
         intent.heading,
-        share * gait.speed,
+        speed_factor * gait.speed,
         gait.gain,
         strategy.direction,
         strategy.saturated,
     )
-    pace = intent.pace * gait.path_interval / gait.step_duration
-    passed = since * pace
-    return begun.compose(Pose(*path.poses([passed])[0].tolist()))
+    time_scale = intent.pace * gait.path_interval / gait.step_duration
+    path_time = since * time_scale
+    return begun.compose(Pose(*path.poses([path_time])[0].tolist()))

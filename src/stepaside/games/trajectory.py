@@ -1,4 +1,4 @@
-"""What one player left behind: its way through the world."""
+"""Recorded motion of one player."""
 
 from dataclasses import dataclass, fields
 
@@ -11,39 +11,38 @@ from ..planning import ManeuverPlan
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Trajectory:
-    """Record of one player, one row per sample; what it lacks is None.
+    """Recorded motion of one player, one row per sample.
 
-    Positions are in the world, in [m], angles in [rad].
+    Positions are in the world, in [m], angles in [rad]. Arrays that a player
+    lacks are None. Headings are unwrapped.
 
     Attributes:
-        com: CoM. Shape (n, 3).
-        torso: Origin of the torso and its heading, which does not wrap.
-            Shape (n, 3).
-        place: Point that stands for the player in the game, likewise with
-            the heading. Shape (n, 3).
-        com_reference: What its plan asks of the CoM. Shape (n, 2).
-        zmp_reference: What it asks of the ZMP. Shape (n, 2).
-        zmp: Center of the foot forces; NaN in flight. Shape (n, 2).
-        qpos: Place and quaternion of the torso, then the joints, in single
-            precision. Shape (n, 7 + joints).
+        com: CoM (x, y, z). Shape (n, 3).
+        torso: Origin and heading of the torso (x, y, heading). Shape (n, 3).
+        place: Reference point and heading (x, y, heading). Shape (n, 3).
+        com_reference: Planned CoM (x, y). Shape (n, 2).
+        zmp_reference: Planned ZMP (x, y). Shape (n, 2).
+        zmp: Center of the foot forces (x, y); NaN in flight. Shape (n, 2).
+        qpos: Position and quaternion of the torso, then the joint angles, in
+            single precision. Shape (n, 7 + joints).
         landings: Time [s], side (1 left, -1 right), x, y, heading of each
             footstep. Shape (m, 5).
-        sight: Time [s], believed bearing and distance, true ones, whether
-            the other was lost. Shape (k, 6).
-        pushes: Of those that were given: time and duration [s], place of the
-            torso (x, y) [m], impulse (x, y) [N s]. Shape (j, 6).
-        velocity: Of the CoM (x, y), in [m/s], where a walk is looked at
-            closely, as is all that follows. Shape (n, 2).
+        sight: Time [s], estimated bearing and distance, true bearing and
+            distance, 1 while the opponent is lost. Shape (k, 6).
+        pushes: Time [s], duration [s], position of the torso (x, y) [m] and
+            impulse (x, y) [N s] of each push. Shape (j, 6).
+        velocity: Velocity of the CoM (x, y), in [m/s]. Shape (n, 2). This
+            and the following arrays up to ``estimate`` are recorded in walks
+            only.
         tilt: Roll and pitch of the torso. Shape (n, 2).
-        sole: Place and heading of the sole that bears. Shape (n, 3).
-        support: Which foot bears (1 left, -1 right), whether it does so
-            alone, and where its plan has it (x, y, heading). Shape (n, 5).
-        heading_reference: What is asked of the torso. Shape (n, 1).
-        estimate: What feedback believes: CoM, its velocity and ZMP (x, y
-            each), roll and pitch; NaN before it does. Shape (n, 8).
-        command: Velocities of a robot that walks by itself: what the
-            template wanted and what was asked for, forward [m/s] and turn
-            [rad/s] each. Shape (n, 4).
+        sole: Pose (x, y, heading) of the support sole. Shape (n, 3).
+        support: Support foot (1 left, -1 right), 1 in single support, and
+            planned pose of the sole (x, y, heading). Shape (n, 5).
+        heading_reference: Planned heading of the torso. Shape (n, 1).
+        estimate: Estimated CoM, velocity of the CoM and ZMP (x, y each),
+            roll and pitch; NaN before the first estimate. Shape (n, 8).
+        command: Velocities of a robot with its own walk: of the template and
+            as commanded, forward [m/s] and turn [rad/s] each. Shape (n, 4).
     """
 
     __repr__ = brief_repr
@@ -67,7 +66,7 @@ class Trajectory:
     command: Array | None = None
 
     def __post_init__(self) -> None:
-        """Close what is written for good."""
+        """Make the arrays read-only."""
         for field in fields(self):
             value = getattr(self, field.name)
             if value is not None:
@@ -75,14 +74,14 @@ class Trajectory:
 
     @property
     def unicycle(self) -> Array:
-        """Place and heading by which the game is judged. Shape (n, 3).
+        """Reference point and heading (x, y, heading). Shape (n, 3).
 
-        Records that are older than the place have the torso.
+        Without a recorded reference point that of the torso is used.
         """
         return self.torso if self.place is None else self.place
 
     def arrays(self, name: str) -> dict[str, Array]:
-        """Everything that there is, by name of the player and the array."""
+        """Return all arrays by name, with the player's name as prefix."""
         found = {}
         for field in fields(self):
             value = getattr(self, field.name)
@@ -96,14 +95,16 @@ FIELDS = tuple(field.name for field in fields(Trajectory))
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PlanningTimes:
-    """How one player planned.
+    """Planning times and plan quality of one player.
 
     Attributes:
         steps: Steps begun.
-        times: Processor time of each maneuver, in [s]. Shape (replans,).
+        times: Processor time of planning each maneuver, in [s]. Shape
+            (replans,).
         velocity_jump: Greatest jump of the CoM velocity reference, in [m/s].
-        zmp_margin: Least distance of the ZMP reference from the edge of the
-            support polygon, in what was walked, in [m]; None if nothing was.
+        zmp_margin: Smallest distance of the ZMP reference from the edge of
+            the support polygon, in the executed parts of the plans, in [m];
+            None without any.
     """
 
     steps: int
@@ -113,7 +114,7 @@ class PlanningTimes:
 
 
 def margin_of(plans: list[ManeuverPlan]) -> float | None:
-    """Least ZMP margin of plans in the parts that were walked, in [m]."""
+    """Return the smallest ZMP margin of the executed parts of plans [m]."""
     return min(
         (plan.margin(plan.schedule.first_step_duration) for plan in plans),
         default=None,
@@ -123,18 +124,18 @@ def margin_of(plans: list[ManeuverPlan]) -> float | None:
 def tracks_in(
     arrays: dict[str, Array], names: tuple[str, ...]
 ) -> dict[str, Trajectory]:
-    """Tracks of players from arrays by name.
+    """Return the trajectories of players from arrays by name.
 
     Raises:
-        KeyError: If one that everybody has is missing.
+        KeyError: If a required array is missing.
     """
-    needed = ("com", "torso")
+    required = ("com", "torso")
     return {
         name: Trajectory(
             **{
                 key: np.asarray(arrays[f"{name}_{key}"])
                 for key in FIELDS
-                if key in needed or f"{name}_{key}" in arrays
+                if key in required or f"{name}_{key}" in arrays
             }
         )
         for name in names

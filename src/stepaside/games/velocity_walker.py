@@ -1,4 +1,4 @@
-"""Robots of our world that walk by themselves, at velocities from outside."""
+"""Simulated robots with their own walk, commanded by velocities."""
 
 from collections.abc import Mapping
 from typing import Protocol
@@ -17,45 +17,48 @@ from ..planning import Direction, Foot
 from ..strategies import StandStill
 from .walker import Walker
 
-HEAD_SPEED = 3.0  # of a head that is turned from outside, in [rad/s]
-SOMEBODY = Sighting(0.0, 0.0, 1.0)  # who is driven looks for nobody
+HEAD_SPEED = 3.0  # of a head commanded by a client, in [rad/s]
+# Placeholder that lets the walk start: commands do not depend on sightings.
+PLACEHOLDER = Sighting(0.0, 0.0, 1.0)
 
 
 class VelocitySource(Protocol):
-    """Where velocities come from."""
+    """Source of velocity commands."""
 
     def act(self) -> VelocityCommand:
-        """What the robot is to do at this tick."""
+        """Return the command of this tick."""
 
     def close(self) -> None:
-        """Let go of whoever commands."""
+        """Close the connection to the client."""
 
 
 class VelocityWalker(Walker):
-    """A robot with its own control, which walks as it is told.
+    """Simulated robot that walks at commanded velocities.
 
     Attributes:
-        commander: Who tells it; none yet, and then it stands.
+        commander: Source of the commands; None while there is none, and the
+            robot stands.
     """
 
     def __init__(self, walker: Walker, *, offers_sight: bool = True) -> None:
-        """Let a walker be driven.
+        """Take over a walker.
 
         Args:
-            walker: The robot; it is not to be used any more.
-            offers_sight: Whether it tells where the other is.
+            walker: The robot; it must not be used afterwards.
+            offers_sight: Whether the true line of sight is reported.
         """
         super().__init__(walker.robot, walker.scheme, walker.frame)
         self.commander: VelocitySource | None = None
-        self.scheme.senses = MeasuredSight(SOMEBODY)
+        self.scheme.senses = MeasuredSight(PLACEHOLDER)
         self.scheme.decisions.adopt(StandStill())
-        self.scheme.decisions.turns = None  # learnt here, by what was told
+        # Turns are calibrated below, against the commanded turns.
+        self.scheme.decisions.turns = None
         self._offers_sight = offers_sight
-        self._under_way: Direction | None = None
+        self._walking_direction: Direction | None = None
         self._velocity = REST
-        self._seen: Measurement | None = None
+        self._measurement: Measurement | None = None
         self._head: dict[int, float] = {}
-        self._looks: Array | None = None
+        self._head_targets: Array | None = None
         self._image: ColourImage | None = None
         self._echoes: dict[str, float | None] = {}
         self._ticks = -1
@@ -64,23 +67,25 @@ class VelocityWalker(Walker):
         self._turns = TurnCalibration(walker.robot.world.physics.tick)
 
     def tick(self) -> None:
-        """Walk on, as it was told."""
+        """Walk at the commanded velocity."""
         scheme = self.scheme
         if self.commander is not None:
             self._velocity = self.commander.act()
         if scheme.phase is Phase.STANDING:
-            self._under_way = None
-        measurement = self._measured()
+            self._walking_direction = None
+        measurement = self._read()
         forward, turn = accepted(*self._velocity, scheme.settings)
         strategy = walk_at(
             forward,
             turn / self._turns.share,
             scheme.settings,
-            under_way=self._under_way,
+            under_way=self._walking_direction,
         )
         scheme.decisions.adopt(strategy)
         targets = scheme.update(measurement)
-        self.robot.write(self._turned(targets) if self._head else targets)
+        if self._head:
+            targets = self._with_head(targets)
+        self.robot.write(targets)
         self._updated = True
         self._turns.note(
             float(measurement.gyro[2]),
@@ -90,92 +95,97 @@ class VelocityWalker(Walker):
         begun = scheme.begun
         if begun is not None and begun.planning_time is not None:
             self._steps += 1
-        if self._under_way is None and scheme.phase is Phase.WALKING:
-            self._under_way = strategy.direction
+        if self._walking_direction is None and scheme.phase is Phase.WALKING:
+            self._walking_direction = strategy.direction
 
     def state(self) -> WalkerState:
-        """What it says of itself now."""
-        measurement = self._measured()
+        """Return the state that the robot reports to its client."""
+        measurement = self._read()
         now, scheme = measurement.time, self.scheme
         walk = scheme.state
-        pace = accepted(*self._velocity, scheme.settings)
+        velocity = accepted(*self._velocity, scheme.settings)
         return WalkerState(
             now,
             scheme.decisions.templates.at(now),
-            VelocityCommand(*pace),
+            VelocityCommand(*velocity),
             measurement.joint_positions.tolist(),
             self._sighting(measurement),
             self._image,
             (walk.left_foot, walk.right_foot),
-            self._making(now),
+            self._present_step(now),
             self._steps,
             self._echoes.copy(),
         )
 
     def lead_with(self, foot: Foot) -> None:
-        """Make the next first step with a foot, if it stands."""
+        """Make the first step with a foot, if the robot stands."""
         self.scheme.lead_with(foot)
 
-    def _making(self, now: float) -> FootCommand | None:
-        """Step that is being made, its time what is left of it."""
+    def _present_step(self, now: float) -> FootCommand | None:
+        """Return the step in progress, with its remaining time."""
         walk = self.scheme.state
         plan = walk.plan
         if plan is None:
             return None
         ends = walk.plan_started + plan.schedule.first_step_duration
-        placed = Pose(*plan.placements[2].tolist())
-        return FootCommand(plan.first_foot, placed, max(0.0, ends - now))
+        landing = Pose(*plan.placements[2].tolist())
+        return FootCommand(plan.first_foot, landing, max(0.0, ends - now))
 
     def look(self, angles: Mapping[str, float]) -> None:
-        """Turn the head to angles of its joints, in [rad], by name.
+        """Turn the head.
+
+        Args:
+            angles: Target angles of head joints by name, in [rad].
 
         Raises:
-            ValueError: If it has no such joint.
+            ValueError: If the robot has no such joint.
         """
         kinematics = self.scheme.kinematics
         for name, angle in angles.items():
             self._head[kinematics.joint_names.index(name)] = angle
 
-    def _turned(self, targets: Array) -> Array:
-        """Joint targets with the head on its way to where it is to be."""
-        if self._looks is None:
-            self._looks = targets.copy()
-        turned = targets.copy()
-        most = HEAD_SPEED * self.robot.world.physics.tick
+    def _with_head(self, targets: Array) -> Array:
+        """Return joint targets with the head moved at limited speed."""
+        if self._head_targets is None:
+            self._head_targets = targets.copy()
+        changed = targets.copy()
+        limit = HEAD_SPEED * self.robot.world.physics.tick
         for joint, angle in self._head.items():
-            off = angle - float(self._looks[joint])
-            self._looks[joint] += min(max(off, -most), most)
-            turned[joint] = self._looks[joint]
-        return turned
+            error = angle - float(self._head_targets[joint])
+            self._head_targets[joint] += min(max(error, -limit), limit)
+            changed[joint] = self._head_targets[joint]
+        return changed
 
     def close(self) -> None:
-        """Let go of the commander and the eyes."""
+        """Close the commander and the cameras."""
         if self.commander is not None:
             self.commander.close()
         super().close()
 
-    def _measured(self) -> Measurement:
-        """What the sensors give: read once a tick, as noise is drawn."""
+    def _read(self) -> Measurement:
+        """Return the measurement of this tick; noise is drawn once."""
         ticks = self.robot.world.ticks
-        if self._seen is None or ticks != self._ticks:
-            self._seen, self._ticks = self.robot.read(), ticks
-            for percept in self._seen.percepts:
+        if self._measurement is None or ticks != self._ticks:
+            self._measurement, self._ticks = self.robot.read(), ticks
+            for percept in self._measurement.percepts:
                 if isinstance(percept, ColourImage):
                     self._image = percept
                 elif isinstance(percept, SonarEcho):
                     self._echoes[percept.sonar] = percept.distance
-        return self._seen
+        return self._measurement
 
     def _sighting(self, measurement: Measurement) -> Sighting | None:
-        """The other as the unicycle sees it that stands for the robot."""
-        seen, decisions = measurement.sighting, self.scheme.decisions
-        if seen is None or not self._offers_sight:
+        """Return the sighting with its bearing relative to the template."""
+        sighting, decisions = measurement.sighting, self.scheme.decisions
+        if sighting is None or not self._offers_sight:
             return None
-        heading = (
-            decisions.headings.at(seen.time)
+        torso_heading = (
+            decisions.headings.at(sighting.time)
             if self._updated
             else self.scheme.kinematics.torso_heading
         )
-        ahead = decisions.templates.at(seen.time).theta
-        bearing = wrap_angle(heading + seen.bearing - ahead)
-        return Sighting(seen.time, bearing, seen.distance)
+        template_heading = decisions.templates.at(sighting.time).theta
+        bearing = wrap_angle(
+            torso_heading + sighting.bearing - template_heading
+        )
+        return Sighting(sighting.time, bearing, sighting.distance)

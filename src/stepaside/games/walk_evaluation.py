@@ -1,4 +1,4 @@
-"""The figures of a walk."""
+"""Summary of a finished walk."""
 
 from math import degrees
 from typing import NamedTuple
@@ -19,7 +19,7 @@ from .walk_summary import (
     WalkSummary,
 )
 
-WARM_UP = 3.0  # left out of the figures, in [s]
+WARM_UP = 3.0  # left out of the evaluation, in [s]
 ESTIMATED = {
     "com_x": "m",
     "com_y": "m",
@@ -33,13 +33,13 @@ ESTIMATED = {
 
 
 class WalkingPace(NamedTuple):
-    """How fast a robot walked and turned; None where nothing tells.
+    """Speed and yaw rate of a walk; None where too short to measure.
 
     Attributes:
-        speed: In [m/s].
-        way: Way walked over the way that was asked for.
-        yaw_rate: In [deg/s].
-        turn: Turn over the turn that was asked for.
+        speed: Speed, in [m/s].
+        way: Path length over its reference.
+        yaw_rate: Yaw rate, in [deg/s].
+        turn: Turn over its reference.
     """
 
     speed: float | None = None
@@ -49,15 +49,16 @@ class WalkingPace(NamedTuple):
 
 
 class StepCounts(NamedTuple):
-    """What a record has no samples of.
+    """Values of a walk that are not in its trajectory.
 
     Attributes:
         steps: Footsteps begun.
-        adapted: Footsteps that feedback moved.
-        impulse: Of all pushes, in the world (x, y), in [N s].
-        zmp_margin: Least ZMP margin of the plans walked, in [m].
-        answers: Of the solver of the MPC, if there is one.
-        wall_time: Time that the walk took, in [s].
+        adapted: Footsteps that feedback adapted.
+        impulse: Sum of the impulses of all pushes in the world (x, y), in
+            [N s].
+        zmp_margin: Smallest ZMP margin of the executed plans, in [m].
+        answers: Results of the solver of the MPC, if there is one.
+        wall_time: Time that the computation took, in [s].
     """
 
     steps: int
@@ -77,23 +78,23 @@ def summarise_walk(
     track: Trajectory,
     counted: StepCounts,
 ) -> WalkSummary:
-    """Figures of a walk that is over.
+    """Compute the summary of a finished walk.
 
     Args:
-        settings: What decided it.
+        settings: Settings of the walk.
         outcome: How it ended.
-        message: What ended it, in words.
+        message: Reason for the end, as text.
         duration: Simulated time, in [s].
-        times: Of the samples, in [s]. Shape (n,).
-        track: Record of who walked, looked at closely; without samples, if
-            none was kept.
-        counted: What the record has no samples of.
+        times: Times of the samples, in [s]. Shape (n,).
+        track: Trajectory with foot states and estimates; without samples if
+            the walk was not recorded.
+        counted: Values that are not in the trajectory.
     """
     columns = {name: np.zeros(0) for name in COLUMNS}
     if len(times):
-        even = on_its_feet(times, outcome)
-        seen = seen_from_foot(times, track)
-        columns = {name: values[even] for name, values in seen.items()}
+        mask = on_its_feet(times, outcome)
+        in_foot = seen_from_foot(times, track)
+        columns = {name: values[mask] for name, values in in_foot.items()}
     return figures_of(settings, outcome, message, duration, columns, counted)
 
 
@@ -105,15 +106,15 @@ def figures_of(
     columns: dict[str, Array],
     counted: StepCounts,
 ) -> WalkSummary:
-    """Figures of a walk that was seen from its feet.
+    """Compute the summary of a walk in the frame of the support foot.
 
     Args:
-        settings: What decided it.
+        settings: Settings of the walk.
         outcome: How it ended.
-        message: What ended it, in words.
+        message: Reason for the end, as text.
         duration: Simulated time, in [s].
         columns: Evenly spaced samples, by the names of ``COLUMNS``.
-        counted: What they do not tell.
+        counted: Values that are not in the columns.
     """
     steady = columns["time"] >= WARM_UP
     a = {name: values[steady] for name, values in columns.items()}
@@ -153,7 +154,7 @@ def figures_of(
 
 
 def _solver(answers: tuple[MpcResult, ...]) -> SolverSummary | None:
-    """Figures of the MPC's solver; None without one."""
+    """Summarise the solver of the MPC; None without one."""
     if not answers:
         return None
     times = 1e6 * np.array([a.time for a in answers])
@@ -168,36 +169,34 @@ def _solver(answers: tuple[MpcResult, ...]) -> SolverSummary | None:
 
 
 def _pace(a: dict[str, Array], cycle: float) -> WalkingPace:
-    """Speed and rate of turn, true and asked for."""
+    """Compute speed and yaw rate over whole gait cycles."""
     time = a["time"]
     if len(time) < 3 or time[-1] - time[0] < 2.0 * cycle:
         return WalkingPace()
-    stride = round(cycle / float(time[1] - time[0]))
-    turns = (len(time) - 1) // stride
-    rows = np.arange(turns + 1) * stride
-    lasted = float(time[rows[-1]] - time[rows[0]])
+    samples_per_cycle = round(cycle / float(time[1] - time[0]))
+    cycles = (len(time) - 1) // samples_per_cycle
+    rows = np.arange(cycles + 1) * samples_per_cycle
+    elapsed = float(time[rows[-1]] - time[rows[0]])
 
     def length(x: Array, y: Array) -> float:
         return float(np.hypot(np.diff(x[rows]), np.diff(y[rows])).sum())
 
-    true, asked = (
-        length(a["world_x"], a["world_y"]),
-        length(a["asked_x"], a["asked_y"]),
-    )
-    turned = np.unwrap(a["heading"])[rows]
-    wanted = np.unwrap(a["asked_heading"])[rows]
-    yaw = float(wanted[-1] - wanted[0])
-    gone = float(turned[-1] - turned[0])
+    true_length = length(a["world_x"], a["world_y"])
+    planned_length = length(a["asked_x"], a["asked_y"])
+    heading = np.unwrap(a["heading"])[rows]
+    planned_heading = np.unwrap(a["asked_heading"])[rows]
+    true_turn = float(heading[-1] - heading[0])
+    planned_turn = float(planned_heading[-1] - planned_heading[0])
     return WalkingPace(
-        true / lasted,
-        true / asked if asked > 0.01 else None,
-        degrees(gone) / lasted,
-        gone / yaw if abs(yaw) > 0.05 else None,
+        true_length / elapsed,
+        true_length / planned_length if planned_length > 0.01 else None,
+        degrees(true_turn) / elapsed,
+        true_turn / planned_turn if abs(planned_turn) > 0.05 else None,
     )
 
 
 def _slip(a: dict[str, Array]) -> float | None:
-    """Mean way of the support foot in a single support, in [m]."""
+    """Return the mean slip of the support foot in single support, in [m]."""
     single = a["single"] > 0.5
     edges = np.flatnonzero(np.diff(single.astype(int)))
     slips = [
@@ -213,15 +212,15 @@ def _slip(a: dict[str, Array]) -> float | None:
     return float(np.mean(slips)) if slips else None
 
 
-def _error(value: Array, wanted: Array) -> ErrorStatistics | None:
-    off = value - wanted
-    off = off[np.isfinite(off)]
-    if off.size == 0:
+def _error(values: Array, references: Array) -> ErrorStatistics | None:
+    errors = values - references
+    errors = errors[np.isfinite(errors)]
+    if errors.size == 0:
         return None
     return ErrorStatistics(
-        rms=float(np.sqrt(np.mean(off**2))),
-        mean=float(np.mean(off)),
-        max=float(np.abs(off).max()),
+        rms=float(np.sqrt(np.mean(errors**2))),
+        mean=float(np.mean(errors)),
+        max=float(np.abs(errors).max()),
     )
 
 

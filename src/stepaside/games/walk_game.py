@@ -1,4 +1,4 @@
-"""One robot that walks, and somebody who pushes it."""
+"""Walk of one robot, with optional pushes."""
 
 from collections.abc import Callable
 from math import inf
@@ -14,7 +14,7 @@ from ..robots.jit import prefer_for
 from ..sim.body_settings import with_cycle
 from ..sim.world import World
 from ..strategies import Walk
-from .match import Match, MatchObserver, play
+from .match import Match, MatchObserver, Progress, play
 from .outcome import Outcome
 from .recorder import Recorder
 from .walk_evaluation import StepCounts, summarise_walk
@@ -25,24 +25,24 @@ from .walker_factory import stand_walker
 
 
 class WalkTally:
-    """Counts steps, and keeps what a solver answered.
+    """Match observer that counts steps and collects solver results.
 
     Attributes:
         steps: Steps begun so far.
-        solved: Answers of the MPC so far, if there is one.
+        solved: Results of the MPC so far, if there is one.
     """
 
     def __init__(self, walker: Walker, *, keeps_answers: bool = True) -> None:
-        """Count for a robot that walks."""
+        """Observe a walker."""
         self._walker, self._keeps_answers = walker, keeps_answers
         self.steps = 0
         self.solved: list[MpcResult] = []
 
     def before(self, match: Match) -> None:
-        """Nothing to do."""
+        """Do nothing before the players act."""
 
     def acted(self, match: Match) -> None:
-        """Note what began, and what a solver answered."""
+        """Count a step that begins, and collect the solver's result."""
         walker = self._walker
         if walker.begun is not None:
             self.steps += 1
@@ -51,17 +51,17 @@ class WalkTally:
             self.solved.append(solved)
 
     def ended(self, match: Match, outcome: Outcome) -> None:
-        """Nothing to do."""
+        """Do nothing at the end of the game."""
 
 
 class WalkGame(Match):
-    """One robot in a world, ready to walk.
+    """Match of one walking robot.
 
     Attributes:
-        settings: What decides the walk.
-        walker: Who walks.
-        recorder: What keeps the record.
-        tally: What counts.
+        settings: Settings of the walk.
+        walker: The robot.
+        recorder: Recorder of the trajectory.
+        tally: Counter of steps and solver results.
     """
 
     def __init__(
@@ -72,17 +72,18 @@ class WalkGame(Match):
         description: RobotDescription | None = None,
         observers: tuple[MatchObserver, ...] = (),
     ) -> None:
-        """Build the world and stand the robot in it.
+        """Build the world and place the robot in it.
 
         Args:
-            settings: What decides the walk.
-            recorded: Whether to keep what the figures need.
-            description: Of the robot, if it is another one than its folder
-                has.
-            observers: Who looks on besides.
+            settings: Settings of the walk.
+            recorded: Whether to record what the evaluation needs.
+            description: Description of the robot, if it differs from that in
+                its folder.
+            observers: Additional observers.
 
         Raises:
-            StepAsideError: If the settings ask for what cannot be.
+            StepAsideError: If the settings contradict each other or cannot
+                be met by the robot.
         """
         self.settings = settings
         description = description or load_robot(settings.robot)
@@ -112,17 +113,17 @@ class WalkGame(Match):
             [self.walker], tick=world.physics.tick, closely=True
         )
         self.tally = WalkTally(self.walker, keeps_answers=recorded)
-        kept: list[MatchObserver] = [self.tally]
+        recorders: list[MatchObserver] = [self.tally]
         if recorded:
-            kept.append(self.recorder)
-        super().__init__(world, [self.walker], [*kept, *observers])
+            recorders.append(self.recorder)
+        super().__init__(world, [self.walker], [*recorders, *observers])
 
     def run(self, outcome: Outcome, wall_time: float) -> WalkRun:
-        """What was walked, as a value.
+        """Return the finished walk as a value.
 
         Args:
             outcome: How it ended.
-            wall_time: Time that it took, in [s].
+            wall_time: Time that the computation took, in [s].
         """
         recorder, walker = self.recorder, self.walker
         pusher = walker.robot.pusher
@@ -161,23 +162,25 @@ def run_walk(
     *,
     record: bool = True,
 ) -> WalkRun:
-    """Walk to the end, or to a fall.
+    """Simulate a walk to its end, or to a fall.
 
     Args:
-        settings: What decides the walk.
+        settings: Settings of the walk.
         report: Called about five times a second with the simulated time. A
-            KeyboardInterrupt while walking ends the walk and keeps it.
-        record: Whether to keep what the figures need.
+            KeyboardInterrupt while walking ends the walk; the part that was
+            walked is returned.
+        record: Whether to record what the evaluation needs.
 
     Raises:
-        StepAsideError: If the settings ask for what cannot be.
+        StepAsideError: If the settings contradict each other or cannot be
+            met by the robot.
     """
     prefer_for(settings.duration)
-    walking = WalkGame(settings, recorded=record)
-    told = report
-    outcome, wall_time = play(
-        walking,
-        settings.duration,
-        None if told is None else lambda progress: told(progress.time),
-    )
-    return walking.run(outcome, wall_time)
+    game = WalkGame(settings, recorded=record)
+
+    def report_time(progress: Progress) -> None:
+        if report is not None:
+            report(progress.time)
+
+    outcome, wall_time = play(game, settings.duration, report_time)
+    return game.run(outcome, wall_time)

@@ -1,4 +1,4 @@
-"""A walk that was walked, as a value."""
+"""Recorded walk."""
 
 from dataclasses import dataclass
 from typing import ClassVar
@@ -11,11 +11,11 @@ from .walk_summary import WalkSummary
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class WalkRun(Run):
-    """A walk that was walked; see :class:`Run`.
+    """Recorded walk; see :class:`Run`.
 
     Attributes:
-        settings: What decided it.
-        summary: Its figures.
+        settings: Settings of the walk.
+        summary: Its summary.
     """
 
     game: ClassVar[str] = "walk"
@@ -27,11 +27,11 @@ class WalkRun(Run):
 
     @property
     def walker(self) -> Trajectory:
-        """Record of who walked."""
+        """Trajectory of the robot."""
         return next(iter(self.tracks.values()))
 
     def words(self, index: int) -> str:
-        """What goes on at a sample."""
+        """Describe the state of the robot at a sample, for captions."""
         time = float(self.times[index])
         if self.has_ended_at(index):
             return self.message
@@ -43,7 +43,7 @@ class WalkRun(Run):
 
     @property
     def stands_until(self) -> float | None:
-        """When its first foot left the floor, in [s]; None if none did."""
+        """Time of the first lift-off of a foot, in [s]; None without any."""
         landings = self.walker.landings
         if landings is None or not len(landings):
             return None

@@ -1,4 +1,4 @@
-"""Settings of a walk: one value that repeats it."""
+"""Settings of a walk: equal settings repeat it exactly."""
 
 from dataclasses import dataclass, field
 from math import pi
@@ -25,20 +25,20 @@ WALKER = "walker"
 
 @dataclass(frozen=True, slots=True)
 class WalkSettings:
-    """Everything that decides a walk.
+    """Settings of a walk.
 
     Attributes:
         seed: Seed of every random draw; 0 to 3.40282e+38.
         duration: Simulated time, in [s]; 0.001 to 86400.
         robot: Name of a robot or folder of its description.
         bearing: Desired heading in the frame of each support foot, in [rad]: 0
-            walks straight on, others in a circle; -3.14159 to 3.14159.
-        backward: Whether it walks backward.
-        gait: How it walks.
+            for a straight walk, others for a circle; -3.14159 to 3.14159.
+        backward: Whether the robot walks backward.
+        gait: Gait settings.
         physics: Physics, floor and clock.
-        body: How far its body is from an ideal one.
-        control: How it controls its walk.
-        pushes: Who bumps into it.
+        body: Deviations of the body from an ideal one.
+        control: Control settings.
+        pushes: Pushes on the robot.
     """
 
     __repr__ = brief_repr
@@ -61,16 +61,16 @@ class WalkSettings:
     }
 
     def __post_init__(self) -> None:
-        """Refuse a negative seed and a duration that is none."""
+        """Validate ranges and pushes."""
         check_settings(self)
         check_count(self.pushes, MOST_PUSHES, "pushes")
         check_pushes(self.pushes, (WALKER,))
 
     def robot_of(self, player: str) -> RobotSettings:
-        """What the walker is, and how it walks.
+        """Return robot, gait and control of the walker.
 
         Args:
-            player: Its name.
+            player: Name of the player.
         """
         return RobotSettings(self.robot, self.gait, self.control)
 

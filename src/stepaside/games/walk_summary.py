@@ -1,4 +1,4 @@
-"""The figures of a walk: what is said of it in numbers."""
+"""Summary of a walk."""
 
 from dataclasses import asdict, dataclass
 from typing import Any
@@ -8,7 +8,7 @@ from .summary_parsing import read_figures
 
 @dataclass(frozen=True, slots=True)
 class ErrorStatistics:
-    """How far one quantity was from another, in the unit of both."""
+    """Statistics of the difference of two quantities, in their unit."""
 
     rms: float
     mean: float
@@ -17,7 +17,7 @@ class ErrorStatistics:
 
 @dataclass(frozen=True, slots=True)
 class TrackingErrors:
-    """What was done, from what was asked, seen from the foot that stands."""
+    """True values minus references, in the frame of the support foot."""
 
     com_x_m: ErrorStatistics | None
     com_y_m: ErrorStatistics | None
@@ -27,7 +27,7 @@ class TrackingErrors:
 
 @dataclass(frozen=True, slots=True)
 class EstimationErrors:
-    """What was believed, from what was, seen from the foot that stands."""
+    """Estimates minus true values, in the frame of the support foot."""
 
     com_x_m: ErrorStatistics | None
     com_y_m: ErrorStatistics | None
@@ -41,15 +41,15 @@ class EstimationErrors:
 
 @dataclass(frozen=True, slots=True)
 class SolverSummary:
-    """How the solver of the MPC did.
+    """Performance of the solver of the MPC.
 
     Attributes:
-        solves: How often it was asked.
-        infeasible: How often there was no solution.
-        median_us: Processor time, in [us].
-        p99_us: That of the slowest hundredth.
-        iterations: Mean number.
-        greatest_excess_m: How far outside its bounds a ZMP was, in [m].
+        solves: Number of problems.
+        infeasible: Number of problems without a solution.
+        median_us: Median processor time, in [us].
+        p99_us: 99 % quantile of the processor time, in [us].
+        iterations: Mean number of iterations.
+        greatest_excess_m: Greatest violation of a bound of the ZMP, in [m].
     """
 
     solves: int
@@ -62,34 +62,35 @@ class SolverSummary:
 
 @dataclass(frozen=True, slots=True)
 class WalkSummary:
-    """Figures of a walk, after its first three seconds where it says how.
+    """Summary of a walk.
 
-    Errors are in the frame of the support foot; speed and yaw are compared
-    over whole gait cycles with what the plans asked for.
+    Errors are in the frame of the support foot; speed and yaw rate are
+    compared with the plans over whole gait cycles. All motion is evaluated
+    after the first three seconds.
 
     Attributes:
-        outcome: How it ended.
-        message: What ended it, in words.
-        seed: Of every random draw.
+        outcome: How the walk ended.
+        message: Reason for the end, as text.
+        seed: Seed of every random draw.
         duration_s: Simulated time, in [s].
         steps: Footsteps begun.
-        adapted_steps: Footsteps that feedback moved.
-        method: Where the plans' CoM came from.
+        adapted_steps: Footsteps that feedback adapted.
+        method: Method that gives the CoM of the plans.
         feedback: Whether the walk was stabilised.
-        push_impulse_n_s: Impulse given in the world (x, y), in [N s].
+        push_impulse_n_s: Sum of all impulses in the world (x, y), in [N s].
         speed_m_s: Speed over whole gait cycles, in [m/s].
-        speed_ratio: Way over what was planned.
-        yaw_rate_deg_s: Rate of turn, in [deg/s].
-        yaw_ratio: Turn over what was planned.
-        slip_per_step_m: Mean way of the foot that stands, in [m].
-        tracking: What was done, from what was asked.
-        estimation: What was believed, from what was.
+        speed_ratio: Path length over the planned one.
+        yaw_rate_deg_s: Yaw rate, in [deg/s].
+        yaw_ratio: Turn over the planned one.
+        slip_per_step_m: Mean slip of the support foot, in [m].
+        tracking: Errors of CoM and ZMP from their references.
+        estimation: Errors of the estimates.
         tilt_max_deg: Greatest tilt of the torso, in [deg].
-        min_zmp_margin_m: Least distance of a ZMP reference from the edge of
-            its support polygon, in [m]; None if nobody walked.
-        qp: How the solver of the MPC did, if there was one.
-        real_time_factor: Simulated time over the time that it took.
-        run_folder: Where the run lies, if it was written.
+        min_zmp_margin_m: Smallest distance of a ZMP reference from the edge
+            of its support polygon, in [m]; None if the robot did not walk.
+        qp: Performance of the solver of the MPC, if there was one.
+        real_time_factor: Simulated time over computing time.
+        run_folder: Path of the run folder, if one was written.
     """
 
     outcome: str
@@ -115,7 +116,7 @@ class WalkSummary:
     run_folder: str | None = None
 
     def to_json(self) -> dict[str, Any]:
-        """Plain values by name, as ``--json`` prints them."""
+        """Return plain values by name, as printed by ``--json``."""
         plain = asdict(self)
         plain["push_impulse_n_s"] = list(self.push_impulse_n_s)
         if self.run_folder is None:
@@ -124,13 +125,14 @@ class WalkSummary:
 
     @classmethod
     def from_json(cls, plain: Any, source: str) -> "WalkSummary":
-        """Read what :meth:`to_json` gave.
+        """Parse the output of :meth:`to_json`.
 
         Args:
             plain: Plain values by name.
-            source: Where they come from, for messages.
+            source: Origin of the values, for messages.
 
         Raises:
-            ConfigurationError: If it is no such thing; names what is off.
+            ConfigurationError: If an entry is missing or of the wrong type;
+                names the entry.
         """
         return read_figures(cls, plain, source)

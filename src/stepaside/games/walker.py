@@ -1,4 +1,4 @@
-"""A player that is a robot in the world, with its own control."""
+"""Player that is a simulated robot with its own control."""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
@@ -14,48 +14,63 @@ from .player import Snapshot, snapshot_of
 
 if TYPE_CHECKING:
     from ..perception.frame_report import FrameReport
+    from ..perception.perception import Perception
 
 
 class Walker:
-    """A body and the mind that moves it.
+    """Simulated robot with its controller.
 
     Attributes:
-        name: Who it is.
-        robot: Its body.
-        scheme: Its control.
+        name: Name of the player.
+        robot: Simulated robot.
+        scheme: Controller.
         frame: Pose of its odometry in the world.
-        truth: Where it really is.
+        truth: True state.
     """
 
     def __init__(
         self, robot: SimulatedRobot, scheme: ControlScheme, frame: Pose
     ) -> None:
-        """Join body and mind."""
+        """Combine a robot and its controller."""
         self.name = robot.name
         self.robot, self.scheme, self.frame = robot, scheme, frame
         self.truth: GroundTruth = robot.truth
 
     @property
     def begun(self) -> StepStarted | None:
-        """Step that it began at the last tick, if it did."""
+        """Step begun at the last tick, if any."""
         return self.scheme.begun
 
     @property
-    def reports(self) -> "Sequence[FrameReport]":
-        """What the images that reached it at the last tick show."""
+    def _perception(self) -> "Perception | None":
         senses = self.scheme.senses
-        if isinstance(senses, CameraSight):
-            return senses.perception.reports
-        return ()
+        return senses.perception if isinstance(senses, CameraSight) else None
+
+    @property
+    def reports(self) -> "Sequence[FrameReport]":
+        """Detections of the images that arrived at the last tick."""
+        perception = self._perception
+        return () if perception is None else perception.reports
+
+    @property
+    def is_ready(self) -> bool:
+        """Whether it has scanned the room, if it maps it."""
+        perception = self._perception
+        return perception is None or perception.is_ready
+
+    def start(self) -> None:
+        """Receive the signal that the game begins."""
+        if self._perception is not None:
+            self._perception.started = True
 
     @property
     def is_moving(self) -> bool:
-        """Whether it walks, rather than stands and waits."""
+        """Whether it has left its standing state."""
         return self.scheme.phase is not Phase.STANDING
 
     @property
     def has_fallen(self) -> bool:
-        """Whether it lies, or feels that it falls."""
+        """Whether it has fallen, or has detected a fall."""
         return self.truth.has_fallen or self.scheme.phase is Phase.FALLEN
 
     def tick(self) -> None:
@@ -64,14 +79,14 @@ class Walker:
         robot.write(self.scheme.update(robot.read()))
 
     def snapshot(self) -> Snapshot:
-        """State of this instant."""
+        """Return the state at this instant."""
         walk = self.scheme.state
         return snapshot_of(self.robot, frame=self.frame, walk=walk)
 
     def push(self, *pushes: Push) -> None:
-        """Let somebody push the torso, now or later."""
+        """Schedule pushes of the torso, now or later."""
         self.robot.push(*pushes)
 
     def close(self) -> None:
-        """Let go of the eyes."""
+        """Close the cameras."""
         self.robot.close()

@@ -1,4 +1,4 @@
-"""Standing a robot with its mind in a world."""
+"""Construction of a simulated robot with its controller."""
 
 from dataclasses import is_dataclass, replace
 from typing import TYPE_CHECKING
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 def watch(
     world: World, name: str, description: RobotDescription, gait: GaitSettings
 ) -> TrueRobotState:
-    """True state of a robot of a world, which walks with a gait."""
+    """Return the true state of a robot of a world."""
     return TrueRobotState(
         world.model,
         world.data,
@@ -63,27 +63,27 @@ def stand_walker(
     truth: TrueRobotState | None = None,
     clearance: ClearanceSetup | None = None,
 ) -> Walker:
-    """Stand one robot in a world, and give it a mind.
+    """Place one robot in a world and build its controller.
 
     Args:
-        world: World that has the robot.
-        name: Its name there.
-        description: Its description.
+        world: World that contains the robot.
+        name: Name of the robot in the world.
+        description: Description of the robot.
         frame: Pose of its odometry in the world.
-        strategy: From what it knows to what it wants.
-        gait: How it walks.
-        control: How it controls its walk.
-        body: How far its body is from an ideal one.
-        seed: Seed of its errors.
-        sighting: What it knows of the other before it has seen anything.
-        sight: Ideal sensor of the other, if it has one.
-        eyes: Cameras and sonars, if it sees with those.
-        perception: What turns its images into sightings, likewise.
-        truth: Its true state, if somebody watches that already.
-        clearance: What it knows of a room, and how clear it keeps.
+        strategy: Strategy of the player.
+        gait: Gait settings.
+        control: Control settings.
+        body: Deviations of the body from an ideal one.
+        seed: Seed of sensor errors.
+        sighting: Sighting before the first measurement, if known.
+        sight: Ideal sensor of the opponent, with ideal sensing.
+        eyes: Cameras and sonars, with camera sensing.
+        perception: Perception of their images, with camera sensing.
+        truth: True state of the robot, if it exists already.
+        clearance: Knowledge of the room and required clearance.
 
     Raises:
-        ReachError: If it cannot stand as the gait asks.
+        ReachError: If the legs cannot reach the initial stance of the gait.
     """
     tick = world.physics.tick
     scheme = build_scheme(
@@ -123,15 +123,19 @@ def clearance_in(
     frame: Pose,
     perception: "Perception | None" = None,
 ) -> ClearanceSetup | None:
-    """What a robot knows of the room that it plays in, if anything.
+    """Return the knowledge that a robot has of its room.
 
     Args:
-        room: The room, if it plays in one.
-        known: What it is to know.
-        description: The robot.
-        gait: How it walks.
+        room: Room of the game; None on an open floor.
+        known: Settings of the map.
+        description: Description of the robot.
+        gait: Gait settings.
         frame: Pose of its odometry in the room.
-        perception: What keeps a map of the floor, if the room is seen.
+        perception: Perception with a map of the floor, if the robot maps the
+            room.
+
+    Returns:
+        Surroundings and required clearance; None without knowledge.
     """
     if room is None or known.source == "none":
         return None
@@ -148,18 +152,18 @@ def clearance_in(
 def fitting(
     strategy: Strategy, clearance: ClearanceSetup | None, gait: GaitSettings
 ) -> Strategy:
-    """A strategy that reckons with as much room as the body needs.
+    """Return a strategy whose body radius is at least that of the robot.
 
     Args:
-        strategy: Any; who reckons with a body radius has an attribute of
-            that name.
-        clearance: How clear the body keeps.
-        gait: How it walks: with each step it sways.
+        strategy: Strategy; one without an attribute ``body_radius`` is
+            returned unchanged.
+        clearance: Outline and required clearance of the robot.
+        gait: Gait settings, which determine the sway of a step.
     """
     if clearance is None or not is_dataclass(strategy):
         return strategy
-    needs = clearance.outline.radius + clearance.margin + sway_of(gait)
-    if getattr(strategy, "body_radius", needs) >= needs:
+    radius = clearance.outline.radius + clearance.margin + sway_of(gait)
+    if getattr(strategy, "body_radius", radius) >= radius:
         return strategy
-    wider: Strategy = replace(strategy, body_radius=needs)
-    return wider
+    enlarged: Strategy = replace(strategy, body_radius=radius)
+    return enlarged

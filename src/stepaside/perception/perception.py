@@ -49,6 +49,8 @@ class Perception:
         forward: Kinematics of the measured body, shared with balance.
         floor: Map of the floor, if there is one.
         around: Scan of the room before a game begins.
+        started: Whether the game has begun; a robot that maps the floor
+            scans until then.
     """
 
     def __init__(
@@ -61,6 +63,7 @@ class Perception:
         floor: FloorMap | None = None,
         glances: float | None = None,
         people: bool = False,
+        awaits_start: bool = False,
     ) -> None:
         """Set up the perception of a robot.
 
@@ -74,6 +77,8 @@ class Perception:
             glances: Time between two glances over the shoulders at the floor
                 behind, in [s]; None for no glances.
             people: Whether people, who wear no trim, may approach.
+            awaits_start: Whether a signal starts the game; otherwise it
+                begins with the end of the scan.
         """
         self._selection: TargetSelection = (
             PeopleSelection() if people else RobotSelection()
@@ -81,6 +86,7 @@ class Perception:
         self._people = people
         self.floor = floor
         self.around = RoomScan()
+        self.started = not awaits_start
         self._bottom_camera = BottomCamera(
             head.bottom, people=people, floor=floor
         )
@@ -136,9 +142,15 @@ class Perception:
         return self._gaze.yaw, self._gaze.pitch
 
     @property
+    def is_ready(self) -> bool:
+        """Whether the scan of the room, if any, is complete."""
+        return self.floor is None or not self.around.lasts(self._gaze)
+
+    @property
     def looking(self) -> bool:
-        """Whether the scan of the room still lasts."""
-        return self.floor is not None and self.around.lasts(self._gaze)
+        """Whether the scan lasts, or the robot waits for the game to start."""
+        waits = self.floor is not None and not self.started
+        return waits or not self.is_ready
 
     def looks_low(self) -> bool:
         """Return whether the next image should be from the bottom camera."""

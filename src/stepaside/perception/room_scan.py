@@ -1,7 +1,6 @@
 """Scan of the room before a game, to fill the map of the floor."""
 
 from math import copysign
-from typing import Protocol
 
 from ..core.poses import wrap_angle
 from .gaze import Gaze
@@ -12,15 +11,7 @@ RIGHT = -1.0  # the body turns away from the first side of the scan
 # degrees to either side, and its camera sees 29 degrees more, in [rad].
 BODY_TURN = 1.3
 HEADING_TOLERANCE = 0.15  # of the turn back to the first heading, in [rad]
-MAX_DURATION = 10.0  # of a scan, waiting for other players included, in [s]
-
-
-class ScanGroup(Protocol):
-    """Player whose scan others wait for."""
-
-    @property
-    def looking(self) -> bool:
-        """Whether its scan still lasts."""
+MAX_DURATION = 10.0  # of a scan, in [s]
 
 
 class RoomScan:
@@ -29,30 +20,22 @@ class RoomScan:
     A robot that walks backward also turns on the spot, away from the first
     side of the scan, and holds the head at the second end until the floor
     behind is visible or half of the time has passed. It then turns back to
-    its first heading, from which the game begins. The scan can wait for
-    those of other players, for up to its longest duration.
+    its first heading, from which the game begins.
 
     Attributes:
-        company: Other players whose scans to wait for.
         behind: Whether to turn the body and scan behind.
         turning: Requested turn on the spot: 1 left, -1 right, 0 none.
     """
 
     def __init__(self) -> None:
         """Start a scan that has not begun."""
-        self.company: list[ScanGroup] = []
         self.behind = False
         self.turning = 0.0
         self._start: tuple[float, float] | None = None
-        self._timed_out = False
 
     def lasts(self, gaze: Gaze) -> bool:
-        """Return whether the scan, or one that it waits for, still lasts."""
-        if gaze.scan_ends < SCAN_ENDS or self.turning:
-            return True
-        return not self._timed_out and any(
-            each.looking for each in self.company
-        )
+        """Return whether the scan is incomplete."""
+        return gaze.scan_ends < SCAN_ENDS or self.turning != 0.0
 
     def look(self, gaze: Gaze, now: float, heading: float) -> None:
         """Advance the scan by one tick.
@@ -66,11 +49,11 @@ class RoomScan:
             self._start = now, heading
         time, before = self._start
         turned = wrap_angle(heading - before)
-        self._timed_out = now - time >= MAX_DURATION
+        timed_out = now - time >= MAX_DURATION
         half_time = now - time >= 0.5 * MAX_DURATION
         done = not self.behind or abs(turned) >= BODY_TURN or half_time
         gaze.search(stay=not done and gaze.scan_ends == SCAN_ENDS - 1)
-        if not self.behind or self._timed_out:
+        if not self.behind or timed_out:
             self.turning = 0.0
         elif gaze.scan_ends < SCAN_ENDS:
             self.turning = RIGHT

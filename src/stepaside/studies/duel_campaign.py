@@ -27,7 +27,6 @@ from ..theory.unicycle.relative_coordinates import RelativeStart
 from ..theory.unicycle.unicycle_game import make_game
 from .code_version import code_version, library_versions
 from .duel_statistics import FIELDS
-from .later import LATER
 from .record_store import RecordStore
 
 Record = dict[str, Any]
@@ -37,15 +36,6 @@ ROOMS = ("studies/duel_campaign",)
 MACHINE = ("version", "libraries", "verified", "wall_s")
 
 
-def _drop(entries: Record, plain: Record, path: list[str]) -> None:
-    """Leave an entry out if it is the plain one."""
-    name, *deeper = path
-    if deeper:
-        _drop(entries[name], plain[name], deeper)
-    elif entries[name] == plain[name]:
-        del entries[name]
-
-
 def settings_hash(settings: DuelSettings) -> str:
     """Fingerprint of everything that decides a duel but its seed.
 
@@ -53,9 +43,6 @@ def settings_hash(settings: DuelSettings) -> str:
     does not.
     """
     entries = asdict(replace(settings.named(), seed=0))
-    plain = asdict(DuelSettings(seed=0))
-    for path in LATER:
-        _drop(entries, plain, path.split("."))
     for name in (settings.evader_strategy, settings.pursuer_strategy):
         file = file_of(name) if isinstance(name, str) else None
         if file is not None and file.is_file():
