@@ -134,4 +134,4 @@ def test_a_result_names_the_command_that_makes_it_again(name: str) -> None:
 
         assert program == "stepaside" and words[0] in COMMANDS
     assert re.fullmatch(r"[0-9a-f]{12}", result["version"])
-    assert result["rooms"] and result["libraries"] and result["settings"]
+    assert result["modules"] and result["libraries"] and result["settings"]

@@ -12,11 +12,11 @@ import published_humanoid as stranger
 from stepaside.core.errors import ModelError
 from stepaside.core.poses import Pose
 from stepaside.fitting import derivation as leaning
-from stepaside.fitting.derivation import LEANS, derive, least_lean
+from stepaside.fitting.derivation import LEAN_CANDIDATES, derive, least_lean
 from stepaside.fitting.description_edit import rewritten
 from stepaside.fitting.description_writer import write_description
 from stepaside.fitting.gait_candidates import Candidate
-from stepaside.fitting.gait_feasibility import TorqueShares
+from stepaside.fitting.gait_feasibility import JointLoads
 from stepaside.fitting.walk_trials import WalkTrialResult
 from stepaside.games.robot_settings import settings_of
 from stepaside.locomotion.zmp.control_settings import StabiliserSettings
@@ -163,13 +163,15 @@ def test_it_leans_no_farther_than_it_has_to(
 ) -> None:
     """By what a step asks for at each lean that is tried."""
 
-    def borne(robot: RobotDescription, *_: object) -> TorqueShares:
-        return TorqueShares(0.5, "hip", shares[LEANS.index(robot.lean)], "hip")
+    def borne(robot: RobotDescription, *_: object) -> JointLoads:
+        return JointLoads(
+            0.5, "hip", shares[LEAN_CANDIDATES.index(robot.lean)], "hip"
+        )
 
-    monkeypatch.setattr(leaning, "torques_borne", borne)
+    monkeypatch.setattr(leaning, "step_loads", borne)
     found, kept = least_lean(NAO, settings_of(NAO).gait, {})
     assert found == lean
-    assert kept.most == shares[LEANS.index(lean)]
+    assert kept.most == shares[LEAN_CANDIDATES.index(lean)]
 
 
 def test_the_file_says_how_far_it_leans(tmp_path: Path) -> None:

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from stepaside.fitting.motor_data import likely_torques, published_torques
+from stepaside.fitting.motor_data import plausible_torques, published_torques
 
 GEAR = st.floats(0.5, 200.0).flatmap(lambda g: st.sampled_from([g, -g]))
 TORQUE = st.floats(0.5, 90.0)
@@ -83,7 +83,7 @@ def test_what_is_likely_goes_with_weight_times_length(
     """A torque is no number for none below ten times what tips a robot."""
     tips = mass * 9.81 * length
     told = {"knee": share * tips, "none": inf}
-    kept = likely_torques(told, mass, length)
+    kept = plausible_torques(told, mass, length)
     if abs(share - 10.0) > 0.01:
         assert ("knee" in kept) == (share < 10.0)
     assert "none" not in kept

@@ -15,10 +15,15 @@ from stepaside.core.errors import ModelError
 from stepaside.fitting.derivation import DerivedDescription, derive
 from stepaside.fitting.description_writer import write_description
 from stepaside.fitting.gait_scaling import RobotSize, gait_of, game_of_size
-from stepaside.fitting.model_analysis import survey
-from stepaside.fitting.motor_data import GIVES, LEAST, STIFFNESS, gains_of
+from stepaside.fitting.model_analysis import analyse_model
+from stepaside.fitting.motor_data import (
+    LEAST_STIFFNESS,
+    SATURATION_ANGLE,
+    STIFFNESS,
+    gains_of,
+)
 from stepaside.fitting.walk_trials import (
-    WAYS,
+    PATHS,
     WalkTrial,
     trials_of,
     walk_trial,
@@ -55,7 +60,7 @@ def described(
 def test_legs_and_soles_are_found_in_the_tree(
     publish: Publish, tmp_path: Path
 ) -> None:
-    found = survey(publish(tmp_path), [])
+    found = analyse_model(publish(tmp_path), [])
     left, right = found.legs
     assert left.joints == tuple(f"near_{part[0]}" for part in stranger.LEG)
     assert right.joints == tuple(f"far_{part[0]}" for part in stranger.LEG)
@@ -108,7 +113,7 @@ def test_a_servo_stands_for_the_damping_of_its_joint(tmp_path: Path) -> None:
     """It leads its targets by all of it, or the joints would lag."""
     found, robot = described(stranger.mjcf(tmp_path), tmp_path / "robot")
     model = robot.compile()
-    assert found.survey.model.dof_damping.max() == 0.8
+    assert found.analysis.model.dof_damping.max() == 0.8
     assert not model.dof_damping.any()
     assert (-model.actuator_biasprm[:, 2] > 0.8).all()
 
@@ -117,14 +122,14 @@ def test_a_weak_servo_is_no_stiffer_than_its_torque_allows(
     tmp_path: Path,
 ) -> None:
     """One that is at its limit after a small error holds nothing."""
-    found = survey(stranger.mjcf(tmp_path), [])
+    found = analyse_model(stranger.mjcf(tmp_path), [])
     height = 0.7
     tipping = found.mass * 9.81 * height
     leg = found.legs[0].joints
     for torque, stiffness in (
         (1e4, STIFFNESS * tipping),
-        (5.0 * tipping * GIVES, 5.0 * tipping),
-        (1.0, LEAST * tipping),
+        (5.0 * tipping * SATURATION_ANGLE, 5.0 * tipping),
+        (1.0, LEAST_STIFFNESS * tipping),
     ):
         torques = dict.fromkeys(leg, torque)
         gains = gains_of(found, torques, height, weak=True)
@@ -155,7 +160,7 @@ def test_speed_limits_are_those_of_the_urdf_or_asked_for(
     told, _ = described(stranger.urdf(tmp_path), tmp_path / "told")
     untold, _ = described(stranger.mjcf(tmp_path), tmp_path / "untold")
     assert set(told.description.speed_limits.values()) == {9.5}
-    assert not untold.told_speeds
+    assert not untold.published_speeds
     assert "ASK" not in write_description(told).replace("says ASK", "")
     assert "# ASK: the model does not say; no-load speeds" in (
         write_description(untold)
@@ -181,7 +186,7 @@ def test_a_mesh_that_is_not_there_is_left_out_and_told_of(
     tmp_path: Path,
 ) -> None:
     found, _ = described(stranger.mjcf(tmp_path), tmp_path / "robot")
-    assert found.survey.missing == ("lost.stl",)
+    assert found.analysis.missing == ("lost.stl",)
     assert "like lost.stl" in write_description(found)
 
 
@@ -239,7 +244,7 @@ def test_a_stranger_walks_backward_round_a_circle(
     (trial,) = [
         trial
         for trial in trials_of(robot, feedback=feedback)
-        if trial.way is WAYS[-1]
+        if trial.way is PATHS[-1]
     ]
     walked = walk_trial(WalkTrial(robot, trial.gait, trial.control, trial.way))
     assert walked.is_steady, walked

@@ -21,7 +21,7 @@ from stepaside.fitting.gait_search import GaitSearch
 from stepaside.fitting.joint_strain import JointStrain
 from stepaside.fitting.requirements import findings_of
 from stepaside.fitting.robot_verification import check_robot
-from stepaside.fitting.walk_trials import WAYS, WalkTrial, WalkTrialResult
+from stepaside.fitting.walk_trials import PATHS, WalkTrial, WalkTrialResult
 from stepaside.games.robot_settings import settings_of
 from stepaside.robots.description import (
     FILE,
@@ -135,7 +135,7 @@ def test_a_check_passes_what_walks_as_it_is_described(
 def test_unsteadiness_is_that_of_the_worst_measure(tmp_path: Path) -> None:
     own = described(tmp_path)
     settings = settings_of(own)
-    trial = WalkTrial(own, settings.gait, settings.control, WAYS[0])
+    trial = WalkTrial(own, settings.gait, settings.control, PATHS[0])
     assert walked(trial, 0.5).unsteadiness == pytest.approx(0.5)
     slow = walked(trial, 0.5)._replace(speed=0.7)
     assert slow.unsteadiness == pytest.approx(2.0)
@@ -190,7 +190,7 @@ def test_a_search_finds_a_way_out_of_falling(
         walks.append(trial)
         quick = trial.gait.single_support < 0.9 * gait.single_support
         ahead = trial.gait.zmp_forward < gait.zmp_forward
-        falls = not quick or (not ahead and trial.way in WAYS[:2])
+        falls = not quick or (not ahead and trial.way in PATHS[:2])
         return walked(trial, 0.1, falls=falls)
 
     monkeypatch.setattr(tuning, "walk_trial", walk)

@@ -16,10 +16,10 @@ from stepaside.cli.main import main
 from stepaside.core.errors import ModelError
 from stepaside.fitting.derivation import DerivedDescription, derive
 from stepaside.fitting.description_writer import write_description
-from stepaside.fitting.gait_feasibility import torques_borne
+from stepaside.fitting.gait_feasibility import step_loads
 from stepaside.fitting.gait_search import GOOD
 from stepaside.fitting.joint_strain import JointStrain
-from stepaside.fitting.model_analysis import survey
+from stepaside.fitting.model_analysis import analyse_model
 from stepaside.fitting.requirements import findings_of
 from stepaside.fitting.robot_verification import check_robot
 from stepaside.fitting.walk_trials import WalkTrialResult
@@ -46,8 +46,10 @@ def test_several_hinges_in_a_body_are_one_joint_each(
     both: tuple[DerivedDescription, DerivedDescription],
 ) -> None:
     merged, split = both
-    assert merged.survey.model.nbody < split.survey.model.nbody
-    for one, other in zip(merged.survey.legs, split.survey.legs, strict=True):
+    assert merged.analysis.model.nbody < split.analysis.model.nbody
+    for one, other in zip(
+        merged.analysis.legs, split.analysis.legs, strict=True
+    ):
         assert one.joints == other.joints and len(one.joints) == 6
 
 
@@ -71,7 +73,7 @@ def test_torques_of_a_step_stay_finite_without_a_mass(
     )
     limits = dict.fromkeys(merged.legs, 90.0)
     one, other = (
-        torques_borne(robot, settings_of(robot).gait, limits)
+        step_loads(robot, settings_of(robot).gait, limits)
         for robot in (merged, split)
     )
     assert np.isfinite(one.usual) and 0.0 < one.usual < 2.0
@@ -146,7 +148,7 @@ def test_arms_and_heads_are_not_called_legs(
     limbs: dict[str, tuple[float, int, str]], said: str, tmp_path: Path
 ) -> None:
     with pytest.raises(ModelError) as refused:
-        survey(robot_with(tmp_path, limbs), [])
+        analyse_model(robot_with(tmp_path, limbs), [])
     message = str(refused.value)
     assert said in message
     for name in limbs:

@@ -19,7 +19,7 @@ from stepaside.fitting.derivation import (
 )
 from stepaside.fitting.description_writer import write_description
 from stepaside.fitting.leg_detection import DetectedLeg
-from stepaside.fitting.model_analysis import ModelAnalysis, survey
+from stepaside.fitting.model_analysis import ModelAnalysis, analyse_model
 from stepaside.fitting.standing_posture import knee_limits, standing_of
 from stepaside.robots.description import FILE, load_robot
 from stepaside.robots.tree_compiler import compile_tree
@@ -41,7 +41,7 @@ def edited(folder: Path, edit: Callable[[str], str]) -> Path:
 
 
 def feet(file: Path) -> tuple[DetectedLeg, DetectedLeg]:
-    return survey(file, []).legs
+    return analyse_model(file, []).legs
 
 
 def shaped(shape: str) -> Callable[[str], str]:
@@ -122,9 +122,9 @@ def level_in(found: ModelAnalysis) -> float:
 
 
 def test_a_robot_stands_flat_on_feet_that_are_not(tmp_path: Path) -> None:
-    plain = survey(stranger.mjcf(tmp_path), [])
+    plain = analyse_model(stranger.mjcf(tmp_path), [])
     file = edited(tmp_path, shaped(tilted(0.0, 0.3)))
-    found = survey(file, [])
+    found = analyse_model(file, [])
     stands, stood = standing_of(found), standing_of(plain)
     assert stands["near_tip"] == pytest.approx(
         stood["near_tip"] - 0.3, abs=0.02
@@ -169,7 +169,7 @@ def test_a_sole_that_nobody_stands_on_is_refused(
 ) -> None:
     file = edited(tmp_path, shaped(shape))
     with pytest.raises(ModelError, match=f"the sole of 'near_lean.*{why}"):
-        survey(file, [])
+        analyse_model(file, [])
 
 
 def test_feet_must_have_a_sole_in_common(tmp_path: Path) -> None:
@@ -183,7 +183,7 @@ def test_feet_must_have_a_sole_in_common(tmp_path: Path) -> None:
         return BOX.sub(behind, BOX.sub(ahead, text, count=1))
 
     with pytest.raises(ModelError, match="in common must be .* mirror images"):
-        shared_sole(survey(edited(tmp_path, edit), []))
+        shared_sole(analyse_model(edited(tmp_path, edit), []))
 
 
 def test_an_ankle_is_where_its_axes_cross(tmp_path: Path) -> None:
@@ -214,8 +214,8 @@ def crouched(text: str) -> str:
 
 
 def test_the_zero_posture_may_be_a_crouch(tmp_path: Path) -> None:
-    plain = survey(stranger.mjcf(tmp_path), [])
-    found = survey(edited(tmp_path, crouched), [])
+    plain = analyse_model(stranger.mjcf(tmp_path), [])
+    found = analyse_model(edited(tmp_path, crouched), [])
     stands, stood = standing_of(found), standing_of(plain)
     for name, angle in CROUCH.items():
         assert stands[f"near_{name}"] == pytest.approx(
@@ -245,7 +245,7 @@ def test_what_a_leg_lacks_is_named(
 ) -> None:
     file = edited(tmp_path, without(name))
     with pytest.raises(ModelError, match=f"6 joints .* got 5 and no {lacks}:"):
-        survey(file, [])
+        analyse_model(file, [])
 
 
 def test_a_toe_is_part_of_its_foot(tmp_path: Path) -> None:
@@ -283,7 +283,7 @@ def test_legs_that_are_spread_do_not_stand_so(tmp_path: Path) -> None:
             text = text.replace(f"{body}0 {sign * 0}", f"{body}0 {sign * 0.1}")
         return text
 
-    found = survey(edited(tmp_path, edit), [])
+    found = analyse_model(edited(tmp_path, edit), [])
     hips = found.legs[0].hip[1] - found.legs[1].hip[1]
     assert spacing_of(found, HALF) == pytest.approx(1.4 * hips)
 
@@ -294,4 +294,4 @@ def test_a_file_that_says_nothing_leaves_the_name_to_its_folder(
     folder = tmp_path / "walking_machine" / "urdf"
     folder.mkdir(parents=True)
     file = stranger.mjcf(folder).rename(folder / "robot.xml")
-    assert name_of(survey(file, [])) == "walking machine"
+    assert name_of(analyse_model(file, [])) == "walking machine"

@@ -123,7 +123,7 @@ def test_a_row_has_as_many_values_as_it_needs(
     assert len(row) == ROWS[name]
     for other in (row[:-1], [*row, row[-1]], "row"):
         said = told(tmp_path, name, other)
-        assert f"a row of {ROWS[name]} values" in said
+        assert f"an array of {ROWS[name]} values" in said
         assert str(name.rpartition(".")[2]) in said or "soles" in said
 
 
@@ -131,7 +131,7 @@ def test_a_row_has_as_many_values_as_it_needs(
     ("name", "value", "message"),
     [
         ("name", 1, "name must be a name, got 1"),
-        ("legs", "left", "legs must be a row of values"),
+        ("legs", "left", "legs must be an array of values"),
         ("legs", ["left", 1], "legs must be a name"),
         ("standing.knee", "bent", "standing.knee must be a finite number"),
         ("standing.knee", True, "standing.knee must be a finite number"),

@@ -105,5 +105,5 @@ def test_a_wrong_head_is_refused_by_its_file(
 def test_a_robot_without_a_head_cannot_look_about(tmp_path: Path) -> None:
     for name in ("robot.toml", "model.xml"):
         (tmp_path / name).write_bytes((NAO.folder / name).read_bytes())
-    with pytest.raises(ModelError, match="NAO cannot look about.*missing"):
+    with pytest.raises(ModelError, match="NAO has no cameras.*missing"):
         load_head(load_robot(tmp_path))

@@ -4,7 +4,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.robots.inertia_repair import mend_inertias
+from stepaside.robots.inertia_repair import repair_inertias
 
 LINK = (
     '<mujoco><worldbody><body name="link"><joint name="turn"/>'
@@ -25,7 +25,7 @@ def test_an_inertia_that_is_none_compiles_once_mended(full: str) -> None:
     spec = spec_of(0.3, full)
     with pytest.raises(ValueError, match="eigenvalue|inertia"):
         spec_of(0.3, full).compile()
-    assert mend_inertias(spec) == ["link"]
+    assert repair_inertias(spec) == ["link"]
     model = spec.compile()
     moments = np.sort(model.body_inertia[1])
     assert moments[0] > 0.0 and moments[0] + moments[1] >= moments[2] * 0.999
@@ -34,7 +34,7 @@ def test_an_inertia_that_is_none_compiles_once_mended(full: str) -> None:
 
 def test_a_link_without_mass_gets_hardly_any() -> None:
     spec = spec_of(0.0, "0 0 0 0 0 0")
-    mend_inertias(spec)
+    repair_inertias(spec)
     model = spec.compile()
     assert 0.0 < model.body_mass[1] <= 1e-6
 
@@ -42,7 +42,7 @@ def test_a_link_without_mass_gets_hardly_any() -> None:
 def test_an_inertia_that_can_be_stays_as_it_is() -> None:
     spec = spec_of(2.0, "0.02 0.03 0.025 0.001 -0.002 0.003")
     before = np.array(spec.body("link").fullinertia)
-    assert mend_inertias(spec) == []
+    assert repair_inertias(spec) == []
     np.testing.assert_array_equal(spec.body("link").fullinertia, before)
 
 
@@ -65,9 +65,9 @@ def test_inertias_in_wrong_units_become_those_of_links(how: str) -> None:
         )
 
     spec = model(400.0)
-    assert mend_inertias(spec) == ["torso", "thigh"]
+    assert repair_inertias(spec) == ["torso", "thigh"]
     moments = spec.compile().body_inertia[1:, 0]
     np.testing.assert_allclose(moments, [0.0016, 0.0064, 1e-4])
     spec = model(0.3)  # large for such a robot, but who knows
-    assert mend_inertias(spec) == []
+    assert repair_inertias(spec) == []
     np.testing.assert_allclose(spec.compile().body_inertia[2], 0.1)

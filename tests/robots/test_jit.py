@@ -25,7 +25,7 @@ pytest.importorskip("numba")
 def fresh(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """Nothing is stored, and nothing preferred afterwards."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    monkeypatch.setattr(machine, "_used", JitPreference.PLAIN)
+    monkeypatch.setattr(machine, "_preference", JitPreference.PLAIN)
     yield
 
 
@@ -91,9 +91,9 @@ def test_short_games_do_not_wait_for_machine_code() -> None:
 
 def test_legs_step_to_the_same_bits() -> None:
     robot = load_robot("nao")
-    plain = solver_of(robot, load_tree(robot)).quick
+    plain = solver_of(robot, load_tree(robot)).newton_step
     machine.prefer(JitPreference.COMPILED)
-    compiled = solver_of(robot, load_tree(robot)).quick
+    compiled = solver_of(robot, load_tree(robot)).newton_step
     assert plain is not None and compiled is not None
     assert plain is not compiled
     generator = np.random.default_rng(1)

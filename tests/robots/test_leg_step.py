@@ -64,8 +64,8 @@ def test_the_step_solves_all_rows(name: str, seed: int) -> None:
     error, jacobian = solver.linearise(*arguments)
     count = 4 + FREE[name]
     assert jacobian.shape == (count, count)
-    assert solver.quick is not None
-    step = np.array(solver.quick(*arguments))
+    assert solver.newton_step is not None
+    step = np.array(solver.newton_step(*arguments))
     np.testing.assert_allclose(jacobian @ step[:count], error, atol=1e-9)
     free = np.array(arguments[: FREE[name]])
     after = free + step[4:count]
@@ -181,7 +181,7 @@ def test_legs_that_do_not_pair_off_are_moved_all_the_same() -> None:
     """Seven joints a leg: no step is written out, the solve has to do."""
     description = seven()
     solver = solver_of(description, load_tree(description))
-    assert solver.quick is None
+    assert solver.newton_step is None
     assert not solver.legs.is_plain and solver.legs.holds_heading
     legs = LegKinematics(description, tick=TICK)
     targets = legs.stand(STANCE)

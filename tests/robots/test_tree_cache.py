@@ -36,7 +36,7 @@ def test_the_stored_nao_is_up_to_date(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     without_mujoco(monkeypatch)
-    monkeypatch.setattr("stepaside.robots.tree_cache._KNOWN", {})
+    monkeypatch.setattr("stepaside.robots.tree_cache._cache", {})
     assert load_tree(NAO).mass == pytest.approx(5.305, abs=2e-3)
 
 

@@ -70,9 +70,9 @@ def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     code_version.cache_clear()
 
 
-def fingerprint(*rooms: str) -> str:
+def fingerprint(*modules: str) -> str:
     code_version.cache_clear()
-    return code_version(rooms)
+    return code_version(modules)
 
 
 def edit(file: Path) -> None:
@@ -150,34 +150,34 @@ def test_a_duel_loads_no_module_that_its_version_leaves_out() -> None:
     )
     loaded = {Path(line) for line in told.stdout.split()}
     assert ROOT / "laws.py" in loaded
-    assert loaded <= dependencies(ROOT, duels.ROOMS)
+    assert loaded <= dependencies(ROOT, duels.MODULES)
 
 
 @pytest.mark.parametrize(
-    ("name", "rooms", "changes"),
+    ("name", "modules", "changes"),
     [
-        ("strategies/search/turn_search.py", duels.ROOMS, True),
-        ("robots/nao/model.xml", duels.ROOMS, True),
-        ("theory/unicycle/certificate.py", duels.ROOMS, True),
-        ("cli.py", duels.ROOMS, False),
-        ("cli/duels.py", duels.ROOMS, False),
-        ("drivers/lola/wire.py", duels.ROOMS, False),
-        ("report/page/page.js", duels.ROOMS, False),
+        ("strategies/search/turn_search.py", duels.MODULES, True),
+        ("robots/nao/model.xml", duels.MODULES, True),
+        ("theory/unicycle/certificate.py", duels.MODULES, True),
+        ("cli.py", duels.MODULES, False),
+        ("cli/duels.py", duels.MODULES, False),
+        ("drivers/lola/wire.py", duels.MODULES, False),
+        ("report/page/page.js", duels.MODULES, False),
         ("laws.py", PHYSICS, True),
         ("laws.py", UNICYCLES, True),
         ("laws.py", PLANNER, True),
         ("sim/servos.py", UNICYCLES, False),
-        ("laws.py", trial_results.ROOMS, True),
-        ("theory/bound/value_solver.py", tournament_settings.ROOMS, True),
+        ("laws.py", trial_results.MODULES, True),
+        ("theory/bound/value_solver.py", tournament_settings.MODULES, True),
         ("constants.py", jobs.DUELS, True),
         ("theory/bound/value_table.py", jobs.EVADING, True),
         ("control/scheme.py", jobs.PLANS, False),
     ],
 )
 def test_results_depend_on_the_code_that_makes_them(
-    name: str, rooms: tuple[str, ...], changes: bool
+    name: str, modules: tuple[str, ...], changes: bool
 ) -> None:
-    assert (ROOT / name in dependencies(ROOT, rooms)) is changes
+    assert (ROOT / name in dependencies(ROOT, modules)) is changes
 
 
 def test_records_of_duels_are_made_again_with_other_laws(
@@ -186,13 +186,13 @@ def test_records_of_duels_are_made_again_with_other_laws(
     copy = tmp_path / "stepaside"
     shutil.copytree(ROOT, copy, ignore=shutil.ignore_patterns("__pycache__"))
     monkeypatch.setattr(version, "ROOT", copy)
-    found = [fingerprint(*duels.ROOMS)]
+    found = [fingerprint(*duels.MODULES)]
     for name in ("laws.py", "constants.py", "theory/bound/upwind_scheme.py"):
         edit(copy / name)
-        found.append(fingerprint(*duels.ROOMS))
+        found.append(fingerprint(*duels.MODULES))
     edit(copy / "report" / "duel_figure.py")
     assert len(set(found)) == len(found)
-    assert fingerprint(*duels.ROOMS) == found[-1]
+    assert fingerprint(*duels.MODULES) == found[-1]
     code_version.cache_clear()
 
 

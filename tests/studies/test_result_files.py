@@ -16,7 +16,7 @@ from stepaside.studies.result_files import (
     write_result,
 )
 
-HEAD = header({"seeds": [1, 3]}, rooms=PLANNER, command="python x.py")
+HEAD = header({"seeds": [1, 3]}, modules=PLANNER, command="python x.py")
 
 
 def test_what_is_written_is_read(tmp_path: Path) -> None:
@@ -75,7 +75,7 @@ def test_a_result_is_current_while_its_code_is() -> None:
     assert HEAD["version"] == code_version(PLANNER)
     assert is_current(HEAD)
     assert not is_current(HEAD | {"version": "0" * 12})
-    assert not is_current(HEAD | {"rooms": ["cellar"]})
+    assert not is_current(HEAD | {"modules": ["cellar"]})
 
 
 def test_the_command_is_what_one_types_in_the_repository(

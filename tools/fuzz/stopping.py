@@ -153,7 +153,7 @@ def main() -> None:
             asked.keep,
             header(
                 {"moments_s": list(MOMENTS)},
-                rooms=("cli", "commands", "interrupting", "workers"),
+                modules=("cli", "commands", "interrupting", "workers"),
                 command="python -m tools.fuzz.stopping --keep "
                 f"docs/results/{asked.keep.name}",
             ),

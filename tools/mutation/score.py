@@ -100,7 +100,7 @@ def head(*, sample: int, seed: int, cap: float) -> dict[str, Any]:
     options += f" CAP={cap:g}" if cap != CAP else ""
     return header(
         {"sample": sample, "seed": seed, "cap_s": cap},
-        rooms=ROOMS,
+        modules=ROOMS,
         libraries=(*LIBRARIES, "hypothesis"),
         command=make + options,
     )

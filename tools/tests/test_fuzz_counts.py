@@ -32,7 +32,7 @@ def test_each_complaint_counts_as_what_it_is() -> None:
 def test_a_seed_stands_in_the_place_of_its_former_run(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(fuzz_counts, "all_rooms", lambda: ("errors",))
+    monkeypatch.setattr(fuzz_counts, "all_modules", lambda: ("errors",))
     file = tmp_path / "fuzz.json"
     for seed, cases in (
         (2, [("a", "hang"), ("b", "")]),

@@ -101,9 +101,9 @@ def write_walks(
     from ..report.robustness_figure import draw_limits, draw_survival
     from ..studies.push_results import pushes_result
     from ..studies.result_files import header, write_result
-    from ..studies.robustness_campaign import ROOMS, UNITS
+    from ..studies.robustness_campaign import MODULES, UNITS
 
-    head = header(asked.settings(), rooms=ROOMS)
+    head = header(asked.settings(), modules=MODULES)
     write_result(output / "survival.json", head, **answer)
     draw_survival(answer["survival"], UNITS, output / "survival.png")
     limits = answer["limits"]
