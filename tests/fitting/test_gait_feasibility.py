@@ -30,12 +30,12 @@ def test_nao_is_fast_enough_for_its_gait() -> None:
     assert feasible_lengths(NAO, GAIT) == 1.0
 
 
-def test_the_share_is_by_the_limits() -> None:
+def test_the_speed_ratio_is_inverse_to_the_limits() -> None:
     share = speed_ratio(NAO, GAIT)
     assert speed_ratio(slow(0.5), GAIT) == pytest.approx(2.0 * share)
 
 
-def test_slow_joints_walk_shorter_steps_that_they_keep_up_with() -> None:
+def test_slow_joints_get_feasible_shorter_steps() -> None:
     own = slow(0.6 * speed_ratio(NAO, GAIT))
     share = feasible_lengths(own, GAIT)
     assert LEAST_LENGTHS <= share < 1.0
@@ -47,7 +47,7 @@ def test_slow_joints_walk_shorter_steps_that_they_keep_up_with() -> None:
     assert gait.path_interval == pytest.approx(GAIT.path_interval)
 
 
-def test_a_step_of_nao_bears_on_its_hips_by_its_weight() -> None:
+def test_the_hip_load_of_a_step_follows_from_the_weight() -> None:
     """The stance hip carries all but its leg, a hip's width aside."""
     torques = dict.fromkeys(NAO.legs, 10.0)
     borne = step_loads(NAO, GAIT, torques)
@@ -59,11 +59,11 @@ def test_a_step_of_nao_bears_on_its_hips_by_its_weight() -> None:
     assert step_loads(NAO, GAIT, half).usual == pytest.approx(2.0 * share)
 
 
-def test_joints_that_hardly_move_get_the_least_steps() -> None:
+def test_very_slow_joints_get_the_least_step_length() -> None:
     assert feasible_lengths(slow(0.01), GAIT) == LEAST_LENGTHS
 
 
-def test_weak_ankles_get_the_zmp_that_they_bear() -> None:
+def test_weak_ankles_get_a_zmp_nearer_to_them() -> None:
     """No farther ahead than leaves them something of their torque."""
     strong = dict.fromkeys(NAO.legs, 100.0)
     ankles = [name for name in NAO.legs if name.endswith("AnklePitch")]

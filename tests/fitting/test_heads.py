@@ -24,7 +24,7 @@ HEAD = """
 </worldbody>"""
 
 
-def test_a_head_is_what_turns_and_nods_between_the_sides(
+def test_head_joints_are_in_the_sagittal_plane(
     tmp_path: Path,
 ) -> None:
     file = stranger.mjcf(tmp_path)

@@ -77,7 +77,7 @@ def test_the_force_range_of_a_joint_counts_without_any_gear(
 
 @settings(max_examples=20)
 @given(st.floats(1.0, 100.0), st.floats(0.2, 2.0), st.floats(0.1, 50.0))
-def test_what_is_likely_goes_with_weight_times_length(
+def test_plausible_torques_scale_with_weight_and_length(
     mass: float, length: float, share: float
 ) -> None:
     """A torque is no number for none below ten times what tips a robot."""

@@ -29,9 +29,7 @@ SOLE = (-0.05, 0.095, 0.042, 0.035)
 
 
 @pytest.mark.parametrize("ending", ["URDF", "mjcf", "txt"])
-def test_a_model_is_one_whatever_its_name_ends_with(
-    ending: str, tmp_path: Path
-) -> None:
+def test_a_model_may_have_any_suffix(ending: str, tmp_path: Path) -> None:
     publish = stranger.urdf if ending == "URDF" else stranger.mjcf
     model = publish(tmp_path)
     renamed = model.with_suffix(f".{ending}")
@@ -40,7 +38,7 @@ def test_a_model_is_one_whatever_its_name_ends_with(
     assert bool(published_speeds(renamed)) is (ending == "URDF")
 
 
-def test_what_is_no_xml_is_told_to_be_none(tmp_path: Path) -> None:
+def test_a_file_that_is_not_xml_is_refused(tmp_path: Path) -> None:
     file = tmp_path / "robot.mjcf"
     file.write_text("a robot", encoding="utf-8")
     with pytest.raises(ValueError, match="not XML"):
@@ -49,7 +47,7 @@ def test_what_is_no_xml_is_told_to_be_none(tmp_path: Path) -> None:
         analyse_model(file, [])
 
 
-def test_marks_without_a_size_are_left_out(tmp_path: Path) -> None:
+def test_geoms_without_size_are_removed(tmp_path: Path) -> None:
     """As spheres of radius 0 at the corners of feet."""
     model = stranger.urdf(tmp_path)
     text = model.read_text()
@@ -58,7 +56,7 @@ def test_marks_without_a_size_are_left_out(tmp_path: Path) -> None:
     assert len(analyse_model(model, []).legs) == 2
 
 
-def test_what_moves_things_around_the_robot_goes_with_them(
+def test_actuators_of_the_environment_are_removed(
     tmp_path: Path,
 ) -> None:
     """A body of the world's with motor and sensor: once a crash."""
@@ -110,7 +108,7 @@ def _leg(outline: tuple[float, ...], **changes: Any) -> DetectedLeg:
         ((-0.09, 0.085), (-3.1, 3.1), 0.0),  # nobody says
     ],
 )
-def test_toes_and_knees_say_together_where_forward_is(
+def test_toes_and_knees_determine_the_forward_direction(
     edges: tuple[float, float], bends: tuple[float, float], ahead: float
 ) -> None:
     low, high = bends
@@ -123,7 +121,7 @@ def test_toes_and_knees_say_together_where_forward_is(
     assert np.sign(_forward_score(model, leg)) == ahead
 
 
-def test_of_legs_that_look_aside_it_is_said_what_they_lack(
+def test_missing_joints_of_legs_that_face_sideways_are_named(
     tmp_path: Path,
 ) -> None:
     """Not that there are none in the axes of the torso."""
@@ -146,7 +144,9 @@ def test_of_legs_that_look_aside_it_is_said_what_they_lack(
         analyse_model(model, [])
 
 
-def test_wherever_along_its_axis_the_last_pitch_is(tmp_path: Path) -> None:
+def test_the_ankle_does_not_depend_on_the_anchor_along_its_axis(
+    tmp_path: Path,
+) -> None:
     """The ankle is where the roll axis crosses it."""
     model = stranger.mjcf(tmp_path)
     text = model.read_text()
@@ -186,7 +186,7 @@ def _swapped(text: str, side: str, sign: float) -> str:
         ((0.4, 0.6, 0.62, 0.64), 0.94, 0.6),
     ],
 )
-def test_it_stands_lower_where_straight_knees_were_too_fast(
+def test_the_com_is_lowered_if_straight_knees_are_too_fast(
     shares: tuple[float, ...],
     part: float,
     share: float,

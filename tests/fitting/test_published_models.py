@@ -50,7 +50,7 @@ def turned(straight: Path, folder: Path, looks: str) -> Path:
 
 
 @pytest.mark.parametrize("looks", TURNS)
-def test_a_torso_may_look_any_way(looks: str, tmp_path: Path) -> None:
+def test_a_torso_may_face_any_direction(looks: str, tmp_path: Path) -> None:
     straight = stranger.mjcf(tmp_path)
     plain = analyse_model(straight, [])
     found = analyse_model(turned(straight, tmp_path, looks), [])
@@ -63,7 +63,7 @@ def test_a_torso_may_look_any_way(looks: str, tmp_path: Path) -> None:
         assert leg.outline == pytest.approx(other.outline, abs=1e-9)
 
 
-def test_a_turned_torso_carries_what_it_did(tmp_path: Path) -> None:
+def test_a_rotated_torso_keeps_its_links_in_place(tmp_path: Path) -> None:
     """Its mass and feet lie where those of one that looks ahead do."""
     straight = stranger.mjcf(tmp_path)
     robots = [
@@ -83,7 +83,7 @@ def test_a_turned_torso_carries_what_it_did(tmp_path: Path) -> None:
     np.testing.assert_allclose(seen[1], seen[0], atol=1e-6)
 
 
-def test_mass_turns_with_its_torso() -> None:
+def test_the_inertia_is_rotated_with_the_torso_frame() -> None:
     """Also the part of a full inertia that no axis is one of."""
     text = """<mujoco><worldbody><body name="chest"><freejoint/>
       <inertial pos="0.1 0.2 0.3" mass="2"
@@ -104,7 +104,7 @@ def test_mass_turns_with_its_torso() -> None:
     np.testing.assert_allclose(place, (-0.2, 0.1, 0.3), atol=1e-12)
 
 
-def test_settings_that_mujoco_forgot_are_passed_over(tmp_path: Path) -> None:
+def test_settings_unknown_to_mujoco_are_ignored(tmp_path: Path) -> None:
     file = stranger.mjcf(tmp_path)
     text = file.read_text()
     dated = text.replace(
@@ -120,7 +120,7 @@ def test_settings_that_mujoco_forgot_are_passed_over(tmp_path: Path) -> None:
         analyse_model(file, [])
 
 
-def test_a_dated_model_has_its_parts_in_files(tmp_path: Path) -> None:
+def test_an_outdated_model_may_include_files(tmp_path: Path) -> None:
     text = stranger.mjcf(tmp_path).read_text()
     start = text.index("<worldbody>")
     end = text.index("</worldbody>") + len("</worldbody>")
@@ -158,7 +158,7 @@ def test_meshes_are_found_in_their_package(tmp_path: Path) -> None:
     assert analyse_model(file, []).missing == ()
 
 
-def test_numbers_for_none_are_not_taken(tmp_path: Path) -> None:
+def test_placeholder_torques_and_speeds_are_ignored(tmp_path: Path) -> None:
     told = {"knee": 90.0, "hip": 5e4}
     assert plausible_torques(told, 50.0, 0.8) == {"knee": 90.0}
     file = tmp_path / "a.urdf"
@@ -170,7 +170,7 @@ def test_numbers_for_none_are_not_taken(tmp_path: Path) -> None:
     assert published_speeds(file) == {"j0": 4.0}
 
 
-def test_who_stands_at_no_height_is_told_of_the_joints(tmp_path: Path) -> None:
+def test_joints_that_prevent_standing_are_named(tmp_path: Path) -> None:
     file = stranger.mjcf(tmp_path)
     ankle = 'name="near_tip" axis="0 1 0" damping="0.8" range='
     text = file.read_text()

@@ -73,7 +73,7 @@ def test_legs_and_soles_are_found_in_the_tree(
 
 
 @PUBLISHED
-def test_what_is_written_is_what_was_derived(
+def test_the_written_description_equals_the_derived_one(
     publish: Publish, tmp_path: Path
 ) -> None:
     model = publish(tmp_path)
@@ -109,7 +109,9 @@ def test_the_overlay_lets_any_model_be_controlled(
     assert {f"{robot.left_foot}_box", f"{robot.right_foot}_box"} <= names
 
 
-def test_a_servo_stands_for_the_damping_of_its_joint(tmp_path: Path) -> None:
+def test_the_damping_of_a_joint_becomes_that_of_its_servo(
+    tmp_path: Path,
+) -> None:
     """It leads its targets by all of it, or the joints would lag."""
     found, robot = described(stranger.mjcf(tmp_path), tmp_path / "robot")
     model = robot.compile()
@@ -161,8 +163,8 @@ def test_speed_limits_are_those_of_the_urdf_or_asked_for(
     untold, _ = described(stranger.mjcf(tmp_path), tmp_path / "untold")
     assert set(told.description.speed_limits.values()) == {9.5}
     assert not untold.published_speeds
-    assert "ASK" not in write_description(told).replace("says ASK", "")
-    assert "# ASK: the model does not say; no-load speeds" in (
+    assert "ASK" not in write_description(told).replace("with ASK", "")
+    assert "# ASK: not in the model; no-load speeds" in (
         write_description(untold)
     )
 
@@ -182,7 +184,7 @@ def test_the_place_of_a_torso_is_midway_between_its_hips(
     np.testing.assert_allclose(state.position, np.mean(hips, axis=0))
 
 
-def test_a_mesh_that_is_not_there_is_left_out_and_told_of(
+def test_a_missing_mesh_is_removed_and_reported(
     tmp_path: Path,
 ) -> None:
     found, _ = described(stranger.mjcf(tmp_path), tmp_path / "robot")
@@ -197,7 +199,7 @@ def test_a_leg_that_cannot_place_its_foot_is_refused(tmp_path: Path) -> None:
         derive(stranger.mjcf(tmp_path, joints=5), tmp_path, [])
 
 
-def test_what_is_no_model_is_refused_in_one_line(tmp_path: Path) -> None:
+def test_an_invalid_model_is_refused_in_one_line(tmp_path: Path) -> None:
     file = tmp_path / "nothing.xml"
     file.write_text("<mujoco><worldbody/></mujoco>")
     result = CliRunner().invoke(main, ["robot", "init", str(file)])
@@ -237,16 +239,18 @@ def test_equal_shapes_walk_alike() -> None:
 
 @pytest.mark.parametrize("feedback", [False, True], ids=["open", "feedback"])
 @PUBLISHED
-def test_a_stranger_walks_backward_round_a_circle(
+def test_a_derived_robot_walks_backward_in_a_circle(
     publish: Publish, feedback: bool, tmp_path: Path
 ) -> None:
     _, robot = described(publish(tmp_path), tmp_path / "robot")
     (trial,) = [
         trial
         for trial in trials_of(robot, feedback=feedback)
-        if trial.way is PATHS[-1]
+        if trial.path is PATHS[-1]
     ]
-    walked = walk_trial(WalkTrial(robot, trial.gait, trial.control, trial.way))
+    walked = walk_trial(
+        WalkTrial(robot, trial.gait, trial.control, trial.path)
+    )
     assert walked.is_steady, walked
 
 

@@ -45,7 +45,7 @@ def walked(trial: WalkTrial, **changes: Any) -> WalkTrialResult:
     """A steady walk whose joints bore something."""
     strain = JointStrain(0.37, "LHipRoll", 0.82, "RKneePitch", 0.0, 0.0043)
     plain = WalkTrialResult(
-        trial.way.name,
+        trial.path.name,
         trial.control.feedback,
         "walked",
         True,
@@ -55,7 +55,7 @@ def walked(trial: WalkTrial, **changes: Any) -> WalkTrialResult:
     return plain._replace(**changes)
 
 
-def test_torques_are_told_in_percent_and_sagging_in_mm(
+def test_torques_are_reported_in_percent_and_sag_in_mm(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(checking, "walk_trial", walked)
@@ -77,7 +77,7 @@ def test_torques_are_told_in_percent_and_sagging_in_mm(
     assert f"{float(model.body_mass.sum()):.2f} kg" in said["masses"]
 
 
-def test_findings_say_nothing_of_percent_that_is_a_share() -> None:
+def test_percentages_are_between_0_and_100() -> None:
     """Whatever has a percent sign is between 1 and 100 for a sound robot."""
     for finding in findings_of(NAO):
         words = finding.value.split()
@@ -87,7 +87,7 @@ def test_findings_say_nothing_of_percent_that_is_a_share() -> None:
         assert finding.verdict == "pass", finding
 
 
-def test_walks_steer_for_angles_in_radians_to_the_side_they_name() -> None:
+def test_trial_paths_turn_to_the_side_of_their_name() -> None:
     for way in PATHS:
         assert abs(way.bearing) <= pi
         side = ("left" in way.name) - ("right" in way.name)
@@ -99,12 +99,12 @@ def test_walks_steer_for_angles_in_radians_to_the_side_they_name() -> None:
         for trial, way in zip(
             trials_of(NAO, feedback=feedback), PATHS, strict=True
         ):
-            assert trial.way is way
+            assert trial.path is way
             assert trial.control.feedback == feedback
 
 
 @pytest.mark.parametrize("way", [PATHS[0], PATHS[3]], ids=["ahead", "turn"])
-def test_a_short_walk_is_told_in_degrees_and_shares(
+def test_a_walk_trial_reports_degrees_and_fractions(
     monkeypatch: pytest.MonkeyPatch, way: trials.TrialPath
 ) -> None:
     monkeypatch.setattr(trials, "CYCLES", 3)

@@ -172,7 +172,7 @@ def test_a_hint_names_tune_only_where_tune_searches(
         checking,
         "walk_trial",
         lambda trial: WalkTrialResult(
-            *(trial.way.name, trial.control.feedback, "walked", True, 1.0),
+            *(trial.path.name, trial.control.feedback, "walked", True, 1.0),
             *(1.0, 0.01, 1.0 + 0.15 * off, 1.0, strain),
         ),
     )

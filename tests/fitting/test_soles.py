@@ -121,7 +121,9 @@ def level_in(found: ModelAnalysis) -> float:
     return float(max(off))
 
 
-def test_a_robot_stands_flat_on_feet_that_are_not(tmp_path: Path) -> None:
+def test_a_robot_stands_flat_on_feet_tilted_in_the_zero_posture(
+    tmp_path: Path,
+) -> None:
     plain = analyse_model(stranger.mjcf(tmp_path), [])
     file = edited(tmp_path, shaped(tilted(0.0, 0.3)))
     found = analyse_model(file, [])
@@ -158,13 +160,13 @@ def test_what_is_written_of_a_tilted_foot_is_level_in_the_legs_solver(
         ),
         (
             '<geom type="box" size="0.09 0.045 0.01" pos="0.3 0 -0.05"/>',
-            "must lie under its ankle, got edges 0.210, ",
+            "must be under its ankle, got edges 0.210, ",
         ),
         ('<geom type="box" size="0.4 0.3 0.1"/>', "m long for legs of"),
     ],
     ids=["ball", "line", "ahead", "raft"],
 )
-def test_a_sole_that_nobody_stands_on_is_refused(
+def test_a_sole_without_a_flat_side_is_refused(
     shape: str, why: str, tmp_path: Path
 ) -> None:
     file = edited(tmp_path, shaped(shape))
@@ -172,7 +174,7 @@ def test_a_sole_that_nobody_stands_on_is_refused(
         analyse_model(file, [])
 
 
-def test_feet_must_have_a_sole_in_common(tmp_path: Path) -> None:
+def test_feet_must_have_a_common_sole(tmp_path: Path) -> None:
     """Two good soles of which one lies before its ankle, one behind it."""
     ahead, behind = (
         f'<geom type="box" size="0.04 0.045 0.01" pos="{x} 0 -0.04"/>'
@@ -182,7 +184,9 @@ def test_feet_must_have_a_sole_in_common(tmp_path: Path) -> None:
     def edit(text: str) -> str:
         return BOX.sub(behind, BOX.sub(ahead, text, count=1))
 
-    with pytest.raises(ModelError, match="in common must be .* mirror images"):
+    with pytest.raises(
+        ModelError, match="common outline .* must be .* mirror images"
+    ):
         shared_sole(analyse_model(edited(tmp_path, edit), []))
 
 
@@ -240,7 +244,7 @@ def without(name: str) -> Callable[[str], str]:
     ("name", "lacks"),
     [("lean", "ankle roll"), ("spin", "hip yaw"), ("splay", "hip roll")],
 )
-def test_what_a_leg_lacks_is_named(
+def test_missing_leg_joints_are_named(
     name: str, lacks: str, tmp_path: Path
 ) -> None:
     file = edited(tmp_path, without(name))
@@ -276,7 +280,7 @@ def test_a_toe_is_part_of_its_foot(tmp_path: Path) -> None:
     assert left.outline[1] == pytest.approx(0.15)
 
 
-def test_legs_that_are_spread_do_not_stand_so(tmp_path: Path) -> None:
+def test_spread_legs_stand_closer(tmp_path: Path) -> None:
     def edit(text: str) -> str:
         for side, sign in stranger.SIDES:
             body = BODY.format(side, "swing")
@@ -288,7 +292,7 @@ def test_legs_that_are_spread_do_not_stand_so(tmp_path: Path) -> None:
     assert spacing_of(found, HALF) == pytest.approx(1.4 * hips)
 
 
-def test_a_file_that_says_nothing_leaves_the_name_to_its_folder(
+def test_a_generic_file_name_is_replaced_by_that_of_the_folder(
     tmp_path: Path,
 ) -> None:
     folder = tmp_path / "walking_machine" / "urdf"

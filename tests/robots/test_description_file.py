@@ -84,7 +84,7 @@ def told(folder: Path, name: str, value: Any) -> str:
     return str(refused.value)
 
 
-def test_all_that_a_description_says_is_read(tmp_path: Path) -> None:
+def test_all_entries_of_a_description_are_read(tmp_path: Path) -> None:
     found = read(tmp_path, tomllib.loads(TEXT))
     assert found == {
         "name": "Toy",
@@ -116,7 +116,7 @@ def test_all_that_a_description_says_is_read(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("name", ROWS)
-def test_a_row_has_as_many_values_as_it_needs(
+def test_an_array_must_have_the_required_length(
     name: str, tmp_path: Path
 ) -> None:
     row = at(tomllib.loads(TEXT), way_of(name))
@@ -155,7 +155,7 @@ def test_an_entry_of_another_type_is_refused_by_name(
     assert message in said and "robot.toml" in said
 
 
-def test_what_a_description_needs_and_what_it_may_leave_out(
+def test_required_and_optional_entries_of_a_description(
     tmp_path: Path,
 ) -> None:
     whole = tomllib.loads(TEXT)

@@ -21,7 +21,7 @@ def spec_of(mass: float, full: str) -> mujoco.MjSpec:
 @pytest.mark.parametrize(
     "full", ["0 0 0 0 0 1e-20", "0.01 0.01 -0.002 0 0 0", "1e-20 0 0 0 0 0"]
 )
-def test_an_inertia_that_is_none_compiles_once_mended(full: str) -> None:
+def test_an_invalid_inertia_compiles_after_repair(full: str) -> None:
     spec = spec_of(0.3, full)
     with pytest.raises(ValueError, match="eigenvalue|inertia"):
         spec_of(0.3, full).compile()
@@ -32,14 +32,14 @@ def test_an_inertia_that_is_none_compiles_once_mended(full: str) -> None:
     assert model.body_mass[1] == 0.3
 
 
-def test_a_link_without_mass_gets_hardly_any() -> None:
+def test_a_massless_link_gets_a_negligible_mass() -> None:
     spec = spec_of(0.0, "0 0 0 0 0 0")
     repair_inertias(spec)
     model = spec.compile()
     assert 0.0 < model.body_mass[1] <= 1e-6
 
 
-def test_an_inertia_that_can_be_stays_as_it_is() -> None:
+def test_a_valid_inertia_is_not_changed() -> None:
     spec = spec_of(2.0, "0.02 0.03 0.025 0.001 -0.002 0.003")
     before = np.array(spec.body("link").fullinertia)
     assert repair_inertias(spec) == []
@@ -49,7 +49,9 @@ def test_an_inertia_that_can_be_stays_as_it_is() -> None:
 @pytest.mark.parametrize(
     "how", ["fullinertia='{0} {0} {0} 0 0 0'", "diaginertia='{0} {0} {0}'"]
 )
-def test_inertias_in_wrong_units_become_those_of_links(how: str) -> None:
+def test_inertias_in_wrong_units_are_replaced_by_typical_ones(
+    how: str,
+) -> None:
     """One of masses 20 m away tells that those of 0.3 m are wrong, too."""
 
     def model(worst: float) -> mujoco.MjSpec:

@@ -49,7 +49,7 @@ def test_nothing_is_compiled_unless_it_is_preferred() -> None:
     assert not machine.folder().exists()
 
 
-def test_what_was_compiled_once_is_there_the_next_time() -> None:
+def test_compiled_code_is_loaded_from_the_cache() -> None:
     plain = formula(2.0)
     machine.prefer(JitPreference.COMPILED)
     compiled = formula(2.0)

@@ -112,11 +112,11 @@ def test_a_tree_knows_masses_motors_and_ranges(
         assert (link.low, link.high) == tuple(model.joint(joint).range)
 
 
-def test_what_stands_beside_the_robot_is_none_of_it(tmp_path: Path) -> None:
+def test_the_environment_is_not_part_of_the_tree(tmp_path: Path) -> None:
     assert "rail" not in load_tree(made_up(tmp_path)).bodies
 
 
-def test_motors_move_their_followers_and_others_stand() -> None:
+def test_motors_move_their_followers_alone() -> None:
     tree = load_tree(load_robot("nao"))
     angles = np.linspace(-0.3, 0.3, len(tree.motors))
     ours = Configuration.of_motors(tree, angles, {})
@@ -136,7 +136,7 @@ def test_a_configuration_is_a_value() -> None:
     )
 
 
-def test_what_there_is_not_is_refused_by_name() -> None:
+def test_missing_bodies_and_sites_are_named() -> None:
     tree = load_tree(load_robot("nao"))
     ours = Configuration(tree, np.zeros(len(tree.joints)))
     with pytest.raises(ModelError, match="no site 'tail'; there are .*imu"):

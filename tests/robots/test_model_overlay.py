@@ -115,7 +115,7 @@ def test_a_sole_is_a_box_over_its_outline(sole: str) -> None:
 
 
 @pytest.mark.parametrize("foot", [0, 1])
-def test_its_corners_feel_the_floor(foot: int) -> None:
+def test_touch_sensors_are_at_the_corners_of_the_sole(foot: int) -> None:
     """Front left, front right, rear left, rear right, of the left foot."""
     model, sole = model_with_overlay(), ("l_sole", "r_sole")[foot]
     data, box = at_rest(model), model.geom(f"{sole}_box")
@@ -134,7 +134,7 @@ def test_its_corners_feel_the_floor(foot: int) -> None:
         assert sensor.objid == site.id
 
 
-def test_nothing_of_a_foot_but_its_sole_meets_anything() -> None:
+def test_only_the_sole_of_a_foot_collides() -> None:
     model = model_with_overlay()
     feet = {model.body(name).id for name in ("left", "right", "toe")}
     for number in range(model.ngeom):
@@ -148,7 +148,7 @@ def test_nothing_of_a_foot_but_its_sole_meets_anything() -> None:
             assert meets == ((0, 0) if geom.bodyid[0] in feet else (1, 1))
 
 
-def test_a_sole_weighs_nothing() -> None:
+def test_a_sole_has_no_mass() -> None:
     bare = mujoco.MjModel.from_xml_string(MODEL.format(joints=""))
     laid = model_with_overlay()
     for name in ("trunk", "left", "right"):
@@ -163,14 +163,14 @@ def test_a_sole_weighs_nothing() -> None:
         '<joint type="slide" axis="1 0 0"/><joint axis="0 0 1"/>',
     ],
 )
-def test_whatever_held_the_torso_it_is_free(joints: str) -> None:
+def test_the_torso_gets_a_free_joint(joints: str) -> None:
     model = model_with_overlay(joints)
     free = mujoco.mjtJoint.mjJNT_FREE
     assert [j == free for j in model.jnt_type] == [True, False, False]
     assert model.body("trunk").jntnum == 1
 
 
-def test_what_is_not_the_robot_is_left_out() -> None:
+def test_the_environment_is_removed() -> None:
     model = model_with_overlay()
     bodies = {model.body(i).name for i in range(model.nbody)}
     assert bodies == {"world", "trunk", "left", "right", "toe"}
@@ -188,7 +188,7 @@ def test_what_is_not_the_robot_is_left_out() -> None:
     )
 
 
-def test_the_torso_feels_its_turns_and_pushes() -> None:
+def test_the_imu_measures_rotation_and_acceleration() -> None:
     model, sensors = model_with_overlay(), SENSORS
     site = model.site(IMU)
     assert model.body(site.bodyid[0]).name == "trunk"

@@ -105,7 +105,7 @@ def test_all_files_of_a_folder_count(package: Path, name: str) -> None:
     assert fingerprint("front") != before
 
 
-def test_a_version_stays_with_words_and_layout(package: Path) -> None:
+def test_comments_and_layout_do_not_change_a_version(package: Path) -> None:
     before = fingerprint("play")
     file = package / "front" / "door.py"
     file.write_text(
@@ -114,7 +114,7 @@ def test_a_version_stays_with_words_and_layout(package: Path) -> None:
     assert fingerprint("play") == before
 
 
-def test_a_room_that_is_not_there_is_named(package: Path) -> None:
+def test_a_missing_module_is_named(package: Path) -> None:
     with pytest.raises(FileNotFoundError, match="'attic'"):
         fingerprint("attic")
 
@@ -196,6 +196,6 @@ def test_records_of_duels_are_made_again_with_other_laws(
     code_version.cache_clear()
 
 
-def test_a_library_that_is_not_there_has_no_version() -> None:
+def test_a_missing_library_has_no_version() -> None:
     found = library_versions(["numpy", "no-such-library"])
     assert found["numpy"] and found["no-such-library"] is None
