@@ -314,7 +314,7 @@ def test_all_results_stand_in_the_index(store: Store) -> None:
 def test_results_of_other_code_are_told_with_what_renews_them(
     tmp_path: Path,
 ) -> None:
-    now = header({}, modules=("errors",), command="make now")
+    now = header({}, modules=("core/errors",), command="make now")
     others = {
         "changed": now | {"version": "0" * 12, "command": "make changed"},
         "moved": now | {"modules": ["cellar"], "command": "make moved"},

@@ -122,8 +122,8 @@ def test_a_missing_module_is_named(package: Path) -> None:
 PLAYED = """
 import sys
 from dataclasses import replace
-from stepaside.games.settings import DuelSettings
-from stepaside.studies import duels
+from stepaside.games.duel_settings import DuelSettings
+from stepaside.studies import duel_campaign as duels
 from stepaside.strategies.registry import STRATEGIES
 duels.play_record.__globals__["_stamp"] = dict  # of the version itself
 for settings in (
@@ -149,7 +149,7 @@ def test_a_duel_loads_no_module_that_its_version_leaves_out() -> None:
         timeout=300,
     )
     loaded = {Path(line) for line in told.stdout.split()}
-    assert ROOT / "laws.py" in loaded
+    assert ROOT / "theory" / "laws.py" in loaded
     assert loaded <= dependencies(ROOT, duels.MODULES)
 
 
@@ -163,13 +163,13 @@ def test_a_duel_loads_no_module_that_its_version_leaves_out() -> None:
         ("cli/duels.py", duels.MODULES, False),
         ("drivers/lola/wire.py", duels.MODULES, False),
         ("report/page/page.js", duels.MODULES, False),
-        ("laws.py", PHYSICS, True),
-        ("laws.py", UNICYCLES, True),
-        ("laws.py", PLANNER, True),
+        ("theory/laws.py", PHYSICS, True),
+        ("theory/laws.py", UNICYCLES, True),
+        ("theory/laws.py", PLANNER, True),
         ("sim/servos.py", UNICYCLES, False),
-        ("laws.py", trial_results.MODULES, True),
+        ("theory/laws.py", trial_results.MODULES, True),
         ("theory/bound/value_solver.py", tournament_settings.MODULES, True),
-        ("constants.py", jobs.DUELS, True),
+        ("core/constants.py", jobs.DUELS, True),
         ("theory/bound/value_table.py", jobs.EVADING, True),
         ("control/scheme.py", jobs.PLANS, False),
     ],
@@ -187,7 +187,11 @@ def test_records_of_duels_are_made_again_with_other_laws(
     shutil.copytree(ROOT, copy, ignore=shutil.ignore_patterns("__pycache__"))
     monkeypatch.setattr(version, "ROOT", copy)
     found = [fingerprint(*duels.MODULES)]
-    for name in ("laws.py", "constants.py", "theory/bound/upwind_scheme.py"):
+    for name in (
+        "theory/laws.py",
+        "core/constants.py",
+        "theory/bound/upwind_scheme.py",
+    ):
         edit(copy / name)
         found.append(fingerprint(*duels.MODULES))
     edit(copy / "report" / "duel_figure.py")

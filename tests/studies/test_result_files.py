@@ -65,7 +65,7 @@ def test_a_file_that_is_not_a_result_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ConfigurationError, match="no result x.json"):
         read_result(tmp_path / "x.json")
     (tmp_path / "x.json").write_text("{")
-    with pytest.raises(ConfigurationError, match="x.json is no result"):
+    with pytest.raises(ConfigurationError, match="x.json is not a result"):
         read_result(tmp_path / "x.json")
 
 
