@@ -303,11 +303,11 @@ def test_weak_ankles_get_a_gentler_gait(tmp_path: Path) -> None:
         text = text.replace(ankle, ankle.replace("3.0", "0.2"))
     model.write_text(text)
     found, robot = described(model, tmp_path / "robot")
-    assert found.ahead < 1.0 and found.is_weak
+    assert found.zmp_offset < 1.0 and found.is_weak
     back, front, *_ = stranger.SOLE
     ahead = 0.45 * (front + back)
     assert robot.gait["zmp_forward"] == pytest.approx(
-        found.ahead * ahead, abs=1e-4
+        found.zmp_offset * ahead, abs=1e-4
     )
     assert robot.control["feedback"] is True
     servos = robot.overlay.servos

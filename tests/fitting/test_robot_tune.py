@@ -260,7 +260,7 @@ def test_tuned_values_are_written_with_the_previous_ones(
         assert again.overlay == made.overlay
         assert text.count("0.9 before") == 1
     assert text.count("tuned, was") == 4  # two supports, method, feedback
-    assert "# Chains from the torso" in text
+    assert "# Joint chains from the torso" in text
 
 
 def test_the_command_does_not_change_a_steady_robot(

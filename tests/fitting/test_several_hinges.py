@@ -61,8 +61,8 @@ def test_what_is_derived_depends_on_masses_and_not_on_bodies(
     assert merged.gait == pytest.approx(split.gait, rel=1e-3, abs=1e-4)
     assert merged.standing == pytest.approx(split.standing, abs=1e-3)
     assert merged.control["method"] == split.control["method"]
-    assert both[0].borne.joint == both[1].borne.joint
-    assert both[0].borne.usual == pytest.approx(both[1].borne.usual, rel=5e-3)
+    assert both[0].loads.joint == both[1].loads.joint
+    assert both[0].loads.usual == pytest.approx(both[1].loads.usual, rel=5e-3)
 
 
 def test_torques_of_a_step_stay_finite_without_a_mass(
@@ -136,11 +136,11 @@ def robot_with(folder: Path, limbs: dict[str, tuple[float, int, str]]) -> Path:
                 "right_arm": (-0.2, 4, "0 1 0"),
                 "head": (0.0, 2, "0 0 1"),
             },
-            "chain of joints on the left ends in 'left_arm_3' and is no leg",
+            "chain of joints on the left ends in 'left_arm_3' and is not a leg",
         ),
         (
             {"eye": (0.02, 1, "0 0 1"), "other_eye": (-0.02, 1, "0 0 1")},
-            "chain of joints on the left ends in 'eye_0' and is no leg",
+            "chain of joints on the left ends in 'eye_0' and is not a leg",
         ),
     ],
 )
@@ -180,7 +180,7 @@ def test_a_hint_names_tune_only_where_tune_searches(
     checked = check_robot(robot, InlineExecutor())
     worst = max(w.unsteadiness for w in checked.walks)
     hints = [finding.hint for finding in checked.findings if finding.hint]
-    if torque > checking.TORQUE:
-        assert any("torque of hip" in hint for hint in hints)
+    if torque > checking.GREATEST_LOAD:
+        assert any("torque limit of hip" in hint for hint in hints)
     if any("tune" in hint for hint in hints):
         assert worst >= GOOD

@@ -41,12 +41,12 @@ def resolve_meshes(
             *_in_ros_package(path, mesh.file),
             by_name.get(name.name, mesh_folder / name.name),
         )
-        file = next((p for p in candidates if p.is_file()), None)
-        if file is None or not _is_readable(file):
+        found = next((p for p in candidates if p.is_file()), None)
+        if found is None or not _is_readable(found):
             missing.append(mesh.file)
             unusable.add(mesh.name or name.stem)
             continue
-        mesh.file = str(file.resolve())
+        mesh.file = str(found.resolve())
     _delete_meshes(spec, unusable)
     _treat_massless_meshes_as_shells(spec)
     return missing
