@@ -13,7 +13,7 @@ from stepaside.cli.campaign_reports import CampaignOutcome
 from stepaside.cli.main import main
 from stepaside.studies.push_limits import next_strength, outcomes_of
 from stepaside.studies.result_files import read_result
-from stepaside.studies.robustness_campaign import ROOMS
+from stepaside.studies.robustness_campaign import MODULES
 from stepaside.studies.survival import bound_at
 
 ASKED = "--kind backlash --kind push --method mpc --seeds 3 --phases 1".split()
@@ -61,7 +61,7 @@ def test_survival_result_names_its_version_and_settings(
 ) -> None:
     run(*ASKED, "--seed", "4", "--output", str(tmp_path))
     made = read_result(tmp_path / "survival.json")
-    assert made["rooms"] == list(ROOMS)
+    assert made["modules"] == list(MODULES)
     assert made["settings"] == {
         "kinds": ["backlash", "push"],
         "methods": ["mpc"],

@@ -314,10 +314,10 @@ def test_all_results_stand_in_the_index(store: Store) -> None:
 def test_results_of_other_code_are_told_with_what_renews_them(
     tmp_path: Path,
 ) -> None:
-    now = header({}, rooms=("core/errors",), command="make now")
+    now = header({}, modules=("core/errors",), command="make now")
     others = {
         "changed": now | {"version": "0" * 12, "command": "make changed"},
-        "moved": now | {"rooms": ["cellar"], "command": "make moved"},
+        "moved": now | {"modules": ["cellar"], "command": "make moved"},
     }
     for name, head in {"new": now, **others}.items():
         write_result(tmp_path / f"{name}.json", head)

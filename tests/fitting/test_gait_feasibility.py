@@ -5,12 +5,12 @@ from dataclasses import replace
 import pytest
 
 from stepaside.fitting.gait_feasibility import (
-    LEAST,
-    lengths_share,
-    shortened,
-    speed_share,
-    torques_borne,
-    zmp_share,
+    LEAST_LENGTHS,
+    choose_zmp_offset,
+    feasible_lengths,
+    speed_ratio,
+    step_loads,
+    with_lengths,
 )
 from stepaside.planning import GaitSettings
 from stepaside.robots.description import load_robot
@@ -26,54 +26,54 @@ def slow(factor: float):  # type: ignore[no-untyped-def]
 
 
 def test_nao_is_fast_enough_for_its_gait() -> None:
-    assert 0.3 < speed_share(NAO, GAIT) < 1.0
-    assert lengths_share(NAO, GAIT) == 1.0
+    assert 0.3 < speed_ratio(NAO, GAIT) < 1.0
+    assert feasible_lengths(NAO, GAIT) == 1.0
 
 
-def test_the_share_is_by_the_limits() -> None:
-    share = speed_share(NAO, GAIT)
-    assert speed_share(slow(0.5), GAIT) == pytest.approx(2.0 * share)
+def test_the_speed_ratio_is_inverse_to_the_limits() -> None:
+    share = speed_ratio(NAO, GAIT)
+    assert speed_ratio(slow(0.5), GAIT) == pytest.approx(2.0 * share)
 
 
-def test_slow_joints_walk_shorter_steps_that_they_keep_up_with() -> None:
-    own = slow(0.6 * speed_share(NAO, GAIT))
-    share = lengths_share(own, GAIT)
-    assert LEAST <= share < 1.0
-    gait = shortened(GAIT, share)
-    assert speed_share(own, gait) <= 1.0
+def test_slow_joints_get_feasible_shorter_steps() -> None:
+    own = slow(0.6 * speed_ratio(NAO, GAIT))
+    share = feasible_lengths(own, GAIT)
+    assert LEAST_LENGTHS <= share < 1.0
+    gait = with_lengths(GAIT, share)
+    assert speed_ratio(own, gait) <= 1.0
     assert gait.stride == share * GAIT.stride
     assert gait.step_height == share * GAIT.step_height
     assert gait.single_support == GAIT.single_support
     assert gait.path_interval == pytest.approx(GAIT.path_interval)
 
 
-def test_a_step_of_nao_bears_on_its_hips_by_its_weight() -> None:
+def test_the_hip_load_of_a_step_follows_from_the_weight() -> None:
     """The stance hip carries all but its leg, a hip's width aside."""
     torques = dict.fromkeys(NAO.legs, 10.0)
-    borne = torques_borne(NAO, GAIT, torques)
+    borne = step_loads(NAO, GAIT, torques)
     share, joint = borne.usual, borne.joint
     assert borne.most > share
     assert joint in ("LHipRoll", "RHipRoll", "LKneePitch", "RKneePitch")
     assert 1.0 < 10.0 * share < 5.3 * 9.81 * 0.1
     half = dict.fromkeys(NAO.legs, 5.0)
-    assert torques_borne(NAO, GAIT, half).usual == pytest.approx(2.0 * share)
+    assert step_loads(NAO, GAIT, half).usual == pytest.approx(2.0 * share)
 
 
-def test_joints_that_hardly_move_get_the_least_steps() -> None:
-    assert lengths_share(slow(0.01), GAIT) == LEAST
+def test_very_slow_joints_get_the_least_step_length() -> None:
+    assert feasible_lengths(slow(0.01), GAIT) == LEAST_LENGTHS
 
 
-def test_weak_ankles_get_the_zmp_that_they_bear() -> None:
+def test_weak_ankles_get_a_zmp_nearer_to_them() -> None:
     """No farther ahead than leaves them something of their torque."""
     strong = dict.fromkeys(NAO.legs, 100.0)
     ankles = [name for name in NAO.legs if name.endswith("AnklePitch")]
     gait = replace(GAIT, zmp_forward=0.03)
-    share, borne = zmp_share(NAO, gait, strong)
+    share, borne = choose_zmp_offset(NAO, gait, strong)
     assert share == 1.0 and borne.most < 0.95
-    needs = torques_borne(NAO, gait, dict.fromkeys(ankles, 1.0)).most
+    needs = step_loads(NAO, gait, dict.fromkeys(ankles, 1.0)).most
     weak = strong | dict.fromkeys(ankles, needs)
-    share, borne = zmp_share(NAO, gait, weak)
+    share, borne = choose_zmp_offset(NAO, gait, weak)
     assert share == 0.5 and borne.most < 0.95
     worse = strong | dict.fromkeys(ankles, 0.05 * needs)
-    share, borne = zmp_share(NAO, gait, worse)
+    share, borne = choose_zmp_offset(NAO, gait, worse)
     assert share == 0.0 and borne.most > 0.95

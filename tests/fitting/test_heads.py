@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import published_humanoid as stranger
-from stepaside.fitting.model_analysis import survey
+from stepaside.fitting.model_analysis import analyse_model
 from stepaside.fitting.model_report import head_of
 
 HEAD = """
@@ -24,14 +24,14 @@ HEAD = """
 </worldbody>"""
 
 
-def test_a_head_is_what_turns_and_nods_between_the_sides(
+def test_head_joints_are_in_the_sagittal_plane(
     tmp_path: Path,
 ) -> None:
     file = stranger.mjcf(tmp_path)
-    none = head_of(survey(file, []))
+    none = head_of(analyse_model(file, []))
     assert none == {"yaw": None, "pitch": None, "cameras": []}
     before, after = file.read_text().split("</worldbody>")
     body = before.rstrip().removesuffix("</body>")
     file.write_text(body + HEAD + after)
-    found = head_of(survey(file, []))
+    found = head_of(analyse_model(file, []))
     assert found == {"yaw": "look", "pitch": "nod", "cameras": ["eye"]}

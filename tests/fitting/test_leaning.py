@@ -12,11 +12,11 @@ import published_humanoid as stranger
 from stepaside.core.errors import ModelError
 from stepaside.core.poses import Pose
 from stepaside.fitting import derivation as leaning
-from stepaside.fitting.derivation import LEANS, derive, least_lean
+from stepaside.fitting.derivation import LEAN_CANDIDATES, derive, least_lean
 from stepaside.fitting.description_edit import rewritten
 from stepaside.fitting.description_writer import write_description
 from stepaside.fitting.gait_candidates import Candidate
-from stepaside.fitting.gait_feasibility import TorqueShares
+from stepaside.fitting.gait_feasibility import JointLoads
 from stepaside.fitting.walk_trials import WalkTrialResult
 from stepaside.games.robot_settings import settings_of
 from stepaside.locomotion.zmp.control_settings import StabiliserSettings
@@ -105,7 +105,7 @@ def test_legs_reach_the_same_under_a_torso_that_leans(sway: float) -> None:
     assert roll * sway < 0.0
 
 
-def test_a_tick_goes_on_from_there() -> None:
+def test_the_newton_step_of_a_leaning_torso_reaches_the_targets() -> None:
     """The step that is written out knows of the lean, too."""
     legs = LegKinematics(leans(NAO, LEAN), tick=TICK)
     legs.stand(standing(0.02))
@@ -117,7 +117,7 @@ def test_a_tick_goes_on_from_there() -> None:
     )
 
 
-def test_a_hip_bears_less_of_a_torso_that_leans_over_it() -> None:
+def test_a_lean_reduces_the_hip_load() -> None:
     asked, borne = standing(0.05, 0.02), []
     for lean in (0.0, 0.1, 0.2):
         legs = LegKinematics(leans(NAO, lean), tick=TICK)
@@ -129,7 +129,7 @@ def test_a_hip_bears_less_of_a_torso_that_leans_over_it() -> None:
     assert borne[0] > borne[1] + 0.1 > borne[2] + 0.2
 
 
-def test_a_lean_on_purpose_is_no_tilt() -> None:
+def test_a_commanded_lean_is_not_a_tilt_error() -> None:
     """Feet answer to what the torso tilts beyond it."""
     gains = StabiliserSettings(ankle=0.5, ankle_rate=0.1)
     zero = (0.0, 0.0)
@@ -158,21 +158,23 @@ def test_a_lean_on_purpose_is_no_tilt() -> None:
         ((1.0, 1.0, 1.01, 1.02), 0.06),
     ],
 )
-def test_it_leans_no_farther_than_it_has_to(
+def test_the_least_sufficient_lean_is_chosen(
     shares: tuple[float, ...], lean: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """By what a step asks for at each lean that is tried."""
 
-    def borne(robot: RobotDescription, *_: object) -> TorqueShares:
-        return TorqueShares(0.5, "hip", shares[LEANS.index(robot.lean)], "hip")
+    def borne(robot: RobotDescription, *_: object) -> JointLoads:
+        return JointLoads(
+            0.5, "hip", shares[LEAN_CANDIDATES.index(robot.lean)], "hip"
+        )
 
-    monkeypatch.setattr(leaning, "torques_borne", borne)
+    monkeypatch.setattr(leaning, "step_loads", borne)
     found, kept = least_lean(NAO, settings_of(NAO).gait, {})
     assert found == lean
-    assert kept.most == shares[LEANS.index(lean)]
+    assert kept.most == shares[LEAN_CANDIDATES.index(lean)]
 
 
-def test_the_file_says_how_far_it_leans(tmp_path: Path) -> None:
+def test_the_description_contains_the_lean(tmp_path: Path) -> None:
     found = derive(stranger.mjcf(tmp_path), tmp_path, [])
     assert found.description.lean == 0.0
     assert "\nlean =" not in write_description(found)

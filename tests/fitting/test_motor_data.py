@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from stepaside.fitting.motor_data import likely_torques, published_torques
+from stepaside.fitting.motor_data import plausible_torques, published_torques
 
 GEAR = st.floats(0.5, 200.0).flatmap(lambda g: st.sampled_from([g, -g]))
 TORQUE = st.floats(0.5, 90.0)
@@ -77,13 +77,13 @@ def test_the_force_range_of_a_joint_counts_without_any_gear(
 
 @settings(max_examples=20)
 @given(st.floats(1.0, 100.0), st.floats(0.2, 2.0), st.floats(0.1, 50.0))
-def test_what_is_likely_goes_with_weight_times_length(
+def test_plausible_torques_scale_with_weight_and_length(
     mass: float, length: float, share: float
 ) -> None:
     """A torque is no number for none below ten times what tips a robot."""
     tips = mass * 9.81 * length
     told = {"knee": share * tips, "none": inf}
-    kept = likely_torques(told, mass, length)
+    kept = plausible_torques(told, mass, length)
     if abs(share - 10.0) > 0.01:
         assert ("knee" in kept) == (share < 10.0)
     assert "none" not in kept

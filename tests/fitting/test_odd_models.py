@@ -11,11 +11,15 @@ import pytest
 import published_humanoid as stranger
 from stepaside.core.errors import ModelError
 from stepaside.fitting import com_height as stature
-from stepaside.fitting.com_height import stature_of
-from stepaside.fitting.derivation import SPACE, WIDE, derive
+from stepaside.fitting.com_height import choose_com_height
+from stepaside.fitting.derivation import (
+    GREATEST_BY_HEIGHT,
+    LEAST_SPACING,
+    derive,
+)
 from stepaside.fitting.gait_scaling import RobotSize
 from stepaside.fitting.leg_detection import DetectedLeg
-from stepaside.fitting.model_analysis import _looks_ahead, survey
+from stepaside.fitting.model_analysis import _forward_score, analyse_model
 from stepaside.fitting.motor_data import published_speeds
 from stepaside.robots.description import load_robot
 from stepaside.robots.model_reader import read_model
@@ -25,36 +29,34 @@ SOLE = (-0.05, 0.095, 0.042, 0.035)
 
 
 @pytest.mark.parametrize("ending", ["URDF", "mjcf", "txt"])
-def test_a_model_is_one_whatever_its_name_ends_with(
-    ending: str, tmp_path: Path
-) -> None:
+def test_a_model_may_have_any_suffix(ending: str, tmp_path: Path) -> None:
     publish = stranger.urdf if ending == "URDF" else stranger.mjcf
     model = publish(tmp_path)
     renamed = model.with_suffix(f".{ending}")
     shutil.move(model, renamed)
-    assert len(survey(renamed, []).legs[0].joints) == 6
+    assert len(analyse_model(renamed, []).legs[0].joints) == 6
     assert bool(published_speeds(renamed)) is (ending == "URDF")
 
 
-def test_what_is_no_xml_is_told_to_be_none(tmp_path: Path) -> None:
+def test_a_file_that_is_not_xml_is_refused(tmp_path: Path) -> None:
     file = tmp_path / "robot.mjcf"
     file.write_text("a robot", encoding="utf-8")
-    with pytest.raises(ValueError, match="no XML"):
+    with pytest.raises(ValueError, match="not XML"):
         read_model(file)
-    with pytest.raises(ModelError, match="cannot be compiled: no XML"):
-        survey(file, [])
+    with pytest.raises(ModelError, match="cannot be compiled: not XML"):
+        analyse_model(file, [])
 
 
-def test_marks_without_a_size_are_left_out(tmp_path: Path) -> None:
+def test_geoms_without_size_are_removed(tmp_path: Path) -> None:
     """As spheres of radius 0 at the corners of feet."""
     model = stranger.urdf(tmp_path)
     text = model.read_text()
     mark = "<collision><geometry><sphere radius='0.0'/></geometry></collision>"
     model.write_text(text.replace("</link>", f"{mark}</link>"))
-    assert len(survey(model, []).legs) == 2
+    assert len(analyse_model(model, []).legs) == 2
 
 
-def test_what_moves_things_around_the_robot_goes_with_them(
+def test_actuators_of_the_environment_are_removed(
     tmp_path: Path,
 ) -> None:
     """A body of the world's with motor and sensor: once a crash."""
@@ -71,7 +73,7 @@ def test_what_moves_things_around_the_robot_goes_with_them(
     )
     text = text.replace("</actuator>", "<motor joint='spare'/></actuator>")
     model.write_text(text)
-    found = survey(model, [])
+    found = analyse_model(model, [])
     assert "spare" not in found.joints
     assert found.model.nu == 0 and found.model.nsensor == 0
 
@@ -106,7 +108,7 @@ def _leg(outline: tuple[float, ...], **changes: Any) -> DetectedLeg:
         ((-0.09, 0.085), (-3.1, 3.1), 0.0),  # nobody says
     ],
 )
-def test_toes_and_knees_say_together_where_forward_is(
+def test_toes_and_knees_determine_the_forward_direction(
     edges: tuple[float, float], bends: tuple[float, float], ahead: float
 ) -> None:
     low, high = bends
@@ -116,10 +118,10 @@ def test_toes_and_knees_say_together_where_forward_is(
         "</body></worldbody></mujoco>"
     )
     leg = _leg((*edges, -0.04, 0.04))
-    assert np.sign(_looks_ahead(model, leg)) == ahead
+    assert np.sign(_forward_score(model, leg)) == ahead
 
 
-def test_of_legs_that_look_aside_it_is_said_what_they_lack(
+def test_missing_joints_of_legs_that_face_sideways_are_named(
     tmp_path: Path,
 ) -> None:
     """Not that there are none in the axes of the torso."""
@@ -139,10 +141,12 @@ def test_of_legs_that_look_aside_it_is_said_what_they_lack(
         turned = turned.replace(old, aside)
     model.write_text(turned)
     with pytest.raises(ModelError, match="at least 6 joints.*ankle roll"):
-        survey(model, [])
+        analyse_model(model, [])
 
 
-def test_wherever_along_its_axis_the_last_pitch_is(tmp_path: Path) -> None:
+def test_the_ankle_does_not_depend_on_the_anchor_along_its_axis(
+    tmp_path: Path,
+) -> None:
     """The ankle is where the roll axis crosses it."""
     model = stranger.mjcf(tmp_path)
     text = model.read_text()
@@ -154,7 +158,7 @@ def test_wherever_along_its_axis_the_last_pitch_is(tmp_path: Path) -> None:
         text = text.replace(f"{side}_x", f"{side}_lean")
         text = _swapped(text, side, sign)
     model.write_text(text)
-    left, right = survey(model, []).legs
+    left, right = analyse_model(model, []).legs
     assert left.joints[-2:] == ("near_lean", "near_tip")
     for leg in (left, right):
         assert abs(leg.ankle[1]) == pytest.approx(0.5 * stranger.WIDTH)
@@ -182,16 +186,16 @@ def _swapped(text: str, side: str, sign: float) -> str:
         ((0.4, 0.6, 0.62, 0.64), 0.94, 0.6),
     ],
 )
-def test_it_stands_lower_where_straight_knees_were_too_fast(
+def test_the_com_is_lowered_if_straight_knees_are_too_fast(
     shares: tuple[float, ...],
     part: float,
     share: float,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     left = list(shares)
-    monkeypatch.setattr(stature, "lengths_share", lambda *_: left.pop(0))
+    monkeypatch.setattr(stature, "feasible_lengths", lambda *_: left.pop(0))
     size = RobotSize(0.28, 5.3, 0.1, SOLE, 0.2)
-    found, walked = stature_of(NAO, size, 0.2)
+    found, walked = choose_com_height(NAO, size, 0.2)
     assert found.com_height == pytest.approx(part * 0.28)
     assert walked == share and not left
 
@@ -209,6 +213,6 @@ def test_no_feet_are_wider_apart_than_suits_their_height(
     )
     found = derive(model, tmp_path, [])
     spacing, highest = found.size.foot_spacing, found.highest
-    assert spacing == pytest.approx(WIDE * highest, rel=0.02)
+    assert spacing == pytest.approx(GREATEST_BY_HEIGHT * highest, rel=0.02)
     assert spacing < 2.0 * wide
-    assert spacing > SPACE * 2.0 * found.size.sole[3]
+    assert spacing > LEAST_SPACING * 2.0 * found.size.sole[3]

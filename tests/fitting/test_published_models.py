@@ -10,11 +10,11 @@ import published_humanoid as stranger
 from stepaside.core.errors import ModelError
 from stepaside.fitting.derivation import derive
 from stepaside.fitting.description_writer import write_description
-from stepaside.fitting.model_analysis import survey
-from stepaside.fitting.motor_data import likely_torques, published_speeds
+from stepaside.fitting.model_analysis import analyse_model
+from stepaside.fitting.motor_data import plausible_torques, published_speeds
 from stepaside.robots.description import FILE, RobotDescription, load_robot
 from stepaside.robots.model_reader import read_model
-from stepaside.robots.torso_frame import face
+from stepaside.robots.torso_frame import rotate_torso_frame
 
 TURNS = {
     "backward": (0.0, 0.0, 0.0, 1.0),
@@ -41,7 +41,7 @@ def turned(straight: Path, folder: Path, looks: str) -> Path:
     root = spec.body("chest")
     for joint in list(root.joints):
         spec.delete(joint)
-    face(spec, "chest", TURNS[looks])
+    rotate_torso_frame(spec, "chest", TURNS[looks])
     root.add_freejoint()
     spec.compile()
     file = folder / "turned.xml"
@@ -50,10 +50,10 @@ def turned(straight: Path, folder: Path, looks: str) -> Path:
 
 
 @pytest.mark.parametrize("looks", TURNS)
-def test_a_torso_may_look_any_way(looks: str, tmp_path: Path) -> None:
+def test_a_torso_may_face_any_direction(looks: str, tmp_path: Path) -> None:
     straight = stranger.mjcf(tmp_path)
-    plain = survey(straight, [])
-    found = survey(turned(straight, tmp_path, looks), [])
+    plain = analyse_model(straight, [])
+    found = analyse_model(turned(straight, tmp_path, looks), [])
     assert plain.turn == (1.0, 0.0, 0.0, 0.0)
     back = np.array(TURNS[looks]) * (1.0, -1.0, -1.0, -1.0)
     assert abs(float(back @ found.turn)) == pytest.approx(1.0)
@@ -63,7 +63,7 @@ def test_a_torso_may_look_any_way(looks: str, tmp_path: Path) -> None:
         assert leg.outline == pytest.approx(other.outline, abs=1e-9)
 
 
-def test_a_turned_torso_carries_what_it_did(tmp_path: Path) -> None:
+def test_a_rotated_torso_keeps_its_links_in_place(tmp_path: Path) -> None:
     """Its mass and feet lie where those of one that looks ahead do."""
     straight = stranger.mjcf(tmp_path)
     robots = [
@@ -83,7 +83,7 @@ def test_a_turned_torso_carries_what_it_did(tmp_path: Path) -> None:
     np.testing.assert_allclose(seen[1], seen[0], atol=1e-6)
 
 
-def test_mass_turns_with_its_torso() -> None:
+def test_the_inertia_is_rotated_with_the_torso_frame() -> None:
     """Also the part of a full inertia that no axis is one of."""
     text = """<mujoco><worldbody><body name="chest"><freejoint/>
       <inertial pos="0.1 0.2 0.3" mass="2"
@@ -98,13 +98,13 @@ def test_mass_turns_with_its_torso() -> None:
         axes = data.ximat[1].reshape(3, 3)
         wholes.append(axes @ np.diag(model.body_inertia[1]) @ axes.T)
         place = data.xipos[1].copy()
-        face(spec, "chest", TURNS["left"])
+        rotate_torso_frame(spec, "chest", TURNS["left"])
     turn = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
     np.testing.assert_allclose(wholes[1], turn @ wholes[0] @ turn.T, atol=1e-9)
     np.testing.assert_allclose(place, (-0.2, 0.1, 0.3), atol=1e-12)
 
 
-def test_settings_that_mujoco_forgot_are_passed_over(tmp_path: Path) -> None:
+def test_settings_unknown_to_mujoco_are_ignored(tmp_path: Path) -> None:
     file = stranger.mjcf(tmp_path)
     text = file.read_text()
     dated = text.replace(
@@ -114,13 +114,13 @@ def test_settings_that_mujoco_forgot_are_passed_over(tmp_path: Path) -> None:
     )
     assert dated != text
     file.write_text(dated)
-    assert survey(file, []).mass == pytest.approx(25.2)
+    assert analyse_model(file, []).mass == pytest.approx(25.2)
     file.write_text(dated.replace('axis="0 1 0"', 'axis="0 1 0" cat="3"', 1))
     with pytest.raises(ModelError, match="unrecognized attribute: 'cat'"):
-        survey(file, [])
+        analyse_model(file, [])
 
 
-def test_a_dated_model_has_its_parts_in_files(tmp_path: Path) -> None:
+def test_an_outdated_model_may_include_files(tmp_path: Path) -> None:
     text = stranger.mjcf(tmp_path).read_text()
     start = text.index("<worldbody>")
     end = text.index("</worldbody>") + len("</worldbody>")
@@ -132,7 +132,7 @@ def test_a_dated_model_has_its_parts_in_files(tmp_path: Path) -> None:
         f'{text[:start]}<option><flag sensornoise="enable"/></option>'
         f'<include file="body.xml"/>{text[end:]}'
     )
-    assert survey(whole, []).mass == pytest.approx(25.2)
+    assert analyse_model(whole, []).mass == pytest.approx(25.2)
 
 
 def test_meshes_are_found_in_their_package(tmp_path: Path) -> None:
@@ -145,7 +145,7 @@ def test_meshes_are_found_in_their_package(tmp_path: Path) -> None:
     shown = f"<collision>{shape}</collision>"
     place = text.index('<link name="chest">') + len('<link name="chest">')
     file.write_text(text[:place] + shown + text[place:])
-    assert survey(file, []).missing == (mesh,)
+    assert analyse_model(file, []).missing == (mesh,)
     # A tetrahedron half of whose faces look inward: without volume.
     faces = [[0, 2, 1], [0, 3, 1], [0, 2, 3], [1, 3, 2]]
     places = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], "<f4")
@@ -155,12 +155,12 @@ def test_meshes_are_found_in_their_package(tmp_path: Path) -> None:
     (tmp_path / "them" / "shapes" / "shell.stl").write_bytes(
         bytes(80) + len(corners).to_bytes(4, "little") + rows
     )
-    assert survey(file, []).missing == ()
+    assert analyse_model(file, []).missing == ()
 
 
-def test_numbers_for_none_are_not_taken(tmp_path: Path) -> None:
+def test_placeholder_torques_and_speeds_are_ignored(tmp_path: Path) -> None:
     told = {"knee": 90.0, "hip": 5e4}
-    assert likely_torques(told, 50.0, 0.8) == {"knee": 90.0}
+    assert plausible_torques(told, 50.0, 0.8) == {"knee": 90.0}
     file = tmp_path / "a.urdf"
     limits = "".join(
         f'<joint name="j{i}"><limit velocity="{v}"/></joint>'
@@ -170,7 +170,7 @@ def test_numbers_for_none_are_not_taken(tmp_path: Path) -> None:
     assert published_speeds(file) == {"j0": 4.0}
 
 
-def test_who_stands_at_no_height_is_told_of_the_joints(tmp_path: Path) -> None:
+def test_joints_that_prevent_standing_are_named(tmp_path: Path) -> None:
     file = stranger.mjcf(tmp_path)
     ankle = 'name="near_tip" axis="0 1 0" damping="0.8" range='
     text = file.read_text()

@@ -15,10 +15,15 @@ from stepaside.core.errors import ModelError
 from stepaside.fitting.derivation import DerivedDescription, derive
 from stepaside.fitting.description_writer import write_description
 from stepaside.fitting.gait_scaling import RobotSize, gait_of, game_of_size
-from stepaside.fitting.model_analysis import survey
-from stepaside.fitting.motor_data import GIVES, LEAST, STIFFNESS, gains_of
+from stepaside.fitting.model_analysis import analyse_model
+from stepaside.fitting.motor_data import (
+    LEAST_STIFFNESS,
+    SATURATION_ANGLE,
+    STIFFNESS,
+    gains_of,
+)
 from stepaside.fitting.walk_trials import (
-    WAYS,
+    PATHS,
     WalkTrial,
     trials_of,
     walk_trial,
@@ -55,7 +60,7 @@ def described(
 def test_legs_and_soles_are_found_in_the_tree(
     publish: Publish, tmp_path: Path
 ) -> None:
-    found = survey(publish(tmp_path), [])
+    found = analyse_model(publish(tmp_path), [])
     left, right = found.legs
     assert left.joints == tuple(f"near_{part[0]}" for part in stranger.LEG)
     assert right.joints == tuple(f"far_{part[0]}" for part in stranger.LEG)
@@ -68,7 +73,7 @@ def test_legs_and_soles_are_found_in_the_tree(
 
 
 @PUBLISHED
-def test_what_is_written_is_what_was_derived(
+def test_the_written_description_equals_the_derived_one(
     publish: Publish, tmp_path: Path
 ) -> None:
     model = publish(tmp_path)
@@ -104,11 +109,13 @@ def test_the_overlay_lets_any_model_be_controlled(
     assert {f"{robot.left_foot}_box", f"{robot.right_foot}_box"} <= names
 
 
-def test_a_servo_stands_for_the_damping_of_its_joint(tmp_path: Path) -> None:
+def test_the_damping_of_a_joint_becomes_that_of_its_servo(
+    tmp_path: Path,
+) -> None:
     """It leads its targets by all of it, or the joints would lag."""
     found, robot = described(stranger.mjcf(tmp_path), tmp_path / "robot")
     model = robot.compile()
-    assert found.survey.model.dof_damping.max() == 0.8
+    assert found.analysis.model.dof_damping.max() == 0.8
     assert not model.dof_damping.any()
     assert (-model.actuator_biasprm[:, 2] > 0.8).all()
 
@@ -117,14 +124,14 @@ def test_a_weak_servo_is_no_stiffer_than_its_torque_allows(
     tmp_path: Path,
 ) -> None:
     """One that is at its limit after a small error holds nothing."""
-    found = survey(stranger.mjcf(tmp_path), [])
+    found = analyse_model(stranger.mjcf(tmp_path), [])
     height = 0.7
     tipping = found.mass * 9.81 * height
     leg = found.legs[0].joints
     for torque, stiffness in (
         (1e4, STIFFNESS * tipping),
-        (5.0 * tipping * GIVES, 5.0 * tipping),
-        (1.0, LEAST * tipping),
+        (5.0 * tipping * SATURATION_ANGLE, 5.0 * tipping),
+        (1.0, LEAST_STIFFNESS * tipping),
     ):
         torques = dict.fromkeys(leg, torque)
         gains = gains_of(found, torques, height, weak=True)
@@ -155,9 +162,9 @@ def test_speed_limits_are_those_of_the_urdf_or_asked_for(
     told, _ = described(stranger.urdf(tmp_path), tmp_path / "told")
     untold, _ = described(stranger.mjcf(tmp_path), tmp_path / "untold")
     assert set(told.description.speed_limits.values()) == {9.5}
-    assert not untold.told_speeds
-    assert "ASK" not in write_description(told).replace("says ASK", "")
-    assert "# ASK: the model does not say; no-load speeds" in (
+    assert not untold.published_speeds
+    assert "ASK" not in write_description(told).replace("with ASK", "")
+    assert "# ASK: not in the model; no-load speeds" in (
         write_description(untold)
     )
 
@@ -177,11 +184,11 @@ def test_the_place_of_a_torso_is_midway_between_its_hips(
     np.testing.assert_allclose(state.position, np.mean(hips, axis=0))
 
 
-def test_a_mesh_that_is_not_there_is_left_out_and_told_of(
+def test_a_missing_mesh_is_removed_and_reported(
     tmp_path: Path,
 ) -> None:
     found, _ = described(stranger.mjcf(tmp_path), tmp_path / "robot")
-    assert found.survey.missing == ("lost.stl",)
+    assert found.analysis.missing == ("lost.stl",)
     assert "like lost.stl" in write_description(found)
 
 
@@ -192,7 +199,7 @@ def test_a_leg_that_cannot_place_its_foot_is_refused(tmp_path: Path) -> None:
         derive(stranger.mjcf(tmp_path, joints=5), tmp_path, [])
 
 
-def test_what_is_no_model_is_refused_in_one_line(tmp_path: Path) -> None:
+def test_an_invalid_model_is_refused_in_one_line(tmp_path: Path) -> None:
     file = tmp_path / "nothing.xml"
     file.write_text("<mujoco><worldbody/></mujoco>")
     result = CliRunner().invoke(main, ["robot", "init", str(file)])
@@ -232,16 +239,18 @@ def test_equal_shapes_walk_alike() -> None:
 
 @pytest.mark.parametrize("feedback", [False, True], ids=["open", "feedback"])
 @PUBLISHED
-def test_a_stranger_walks_backward_round_a_circle(
+def test_a_derived_robot_walks_backward_in_a_circle(
     publish: Publish, feedback: bool, tmp_path: Path
 ) -> None:
     _, robot = described(publish(tmp_path), tmp_path / "robot")
     (trial,) = [
         trial
         for trial in trials_of(robot, feedback=feedback)
-        if trial.way is WAYS[-1]
+        if trial.path is PATHS[-1]
     ]
-    walked = walk_trial(WalkTrial(robot, trial.gait, trial.control, trial.way))
+    walked = walk_trial(
+        WalkTrial(robot, trial.gait, trial.control, trial.path)
+    )
     assert walked.is_steady, walked
 
 
@@ -294,11 +303,11 @@ def test_weak_ankles_get_a_gentler_gait(tmp_path: Path) -> None:
         text = text.replace(ankle, ankle.replace("3.0", "0.2"))
     model.write_text(text)
     found, robot = described(model, tmp_path / "robot")
-    assert found.ahead < 1.0 and found.is_weak
+    assert found.zmp_offset < 1.0 and found.is_weak
     back, front, *_ = stranger.SOLE
     ahead = 0.45 * (front + back)
     assert robot.gait["zmp_forward"] == pytest.approx(
-        found.ahead * ahead, abs=1e-4
+        found.zmp_offset * ahead, abs=1e-4
     )
     assert robot.control["feedback"] is True
     servos = robot.overlay.servos

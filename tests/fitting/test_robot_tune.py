@@ -21,7 +21,7 @@ from stepaside.fitting.gait_search import GaitSearch
 from stepaside.fitting.joint_strain import JointStrain
 from stepaside.fitting.requirements import findings_of
 from stepaside.fitting.robot_verification import check_robot
-from stepaside.fitting.walk_trials import WAYS, WalkTrial, WalkTrialResult
+from stepaside.fitting.walk_trials import PATHS, WalkTrial, WalkTrialResult
 from stepaside.games.robot_settings import settings_of
 from stepaside.robots.description import (
     FILE,
@@ -47,7 +47,7 @@ def walked(
 ) -> WalkTrialResult:
     """A walk that strays by a part of what a steady one may."""
     return WalkTrialResult(
-        trial.way.name,
+        trial.path.name,
         trial.control.feedback,
         "fell" if falls else "walked",
         not falls,
@@ -55,12 +55,12 @@ def walked(
         8.0 * off,
         0.0,
         1.0,
-        1.0 if trial.way.bearing else None,
+        1.0 if trial.path.bearing else None,
         CALM,
     )
 
 
-def test_what_is_derived_has_everything(tmp_path: Path) -> None:
+def test_a_derived_robot_meets_all_requirements(tmp_path: Path) -> None:
     found = findings_of(described(tmp_path))
     assert {f.verdict for f in found} == {"pass"}, found
     assert {"free joint", "sensors", "actuators", "reach"} <= {
@@ -77,7 +77,7 @@ def test_what_is_derived_has_everything(tmp_path: Path) -> None:
         ({"torso": "near_swing_link"}, "kinematics", "must be a root"),
     ],
 )
-def test_what_would_crash_later_is_a_failure_with_a_hint(
+def test_invalid_descriptions_fail_with_a_hint(
     change: dict[str, Any], name: str, said: str, tmp_path: Path
 ) -> None:
     own = described(tmp_path)
@@ -91,7 +91,7 @@ def test_what_would_crash_later_is_a_failure_with_a_hint(
         assert said in finding.value and finding.hint
 
 
-def test_a_robot_without_sensors_or_servos_is_told_of(tmp_path: Path) -> None:
+def test_missing_sensors_and_servos_are_reported(tmp_path: Path) -> None:
     """NAO's model with other names: nothing crashes, each has a hint."""
     nao = load_robot("nao")
     text = nao.mjcf().replace('<gyro name="gyro"', '<gyro name="turning"')
@@ -108,7 +108,7 @@ def test_a_robot_without_sensors_or_servos_is_told_of(tmp_path: Path) -> None:
     assert all(f.verdict != "fail" for f in again)
 
 
-def test_a_check_passes_what_walks_as_it_is_described(
+def test_a_robot_that_walks_as_described_passes(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     own = described(tmp_path)
@@ -135,7 +135,7 @@ def test_a_check_passes_what_walks_as_it_is_described(
 def test_unsteadiness_is_that_of_the_worst_measure(tmp_path: Path) -> None:
     own = described(tmp_path)
     settings = settings_of(own)
-    trial = WalkTrial(own, settings.gait, settings.control, WAYS[0])
+    trial = WalkTrial(own, settings.gait, settings.control, PATHS[0])
     assert walked(trial, 0.5).unsteadiness == pytest.approx(0.5)
     slow = walked(trial, 0.5)._replace(speed=0.7)
     assert slow.unsteadiness == pytest.approx(2.0)
@@ -168,7 +168,7 @@ def search(
     return GaitSearch(own, InlineExecutor(), kept).run(), len(walks)
 
 
-def test_a_search_joins_the_changes_that_help(
+def test_a_search_combines_helpful_changes(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     found, _ = search(described(tmp_path), monkeypatch)
@@ -178,7 +178,7 @@ def test_a_search_joins_the_changes_that_help(
     assert best == Candidate(0.0, stiffness=1.6, stride=0.75)
 
 
-def test_a_search_finds_a_way_out_of_falling(
+def test_a_search_escapes_from_falls(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Who falls later is nearer to walking; two changes are needed here."""
@@ -190,7 +190,7 @@ def test_a_search_finds_a_way_out_of_falling(
         walks.append(trial)
         quick = trial.gait.single_support < 0.9 * gait.single_support
         ahead = trial.gait.zmp_forward < gait.zmp_forward
-        falls = not quick or (not ahead and trial.way in WAYS[:2])
+        falls = not quick or (not ahead and trial.path in PATHS[:2])
         return walked(trial, 0.1, falls=falls)
 
     monkeypatch.setattr(tuning, "walk_trial", walk)
@@ -202,7 +202,7 @@ def test_a_search_finds_a_way_out_of_falling(
     assert len(walks) < 45  # most fall in their first walk
 
 
-def test_a_candidate_that_cannot_win_walks_no_farther(
+def test_a_candidate_that_cannot_win_is_stopped(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     own = described(tmp_path)
@@ -220,7 +220,7 @@ def test_a_candidate_that_cannot_win_walks_no_farther(
     assert begun[0.5] == begun[0.75] == 1
 
 
-def test_a_search_goes_on_from_what_was_kept(
+def test_a_search_continues_from_stored_results(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     own, kept = described(tmp_path), tmp_path / "tune.jsonl"
@@ -235,7 +235,7 @@ def test_a_search_goes_on_from_what_was_kept(
     assert search(other, monkeypatch, kept)[1] == walks
 
 
-def test_a_candidate_that_is_too_much_is_not_walked(tmp_path: Path) -> None:
+def test_an_infeasible_candidate_is_not_walked(tmp_path: Path) -> None:
     own = described(tmp_path)
     narrow = Candidate(0.0, spacing=0.4)
     assert narrow.applied(own) is None and narrow.trials(own) == ()
@@ -244,7 +244,7 @@ def test_a_candidate_that_is_too_much_is_not_walked(tmp_path: Path) -> None:
     assert kept is not None and kept.overlay == own.overlay
 
 
-def test_what_is_found_is_written_beside_what_stood_there(
+def test_tuned_values_are_written_with_the_previous_ones(
     tmp_path: Path,
 ) -> None:
     own = described(tmp_path)
@@ -260,10 +260,10 @@ def test_what_is_found_is_written_beside_what_stood_there(
         assert again.overlay == made.overlay
         assert text.count("0.9 before") == 1
     assert text.count("tuned, was") == 4  # two supports, method, feedback
-    assert "# Chains from the torso" in text
+    assert "# Joint chains from the torso" in text
 
 
-def test_the_command_writes_nothing_where_nothing_is_better(
+def test_the_command_does_not_change_a_steady_robot(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     described(tmp_path)

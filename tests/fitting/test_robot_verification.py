@@ -13,13 +13,13 @@ from stepaside.fitting import (
 from stepaside.fitting import (
     walk_trials as trials,
 )
-from stepaside.fitting.gait_feasibility import torques_borne
+from stepaside.fitting.gait_feasibility import step_loads
 from stepaside.fitting.joint_strain import JointStrain
 from stepaside.fitting.requirements import findings_of
 from stepaside.fitting.robot_verification import check_robot
 from stepaside.fitting.walk_trials import (
-    STRAYS,
-    WAYS,
+    GREATEST_COM_ERROR,
+    PATHS,
     WalkTrial,
     WalkTrialResult,
     trials_of,
@@ -45,7 +45,7 @@ def walked(trial: WalkTrial, **changes: Any) -> WalkTrialResult:
     """A steady walk whose joints bore something."""
     strain = JointStrain(0.37, "LHipRoll", 0.82, "RKneePitch", 0.0, 0.0043)
     plain = WalkTrialResult(
-        trial.way.name,
+        trial.path.name,
         trial.control.feedback,
         "walked",
         True,
@@ -55,7 +55,7 @@ def walked(trial: WalkTrial, **changes: Any) -> WalkTrialResult:
     return plain._replace(**changes)
 
 
-def test_torques_are_told_in_percent_and_sagging_in_mm(
+def test_torques_are_reported_in_percent_and_sag_in_mm(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(checking, "walk_trial", walked)
@@ -70,14 +70,14 @@ def test_torques_are_told_in_percent_and_sagging_in_mm(
         model.joint(model.actuator_trnid[i, 0]).name: float(high)
         for i, high in enumerate(model.actuator_forcerange[:, 1])
     }
-    borne = torques_borne(NAO, settings_of(NAO).gait, torques)
+    borne = step_loads(NAO, settings_of(NAO).gait, torques)
     percent = f"{100.0 * borne.usual:.0f} % of the limit of {borne.joint}"
     assert said["torque of a step"] == percent
     assert 0.01 < borne.usual < 1.0
     assert f"{float(model.body_mass.sum()):.2f} kg" in said["masses"]
 
 
-def test_findings_say_nothing_of_percent_that_is_a_share() -> None:
+def test_percentages_are_between_0_and_100() -> None:
     """Whatever has a percent sign is between 1 and 100 for a sound robot."""
     for finding in findings_of(NAO):
         words = finding.value.split()
@@ -87,24 +87,24 @@ def test_findings_say_nothing_of_percent_that_is_a_share() -> None:
         assert finding.verdict == "pass", finding
 
 
-def test_walks_steer_for_angles_in_radians_to_the_side_they_name() -> None:
-    for way in WAYS:
+def test_trial_paths_turn_to_the_side_of_their_name() -> None:
+    for way in PATHS:
         assert abs(way.bearing) <= pi
         side = ("left" in way.name) - ("right" in way.name)
         assert (way.bearing > 0) - (way.bearing < 0) == side
         assert way.backward == ("backward" in way.name)
-    turns = sorted(abs(way.bearing) for way in WAYS if way.bearing)
+    turns = sorted(abs(way.bearing) for way in PATHS if way.bearing)
     assert turns == pytest.approx([pi / 4, pi / 2, pi / 2])
     for feedback in (False, True):
         for trial, way in zip(
-            trials_of(NAO, feedback=feedback), WAYS, strict=True
+            trials_of(NAO, feedback=feedback), PATHS, strict=True
         ):
-            assert trial.way is way
+            assert trial.path is way
             assert trial.control.feedback == feedback
 
 
-@pytest.mark.parametrize("way", [WAYS[0], WAYS[3]], ids=["ahead", "turn"])
-def test_a_short_walk_is_told_in_degrees_and_shares(
+@pytest.mark.parametrize("way", [PATHS[0], PATHS[3]], ids=["ahead", "turn"])
+def test_a_walk_trial_reports_degrees_and_fractions(
     monkeypatch: pytest.MonkeyPatch, way: trials.TrialPath
 ) -> None:
     monkeypatch.setattr(trials, "CYCLES", 3)
@@ -116,7 +116,7 @@ def test_a_short_walk_is_told_in_degrees_and_shares(
     # It leans over a foot that the CoM is right over, so hardly so far.
     assert found.tilt is not None
     assert 0.3 * found.lean < found.tilt < 2.0 * found.lean
-    assert found.strays is not None and found.strays < 2.0 * STRAYS
+    assert found.strays is not None and found.strays < 2.0 * GREATEST_COM_ERROR
     assert found.speed is not None
     assert found.speed == pytest.approx(1.0, abs=0.3)
     if way.bearing:

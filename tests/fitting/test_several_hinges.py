@@ -16,10 +16,10 @@ from stepaside.cli.main import main
 from stepaside.core.errors import ModelError
 from stepaside.fitting.derivation import DerivedDescription, derive
 from stepaside.fitting.description_writer import write_description
-from stepaside.fitting.gait_feasibility import torques_borne
+from stepaside.fitting.gait_feasibility import step_loads
 from stepaside.fitting.gait_search import GOOD
 from stepaside.fitting.joint_strain import JointStrain
-from stepaside.fitting.model_analysis import survey
+from stepaside.fitting.model_analysis import analyse_model
 from stepaside.fitting.requirements import findings_of
 from stepaside.fitting.robot_verification import check_robot
 from stepaside.fitting.walk_trials import WalkTrialResult
@@ -46,8 +46,10 @@ def test_several_hinges_in_a_body_are_one_joint_each(
     both: tuple[DerivedDescription, DerivedDescription],
 ) -> None:
     merged, split = both
-    assert merged.survey.model.nbody < split.survey.model.nbody
-    for one, other in zip(merged.survey.legs, split.survey.legs, strict=True):
+    assert merged.analysis.model.nbody < split.analysis.model.nbody
+    for one, other in zip(
+        merged.analysis.legs, split.analysis.legs, strict=True
+    ):
         assert one.joints == other.joints and len(one.joints) == 6
 
 
@@ -59,8 +61,8 @@ def test_what_is_derived_depends_on_masses_and_not_on_bodies(
     assert merged.gait == pytest.approx(split.gait, rel=1e-3, abs=1e-4)
     assert merged.standing == pytest.approx(split.standing, abs=1e-3)
     assert merged.control["method"] == split.control["method"]
-    assert both[0].borne.joint == both[1].borne.joint
-    assert both[0].borne.usual == pytest.approx(both[1].borne.usual, rel=5e-3)
+    assert both[0].loads.joint == both[1].loads.joint
+    assert both[0].loads.usual == pytest.approx(both[1].loads.usual, rel=5e-3)
 
 
 def test_torques_of_a_step_stay_finite_without_a_mass(
@@ -71,7 +73,7 @@ def test_torques_of_a_step_stay_finite_without_a_mass(
     )
     limits = dict.fromkeys(merged.legs, 90.0)
     one, other = (
-        torques_borne(robot, settings_of(robot).gait, limits)
+        step_loads(robot, settings_of(robot).gait, limits)
         for robot in (merged, split)
     )
     assert np.isfinite(one.usual) and 0.0 < one.usual < 2.0
@@ -134,11 +136,12 @@ def robot_with(folder: Path, limbs: dict[str, tuple[float, int, str]]) -> Path:
                 "right_arm": (-0.2, 4, "0 1 0"),
                 "head": (0.0, 2, "0 0 1"),
             },
-            "chain of joints on the left ends in 'left_arm_3' and is no leg",
+            "chain of joints on the left ends in 'left_arm_3' and is not a "
+            "leg",
         ),
         (
             {"eye": (0.02, 1, "0 0 1"), "other_eye": (-0.02, 1, "0 0 1")},
-            "chain of joints on the left ends in 'eye_0' and is no leg",
+            "chain of joints on the left ends in 'eye_0' and is not a leg",
         ),
     ],
 )
@@ -146,7 +149,7 @@ def test_arms_and_heads_are_not_called_legs(
     limbs: dict[str, tuple[float, int, str]], said: str, tmp_path: Path
 ) -> None:
     with pytest.raises(ModelError) as refused:
-        survey(robot_with(tmp_path, limbs), [])
+        analyse_model(robot_with(tmp_path, limbs), [])
     message = str(refused.value)
     assert said in message
     for name in limbs:
@@ -170,7 +173,7 @@ def test_a_hint_names_tune_only_where_tune_searches(
         checking,
         "walk_trial",
         lambda trial: WalkTrialResult(
-            *(trial.way.name, trial.control.feedback, "walked", True, 1.0),
+            *(trial.path.name, trial.control.feedback, "walked", True, 1.0),
             *(1.0, 0.01, 1.0 + 0.15 * off, 1.0, strain),
         ),
     )
@@ -178,7 +181,7 @@ def test_a_hint_names_tune_only_where_tune_searches(
     checked = check_robot(robot, InlineExecutor())
     worst = max(w.unsteadiness for w in checked.walks)
     hints = [finding.hint for finding in checked.findings if finding.hint]
-    if torque > checking.TORQUE:
-        assert any("torque of hip" in hint for hint in hints)
+    if torque > checking.GREATEST_LOAD:
+        assert any("torque limit of hip" in hint for hint in hints)
     if any("tune" in hint for hint in hints):
         assert worst >= GOOD

@@ -19,7 +19,7 @@ from stepaside.fitting.derivation import (
 )
 from stepaside.fitting.description_writer import write_description
 from stepaside.fitting.leg_detection import DetectedLeg
-from stepaside.fitting.model_analysis import ModelAnalysis, survey
+from stepaside.fitting.model_analysis import ModelAnalysis, analyse_model
 from stepaside.fitting.standing_posture import knee_limits, standing_of
 from stepaside.robots.description import FILE, load_robot
 from stepaside.robots.tree_compiler import compile_tree
@@ -41,7 +41,7 @@ def edited(folder: Path, edit: Callable[[str], str]) -> Path:
 
 
 def feet(file: Path) -> tuple[DetectedLeg, DetectedLeg]:
-    return survey(file, []).legs
+    return analyse_model(file, []).legs
 
 
 def shaped(shape: str) -> Callable[[str], str]:
@@ -121,10 +121,12 @@ def level_in(found: ModelAnalysis) -> float:
     return float(max(off))
 
 
-def test_a_robot_stands_flat_on_feet_that_are_not(tmp_path: Path) -> None:
-    plain = survey(stranger.mjcf(tmp_path), [])
+def test_a_robot_stands_flat_on_feet_tilted_in_the_zero_posture(
+    tmp_path: Path,
+) -> None:
+    plain = analyse_model(stranger.mjcf(tmp_path), [])
     file = edited(tmp_path, shaped(tilted(0.0, 0.3)))
-    found = survey(file, [])
+    found = analyse_model(file, [])
     stands, stood = standing_of(found), standing_of(plain)
     assert stands["near_tip"] == pytest.approx(
         stood["near_tip"] - 0.3, abs=0.02
@@ -158,21 +160,21 @@ def test_what_is_written_of_a_tilted_foot_is_level_in_the_legs_solver(
         ),
         (
             '<geom type="box" size="0.09 0.045 0.01" pos="0.3 0 -0.05"/>',
-            "must lie under its ankle, got edges 0.210, ",
+            "must be under its ankle, got edges 0.210, ",
         ),
         ('<geom type="box" size="0.4 0.3 0.1"/>', "m long for legs of"),
     ],
     ids=["ball", "line", "ahead", "raft"],
 )
-def test_a_sole_that_nobody_stands_on_is_refused(
+def test_a_sole_without_a_flat_side_is_refused(
     shape: str, why: str, tmp_path: Path
 ) -> None:
     file = edited(tmp_path, shaped(shape))
     with pytest.raises(ModelError, match=f"the sole of 'near_lean.*{why}"):
-        survey(file, [])
+        analyse_model(file, [])
 
 
-def test_feet_must_have_a_sole_in_common(tmp_path: Path) -> None:
+def test_feet_must_have_a_common_sole(tmp_path: Path) -> None:
     """Two good soles of which one lies before its ankle, one behind it."""
     ahead, behind = (
         f'<geom type="box" size="0.04 0.045 0.01" pos="{x} 0 -0.04"/>'
@@ -182,8 +184,10 @@ def test_feet_must_have_a_sole_in_common(tmp_path: Path) -> None:
     def edit(text: str) -> str:
         return BOX.sub(behind, BOX.sub(ahead, text, count=1))
 
-    with pytest.raises(ModelError, match="in common must be .* mirror images"):
-        shared_sole(survey(edited(tmp_path, edit), []))
+    with pytest.raises(
+        ModelError, match="common outline .* must be .* mirror images"
+    ):
+        shared_sole(analyse_model(edited(tmp_path, edit), []))
 
 
 def test_an_ankle_is_where_its_axes_cross(tmp_path: Path) -> None:
@@ -214,8 +218,8 @@ def crouched(text: str) -> str:
 
 
 def test_the_zero_posture_may_be_a_crouch(tmp_path: Path) -> None:
-    plain = survey(stranger.mjcf(tmp_path), [])
-    found = survey(edited(tmp_path, crouched), [])
+    plain = analyse_model(stranger.mjcf(tmp_path), [])
+    found = analyse_model(edited(tmp_path, crouched), [])
     stands, stood = standing_of(found), standing_of(plain)
     for name, angle in CROUCH.items():
         assert stands[f"near_{name}"] == pytest.approx(
@@ -240,12 +244,12 @@ def without(name: str) -> Callable[[str], str]:
     ("name", "lacks"),
     [("lean", "ankle roll"), ("spin", "hip yaw"), ("splay", "hip roll")],
 )
-def test_what_a_leg_lacks_is_named(
+def test_missing_leg_joints_are_named(
     name: str, lacks: str, tmp_path: Path
 ) -> None:
     file = edited(tmp_path, without(name))
     with pytest.raises(ModelError, match=f"6 joints .* got 5 and no {lacks}:"):
-        survey(file, [])
+        analyse_model(file, [])
 
 
 def test_a_toe_is_part_of_its_foot(tmp_path: Path) -> None:
@@ -276,22 +280,22 @@ def test_a_toe_is_part_of_its_foot(tmp_path: Path) -> None:
     assert left.outline[1] == pytest.approx(0.15)
 
 
-def test_legs_that_are_spread_do_not_stand_so(tmp_path: Path) -> None:
+def test_spread_legs_stand_closer(tmp_path: Path) -> None:
     def edit(text: str) -> str:
         for side, sign in stranger.SIDES:
             body = BODY.format(side, "swing")
             text = text.replace(f"{body}0 {sign * 0}", f"{body}0 {sign * 0.1}")
         return text
 
-    found = survey(edited(tmp_path, edit), [])
+    found = analyse_model(edited(tmp_path, edit), [])
     hips = found.legs[0].hip[1] - found.legs[1].hip[1]
     assert spacing_of(found, HALF) == pytest.approx(1.4 * hips)
 
 
-def test_a_file_that_says_nothing_leaves_the_name_to_its_folder(
+def test_a_generic_file_name_is_replaced_by_that_of_the_folder(
     tmp_path: Path,
 ) -> None:
     folder = tmp_path / "walking_machine" / "urdf"
     folder.mkdir(parents=True)
     file = stranger.mjcf(folder).rename(folder / "robot.xml")
-    assert name_of(survey(file, [])) == "walking machine"
+    assert name_of(analyse_model(file, [])) == "walking machine"

@@ -11,7 +11,7 @@ import pytest
 
 import published_humanoid as stranger
 from stepaside.fitting.leg_detection import find_legs
-from stepaside.fitting.model_analysis import survey
+from stepaside.fitting.model_analysis import analyse_model
 from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.walker import Walker
@@ -106,7 +106,7 @@ def test_detected_legs_do_not_depend_on_the_posture(
 ) -> None:
     """Also after the model has moved to another posture."""
     path = stranger.mjcf(tmp_path)
-    found = survey(path, [])
+    found = analyse_model(path, [])
     kept = Kept()
     legs = find_legs(found.model, found.data, path)
     kept.keep("legs", legs)

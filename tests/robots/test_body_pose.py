@@ -50,7 +50,9 @@ def bent() -> tuple[mujoco.MjModel, mujoco.MjData, Array]:
 
 
 @pytest.mark.parametrize("left", [True, False])
-def test_torso_and_head_are_where_they_are(left: bool) -> None:
+def test_torso_and_head_poses_equal_those_of_the_simulation(
+    left: bool,
+) -> None:
     """From the standing foot, the encoders and the measured tilt."""
     _, data, angles = bent()
     foot = data.site(NAO.left_foot if left else NAO.right_foot)
@@ -70,7 +72,7 @@ def test_torso_and_head_are_where_they_are(left: bool) -> None:
     assert body.yaw != body.pitch
 
 
-def test_the_body_moves_with_the_foot_that_stands() -> None:
+def test_the_body_moves_with_its_stance_foot() -> None:
     _, _, angles = bent()
     start = kinematics().pose(0.0, angles, Pose(0, 0, 0), True, TILT)
     moved = Pose(0.4, -0.3, 1.0)
@@ -100,7 +102,7 @@ def test_measured_posture_is_that_of_the_model() -> None:
     np.testing.assert_array_equal(posture.com, kept)
 
 
-def test_the_model_weighs_what_the_robot_weighs() -> None:
+def test_the_mass_equals_that_of_the_model() -> None:
     model = NAO.compile()
     assert forward().mass == pytest.approx(model.body_mass.sum())
 
@@ -133,7 +135,7 @@ def test_force_sensors_are_placed_from_the_frame_of_the_foot() -> None:
     assert moved.force_sensors()[0] == pytest.approx((y, -x))
 
 
-def test_a_posture_is_that_of_the_angles_as_they_are_by_now() -> None:
+def test_a_posture_follows_arrays_that_change_in_place() -> None:
     """Also where a driver writes all of its readings into one array."""
     _, _, angles = bent()
     first = forward().posture(angles)
@@ -142,7 +144,7 @@ def test_a_posture_is_that_of_the_angles_as_they_are_by_now() -> None:
     assert np.abs(forward().posture(angles).com - first.com).max() > 1e-3
 
 
-def test_balance_and_sight_share_one_body() -> None:
+def test_balance_and_perception_share_one_kinematics() -> None:
     head = load_head(NAO)
     one = ForwardKinematics(NAO, head.body)
     _, _, angles = bent()

@@ -98,10 +98,10 @@ def test_joints_that_share_a_motor_must_move_alike(tmp_path: Path) -> None:
         robot.coupled_joints(robot.compile())
 
 
-def test_a_model_that_is_none_is_refused_by_its_file(tmp_path: Path) -> None:
+def test_an_invalid_model_is_refused_by_its_file(tmp_path: Path) -> None:
     folder = copy_of_nao(tmp_path)
     (folder / "model.xml").write_text("<mujoco><nonsense/></mujoco>")
-    with pytest.raises(ModelError, match="model.xml is no MuJoCo model"):
+    with pytest.raises(ModelError, match="model.xml is not a MuJoCo model"):
         load_robot(folder).compile()
 
 

@@ -84,7 +84,7 @@ def told(folder: Path, name: str, value: Any) -> str:
     return str(refused.value)
 
 
-def test_all_that_a_description_says_is_read(tmp_path: Path) -> None:
+def test_all_entries_of_a_description_are_read(tmp_path: Path) -> None:
     found = read(tmp_path, tomllib.loads(TEXT))
     assert found == {
         "name": "Toy",
@@ -116,14 +116,14 @@ def test_all_that_a_description_says_is_read(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("name", ROWS)
-def test_a_row_has_as_many_values_as_it_needs(
+def test_an_array_must_have_the_required_length(
     name: str, tmp_path: Path
 ) -> None:
     row = at(tomllib.loads(TEXT), way_of(name))
     assert len(row) == ROWS[name]
     for other in (row[:-1], [*row, row[-1]], "row"):
         said = told(tmp_path, name, other)
-        assert f"a row of {ROWS[name]} values" in said
+        assert f"an array of {ROWS[name]} values" in said
         assert str(name.rpartition(".")[2]) in said or "soles" in said
 
 
@@ -131,7 +131,7 @@ def test_a_row_has_as_many_values_as_it_needs(
     ("name", "value", "message"),
     [
         ("name", 1, "name must be a name, got 1"),
-        ("legs", "left", "legs must be a row of values"),
+        ("legs", "left", "legs must be an array of values"),
         ("legs", ["left", 1], "legs must be a name"),
         ("standing.knee", "bent", "standing.knee must be a finite number"),
         ("standing.knee", True, "standing.knee must be a finite number"),
@@ -155,7 +155,7 @@ def test_an_entry_of_another_type_is_refused_by_name(
     assert message in said and "robot.toml" in said
 
 
-def test_what_a_description_needs_and_what_it_may_leave_out(
+def test_required_and_optional_entries_of_a_description(
     tmp_path: Path,
 ) -> None:
     whole = tomllib.loads(TEXT)

@@ -31,7 +31,7 @@ def formula(x: Number, y: Number) -> list[Number]:
     ]
 
 
-def test_a_function_gives_what_its_formula_gives() -> None:
+def test_a_traced_function_equals_its_formula() -> None:
     trace = ExpressionTrace()
     x, y = trace.variable("x", 0.3), trace.variable("y", 0.7)
     traced = formula(x, y)
@@ -44,7 +44,7 @@ def test_a_function_gives_what_its_formula_gives() -> None:
         np.testing.assert_allclose(function(a, b), expected, rtol=1e-13)
 
 
-def test_what_is_constant_folds() -> None:
+def test_constants_are_folded() -> None:
     x = ExpressionTrace().variable("x", 2.0)
     assert x * 0.0 == x - x == 0.0 * x == 0.0 / x == 0.0
     assert x / x == 1.0
@@ -56,7 +56,7 @@ def test_what_is_constant_folds() -> None:
     assert isinstance(x - 1.0, TracedNumber)
 
 
-def test_what_repeats_is_computed_once() -> None:
+def test_common_subexpressions_are_computed_once() -> None:
     trace = ExpressionTrace()
     x, y = trace.variable("x"), trace.variable("y")
     assert x * y is y * x
@@ -67,7 +67,7 @@ def test_what_repeats_is_computed_once() -> None:
     assert text.count("sin(x)") == 1
 
 
-def test_a_name_is_used_again_when_its_number_is_not_needed() -> None:
+def test_variables_are_reused_after_their_last_use() -> None:
     """Few names for a long chain; and the right number in each."""
     trace = ExpressionTrace()
     number: Number = trace.variable("x")

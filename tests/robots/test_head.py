@@ -43,7 +43,7 @@ def test_signs_of_angles_are_those_of_a_robot() -> None:
     assert rotation(0.0, 0.0, 0.1)[1, 0] > 0.0
 
 
-def test_cameras_look_ahead_and_a_little_down() -> None:
+def test_cameras_point_forward_and_slightly_down() -> None:
     for mount, degrees in ((HEAD.top, 1.2), (HEAD.depth, 8.0)):
         ahead = cos(radians(degrees)), 0.0, -sin(radians(degrees))
         np.testing.assert_allclose(mount.axes[:, 0], ahead, atol=1e-15)
@@ -53,7 +53,7 @@ def test_cameras_look_ahead_and_a_little_down() -> None:
     assert HEAD.housing == (0.035, 0.18, 0.05)
 
 
-def test_ears_are_mirror_images_and_listen_aside() -> None:
+def test_sonars_are_mirror_images_and_point_outward() -> None:
     left, right = HEAD.sonars["left"], HEAD.sonars["right"]
     mirror = np.diag([1.0, -1.0, 1.0])
     np.testing.assert_allclose(mirror @ left.place, right.place)
@@ -63,7 +63,7 @@ def test_ears_are_mirror_images_and_listen_aside() -> None:
     assert left.axes[2, 0] == pytest.approx(-sin(0.0436497))
 
 
-def test_ranges_of_the_neck_are_in_radians_and_symmetric() -> None:
+def test_head_ranges_are_in_radians_and_symmetric() -> None:
     yaws, low, high = HEAD.coupling
     np.testing.assert_allclose(yaws, -yaws[::-1], atol=1e-12)
     np.testing.assert_allclose(low, low[::-1])
@@ -102,8 +102,8 @@ def test_a_wrong_head_is_refused_by_its_file(
     assert str(tmp_path / "head.toml") in str(caught.value)
 
 
-def test_a_robot_without_a_head_cannot_look_about(tmp_path: Path) -> None:
+def test_a_robot_without_a_head_has_no_cameras(tmp_path: Path) -> None:
     for name in ("robot.toml", "model.xml"):
         (tmp_path / name).write_bytes((NAO.folder / name).read_bytes())
-    with pytest.raises(ModelError, match="NAO cannot look about.*missing"):
+    with pytest.raises(ModelError, match="NAO has no cameras.*missing"):
         load_head(load_robot(tmp_path))

@@ -4,7 +4,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.robots.inertia_repair import mend_inertias
+from stepaside.robots.inertia_repair import repair_inertias
 
 LINK = (
     '<mujoco><worldbody><body name="link"><joint name="turn"/>'
@@ -21,35 +21,37 @@ def spec_of(mass: float, full: str) -> mujoco.MjSpec:
 @pytest.mark.parametrize(
     "full", ["0 0 0 0 0 1e-20", "0.01 0.01 -0.002 0 0 0", "1e-20 0 0 0 0 0"]
 )
-def test_an_inertia_that_is_none_compiles_once_mended(full: str) -> None:
+def test_an_invalid_inertia_compiles_after_repair(full: str) -> None:
     spec = spec_of(0.3, full)
     with pytest.raises(ValueError, match="eigenvalue|inertia"):
         spec_of(0.3, full).compile()
-    assert mend_inertias(spec) == ["link"]
+    assert repair_inertias(spec) == ["link"]
     model = spec.compile()
     moments = np.sort(model.body_inertia[1])
     assert moments[0] > 0.0 and moments[0] + moments[1] >= moments[2] * 0.999
     assert model.body_mass[1] == 0.3
 
 
-def test_a_link_without_mass_gets_hardly_any() -> None:
+def test_a_massless_link_gets_a_negligible_mass() -> None:
     spec = spec_of(0.0, "0 0 0 0 0 0")
-    mend_inertias(spec)
+    repair_inertias(spec)
     model = spec.compile()
     assert 0.0 < model.body_mass[1] <= 1e-6
 
 
-def test_an_inertia_that_can_be_stays_as_it_is() -> None:
+def test_a_valid_inertia_is_not_changed() -> None:
     spec = spec_of(2.0, "0.02 0.03 0.025 0.001 -0.002 0.003")
     before = np.array(spec.body("link").fullinertia)
-    assert mend_inertias(spec) == []
+    assert repair_inertias(spec) == []
     np.testing.assert_array_equal(spec.body("link").fullinertia, before)
 
 
 @pytest.mark.parametrize(
     "how", ["fullinertia='{0} {0} {0} 0 0 0'", "diaginertia='{0} {0} {0}'"]
 )
-def test_inertias_in_wrong_units_become_those_of_links(how: str) -> None:
+def test_inertias_in_wrong_units_are_replaced_by_typical_ones(
+    how: str,
+) -> None:
     """One of masses 20 m away tells that those of 0.3 m are wrong, too."""
 
     def model(worst: float) -> mujoco.MjSpec:
@@ -65,9 +67,9 @@ def test_inertias_in_wrong_units_become_those_of_links(how: str) -> None:
         )
 
     spec = model(400.0)
-    assert mend_inertias(spec) == ["torso", "thigh"]
+    assert repair_inertias(spec) == ["torso", "thigh"]
     moments = spec.compile().body_inertia[1:, 0]
     np.testing.assert_allclose(moments, [0.0016, 0.0064, 1e-4])
     spec = model(0.3)  # large for such a robot, but who knows
-    assert mend_inertias(spec) == []
+    assert repair_inertias(spec) == []
     np.testing.assert_allclose(spec.compile().body_inertia[2], 0.1)

@@ -25,7 +25,7 @@ pytest.importorskip("numba")
 def fresh(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """Nothing is stored, and nothing preferred afterwards."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    monkeypatch.setattr(machine, "_used", JitPreference.PLAIN)
+    monkeypatch.setattr(machine, "_preference", JitPreference.PLAIN)
     yield
 
 
@@ -49,7 +49,7 @@ def test_nothing_is_compiled_unless_it_is_preferred() -> None:
     assert not machine.folder().exists()
 
 
-def test_what_was_compiled_once_is_there_the_next_time() -> None:
+def test_compiled_code_is_loaded_from_the_cache() -> None:
     plain = formula(2.0)
     machine.prefer(JitPreference.COMPILED)
     compiled = formula(2.0)
@@ -91,9 +91,9 @@ def test_short_games_do_not_wait_for_machine_code() -> None:
 
 def test_legs_step_to_the_same_bits() -> None:
     robot = load_robot("nao")
-    plain = solver_of(robot, load_tree(robot)).quick
+    plain = solver_of(robot, load_tree(robot)).newton_step
     machine.prefer(JitPreference.COMPILED)
-    compiled = solver_of(robot, load_tree(robot)).quick
+    compiled = solver_of(robot, load_tree(robot)).newton_step
     assert plain is not None and compiled is not None
     assert plain is not compiled
     generator = np.random.default_rng(1)

@@ -57,15 +57,19 @@ def test_transforms_and_com_are_those_of_mujoco(
     np.testing.assert_allclose(ours.com, data.subtree_com[torso], atol=1e-9)
     for body in ours.tree.bodies:
         place, axes = data.body(body).xpos, data.body(body).xmat
-        assert ours.place_of_body(body) == pytest.approx(place, abs=1e-9)
+        assert ours.position_body_in_world(body) == pytest.approx(
+            place, abs=1e-9
+        )
         np.testing.assert_allclose(
-            ours.axes_of_body(body).reshape(-1), axes, atol=1e-9
+            ours.axes_body_in_world(body).reshape(-1), axes, atol=1e-9
         )
     for site in ours.tree.sites:
         place, axes = data.site(site).xpos, data.site(site).xmat
-        assert ours.place_of_site(site) == pytest.approx(place, abs=1e-9)
+        assert ours.position_site_in_world(site) == pytest.approx(
+            place, abs=1e-9
+        )
         np.testing.assert_allclose(
-            ours.axes_of_site(site).reshape(-1), axes, atol=1e-9
+            ours.axes_site_in_world(site).reshape(-1), axes, atol=1e-9
         )
 
 
@@ -108,11 +112,11 @@ def test_a_tree_knows_masses_motors_and_ranges(
         assert (link.low, link.high) == tuple(model.joint(joint).range)
 
 
-def test_what_stands_beside_the_robot_is_none_of_it(tmp_path: Path) -> None:
+def test_the_environment_is_not_part_of_the_tree(tmp_path: Path) -> None:
     assert "rail" not in load_tree(made_up(tmp_path)).bodies
 
 
-def test_motors_move_their_followers_and_others_stand() -> None:
+def test_motors_move_their_followers_alone() -> None:
     tree = load_tree(load_robot("nao"))
     angles = np.linspace(-0.3, 0.3, len(tree.motors))
     ours = Configuration.of_motors(tree, angles, {})
@@ -127,15 +131,17 @@ def test_a_configuration_is_a_value() -> None:
     ours = Configuration(tree, np.zeros(len(tree.joints)))
     with pytest.raises(ValueError, match="read-only"):
         ours.joints[0] = 1.0
-    np.testing.assert_array_equal(ours.place_of_body("torso"), np.zeros(3))
+    np.testing.assert_array_equal(
+        ours.position_body_in_world("torso"), np.zeros(3)
+    )
 
 
-def test_what_there_is_not_is_refused_by_name() -> None:
+def test_missing_bodies_and_sites_are_named() -> None:
     tree = load_tree(load_robot("nao"))
     ours = Configuration(tree, np.zeros(len(tree.joints)))
     with pytest.raises(ModelError, match="no site 'tail'; there are .*imu"):
-        ours.place_of_site("tail")
+        ours.position_site_in_world("tail")
     with pytest.raises(ModelError, match="no body 'tail'; there are .*head"):
-        ours.place_of_body("tail")
+        ours.position_body_in_world("tail")
     with pytest.raises(ModelError, match="must be 24 angles, got 3"):
         Configuration(tree, np.zeros(3))

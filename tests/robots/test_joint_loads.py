@@ -90,14 +90,14 @@ def test_at_rest_the_torques_are_those_of_mujoco() -> None:
         kinematics, loads = loads_of(reference)
         zmp = (reference.com[0], reference.com[1])
         found = loads.torques(reference, zmp)
-        share = loads._floor(reference, zmp)[-1]
+        share = loads._ground_contact(reference, zmp)[-1]
         assert (share == 1.0) is (lift > 0.0)
         wanted = by_mujoco(kinematics, reference, share)
         np.testing.assert_allclose(found, wanted, atol=2e-4)
         assert 0.5 < np.abs(found).max() < 6.0
 
 
-def test_a_hip_bears_the_body_over_the_other_side() -> None:
+def test_the_stance_hip_carries_the_body() -> None:
     """On the left foot the body hangs to its right, as heavy as it is."""
     reference = standing(0.05, 0.02)
     kinematics, loads = loads_of(reference)
@@ -124,12 +124,12 @@ class Moved:
     def stance(self) -> Posture:
         """The stance, somewhere else."""
         stance = self._kinematics.stance
-        x, y, z = (np.array(stance.place) + self.by).tolist()
-        return stance._replace(place=(x, y, z))
+        x, y, z = (np.array(stance.position) + self.by).tolist()
+        return stance._replace(position=(x, y, z))
 
 
 @pytest.mark.parametrize("rise", [0.0, 2.0, -3.0])
-def test_who_is_lifted_faster_weighs_more(rise: float) -> None:
+def test_upward_acceleration_increases_the_torques(rise: float) -> None:
     reference = standing(0.01)
     kinematics, still = loads_of(reference)
     zmp = (AHEAD, 0.01)
@@ -154,7 +154,7 @@ def _lifted(reference: BodyReference, by: float) -> BodyReference:
     return reference._replace(com=(x, y, z + by), left_foot=left)
 
 
-def test_mirrored_stances_bear_mirrored_torques() -> None:
+def test_mirrored_stances_have_mirrored_torques() -> None:
     left, right = (0.0, 0.05, 0.0, 0.1), (-0.03, -0.05, 0.0, 0.04)
     found = []
     for side in (1.0, -1.0):
@@ -175,7 +175,7 @@ def test_mirrored_stances_bear_mirrored_torques() -> None:
             assert second[twin] == pytest.approx(sign * torque, abs=1e-3)
 
 
-def test_servos_that_lead_their_targets_stand_where_they_are_wanted() -> None:
+def test_servos_with_load_feedforward_reach_their_targets() -> None:
     """The law of a servo: k (sent - q) - d q' with sent led by d / k."""
     reference = standing()
     kinematics, loads = loads_of(reference)
@@ -200,7 +200,7 @@ def test_servos_that_lead_their_targets_stand_where_they_are_wanted() -> None:
     assert not last[~legs].any()
 
 
-def test_a_motor_that_is_no_servo_has_no_stiffness() -> None:
+def test_an_actuator_without_position_gain_has_no_stiffness() -> None:
     tree = compile_tree(NAO)
     assert len(tree.servos) == len(tree.motors)
     model = NAO.compile()

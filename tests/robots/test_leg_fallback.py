@@ -1,4 +1,4 @@
-"""Test when legs take a damped step instead of the one written out."""
+"""Test when inverse kinematics falls back to the damped step."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -9,7 +9,11 @@ import pytest
 
 from stepaside.robots.description import load_robot
 from stepaside.robots.leg_joints import LegJoints
-from stepaside.robots.leg_kinematics import FAR, BodyReference, LegKinematics
+from stepaside.robots.leg_kinematics import (
+    GREATEST_MOVE,
+    BodyReference,
+    LegKinematics,
+)
 from stepaside.robots.tree_cache import load_tree
 
 NAO = load_robot("nao")
@@ -20,13 +24,13 @@ NEAR = STANCE._replace(com=(0.021, 0.001, 0.259))
 Step = Callable[..., tuple[float, ...]]
 
 
-def following(quick: Callable[[Step], Step | None]) -> LegKinematics:
-    """Legs that have stood and followed once, with another quick step."""
+def tracked(replaced: Callable[[Step], Step | None]) -> LegKinematics:
+    """Track once with another undamped step."""
     legs = LegKinematics(NAO, tick=0.004)
     legs.stand(STANCE)
-    own = legs._solver.quick
+    own = legs._solver.newton_step
     assert own is not None
-    legs._solver = legs._solver._replace(quick=quick(own))
+    legs._solver = legs._solver._replace(newton_step=replaced(own))
     before = legs.joint_targets
     assert np.abs(legs.track(NEAR) - before).max() > 1e-4
     return legs
@@ -34,30 +38,30 @@ def following(quick: Callable[[Step], Step | None]) -> LegKinematics:
 
 @cache
 def damped() -> LegKinematics:
-    """What they do without a step that is written out."""
-    return following(lambda _: None)
+    """Track once without an undamped step."""
+    return tracked(lambda _: None)
 
 
 def test_a_step_within_all_limits_is_not_damped() -> None:
-    own = following(lambda quick: quick)
+    own = tracked(lambda step: step)
     off = np.abs(own.joint_targets - damped().joint_targets).max()
     assert 0.0 < off < 1e-3
 
 
 @pytest.mark.parametrize("sign", [-1.0, 1.0])
 @pytest.mark.parametrize("unknown", range(4))
-def test_a_step_that_goes_too_far_is_damped(unknown: int, sign: float) -> None:
-    """Of the torso, along any axis or in its heading."""
+def test_a_long_step_of_the_torso_is_damped(unknown: int, sign: float) -> None:
+    """Along any axis, or in heading."""
 
-    def leaping(quick: Step) -> Step:
+    def too_far(step_function: Step) -> Step:
         def leap(*arguments: float) -> tuple[float, ...]:
-            step = list(quick(*arguments))
-            step[unknown] = sign * 1.01 * FAR
+            step = list(step_function(*arguments))
+            step[unknown] = sign * 1.01 * GREATEST_MOVE
             return tuple(step)
 
         return leap
 
-    assert following(leaping).stance == damped().stance
+    assert tracked(too_far).stance == damped().stance
 
 
 @pytest.mark.parametrize("sign", [-1.0, 1.0])
@@ -65,26 +69,26 @@ def test_a_step_that_goes_too_far_is_damped(unknown: int, sign: float) -> None:
 def test_a_step_that_is_too_fast_for_a_joint_is_damped(
     joint: int, sign: float
 ) -> None:
-    def fast(quick: Step) -> Step:
+    def fast(step_function: Step) -> Step:
         def move(*arguments: float) -> tuple[float, ...]:
-            step = list(quick(*arguments))
+            step = list(step_function(*arguments))
             step[4 + joint] = sign * 0.1
             return tuple(step)
 
         return move
 
-    assert following(fast).stance == damped().stance
+    assert tracked(fast).stance == damped().stance
 
 
-def test_a_step_that_has_no_solution_is_damped() -> None:
+def test_a_singular_step_is_damped() -> None:
     def singular(*arguments: float) -> tuple[float, ...]:
         raise ZeroDivisionError
 
-    assert following(lambda _: singular).stance == damped().stance
+    assert tracked(lambda _: singular).stance == damped().stance
 
 
-def test_no_leg_that_is_plain_has_joints_that_move_as_one() -> None:
-    """A knee that its hip moves leaves a row without an unknown."""
+def test_a_leg_with_coupled_joints_is_not_plain() -> None:
+    """A knee coupled to the hip leaves a row without an unknown."""
     plain = LegJoints.of(NAO, load_tree(NAO))
     assert plain.is_plain and len(plain.free) == 11
     for chain in (plain.chain(0), plain.chain(1)):

@@ -10,7 +10,7 @@ from stepaside.core.errors import ReachError
 from stepaside.core.poses import Array
 from stepaside.robots.description import load_robot
 from stepaside.robots.head import rotation
-from stepaside.robots.ik_residuals import _turn
+from stepaside.robots.ik_residuals import _rotation_to_yaw
 from stepaside.robots.leg_kinematics import ROWS, BodyReference, LegKinematics
 
 NAO = load_robot("nao")
@@ -147,7 +147,7 @@ def limited(kinematics: LegKinematics, joint: str) -> list[float]:
     return ends[joint]
 
 
-def test_a_com_out_of_reach_leaves_a_little_and_lifts_no_heel() -> None:
+def test_a_com_out_of_reach_leaves_a_residual_and_lifts_no_heel() -> None:
     """The first knee at its limit stops the rise; feet stay where they are."""
     kinematics = stood()
     kinematics.stand(STANCE)
@@ -163,7 +163,7 @@ def test_a_com_out_of_reach_leaves_a_little_and_lifts_no_heel() -> None:
     assert turned.max() < 1e-3
 
 
-def test_limits_are_kept_wherever_a_stance_was_taken() -> None:
+def test_joint_limits_hold_in_every_stance() -> None:
     """Room to a limit in one posture is none in the next."""
     kinematics = LegKinematics(NAO, tick=TICK)
     x, y, _ = STANCE.com
@@ -215,7 +215,7 @@ def test_legs_that_share_a_motor_move_as_one() -> None:
     assert left.qpos[0] == right.qpos[0] != 0.0
 
 
-def test_the_torso_heads_where_the_feet_point() -> None:
+def test_the_torso_heading_is_the_mean_of_the_feet() -> None:
     kinematics = stood()
     for turn in (-2.0, 0.0, 1.0, 0.5 * np.pi, -0.5 * np.pi):
         c, s = np.cos(turn), np.sin(turn)
@@ -241,7 +241,7 @@ def test_the_torso_heads_where_the_feet_point() -> None:
     ],
 )
 @pytest.mark.parametrize("sign", [-1.0, 1.0])
-def test_beyond_half_a_meter_or_radian_a_request_is_refused(
+def test_a_residual_beyond_half_a_metre_or_radian_is_refused(
     row: int, name: str, sign: float
 ) -> None:
     kinematics = stood()
@@ -264,7 +264,7 @@ def test_the_greatest_height_is_the_last_that_is_reached() -> None:
     assert kinematics.highest_com(above) == pytest.approx(greatest, abs=4e-4)
 
 
-def test_a_com_asked_too_low_is_told_both_ends_of_its_reach() -> None:
+def test_a_com_too_low_is_refused_with_the_range_in_reach() -> None:
     kinematics = stood()
     least = kinematics.lowest_com(STANCE)
     greatest = kinematics.highest_com(STANCE)
@@ -285,7 +285,7 @@ def test_feet_too_far_apart_leave_no_height_at_all() -> None:
 
 
 @pytest.mark.parametrize("yaw", [0.0, 0.7, -2.0])
-def test_the_turn_that_levels_a_frame_is_its_small_rotation(
+def test_the_levelling_rotation_is_the_small_rotation_of_a_frame(
     yaw: float,
 ) -> None:
     for axis in range(3):
@@ -293,12 +293,12 @@ def test_the_turn_that_levels_a_frame_is_its_small_rotation(
         vector[axis] = 1e-5
         turn = rotation(*vector)
         frame = turn @ rotation(0.0, 0.0, yaw)
-        back = _turn(frame.tolist(), (np.cos(yaw), np.sin(yaw)))
+        back = _rotation_to_yaw(frame.tolist(), (np.cos(yaw), np.sin(yaw)))
         assert back == pytest.approx((-vector).tolist(), abs=1e-9)
 
 
 @pytest.mark.parametrize("yaw", [0.0, 0.7, -2.0])
-def test_a_lean_is_about_the_own_heading(yaw: float) -> None:
+def test_foot_tilts_are_about_the_heading_of_the_foot(yaw: float) -> None:
     """However the feet are turned in odometry."""
     c, s = np.cos(yaw), np.sin(yaw)
     stance = BodyReference(

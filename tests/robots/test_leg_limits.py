@@ -42,7 +42,7 @@ def moved(
         ((0.02, -0.08, 0.26), "LHipRoll"),
     ],
 )
-def test_no_joint_is_asked_for_more_than_its_speed(
+def test_no_joint_target_exceeds_the_speed_limit(
     com: tuple[float, float, float], joint: str, tick: float
 ) -> None:
     """A reference that jumps is followed at full speed, and no faster."""
@@ -55,7 +55,7 @@ def test_no_joint_is_asked_for_more_than_its_speed(
     assert moves[at] == pytest.approx(limits[at])
 
 
-def test_a_jump_is_made_up_for_in_the_end() -> None:
+def test_a_jump_of_the_reference_is_closed_in_time() -> None:
     legs = standing(0.004)
     there = STANCE._replace(com=(0.03, 0.02, 0.24))
     moved(legs, there, ticks=60)
@@ -64,7 +64,7 @@ def test_a_jump_is_made_up_for_in_the_end() -> None:
     np.testing.assert_allclose(legs.joint_targets, expected, atol=2e-4)
 
 
-def test_knees_keep_to_their_working_limits() -> None:
+def test_knees_stay_within_their_working_limits() -> None:
     """A CoM 3 mm out of reach stretches them to 0.05 rad, not to 0."""
     legs = standing(0.004)
     low, high = NAO.working_limits["LKneePitch"]
@@ -80,7 +80,7 @@ def test_knees_keep_to_their_working_limits() -> None:
     assert (back[knees] > 0.3).all()
 
 
-def test_every_joint_keeps_to_its_range() -> None:
+def test_every_joint_stays_within_its_range() -> None:
     """Toes turned in farther than the hips can: they stop, and no lock."""
     legs = standing(0.004)
     model = NAO.compile()

@@ -64,8 +64,8 @@ def test_the_step_solves_all_rows(name: str, seed: int) -> None:
     error, jacobian = solver.linearise(*arguments)
     count = 4 + FREE[name]
     assert jacobian.shape == (count, count)
-    assert solver.quick is not None
-    step = np.array(solver.quick(*arguments))
+    assert solver.newton_step is not None
+    step = np.array(solver.newton_step(*arguments))
     np.testing.assert_allclose(jacobian @ step[:count], error, atol=1e-9)
     free = np.array(arguments[: FREE[name]])
     after = free + step[4:count]
@@ -138,7 +138,7 @@ def turning(turns: int) -> list[BodyReference]:
 
 
 @pytest.mark.parametrize("joints", [6, 7])
-def test_a_torso_with_free_hip_yaws_heads_where_the_feet_do(
+def test_with_independent_hip_yaws_the_torso_heading_is_the_mean_of_the_feet(
     joints: int,
 ) -> None:
     """It does not drift, however far they turn: more than once round."""
@@ -154,7 +154,7 @@ def test_a_torso_with_free_hip_yaws_heads_where_the_feet_do(
     assert requests[-1].left_foot[3] > 2.0 * np.pi
 
 
-def test_with_the_heading_held_the_feet_and_the_com_are_met() -> None:
+def test_with_a_heading_row_feet_and_com_are_reached() -> None:
     """In MuJoCo's eyes."""
     description = stranger()
     legs = LegKinematics(description, tick=TICK)
@@ -177,11 +177,11 @@ def test_with_the_heading_held_the_feet_and_the_com_are_met() -> None:
         assert axes[2, 2] == pytest.approx(1.0)
 
 
-def test_legs_that_do_not_pair_off_are_moved_all_the_same() -> None:
+def test_legs_that_are_not_plain_use_the_damped_step() -> None:
     """Seven joints a leg: no step is written out, the solve has to do."""
     description = seven()
     solver = solver_of(description, load_tree(description))
-    assert solver.quick is None
+    assert solver.newton_step is None
     assert not solver.legs.is_plain and solver.legs.holds_heading
     legs = LegKinematics(description, tick=TICK)
     targets = legs.stand(STANCE)
@@ -219,7 +219,7 @@ def test_a_jump_of_the_whole_body_is_refused() -> None:
         legs.track(jumped)
 
 
-def test_a_request_that_is_no_number_is_refused() -> None:
+def test_nan_and_inf_in_a_reference_are_refused() -> None:
     legs = LegKinematics(NAO, tick=TICK)
     stance = BodyReference(
         (0.02, 0.0, 0.26), (0.0, 0.05, 0.0, 0.0), (0.0, -0.05, 0.0, 0.0)
@@ -244,7 +244,7 @@ def test_within_its_limits_a_move_is_the_solution() -> None:
     assert move == pytest.approx([0, 0, 0.13, 0, 0.05, 0.02])
 
 
-def test_a_joint_beyond_its_limit_leaves_the_others_the_best() -> None:
+def test_other_joints_are_optimal_with_one_at_its_limit() -> None:
     """The torso moves as far as it then has to, not as if it had moved."""
     move = bounded((0, 0, 0.2, 0, 0.3, 0.02), -LIMITS, LIMITS)
     assert move == pytest.approx([0, 0, 0.08, 0, 0.1, 0.02])

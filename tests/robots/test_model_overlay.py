@@ -1,7 +1,6 @@
 """Test what is put on a published model, joint by joint and edge by edge."""
 
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import mujoco
@@ -18,9 +17,9 @@ from stepaside.robots.description_types import (
 )
 from stepaside.robots.model_overlay import (
     IMU,
-    THICK,
-    odd_couplings,
+    THICKNESS,
     put_overlay,
+    scaled_couplings,
 )
 
 MODEL = """<mujoco>
@@ -59,21 +58,21 @@ SERVOS = {
     "right_bend": ServoGains(40.0, 1.0, 60.0),
 }
 SOLE = {"back": -0.05, "front": 0.11, "outer": 0.045, "inner": 0.03}
-ROBOT = SimpleNamespace(
-    overlay=Overlay(SOLES, SERVOS),
-    sensors=SensorNames(),
-    path=Path("made-up.xml"),
-    path_of=Path,
-    torso="trunk",
-    left_foot="l_sole",
-    right_foot="r_sole",
-    sole=SOLE,
-)
+SENSORS = SensorNames()
+ROBOT: dict[str, Any] = {
+    "overlay": Overlay(SOLES, SERVOS),
+    "torso": "trunk",
+    "feet": ("l_sole", "r_sole"),
+    "sole": SOLE,
+    "sensors": SENSORS,
+    "path": Path("made-up.xml"),
+    "mesh_folders": [],
+}
 
 
-def overlaid(joints: str = "", robot: Any = ROBOT) -> mujoco.MjModel:
+def model_with_overlay(joints: str = "", **changes: Any) -> mujoco.MjModel:
     spec = mujoco.MjSpec.from_string(MODEL.format(joints=joints))
-    put_overlay(spec, robot)
+    put_overlay(spec, **(ROBOT | changes))
     return spec.compile()
 
 
@@ -92,7 +91,7 @@ def in_sole(data: mujoco.MjData, sole: str, point: Array) -> Array:
 
 @pytest.mark.parametrize("sole", ["l_sole", "r_sole"])
 def test_a_sole_is_a_box_over_its_outline(sole: str) -> None:
-    model = overlaid()
+    model = model_with_overlay()
     data, box = at_rest(model), model.geom(f"{sole}_box")
     place = SOLES[sole == "r_sole"]
     body = data.body(place.body)
@@ -105,7 +104,7 @@ def test_a_sole_is_a_box_over_its_outline(sole: str) -> None:
     wide = left + inner
     np.testing.assert_allclose(low, [SOLE["back"], -inner, 0.0], atol=1e-12)
     np.testing.assert_allclose(
-        high, [SOLE["front"], left, THICK * wide], atol=1e-12
+        high, [SOLE["front"], left, THICKNESS * wide], atol=1e-12
     )
     turn = np.array(TURN) / np.linalg.norm(TURN)
     seen = np.zeros(9)
@@ -116,12 +115,12 @@ def test_a_sole_is_a_box_over_its_outline(sole: str) -> None:
 
 
 @pytest.mark.parametrize("foot", [0, 1])
-def test_its_corners_feel_the_floor(foot: int) -> None:
+def test_touch_sensors_are_at_the_corners_of_the_sole(foot: int) -> None:
     """Front left, front right, rear left, rear right, of the left foot."""
-    model, sole = overlaid(), ("l_sole", "r_sole")[foot]
+    model, sole = model_with_overlay(), ("l_sole", "r_sole")[foot]
     data, box = at_rest(model), model.geom(f"{sole}_box")
     middle = in_sole(data, sole, data.geom(box.id).xpos)
-    names = ROBOT.sensors.feet[4 * foot : 4 * foot + 4]
+    names = SENSORS.feet[4 * foot : 4 * foot + 4]
     signs = [(1, 1), (1, -1), (-1, 1), (-1, -1)]
     for name, sign in zip(names, signs, strict=True):
         site = data.site(name)
@@ -135,8 +134,8 @@ def test_its_corners_feel_the_floor(foot: int) -> None:
         assert sensor.objid == site.id
 
 
-def test_nothing_of_a_foot_but_its_sole_meets_anything() -> None:
-    model = overlaid()
+def test_only_the_sole_of_a_foot_collides() -> None:
+    model = model_with_overlay()
     feet = {model.body(name).id for name in ("left", "right", "toe")}
     for number in range(model.ngeom):
         geom = model.geom(number)
@@ -149,9 +148,9 @@ def test_nothing_of_a_foot_but_its_sole_meets_anything() -> None:
             assert meets == ((0, 0) if geom.bodyid[0] in feet else (1, 1))
 
 
-def test_a_sole_weighs_nothing() -> None:
+def test_a_sole_has_no_mass() -> None:
     bare = mujoco.MjModel.from_xml_string(MODEL.format(joints=""))
-    laid = overlaid()
+    laid = model_with_overlay()
     for name in ("trunk", "left", "right"):
         assert laid.body(name).mass == pytest.approx(bare.body(name).mass)
 
@@ -164,21 +163,21 @@ def test_a_sole_weighs_nothing() -> None:
         '<joint type="slide" axis="1 0 0"/><joint axis="0 0 1"/>',
     ],
 )
-def test_whatever_held_the_torso_it_is_free(joints: str) -> None:
-    model = overlaid(joints)
+def test_the_torso_gets_a_free_joint(joints: str) -> None:
+    model = model_with_overlay(joints)
     free = mujoco.mjtJoint.mjJNT_FREE
     assert [j == free for j in model.jnt_type] == [True, False, False]
     assert model.body("trunk").jntnum == 1
 
 
-def test_what_is_not_the_robot_is_left_out() -> None:
-    model = overlaid()
+def test_the_environment_is_removed() -> None:
+    model = model_with_overlay()
     bodies = {model.body(i).name for i in range(model.nbody)}
     assert bodies == {"world", "trunk", "left", "right", "toe"}
     assert not (model.nlight or model.ncam or model.nkey)
     assert model.nu == 2 and model.nsensor == 2 + 8
     sites = {model.site(i).name for i in range(model.nsite)}
-    assert sites == {IMU, "l_sole", "r_sole", *ROBOT.sensors.feet}
+    assert sites == {IMU, "l_sole", "r_sole", *SENSORS.feet}
     plain = mujoco.MjSpec().compile()
     np.testing.assert_array_equal(model.opt.gravity, plain.opt.gravity)
     assert model.opt.timestep == plain.opt.timestep
@@ -189,8 +188,8 @@ def test_what_is_not_the_robot_is_left_out() -> None:
     )
 
 
-def test_the_torso_feels_its_turns_and_pushes() -> None:
-    model, sensors = overlaid(), ROBOT.sensors
+def test_the_imu_measures_rotation_and_acceleration() -> None:
+    model, sensors = model_with_overlay(), SENSORS
     site = model.site(IMU)
     assert model.body(site.bodyid[0]).name == "trunk"
     assert not site.pos.any()
@@ -205,7 +204,7 @@ def test_the_torso_feels_its_turns_and_pushes() -> None:
 
 @pytest.mark.parametrize("target", [0.05, 0.5, -0.5])
 def test_a_servo_is_a_spring_a_damper_and_a_limit(target: float) -> None:
-    model = overlaid()
+    model = model_with_overlay()
     data = mujoco.MjData(model)
     for name in SERVOS:
         data.joint(name).qpos[:] = 0.02
@@ -220,8 +219,8 @@ def test_a_servo_is_a_spring_a_damper_and_a_limit(target: float) -> None:
         assert data.joint(name).qfrc_passive == 0.0
 
 
-def test_a_rotor_is_that_of_the_servo_or_else_of_the_model() -> None:
-    model = overlaid()
+def test_armature_is_that_of_the_servo_or_else_of_the_model() -> None:
+    model = model_with_overlay()
     inertias = [model.dof_armature[model.joint(n).dofadr[0]] for n in SERVOS]
     assert inertias == [0.03, 0.2]
 
@@ -241,27 +240,24 @@ def test_a_rotor_is_that_of_the_servo_or_else_of_the_model() -> None:
         ),
     ],
 )
-def test_what_the_model_lacks_is_told(
+def test_missing_elements_are_named(
     changes: dict[str, Any], message: str
 ) -> None:
-    robot = SimpleNamespace(**(vars(ROBOT) | changes))
     with pytest.raises(ModelError, match=message):
-        overlaid(robot=robot)
+        model_with_overlay(**changes)
 
 
 @pytest.mark.parametrize(
     ("numbers", "odd"),
     [("0 1 0 0 0", 0), ("0 -1 0 0 0", 1), ("0 1 0 0.1 0", 1), ("1 1", 1)],
 )
-def test_only_joints_that_are_simply_equal_stay_coupled(
-    numbers: str, odd: int
-) -> None:
+def test_only_equal_joints_stay_coupled(numbers: str, odd: int) -> None:
     words = (
         '<equality><joint joint1="left_bend" joint2="right_bend" '
         f'polycoef="{numbers}"/></equality></mujoco>'
     )
     text = MODEL.format(joints="").replace("</mujoco>", words)
     spec = mujoco.MjSpec.from_string(text)
-    assert len(odd_couplings(spec)) == odd
-    put_overlay(spec, ROBOT)  # type: ignore[arg-type]
+    assert len(scaled_couplings(spec)) == odd
+    put_overlay(spec, **ROBOT)
     assert spec.compile().neq == 1 - odd

@@ -34,7 +34,7 @@ def zero_posture() -> mujoco.MjData:
     return data
 
 
-def test_25_links_weigh_what_the_table_says() -> None:
+def test_masses_of_25_links_equal_the_table() -> None:
     assert len(LINKS) == MODEL.nbody - 1 == 25
     assert MODEL.body_subtreemass[0] == pytest.approx(5.30535, abs=2e-4)
 
@@ -145,14 +145,14 @@ def test_robot_is_as_tall_as_a_nao() -> None:
     assert height == pytest.approx(0.574, abs=0.03)
 
 
-def test_shapes_weigh_nothing() -> None:
+def test_visual_geoms_have_no_mass() -> None:
     """All mass is in the links' own inertias; shapes are primitives."""
     assert MODEL.nmesh == 0
     masses = [float(row["mass_kg"]) for row in LINKS]
     assert MODEL.body_mass[1:].sum() == pytest.approx(sum(masses), rel=1e-6)
 
 
-def test_foot_force_sensors_sit_where_they_should() -> None:
+def test_foot_force_sensors_are_at_the_published_positions() -> None:
     places = {
         "l_fsr_front_left": (0.07025, 0.0299),
         "l_fsr_front_right": (0.07025, -0.0231),

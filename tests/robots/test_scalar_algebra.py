@@ -81,7 +81,7 @@ def test_a_singular_matrix_is_refused() -> None:
 
 @pytest.mark.parametrize("size", [3, 6])
 @pytest.mark.parametrize("corner", [0, -1])
-def test_what_is_zero_for_good_stays_zero(size: int, corner: int) -> None:
+def test_constant_zeros_stay_zero(size: int, corner: int) -> None:
     """An arrow: of its pivots only a row of the diagonal fills nothing."""
     arrow = np.diag(RANDOM.uniform(1.0, 2.0, size))
     arrow[corner, :] = arrow[:, corner] = RANDOM.uniform(1.0, 2.0, size)
@@ -93,7 +93,7 @@ def test_what_is_zero_for_good_stays_zero(size: int, corner: int) -> None:
     np.testing.assert_allclose(arrow @ found, right, atol=1e-12)
 
 
-def test_no_row_is_divided_by_what_is_nearly_zero() -> None:
+def test_pivots_are_not_small() -> None:
     """However many zeros are beside it."""
     matrix = np.array([[1e-13, 1.0, 1.0], [1.0, 1.0, 0.5], [0.0, 1.0, 2.0]])
     factors = LuFactors(matrix.tolist())

@@ -36,11 +36,11 @@ def test_the_stored_nao_is_up_to_date(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     without_mujoco(monkeypatch)
-    monkeypatch.setattr("stepaside.robots.tree_cache._KNOWN", {})
+    monkeypatch.setattr("stepaside.robots.tree_cache._cache", {})
     assert load_tree(NAO).mass == pytest.approx(5.305, abs=2e-3)
 
 
-def test_a_tree_is_opened_once() -> None:
+def test_a_tree_is_loaded_once() -> None:
     assert load_tree(NAO) is load_tree(load_robot("nao"))
 
 
@@ -58,7 +58,9 @@ def test_a_stored_tree_comes_back_as_it_was(
 
 
 @pytest.mark.parametrize("text", ["mine", "{}", "[1]", '{"version": 1}'])
-def test_another_file_of_that_name_stays(tmp_path: Path, text: str) -> None:
+def test_a_file_that_is_not_a_tree_is_not_overwritten(
+    tmp_path: Path, text: str
+) -> None:
     robot = made_up(tmp_path)
     (robot.folder / FILE).write_text(text)
     with pytest.raises(ModelError, match="must be a compiled tree"):
@@ -84,7 +86,7 @@ def test_an_old_tree_is_compiled_again(tmp_path: Path) -> None:
         ("{}", "cannot be read"),
     ],
 )
-def test_without_mujoco_a_tree_has_to_be_there(
+def test_without_mujoco_a_stored_tree_is_required(
     kept: str | None,
     why: str,
     tmp_path: Path,

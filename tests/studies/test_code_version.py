@@ -70,9 +70,9 @@ def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     code_version.cache_clear()
 
 
-def fingerprint(*rooms: str) -> str:
+def fingerprint(*modules: str) -> str:
     code_version.cache_clear()
-    return code_version(rooms)
+    return code_version(modules)
 
 
 def edit(file: Path) -> None:
@@ -105,7 +105,7 @@ def test_all_files_of_a_folder_count(package: Path, name: str) -> None:
     assert fingerprint("front") != before
 
 
-def test_a_version_stays_with_words_and_layout(package: Path) -> None:
+def test_comments_and_layout_do_not_change_a_version(package: Path) -> None:
     before = fingerprint("play")
     file = package / "front" / "door.py"
     file.write_text(
@@ -114,7 +114,7 @@ def test_a_version_stays_with_words_and_layout(package: Path) -> None:
     assert fingerprint("play") == before
 
 
-def test_a_room_that_is_not_there_is_named(package: Path) -> None:
+def test_a_missing_module_is_named(package: Path) -> None:
     with pytest.raises(FileNotFoundError, match="'attic'"):
         fingerprint("attic")
 
@@ -149,35 +149,35 @@ def test_a_duel_loads_no_module_that_its_version_leaves_out() -> None:
         timeout=300,
     )
     loaded = {Path(line) for line in told.stdout.split()}
-    assert ROOT / "theory/laws.py" in loaded
-    assert loaded <= dependencies(ROOT, duels.ROOMS)
+    assert ROOT / "theory" / "laws.py" in loaded
+    assert loaded <= dependencies(ROOT, duels.MODULES)
 
 
 @pytest.mark.parametrize(
-    ("name", "rooms", "changes"),
+    ("name", "modules", "changes"),
     [
-        ("strategies/search/turn_search.py", duels.ROOMS, True),
-        ("robots/nao/model.xml", duels.ROOMS, True),
-        ("theory/unicycle/certificate.py", duels.ROOMS, True),
-        ("cli.py", duels.ROOMS, False),
-        ("cli/duels.py", duels.ROOMS, False),
-        ("drivers/lola/wire.py", duels.ROOMS, False),
-        ("report/page/page.js", duels.ROOMS, False),
+        ("strategies/search/turn_search.py", duels.MODULES, True),
+        ("robots/nao/model.xml", duels.MODULES, True),
+        ("theory/unicycle/certificate.py", duels.MODULES, True),
+        ("cli.py", duels.MODULES, False),
+        ("cli/duels.py", duels.MODULES, False),
+        ("drivers/lola/wire.py", duels.MODULES, False),
+        ("report/page/page.js", duels.MODULES, False),
         ("theory/laws.py", PHYSICS, True),
         ("theory/laws.py", UNICYCLES, True),
         ("theory/laws.py", PLANNER, True),
         ("sim/servos.py", UNICYCLES, False),
-        ("theory/laws.py", trial_results.ROOMS, True),
-        ("theory/bound/value_solver.py", tournament_settings.ROOMS, True),
+        ("theory/laws.py", trial_results.MODULES, True),
+        ("theory/bound/value_solver.py", tournament_settings.MODULES, True),
         ("core/constants.py", jobs.DUELS, True),
         ("theory/bound/value_table.py", jobs.EVADING, True),
         ("control/scheme.py", jobs.PLANS, False),
     ],
 )
 def test_results_depend_on_the_code_that_makes_them(
-    name: str, rooms: tuple[str, ...], changes: bool
+    name: str, modules: tuple[str, ...], changes: bool
 ) -> None:
-    assert (ROOT / name in dependencies(ROOT, rooms)) is changes
+    assert (ROOT / name in dependencies(ROOT, modules)) is changes
 
 
 def test_records_of_duels_are_made_again_with_other_laws(
@@ -186,17 +186,20 @@ def test_records_of_duels_are_made_again_with_other_laws(
     copy = tmp_path / "stepaside"
     shutil.copytree(ROOT, copy, ignore=shutil.ignore_patterns("__pycache__"))
     monkeypatch.setattr(version, "ROOT", copy)
-    found = [fingerprint(*duels.ROOMS)]
-    edited = ("laws.py", "bound/upwind_scheme.py")
-    for name in ("core/constants.py", *(f"theory/{one}" for one in edited)):
+    found = [fingerprint(*duels.MODULES)]
+    for name in (
+        "theory/laws.py",
+        "core/constants.py",
+        "theory/bound/upwind_scheme.py",
+    ):
         edit(copy / name)
-        found.append(fingerprint(*duels.ROOMS))
+        found.append(fingerprint(*duels.MODULES))
     edit(copy / "report" / "duel_figure.py")
     assert len(set(found)) == len(found)
-    assert fingerprint(*duels.ROOMS) == found[-1]
+    assert fingerprint(*duels.MODULES) == found[-1]
     code_version.cache_clear()
 
 
-def test_a_library_that_is_not_there_has_no_version() -> None:
+def test_a_missing_library_has_no_version() -> None:
     found = library_versions(["numpy", "no-such-library"])
     assert found["numpy"] and found["no-such-library"] is None

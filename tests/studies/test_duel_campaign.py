@@ -120,7 +120,7 @@ def test_only_a_certified_start_has_a_certified_distance() -> None:
         assert record["certified_m"] is None
 
 
-def test_what_is_done_is_not_done_again(quick: Here, tmp_path: Path) -> None:
+def test_recorded_duels_are_not_repeated(quick: Here, tmp_path: Path) -> None:
     file = RecordStore(tmp_path / "r.jsonl")
     run_duels(SETTINGS, range(3), file, quick)
     told: list[int] = []
@@ -138,7 +138,7 @@ def test_what_is_done_is_not_done_again(quick: Here, tmp_path: Path) -> None:
         {"verified": {**NOW, "version": "older"}},
     ],
 )
-def test_records_of_other_versions_are_done_again(
+def test_records_of_other_versions_are_replaced(
     quick: Here, tmp_path: Path, change: dict[str, Any]
 ) -> None:
     file = RecordStore(tmp_path / "r.jsonl")
@@ -147,8 +147,8 @@ def test_records_of_other_versions_are_done_again(
     assert quick.seeds == [1]
 
 
-def test_a_strategy_that_was_rewritten_is_another(tmp_path: Path) -> None:
-    """By its content; other settings, such as pushes, count as well."""
+def test_an_edited_strategy_file_changes_the_key(tmp_path: Path) -> None:
+    """By its file's content; and pushes, which came later, count if any."""
     file = tmp_path / "own.py"
     file.write_text("first")
     own = replace(SETTINGS, evader_strategy=f"{file}:Own")
@@ -181,7 +181,7 @@ def test_records_of_other_settings_are_not_these(
     assert len(file.read()) == 2
 
 
-def test_older_records_are_taken_over_if_they_play_the_same(
+def test_older_records_are_verified_if_duels_repeat(
     quick: Here, tmp_path: Path
 ) -> None:
     file = RecordStore(tmp_path / "r.jsonl")
@@ -198,7 +198,7 @@ def test_older_records_are_taken_over_if_they_play_the_same(
     assert stamps["verified"] == {**NOW, "replayed": 3}
 
 
-def test_records_that_play_otherwise_are_not_taken_over(
+def test_older_records_are_not_verified_if_duels_differ(
     quick: Here, tmp_path: Path
 ) -> None:
     file = RecordStore(tmp_path / "r.jsonl")
@@ -249,7 +249,7 @@ def test_mean_interval_and_worst_seed_are_known_ones() -> None:
     assert high is not None and high["worst_seed"] == 1
 
 
-def test_a_figure_that_nobody_has_is_left_out() -> None:
+def test_a_value_without_records_is_left_out() -> None:
     assert figure_row("misled_s", [made(1)], None, 1) is None
     assert "misled_s" not in summarise_duels(SETTINGS, [made(1)])["figures"]
 
@@ -330,7 +330,7 @@ def test_the_command_writes_records_summary_and_figure(
 @pytest.mark.parametrize(
     "bad", ["", "a", "-1:3", "3:3", "5:2", "0:1000000", "1:2:3", "1.5"]
 )
-def test_seeds_that_are_none_are_refused(bad: str) -> None:
+def test_invalid_seeds_are_refused(bad: str) -> None:
     answer = CliRunner().invoke(duels, ["--seeds", bad, "--json"])
     assert answer.exit_code == 2
     assert "FIRST" in answer.output and "got" in answer.output

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from counting import NORMAL, is_wilson
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.studies.duel_statistics import (
-    FIGURES,
+    VALUES,
     figure_row,
     share,
     summarise_duels,
@@ -28,7 +28,7 @@ def records(draw: st.DrawFn) -> list[dict[str, Any]]:
     rows: list[dict[str, Any]] = []
     for seed in range(draw(st.integers(1, 12))):
         rows.append(
-            {name: draw(MAYBE) for name in FIGURES}
+            {name: draw(MAYBE) for name in VALUES}
             | {
                 "seed": seed,
                 "outcome": draw(
@@ -60,7 +60,7 @@ def test_shares_are_of_all_duels_and_figures_of_completed_ones(
     assert found["on_the_circle"]["number"] == len(on)
     whole = [r for r in rows if r["outcome"] == "completed"]
     assert len(found["not_completed"]) == len(rows) - len(whole)
-    for name in FIGURES:
+    for name in VALUES:
         values = [r[name] for r in whole if r[name] is not None]
         row = found["figures"].get(name)
         assert (row is None) == (not values)

@@ -32,7 +32,7 @@ HERE = sha256(platform.node().encode()).hexdigest()[:8]
         ("duels", signal.SIGKILL, 0.6),
     ],
 )
-def test_what_is_there_is_whole_and_the_rerun_is_the_same(
+def test_output_of_killed_commands_is_complete_and_reruns_agree(
     name: str, sign: signal.Signals, part: float
 ) -> None:
     """``python -m tools.fuzz --kinds moments`` tries many moments."""

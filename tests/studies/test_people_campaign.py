@@ -55,7 +55,7 @@ def record(**changes: Any) -> dict[str, Any]:
 
 
 @pytest.mark.parametrize("bearing", [0, 45, -90, 180])
-def test_people_come_from_where_they_are_said_to(bearing: int) -> None:
+def test_people_approach_from_their_bearing(bearing: int) -> None:
     (each,) = encounters(
         WALK,
         ("ideal",),
@@ -89,7 +89,7 @@ def test_keys_tell_everything_apart() -> None:
     assert keys >= {each.key for each in grid(seeds=1)}
 
 
-def test_a_campaign_goes_on_where_it_was(
+def test_an_interrupted_campaign_continues(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     met: list[str] = []
@@ -113,7 +113,7 @@ def test_a_campaign_goes_on_where_it_was(
     assert len(met) == 24
 
 
-def test_contacts_and_room_are_counted_by_speed() -> None:
+def test_contacts_and_clearance_are_tabulated_by_speed() -> None:
     results = {each.key: record() for each in grid()}
     touched = next(e for e in grid() if e.speed == 1.0 and not e.passes)
     results[touched.key] = record(outcome="contact", closest_m=0.3)
@@ -131,7 +131,7 @@ def test_contacts_and_room_are_counted_by_speed() -> None:
     assert len(people_rows(grid(), half)) == 1
 
 
-def test_whoever_moves_for_passers_by_moves_for_nothing() -> None:
+def test_evading_people_who_pass_is_a_false_trigger() -> None:
     results = {
         each.key: record(triggered_at_s=None if each.passes else 2.0)
         for each in grid()

@@ -59,7 +59,7 @@ def of(found: dict[str, Any], *, passes: bool, **where: Any) -> list[Any]:
 
 @settings(max_examples=15)
 @given(results())
-def test_contacts_and_distances_are_of_everybody_who_came(
+def test_contacts_and_distances_cover_all_approaching_people(
     found: dict[str, Any],
 ) -> None:
     rows = people_rows(GRID, found)
@@ -93,7 +93,7 @@ def test_contacts_and_distances_are_of_everybody_who_came(
 
 @settings(max_examples=15)
 @given(results())
-def test_false_alarms_are_per_hour_of_everybody_who_passed(
+def test_false_triggers_are_per_hour_of_passing_people(
     found: dict[str, Any],
 ) -> None:
     rows = passing_rows(GRID, found)
@@ -135,7 +135,7 @@ def test_where_people_come_from_parts_the_same_encounters(
             assert part["closest_m"] == min(r["closest_m"] for r in each)
 
 
-def test_a_faster_person_leaves_less_room_to_a_slower_robot() -> None:
+def test_clearance_decreases_with_the_speed_of_a_person() -> None:
     gait = WalkSettings().gait
     rooms = [theory_room(gait, speed) for speed in (0.3, 0.6, 1.0, 1.4)]
     assert rooms == sorted(rooms, reverse=True)

@@ -19,7 +19,7 @@ def file(tmp_path: Path) -> RecordStore:
     return records
 
 
-def test_what_is_appended_is_read(file: RecordStore) -> None:
+def test_appended_records_are_read(file: RecordStore) -> None:
     assert file.read() == {"a": {"x": 1.5}, "b": {"x": 2.5, "none": None}}
     assert file.aside == 0
 
@@ -40,7 +40,7 @@ def test_of_two_records_with_a_key_the_last_counts(file: RecordStore) -> None:
         '{"key": 1, "check": 2, "record": 3}',
     ],
 )
-def test_torn_and_foreign_lines_are_set_aside(
+def test_incomplete_and_unknown_lines_are_set_aside(
     file: RecordStore, line: str
 ) -> None:
     with file.path.open("a", encoding="utf-8") as out:
@@ -88,7 +88,7 @@ except OutputError:
 """
 
 
-def test_no_half_of_a_record_stays_where_room_runs_out(
+def test_no_partial_record_remains_on_a_full_disk(
     file: RecordStore,
 ) -> None:
     pytest.importorskip("resource")

@@ -16,10 +16,10 @@ from stepaside.studies.result_files import (
     write_result,
 )
 
-HEAD = header({"seeds": [1, 3]}, rooms=PLANNER, command="python x.py")
+HEAD = header({"seeds": [1, 3]}, modules=PLANNER, command="python x.py")
 
 
-def test_what_is_written_is_read(tmp_path: Path) -> None:
+def test_a_written_result_is_read(tmp_path: Path) -> None:
     file = tmp_path / "deep" / "run.json"
     written = write_result(file, HEAD, rows=[{"a": 1, "b": None}])
     assert read_result(file) == written
@@ -34,9 +34,7 @@ def test_numbers_keep_six_digits(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("bad", [float("nan"), float("inf")])
-def test_a_value_that_is_none_is_refused_by_name(
-    tmp_path: Path, bad: float
-) -> None:
+def test_nan_and_inf_are_refused_by_name(tmp_path: Path, bad: float) -> None:
     with pytest.raises(ConfigurationError, match="x.json.a.1 must be finite"):
         write_result(tmp_path / "x.json", HEAD, a=[0.0, bad])
     assert list(tmp_path.iterdir()) == []
@@ -63,11 +61,11 @@ def test_a_result_without_its_origin_is_refused(
         read_result(tmp_path / "y.json")
 
 
-def test_what_is_no_result_is_said(tmp_path: Path) -> None:
+def test_a_file_that_is_not_a_result_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ConfigurationError, match="no result x.json"):
         read_result(tmp_path / "x.json")
     (tmp_path / "x.json").write_text("{")
-    with pytest.raises(ConfigurationError, match="x.json is no result"):
+    with pytest.raises(ConfigurationError, match="x.json is not a result"):
         read_result(tmp_path / "x.json")
 
 
@@ -75,7 +73,7 @@ def test_a_result_is_current_while_its_code_is() -> None:
     assert HEAD["version"] == code_version(PLANNER)
     assert is_current(HEAD)
     assert not is_current(HEAD | {"version": "0" * 12})
-    assert not is_current(HEAD | {"rooms": ["cellar"]})
+    assert not is_current(HEAD | {"modules": ["cellar"]})
 
 
 def test_the_command_is_what_one_types_in_the_repository(

@@ -166,7 +166,7 @@ def test_cases_cover_methods_directions_and_phases() -> None:
     assert {case.strength for case in cases} == {0.0}
 
 
-def test_a_campaign_goes_on_where_it_was(
+def test_an_interrupted_campaign_continues(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     asked = survives(monkeypatch, lambda trial: trial.strength < 1.5)
@@ -215,7 +215,7 @@ def test_results_of_other_code_are_made_again(
         ),
     ],
 )
-def test_libraries_and_what_sets_up_the_walk_date_a_result(
+def test_libraries_and_walk_modules_invalidate_a_result(
     monkeypatch: pytest.MonkeyPatch,
     tmp_path: Path,
     name: str,

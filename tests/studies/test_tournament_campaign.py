@@ -133,7 +133,7 @@ def test_the_bound_is_that_of_the_start() -> None:
     assert away < 0.8  # it walks into the pursuer first
 
 
-def test_what_is_kept_is_not_played_again(
+def test_recorded_games_are_not_repeated(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     file = RecordStore(tmp_path / "games.jsonl")
@@ -277,7 +277,7 @@ def test_every_built_in_pursuer_plays_and_stands_beside_its_result() -> None:
     assert [row[2] for row in rows] == circles
 
 
-def test_sharp_and_herding_capture_who_survives_the_papers_pursuer() -> None:
+def test_sharp_and_herding_capture_a_survivor_of_the_papers_pursuer() -> None:
     """In rooms of 3 m, look-ahead: each survives pure, few the others."""
     settings = replace(SETTINGS, room=RoomRecipe(), game=StepGame())
     survived = {
@@ -340,7 +340,7 @@ def test_a_room_without_starts_draws_them() -> None:
         ("--discs", "500"),
     ],
 )
-def test_what_is_no_tournament_is_refused_in_one_line(
+def test_invalid_tournament_options_are_refused_in_one_line(
     words: tuple[str, ...], tmp_path: Path
 ) -> None:
     answer = call(*words, "--output", str(tmp_path / "games"))

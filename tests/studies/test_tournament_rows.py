@@ -80,7 +80,7 @@ def test_shares_of_outcomes_are_shares_and_sum_to_one(
 
 @settings(max_examples=40)
 @given(games(), st.randoms(use_true_random=False))
-def test_how_a_game_ended_changes_no_mean(
+def test_outcomes_do_not_change_means(
     records: list[dict[str, Any]], random: Any
 ) -> None:
     other = [r | {"outcome": random.choice(OUTCOMES)} for r in records]

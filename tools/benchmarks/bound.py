@@ -33,7 +33,7 @@ from stepaside.theory.bound import (
 )
 from stepaside.theory.bound.relative_game import BoundGame
 
-ROOMS = ("bound", "unicycle")
+MODULES = ("bound", "unicycle")
 Array = NDArray[np.float64]
 ACCURACY = {
     DiscretisationScheme.LAX: "very_high",
@@ -182,7 +182,7 @@ def main() -> None:
         measure(cells, horizon, DiscretisationScheme.LAX, double=False),
     ]
     settings = {"cells": cells, "horizon": horizon, "within": WITHIN}
-    head = header(settings, rooms=ROOMS, libraries=LIBRARIES)
+    head = header(settings, modules=MODULES, libraries=LIBRARIES)
     write_result(arguments.output, head, machine=machine(), rows=rows)
     for row in rows:
         print(

@@ -25,7 +25,7 @@ from stepaside.theory.bound.bound_checks import (
 from stepaside.theory.bound.grid_refinement import refine_bound
 
 Array = NDArray[np.float64]
-ROOMS = ("bound", "unicycle")
+MODULES = ("bound", "unicycle")
 LIBRARIES = ("numpy", "numba")
 GAMES = 4000
 # distance range [v/k], maximum bearings of evader and pursuer
@@ -139,7 +139,7 @@ def main() -> None:
         "barrier": barrier,
     }
     head = header(
-        {"cells": cells, "games": GAMES}, rooms=ROOMS, libraries=LIBRARIES
+        {"cells": cells, "games": GAMES}, modules=MODULES, libraries=LIBRARIES
     )
     write_result(arguments.output, head, machine=machine(), **found)
     for name, table in boxes.items():

@@ -54,7 +54,7 @@ def main() -> None:
         "starts": COUNT,
         "seed": SEED,
     }
-    head = header(settings, rooms=UNICYCLES, libraries=("numpy",))
+    head = header(settings, modules=UNICYCLES, libraries=("numpy",))
     write_result(output, head, rows=rows)
 
 

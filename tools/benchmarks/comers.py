@@ -25,7 +25,7 @@ from stepaside.sim.body_settings import BODIES
 from stepaside.sim.person_settings import PersonSettings
 from stepaside.strategies import Evasion
 from stepaside.studies.duel_campaign import (
-    ROOMS,
+    MODULES,
     Record,
     run_duels,
     verify_duels,
@@ -110,7 +110,7 @@ def main() -> None:
             rows.append(row_of(kind, list(found.values())))
     seeds = [asked.seeds.start, asked.seeds.stop]
     libraries = ["mujoco", "numpy", "opencv-python-headless"]
-    head = header({"seeds": seeds}, rooms=ROOMS, libraries=libraries)
+    head = header({"seeds": seeds}, modules=MODULES, libraries=libraries)
     write_result(asked.output, head, rows=rows)
 
 

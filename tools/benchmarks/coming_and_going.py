@@ -121,7 +121,7 @@ def main() -> None:
     write_result(
         given.output,
         header(
-            settings, rooms=("studies/people_campaign",), libraries=libraries
+            settings, modules=("studies/people_campaign",), libraries=libraries
         ),
         machine=machine(),
         played_s=played,

@@ -20,7 +20,7 @@ from stepaside.studies.record_store import RecordStore
 from stepaside.studies.result_files import header, write_result
 from stepaside.studies.tournament_campaign import play_tournament
 from stepaside.studies.tournament_rows import tournament_rows
-from stepaside.studies.tournament_settings import ROOMS, TournamentSettings
+from stepaside.studies.tournament_settings import MODULES, TournamentSettings
 
 WORLDS = {
     "open floor": RoomRecipe(None, None),
@@ -89,7 +89,7 @@ def main() -> None:
         "seeds": f"{arguments.seeds.start}:{arguments.seeds.stop}",
         "small": f"{arguments.small.start}:{arguments.small.stop}",
     }
-    head = header(told, rooms=ROOMS, libraries=("numba", "numpy"))
+    head = header(told, modules=MODULES, libraries=("numba", "numpy"))
     write_result(
         arguments.output,
         head,

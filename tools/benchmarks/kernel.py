@@ -58,7 +58,7 @@ def main() -> None:
 
     figures = measure_kernel(arguments.games, arguments.steps)
     settings = {"games": arguments.games, "steps": arguments.steps}
-    head = header(settings, rooms=UNICYCLES, libraries=("numpy", "numba"))
+    head = header(settings, modules=UNICYCLES, libraries=("numpy", "numba"))
     write_result(arguments.output, head, machine=machine(), figures=figures)
     for name, value in figures.items():
         print(f"{name}: {value:.3g}")

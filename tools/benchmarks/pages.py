@@ -117,7 +117,7 @@ def main() -> None:
     }
     head = header(
         settings,
-        rooms=(*PHYSICS, "report"),
+        modules=(*PHYSICS, "report"),
         libraries=("mujoco", "numpy", "viser", "websockets"),
     )
     write_result(arguments.output, head, machine=machine(), memory=found)

@@ -90,7 +90,7 @@ def main() -> None:
     }
     libraries = ["mujoco", "numpy", "opencv-python-headless"]
     head = header(
-        settings, rooms=("studies/people_statistics",), libraries=libraries
+        settings, modules=("studies/people_statistics",), libraries=libraries
     )
     rows = gather(output, head, jobs, play, arguments.workers)
     came = [

@@ -58,7 +58,7 @@ NAO = measure_outline(load_robot("nao"), GAIT)
 PLANNER = ManeuverPlanner(GAIT)
 MARGIN, CELL = 0.02, 0.05  # margins of the guard and of a map, in [m]
 NEEDS = NAO.radius + MARGIN + sway_of(GAIT)
-ROOMS = ("planning", "rooms", "steps", "strategies", "control/clearance")
+MODULES = ("planning", "arena", "strategies", "control/clearance")
 RECIPES = (RoomRecipe(), RoomRecipe(discs=3), RoomRecipe(discs=6))
 WIDE = 2.0  # half side of a map, in [m]
 
@@ -173,7 +173,7 @@ def main() -> None:
     asked = ask(__doc__, "polygons.json")
     asked.add_argument("--games", type=int, default=40)
     arguments = asked.parse_args()
-    head = header({"games": arguments.games}, rooms=ROOMS)
+    head = header({"games": arguments.games}, modules=MODULES)
     measure(RECIPES[0], 2.2, 2)  # import all code
     rows = [
         measure(recipe, fine, arguments.games)

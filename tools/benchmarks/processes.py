@@ -99,5 +99,5 @@ def write_rows(arguments: Namespace, rows: Iterable[dict[str, Any]]) -> None:
         "duration_s": arguments.duration,
         "real_time_priority": URGENT,
     }
-    head = header(settings, rooms=(*PHYSICS, "drivers"))
+    head = header(settings, modules=(*PHYSICS, "drivers"))
     write_result(arguments.output, head, rows=kept, machine=machine())

@@ -117,8 +117,8 @@ def main() -> None:
         "footsteps": FOOTSTEPS,
         "reach_m": reach._asdict(),
     }
-    rooms = (*PLANNER, "studies/survival")
-    head = header(settings, rooms=rooms, libraries=("numpy",))
+    modules = (*PLANNER, "studies/survival")
+    head = header(settings, modules=modules, libraries=("numpy",))
     write_result(output, head, rows=rows)
 
 

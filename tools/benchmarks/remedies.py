@@ -29,10 +29,10 @@ def main() -> None:
         "body_m": asked.body,
     }
     drawn = asked.starts, asked.seed, asked.body
-    rooms = ("cli/circle_tables", "cli/unicycle_options")
+    modules = ("cli/circle_tables", "cli/unicycle_options")
     write_result(
         asked.output,
-        header(settings, rooms=rooms, libraries=("numpy", "numba")),
+        header(settings, modules=modules, libraries=("numpy", "numba")),
         starts=describe_circles(GAME, *drawn)["starts"],
         rows=describe_remedies(GAME, *drawn),
     )

@@ -61,7 +61,7 @@ def main() -> None:
         arguments.output,
         header(
             {"seed": arguments.seed, "duration_s": 120.0},
-            rooms=(*PHYSICS, "report"),
+            modules=(*PHYSICS, "report"),
             libraries=("mujoco", "numpy", "av"),
         ),
         machine=machine(),

@@ -265,7 +265,7 @@ def main() -> None:
         names = [h.name for h in HUMANOIDS if h.name in rows]
         head = header(
             {"seed": SEED, "duration_s": DURATION},
-            rooms=(*PHYSICS, "fitting"),
+            modules=(*PHYSICS, "fitting"),
             libraries=("mujoco", "numpy"),
             command="python tools/benchmarks/robots.py FOLDER...",
         )

@@ -128,7 +128,7 @@ def main() -> None:
         "seeds": [arguments.seeds.start, arguments.seeds.stop],
         "duration_s": arguments.duration,
     }
-    head = header(settings, rooms=("studies/physics_game",))
+    head = header(settings, modules=("studies/physics_game",))
     jobs = {
         f"{arguments.strategy} {arguments.map} {seed}": Played(
             arguments.strategy, arguments.map, seed, arguments.duration

@@ -80,7 +80,7 @@ def main() -> None:
         "near_units": NEAR,
         "far_units": FAR,
     }
-    head = header(settings, rooms=UNICYCLES, libraries=("numpy", "numba"))
+    head = header(settings, modules=UNICYCLES, libraries=("numpy", "numba"))
     rows = [row_of(key, counts[key], ends[key]) for key in sorted(ends)]
     write_result(asked.output, head, rows=rows)
 

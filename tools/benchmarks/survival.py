@@ -10,7 +10,7 @@ from gathering import Row, finished, part_of
 
 from stepaside.core.worker_pool import worker_pool
 from stepaside.studies.push_limits import push_cases, search_limits
-from stepaside.studies.push_results import ROOMS
+from stepaside.studies.push_results import MODULES
 from stepaside.studies.result_files import header, write_result
 from stepaside.studies.robustness_campaign import (
     METHODS,
@@ -57,7 +57,7 @@ def main() -> None:
         "seeds": arguments.seeds,
         "phases": arguments.phases,
     }
-    head = header(settings, rooms=ROOMS)
+    head = header(settings, modules=MODULES)
     part = part_of(arguments.output)
     with worker_pool(arguments.workers) as executor:
         results = run_campaign(grid, part, executor)

@@ -130,7 +130,7 @@ def main() -> None:
         arguments.output,
         header(
             settings,
-            rooms=(*PHYSICS, "report"),
+            modules=(*PHYSICS, "report"),
             libraries=("mujoco", "numpy", "viser"),
         ),
         machine=machine(),

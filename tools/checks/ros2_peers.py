@@ -53,7 +53,7 @@ from stepaside.perception.measurement import Sighting
 from stepaside.studies.result_files import header, write_result
 
 RESULT = Path("docs/results/ros2-peers.json")
-ROOMS = ("errors", "poses", "sensing", "control", "drivers")
+MODULES = ("errors", "poses", "sensing", "control", "drivers")
 LIBRARIES = ("cyclonedds", "numpy")
 DOMAIN = 60 + os.getpid() % 40  # separate ROS 2 domain
 LONGEST = 60.0  # timeout for messages, in [s]
@@ -412,7 +412,7 @@ def main() -> int:
     names = " ".join(entry.partition("=")[0] for entry in arguments.pythons)
     head = header(
         settings,
-        rooms=ROOMS,
+        modules=MODULES,
         libraries=LIBRARIES,
         command=f"make ros2-peers ROS2='{names}'",
     )

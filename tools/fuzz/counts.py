@@ -74,7 +74,7 @@ def keep(
     """
     head = header(
         {"seeds": [], "kinds": sorted(kinds)},
-        rooms=all_rooms(),
+        modules=all_modules(),
         libraries=("click", "mujoco", "numpy", "viser"),
         command=f"python -m tools.fuzz --seed SEED --kinds {' '.join(kinds)} "
         f"--minutes MINUTES --keep docs/results/{file.name}",
@@ -103,7 +103,7 @@ def keep(
     )
 
 
-def all_rooms() -> tuple[str, ...]:
+def all_modules() -> tuple[str, ...]:
     """Return all modules and folders of the package."""
     names = (p.stem for p in ROOT.iterdir() if p.suffix in ("", ".py"))
     return tuple(sorted(name for name in names if name[0].isalpha()))

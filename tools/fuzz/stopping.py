@@ -153,7 +153,7 @@ def main() -> None:
             asked.keep,
             header(
                 {"moments_s": list(MOMENTS)},
-                rooms=("cli", "core/interrupts", "core/worker_pool"),
+                modules=("cli", "core/interrupts", "core/worker_pool"),
                 command="python -m tools.fuzz.stopping --keep "
                 f"docs/results/{asked.keep.name}",
             ),

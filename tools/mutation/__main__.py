@@ -18,7 +18,7 @@ from .score import (
     CAP,
     REASONS,
     RESULTS,
-    ROOMS,
+    PACKAGES,
     SAMPLE,
     head,
     read_reasons,
@@ -29,7 +29,7 @@ from .score import (
 from .source import Source
 from .tree import Tree, digest, files_of
 
-PACKAGES = [f"src/stepaside/{room}" for room in ROOMS]
+FOLDERS = [f"src/stepaside/{package}" for package in PACKAGES]
 WORK = Path("runs/mutation")
 OWN = "test_mutation*.py"  # tests in these files do not concern faults
 
@@ -41,7 +41,7 @@ def main() -> None:
     files = files_of(root)
     texts = {
         file: (root / file).read_text(encoding="utf-8")
-        for file in modules_of(root, options.only or PACKAGES)
+        for file in modules_of(root, options.only or FOLDERS)
     }
     count = None if options.all else options.sample
     faults = _drawn(root, texts, count, options.seed)

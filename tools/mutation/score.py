@@ -10,17 +10,16 @@ from stepaside.studies.code_version import LIBRARIES
 from stepaside.studies.result_files import header, write_result
 
 # Packages that faults are drawn from.
-ROOMS = (
+PACKAGES = (
     "planning",
+    "locomotion",
     "control",
-    "unicycle",
-    "sensing",
+    "theory/unicycle",
     "robots",
     "perception",
     "strategies",
-    "world",
-    "rooms",
-    "steps",
+    "sim",
+    "arena",
     "games",
     "studies",
 )
@@ -100,7 +99,7 @@ def head(*, sample: int, seed: int, cap: float) -> dict[str, Any]:
     options += f" CAP={cap:g}" if cap != CAP else ""
     return header(
         {"sample": sample, "seed": seed, "cap_s": cap},
-        rooms=ROOMS,
+        modules=PACKAGES,
         libraries=(*LIBRARIES, "hypothesis"),
         command=make + options,
     )

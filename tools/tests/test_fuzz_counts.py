@@ -32,7 +32,7 @@ def test_each_failure_is_counted_in_its_column() -> None:
 def test_counts_of_a_seed_replace_former_ones(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(fuzz_counts, "all_rooms", lambda: ("core/errors",))
+    monkeypatch.setattr(fuzz_counts, "all_modules", lambda: ("core/errors",))
     file = tmp_path / "fuzz.json"
     for seed, cases in (
         (2, [("a", "hang"), ("b", "")]),

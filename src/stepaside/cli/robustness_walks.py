@@ -106,9 +106,9 @@ def write_walks(
     from ..report.robustness_figure import draw_limits, draw_survival
     from ..studies.push_results import pushes_result
     from ..studies.result_files import header, write_result
-    from ..studies.robustness_campaign import ROOMS, UNITS
+    from ..studies.robustness_campaign import MODULES, UNITS
 
-    head = header(request.settings(), rooms=ROOMS)
+    head = header(request.settings(), modules=MODULES)
     write_result(output / "survival.json", head, **answer)
     draw_survival(answer["survival"], UNITS, output / "survival.png")
     limits = answer["limits"]

@@ -303,9 +303,9 @@ def _result(
     from ..studies.result_files import header
     from ..studies.tournament_rows import tournament_rows
 
-    rooms, libraries = settings.depends
+    modules, libraries = settings.depends
     return {
-        **header(settings.entries(), rooms=rooms, libraries=libraries),
+        **header(settings.entries(), modules=modules, libraries=libraries),
         "seeds": f"{seeds.start}:{seeds.stop}",
         "rows": tournament_rows(records, settings.game),
     }

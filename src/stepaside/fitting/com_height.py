@@ -1,4 +1,4 @@
-"""How high a stranger's robot carries its CoM, and how long its steps are."""
+"""CoM height and step length of a robot, from its joint limits."""
 
 from dataclasses import replace
 
@@ -7,67 +7,77 @@ from ..games.robot_settings import settings_of
 from ..planning import GaitSettings
 from ..robots.description import RobotDescription
 from ..robots.leg_kinematics import BodyReference, LegKinematics
-from .gait_feasibility import lengths_share
+from .gait_feasibility import feasible_lengths
 from .gait_scaling import RobotSize, gait_of
 
-# Of the greatest height that is reached, by which steps are tried: the less,
-# the farther a knee is from being straight at the end of a step.
-HEIGHTS = (0.96, 0.94, 0.92, 0.9)
-LONGER = 0.05  # share of a step that makes standing lower worth it
+# CoM heights that are tried, as fractions of the greatest one in reach: the
+# lower, the farther a knee is from straight at the end of a step.
+HEIGHT_FRACTIONS = (0.96, 0.94, 0.92, 0.9)
+LEAST_GAIN = 0.05  # in step length, which justifies a lower CoM
 TICK = 0.004  # of the kinematics that tries heights, in [s]
 
 
-def stature_of(
+def choose_com_height(
     description: RobotDescription, size: RobotSize, lowest: float
 ) -> tuple[RobotSize, float]:
-    """Size of a robot at the height where it walks, and share of its steps.
+    """Choose the CoM height at which the joints are fast enough.
 
-    Knees that get straight in a step are fast without end. Where the joints
-    would have to be faster than they are, it is tried lower.
+    Knee speed grows without bound as a knee gets straight, so that lower
+    heights are tried if the speed limits are exceeded.
 
     Args:
-        description: The robot.
-        size: Its size at the greatest height that it reaches.
-        lowest: Least height that it reaches, in [m].
+        description: Robot description.
+        size: Size of the robot at the greatest height in reach.
+        lowest: Least height in reach, in [m].
+
+    Returns:
+        Size at the chosen height, and the feasible fraction of the nominal
+        stride and step height.
     """
     best: tuple[RobotSize, float] | None = None
-    for part in HEIGHTS:
-        height = part * size.com_height
+    for fraction in HEIGHT_FRACTIONS:
+        height = fraction * size.com_height
         if best is not None and height < lowest:
             break
-        tried = replace(size, com_height=height)
-        share = lengths_share(*rehearsed(description, gait_of(tried)))
-        if best is None or share > best[1] + LONGER:
-            best = tried, share
-        if share == 1.0:
+        candidate = replace(size, com_height=height)
+        lengths = feasible_lengths(*with_gait(description, gait_of(candidate)))
+        if best is None or lengths > best[1] + LEAST_GAIN:
+            best = candidate, lengths
+        if lengths == 1.0:
             break
     assert best is not None
     return best
 
 
-def rehearsed(
+def with_gait(
     description: RobotDescription, gait: dict[str, float]
 ) -> tuple[RobotDescription, GaitSettings]:
-    """A robot and its gait, to go through."""
-    made = replace(description, gait=dict(gait))
-    return made, settings_of(made).gait
+    """Return the description with gait entries, and the gait settings."""
+    changed = replace(description, gait=dict(gait))
+    return changed, settings_of(changed).gait
 
 
-def heights_of(
+def reachable_heights(
     description: RobotDescription,
     spacing: float,
     sole: tuple[float, float, float, float],
     stiff: list[str],
 ) -> tuple[float, float]:
-    """Least and greatest height of the CoM with the feet abreast, in [m].
+    """Return least and greatest CoM height with the feet abreast, in [m].
+
+    Args:
+        description: Robot description.
+        spacing: Distance between the feet, in [m].
+        sole: Edges back, front, outer and inner of a sole, in [m].
+        stiff: Leg joints whose range excludes the standing angle.
 
     Raises:
-        ModelError: If there is none; names joints that do not bend.
+        ModelError: If no height is reached; names the stiff joints.
     """
-    ahead = 0.45 * (sole[0] + sole[1])
+    forward = 0.45 * (sole[0] + sole[1])
     half = 0.5 * spacing
     stance = BodyReference(
-        (ahead, 0.0, 1.0), (0.0, half, 0.0, 0.0), (0.0, -half, 0.0, 0.0)
+        (forward, 0.0, 1.0), (0.0, half, 0.0, 0.0), (0.0, -half, 0.0, 0.0)
     )
     kinematics = LegKinematics(description, tick=TICK)
     highest = kinematics.highest_com(stance)
@@ -75,12 +85,12 @@ def heights_of(
         try:
             kinematics.stand(stance)
         except ReachError as error:
-            why = str(error)
+            reason = str(error)
             if stiff:
-                why = f"see the ranges of {', '.join(stiff)}, which cannot "
-                why += "bend as legs with bent knees do"
+                reason = f"see the ranges of {', '.join(stiff)}, which do "
+                reason += "not allow bent knees"
             raise ModelError(
                 f"{description.name} can stand at no height with its feet "
-                f"{spacing:.3f} m apart: {why}"
+                f"{spacing:.3f} m apart: {reason}"
             ) from error
     return kinematics.lowest_com(stance), highest

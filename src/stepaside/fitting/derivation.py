@@ -1,4 +1,4 @@
-"""A description of a stranger's robot, derived from its published model."""
+"""Derivation of a robot description from a published model."""
 
 import os
 from collections.abc import Mapping
@@ -18,94 +18,107 @@ from ..robots.description_types import (
     SoleFrame,
 )
 from ..robots.model_reader import read_model
-from .com_height import heights_of, rehearsed, stature_of
-from .gait_feasibility import BEARABLE, TorqueShares, torques_borne, zmp_share
+from .com_height import choose_com_height, reachable_heights, with_gait
+from .gait_feasibility import (
+    GREATEST_LOAD,
+    JointLoads,
+    choose_zmp_offset,
+    step_loads,
+)
 from .gait_scaling import RobotSize, gait_of, game_of_size, stabiliser_of
-from .model_analysis import ModelAnalysis, survey
+from .model_analysis import ModelAnalysis, analyse_model
 from .motor_data import (
-    SPEED,
-    WEAK,
+    DEFAULT_SPEED,
+    WEAK_LOAD,
     followers_of,
     gains_of,
-    likely_torques,
+    plausible_torques,
     published_speeds,
     published_torques,
 )
 from .sole_detection import check_size
 from .standing_posture import knee_limits, reach_of, standing_of, stiff_joints
 
-LEANS = (0.06, 0.12, 0.18, 0.24)  # that are tried, in [rad]
-HELPS = 0.97  # of a torque, if the torso is to lean farther for it
+LEAN_CANDIDATES = (0.06, 0.12, 0.18, 0.24)  # in [rad]
+LEAN_GAIN = 0.97  # load ratio below which a greater lean is preferred
+# Greatest foot spacing: by the distance between the hips, and by the CoM
+# height (feet farther apart slide and twist).
+GREATEST_BY_HIPS = 1.4
+GREATEST_BY_HEIGHT = 0.38
+LEAST_SPACING = 1.25  # foot spacing by twice the inner edge of the sole
+# Names of files and folders that do not name a robot.
+GENERIC_NAMES = (
+    "model",
+    "models",
+    "robot",
+    "robots",
+    "scene",
+    "urdf",
+    "mjcf",
+    "xml",
+)
+FEET = ("stepaside_left_sole", "stepaside_right_sole")
 
 
 def least_lean(
     description: RobotDescription,
     gait: GaitSettings,
     torques: Mapping[str, float],
-) -> tuple[float, TorqueShares]:
-    """Least lean at which a step leaves something of each torque.
+) -> tuple[float, JointLoads]:
+    """Return the least lean at which a step stays within the torque limits.
 
-    To be asked for a robot whose joints bear too much without.
+    For a robot whose joints are overloaded with a level torso.
 
     Args:
-        description: The robot, whose torso stays level.
-        gait: How it walks.
-        torques: Greatest torque of each joint, in [N m].
+        description: Robot description with a level torso.
+        gait: Gait of the step.
+        torques: Torque limit of each joint, in [N m].
 
     Returns:
-        The lean, in [rad], and what is borne then; where none of those
-        tried is enough, the least that none betters by much.
+        Lean, in [rad], and the loads with it. If no candidate is enough,
+        the least one that no greater one improves on by much.
     """
-    best: tuple[float, TorqueShares] | None = None
-    for lean in LEANS:
-        leaning = replace(description, lean=lean)
-        found = torques_borne(leaning, gait, torques)
-        if best is None or found.most < HELPS * best[1].most:
-            best = lean, found
-        if found.most <= BEARABLE:
+    best: tuple[float, JointLoads] | None = None
+    for lean in LEAN_CANDIDATES:
+        loads = step_loads(replace(description, lean=lean), gait, torques)
+        if best is None or loads.most < LEAN_GAIN * best[1].most:
+            best = lean, loads
+        if loads.most <= GREATEST_LOAD:
             break
     assert best is not None
     return best
 
 
-SPREAD = 1.4  # greatest one by the distance between the hips
-WIDE = 0.38  # likewise by the CoM's height: wider feet slide and twist
-SPACE = 1.25  # least foot spacing by twice the sole's inner edge
-# Names of files and folders that say nothing.
-ANYONE = ("model", "models", "robot", "robots", "scene", "urdf", "mjcf", "xml")
-FEET = ("stepaside_left_sole", "stepaside_right_sole")
-
-
 @dataclass(frozen=True, eq=False)
 class DerivedDescription:
-    """A description, and what it was derived from.
+    """A robot description with the data that it was derived from.
 
     Attributes:
-        description: Of the robot; its folder need not be there yet.
-        survey: What was found in the model.
-        size: What its gait was scaled by.
+        description: Robot description; its folder may not exist yet.
+        analysis: Analysis of the model.
+        size: Size by which the gait was scaled.
         lowest: Least CoM height in reach, in [m].
-        highest: Greatest one, in [m].
-        told_torques: Joints whose torque the model tells.
-        told_speeds: Joints whose speed it tells.
-        share: Of stride and step height, for which the joints are fast
-            enough.
-        ahead: Of the ZMP's place ahead of the ankles, for which these are
-            strong enough.
-        borne: Shares of their torque that joints bear in a step.
+        highest: Greatest CoM height in reach, in [m].
+        published_torques: Joints whose torque limit is in the model.
+        published_speeds: Joints whose speed limit is in the model.
+        lengths: Fraction of the nominal stride and step height for which
+            the joints are fast enough.
+        zmp_offset: Fraction of the nominal ZMP offset ahead of the ankles
+            for which these are strong enough.
+        loads: Joint loads of a step, relative to the torque limits.
         is_weak: Whether servos are softened, and feedback is needed.
     """
 
     description: RobotDescription
-    survey: ModelAnalysis
+    analysis: ModelAnalysis
     size: RobotSize
     lowest: float
     highest: float
-    told_torques: frozenset[str]
-    told_speeds: frozenset[str]
-    share: float
-    ahead: float
-    borne: TorqueShares
+    published_torques: frozenset[str]
+    published_speeds: frozenset[str]
+    lengths: float
+    zmp_offset: float
+    loads: JointLoads
     is_weak: bool
 
 
@@ -115,54 +128,60 @@ def derive(
     """Derive the description of a robot.
 
     Args:
-        model: MJCF or URDF file as published; it is only read.
-        folder: Where the description will be.
-        meshes: Folders in which mesh files are looked for.
+        model: MJCF or URDF file as published; it is not changed.
+        folder: Folder of the description, to which its paths are relative.
+        meshes: Folders in which mesh files are looked up.
 
     Raises:
-        ModelError: If the model is not one of a humanoid that can walk;
-            says what is missing.
+        ModelError: If it is not the model of a humanoid that can walk;
+            names what is missing.
     """
     if not model.is_file():
         raise ModelError(f"model must be an MJCF or URDF file, got {model}")
-    places = meshes or [model.parent, model.parent.parent / "meshes"]
-    places = [place for place in places if place.is_dir()]
-    found = survey(model, places)
-    _check_legs(found)
-    torques = likely_torques(
-        published_torques(read_model(model)), found.mass, found.length
+    mesh_folders = meshes or [model.parent, model.parent.parent / "meshes"]
+    mesh_folders = [path for path in mesh_folders if path.is_dir()]
+    analysis = analyse_model(model, mesh_folders)
+    _check_legs(analysis)
+    torques = plausible_torques(
+        published_torques(read_model(model)), analysis.mass, analysis.length
     )
     speeds = published_speeds(model)
-    sole = shared_sole(found)
-    spacing = spacing_of(found, sole[3])
-    servos = gains_of(found, torques, 0.9 * found.length)
-    description = _structure(found, folder, places, sole, servos, speeds)
-    stiff = stiff_joints(found)
-    lowest, highest = heights_of(description, spacing, sole, stiff)
-    narrow = max(WIDE * highest, SPACE * 2.0 * sole[3])
-    if spacing > narrow:  # which lifts the CoM: a second time is enough
-        spacing = narrow
-        lowest, highest = heights_of(description, spacing, sole, stiff)
-    guess = RobotSize(
-        highest, found.mass, spacing, sole, description.place.reach
+    sole = shared_sole(analysis)
+    spacing = spacing_of(analysis, sole[3])
+    servos = gains_of(analysis, torques, 0.9 * analysis.length)
+    description = _structure(
+        analysis, folder, mesh_folders, sole, servos, speeds
     )
-    size, share = stature_of(description, guess, lowest)
+    stiff = stiff_joints(analysis)
+    lowest, highest = reachable_heights(description, spacing, sole, stiff)
+    greatest = max(GREATEST_BY_HEIGHT * highest, LEAST_SPACING * 2.0 * sole[3])
+    if spacing > greatest:
+        # A narrower stance lifts the CoM; one iteration is enough.
+        spacing = greatest
+        lowest, highest = reachable_heights(description, spacing, sole, stiff)
+    highest_size = RobotSize(
+        highest, analysis.mass, spacing, sole, description.place.reach
+    )
+    size, lengths = choose_com_height(description, highest_size, lowest)
     height = size.com_height
     description = replace(
         description,
         overlay=replace(
-            description.overlay, servos=gains_of(found, torques, height)
+            description.overlay, servos=gains_of(analysis, torques, height)
         ),
     )
-    gait = gait_of(size, share)
-    ahead, borne = zmp_share(*rehearsed(description, gait), torques)
-    gait["zmp_forward"] = round(ahead * gait["zmp_forward"], 4) + 0.0
+    gait = gait_of(size, lengths)
+    zmp_offset, loads = choose_zmp_offset(
+        *with_gait(description, gait), torques
+    )
+    gait["zmp_forward"] = round(zmp_offset * gait["zmp_forward"], 4) + 0.0
     overlay, lean = description.overlay, 0.0
-    weak = borne.usual > WEAK or borne.most > BEARABLE or ahead < 1.0
-    if borne.most > BEARABLE:
-        lean, borne = least_lean(*rehearsed(description, gait), torques)
+    overloaded = loads.most > GREATEST_LOAD
+    weak = loads.usual > WEAK_LOAD or overloaded or zmp_offset < 1.0
+    if overloaded:
+        lean, loads = least_lean(*with_gait(description, gait), torques)
     if weak:
-        servos = gains_of(found, torques, height, weak=True)
+        servos = gains_of(analysis, torques, height, weak=True)
         overlay = replace(overlay, servos=servos)
     description = replace(
         description,
@@ -179,22 +198,22 @@ def derive(
     )
     return DerivedDescription(
         description,
-        found,
+        analysis,
         size,
         lowest,
         highest,
         frozenset(torques),
         frozenset(speeds),
-        share,
-        ahead,
-        borne,
+        lengths,
+        zmp_offset,
+        loads,
         weak,
     )
 
 
-def _check_legs(found: ModelAnalysis) -> None:
-    """Refuse legs of which one is not like the other."""
-    left, right = found.legs
+def _check_legs(analysis: ModelAnalysis) -> None:
+    """Refuse legs with different numbers of joints."""
+    left, right = analysis.legs
     if len(left.joints) != len(right.joints):
         raise ModelError(
             f"legs must have equally many joints, got {len(left.joints)} and "
@@ -202,9 +221,16 @@ def _check_legs(found: ModelAnalysis) -> None:
         )
 
 
-def shared_sole(found: ModelAnalysis) -> tuple[float, float, float, float]:
-    """Back, front, outer and inner edge: what both feet have, in [m]."""
-    left, right = (leg.outline for leg in found.legs)
+def shared_sole(analysis: ModelAnalysis) -> tuple[float, float, float, float]:
+    """Return the outline that lies within the soles of both feet.
+
+    Returns:
+        Back, front, outer and inner edge, in [m].
+
+    Raises:
+        ModelError: If the common outline is too small.
+    """
+    left, right = (leg.outline for leg in analysis.legs)
     edges = (
         max(left[0], right[0]),
         min(left[1], right[1]),
@@ -212,87 +238,101 @@ def shared_sole(found: ModelAnalysis) -> tuple[float, float, float, float]:
         min(-left[2], right[3]),
     )
     back, front, outer, inner = (round(edge, 4) for edge in edges)
-    wrong = check_size((back, front, -inner, outer), found.length)
-    if wrong:
+    violation = check_size((back, front, -inner, outer), analysis.length)
+    if violation:
         raise ModelError(
-            f"what the soles of {found.legs[0].foot!r} and "
-            f"{found.legs[1].foot!r} have in common {wrong}: the feet of "
-            "the model must be mirror images"
+            f"the common outline of the soles of {analysis.legs[0].foot!r} "
+            f"and {analysis.legs[1].foot!r} {violation}: the feet of the "
+            "model must be mirror images"
         )
     return back, front, outer, inner
 
 
-def spacing_of(found: ModelAnalysis, inner: float) -> float:
-    """Distance between ankles in the zero posture, or what soles need.
+def spacing_of(analysis: ModelAnalysis, inner: float) -> float:
+    """Return the foot spacing, in [m].
 
-    Legs that are spread in the zero posture do not stand so.
+    That of the ankles in the zero posture, but not wider than the hips
+    justify (legs may be spread there), nor so narrow that soles meet.
+
+    Args:
+        analysis: Analysis of the model.
+        inner: Inner edge of the sole, in [m].
     """
-    left, right = found.legs
-    apart = float(left.ankle[1] - right.ankle[1])
+    left, right = analysis.legs
+    ankles = float(left.ankle[1] - right.ankle[1])
     hips = float(left.hip[1] - right.hip[1])
-    return max(min(apart, SPREAD * hips), SPACE * 2.0 * inner)
+    return max(
+        min(ankles, GREATEST_BY_HIPS * hips), LEAST_SPACING * 2.0 * inner
+    )
 
 
 def _structure(
-    found: ModelAnalysis,
+    analysis: ModelAnalysis,
     folder: Path,
-    meshes: list[Path],
+    mesh_folders: list[Path],
     sole: tuple[float, float, float, float],
     servos: dict[str, ServoGains],
     speeds: dict[str, float],
 ) -> RobotDescription:
-    """Description of what a robot is, without how it walks."""
-    standing = standing_of(found)
-    forward = float(np.mean([leg.hip[0] for leg in found.legs]))
-    knees = {leg.pitches[1]: knee_limits(found, leg) for leg in found.legs}
-    reach = reach_of(found, standing, forward)
+    """Return a description without gait, control and game."""
+    standing = standing_of(analysis)
+    forward = float(np.mean([leg.hip[0] for leg in analysis.legs]))
+    knees = {
+        leg.pitches[1]: knee_limits(analysis, leg) for leg in analysis.legs
+    }
+    reach = reach_of(analysis, standing, forward)
     return RobotDescription(
         folder=folder,
-        name=name_of(found),
-        model=_path_from(folder, found.path),
-        torso=found.torso,
+        name=name_of(analysis),
+        model=_relative_path(folder, analysis.path),
+        torso=analysis.torso,
         left_foot=FEET[0],
         right_foot=FEET[1],
         accent="",
-        legs=tuple(name for leg in found.legs for name in leg.joints),
+        legs=tuple(name for leg in analysis.legs for name in leg.joints),
         standing=standing,
-        speed_limits={name: speeds.get(name, SPEED) for name in servos},
+        speed_limits={
+            name: speeds.get(name, DEFAULT_SPEED) for name in servos
+        },
         working_limits=knees,
         sole=dict(zip(("back", "front", "outer", "inner"), sole, strict=True)),
         place=ReferencePoint(round(forward, 4), reach),
         overlay=Overlay(
-            tuple(_sole_place(found, i) for i in (0, 1)),
+            tuple(_sole_frame(analysis, i) for i in (0, 1)),
             servos,
-            tuple(_path_from(folder, place) for place in meshes),
-            found.turn,
+            tuple(_relative_path(folder, path) for path in mesh_folders),
+            analysis.turn,
         ),
     )
 
 
-def _sole_place(found: ModelAnalysis, side: int) -> SoleFrame:
-    leg = found.legs[side]
+def _sole_frame(analysis: ModelAnalysis, side: int) -> SoleFrame:
+    leg = analysis.legs[side]
     under = leg.ankle - (leg.ankle[2] - leg.sole) * leg.axes[:, 2]
-    x, y, z = (found.place_in(leg.foot, under).round(5) + 0.0).tolist()
+    x, y, z = (analysis.point_in(leg.foot, under).round(5) + 0.0).tolist()
     turn = np.zeros(4)
     mujoco.mju_mat2Quat(turn, leg.axes.ravel())
-    mujoco.mju_mulQuat(turn, found.turn_of(leg.foot), turn.copy())
+    mujoco.mju_mulQuat(turn, analysis.torso_in(leg.foot), turn.copy())
     w, a, b, c = (turn.round(7) + 0.0).tolist()
     return SoleFrame(leg.foot, (x, y, z), (w, a, b, c))
 
 
-def name_of(found: ModelAnalysis) -> str:
-    """Name of the file, or of a folder where files have all one name."""
-    path = found.path.resolve()
+def name_of(analysis: ModelAnalysis) -> str:
+    """Return the name of a robot: of its file, or of a folder around it.
+
+    Names that do not name a robot, like ``model.xml``, are skipped.
+    """
+    path = analysis.path.resolve()
     names = (path.stem, *(folder.name for folder in path.parents))
-    telling = (name for name in names if name.lower() not in ANYONE)
-    return next(telling, "").replace("_", " ") or path.stem
+    specific = (name for name in names if name.lower() not in GENERIC_NAMES)
+    return next(specific, "").replace("_", " ") or path.stem
 
 
-def _path_from(folder: Path, path: Path) -> str:
-    """Path of a file as the folder of a description names it."""
+def _relative_path(folder: Path, path: Path) -> str:
+    """Return a path relative to the folder of a description."""
     return Path(os.path.relpath(path.resolve(), folder.resolve())).as_posix()
 
 
-def coupled_of(found: ModelAnalysis) -> set[str]:
-    """Joints that follow others."""
-    return followers_of(found.model)
+def coupled_of(analysis: ModelAnalysis) -> set[str]:
+    """Return the joints that follow others."""
+    return followers_of(analysis.model)

@@ -1,4 +1,4 @@
-"""The text of a description, each value with where it comes from."""
+"""Writer of ``robot.toml``: every value with a comment on its origin."""
 
 from collections.abc import Iterable, Mapping
 from typing import Any
@@ -6,107 +6,115 @@ from typing import Any
 from ..robots.description import RobotDescription
 from ..robots.description_types import NO_OVERLAY, ServoGains
 from .derivation import DerivedDescription, coupled_of
-from .motor_data import GIVES
+from .motor_data import SATURATION_ANGLE
 
-ASK = "ASK: the model does not say;"
-GAIT_WHY = {
-    "speed": "[m/s], of the path: a stride in 2.42 sqrt(z / g), as NAO's",
-    "gain": "[1/s]: 0.033 sqrt(g / z), as NAO's",
-    "stride": "[m]: 0.15 of the CoM's height",
-    "foot_spacing": "[m]: between the ankles in the zero posture, or more "
-    "where soles would meet",
-    "step_height": "[m]: 0.075 of the CoM's height",
+ASK = "ASK: not in the model;"
+GAIT_COMMENTS = {
+    "speed": "[m/s], of the path: a stride in 2.42 sqrt(z / g), as for NAO",
+    "gain": "[1/s]: 0.033 sqrt(g / z), as for NAO",
+    "stride": "[m]: 0.15 of the CoM height",
+    "foot_spacing": "[m]: between the ankles in the zero posture, limited "
+    "by hips, CoM height and soles",
+    "step_height": "[m]: 0.075 of the CoM height",
     "single_support": "[s]: 2.0 sqrt(z / g)",
     "double_support": "[s]: 0.58 sqrt(z / g)",
     "start_support": "[s]: 4.8 sqrt(z / g)",
-    "zmp_forward": "[m]: 0.9 of the way to the middle of the sole",
+    "zmp_forward": "[m]: 0.9 of the distance to the middle of the sole",
 }
-GAIN_WHY = {
+STABILISER_COMMENTS = {
     "dead_zone": "[m]",
     "yielding": "[1/s]",
     "ankle_rate": "[s]",
     "edge": "[m]",
     "reach_forward": "[m]: two strides",
-    "reach_backward": "[m]: likewise",
+    "reach_backward": "[m]: two strides",
     "reach_outward": "[m]",
     "gap": "[m]",
     "step_speed": "[m/s]",
-    "stride_gain": "joints without play need none; learning strains the legs",
+    "stride_gain": "not needed without backlash; learning strains the legs",
     "stride_bound": "[m]",
     "joint_gain": "[1/s]",
     "joint_leak": "[1/s]",
-    "load_share": "what the servos give way under load is asked beforehand",
+    "load_share": "full feedforward of servo deflection under load",
 }
-HOW = {
+CONTROL_COMMENTS = {
     "method": "",
     "feedback": "",
-    "learn_turns": "feet twist on the floor: turns are made whole by the gyro",
+    "learn_turns": "feet slip in yaw: correct turns by the gyro",
 }
-GAME_WHY = {
+GAME_COMMENTS = {
     "safety_radius": "[m]: 0.89 of the distance on the circle",
-    "start_least": "[m]: nearer, what reaches out would touch",
-    "start_near": "[m]: starts are drawn from here",
-    "start_far": "[m]: to here",
+    "start_least": "[m]: nearer, outstretched arms could touch",
+    "start_near": "[m]: least random initial distance",
+    "start_far": "[m]: greatest random initial distance",
     "push_unit": "[N s]: 0.12 m sqrt(g z)",
-    "force_unit": "errors of forces by NAO's: its weight by NAO's",
-    "length_unit": "likewise of lengths: its CoM's height by NAO's",
+    "force_unit": "scale of force errors: weight relative to NAO",
+    "length_unit": "scale of length errors: CoM height relative to NAO",
 }
 
 
 def write_description(derived: DerivedDescription) -> str:
-    """Text of a robot.toml."""
-    own, found = derived.description, derived.survey
-    left, right = found.legs
+    """Return the text of a ``robot.toml``."""
+    own, analysis = derived.description, derived.analysis
+    left, right = analysis.legs
     legs = ",\n".join(
         "    " + ", ".join(_quoted(name) for name in leg.joints)
-        for leg in found.legs
+        for leg in analysis.legs
     )
     soles = (
         f"{ASK} a guess from the length of the leg, measure it"
         if left.is_guessed
         else f"lowest points of the geoms of {left.foot} and {right.foot}"
     )
-    coupled = ", ".join(sorted(coupled_of(found))) or "none"
+    coupled = ", ".join(sorted(coupled_of(analysis))) or "none"
     lines = [
         f"# {own.name}, derived from the model by `stepaside robot init`.",
-        "# The model itself is left as it is; [overlay] is put on it when it",
-        "# is read. Where a comment says ASK, the model does not tell a",
-        "# value: what stands there is a sensible start.",
-        *_missing(derived),
+        "# The model file is not changed; [overlay] is added whenever it is",
+        "# read. A comment with ASK marks a value that is not in the model:",
+        "# an estimate, to be replaced by a measured value.",
+        *_missing_meshes(derived),
         f"name = {_quoted(own.name)}",
         _line("model", own.model, "as published"),
-        _line("torso", own.torso, "root of the model: the most bodies"),
+        _line("torso", own.torso, "root body with the most descendants"),
         f"left_foot = {_quoted(own.left_foot)}",
         f"right_foot = {_quoted(own.right_foot)}",
-        'accent = ""                      # no material: the torso is dyed',
+        'accent = ""                      # no material: colour the torso',
         *_lean(derived),
         "",
-        "# Chains from the torso to the lowest ends on either side, without",
-        f"# the joints that both share; joints that follow others: {coupled}.",
+        "# Joint chains from the torso to the lowest end on either side,",
+        "# without joints that both share.",
+        *_comment(f"Joints that follow others: {coupled}."),
         f"legs = [\n{legs},\n]",
         "",
-        "# Knees bent a little, arms hanging, in [rad].",
+        "# Standing posture in [rad]: knees slightly bent, arms hanging.",
         *_table("standing", own.standing),
-        "# Knees stay bent a little, or a leg can change its branch, [rad].",
+        "# Knees stay slightly bent, in [rad]: inverse kinematics of a leg",
+        "# has two branches, which meet where the knee is straight.",
         *_table("working_limits", own.working_limits),
         *_speeds(derived),
-        "# How it walks: NAO's gait by the height of the CoM and the time of",
-        "# its pendulum, with quicker steps. `stepaside robot tune` betters",
-        "# it.",
+        "# NAO's gait, scaled by CoM height z and time constant sqrt(z / g)",
+        "# of the pendulum, with quicker steps; `stepaside robot tune`",
+        "# improves it.",
         *_gait(derived),
-        f"# Box of a left sole in the foot frame, in [m]: {soles}.",
+        f"# Outline of a left sole in the foot frame, in [m]: {soles}.",
         *_table("sole", own.sole),
-        "# Stiff joints alone carry many robots; `stepaside robot check`",
-        "# says whether they do, `robot tune` writes what is better.",
+        "# Many robots walk open loop; `stepaside robot check` tests it,",
+        "# `stepaside robot tune` writes better values.",
         "[control]",
-        *_lines({k: own.control[k] for k in HOW}, HOW),
+        *_lines(
+            {k: own.control[k] for k in CONTROL_COMMENTS}, CONTROL_COMMENTS
+        ),
         "",
-        "# By the height of the CoM and the time of its pendulum.",
-        *_table("control.stabiliser", own.control["stabiliser"], GAIN_WHY),
-        *_table("game", own.game, GAME_WHY),
-        "# The point of the torso that stands for the robot, midway between",
-        "# the hips, ahead of the torso's origin, and the reach of all of it",
-        "# around that point when it stands, in [m].",
+        "# Scaled by CoM height and time constant of the pendulum.",
+        *_table(
+            "control.stabiliser",
+            own.control["stabiliser"],
+            STABILISER_COMMENTS,
+        ),
+        *_table("game", own.game, GAME_COMMENTS),
+        "# Reference point midway between the hips (forward of the torso",
+        "# origin), and radius around it that contains the standing robot,",
+        "# in [m].",
         "[place]",
         f"forward = {own.place.forward}",
         f"reach = {own.place.reach}",
@@ -116,66 +124,78 @@ def write_description(derived: DerivedDescription) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _missing(derived: DerivedDescription) -> list[str]:
-    missing = derived.survey.missing
+def _missing_meshes(derived: DerivedDescription) -> list[str]:
+    missing = derived.analysis.missing
     if not missing:
         return []
-    return [
-        f"# {len(missing)} mesh files are not there or of a kind that MuJoCo",
-        f"# does not read, like {missing[0]}: those geoms are left out.",
-    ]
+    return _comment(
+        f"{len(missing)} mesh files are missing or in a format that MuJoCo "
+        f"does not read, like {missing[0]}: their geoms are removed."
+    )
 
 
 def _lean(derived: DerivedDescription) -> list[str]:
     lean = derived.description.lean
     if lean == 0.0:
         return []
-    why = "[rad], of the torso over a foot that stands: relieves the hips"
-    return [_line("lean", lean, why)]
+    comment = "[rad], roll of the torso over the stance foot: relieves hips"
+    return [_line("lean", lean, comment)]
 
 
 def _gait(derived: DerivedDescription) -> list[str]:
     own = derived.description
-    why = dict(GAIT_WHY)
+    comments = dict(GAIT_COMMENTS)
     low, high = derived.lowest, derived.highest
-    why["com_height"] = (
-        f"[m]: {derived.size.com_height / high:.2f} of the greatest of "
-        f"{low:.3f} to {high:.3f} in reach"
+    comments["com_height"] = (
+        f"[m]: {derived.size.com_height / high:.2f} of the greatest in reach "
+        f"({low:.3f} to {high:.3f})"
     )
-    if derived.share < 1.0:
-        slow = f"; {derived.share:.2f} of that: the joints are no faster"
+    if derived.lengths < 1.0:
         for name in ("stride", "step_height"):
-            why[name] += slow
-    if derived.ahead < 1.0:
-        less = f"; {derived.ahead:g} of that: the ankles bear no more"
-        why["zmp_forward"] += less
-    return _table("gait", own.gait, why)
+            comments[name] += (
+                f", times {derived.lengths:.2f} for the speed limits"
+            )
+    if derived.zmp_offset < 1.0:
+        comments["zmp_forward"] += (
+            f", times {derived.zmp_offset:g} for the ankle torques"
+        )
+    return _table("gait", own.gait, comments)
 
 
 def _speeds(derived: DerivedDescription) -> list[str]:
-    told = derived.told_speeds
+    published = derived.published_speeds
     limits = derived.description.speed_limits
-    unlimited = [name for name in limits if name not in told]
-    why = "as the model tells, in [rad/s]"
-    if unlimited:
-        of = "" if not told else f" for {', '.join(unlimited)}"
-        why = f"{ASK} no-load speeds{of}, in [rad/s]"
-    return [*_comment(why), *_table("speed_limits", limits)]
+    assumed = [name for name in limits if name not in published]
+    comment = "Speed limits of the model, in [rad/s]."
+    if assumed:
+        joints = "" if not published else f" of {', '.join(assumed)}"
+        comment = f"{ASK} no-load speeds{joints}, in [rad/s]."
+    return [*_comment(comment), *_table("speed_limits", limits)]
 
 
 def _overlay(derived: DerivedDescription) -> list[str]:
     own: RobotDescription = derived.description
-    untold = [n for n in own.overlay.servos if n not in derived.told_torques]
-    why = "Torques as the model tells; stiffness and damping of the legs and "
-    why += "the waist are 12 m g z and 0.3 sqrt(z / g) of that"
+    assumed = [
+        name
+        for name in own.overlay.servos
+        if name not in derived.published_torques
+    ]
+    comment = (
+        "Torque limits of the model. Stiffness of legs and waist: 12 m g z"
+    )
     if derived.is_weak:
-        usual = 100.0 * derived.borne.usual
-        usual = 100.0 * derived.borne.usual
-        why += f", less where {GIVES} rad would ask for more than the torque, "
-        why += f"for a step asks for {usual:.0f} % of one, at times for more"
-    why += "; of others by what "
-    why += "they carry; an armature is given where the model has hardly any."
-    asked = f"{ASK} torques of {', '.join(untold)}." if untold else ""
+        usual = 100.0 * derived.loads.usual
+        comment += (
+            f", but no more than the torque limit over {SATURATION_ANGLE} "
+            f"rad, since a step takes {usual:.0f} % of a torque limit most "
+            "of the time"
+        )
+    comment += (
+        "; damping: 0.3 sqrt(z / g) times stiffness. Other joints by the "
+        "load that they carry. An armature is set if that of the model is "
+        "negligible."
+    )
+    request = f"{ASK} torque limits of {', '.join(assumed)}."
     soles = [
         f"    {{ body = {_quoted(sole.body)}, place = {_row(sole.place)}, "
         f"turn = {_row(sole.turn)} }},"
@@ -183,18 +203,18 @@ def _overlay(derived: DerivedDescription) -> list[str]:
     ]
     meshes = ", ".join(_quoted(folder) for folder in own.overlay.meshes)
     return [
-        "# What is put on the model: a free joint if it has none, an IMU at",
-        "# the torso's origin, four touch sensors under either foot, and:",
+        "# Added to the model: a free joint if it has none, an IMU at the",
+        "# torso origin, four touch sensors under each foot, and:",
         "[overlay]",
         f"meshes = [{meshes}]",
-        *_turned(own),
+        *_torso_orientation(own),
         "# Foot frames at the sole, under the last joint of each leg.",
         "soles = [",
         *soles,
         "]",
         "",
-        *_comment(why),
-        *(_comment(asked) if asked else ()),
+        *_comment(comment),
+        *(_comment(request) if assumed else ()),
         "[overlay.servos]",
         *(
             f"{_key(name)} = {_servo(gains)}"
@@ -203,12 +223,14 @@ def _overlay(derived: DerivedDescription) -> list[str]:
     ]
 
 
-def _turned(own: RobotDescription) -> list[str]:
+def _torso_orientation(own: RobotDescription) -> list[str]:
     if own.overlay.turn == NO_OVERLAY.turn:
         return []
-    why = "The published torso in axes forward, left and up (quaternion): its "
-    why += "x axis points elsewhere."
-    return [*_comment(why), f"turn = {_row(own.overlay.turn)}"]
+    comment = (
+        "Orientation of the published torso in axes forward, left, up, as a "
+        "quaternion: its x axis does not point forward."
+    )
+    return [*_comment(comment), f"turn = {_row(own.overlay.turn)}"]
 
 
 def _servo(gains: ServoGains) -> str:
@@ -222,20 +244,22 @@ def _servo(gains: ServoGains) -> str:
 
 
 def _table(
-    name: str, values: Mapping[str, Any], why: Mapping[str, str] | None = None
+    name: str,
+    values: Mapping[str, Any],
+    comments: Mapping[str, str] | None = None,
 ) -> list[str]:
-    return [f"[{name}]", *_lines(values, why or {}), ""]
+    return [f"[{name}]", *_lines(values, comments or {}), ""]
 
 
 def _lines(
-    values: Mapping[str, Any], why: Mapping[str, str] | None = None
+    values: Mapping[str, Any], comments: Mapping[str, str]
 ) -> list[str]:
-    return [_line(k, v, (why or {}).get(k, "")) for k, v in values.items()]
+    return [_line(k, v, comments.get(k, "")) for k, v in values.items()]
 
 
-def _line(key: str, value: Any, why: str) -> str:
+def _line(key: str, value: Any, comment: str) -> str:
     text = f"{_key(key)} = {_value(value)}"
-    return f"{text:<32} # {why}" if why else text
+    return f"{text:<32} # {comment}" if comment else text
 
 
 def _value(value: Any) -> str:
@@ -263,7 +287,7 @@ def _quoted(text: str) -> str:
 
 
 def _comment(text: str) -> list[str]:
-    """Text as comments of at most 79 characters."""
+    """Wrap a text into comment lines of at most 79 characters."""
     lines, line = [], "#"
     for word in text.split():
         if len(line) + 1 + len(word) > 79:

@@ -1,4 +1,4 @@
-"""Ways to walk that a search tries: a description with a few changes."""
+"""Candidates of the gait search: changes to a robot description."""
 
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass, replace
@@ -6,12 +6,12 @@ from math import hypot, log
 
 from ..games.robot_settings import settings_of
 from ..robots.description import RobotDescription
-from ..robots.description_file import LEANS
-from .derivation import SPACE
-from .walk_trials import WAYS, WalkTrial, control_with
+from ..robots.description_file import LEAN_LIMIT
+from .derivation import LEAST_SPACING
+from .walk_trials import PATHS, WalkTrial, control_with
 
-# What each change may be, beside what it is; what helped strangers most often
-# first.
+# Values of each change beside its neutral one. The order is that of how often
+# a change helped published robots.
 CHOICES: dict[str, tuple[float, ...]] = {
     "times": (0.8, 0.65, 1.25),
     "spacing": (0.85, 0.7, 1.12),
@@ -23,25 +23,27 @@ CHOICES: dict[str, tuple[float, ...]] = {
     "height": (0.98, 0.95),
     "even": (0.0, 1.0),
 }
-FROM_ZERO = ("feedback", "zmp", "lean", "even")  # no factors
-FARTHEST = 0.35  # of a sole's length: a ZMP reference beyond is of no use
+NEUTRAL_ZERO = ("feedback", "zmp", "lean", "even")  # others are factors
+# Greatest distance of the ZMP reference from the middle of the sole, by its
+# length.
+GREATEST_ZMP_SHIFT = 0.35
 
 
 @dataclass(frozen=True, slots=True)
 class Candidate:
-    """Changes to a description.
+    """Changes to a robot description.
 
     Attributes:
         feedback: 1 with feedback, 0 without.
         stiffness: Factor on the gains of all servos.
-        times: Factor on the supports.
+        times: Factor on single and double support durations.
         stride: Factor on stride and speed.
         spacing: Factor on the distance between the feet.
-        zmp: Shift of the ZMP reference ahead, by the sole's length.
-        height: Factor on the CoM's height.
-        lean: Farther lean of the torso over the foot that stands, in [rad].
-        even: 1 for swing feet that go evenly, which twists the other foot
-            less; 0 for the smoothest ones.
+        zmp: Forward shift of the ZMP reference, by the length of the sole.
+        height: Factor on the CoM height.
+        lean: Additional lean of the torso over the stance foot, in [rad].
+        even: 1 for swing feet with constant speed, which twist the stance
+            foot less; 0 for the smoothest swing profile.
     """
 
     feedback: float
@@ -56,32 +58,39 @@ class Candidate:
 
     @property
     def cost(self) -> float:
-        """What it costs to be farther from the description: small."""
+        """Penalty of the distance from the description; small."""
         factors = (self.stiffness, self.times, self.spacing, self.height)
-        far = hypot(*(log(factor) for factor in factors), self.zmp, self.lean)
-        return 0.02 * far + 0.2 * max(0.0, 1.0 - self.stride)
+        distance = hypot(
+            *(log(factor) for factor in factors), self.zmp, self.lean
+        )
+        return 0.02 * distance + 0.2 * max(0.0, 1.0 - self.stride)
 
     def neighbours(self) -> Iterator["Candidate"]:
-        """Candidates with one change more, or one undone or other."""
+        """Yield the candidates that differ in one change."""
         for name, values in CHOICES.items():
-            now = getattr(self, name)
-            begin = 0.0 if name in FROM_ZERO else 1.0
-            others = (*values, begin) if begin not in values else values
-            for value in [each for each in others if each != now]:
+            present = getattr(self, name)
+            neutral = 0.0 if name in NEUTRAL_ZERO else 1.0
+            others = (*values, neutral) if neutral not in values else values
+            for value in [each for each in others if each != present]:
                 yield replace(self, **{name: value})
 
     def applied(self, own: RobotDescription) -> RobotDescription | None:
-        """Description with the changes; None if they are too much for it."""
+        """Return the changed description; None if it is not feasible.
+
+        Args:
+            own: Description without the changes.
+        """
         settings = settings_of(own)
         gait, sole = settings.gait, settings.gait.sole
+        length = sole.front - sole.back
         spacing = self.spacing * gait.foot_spacing
-        ahead = gait.zmp_forward + self.zmp * (sole.front - sole.back)
+        zmp_forward = gait.zmp_forward + self.zmp * length
         middle = 0.5 * (sole.front + sole.back)
-        if spacing < 2.0 * SPACE * sole.inner and self.spacing < 1.0:
+        if spacing < 2.0 * LEAST_SPACING * sole.inner and self.spacing < 1.0:
             return None
-        if abs(ahead - middle) > FARTHEST * (sole.front - sole.back):
+        if abs(zmp_forward - middle) > GREATEST_ZMP_SHIFT * length:
             return None
-        if own.lean + self.lean > LEANS:
+        if own.lean + self.lean > LEAN_LIMIT:
             return None
         values = {
             "speed": self.stride * gait.speed,
@@ -90,13 +99,13 @@ class Candidate:
             "single_support": self.times * gait.single_support,
             "double_support": self.times * gait.double_support,
             "com_height": self.height * gait.com_height,
-            "zmp_forward": ahead,
+            "zmp_forward": zmp_forward,
         }
-        told: dict[str, float | str] = {
+        changed: dict[str, float | str] = {
             name: float(f"{v:.4g}") for name, v in values.items()
         }
         if self.even:
-            told["swing_profile"] = "even"
+            changed["swing_profile"] = "even"
         control = control_with(settings.control, bool(self.feedback))
         servos = {
             name: gains._replace(
@@ -108,7 +117,7 @@ class Candidate:
         return replace(
             own,
             lean=own.lean + self.lean,
-            gait=own.gait | told,
+            gait=own.gait | changed,
             control=own.control
             | {"method": control.method, "feedback": control.feedback},
             overlay=replace(own.overlay, servos=servos)
@@ -117,16 +126,16 @@ class Candidate:
         )
 
     def trials(self, own: RobotDescription) -> tuple[WalkTrial, ...]:
-        """Walks that judge it, the hardest first; none if it is too much."""
-        made = self.applied(own)
-        if made is None:
+        """Return its walk trials, the hardest first; none if not feasible."""
+        changed = self.applied(own)
+        if changed is None:
             return ()
-        settings = settings_of(made)
+        settings = settings_of(changed)
         return tuple(
-            WalkTrial(made, settings.gait, settings.control, way)
-            for way in reversed(WAYS)
+            WalkTrial(changed, settings.gait, settings.control, path)
+            for path in reversed(PATHS)
         )
 
     def to_json(self) -> dict[str, float]:
-        """Plain values by name."""
+        """Return the changes by name."""
         return asdict(self)

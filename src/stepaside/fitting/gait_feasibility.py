@@ -1,4 +1,7 @@
-"""A gait gone through by the joints alone, before anything has mass."""
+"""Feasibility of a gait: joint speeds and torques of the reference motion.
+
+Computed by kinematics and inverse dynamics, without a physics simulation.
+"""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
@@ -17,40 +20,42 @@ from ..robots.description import RobotDescription
 from ..robots.joint_loads import LegLoads
 from ..strategies import Walk
 
-TICK = 0.004  # of the rehearsal, in [s]
-CYCLES = 2  # gait cycles after the first step: later ones are like them
-SWIFT = 1e3  # of joints that follow whatever is asked, in [rad/s]
-SPARE = 0.9  # of a joint's speed that a gait may ask for
-LEAST = 0.35  # share of a gait's lengths that is still worth walking
-TRIES = 4
-PARTS = (0.5, 0.9)  # of a step, in which torques are looked at
-BEARABLE = 0.95  # share of a torque that may be borne most of the time
-HELPS = 0.9  # of a torque, if the ZMP is to be elsewhere all the same
-LIFTED = 1e-3  # a foot that is higher bears nothing, in [m]
+TICK = 0.004  # control period, in [s]
+CYCLES = 2  # gait cycles after the first step, which are representative
+NO_LIMIT = 1e3  # joint speed limit that is never reached, in [rad/s]
+SPEED_MARGIN = 0.9  # fraction of the speed limits that a gait is scaled to
+LEAST_LENGTHS = 0.35  # least fraction of the nominal step lengths
+ITERATIONS = 4
+QUANTILES = (0.5, 0.9)  # of the torques in single support
+GREATEST_LOAD = 0.95  # fraction of a torque limit
+ZMP_GAIN = 0.9  # load ratio below which another ZMP offset is preferred
+LIFTED = 1e-3  # height above which a foot is lifted, in [m]
 
 
-def speed_share(description: RobotDescription, gait: GaitSettings) -> float:
-    """Greatest share of a joint's speed that straight walking asks for.
+def speed_ratio(description: RobotDescription, gait: GaitSettings) -> float:
+    """Return the greatest joint speed of straight walking by its limit.
 
     Args:
-        description: The robot, with the speed limits of its joints.
-        gait: How it walks.
+        description: Robot description with the speed limits of the joints.
+        gait: Gait settings.
 
     Raises:
-        ReachError: If its legs do not reach so far.
+        ReachError: If the legs cannot reach the reference.
     """
-    return max(_asked(description, gait, way) for way in Direction)
+    return max(
+        _speed_ratio(description, gait, direction) for direction in Direction
+    )
 
 
-class TorqueShares(NamedTuple):
-    """Greatest shares of their torque that joints bear in a step.
+class JointLoads(NamedTuple):
+    """Greatest joint torques of single support, by the torque limits.
 
     Attributes:
-        usual: In half of the time at which one foot is lifted: what is asked
-            for a moment only, servos may miss.
-        joint: That bears it.
-        most: In a tenth of that time or more; more than 1 cannot be borne.
-        most_joint: That bears it.
+        usual: Median over time: short peaks may exceed the servos.
+        joint: Joint with this load.
+        most: Load that is exceeded in a tenth of the time; above 1 the
+            robot cannot walk so.
+        most_joint: Joint with this load.
     """
 
     usual: float
@@ -59,132 +64,137 @@ class TorqueShares(NamedTuple):
     most_joint: str
 
 
-def torques_borne(
+def step_loads(
     description: RobotDescription,
     gait: GaitSettings,
     torques: Mapping[str, float],
-) -> TorqueShares:
-    """Shares of their torque that joints bear in a step.
+) -> JointLoads:
+    """Compute the joint loads of a step by inverse dynamics.
 
     Args:
-        description: The robot.
-        gait: How it walks.
-        torques: Greatest torque of each joint, in [N m].
+        description: Robot description.
+        gait: Gait settings.
+        torques: Torque limit of each joint, in [N m].
 
     Raises:
-        ReachError: If the legs do not reach so far.
+        ReachError: If the legs cannot reach the reference.
     """
     scheme = _scheme(description, gait, Direction.FORWARD)
     legs = scheme.kinematics
-    loads = LegLoads(legs, zmp_forward=gait.zmp_forward, tick=TICK)
-    borne: dict[bool, list[Array]] = {True: [], False: []}
+    dynamics = LegLoads(legs, zmp_forward=gait.zmp_forward, tick=TICK)
+    by_swing_foot: dict[bool, list[Array]] = {True: [], False: []}
     for _ in _walk(scheme, gait):
         body = scheme.reference
-        asked = np.abs(loads.torques(body, scheme.zmp_reference))
+        required = np.abs(dynamics.torques(body, scheme.zmp_reference))
         left, right = (
             f[2] > LIFTED for f in (body.left_foot, body.right_foot)
         )
         if left != right:
-            borne[left].append(asked)
+            by_swing_foot[left].append(required)
     names = legs.legs.tree.motors
     limits = np.array([torques.get(name, inf) for name in names])
-    found: list[float | str] = []
-    for part in PARTS:
-        steps = [np.quantile(each, part, axis=0) for each in borne.values()]
-        shares = np.max(steps, axis=0) / limits
-        joint = int(shares.argmax())
-        found += [float(shares[joint]), names[joint]]
-    return TorqueShares(*found)  # type: ignore[arg-type]
+    results: list[float | str] = []
+    for quantile in QUANTILES:
+        steps = [
+            np.quantile(each, quantile, axis=0)
+            for each in by_swing_foot.values()
+        ]
+        loads = np.max(steps, axis=0) / limits
+        joint = int(loads.argmax())
+        results += [float(loads[joint]), names[joint]]
+    return JointLoads(*results)  # type: ignore[arg-type]
 
 
-def zmp_share(
+def choose_zmp_offset(
     description: RobotDescription,
     gait: GaitSettings,
     torques: Mapping[str, float],
-) -> tuple[float, TorqueShares]:
-    """Share of the ZMP's place ahead of the ankles that these can bear.
+) -> tuple[float, JointLoads]:
+    """Choose how far ahead of the ankles the ZMP reference is.
 
-    The farther ahead it is, the more an ankle bears; nothing else of a gait
-    changes so much of any torque.
-
-    Args:
-        description: The robot.
-        gait: How it would walk.
-        torques: Greatest torque of each joint, in [N m].
-
-    Returns:
-        The greatest of 1, 1/2 and 0 that leaves something of each torque, or
-        else the one that leaves most, if it leaves much more than 1 does;
-        and what is borne then.
-    """
-    tried = []
-    for share in (1.0, 0.5, 0.0):
-        forward = share * gait.zmp_forward
-        walk = replace(gait, zmp_forward=forward)
-        borne = torques_borne(description, walk, torques)
-        tried.append((share, borne))
-        if borne.most <= BEARABLE:
-            return share, borne
-    best = min(tried, key=lambda each: each[1].most)
-    return best if best[1].most < HELPS * tried[0][1].most else tried[0]
-
-
-def lengths_share(description: RobotDescription, gait: GaitSettings) -> float:
-    """Share of stride and step height at which the joints keep up.
-
-    A servo that cannot follow its target leaves the swing foot behind: it
-    lands early, where nobody wants it. Steps of fewer metres in the same
-    time ask for less speed of every joint.
+    The torque of an ankle grows with this offset; no other gait parameter
+    has as much influence on any torque.
 
     Args:
-        description: The robot.
-        gait: How it would walk.
+        description: Robot description.
+        gait: Gait settings.
+        torques: Torque limit of each joint, in [N m].
 
     Returns:
-        In [0.35, 1]; 1 if the joints are fast enough.
+        Fraction of the nominal offset, and the loads with it: the greatest
+        of 1, 1/2 and 0 within the torque limits; else the one with the
+        least load, if that is much less than with 1.
     """
-    share = 1.0
-    for _ in range(TRIES):
-        asked = speed_share(description, shortened(gait, share))
-        if asked <= 1.0:
+    candidates = []
+    for fraction in (1.0, 0.5, 0.0):
+        changed = replace(gait, zmp_forward=fraction * gait.zmp_forward)
+        loads = step_loads(description, changed, torques)
+        candidates.append((fraction, loads))
+        if loads.most <= GREATEST_LOAD:
+            return fraction, loads
+    best = min(candidates, key=lambda each: each[1].most)
+    nominal = candidates[0]
+    return best if best[1].most < ZMP_GAIN * nominal[1].most else nominal
+
+
+def feasible_lengths(
+    description: RobotDescription, gait: GaitSettings
+) -> float:
+    """Return the fraction of stride and step height that joints can track.
+
+    A servo that falls behind its target makes the swing foot land early and
+    in the wrong position. Shorter steps of the same duration need less speed
+    of every joint.
+
+    Args:
+        description: Robot description with the speed limits of the joints.
+        gait: Gait settings.
+
+    Returns:
+        Fraction in [0.35, 1]; 1 if the joints are fast enough.
+    """
+    fraction = 1.0
+    for _ in range(ITERATIONS):
+        ratio = speed_ratio(description, with_lengths(gait, fraction))
+        if ratio <= 1.0:
             break
-        share = max(LEAST, share * SPARE / asked)
-    return share
+        fraction = max(LEAST_LENGTHS, fraction * SPEED_MARGIN / ratio)
+    return fraction
 
 
-def shortened(gait: GaitSettings, share: float) -> GaitSettings:
-    """Gait with a share of its lengths, in the same time."""
+def with_lengths(gait: GaitSettings, fraction: float) -> GaitSettings:
+    """Return a gait with scaled lengths and the same step duration."""
     return replace(
         gait,
-        speed=share * gait.speed,
-        stride=share * gait.stride,
-        step_height=share * gait.step_height,
+        speed=fraction * gait.speed,
+        stride=fraction * gait.stride,
+        step_height=fraction * gait.step_height,
     )
 
 
-def _asked(
-    description: RobotDescription, gait: GaitSettings, way: Direction
+def _speed_ratio(
+    description: RobotDescription, gait: GaitSettings, direction: Direction
 ) -> float:
-    """Greatest share of a joint's speed that walking one way asks for."""
-    scheme = _scheme(description, gait, way)
+    """Return the greatest joint speed by its limit, in one direction."""
+    scheme = _scheme(description, gait, direction)
     motors = scheme.kinematics.legs.tree.motors
     limits = np.array([description.speed_limits[name] for name in motors])
     last, greatest = scheme.joint_targets, 0.0
-    for now in _walk(scheme, gait):
-        speeds = np.abs(now - last) / TICK
+    for targets in _walk(scheme, gait):
+        speeds = np.abs(targets - last) / TICK
         greatest = max(greatest, float((speeds / limits).max()))
-        last = now
+        last = targets
     return greatest
 
 
 def _scheme(
-    description: RobotDescription, gait: GaitSettings, way: Direction
+    description: RobotDescription, gait: GaitSettings, direction: Direction
 ) -> ControlScheme:
-    """Control of a robot whose joints are as fast as it takes."""
-    swift = dict.fromkeys(description.speed_limits, SWIFT)
+    """Build an open-loop control scheme without joint speed limits."""
+    unlimited = dict.fromkeys(description.speed_limits, NO_LIMIT)
     return build_scheme(
-        Walk(0.0, way),
-        replace(description, speed_limits=swift),
+        Walk(0.0, direction),
+        replace(description, speed_limits=unlimited),
         gait,
         OPEN_LOOP,
         tick=TICK,
@@ -193,10 +203,10 @@ def _scheme(
 
 
 def _walk(scheme: ControlScheme, gait: GaitSettings) -> Iterator[Array]:
-    """Joint targets of some steps, tick by tick, in [rad]."""
-    still, none = np.zeros(scheme.joint_targets.size), np.zeros(3)
+    """Yield the joint targets of some steps, tick by tick, in [rad]."""
+    joints, zero = np.zeros(scheme.joint_targets.size), np.zeros(3)
     duration = gait.start_support + 2 * CYCLES * gait.step_duration
     for i in range(round(duration / TICK)):
         yield scheme.update(
-            Measurement(i * TICK, still, none, none, np.zeros(8), None)
+            Measurement(i * TICK, joints, zero, zero, np.zeros(8), None)
         )

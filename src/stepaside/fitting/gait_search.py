@@ -1,9 +1,9 @@
-"""A search for the steadiest way to walk, over short walks.
+"""Local search for a steady gait, rated by short walks in simulation.
 
-From the description on, every single change is tried, a few at a time; the
-best one stays, and the search goes on from there until nothing is better, or
-good enough. A candidate walks to all sides, the hardest first, and stops at
-its first fall, or where it can be no better than the best.
+Every single change to the description is tried, a few at a time; the best
+one is adopted, and the search continues from there until no change improves
+the walk, or it is good enough. A candidate walks along all paths, the hardest
+first, until its first fall or until it cannot beat the best one.
 """
 
 import json
@@ -19,27 +19,26 @@ from ..robots.tree_cache import digest_of
 from ..studies.code_version import code_version, library_versions
 from ..studies.record_store import RecordStore
 from .gait_candidates import Candidate
-from .walk_trials import FALLEN, WAYS, WalkTrialResult, walk_trial
+from .walk_trials import FALLEN, PATHS, WalkTrialResult, walk_trial
 
 ROUNDS = 6
-GOOD = 0.2  # unsteadiness that is not worth bettering
-BETTER = 0.02  # by which a change must better it to stay
-TOGETHER = 4  # candidates at a time: the same whatever walks them
-FARTHER = 0.9 / len(WAYS)  # of who walks one way more before it falls
+GOOD = 0.2  # unsteadiness at which the search stops
+LEAST_IMPROVEMENT = 0.02  # of the score, for a change to be adopted
+BATCH = 4  # candidates at a time, independent of the number of workers
+ONE_PATH_MORE = 0.9 / len(PATHS)  # score of one more path before a fall
 STEADY = 1.0  # unsteadiness below which a robot walks
-ROOMS = ("fitting/walk_trials", "fitting/gait_candidates")
-IMPOSSIBLE = FALLEN + 2.0  # of changes that are too much
+MODULES = ("fitting/walk_trials", "fitting/gait_candidates")
+INFEASIBLE = FALLEN + 2.0  # unsteadiness of changes that are not feasible
 
 
 class RatedCandidate(NamedTuple):
-    """A candidate and how it walks.
+    """A candidate with the results of its walks.
 
     Attributes:
-        candidate: The changes.
-        unsteadiness: Of its worst walk; after a fall, less the more it had
-            walked before.
-        walks: How each went, in words and numbers, up to the one that ended
-            it.
+        candidate: Changes to the description.
+        unsteadiness: Of the worst walk; after a fall, the lower the farther
+            it walked before.
+        walks: Results of the walks, up to the one that ended the rating.
     """
 
     candidate: Candidate
@@ -48,17 +47,17 @@ class RatedCandidate(NamedTuple):
 
     @property
     def score(self) -> float:
-        """What is made small."""
+        """Objective of the search, to be minimised."""
         return self.unsteadiness + self.candidate.cost
 
 
 class SearchResult(NamedTuple):
-    """What a search found.
+    """Result of a gait search.
 
     Attributes:
-        before: The description as it was.
-        best: What walks best.
-        tried: Candidates that were walked.
+        before: Rating of the description without changes.
+        best: Best candidate.
+        tried: Number of candidates that were rated.
     """
 
     before: RatedCandidate
@@ -67,95 +66,99 @@ class SearchResult(NamedTuple):
 
 
 class GaitSearch:
-    """A search for one robot, whose results are kept."""
+    """Search for one robot, with results stored on disk."""
 
     def __init__(
         self,
         description: RobotDescription,
         executor: Executor,
-        kept: Path | None,
+        store: Path | None,
         report: Callable[[int, int, float], None] | None = None,
     ) -> None:
-        """Take up what an earlier search of the same robot left.
+        """Load the results of an earlier search for the same robot.
 
         Args:
-            description: The robot.
-            executor: Where walks are walked.
-            kept: File of results; nowhere by default.
-            report: Called with how many candidates were tried, how many it
-                will be by the end of this round, and the least unsteadiness
-                so far.
+            description: Robot description.
+            executor: Executor of the walks.
+            store: File of results; None to store nothing.
+            report: Called with the number of candidates that are rated, the
+                number by the end of the round, and the least unsteadiness so
+                far.
         """
         self._own, self._executor = description, executor
         self._report = report
-        self._file = None if kept is None else RecordStore(kept)
+        self._store = None if store is None else RecordStore(store)
         self._stamp = _stamp_of(description)
-        self._known = {} if self._file is None else self._file.read(["walks"])
-        self._judged: dict[Candidate, RatedCandidate] = {}
-        self._goal = 1
+        self._records: dict[str, dict[str, Any]] = {}
+        if self._store is not None:
+            self._records = self._store.read(["walks"])
+        self._rated: dict[Candidate, RatedCandidate] = {}
+        self._expected = 1
 
     def run(self) -> SearchResult:
-        """Search to the end."""
+        """Search until no change improves the walk."""
         feedback = float(bool(self._own.control.get("feedback", False)))
         start = Candidate(feedback)
-        self._judge([start], IMPOSSIBLE)
-        before = best = self._judged[start]
+        self._rate([start], INFEASIBLE)
+        before = best = self._rated[start]
         for _ in range(ROUNDS):
             if best.unsteadiness < GOOD:
                 break
-            found = self._best_around(best)
-            if found.score > best.score - BETTER:
+            neighbour = self._best_neighbour(best)
+            if neighbour.score > best.score - LEAST_IMPROVEMENT:
                 break
-            best = found
-        return SearchResult(before, best, len(self._judged))
+            best = neighbour
+        return SearchResult(before, best, len(self._rated))
 
-    def _best_around(self, best: RatedCandidate) -> RatedCandidate:
-        """The best of a candidate and its neighbours.
+    def _best_neighbour(self, best: RatedCandidate) -> RatedCandidate:
+        """Return the best of a candidate and its neighbours.
 
-        Where the candidate falls, the first neighbours that get on by a walk
-        are enough: the search goes on from there.
+        If the candidate falls, the first batch with a neighbour that walks
+        one path more ends the round.
         """
-        enough = best.score - FARTHER if best.unsteadiness >= STEADY else 0.0
-        around = [
+        enough = 0.0
+        if best.unsteadiness >= STEADY:
+            enough = best.score - ONE_PATH_MORE
+        neighbours = [
             each
             for each in best.candidate.neighbours()
-            if each not in self._judged
+            if each not in self._rated
         ]
-        self._goal = len(self._judged) + len(around)
-        for first in range(0, len(around), TOGETHER):
-            some = around[first : first + TOGETHER]
-            self._judge(some, best.score)
-            judged = [best, *(self._judged[each] for each in some)]
-            best = min(judged, key=lambda each: each.score)
+        self._expected = len(self._rated) + len(neighbours)
+        for first in range(0, len(neighbours), BATCH):
+            batch = neighbours[first : first + BATCH]
+            self._rate(batch, best.score)
+            rated = [best, *(self._rated[each] for each in batch)]
+            best = min(rated, key=lambda each: each.score)
             if best.score <= enough:
                 break
         return best
 
-    def _judge(self, candidates: Iterable[Candidate], bound: float) -> None:
-        """Walk candidates, each until its score is beyond a bound."""
-        waiting = {}
+    def _rate(self, candidates: Iterable[Candidate], bound: float) -> None:
+        """Rate candidates, each until its score exceeds a bound."""
+        futures = {}
         for candidate in candidates:
             key = self._key(candidate)
-            record = self._known.get(key)
+            record = self._records.get(key)
             if record is not None:
-                self._note(candidate, record["walks"])
+                self._add(candidate, record["walks"])
                 continue
-            waiting[
+            futures[
                 self._executor.submit(_walk_all, candidate, self._own, bound)
             ] = candidate
-        for future in as_completed(waiting):
-            candidate, walks = waiting[future], future.result()
-            if self._file is not None:
-                self._file.append(self._key(candidate), {"walks": walks})
-            self._note(candidate, walks)
+        for future in as_completed(futures):
+            candidate, walks = futures[future], future.result()
+            if self._store is not None:
+                self._store.append(self._key(candidate), {"walks": walks})
+            self._add(candidate, walks)
 
-    def _note(self, candidate: Candidate, walks: list[dict[str, Any]]) -> None:
-        judged = RatedCandidate(candidate, _unsteadiness(walks), tuple(walks))
-        self._judged[candidate] = judged
+    def _add(self, candidate: Candidate, walks: list[dict[str, Any]]) -> None:
+        rated = RatedCandidate(candidate, _unsteadiness(walks), tuple(walks))
+        self._rated[candidate] = rated
         if self._report is not None:
-            least = min(j.unsteadiness for j in self._judged.values())
-            tried = len(self._judged)
-            self._report(tried, max(tried, self._goal), least)
+            least = min(r.unsteadiness for r in self._rated.values())
+            number = len(self._rated)
+            self._report(number, max(number, self._expected), least)
 
     def _key(self, candidate: Candidate) -> str:
         return json.dumps([self._stamp, candidate.to_json()], sort_keys=True)
@@ -164,41 +167,43 @@ class GaitSearch:
 def _walk_all(
     candidate: Candidate, own: RobotDescription, bound: float
 ) -> list[dict[str, Any]]:
-    """Walk to all sides, until a fall or a score beyond a bound."""
+    """Walk along all paths, until a fall or a score beyond a bound."""
     walks: list[dict[str, Any]] = []
     for trial in candidate.trials(own):
-        walked = walk_trial(trial)
-        walks.append(_plain(walked))
-        score = walked.unsteadiness + candidate.cost
-        if not walked.completed or score > bound:
+        result = walk_trial(trial)
+        walks.append(_record(result))
+        score = result.unsteadiness + candidate.cost
+        if not result.completed or score > bound:
             break
     return walks
 
 
 def _unsteadiness(walks: list[dict[str, Any]]) -> float:
-    """Of the worst walk; a fall counts by how much was walked until it."""
+    """Return that of the worst walk; after a fall, by the time walked."""
     if not walks:
-        return IMPOSSIBLE
+        return INFEASIBLE
     last = walks[-1]
     if last["completed"]:
         return float(max(walk["unsteadiness"] for walk in walks))
-    walked = (len(walks) - 1 + float(last["lasted"])) / len(WAYS)
-    return FALLEN + 1.0 - walked
+    fraction = (len(walks) - 1 + float(last["lasted"])) / len(PATHS)
+    return FALLEN + 1.0 - fraction
 
 
-def _plain(walked: WalkTrialResult) -> dict[str, Any]:
-    plain = walked._asdict()
-    strain = walked.strain
-    plain["strain"] = None if strain is None else strain._asdict()
-    return plain | {"unsteadiness": walked.unsteadiness}
+def _record(result: WalkTrialResult) -> dict[str, Any]:
+    record = result._asdict()
+    strain = result.strain
+    record["strain"] = None if strain is None else strain._asdict()
+    return record | {"unsteadiness": result.unsteadiness}
 
 
 def _stamp_of(description: RobotDescription) -> str:
-    """Digest of all that a walk of this robot depends on."""
-    # Wherever it lies and whatever it is called, it walks the same.
+    """Return a digest of all that the walks of a robot depend on."""
+    # Folder and name of a robot do not influence its walks.
     plain = replace(description, folder=Path(), name="", game={})
-    said = (
-        *(digest_of(description), asdict(plain)),
-        *(code_version(ROOMS), library_versions()),
+    inputs = (
+        digest_of(description),
+        asdict(plain),
+        code_version(MODULES),
+        library_versions(),
     )
-    return sha256(repr(said).encode()).hexdigest()[:16]
+    return sha256(repr(inputs).encode()).hexdigest()[:16]

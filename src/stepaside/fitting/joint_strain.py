@@ -1,4 +1,4 @@
-"""What a walk asks of the joints: torques, speeds, and how far they sag."""
+"""Joint strain of a walk: torques by their limits, and sag of the CoM."""
 
 from typing import NamedTuple
 
@@ -8,21 +8,20 @@ from ..games.match import Match
 from ..games.outcome import Outcome
 from ..games.walker import Walker
 
-SETTLED = 0.3  # after which a robot stands as it will, in [s]
-STANDS = 0.6  # until which it surely does, in [s]
+STANDING_FROM = 0.3  # time at which transients have settled, in [s]
+STANDING_UNTIL = 0.6  # time before which no robot starts walking, in [s]
 
 
 class JointStrain(NamedTuple):
-    """What the joints of a robot bore.
+    """Joint loads of a robot in a walk.
 
     Attributes:
-        standing: Greatest share of a torque limit while it stood.
-        standing_joint: Joint that bore it.
-        walking: Greatest share while it walked.
-        walking_joint: Joint that bore it.
-        saturated: Share of the ticks in which some leg joint was at its
-            limit.
-        sag: How far the CoM stood under its height, in [m].
+        standing: Greatest fraction of a torque limit while standing.
+        standing_joint: Joint with this load.
+        walking: Greatest fraction of a torque limit while walking.
+        walking_joint: Joint with this load.
+        saturated: Fraction of ticks with a joint at its torque limit.
+        sag: Mean deficit of the CoM height while standing, in [m].
     """
 
     standing: float
@@ -34,23 +33,23 @@ class JointStrain(NamedTuple):
 
 
 class StrainGauge:
-    """Watches one robot that walks alone."""
+    """Match observer that measures the joint strain of the first player."""
 
     def __init__(self) -> None:
-        """Begin with nothing seen."""
+        """Begin without data."""
         self._standing = self._walking = np.zeros(0)
         self._names: list[str] = []
         self._ticks = self._saturated = 0
         self._sags: list[float] = []
 
     def before(self, match: Match) -> None:
-        """Look at nothing."""
+        """Do nothing."""
 
     def acted(self, match: Match) -> None:
-        """Note what the servos pushed with until this tick."""
+        """Record the actuator forces of this tick."""
         model, data = match.world.model, match.world.data
         now = match.world.time
-        if now < SETTLED:
+        if now < STANDING_FROM:
             return
         if not self._names:
             self._names = [
@@ -60,30 +59,30 @@ class StrainGauge:
             self._limits = model.actuator_forcerange[:, 1].copy()
             self._limits[self._limits <= 0.0] = np.inf
             self._standing = self._walking = np.zeros(model.nu)
-        shares = np.abs(data.actuator_force) / self._limits
+        loads = np.abs(data.actuator_force) / self._limits
         self._ticks += 1
-        self._saturated += bool((shares > 0.999).any())
-        if now < STANDS:
-            self._standing = np.maximum(self._standing, shares)
+        self._saturated += bool((loads > 0.999).any())
+        if now < STANDING_UNTIL:
+            self._standing = np.maximum(self._standing, loads)
             walker = match.players[0]
             assert isinstance(walker, Walker)
-            asked = walker.scheme.reference.com[2]
-            self._sags.append(asked - float(walker.truth.com[2]))
-        self._walking = np.maximum(self._walking, shares)
+            height = walker.scheme.reference.com[2]
+            self._sags.append(height - float(walker.truth.com[2]))
+        self._walking = np.maximum(self._walking, loads)
 
     def ended(self, match: Match, outcome: Outcome) -> None:
-        """Look at nothing."""
+        """Do nothing."""
 
     def strain(self) -> JointStrain:
-        """What was borne so far."""
+        """Return the strain so far."""
         if not self._names:
             return JointStrain(0.0, "", 0.0, "", 0.0, 0.0)
-        stood, walked = self._standing, self._walking
+        standing, walking = self._standing, self._walking
         return JointStrain(
-            float(stood.max()),
-            self._names[int(stood.argmax())],
-            float(walked.max()),
-            self._names[int(walked.argmax())],
+            float(standing.max()),
+            self._names[int(standing.argmax())],
+            float(walking.max()),
+            self._names[int(walking.argmax())],
             self._saturated / max(1, self._ticks),
             float(np.mean(self._sags)) if self._sags else 0.0,
         )

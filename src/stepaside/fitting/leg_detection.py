@@ -1,4 +1,4 @@
-"""Legs of a published model that stands as it is seen."""
+"""Detection of the legs in a published model."""
 
 from pathlib import Path
 from typing import NamedTuple
@@ -10,34 +10,37 @@ from ..core.errors import ModelError
 from ..core.poses import Array
 from .sole_detection import foot_points, sole_of
 
-LEVEL = 0.8  # least share of an axis along the one it is taken for
-SLANTED = 0.5  # likewise of an axis that some other lies across
-APART = 0.1  # of the leg: places of an ankle's axes that are far apart
-MOVES = (int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE))
+ALIGNED = 0.8  # least direction cosine of a joint axis with its frame axis
+INCLINED = 0.5  # likewise of an inclined joint axis
+FAR_APART = 0.1  # distance of ankle axes beyond which one is moved, by leg
+JOINT_TYPES = (
+    int(mujoco.mjtJoint.mjJNT_HINGE),
+    int(mujoco.mjtJoint.mjJNT_SLIDE),
+)
 
 
 class NoLegsError(ModelError):
-    """There are no two legs."""
+    """The model does not have two legs."""
 
 
 class DetectedLeg(NamedTuple):
-    """One leg in the zero posture, seen from the torso.
+    """One leg in the zero posture, in the torso frame.
 
     Attributes:
-        joints: Between torso and foot.
-        pitches: Those that bend it forward and back: hip, knee, ankle.
-        signs: Sign of each pitch about the axis to the left.
+        joints: Joints between torso and foot.
+        pitches: Pitch joints of hip, knee and ankle.
+        signs: Sign of each pitch axis along the axis to the left.
         foot: Body of the foot.
-        hip: Middle of its first three joints, in [m]. Shape (3,).
-        ankle: Place of its last joint, in [m]. Shape (3,).
-        sole: Height of the sole, were it level, in [m].
+        hip: Mean position of the first three joints, in [m]. Shape (3,).
+        ankle: Position of the last joint, in [m]. Shape (3,).
+        sole: Height of the sole of the levelled foot, in [m].
         outline: Edges of the sole from the ankle, in [m]: back, front,
             right, left.
-        is_guessed: Whether sole and outline are a guess, for the foot has no
-            geoms that say.
-        axes: Axes forward, left and up of the foot when it stands, as
-            columns. Shape (3, 3).
-        pivots: Places of the pitches, in [m]. Shape (3, 3).
+        is_guessed: Whether sole and outline are a guess, because the foot
+            has no geoms.
+        axes: Axes forward, left and up of the standing foot, as columns.
+            Shape (3, 3).
+        pivots: Positions of the pitch joints, in [m]. Shape (3, 3).
     """
 
     joints: tuple[str, ...]
@@ -56,11 +59,16 @@ class DetectedLeg(NamedTuple):
 def find_legs(
     model: mujoco.MjModel, data: mujoco.MjData, path: Path
 ) -> tuple[DetectedLeg, DetectedLeg]:
-    """Left and right leg of a robot that stands as it is seen.
+    """Find the left and right leg of a robot.
+
+    Args:
+        model: Compiled model.
+        data: State with the torso at the origin, facing forward.
+        path: File of the model, for messages.
 
     Raises:
-        ModelError: If there are no two, or they are none to walk on; says
-            what is missing.
+        NoLegsError: If there are not two legs.
+        ModelError: If the legs lack joints; names them.
     """
     ends = [_end(model, data, body) for body in _ends(model)]
     feet = [
@@ -69,7 +77,7 @@ def find_legs(
         if any(side * e.y > 0.0 for e in ends)
     ]
     if len(feet) < 2:
-        raise NoLegsError(f"{path} has no two legs: {_sides(ends)}")
+        raise NoLegsError(f"{path} does not have two legs: {_sides(ends)}")
     chains = [_chain(model, end.body) for end in feet]
     own = [
         [j for j in chain if j not in chains[1 - side]]
@@ -83,18 +91,18 @@ def find_legs(
 
 
 def _sides(ends: "list[_End]") -> str:
-    """Where chains of joints end, in words."""
+    """Return the explanation of missing legs."""
     if not ends:
         return (
             "no body below its torso has a hinge or a slide; the torso must "
-            "be the body of the world that most bodies hang on"
+            "be the root body with the most descendants"
         )
     left = sum(end.y > 0.0 for end in ends)
     right = sum(end.y < 0.0 for end in ends)
     return (
-        f"each side must have a chain of joints that ends there, got {left} "
-        f"to the left and {right} to the right of the torso's origin; the "
-        "torso's z axis must point up, and its x or y axis forward"
+        f"each side must have a joint chain that ends there, got {left} to "
+        f"the left and {right} to the right of the torso origin; the z axis "
+        "of the torso must point up, and its x or y axis forward"
     )
 
 
@@ -105,12 +113,12 @@ class _End(NamedTuple):
 
 
 def _ends(model: mujoco.MjModel) -> list[int]:
-    """Bodies with joints, on which no others with joints hang."""
+    """Return the bodies with joints that have no jointed descendants."""
     jointed = [
         body
         for body in range(2, model.nbody)
         if any(
-            model.jnt_type[j] in MOVES
+            model.jnt_type[j] in JOINT_TYPES
             for j in range(
                 model.body_jntadr[body],
                 model.body_jntadr[body] + model.body_jntnum[body],
@@ -132,55 +140,55 @@ def _end(model: mujoco.MjModel, data: mujoco.MjData, body: int) -> _End:
 
 
 def _chain(model: mujoco.MjModel, body: int) -> list[int]:
-    """Joints from the torso to a body, in this order."""
+    """Return the joints from the torso to a body."""
     chain: list[int] = []
     while body:
         first = int(model.body_jntadr[body])
         own = range(first, first + int(model.body_jntnum[body]))
-        chain = [j for j in own if model.jnt_type[j] in MOVES] + chain
+        chain = [j for j in own if model.jnt_type[j] in JOINT_TYPES] + chain
         body = int(model.body_parentid[body])
     return chain
 
 
 def _lacking(data: mujoco.MjData, chain: list[int], knee: int) -> list[str]:
-    """Joints beside the pitches that a leg would need, in words."""
+    """Return the names of missing yaw and roll joints of a leg."""
     upper = [j for j in chain if j < knee]
     lower = [j for j in chain if j > knee]
-    wanted = (
+    required = (
         ("hip yaw", upper, 2),
         ("hip roll", upper, 0),
         ("ankle roll", lower, 0),
     )
     return [
-        what
-        for what, joints, axis in wanted
-        if not any(abs(data.xaxis[j, axis]) > SLANTED for j in joints)
+        name
+        for name, joints, axis in required
+        if not any(abs(data.xaxis[j, axis]) > INCLINED for j in joints)
     ]
 
 
 def _ankle(
     data: mujoco.MjData, chain: list[int], pitch: int, hip: Array
 ) -> Array:
-    """Place of the last joint of a leg, in [m]. Shape (3,).
+    """Return the position of the ankle, in [m]. Shape (3,).
 
-    Wherever along a roll axis a model says that it is, it is taken to be
-    where the ankle's pitch crosses it, if they are far apart; and wherever
-    along a pitch axis, where the ankle's roll does.
+    The anchor of a joint may be anywhere along its axis. The ankle is the
+    point of the last axis nearest to the other ankle axis; for a final roll
+    joint, only if its anchor is far from there.
     """
     last = chain[-1]
-    place: Array = data.xanchor[last].copy()
+    anchor: Array = data.xanchor[last].copy()
     axis = data.xaxis[last]
     if last == pitch:
         roll = chain[-2]
-        if abs(data.xaxis[roll, 0]) < LEVEL:
-            return place
-        across: Array = data.xanchor[roll] - place
-        crossing: Array = place + float(across @ axis) * axis
+        if abs(data.xaxis[roll, 0]) < ALIGNED:
+            return anchor
+        across: Array = data.xanchor[roll] - anchor
+        crossing: Array = anchor + float(across @ axis) * axis
         return crossing
-    along = float((data.xanchor[pitch] - place) @ axis)
-    if abs(axis[0]) < LEVEL or abs(along) < APART * (hip - place)[2]:
-        return place
-    ankle: Array = place + along * axis
+    along = float((data.xanchor[pitch] - anchor) @ axis)
+    if abs(axis[0]) < ALIGNED or abs(along) < FAR_APART * (hip - anchor)[2]:
+        return anchor
+    ankle: Array = anchor + along * axis
     return ankle
 
 
@@ -191,10 +199,10 @@ def _leg(
     chain: list[int],
     side: str,
 ) -> DetectedLeg:
-    """Joints that a leg has to itself, and its sole."""
-    pitches = [j for j in chain if abs(data.xaxis[j, 1]) > LEVEL]
+    """Return a leg from its joint chain."""
+    pitches = [j for j in chain if abs(data.xaxis[j, 1]) > ALIGNED]
     if len(pitches) == 4 and pitches[3] == chain[-1] and len(chain) > 6:
-        # A toe: it stays, and what hangs on it is of the foot.
+        # A toe joint: kept fixed, so that the toe is part of the foot.
         chain, pitches = chain[:-1], pitches[:-1]
         body = int(model.jnt_bodyid[chain[-1]])
     name = model.body(body).name
@@ -202,9 +210,9 @@ def _leg(
     if len(pitches) != 3:
         raise ModelError(
             f"the lowest chain of joints on the {side} ends in {name!r} and "
-            "is no leg: a leg must have a pitch joint at hip, knee and ankle, "
-            f"got {len(chain)} joints of which {len(pitches)} turn about the "
-            f"axis to the left: {names}"
+            "is not a leg: a leg must have a pitch joint at hip, knee and "
+            f"ankle, got {len(chain)} joints of which {len(pitches)} turn "
+            f"about the axis to the left: {names}"
         )
     lacking = _lacking(data, chain, pitches[1])
     if len(chain) < 6:

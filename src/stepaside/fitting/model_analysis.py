@@ -1,4 +1,4 @@
-"""What a published model is made of: legs, feet and soles, found in it."""
+"""Analysis of a published model: torso, legs, feet and orientation."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -10,28 +10,28 @@ import numpy as np
 
 from ..core.errors import ModelError
 from ..core.poses import Array
-from ..robots.model_overlay import odd_couplings, strip
+from ..robots.model_overlay import scaled_couplings, strip
 from ..robots.model_reader import read_model
-from .leg_detection import MOVES, DetectedLeg, NoLegsError, find_legs
+from .leg_detection import JOINT_TYPES, DetectedLeg, NoLegsError, find_legs
 
-TOES = 0.1  # of a foot's length: more ahead of the ankle than behind
-KNEES = 0.3  # what a knee that bends one way counts by the foot's length
-Turn = tuple[float, float, float, float]
+LEAST_ASYMMETRY = 0.1  # of a sole about its ankle, by its length
+KNEE_WEIGHT = 0.3  # of a knee that bends one way, by the asymmetry of a sole
+Quaternion = tuple[float, float, float, float]
 
 
 @dataclass(frozen=True, eq=False)
 class ModelAnalysis:
-    """A published model without what stands around it, and its legs.
+    """The robot in a published model, and its legs.
 
     Attributes:
         path: File of the model.
-        model: The model, compiled.
-        data: Its state in the zero posture, torso level at the origin.
+        model: Compiled model of the robot alone.
+        data: Zero posture, with the torso at the origin, facing forward.
         torso: Body that carries the free joint.
-        legs: Left and right one.
-        missing: Mesh files that are left out.
-        turn: Quaternion of the published torso's axes in (forward, left,
-            up).
+        legs: Left and right leg.
+        missing: Mesh files that are missing or cannot be read.
+        turn: Orientation of the published torso in axes (forward, left,
+            up), as a quaternion (w, x, y, z).
     """
 
     path: Path
@@ -40,7 +40,7 @@ class ModelAnalysis:
     torso: str
     legs: tuple[DetectedLeg, DetectedLeg]
     missing: tuple[str, ...]
-    turn: Turn = (1.0, 0.0, 0.0, 0.0)
+    turn: Quaternion = (1.0, 0.0, 0.0, 0.0)
 
     @property
     def mass(self) -> float:
@@ -49,47 +49,49 @@ class ModelAnalysis:
 
     @property
     def length(self) -> float:
-        """Length of a leg from its hip to the sole, in [m]."""
+        """Mean length of the legs from hip to sole, in [m]."""
         return float(np.mean([leg.hip[2] - leg.sole for leg in self.legs]))
 
     @property
     def joints(self) -> list[str]:
-        """Joints of the robot, in their order."""
+        """Names of the hinges and slides of the robot."""
         model = self.model
         return [
             model.joint(i).name
             for i in range(model.njnt)
-            if model.jnt_type[i] in MOVES
+            if model.jnt_type[i] in JOINT_TYPES
         ]
 
-    def turn_of(self, body: str) -> Array:
-        """Quaternion of the torso's axes in a body. Shape (4,)."""
-        turn = np.zeros(4)
-        mujoco.mju_negQuat(turn, self.data.body(body).xquat)
-        return turn
+    def torso_in(self, body: str) -> Array:
+        """Return the orientation of the torso in a body. Shape (4,)."""
+        quaternion = np.zeros(4)
+        mujoco.mju_negQuat(quaternion, self.data.body(body).xquat)
+        return quaternion
 
-    def place_in(self, body: str, point: Array) -> Array:
-        """A point in the frame of a body, in [m]. Shape (3,)."""
-        found = self.data.body(body)
-        place: Array = found.xmat.reshape(3, 3).T @ (point - found.xpos)
-        return place
+    def point_in(self, body: str, point: Array) -> Array:
+        """Transform a point to the frame of a body, in [m]. Shape (3,)."""
+        frame = self.data.body(body)
+        in_body: Array = frame.xmat.reshape(3, 3).T @ (point - frame.xpos)
+        return in_body
 
 
-def survey(path: Path, folders: Sequence[Path]) -> ModelAnalysis:
-    """Look for legs and feet in a published model.
+def analyse_model(path: Path, folders: Sequence[Path]) -> ModelAnalysis:
+    """Find torso, legs and feet in a published model.
 
     Args:
         path: MJCF or URDF file.
-        folders: Where meshes are looked for besides where it says.
+        folders: Additional folders with mesh files.
 
     Raises:
-        ModelError: If it is no model, or not one of a humanoid; says what
-            is missing.
+        ModelError: If it is not the model of a humanoid; names what is
+            missing.
     """
     try:
         spec = read_model(path)
         torso = _root_of(spec, path)
-        odd = [(each.name1, each.name2) for each in odd_couplings(spec)]
+        couplings = [
+            (each.name1, each.name2) for each in scaled_couplings(spec)
+        ]
         missing = strip(spec, torso, path, list(folders))
         model = spec.compile()
     except ValueError as error:
@@ -97,27 +99,27 @@ def survey(path: Path, folders: Sequence[Path]) -> ModelAnalysis:
             raise
         raise ModelError(f"{path} cannot be compiled: {error}") from error
     data, turn, legs = _legs(model, path)
-    of_legs = {*legs[0].joints, *legs[1].joints}
-    for name, leader in odd:
-        if name in of_legs and leader in of_legs:
+    leg_joints = {*legs[0].joints, *legs[1].joints}
+    for name, leader in couplings:
+        if name in leg_joints and leader in leg_joints:
             raise ModelError(
-                f"leg joint {name!r} of {path} follows {leader!r} by more "
-                "than polycoef 0 1 0 0 0, which the legs' kinematics does "
-                "not know"
+                f"leg joint {name!r} of {path} must follow {leader!r} with "
+                "polycoef 0 1 0 0 0: inverse kinematics supports no other "
+                "coupling"
             )
     return ModelAnalysis(path, model, data, torso, legs, tuple(missing), turn)
 
 
 def _legs(
     model: mujoco.MjModel, path: Path
-) -> tuple[mujoco.MjData, Turn, tuple[DetectedLeg, DetectedLeg]]:
-    """Legs of a robot that is turned until it looks ahead.
+) -> tuple[mujoco.MjData, Quaternion, tuple[DetectedLeg, DetectedLeg]]:
+    """Find the legs in the orientation in which the robot faces forward.
 
     Raises:
-        ModelError: If it has none whichever way it is turned; as it is found
-            in the torso's own axes.
+        ModelError: If no orientation has legs. Reports the first error with
+            legs, or else the first one.
     """
-    refused: ModelError | None = None
+    first_error: ModelError | None = None
     for quarters in (0, 2, 1, 3):
         half = 0.25 * np.pi * quarters
         turn = (float(np.cos(half)), 0.0, 0.0, float(np.sin(half)))
@@ -127,36 +129,38 @@ def _legs(
         try:
             legs = find_legs(model, data, path)
         except NoLegsError as error:
-            refused = refused or error
+            first_error = first_error or error
             continue
-        except ModelError as error:  # of legs that are there: says more
-            told = refused is None or isinstance(refused, NoLegsError)
-            refused = error if told else refused
+        except ModelError as error:  # more specific than missing legs
+            if first_error is None or isinstance(first_error, NoLegsError):
+                first_error = error
             continue
-        if sum(_looks_ahead(model, leg) for leg in legs) >= 0.0:
+        if sum(_forward_score(model, leg) for leg in legs) >= 0.0:
             return data, turn, legs
-        refused = refused or ModelError(f"{path} looks nowhere")
-    assert refused is not None
-    raise refused
+        first_error = first_error or ModelError(
+            f"{path}: toes and knees do not tell which way the robot faces"
+        )
+    assert first_error is not None
+    raise first_error
 
 
-def _looks_ahead(model: mujoco.MjModel, leg: DetectedLeg) -> float:
-    """How much toes and knees say that forward is ahead; below 0 if not.
+def _forward_score(model: mujoco.MjModel, leg: DetectedLeg) -> float:
+    """Score the evidence that a leg faces forward; negative for backward.
 
-    Some feet are longer behind the ankle, some knees bend backward, none
-    are known to do both.
+    Some feet are longer behind the ankle and some knees bend backward, but
+    no published robot is known to have both.
     """
     back, front, *_ = leg.outline
     low, high = leg.signs[1] * model.joint(leg.pitches[1]).range
     bends = round(low + high, 3) / max(abs(high - low), 0.1)
     toes = (front + back) / (front - back)
-    if leg.is_guessed or abs(toes) < TOES:
+    if leg.is_guessed or abs(toes) < LEAST_ASYMMETRY:
         toes = 0.0
-    return float(toes + KNEES * bends)
+    return float(toes + KNEE_WEIGHT * bends)
 
 
 def _root_of(spec: Any, path: Path) -> str:
-    """Body of the world that most bodies hang on: the robot."""
+    """Return the root body with the most descendants: the robot."""
     roots = list(spec.worldbody.bodies)
     if not roots:
         raise ModelError(f"{path} has no body")

@@ -11,31 +11,30 @@ from ..core.constants import GRAVITY
 from ..robots.description_types import ServoGains
 from .model_analysis import ModelAnalysis
 
-# Gains and inertia of leg joints by what tips a robot: its weight times the
-# length of its legs, and the pendulum's time; those of NAO's model.
+# Leg joints: stiffness by the toppling stiffness m g z of the pendulum,
+# damping by its time constant, armature by m z^2; the values of NAO's model.
 STIFFNESS = 12.0
-# A servo that is at its limit holds nothing. Of a robot whose joints bear
-# more than that share of their torque in most of a step, servos get there at
-# no less of an error than this, in [rad], so that a foot that lands a little
-# off takes no torque from standing; none is softer than that part of what
-# tips.
-WEAK = 0.6
-GIVES = 0.04
-LEAST = 3.0
 DAMPING_TIME = 0.3
 ARMATURE = 0.004
-HEAVY = 0.2  # of the mass: a waist that carries more is as stiff as legs
-ARM = 15.0  # of the others, by the torque that holds what they carry
-HOLDING = 1.5  # a torque that nobody tells, by the stiffest sensible one
-NONSENSE = 10.0  # of a torque that no motor has, by what tips the robot
-FASTEST = 100.0  # of a joint, in [rad/s]: a number for none
-SPEED = 12.0  # of a joint, where nobody tells, in [rad/s]
+# A saturated servo holds nothing. If a step takes more than WEAK_LOAD of a
+# torque limit most of the time, servos are softened to saturate at no less
+# than this error, in [rad], so that a foot that lands a little off does not
+# saturate them; but no softer than LEAST_STIFFNESS m g z.
+WEAK_LOAD = 0.6
+SATURATION_ANGLE = 0.04
+LEAST_STIFFNESS = 3.0
+HEAVY = 0.2  # mass fraction from which a joint is as stiff as legs: waists
+ARM_STIFFNESS = 15.0  # of other joints, by the gravity torque of their load
+DEFAULT_TORQUE = 1.5  # unpublished torque limit, by m g z
+IMPLAUSIBLE_TORQUE = 10.0  # by m g times the length of the legs
+IMPLAUSIBLE_SPEED = 100.0  # in [rad/s]
+DEFAULT_SPEED = 12.0  # unpublished speed limit, in [rad/s]
 
 
 def published_torques(spec: mujoco.MjSpec) -> dict[str, float]:
-    """Greatest torque of each joint that a model tells, in [N m].
+    """Return the torque limits in a model, by joint, in [N m].
 
-    From the force range of its actuators, the control range of motors, or
+    From the force range of the actuators, the control range of motors, or
     the force range of the joint, in this order.
     """
     found: dict[str, float] = {}
@@ -55,22 +54,22 @@ def published_torques(spec: mujoco.MjSpec) -> dict[str, float]:
     return found
 
 
-def likely_torques(
+def plausible_torques(
     torques: Mapping[str, float], mass: float, length: float
 ) -> dict[str, float]:
-    """Those torques that are no number for none.
+    """Return the torque limits without placeholders like 1e6.
 
     Args:
-        torques: As a model tells them, in [N m].
-        mass: Of the robot, in [kg].
-        length: Of its legs, in [m].
+        torques: Published torque limits, in [N m].
+        mass: Mass of the robot, in [kg].
+        length: Length of its legs, in [m].
     """
-    most = NONSENSE * mass * GRAVITY * length
-    return {name: high for name, high in torques.items() if high < most}
+    greatest = IMPLAUSIBLE_TORQUE * mass * GRAVITY * length
+    return {name: high for name, high in torques.items() if high < greatest}
 
 
 def published_speeds(path: Path) -> dict[str, float]:
-    """Greatest speed of each joint that a URDF tells, in [rad/s]."""
+    """Return the plausible speed limits in a URDF, by joint, in [rad/s]."""
     root = ElementTree.parse(path).getroot()
     if root.tag != "robot":
         return {}
@@ -78,7 +77,7 @@ def published_speeds(path: Path) -> dict[str, float]:
     for joint in root.iter("joint"):
         limit = joint.find("limit")
         speed = 0.0 if limit is None else float(limit.get("velocity", 0.0))
-        if 0.0 < speed < FASTEST:
+        if 0.0 < speed < IMPLAUSIBLE_SPEED:
             found[str(joint.get("name"))] = speed
     return found
 
@@ -90,13 +89,13 @@ def gains_of(
     *,
     weak: bool = False,
 ) -> dict[str, ServoGains]:
-    """Servo of every joint but the followers of others.
+    """Return the servo of every joint that does not follow another.
 
     Args:
-        found: The model.
-        torques: Greatest torques that are known, in [N m].
+        found: Analysis of the model.
+        torques: Published torque limits, in [N m].
         com_height: Height of the CoM over the soles, in [m].
-        weak: Whether walking asks for most of what the joints bear.
+        weak: Whether walking takes most of the torque limits.
     """
     tipping = found.mass * GRAVITY * com_height
     time = np.sqrt(com_height / GRAVITY)
@@ -105,38 +104,40 @@ def gains_of(
     for name in found.joints:
         if name in followers_of(found.model):
             continue
-        held = _held_by(found, name)
+        load = _load_of(found, name)
         torque = torques.get(name)
-        if name in legs or held.mass > HEAVY * found.mass:
+        if name in legs or load.mass > HEAVY * found.mass:
             stiffness = STIFFNESS * tipping
             if weak and torque is not None:
-                soft = max(torque / GIVES, LEAST * tipping)
+                soft = max(
+                    torque / SATURATION_ANGLE, LEAST_STIFFNESS * tipping
+                )
                 stiffness = min(stiffness, soft)
             inertia = ARMATURE * found.mass * com_height**2
         else:
-            stiffness = ARM * held.torque + 400.0 * held.inertia
-            inertia = 0.1 * held.inertia
+            stiffness = ARM_STIFFNESS * load.torque + 400.0 * load.inertia
+            inertia = 0.1 * load.inertia
         passive = float(found.model.dof_damping[joint_of(found, name)])
         damping = max(DAMPING_TIME * time * stiffness, passive)
         own = float(found.model.joint(name).armature[0])
         if torque is None:
-            torque = HOLDING * stiffness / STIFFNESS
+            torque = DEFAULT_TORQUE * stiffness / STIFFNESS
         gains[name] = ServoGains(
-            _short(stiffness),
-            _short(damping),
-            _short(torque),
-            0.0 if own > 0.2 * inertia else _short(inertia),
+            _round(stiffness),
+            _round(damping),
+            _round(torque),
+            0.0 if own > 0.2 * inertia else _round(inertia),
         )
     return gains
 
 
 def joint_of(found: ModelAnalysis, name: str) -> int:
-    """Number of the velocity of a joint."""
+    """Return the index of the velocity of a joint."""
     return int(found.model.joint(name).dofadr[0])
 
 
 def followers_of(model: mujoco.MjModel) -> set[str]:
-    """Joints that an equality lets follow another."""
+    """Return the joints that an equality couples to a leader."""
     kind = int(mujoco.mjtEq.mjEQ_JOINT)
     return {
         model.joint(model.eq_obj1id[i]).name
@@ -145,8 +146,8 @@ def followers_of(model: mujoco.MjModel) -> set[str]:
     }
 
 
-class _Held:
-    """What a joint carries: its weight's torque at worst, its inertia."""
+class _JointLoad:
+    """Load of a joint: greatest gravity torque [N m], inertia [kg m^2]."""
 
     def __init__(self, mass: float, lever: float, inertia: float) -> None:
         self.mass = mass
@@ -154,15 +155,15 @@ class _Held:
         self.inertia = inertia + mass * lever**2
 
 
-def _held_by(found: ModelAnalysis, name: str) -> _Held:
+def _load_of(found: ModelAnalysis, name: str) -> _JointLoad:
     model, data = found.model, found.data
     joint = model.joint(name)
     body = int(joint.bodyid[0])
     mass = float(model.body_subtreemass[body])
     lever = np.linalg.norm(data.subtree_com[body] - data.xanchor[joint.id])
     spread = float(model.body_inertia[body].max())
-    return _Held(mass, float(lever), spread)
+    return _JointLoad(mass, float(lever), spread)
 
 
-def _short(value: float) -> float:
+def _round(value: float) -> float:
     return float(f"{value:.3g}")

@@ -1,4 +1,4 @@
-"""What a robot must have before it walks, looked for one by one."""
+"""Static requirements of a robot for walking, checked one by one."""
 
 from collections.abc import Callable, Iterator
 from typing import NamedTuple
@@ -14,23 +14,23 @@ from ..robots.description import REMEDY, RobotDescription
 from ..robots.forward_kinematics import ForwardKinematics
 from ..robots.leg_kinematics import LegKinematics
 from ..robots.tree_compiler import compile_tree
-from .gait_feasibility import torques_borne
+from .gait_feasibility import step_loads
 
-UNEVEN = 0.05  # difference of the legs' masses that is still a mirror's
-ASIDE = 0.05  # of the CoM from the middle, by its height, likewise
-CLOSE = 0.01  # least room to the greatest height in reach, by that height
-SPENT = 0.95  # share of a torque that a step needs and leaves nothing
+GREATEST_FOOT_DIFFERENCE = 0.05  # of the foot heights, by the CoM height
+GREATEST_COM_OFFSET = 0.05  # lateral, by the CoM height
+LEAST_REACH_MARGIN = 0.01  # of the CoM height, by the greatest in reach
+GREATEST_LOAD = 0.95  # of a torque limit in a step
 TICK = 0.004  # of the kinematics that stands, in [s]
 
 
 class RequirementCheck(NamedTuple):
-    """One thing that was looked at.
+    """Result of one check.
 
     Attributes:
-        name: What.
+        name: Name of the requirement.
         verdict: "pass", "warn" or "fail".
-        value: What was found, in words.
-        hint: What to do about it; empty if it is right.
+        value: Measured value as text.
+        hint: Remedy; empty if it passed.
     """
 
     name: str
@@ -40,20 +40,21 @@ class RequirementCheck(NamedTuple):
 
 
 def findings_of(description: RobotDescription) -> list[RequirementCheck]:
-    """Look at everything that can be seen while a robot stands still.
+    """Check all requirements that need no walking.
 
-    What cannot even be read ends the list, with a failure that says why.
+    An invalid description ends the list with a failure that gives the
+    reason.
     """
-    found: list[RequirementCheck] = []
-    for name, look in LOOKS.items():
+    results: list[RequirementCheck] = []
+    for name, check in CHECKS.items():
         try:
-            found += look(description)
+            results += check(description)
         except StepAsideError as error:
-            found.append(
+            results.append(
                 RequirementCheck(name, "fail", str(error), HINTS[name])
             )
             break
-    return found
+    return results
 
 
 def _kinematics(description: RobotDescription) -> Iterator[RequirementCheck]:
@@ -62,7 +63,7 @@ def _kinematics(description: RobotDescription) -> Iterator[RequirementCheck]:
     yield RequirementCheck("free joint", "pass", f"at {description.torso}")
     legs = len(description.legs)
     yield RequirementCheck(
-        "joints", "pass", f"{len(tree.joints)}, {legs} of the legs"
+        "joints", "pass", f"{len(tree.joints)}, of which {legs} in the legs"
     )
 
 
@@ -90,12 +91,16 @@ def _masses(description: RobotDescription) -> Iterator[RequirementCheck]:
     high = float(posture.com[2] - posture.feet[:, 2].mean())
     sides = posture.feet[0] + posture.feet[1] - 2.0 * posture.feet.mean(axis=0)
     uneven = abs(float(posture.feet[0, 2] - posture.feet[1, 2])) / high
-    mirrored = aside < ASIDE * high and uneven < UNEVEN and not sides.any()
+    mirrored = (
+        aside < GREATEST_COM_OFFSET * high
+        and uneven < GREATEST_FOOT_DIFFERENCE
+        and not sides.any()
+    )
     yield RequirementCheck(
         "mirror symmetry",
         "pass" if mirrored else "warn",
-        f"CoM {1e3 * aside:.1f} mm aside of the feet, which differ by "
-        f"{100.0 * uneven:.1f} % of its height",
+        f"CoM {1e3 * aside:.1f} mm off the middle of the feet, whose heights "
+        f"differ by {100.0 * uneven:.1f} % of the CoM height",
         "" if mirrored else "see standing: angles of both sides must mirror",
     )
 
@@ -104,8 +109,8 @@ def _sensors(description: RobotDescription) -> Iterator[RequirementCheck]:
     model = description.compile()
     names = {model.sensor(i).name for i in range(model.nsensor)}
     own = description.sensors
-    wanted = (own.gyro, own.accelerometer, *own.feet)
-    missing = [name for name in wanted if name not in names]
+    required = (own.gyro, own.accelerometer, *own.feet)
+    missing = [name for name in required if name not in names]
     yield RequirementCheck(
         "sensors",
         "fail" if missing else "pass",
@@ -121,28 +126,30 @@ def _actuators(description: RobotDescription) -> Iterator[RequirementCheck]:
         model.joint(model.actuator_trnid[i, 0]).name: i
         for i in range(model.nu)
     }
-    lacking = [name for name in free if name not in by_joint]
-    weak = [
+    missing = [name for name in free if name not in by_joint]
+    unlimited = [
         name
         for name, i in by_joint.items()
         if model.actuator_forcerange[i, 1] <= 0.0
     ]
-    soft = [
+    other = [
         name
         for name, i in by_joint.items()
         if model.actuator_biastype[i] != mujoco.mjtBias.mjBIAS_AFFINE
     ]
-    wrong = {
-        "no actuator for": lacking,
-        "no force range for": weak,
-        "no position servo for": soft,
+    faults = {
+        "no actuator for": missing,
+        "no force range for": unlimited,
+        "no position servo for": other,
     }
-    said = [f"{why} {names[0]}" for why, names in wrong.items() if names]
+    messages = [
+        f"{text} {names[0]}" for text, names in faults.items() if names
+    ]
     yield RequirementCheck(
         "actuators",
-        "fail" if said else "pass",
-        "; ".join(said) or f"{model.nu} servos with a force range",
-        REMEDY if said else "",
+        "fail" if messages else "pass",
+        "; ".join(messages) or f"{model.nu} servos with a force range",
+        REMEDY if messages else "",
     )
 
 
@@ -161,13 +168,13 @@ def _reach(description: RobotDescription) -> Iterator[RequirementCheck]:
     )
     legs.stand(stance)
     highest = legs.highest_com(stance)
-    room = highest - gait.com_height
-    near = room < CLOSE * highest
+    margin = highest - gait.com_height
+    near = margin < LEAST_REACH_MARGIN * highest
     yield RequirementCheck(
         "reach",
         "warn" if near else "pass",
         f"CoM at {gait.com_height:.3f} of {highest:.3f} m",
-        "lower gait.com_height: knees get straight" if near else "",
+        "lower gait.com_height: the knees get straight" if near else "",
     )
 
 
@@ -178,20 +185,20 @@ def _strength(description: RobotDescription) -> Iterator[RequirementCheck]:
         model.joint(model.actuator_trnid[i, 0]).name: float(high)
         for i, high in enumerate(model.actuator_forcerange[:, 1])
     }
-    borne = torques_borne(description, gait, torques)
-    share, joint = borne.usual, borne.joint
-    weak = share > SPENT
+    loads = step_loads(description, gait, torques)
+    weak = loads.usual > GREATEST_LOAD
     yield RequirementCheck(
         "torque of a step",
         "warn" if weak else "pass",
-        f"{100.0 * share:.0f} % of the limit of {joint}",
-        f"see the torque of {joint}: a step leaves nothing for errors"
+        f"{100.0 * loads.usual:.0f} % of the limit of {loads.joint}",
+        f"see the torque limit of {loads.joint}: a step leaves no margin for "
+        "feedback"
         if weak
         else "",
     )
 
 
-LOOKS: dict[str, Callable[[RobotDescription], Iterator[RequirementCheck]]] = {
+CHECKS: dict[str, Callable[[RobotDescription], Iterator[RequirementCheck]]] = {
     "kinematics": _kinematics,
     "masses": _masses,
     "sensors": _sensors,

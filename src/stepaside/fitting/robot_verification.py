@@ -1,4 +1,4 @@
-"""Whether a robot plays: what it has, and how it walks."""
+"""Verification of a robot: static requirements and walk trials."""
 
 from collections.abc import Callable, Iterable
 from concurrent.futures import Executor
@@ -9,19 +9,20 @@ from .joint_strain import JointStrain
 from .requirements import RequirementCheck, findings_of
 from .walk_trials import WalkTrialResult, trials_of, walk_trial
 
-SAGS = 0.02  # of the CoM's height that is much
-NARROW = 0.35  # unsteadiness of a walk whose circle is within 5 % of theory's
-TORQUE = 0.9  # share of a torque limit that leaves little
+GREATEST_SAG = 0.02  # of the CoM while standing, in [m]
+# Unsteadiness up to which the circle is within 5 % of theory.
+ACCURATE = 0.35
+GREATEST_LOAD = 0.9  # of a torque limit
 
 
 class VerificationReport(NamedTuple):
-    """What a check found.
+    """Result of a verification.
 
     Attributes:
-        findings: Of the robot as it stands.
-        walks: Its short walks, open loop and with feedback; none if it
+        findings: Results of the checks.
+        walks: Walk trials, open loop and with feedback; empty if the robot
             cannot stand.
-        feedback: Whether its description asks for feedback.
+        feedback: Whether the description uses feedback.
     """
 
     findings: tuple[RequirementCheck, ...]
@@ -30,7 +31,7 @@ class VerificationReport(NamedTuple):
 
     @property
     def passes(self) -> bool:
-        """Whether it plays: all it has is right, and it walks as described."""
+        """Whether no check failed and the described walks are steady."""
         own = [w for w in self.walks if w.feedback == self.feedback]
         return (
             all(f.verdict != "fail" for f in self.findings)
@@ -39,7 +40,7 @@ class VerificationReport(NamedTuple):
         )
 
     def to_json(self) -> dict[str, Any]:
-        """Plain values by name."""
+        """Return the report as values for JSON."""
         return {
             "passes": self.passes,
             "feedback": self.feedback,
@@ -63,12 +64,12 @@ def check_robot(
     executor: Executor,
     report: Callable[[int, int], None] | None = None,
 ) -> VerificationReport:
-    """Look at a robot, and let it walk.
+    """Check the requirements of a robot and run its walk trials.
 
     Args:
-        description: The robot.
-        executor: Where the walks are walked.
-        report: Called with how many are done, and how many there are.
+        description: Robot description.
+        executor: Executor of the walks.
+        report: Called with the number of finished walks and of all walks.
     """
     found = findings_of(description)
     if any(finding.verdict == "fail" for finding in found):
@@ -87,69 +88,75 @@ def check_robot(
 
 
 def _strains(walks: Iterable[WalkTrialResult]) -> list[RequirementCheck]:
-    """Torques while standing and walking, and what the joints sag."""
+    """Check torques while standing and walking, and the sag of the CoM."""
     strains = [walk.strain for walk in walks if walk.strain is not None]
     if not strains:
         return []
-    stood = max(strains, key=lambda s: s.standing)
-    walked = max(strains, key=lambda s: s.walking)
+    standing = max(strains, key=lambda s: s.standing)
+    walking = max(strains, key=lambda s: s.walking)
     return [
-        _torque("torque, standing", stood.standing, stood.standing_joint),
-        _torque("torque, walking", walked.walking, walked.walking_joint),
-        _sag(stood),
+        _torque(
+            "torque, standing", standing.standing, standing.standing_joint
+        ),
+        _torque("torque, walking", walking.walking, walking.walking_joint),
+        _sag(standing),
     ]
 
 
-def _torque(name: str, share: float, joint: str) -> RequirementCheck:
-    much = share > TORQUE
+def _torque(name: str, load: float, joint: str) -> RequirementCheck:
+    high = load > GREATEST_LOAD
     return RequirementCheck(
         name,
-        "warn" if much else "pass",
-        f"{100.0 * share:.0f} % of the limit of {joint}",
-        f"see the torque of {joint}, or shorten gait.stride and gait.speed"
-        if much
+        "warn" if high else "pass",
+        f"{100.0 * load:.0f} % of the limit of {joint}",
+        f"see the torque limit of {joint}, or reduce gait.stride and "
+        "gait.speed"
+        if high
         else "",
     )
 
 
 def _sag(strain: JointStrain) -> RequirementCheck:
-    much = strain.sag > SAGS
+    high = strain.sag > GREATEST_SAG
     return RequirementCheck(
         "sag",
-        "warn" if much else "pass",
+        "warn" if high else "pass",
         f"{1e3 * strain.sag:.1f} mm",
-        "raise the stiffness of the legs' servos" if much else "",
+        "raise the stiffness of the leg servos" if high else "",
     )
 
 
 def _walks(
     walks: Iterable[WalkTrialResult], feedback: bool
 ) -> list[RequirementCheck]:
-    """One finding for each way of control, the described one first."""
-    found = []
-    for way in (feedback, not feedback):
-        own = [walk for walk in walks if walk.feedback is way]
+    """Check the walks with and without feedback, the described ones first."""
+    results = []
+    for with_feedback in (feedback, not feedback):
+        described = with_feedback is feedback
+        own = [walk for walk in walks if walk.feedback is with_feedback]
         failed = [walk for walk in own if not walk.is_steady]
-        name = "walks with feedback" if way else "walks open loop"
+        name = "walks with feedback" if with_feedback else "walks open loop"
         if not failed:
             worst = max(own, key=lambda walk: walk.unsteadiness)
             text = f"all steady, at worst {worst.unsteadiness:.2f} of 1"
-            wide = way is feedback and worst.unsteadiness > NARROW
-            hint = "`stepaside robot tune` looks for what keeps to the plan"
-            verdict = "warn" if wide else "pass"
-            found.append(
-                RequirementCheck(name, verdict, text, hint if wide else "")
+            inaccurate = described and worst.unsteadiness > ACCURATE
+            hint = "`stepaside robot tune` searches for a more accurate gait"
+            verdict = "warn" if inaccurate else "pass"
+            results.append(
+                RequirementCheck(
+                    name, verdict, text, hint if inaccurate else ""
+                )
             )
             continue
         worst = max(failed, key=lambda walk: walk.unsteadiness)
-        verdict = "fail" if way is feedback else "warn"
-        hint = "`stepaside robot tune` looks for what walks"
-        if way is not feedback:
-            hint = "the description does not ask for it"
-        said = f"{len(failed)} of {len(own)} unsteady, worst {worst.way}: "
+        verdict = "fail" if described else "warn"
+        hint = "`stepaside robot tune` searches for a gait that walks"
+        if not described:
+            hint = "the description does not use it"
+        text = f"{len(failed)} of {len(own)} unsteady, worst {worst.way}: "
         if worst.completed:
-            said += f"{worst.unsteadiness:.2f} of 1"
+            text += f"{worst.unsteadiness:.2f} of 1"
         else:
-            said += worst.message
-        found.append(RequirementCheck(name, verdict, said, hint))
-    return found
+            text += worst.message
+        results.append(RequirementCheck(name, verdict, text, hint))
+    return results

@@ -1,8 +1,8 @@
-"""Soles of a published model: where its feet are flat, however they tilt.
+"""Detection of the soles in a published model.
 
-In the zero posture of a model its feet need not be level. What a foot can
-stand on is the largest flat side of its convex hull that looks downward; the
-foot frame is level when that side is.
+In the zero posture of a model its feet need not be level. The sole is the
+largest flat side of the convex hull of a foot that faces downward; the foot
+frame is level with it.
 """
 
 from typing import NamedTuple
@@ -15,31 +15,28 @@ from ..core.errors import ModelError
 from ..core.poses import Array
 from ..sim.geom_points import points_of
 
-FLAT = 0.012  # of the leg's length: what of a foot counts as its sole
-STEEP = np.cos(np.radians(40.0))  # of a side that the robot may stand on
-ALIKE = np.cos(np.radians(2.0))  # of sides that count as one
-TILTED = np.sin(
-    np.radians(1.0)
-)  # a foot that tilts by less is taken for level
-TRIES = 4  # rounds in which a tilt is found: round geoms touch elsewhere
-# Length and width of a sole by that of the leg: less carries no robot, and
-# more is no foot.
+SOLE_THICKNESS = 0.012  # of the points of a sole, by the length of the leg
+GREATEST_TILT = np.cos(np.radians(40.0))  # of a sole in the zero posture
+SAME_SIDE = np.cos(np.radians(2.0))  # angle of faces that count as one side
+LEVEL_TILT = np.sin(np.radians(1.0))  # smaller tilts count as level
+ITERATIONS = 4  # of the tilt: round geoms touch at other points when tilted
+# Plausible length and width of a sole by the length of the leg.
 LENGTHS = (0.1, 0.8)
 WIDTHS = (0.03, 0.6)
-# Height of an ankle over the sole and edges of the sole, as parts of a leg.
+# Height of an ankle and edges of a sole by the length of the leg.
 GUESS = (0.12, -0.12, 0.22, -0.09, 0.09)
 
 
 class DetectedSole(NamedTuple):
-    """What a foot stands on, in the zero posture.
+    """Sole of a foot in the zero posture.
 
     Attributes:
-        axes: Axes forward, left and up of the foot that stands, as columns,
-            in those of the torso. Shape (3, 3).
-        height: Of the ankle over the sole, along the axis up, in [m].
+        axes: Axes forward, left and up of the standing foot in the torso
+            frame, as columns. Shape (3, 3).
+        height: Height of the ankle over the sole, in [m].
         outline: Edges from the ankle, in [m]: back, front, right, left.
-        is_guessed: Whether height and outline are a guess, for the foot has
-            no geoms that say.
+        is_guessed: Whether height and outline are a guess, because the foot
+            has no geoms.
     """
 
     axes: Array
@@ -55,17 +52,17 @@ def sole_of(
     hip: Array,
     ankle: Array,
 ) -> DetectedSole:
-    """Find what a foot stands on.
+    """Find the sole of a foot.
 
     Args:
-        model: The model.
-        data: Its zero posture, with the torso level at the origin.
+        model: Compiled model.
+        data: Zero posture, with the torso level at the origin.
         body: Body of the foot.
-        hip: Place of the hip, in [m]. Shape (3,).
-        ankle: Place of the last joint, likewise.
+        hip: Position of the hip, in [m]. Shape (3,).
+        ankle: Position of the ankle, in [m]. Shape (3,).
 
     Raises:
-        ModelError: If its geoms have no side that a robot can stand on.
+        ModelError: If the geoms have no side that a robot can stand on.
     """
     points = foot_points(model, data, body)
     if len(points) == 1:
@@ -75,32 +72,33 @@ def sole_of(
             np.eye(3), height, (back, front, right, left), True
         )
     axes = np.eye(3)
-    for _ in range(TRIES):
+    for _ in range(ITERATIONS):
         down = _downward(points)
         if down is None:
             break
         axes = _standing_on(axes @ down)
         points = foot_points(model, _turned(model, data, axes.T), body)
-    where = axes.T @ ankle
+    level_ankle = axes.T @ ankle
     low = float(points[:, 2].min())
     length = float((axes.T @ hip)[2] - low)
-    flat = points[points[:, 2] < low + FLAT * length] - where
+    flat = points[points[:, 2] < low + SOLE_THICKNESS * length] - level_ankle
     (back, right), (front, left) = (
         flat[:, :2].min(axis=0).tolist(),
         flat[:, :2].max(axis=0).tolist(),
     )
     _check(model.body(body).name, (back, front, right, left), length)
-    height = float(where[2]) - low
+    height = float(level_ankle[2]) - low
     return DetectedSole(axes, height, (back, front, right, left))
 
 
 def foot_points(
     model: mujoco.MjModel, data: mujoco.MjData, body: int
 ) -> Array:
-    """Points on the surface of an end, those that collide if any do.
+    """Return the surface points of a foot: of colliding geoms if any.
 
     Returns:
-        Places, in [m], shape (n, 3); that of the body where it has none.
+        Positions, in [m]; that of the body if it has no geoms.
+        Shape (n, 3).
     """
     geoms = [
         geom
@@ -123,11 +121,11 @@ def foot_points(
 
 
 def check_size(edges: tuple[float, ...], length: float) -> str:
-    """What is wrong with the size of a sole, in words; empty if nothing.
+    """Return the violation of the size limits of a sole; empty if none.
 
     Args:
-        edges: Back, front, right and left one, in [m].
-        length: Of the leg, in [m].
+        edges: Back, front, right and left edge, in [m].
+        length: Length of the leg, in [m].
     """
     back, front, right, left = edges
     sizes = ((front - back, LENGTHS, "long"), (left - right, WIDTHS, "wide"))
@@ -141,25 +139,21 @@ def check_size(edges: tuple[float, ...], length: float) -> str:
 
 
 def _check(name: str, edges: tuple[float, ...], length: float) -> None:
-    """Refuse a sole that no robot stands on.
-
-    Raises:
-        ModelError: If it is too small or large, or not under its ankle.
-    """
+    """Check that a sole has a plausible size and is under its ankle."""
     back, front, right, left = edges
-    wrong = check_size(edges, length)
-    if not wrong and not (back < 0.0 < front and right < 0.0 < left):
+    violation = check_size(edges, length)
+    if not violation and not (back < 0.0 < front and right < 0.0 < left):
         got = ", ".join(f"{edge:.3f}" for edge in edges)
-        wrong = f"must lie under its ankle, got edges {got} [m] from it"
-    if wrong:
+        violation = f"must be under its ankle, got edges {got} [m] from it"
+    if violation:
         raise ModelError(
-            f"the sole of {name!r} {wrong}: its geoms have no flat side that "
-            "the robot could stand on"
+            f"the sole of {name!r} {violation}: its geoms have no flat side "
+            "that the robot could stand on"
         )
 
 
 def _downward(points: Array) -> Array | None:
-    """Where the side looks that a foot can stand on; None if that is down.
+    """Return the outward normal of the sole; None if it is vertical.
 
     Returns:
         Shape (3,).
@@ -172,21 +166,21 @@ def _downward(points: Array) -> Array | None:
     corners = points[hull.simplices]
     spans = corners[:, 1:] - corners[:, :1]
     areas = 0.5 * np.linalg.norm(np.cross(spans[:, 0], spans[:, 1]), axis=1)
-    steep = -normals[:, 2] >= STEEP
-    normals, areas = normals[steep], areas[steep]
+    downward = -normals[:, 2] >= GREATEST_TILT
+    normals, areas = normals[downward], areas[downward]
     if not len(areas):
         return None
     best, down = 0.0, normals[0]
     for i in np.argsort(-areas)[:40]:
-        area = float(areas[normals @ normals[i] > ALIKE].sum())
+        area = float(areas[normals @ normals[i] > SAME_SIDE].sum())
         if area > best * (1.0 + 1e-9):
             best, down = area, normals[i]
-    is_level = np.hypot(down[0], down[1]) < TILTED
+    is_level = np.hypot(down[0], down[1]) < LEVEL_TILT
     return None if is_level else down
 
 
 def _standing_on(down: Array) -> Array:
-    """Axes of a foot that pitches and then rolls to look down so."""
+    """Return the axes of a foot whose sole has a given normal."""
     forward = np.cross((0.0, 1.0, 0.0), -down)
     forward /= np.linalg.norm(forward)
     return np.stack([forward, np.cross(-down, forward), -down], axis=1)
@@ -195,7 +189,7 @@ def _standing_on(down: Array) -> Array:
 def _turned(
     model: mujoco.MjModel, data: mujoco.MjData, matrix: Array
 ) -> mujoco.MjData:
-    """The same posture, all of it turned."""
+    """Return the posture with the torso rotated by a matrix."""
     turned = mujoco.MjData(model)
     turned.qpos[:] = data.qpos
     turn = np.zeros(4)
@@ -206,7 +200,7 @@ def _turned(
 
 
 def _rigid(model: mujoco.MjModel, body: int) -> list[int]:
-    """A body and all that hangs on it."""
+    """Return a body and its descendants."""
     found = [body]
     for other in range(body + 1, model.nbody):
         if int(model.body_parentid[other]) in found:

@@ -1,30 +1,30 @@
-r"""Angles at which a leg stands bent, from where its pitch joints are.
+r"""Standing angles of a leg with a bent knee.
 
-Hip, knee and ankle pitch turn about the axis to the left, so that a leg is
-two rods in a plane. A knee that bends by :math:`\kappa` away from where the
-rods are in line leaves the hip to turn the ankle under itself, and the ankle
-to level the foot. In the zero posture of most models the leg is straight and
-the foot level; where it is not, their angles say so.
+Hip, knee and ankle pitch have parallel lateral axes, so that a leg is a
+planar two-link chain. The knee bends by :math:`\kappa` from the straight leg,
+the hip puts the ankle under itself, and the ankle levels the foot. In the
+zero posture of most models the leg is straight and the foot level; if not,
+their angles are taken into account.
 """
 
 from math import atan2, cos, sin
 
 from .leg_detection import DetectedLeg
 
-BENT = (-0.3, 0.6, -0.3)  # of hip, knee and ankle of a straight leg, [rad]
-STRAIGHT = 0.05  # that a knee keeps from being straight, in [rad]
-CROOKED = 0.25  # of a knee whose leg does not count as straight, in [rad]
+BENT = (-0.3, 0.6, -0.3)  # hip, knee and ankle of a straight leg, in [rad]
+STRAIGHT_MARGIN = 0.05  # least bend of a knee, in [rad]
+STRAIGHT_TOLERANCE = 0.25  # smaller knee angles count as straight, in [rad]
 
 
 def bend_of(leg: DetectedLeg, knee_range: tuple[float, float]) -> list[float]:
-    """Angles of hip, knee and ankle of a leg that stands, in [rad].
+    """Return the standing angles of hip, knee and ankle.
 
     Args:
-        leg: The leg.
-        knee_range: Of its knee, in [rad].
+        leg: Detected leg.
+        knee_range: Range of its knee, in [rad].
 
     Returns:
-        Of the joints themselves, whichever way their axes point.
+        Joint angles, in [rad], signed by the joint axes of the model.
     """
     hip, knee, ankle = BENT
     straight, tilt = straight_of(leg), tilt_of(leg)
@@ -43,29 +43,29 @@ def bend_of(leg: DetectedLeg, knee_range: tuple[float, float]) -> list[float]:
 
 
 def straight_of(leg: DetectedLeg) -> float:
-    """Angle about the axis left at which a knee is straight, in [rad].
+    """Return the knee angle of the straight leg.
 
     Returns:
-        0 for a leg that counts as straight in the zero posture.
+        Angle about the axis to the left, in [rad]; 0 if the leg is about
+        straight in the zero posture.
     """
     upper, lower = (atan2(x, -z) for x, z in _rods(leg))
     straight = lower - upper
-    return straight if abs(straight) > CROOKED else 0.0
+    return straight if abs(straight) > STRAIGHT_TOLERANCE else 0.0
 
 
 def tilt_of(leg: DetectedLeg) -> float:
-    """Pitch of a foot that stands against the zero posture, in [rad].
+    """Return the pitch of the sole in the zero posture.
 
     Returns:
-        About the axis left, by how far the foot of the zero posture is
-        turned beyond level; 0 for one that is level.
+        Angle from level about the axis to the left, in [rad].
     """
     x, _, z = leg.axes[:, 0]
     return atan2(-z, x) if z else 0.0
 
 
 def _rods(leg: DetectedLeg) -> list[tuple[float, float]]:
-    """Thigh and shank, forward and up, in [m]."""
+    """Return thigh and shank vectors (forward, up), in [m]."""
     hip, knee, ankle = leg.pivots
     spans = (knee - hip, ankle - knee)
     return [(float(span[0]), float(span[2])) for span in spans]

@@ -1,21 +1,22 @@
-"""How a stranger's robot stands: knees bent a little, arms hanging."""
+"""Standing posture of a robot: knees slightly bent, arms hanging."""
 
 import mujoco
 import numpy as np
 
 from ..sim.geom_points import points_of
-from .leg_detection import LEVEL, MOVES, DetectedLeg
+from .leg_detection import ALIGNED, JOINT_TYPES, DetectedLeg
 from .model_analysis import ModelAnalysis
-from .standing_angles import STRAIGHT, bend_of, straight_of
+from .standing_angles import STRAIGHT_MARGIN, bend_of, straight_of
 
-ROOM = 0.02  # from the end of a joint's range, in [rad]
-LIFTED = 0.1  # of a leg's length: arms whose CoM is higher do not hang
-AWAY = 0.2  # that hanging arms stand off, in [rad]
-SPARE = 1.15  # on the reach that is measured
+RANGE_MARGIN = 0.02  # from the ends of a joint range, in [rad]
+# Drop of the CoM of an arm, by the length of a leg, from which it is lowered.
+LEAST_DROP = 0.1
+ARM_CLEARANCE = 0.2  # angle of hanging arms from the vertical, in [rad]
+REACH_MARGIN = 1.15  # factor on the measured reach
 
 
 def standing_of(found: ModelAnalysis) -> dict[str, float]:
-    """Angles of a stance that are not zero, by joint, in [rad]."""
+    """Return the standing angles that are not zero, by joint, in [rad]."""
     model = found.model
     angles = {
         name: _inside(model, name, bend)
@@ -26,14 +27,14 @@ def standing_of(found: ModelAnalysis) -> dict[str, float]:
         angle = _hanging(found, name, angles)
         if angle != 0.0:
             angles[name] = angle
-    for name in found.joints:  # zero may be out of a range
+    for name in found.joints:  # zero may be outside a range
         if name not in angles and _inside(model, name, 0.0) != 0.0:
             angles[name] = _inside(model, name, 0.0)
     return {name: round(angle, 3) for name, angle in angles.items()}
 
 
 def stiff_joints(found: ModelAnalysis) -> list[str]:
-    """Pitch joints of the legs that cannot bend as standing asks."""
+    """Return the leg joints whose range excludes the standing angle."""
     return [
         name
         for leg in found.legs
@@ -43,24 +44,24 @@ def stiff_joints(found: ModelAnalysis) -> list[str]:
 
 
 def _bends(found: ModelAnalysis, leg: DetectedLeg) -> dict[str, float]:
-    """Angles of the pitch joints of a leg that stands, in [rad]."""
+    """Return the standing angles of the pitch joints of a leg, in [rad]."""
     bends = bend_of(leg, _range_of(found, leg.pitches[1]))
     return dict(zip(leg.pitches, bends, strict=True))
 
 
 def _range_of(found: ModelAnalysis, name: str) -> tuple[float, float]:
-    """Range of a joint, a half turn each way if it has none, in [rad]."""
+    """Return the range of a joint, (-pi, pi) if unlimited, in [rad]."""
     low, high = found.model.joint(name).range.tolist()
     return (low, high) if low < high else (-np.pi, np.pi)
 
 
 def knee_limits(found: ModelAnalysis, leg: DetectedLeg) -> tuple[float, float]:
-    """Range in which a knee does not get straight, in [rad]."""
+    """Return the range of a knee without the straight leg, in [rad]."""
     name, sign = leg.pitches[1], leg.signs[1]
     low, high = _range_of(found, name)
     straight = straight_of(leg)
     bends = sign * _bends(found, leg)[name] - straight
-    bent = sign * (straight + np.copysign(STRAIGHT, bends))
+    bent = sign * (straight + np.copysign(STRAIGHT_MARGIN, bends))
     if sign * bends > 0.0:
         low = max(low, bent)
     else:
@@ -71,12 +72,13 @@ def knee_limits(found: ModelAnalysis, leg: DetectedLeg) -> tuple[float, float]:
 def reach_of(
     found: ModelAnalysis, standing: dict[str, float], forward: float
 ) -> float:
-    """Distance within which all of a standing robot lies, in [m].
+    """Return the radius that contains the standing robot, in [m].
 
     Args:
-        found: The model.
-        standing: Angles of the stance, in [rad].
-        forward: Where the hips are ahead of the torso's origin, in [m].
+        found: Analysis of the model.
+        standing: Standing angles, in [rad].
+        forward: Sagittal coordinate of the reference point in the torso
+            frame, in [m].
     """
     model, data = found.model, mujoco.MjData(found.model)
     data.qpos[:] = found.data.qpos
@@ -90,34 +92,35 @@ def reach_of(
         if len(points):
             away = np.linalg.norm(points[:, :2] - middle, axis=1).max()
             farthest = max(farthest, float(away))
-    for body in range(2, model.nbody):  # where geoms are missing
+    for body in range(2, model.nbody):  # for bodies without geoms
         away = np.linalg.norm(data.xpos[body, :2] - middle)
         farthest = max(farthest, float(away))
-    return round(SPARE * farthest, 3)
+    return round(REACH_MARGIN * farthest, 3)
 
 
 def _inside(model: mujoco.MjModel, name: str, angle: float) -> float:
-    """An angle, or the nearest one in the range of a joint."""
+    """Clip an angle to the range of a joint."""
     joint = model.joint(name)
     if not model.jnt_limited[joint.id]:
         return angle
     low, high = joint.range.tolist()
-    return float(min(max(angle, min(low + ROOM, 0.0)), max(high - ROOM, 0.0)))
+    low, high = min(low + RANGE_MARGIN, 0.0), max(high - RANGE_MARGIN, 0.0)
+    return float(min(max(angle, low), high))
 
 
 def _shoulders(found: ModelAnalysis) -> list[str]:
-    """Joints that swing the arms out to the side, or to the front."""
+    """Return the shoulder joints: roll and pitch nearest to the torso."""
     model, data = found.model, found.data
     legs = {name for leg in found.legs for name in leg.joints}
-    arms: dict[tuple[float, int], str] = {}  # those nearest to the torso
+    arms: dict[tuple[float, int], str] = {}
     for j in range(model.njnt):
         name, aside = model.joint(j).name, float(data.xanchor[j, 1])
         axis = int(np.abs(data.xaxis[j]).argmax())
         if (
-            model.jnt_type[j] in MOVES
+            model.jnt_type[j] in JOINT_TYPES
             and name not in legs
             and axis < 2
-            and abs(data.xaxis[j, axis]) > LEVEL
+            and abs(data.xaxis[j, axis]) > ALIGNED
             and abs(aside) > 0.05 * found.length
         ):
             arms.setdefault((np.sign(aside), axis), name)
@@ -127,7 +130,7 @@ def _shoulders(found: ModelAnalysis) -> list[str]:
 def _hanging(
     found: ModelAnalysis, name: str, known: dict[str, float]
 ) -> float:
-    """Angle at which what a shoulder carries hangs, a little off the body."""
+    """Return the shoulder angle of a hanging arm, clear of the body."""
     model, data = found.model, mujoco.MjData(found.model)
     joint = model.joint(name)
     body = int(joint.bodyid[0])
@@ -137,7 +140,7 @@ def _hanging(
     low, high = joint.range.tolist()
     if not model.jnt_limited[joint.id]:
         low, high = -np.pi / 2, np.pi / 2
-    angles = np.arange(low + ROOM, high - ROOM, 0.05)
+    angles = np.arange(low + RANGE_MARGIN, high - RANGE_MARGIN, 0.05)
     heights = []
     for angle in angles:
         data.joint(name).qpos[0] = angle
@@ -148,11 +151,11 @@ def _hanging(
         return 0.0
     best = float(angles[int(np.argmin(heights))])
     zero = heights[int(np.abs(angles).argmin())]
-    if zero - min(heights) < LIFTED * found.length:
+    if zero - min(heights) < LEAST_DROP * found.length:
         return 0.0
-    # Outward: the way that lets the arm swing to its own side.
+    # Outward: the direction that moves the arm to its own side.
     side = float(np.sign(data.xanchor[joint.id, 1]))
     outward = side * float(np.sign(found.data.xaxis[joint.id, 0]))
-    if abs(found.data.xaxis[joint.id, 0]) > LEVEL:
-        best += AWAY * outward
+    if abs(found.data.xaxis[joint.id, 0]) > ALIGNED:
+        best += ARM_CLEARANCE * outward
     return _inside(model, name, best)

@@ -1,4 +1,4 @@
-"""Short walks that say whether a robot walks, and how steadily."""
+"""Walk trials: short walks in simulation that rate steadiness."""
 
 from dataclasses import dataclass, replace
 from math import degrees, radians
@@ -16,20 +16,20 @@ from ..robots.description import RobotDescription
 from .joint_strain import JointStrain, StrainGauge
 
 CYCLES = 8  # gait cycles of a walk after its first step
-READY = 2.5  # time until a walk is judged, with feedback's pause, in [s]
-TILTED = 8.0  # tilt of the torso that a steady walk keeps under, in [deg]
-STRAYS = 0.06  # of the CoM's height: error of the CoM in a steady walk, rms
-MISSES = 0.15  # of speed and turning against what is planned
+START_TIME = 2.5  # time for standing and start-up transients, in [s]
+GREATEST_TILT = 8.0  # of the torso in a steady walk, in [deg]
+GREATEST_COM_ERROR = 0.06  # rms in a steady walk, by the CoM height
+GREATEST_DEVIATION = 0.15  # relative, of speed and turning from the plan
 FALLEN = 10.0  # unsteadiness of a walk that ends in a fall
 
 
 class TrialPath(NamedTuple):
-    """Where a robot walks.
+    """Path of a walk trial.
 
     Attributes:
-        name: In words.
-        backward: Whether it walks backward.
-        bearing: Heading that it steers for, in [rad].
+        name: Name of the path.
+        backward: Whether the robot walks backward.
+        bearing: Desired heading, in [rad].
     """
 
     name: str
@@ -37,7 +37,7 @@ class TrialPath(NamedTuple):
     bearing: float
 
 
-WAYS = (
+PATHS = (
     TrialPath("forward", False, 0.0),
     TrialPath("backward", True, 0.0),
     TrialPath("turning left", False, radians(45.0)),
@@ -48,36 +48,36 @@ WAYS = (
 
 @dataclass(frozen=True, slots=True)
 class WalkTrial:
-    """A robot, how it walks, and where.
+    """Definition of a walk trial.
 
     Attributes:
-        description: Of the robot.
-        gait: How it walks.
-        control: How it is controlled.
-        way: Where it walks.
+        description: Robot description.
+        gait: Gait settings.
+        control: Control settings.
+        path: Path of the walk.
     """
 
     description: RobotDescription
     gait: GaitSettings
     control: ControlSettings
-    way: TrialPath
+    path: TrialPath
 
 
 class WalkTrialResult(NamedTuple):
-    """How a walk went.
+    """Result of a walk trial.
 
     Attributes:
-        way: Where it went.
-        feedback: Whether with feedback.
-        message: What ended it, in words.
-        completed: Whether it got to its end.
-        lasted: Share of the time that it lasted.
-        tilt: Greatest tilt of the torso, in [deg]; None if it fell early.
-        strays: Error of the CoM by its height, rms, likewise.
-        speed: Speed by what was planned, likewise.
-        turning: Turning by what was planned; None if it was to go straight.
-        strain: What the joints bore; None if it could not begin.
-        lean: Of the torso on purpose, in [deg], which is no tilt.
+        way: Name of the path.
+        feedback: Whether feedback was used.
+        message: Message of the outcome.
+        completed: Whether the walk was completed.
+        lasted: Fraction of the duration that was walked.
+        tilt: Greatest tilt of the torso, in [deg]; None after an early fall.
+        strays: Rms error of the CoM by its height; None likewise.
+        speed: Speed by that of the plan; None likewise.
+        turning: Turning by that of the plan; None also for a straight path.
+        strain: Joint strain; None if the walk could not begin.
+        lean: Commanded lean of the torso, in [deg], which adds to the tilt.
     """
 
     way: str
@@ -94,29 +94,30 @@ class WalkTrialResult(NamedTuple):
 
     @property
     def is_steady(self) -> bool:
-        """Whether it walked to the end, upright and where it was to."""
+        """Whether the walk was completed with all criteria met."""
         return self.completed and self.unsteadiness < 1.0
 
     @property
     def unsteadiness(self) -> float:
-        """Greatest part of what a steady walk may do; more after a fall."""
+        """Greatest criterion by its limit; 10 to 11 after a fall."""
         if not self.completed:
             return FALLEN + 1.0 - self.lasted
         parts = [
-            (self.tilt or 0.0) / (TILTED + self.lean),
-            (self.strays or 0.0) / STRAYS,
-            abs((self.speed or 0.0) - 1.0) / MISSES,
-            0.0 if self.turning is None else abs(self.turning - 1.0) / MISSES,
+            (self.tilt or 0.0) / (GREATEST_TILT + self.lean),
+            (self.strays or 0.0) / GREATEST_COM_ERROR,
+            abs((self.speed or 0.0) - 1.0) / GREATEST_DEVIATION,
         ]
+        if self.turning is not None:
+            parts.append(abs(self.turning - 1.0) / GREATEST_DEVIATION)
         return max(parts)
 
 
 def control_with(control: ControlSettings, feedback: bool) -> ControlSettings:
-    """Control with feedback, or without.
+    """Return control settings with or without feedback.
 
     Args:
-        control: What holds besides.
-        feedback: Which.
+        control: Control settings to change.
+        feedback: Whether to use feedback.
     """
     method: Method = control.method if feedback else "closed-form"
     if feedback and not control.feedback:
@@ -127,65 +128,75 @@ def control_with(control: ControlSettings, feedback: bool) -> ControlSettings:
 def trials_of(
     description: RobotDescription, *, feedback: bool
 ) -> tuple[WalkTrial, ...]:
-    """Walks of a robot to all sides.
+    """Return the walk trials of a robot along all paths.
 
     Args:
-        description: Of the robot.
-        feedback: Whether with feedback.
+        description: Robot description.
+        feedback: Whether to use feedback.
 
     Raises:
-        StepAsideError: If it says what no robot can do.
+        StepAsideError: If its settings are invalid.
     """
     own = settings_of(description)
     control = control_with(own.control, feedback)
     return tuple(
-        WalkTrial(description, own.gait, control, way) for way in WAYS
+        WalkTrial(description, own.gait, control, path) for path in PATHS
     )
 
 
 def walk_trial(trial: WalkTrial) -> WalkTrialResult:
-    """Walk one walk; what cannot begin is told in its message."""
-    gait, way = trial.gait, trial.way
+    """Run a walk trial; an invalid one has an error message as its result."""
+    gait, path = trial.gait, trial.path
     feedback = trial.control.feedback
-    duration = READY + gait.start_support + 2 * CYCLES * gait.step_duration
+    duration = (
+        START_TIME + gait.start_support + 2 * CYCLES * gait.step_duration
+    )
     settings = WalkSettings(
         duration=duration,
         robot=str(trial.description.folder),
-        bearing=way.bearing,
-        backward=way.backward,
+        bearing=path.bearing,
+        backward=path.backward,
         gait=gait,
         control=trial.control,
     )
     gauge = StrainGauge()
     try:
-        walking = WalkGame(
+        game = WalkGame(
             settings, description=trial.description, observers=(gauge,)
         )
     except StepAsideError as error:
-        nothing = (None,) * 5
         return WalkTrialResult(
-            way.name, feedback, str(error), False, 0.0, *nothing
+            path.name,
+            feedback,
+            str(error),
+            completed=False,
+            lasted=0.0,
+            tilt=None,
+            strays=None,
+            speed=None,
+            turning=None,
+            strain=None,
         )
-    outcome, wall = play(walking, duration)
-    run = walking.run(outcome, wall)
+    outcome, wall = play(game, duration)
+    run = game.run(outcome, wall)
     summary = run.summary.to_json()
     return WalkTrialResult(
-        way.name,
+        path.name,
         feedback,
         run.message,
         outcome is Outcome.COMPLETED,
         run.duration / duration,
         summary["tilt_max_deg"],
-        _strays(summary, gait),
+        _com_error(summary, gait),
         summary["speed_ratio"],
-        summary["yaw_ratio"] if way.bearing else None,
+        summary["yaw_ratio"] if path.bearing else None,
         gauge.strain(),
         degrees(trial.description.lean),
     )
 
 
-def _strays(summary: dict[str, Any], gait: GaitSettings) -> float | None:
-    """Error of the CoM by its height, the greater of both axes."""
+def _com_error(summary: dict[str, Any], gait: GaitSettings) -> float | None:
+    """Return the rms CoM error by its height, the greater of both axes."""
     tracking = summary["tracking"]
     errors = [tracking[f"com_{axis}_m"] for axis in "xy"]
     if any(error is None for error in errors):

@@ -1,4 +1,4 @@
-"""Where the torso and the eyes are, from encoders and tilt."""
+"""Pose of torso and head in odometry, from encoders and torso tilt."""
 
 from dataclasses import dataclass
 from math import atan2, cos, sin
@@ -14,15 +14,15 @@ from .head import HeadDescription, rotation
 
 @dataclass(frozen=True, slots=True, eq=False)
 class BodyPose:
-    """A body in its odometry, as measured at one instant.
+    """Torso and head of a body in odometry, measured at one instant.
 
     Attributes:
-        time: The instant, in [s].
-        torso: Place and heading of the torso in the plane.
-        torso_place: Place of the torso, in [m]. Shape (3,).
-        torso_axes: Its axes as columns. Shape (3, 3).
-        head_place: Place of the head, in [m]. Shape (3,).
-        head_axes: Its axes as columns. Shape (3, 3).
+        time: Time of the measurement, in [s].
+        torso: Planar pose of the torso in odometry.
+        torso_place: Position of the torso in odometry, in [m]. Shape (3,).
+        torso_axes: Axes of the torso in odometry, as columns. Shape (3, 3).
+        head_place: Position of the head in odometry, in [m]. Shape (3,).
+        head_axes: Axes of the head in odometry, as columns. Shape (3, 3).
         yaw: Measured yaw of the head, in [rad].
         pitch: Measured pitch of the head, in [rad].
     """
@@ -38,12 +38,12 @@ class BodyPose:
 
 
 class StandingBody(NamedTuple):
-    """A torso in the odometry of the foot that it stands on.
+    """Spatial pose of a torso in odometry.
 
     Attributes:
-        place: Of the torso, in [m]. Shape (3,).
-        axes: Its axes as columns. Shape (3, 3).
-        heading: Of the torso, in [rad].
+        place: Position of the torso, in [m]. Shape (3,).
+        axes: Axes of the torso as columns. Shape (3, 3).
+        heading: Heading of the torso, in [rad].
     """
 
     place: Array
@@ -57,16 +57,16 @@ def stand_on(
     support: Pose,
     tilt: tuple[float, float],
 ) -> StandingBody:
-    """Place a posture on the foot that stands.
+    """Return the torso pose that puts the stance foot at a given pose.
 
     Args:
-        posture: By the measured joints.
-        foot: That stands, 0 for the left one, 1 for the right one.
-        support: Its pose in odometry.
+        posture: Posture of the measured joints.
+        foot: Stance foot: 0 left, 1 right.
+        support: Pose of the stance foot in odometry.
         tilt: Roll and pitch of the torso, in [rad].
     """
     lean = rotation(*tilt, 0.0)
-    # Heading: that of the foot, less its own in the levelled torso.
+    # Torso heading = foot heading - foot yaw relative to the levelled torso.
     ahead = lean @ posture.frames[foot, :, 0]
     heading = support.theta - atan2(ahead[1], ahead[0])
     c, s = cos(heading), sin(heading)
@@ -78,7 +78,7 @@ def stand_on(
 
 
 class BodyKinematics:
-    """Forward kinematics from the foot that stands to the head."""
+    """Forward kinematics from the stance foot to the head."""
 
     def __init__(
         self,
@@ -86,12 +86,13 @@ class BodyKinematics:
         head: HeadDescription,
         kinematics: ForwardKinematics | None = None,
     ) -> None:
-        """Find the head among the joints.
+        """Look up the head joints.
 
         Args:
-            description: The robot.
-            head: Its head.
-            kinematics: Of the robot with this head, if it is open already.
+            description: Robot description.
+            head: Head of that robot.
+            kinematics: Kinematics of that robot with this head, to be
+                shared; a new one by default.
         """
         if kinematics is None:
             kinematics = ForwardKinematics(description, head.body)
@@ -107,29 +108,30 @@ class BodyKinematics:
         left_supports: bool,
         tilt: tuple[float, float],
     ) -> BodyPose:
-        """Place the body on the foot that stands.
+        """Return the body pose given the pose of the stance foot.
 
         Args:
             time: Time of the measurement, in [s].
-            joints: Encoders, in [rad]. Shape (joints,).
-            support: Pose of the standing foot in odometry.
-            left_supports: Whether that is the left one.
+            joints: Encoder angles, in [rad]. Shape (joints,).
+            support: Pose of the stance foot in odometry.
+            left_supports: Whether the stance foot is the left one.
             tilt: Roll and pitch of the torso, in [rad].
         """
         posture = self._kinematics.posture(joints)
         foot = 0 if left_supports else 1
-        stood = stand_on(posture, foot, support, tilt)
-        return self._placed(time, joints, posture, stood)
+        torso = stand_on(posture, foot, support, tilt)
+        return self._with_head(time, joints, posture, torso)
 
     def level(self, time: float, joints: Array, frame: Pose) -> BodyPose:
-        """Place the body level on the floor, midway between its feet.
+        """Return the pose of a level body standing midway between its feet.
 
-        That of a robot that walks by itself, and only tells where it is.
+        For a robot with a walking controller of its own, which reports
+        nothing but its planar odometry.
 
         Args:
             time: Time of the measurement, in [s].
-            joints: Encoders, in [rad]. Shape (joints,).
-            frame: Of the robot in its odometry.
+            joints: Encoder angles, in [rad]. Shape (joints,).
+            frame: Planar pose of the robot in odometry.
         """
         posture = self._kinematics.posture(joints)
         x, y, _ = posture.feet.mean(axis=0).tolist()
@@ -137,18 +139,18 @@ class BodyKinematics:
         c, s = cos(frame.theta), sin(frame.theta)
         axes = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
         place = np.array([frame.x, frame.y, 0.0]) - axes @ [x, y, low]
-        stood = StandingBody(place, axes, frame.theta)
-        return self._placed(time, joints, posture, stood)
+        torso = StandingBody(place, axes, frame.theta)
+        return self._with_head(time, joints, posture, torso)
 
-    def _placed(
+    def _with_head(
         self,
         time: float,
         joints: Array,
         posture: MeasuredPosture,
-        stood: StandingBody,
+        torso: StandingBody,
     ) -> BodyPose:
-        """The head over a torso that stands somewhere."""
-        place, axes, heading = stood
+        """Add the head to a torso pose."""
+        place, axes, heading = torso
         return BodyPose(
             time,
             Pose(float(place[0]), float(place[1]), heading),

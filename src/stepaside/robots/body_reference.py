@@ -1,19 +1,19 @@
-"""What the body is asked to do at one instant."""
+"""Whole-body reference for inverse kinematics."""
 
 from math import cos, remainder, sin, tau
 from typing import NamedTuple
 
 
 class BodyReference(NamedTuple):
-    """What the body is asked to do at one instant, in one level frame.
+    """Desired CoM and feet at one instant, all in one level frame.
 
     Attributes:
         com: CoM (x, y, z), in [m].
         left_foot: Left foot (x, y, z, yaw), in [m] and [rad].
         right_foot: Right foot, likewise.
-        left_tilt: Roll and pitch of the left foot about its own heading, in
-            [rad], small.
-        right_tilt: Those of the right foot.
+        left_tilt: Roll and pitch of the left foot in the frame of its
+            heading, in [rad]; small angles.
+        right_tilt: Roll and pitch of the right foot, likewise.
     """
 
     com: tuple[float, float, float]
@@ -24,18 +24,21 @@ class BodyReference(NamedTuple):
 
     @property
     def heading(self) -> float:
-        """Heading between those of the feet, in [rad]."""
+        """Mean heading of the feet, in [rad]."""
         left, right = self.left_foot[3], self.right_foot[3]
         return left + 0.5 * remainder(right - left, tau)
 
     def roll(self, lean: float) -> float:
-        """Roll of a torso that leans over the foot that stands, in [rad].
+        """Return the roll of a torso that leans over the stance foot.
 
-        It goes with the CoM: level midway between the feet, and leaning
-        where the CoM is right over one of them.
+        The roll is proportional to the lateral position of the CoM: zero
+        midway between the feet, ``lean`` with the CoM over one of them.
 
         Args:
-            lean: How far it leans there, in [rad].
+            lean: Roll with the CoM over one foot, in [rad].
+
+        Returns:
+            Roll, in [rad].
         """
         if lean == 0.0:
             return 0.0
@@ -47,16 +50,16 @@ class BodyReference(NamedTuple):
 
 
 class Posture(NamedTuple):
-    """A posture by what joint motion moves.
+    """Torso pose and leg joint angles solved by inverse kinematics.
 
     Attributes:
-        place: Origin of the torso in the frame of the reference, in [m].
+        position: Torso origin in the frame of the reference, in [m].
         heading: Heading of the torso, in [rad].
-        free: Angles of the legs' free joints, in [rad].
-        roll: Of the torso, in [rad].
+        free: Angles of the independent leg joints, in [rad].
+        roll: Roll of the torso, in [rad].
     """
 
-    place: tuple[float, float, float]
+    position: tuple[float, float, float]
     heading: float
     free: tuple[float, ...]
     roll: float = 0.0

@@ -1,62 +1,66 @@
-"""Heights of the CoM that legs reach, found by trying."""
+"""Range of CoM heights that the legs reach, by bisection."""
 
 from collections.abc import Callable
 from functools import cached_property
 
-STRIDE = 0.05  # relative step from one height to the next that is tried
-CLOSE = 2e-4  # within which the ends are found, in [m]
+STEP = 0.05  # relative step of the search before bisection
+RESOLUTION = 2e-4  # to which the ends are found, in [m]
 
 
 class ReachableHeights:
-    """Heights in reach with the feet in one place."""
+    """Range of CoM heights in reach for one stance, evaluated lazily."""
 
     def __init__(
         self, reaches: Callable[[float], bool], natural: float
     ) -> None:
-        """Ask a body.
+        """Set up the search.
 
         Args:
-            reaches: Whether it reaches a height, in [m].
-            natural: Height at which to begin, in [m].
+            reaches: Predicate: whether a height, in [m], is reached.
+            natural: Height at which the search begins, in [m].
         """
         self._reaches, self._natural = reaches, natural
 
     @cached_property
     def greatest(self) -> float:
         """Greatest height in reach, in [m]; 0 if there is none."""
-        return self._last(1.0 + STRIDE)
+        return self._search_end(1.0 + STEP)
 
     @cached_property
     def least(self) -> float:
         """Least height in reach, in [m]; 0 if there is none."""
-        return self._last(1.0 - STRIDE)
+        return self._search_end(1.0 - STEP)
 
-    def in_words(self, asked: float) -> str:
-        """What is in reach, for somebody who asked for something else."""
+    def describe(self, requested: float) -> str:
+        """Return the range in reach as text, for an error message.
+
+        Args:
+            requested: Height that is out of reach, in [m].
+        """
         if self.greatest == 0.0:
             return "no height at all"
-        if asked > self.greatest:
+        if requested > self.greatest:
             return f"at most {self.greatest:.3f} m"
         return f"{self.least:.3f} m to {self.greatest:.3f} m"
 
     @cached_property
-    def _some(self) -> float:
-        """Some height in reach; 0 if there is none."""
+    def _initial(self) -> float:
+        """A height in reach, from which both ends are searched; 0 if none."""
         height = self._natural
         while height > 0.1 * self._natural:
             if self._reaches(height):
                 return height
-            height *= 1.0 - STRIDE
+            height *= 1.0 - STEP
         return 0.0
 
-    def _last(self, factor: float) -> float:
-        """Last height in reach, in steps by a factor and then by halving."""
-        inside = outside = self._some
+    def _search_end(self, factor: float) -> float:
+        """Return an end of the range: step by a factor, then bisect."""
+        inside = outside = self._initial
         if inside == 0.0:
             return 0.0
         while self._reaches(outside) and outside > 0.1 * self._natural:
             inside, outside = outside, factor * outside
-        while abs(outside - inside) > CLOSE:
+        while abs(outside - inside) > RESOLUTION:
             middle = 0.5 * (inside + outside)
             if self._reaches(middle):
                 inside = middle

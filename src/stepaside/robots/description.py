@@ -1,4 +1,4 @@
-"""Descriptions of robots: a folder with a model and a short file."""
+"""Robot description: a folder with a MuJoCo model and a TOML file."""
 
 from __future__ import annotations
 
@@ -18,38 +18,39 @@ if TYPE_CHECKING:
     import mujoco
 
 FILE = "robot.toml"
-REMEDY = "`stepaside robot init` writes an overlay that mends a model"
+REMEDY = "`stepaside robot init` writes an overlay that adds what is missing"
 
 
 @dataclass(frozen=True, slots=True)
 class RobotDescription:
-    """A humanoid, as its folder describes it.
+    """Description of a humanoid robot.
 
     Attributes:
         folder: Folder of the description.
-        name: What people call it.
-        model: File of its MuJoCo model in the folder.
+        name: Display name.
+        model: File of the MuJoCo model, relative to the folder.
         torso: Body that carries the free joint.
         left_foot: Site at the sole under the left ankle: the foot frame.
         right_foot: Site at the sole under the right ankle.
-        accent: Material whose colour tells robots apart; empty if there is
-            none, and the torso is coloured.
+        accent: Material whose colour tells robots apart; empty to colour
+            the torso.
         legs: Leg joints.
-        standing: Angles of a natural stance, by joint, in [rad].
-        speed_limits: Greatest speed of each actuated joint, in [rad/s].
-        working_limits: Narrower ranges that joint motion keeps to, in
-            [rad], by joint; knees stay bent by them. Optional.
-        gait: How it walks, as the gait of a configuration is written;
-            what is left out is the paper's.
-        sole: Outline of its soles, likewise.
-        control: How it is controlled, likewise.
-        game: Distances of its games, and its unit of pushes; see
+        standing: Joint angles of the standing posture, by joint, in [rad].
+        speed_limits: Speed limit of each actuated joint, in [rad/s].
+        working_limits: Joint ranges of inverse kinematics, by joint, in
+            [rad], narrower than those of the model, so that knees stay
+            bent. Optional.
+        gait: Gait settings, as the ``gait`` of a configuration; the paper's
+            values by default.
+        sole: Outline of the soles, likewise.
+        control: Control settings, likewise.
+        game: Distances of games, and the unit of pushes; see
             :class:`stepaside.games.robot_settings.RobotGameSettings`.
-        sensors: Its sensors, by the names in the model.
-        place: The point that stands for it, and how far it reaches.
-        overlay: What is put on the model when it is read.
-        lean: Roll of the torso towards a foot that the CoM is right over,
-            in [rad]: it relieves the roll joint of that hip; 0 to 0.3.
+        sensors: Names of the sensors in the model.
+        place: Reference point and reach.
+        overlay: Elements that are added to the model when it is read.
+        lean: Roll of the torso with the CoM over one foot, in [rad], which
+            relieves the roll joint of that hip; 0 to 0.3.
     """
 
     __repr__ = brief_repr
@@ -82,11 +83,11 @@ class RobotDescription:
         return self.path_of(self.model)
 
     def path_of(self, name: str) -> Path:
-        """A path as the file of the description names it."""
+        """Resolve a path that is relative to the folder."""
         return Path(normpath(self.folder / name))
 
     def mjcf(self) -> str:
-        """Text of the MuJoCo model, with what the overlay puts on it."""
+        """Return the MuJoCo model with its overlay, as MJCF text."""
         if self.overlay == NO_OVERLAY:
             return self.path.read_text(encoding="utf-8")
         spec = self.spec()
@@ -95,11 +96,11 @@ class RobotDescription:
         return text
 
     def spec(self) -> mujoco.MjSpec:
-        """Editable MuJoCo model, with what the overlay puts on it.
+        """Return the editable MuJoCo model with its overlay.
 
         Raises:
-            ModelError: If the file is no model, or lacks what the overlay
-                is put on.
+            ModelError: If the file is not a model, or lacks a body or joint
+                of the overlay.
         """
         from .model_reader import read_model
 
@@ -107,16 +108,25 @@ class RobotDescription:
             spec = read_model(self.path)
         except ValueError as error:
             raise ModelError(
-                f"{self.path} is no MuJoCo model: {error}"
+                f"{self.path} is not a MuJoCo model: {error}"
             ) from error
         if self.overlay != NO_OVERLAY:
             from .model_overlay import put_overlay
 
-            put_overlay(spec, self)
+            put_overlay(
+                spec,
+                self.overlay,
+                torso=self.torso,
+                feet=(self.left_foot, self.right_foot),
+                sole=self.sole,
+                sensors=self.sensors,
+                path=self.path,
+                mesh_folders=[self.path_of(x) for x in self.overlay.meshes],
+            )
         return spec
 
     def compile(self) -> mujoco.MjModel:
-        """Compile the model and check that it has what is described.
+        """Compile the model and check it against the description.
 
         Raises:
             ModelError: If MuJoCo cannot compile it, or it lacks a body,
@@ -137,10 +147,11 @@ class RobotDescription:
         return model
 
     def _motors(self, model: mujoco.MjModel) -> set[str]:
-        """Joints that have an actuator, by name.
+        """Return the names of the joints that have an actuator.
 
         Raises:
-            ModelError: If one has several, or an actuator moves no joint.
+            ModelError: If a joint has several actuators, or an actuator
+                drives something else than a joint.
         """
         import mujoco
 
@@ -161,9 +172,9 @@ class RobotDescription:
         return motors
 
     def coupled_joints(self, model: mujoco.MjModel) -> dict[str, str]:
-        """Joints that share a motor, as follower to leader.
+        """Return the joints that share a motor, as follower to leader.
 
-        They are the equality constraints that say joint1 = joint2.
+        These are the equality constraints joint1 = joint2.
 
         Args:
             model: Compiled model of this robot alone.
@@ -192,17 +203,17 @@ class RobotDescription:
         joints: Collection[str],
         motors: Collection[str],
     ) -> None:
-        """Check that a model has what is described.
+        """Check that a model has all elements that the description names.
 
         Args:
-            bodies: Names of its bodies.
+            bodies: Names of the bodies of the model.
             sites: Names of its sites.
             joints: Names of its joints.
-            motors: Names of its actuators.
+            motors: Names of its actuated joints.
 
         Raises:
-            ModelError: If a body, site, joint or actuator is missing; names
-                those that there are.
+            ModelError: If a body, site, joint or actuator is missing; lists
+                the existing ones.
         """
         self._require("torso", [self.torso], "body", bodies)
         feet = [self.left_foot, self.right_foot]
@@ -216,11 +227,11 @@ class RobotDescription:
     def _require(
         self,
         key: str,
-        wanted: Iterable[str],
+        required: Iterable[str],
         kind: str,
         existing: Collection[str],
     ) -> None:
-        for name in wanted:
+        for name in required:
             if name not in existing:
                 raise ModelError(
                     f"{key} of {self.name}: there is no {kind} {name!r}; "
@@ -229,13 +240,13 @@ class RobotDescription:
 
 
 def known_robots() -> list[str]:
-    """Names of the robots that come with the package."""
+    """Return the names of the robots that come with the package."""
     root = files(__package__)
     return sorted(p.name for p in root.iterdir() if (p / FILE).is_file())
 
 
 def _is_file(path: Path) -> bool:
-    """Whether a file is there; what can be no name of one is none."""
+    """Return whether a file exists; False for an invalid file name."""
     try:
         return path.is_file()
     except (OSError, ValueError):
@@ -246,12 +257,12 @@ def load_robot(robot: AnyPath) -> RobotDescription:
     """Load a robot by name, or from a folder.
 
     Args:
-        robot: Name of a robot of this package, or a folder that holds
-            ``robot.toml`` and the model that it names.
+        robot: Name of a robot of this package, or a folder with a
+            ``robot.toml``.
 
     Raises:
-        ModelError: If there is none, or its file has unknown, missing or
-            ill-typed entries.
+        ModelError: If there is no such robot, or its file has unknown,
+            missing or ill-typed entries.
     """
     given = as_path(robot, "robot", ModelError)
     folder = Path(str(files(__package__))) / given

@@ -1,4 +1,4 @@
-"""The file of a robot's description: what it may say, and in which types."""
+"""Reader of ``robot.toml``: entries, their types and their checks."""
 
 import tomllib
 from collections.abc import Callable, Mapping
@@ -16,17 +16,17 @@ from .description_types import (
 )
 
 Entries = dict[str, Any]
-LEANS = 0.3  # a torso at most, in [rad]
+LEAN_LIMIT = 0.3  # greatest lean of a torso, in [rad]
 
 
 def read_entries(path: Path) -> Entries:
-    """Read what a description says.
+    """Read and check the entries of a robot description.
 
     Returns:
-        Values by the names of :class:`~.description.RobotDescription`.
+        Values by field of :class:`~.description.RobotDescription`.
 
     Raises:
-        ModelError: If the file is no TOML, or has unknown, missing or
+        ModelError: If the file is not TOML, or has unknown, missing or
             ill-typed entries; names the first.
     """
     try:
@@ -49,47 +49,47 @@ def read_entries(path: Path) -> Entries:
         raise ModelError(f"{path}: {error}") from None
 
 
-def _refuse(name: str, wanted: str, got: object) -> ModelError:
-    return ModelError(f"{name} must be {wanted}, got {got!r}")
+def _type_error(name: str, expected: str, got: object) -> ModelError:
+    return ModelError(f"{name} must be {expected}, got {got!r}")
 
 
 def _text(name: str, value: object) -> str:
     if not isinstance(value, str):
-        raise _refuse(name, "a name", value)
+        raise _type_error(name, "a name", value)
     return value
 
 
 def _number(name: str, value: object) -> float:
     fits = isinstance(value, int | float) and not isinstance(value, bool)
     if not fits or not isfinite(value):  # type: ignore[arg-type]
-        raise _refuse(name, "a finite number", value)
+        raise _type_error(name, "a finite number", value)
     return float(value)  # type: ignore[arg-type]
 
 
 def _positive(name: str, value: object) -> float:
     number = _number(name, value)
     if number <= 0.0:
-        raise _refuse(name, "a number > 0", value)
+        raise _type_error(name, "a number > 0", value)
     return number
 
 
 def _not_negative(name: str, value: object) -> float:
     number = _number(name, value)
     if number < 0.0:
-        raise _refuse(name, "a number >= 0", value)
+        raise _type_error(name, "a number >= 0", value)
     return number
 
 
 def _lean(name: str, value: object) -> float:
     number = _number(name, value)
-    if not 0.0 <= number <= LEANS:
-        raise _refuse(name, f"0 to {LEANS} rad", value)
+    if not 0.0 <= number <= LEAN_LIMIT:
+        raise _type_error(name, f"0 to {LEAN_LIMIT} rad", value)
     return number
 
 
 def _table(name: str, value: object) -> Entries:
     if not isinstance(value, dict):
-        raise _refuse(name, "a table", value)
+        raise _type_error(name, "a table", value)
     return value
 
 
@@ -97,10 +97,9 @@ def _row(
     reader: Callable[[str, object], Any], count: int | None = None
 ) -> Callable[[str, object], tuple[Any, ...]]:
     def read(name: str, value: object) -> tuple[Any, ...]:
-        wide = isinstance(value, list) and count in (None, len(value))
-        if not isinstance(value, list) or not wide:
-            how_many = "" if count is None else f"{count} "
-            raise _refuse(name, f"a row of {how_many}values", value)
+        if not isinstance(value, list) or count not in (None, len(value)):
+            number = "" if count is None else f"{count} "
+            raise _type_error(name, f"an array of {number}values", value)
         return tuple(reader(name, entry) for entry in value)
 
     return read
@@ -109,7 +108,7 @@ def _row(
 def _range(name: str, value: object) -> tuple[float, float]:
     low, high = _row(_number, 2)(name, value)
     if not low < high:
-        raise _refuse(name, "a range [low, high] with low < high", value)
+        raise _type_error(name, "a range [low, high] with low < high", value)
     return low, high
 
 
@@ -123,11 +122,11 @@ def _by_name(reader: Callable[[str, object], Any]) -> Callable[..., Entries]:
 
 def _fields(
     kind: Callable[..., Any],
-    needed: Mapping[str, Callable[[str, object], Any]],
-    others: Mapping[str, Callable[[str, object], Any]],
+    required: Mapping[str, Callable[[str, object], Any]],
+    optional: Mapping[str, Callable[[str, object], Any]],
 ) -> Callable[[str, object], Any]:
-    """Reader of a table whose entries are the fields of a value."""
-    readers = {**needed, **others}
+    """Return a reader of a table whose entries are the fields of a type."""
+    readers = {**required, **optional}
 
     def read(name: str, value: object) -> Any:
         table = _table(name, value)
@@ -137,7 +136,7 @@ def _fields(
                     f"unknown entry {name}.{key}; there are "
                     f"{', '.join(readers)}"
                 )
-        for key in needed:
+        for key in required:
             if key not in table:
                 raise ModelError(f"entry {name}.{key} is missing")
         return kind(

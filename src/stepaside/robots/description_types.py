@@ -1,4 +1,4 @@
-"""What a description says of a robot beside its links: small values."""
+"""Value types of a robot description."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -13,14 +13,14 @@ FOOT_FORCES = tuple(
 
 @dataclass(frozen=True, slots=True)
 class SensorNames:
-    """Sensors of a robot, by the names that its model has for them.
+    """Names of a robot's sensors in its model.
 
     Attributes:
-        gyro: Gyroscope of the torso, whose axes are those of its body.
-        accelerometer: Accelerometer, likewise.
-        feet: Touch sensors and, of the same names, their sites: four under
-            the left foot, then four under the right one, each as front left,
-            front right, rear left, rear right.
+        gyro: Gyroscope, in the axes of the torso.
+        accelerometer: Accelerometer, in the axes of the torso.
+        feet: Touch sensors, and their sites of the same names: four under
+            the left foot, then four under the right one, each in the order
+            front left, front right, rear left, rear right.
     """
 
     gyro: str = "gyro"
@@ -30,14 +30,14 @@ class SensorNames:
 
 @dataclass(frozen=True, slots=True)
 class ReferencePoint:
-    """Where a robot is, and how far it reaches.
+    """Reference point of the torso, and reach of the body around it.
 
     Attributes:
-        forward: How far the point of the torso that is midway between the
-            hips lies ahead of the torso's origin, in [m].
-        reach: Distance within which any of it lies around that point when
-            it stands, arms stretched, in [m]: robots that are farther apart
-            than both reaches do not touch.
+        forward: Sagittal coordinate of the reference point in the torso
+            frame, in [m]: the point midway between the hips.
+        reach: Radius around the reference point that contains the whole
+            standing robot with arms stretched, in [m]. Robots farther apart
+            than the sum of their reaches cannot touch.
     """
 
     forward: float = 0.0
@@ -45,15 +45,15 @@ class ReferencePoint:
 
 
 class ServoGains(NamedTuple):
-    """Servo of one joint.
+    """Position servo of one joint.
 
     Attributes:
-        stiffness: Torque by angle, in [N m/rad].
-        damping: Torque by speed, in [N m s/rad]; it stands for that of the
-            joint, too.
-        torque: Greatest torque, in [N m].
-        armature: Inertia of the rotor at the joint, in [kg m^2]; that of
-            the model if it is 0.
+        stiffness: Proportional gain, in [N m/rad].
+        damping: Derivative gain, in [N m s/rad], which includes the damping
+            of the joint.
+        torque: Torque limit, in [N m].
+        armature: Reflected rotor inertia, in [kg m^2]; 0 to keep that of
+            the model.
     """
 
     stiffness: float
@@ -63,12 +63,13 @@ class ServoGains(NamedTuple):
 
 
 class SoleFrame(NamedTuple):
-    """Where a foot frame is: at the sole, under the ankle.
+    """Foot frame at the sole, under the ankle.
 
     Attributes:
         body: Body of the foot.
-        place: Origin in that body's frame, in [m].
-        turn: Quaternion (w, x, y, z) of the foot frame in it.
+        place: Origin in the frame of that body, in [m].
+        turn: Orientation in the frame of that body, as a quaternion
+            (w, x, y, z).
     """
 
     body: str
@@ -78,15 +79,16 @@ class SoleFrame(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Overlay:
-    """What is put on a published model when it is read.
+    """Elements that are added to a published model when it is read.
 
     Attributes:
         soles: Left and right foot frame; empty for no overlay.
-        servos: Servo of each joint that has one.
-        meshes: Folders in which mesh files are looked for by name, beside
-            where the model says.
-        turn: Quaternion (w, x, y, z) of the published torso's axes in
-            (forward, left, up), for a model whose torso looks elsewhere.
+        servos: Servo of each actuated joint.
+        meshes: Additional folders in which mesh files are looked up by
+            name.
+        turn: Orientation of the published torso in axes (forward, left,
+            up), as a quaternion (w, x, y, z), for a model whose torso has
+            other axes.
     """
 
     soles: tuple[SoleFrame, ...] = ()

@@ -1,9 +1,9 @@
-"""Numbers that remember how they were computed, and become a function.
+"""Expression tracing: record scalar arithmetic and emit a flat function.
 
-Small vectors are slow in arrays: a call of NumPy takes as long as fifty
-multiplications. Formulas written for plain numbers run on these once; what
-is constant folds, what repeats is shared, and the rest is written down as
-one straight function of floats.
+NumPy is slow on small vectors: one call costs as much as fifty scalar
+multiplications. Formulas written for floats run once on traced numbers;
+constants are folded, common subexpressions are shared, and the result is
+emitted as the source of one function without loops.
 """
 
 from __future__ import annotations
@@ -15,16 +15,16 @@ from math import cos, sin
 
 from .jit import function_of
 
-DEPTH = 12  # of an expression before it gets a name
+DEPTH = 12  # nesting of an expression before it is assigned to a variable
 
 
 class TracedNumber:
-    """A number that depends on variables.
+    """Node of an expression graph.
 
     Attributes:
-        operation: What it is: a name, or one of ``+ - * / neg sin cos``.
-        operands: Of what; floats are constants.
-        hint: Its value where it was traced, to choose pivots by.
+        operation: Name of a variable, or one of ``+ - * / neg sin cos``.
+        operands: Operands; floats are constants.
+        hint: Value at the point of tracing, for the choice of pivots.
     """
 
     __slots__ = ("_trace", "hint", "operands", "operation")
@@ -36,7 +36,7 @@ class TracedNumber:
         operands: tuple[TracedNumber | float, ...],
         hint: float,
     ) -> None:
-        """Take part in a trace; made by :class:`ExpressionTrace` alone."""
+        """Make a node; only :class:`ExpressionTrace` calls this."""
         self._trace = trace
         self.operation, self.operands = operation, operands
         self.hint = hint
@@ -128,44 +128,44 @@ class TracedNumber:
     def apply(
         self, name: str, function: Callable[[float], float]
     ) -> TracedNumber:
-        """Value of a function of one number, by its name."""
+        """Apply a named function of one argument."""
         return self._trace.make(name, (self,), function(self.hint))
 
 
 class ExpressionTrace:
-    """Variables and what was computed from them."""
+    """Expression graph of a function and its arguments."""
 
     def __init__(self) -> None:
-        """Begin with no variables."""
-        self._known: dict[tuple[object, ...], TracedNumber] = {}
+        """Make a trace without variables."""
+        self._nodes: dict[tuple[object, ...], TracedNumber] = {}
         self._names: list[str] = []
 
     def variable(self, name: str, hint: float = 0.0) -> TracedNumber:
-        """Add an argument of the function; ``hint`` is a usual value."""
+        """Add an argument of the function; ``hint`` is a typical value."""
         self._names.append(name)
         return TracedNumber(self, name, (), hint)
 
     def make(
         self, operation: str, operands: tuple[Number, ...], hint: float
     ) -> TracedNumber:
-        """Number by its operation; equal ones are the same object."""
+        """Return the node of an operation; equal nodes are one object."""
         keys = [x if isinstance(x, float) else id(x) for x in operands]
         if operation in "+*":
             keys.sort(key=str)
-        found = self._known.get((operation, *keys))
-        if found is None:
-            found = TracedNumber(self, operation, operands, hint)
-            self._known[(operation, *keys)] = found
-        return found
+        node = self._nodes.get((operation, *keys))
+        if node is None:
+            node = TracedNumber(self, operation, operands, hint)
+            self._nodes[(operation, *keys)] = node
+        return node
 
     def source(self, name: str, results: Sequence[Number]) -> str:
-        """Text of the function of all variables that gives ``results``."""
+        """Return the source of the function that computes ``results``."""
         uses = _count_uses(results)
         lines: list[tuple[str, str]] = []  # name, text
         texts: dict[int, tuple[str, int]] = {}
 
         def write(number: Number) -> tuple[str, int]:
-            """Text of a number and how deep it is nested."""
+            """Return the text of a number and its nesting depth."""
             if not isinstance(number, TracedNumber):
                 return repr(float(number)), 0
             if not number.operands:
@@ -173,7 +173,7 @@ class ExpressionTrace:
             if id(number) in texts:
                 return texts[id(number)]
             parts = [write(operand) for operand in number.operands]
-            text = _written(number.operation, [part for part, _ in parts])
+            text = _format(number.operation, [part for part, _ in parts])
             depth = 1 + max(depth for _, depth in parts)
             if uses[id(number)] > 1 or depth > DEPTH:
                 lines.append((f"v{len(lines)}_", text))
@@ -184,12 +184,15 @@ class ExpressionTrace:
         written = ", ".join(write(result)[0] for result in results)
         lines.append(("return", f"({written},)"))
         head = f"def {name}({', '.join(self._names)}):"
-        return "\n".join([head, *_renamed(lines), ""])
+        return "\n".join([head, *_reuse_variables(lines), ""])
 
     def function(
         self, name: str, results: Sequence[Number]
     ) -> Callable[..., tuple[float, ...]]:
-        """Function of all variables, in their order, that gives results."""
+        """Compile the function that computes ``results``.
+
+        Its arguments are the variables, in the order of their definition.
+        """
         return function_of(name, self.source(name, results))
 
 
@@ -197,12 +200,12 @@ Number = TracedNumber | float
 
 
 def hint_of(number: Number) -> float:
-    """Value of a number where it was traced."""
+    """Return the value of a number at the point of tracing."""
     return number.hint if isinstance(number, TracedNumber) else number
 
 
 def sine(angle: Number) -> Number:
-    """Sine of an angle, in [rad]."""
+    """Return the sine of an angle, in [rad]."""
     return (
         angle.apply("sin", sin)
         if isinstance(angle, TracedNumber)
@@ -211,7 +214,7 @@ def sine(angle: Number) -> Number:
 
 
 def cosine(angle: Number) -> Number:
-    """Cosine of an angle, in [rad]."""
+    """Return the cosine of an angle, in [rad]."""
     return (
         angle.apply("cos", cos)
         if isinstance(angle, TracedNumber)
@@ -221,22 +224,21 @@ def cosine(angle: Number) -> Number:
 
 def _count_uses(results: Sequence[Number]) -> Counter[int]:
     uses: Counter[int] = Counter()
-    waiting = [r for r in results if isinstance(r, TracedNumber)]
-    while waiting:
-        number = waiting.pop()
+    pending = [r for r in results if isinstance(r, TracedNumber)]
+    while pending:
+        number = pending.pop()
         uses[id(number)] += 1
         if uses[id(number)] == 1:
-            waiting += [
+            pending += [
                 x for x in number.operands if isinstance(x, TracedNumber)
             ]
     return uses
 
 
-def _renamed(lines: list[tuple[str, str]]) -> list[str]:
-    """Assignments that use a name again once nobody needs its number.
+def _reuse_variables(lines: list[tuple[str, str]]) -> list[str]:
+    """Assign to a variable again after its last use.
 
-    Numbers that are let go early leave room that is still warm for the
-    next ones.
+    Objects that are freed early leave memory in the cache for later ones.
     """
     last = {
         name: i
@@ -258,7 +260,7 @@ def _renamed(lines: list[tuple[str, str]]) -> list[str]:
     return written
 
 
-def _written(operation: str, parts: list[str]) -> str:
+def _format(operation: str, parts: list[str]) -> str:
     if operation in ("sin", "cos"):
         return f"{operation}({parts[0]})"
     if operation == "neg":

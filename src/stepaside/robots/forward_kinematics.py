@@ -1,4 +1,4 @@
-"""Where CoM, feet and head are, by the measured joints."""
+"""Forward kinematics of CoM, feet and head from measured joint angles."""
 
 from functools import lru_cache
 from typing import NamedTuple
@@ -14,19 +14,20 @@ from .link_poses import gather_moments, place_links
 from .robot_tree import RobotTree
 from .tree_cache import load_tree
 
-FEET = 27  # numbers of CoM and feet
+HEAD_OFFSET = 27  # index of the head in the results: after CoM and feet
 
 
 class MeasuredPosture(NamedTuple):
     """CoM, feet and head in the torso frame.
 
     Attributes:
-        com: CoM, in [m]. Shape (3,).
+        com: Position of the CoM, in [m]. Shape (3,).
         feet: Positions of left and right foot, in [m]. Shape (2, 3).
-        frames: Rotations of the foot frames. Shape (2, 3, 3).
-        head: Position of the head, in [m], if it was asked for; else that of
-            the torso. Shape (3,).
-        head_axes: Its axes as columns, likewise. Shape (3, 3).
+        frames: Rotation matrices of left and right foot. Shape (2, 3, 3).
+        head: Position of the head, in [m]; zero without a head.
+            Shape (3,).
+        head_axes: Rotation matrix of the head; identity without a head.
+            Shape (3, 3).
     """
 
     com: Array
@@ -37,68 +38,70 @@ class MeasuredPosture(NamedTuple):
 
 
 class ForwardKinematics:
-    """CoM and feet of one robot from the angles of its joints.
+    """Forward kinematics of one robot.
 
-    Balance and perception share one: what both ask at one tick is computed
-    once.
+    The last result is cached, so that balance control and perception can
+    share one object at no extra cost.
 
     Attributes:
-        description: The robot.
-        tree: Its kinematic tree.
-        mass: Its mass, in [kg].
+        description: Robot description.
+        tree: Kinematic tree of the robot.
+        mass: Mass of the robot, in [kg].
     """
 
     def __init__(
         self, description: RobotDescription, head: str | None = None
     ) -> None:
-        """Open a robot, with the torso at the origin.
+        """Load the kinematic tree and generate its formulas.
 
         Args:
-            description: The robot.
-            head: Body that carries its cameras, if they are used.
+            description: Robot description.
+            head: Body that carries the cameras; None to leave out the head.
         """
         self.description = description
         self.tree = tree = load_tree(description)
         self.mass = tree.mass
         feet = (description.left_foot, description.right_foot)
-        self._write = _written(
+        self._evaluate = _trace_posture(
             tree,
             feet,
             head,
             tuple(sorted(description.standing.items())),
         )
         self._feet = [tree.sites[name] for name in feet]
-        self._measured = b""
+        self._cache_key = b""
         self._posture: MeasuredPosture
 
     def posture(self, joint_positions: Array) -> MeasuredPosture:
-        """Posture for angles of the actuated joints, in [rad].
+        """Return the posture at measured joint angles.
 
         Args:
-            joint_positions: Encoders, in [rad]. Shape (joints,).
+            joint_positions: Angles of the actuated joints, in [rad].
+                Shape (joints,).
         """
-        measured = joint_positions.tobytes()
-        if measured != self._measured:
-            numbers = np.array(self._write(*joint_positions.tolist()))
+        key = joint_positions.tobytes()
+        if key != self._cache_key:
+            numbers = np.array(self._evaluate(*joint_positions.tolist()))
             posture = MeasuredPosture(
                 numbers[:3],
                 numbers[3:9].reshape(2, 3),
                 numbers[9:27].reshape(2, 3, 3),
             )
-            if numbers.size > FEET:
+            if numbers.size > HEAD_OFFSET:
                 posture = posture._replace(
-                    head=numbers[FEET : FEET + 3],
-                    head_axes=numbers[FEET + 3 :].reshape(3, 3),
+                    head=numbers[HEAD_OFFSET : HEAD_OFFSET + 3],
+                    head_axes=numbers[HEAD_OFFSET + 3 :].reshape(3, 3),
                 )
             self._posture = posture
-            self._measured = measured
+            self._cache_key = key
         return self._posture
 
     def force_sensors(self) -> Array:
-        """Places of the foot sensors in the foot frames, in [m].
+        """Return the positions of the foot force sensors.
 
         Returns:
-            Left front-left, front-right, rear-left, rear-right, then right.
+            (x, y) in the foot frame, in [m]: front left, front right, rear
+            left, rear right of the left foot, then of the right foot.
             Shape (8, 2).
 
         Raises:
@@ -112,37 +115,37 @@ class ForwardKinematics:
                     f"{self.description.name} needs a site {name!r} with a "
                     f"touch sensor under a foot; {REMEDY}"
                 )
-            off = np.subtract(self.tree.sites[name].place, foot.place)
-            corners.append((np.array(foot.axes).T @ off)[:2])
+            offset = np.subtract(self.tree.sites[name].place, foot.place)
+            corners.append((np.array(foot.axes).T @ offset)[:2])
         return np.array(corners)
 
 
 @lru_cache(maxsize=16)
-def _written(
+def _trace_posture(
     tree: RobotTree,
     feet: tuple[str, str],
     head: str | None,
     standing: tuple[tuple[str, float], ...],
 ) -> Function:
-    """Write out CoM, and place and axes of feet and head."""
+    """Generate the formulas of CoM, feet and head."""
     trace = ExpressionTrace()
-    known: dict[str, Number] = dict(standing)
+    angles: dict[str, Number] = dict(standing)
     for i, name in enumerate(tree.motors):
-        known[name] = trace.variable(f"q{i}")
+        angles[name] = trace.variable(f"q{i}")
     for follower, leader in tree.followers.items():
-        known[follower] = known.get(leader, 0.0)
-    placed = place_links(tree, [known.get(n, 0.0) for n in tree.joints])
-    moments = gather_moments(placed)
-    share = 1.0 / moments.masses[0]
-    results = [share * moment for moment in moments.firsts[0]]
+        angles[follower] = angles.get(leader, 0.0)
+    links = place_links(tree, [angles.get(n, 0.0) for n in tree.joints])
+    moments = gather_moments(links)
+    inverse_mass = 1.0 / moments.masses[0]
+    results = [inverse_mass * moment for moment in moments.firsts[0]]
 
     frames = [tree.sites[name] for name in feet]
-    results += [x for frame in frames for x in placed.place_of(frame)]
+    results += [x for frame in frames for x in links.position_of(frame)]
     if head is not None:
         frames.append(tree.bodies[head])
-    axes = [placed.axes_of(frame) for frame in frames]
+    axes = [links.axes_of(frame) for frame in frames]
     results += [x for rows in axes[:2] for row in rows for x in row]
     if head is not None:
-        results += placed.place_of(frames[2])
+        results += links.position_of(frames[2])
         results += [x for row in axes[2] for x in row]
     return trace.function("posture", results)

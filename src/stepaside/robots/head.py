@@ -1,4 +1,4 @@
-"""What turns a robot's head and where its eyes and ears are."""
+"""Head of a robot: its joints, cameras and sonars."""
 
 import tomllib
 from dataclasses import dataclass
@@ -15,7 +15,7 @@ FILE = "head.toml"
 
 
 def rotation(roll: float, pitch: float, yaw: float) -> Array:
-    """Matrix Rz(yaw) Ry(pitch) Rx(roll), angles in [rad]. Shape (3, 3)."""
+    """Return Rz(yaw) Ry(pitch) Rx(roll), angles in [rad]. Shape (3, 3)."""
     cr, sr = np.cos(roll), np.sin(roll)
     cp, sp = np.cos(pitch), np.sin(pitch)
     cy, sy = np.cos(yaw), np.sin(yaw)
@@ -30,11 +30,12 @@ def rotation(roll: float, pitch: float, yaw: float) -> Array:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Mount:
-    """Where a sensor sits on a body.
+    """Pose of a sensor on a body.
 
     Attributes:
-        place: Its place in the body's frame, in [m]. Shape (3,).
-        axes: Its axes (forward, left, up) as columns. Shape (3, 3).
+        place: Position in the frame of the body, in [m]. Shape (3,).
+        axes: Axes (forward, left, up) of the sensor in the frame of the
+            body, as columns. Shape (3, 3).
     """
 
     place: Array
@@ -43,21 +44,21 @@ class Mount:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class HeadDescription:
-    """A head that turns, as the folder of its robot describes it.
+    """Description of an actuated head with its sensors.
 
     Attributes:
         body: Body that carries the cameras.
-        yaw: Joint that turns it aside.
-        pitch: Joint that nods it.
-        camera: The colour camera, as the model calls it.
-        coupling: Yaw, least pitch and greatest pitch, in [rad].
-            Shape (3, n).
+        yaw: Yaw joint.
+        pitch: Pitch joint.
+        camera: Name of the colour camera in the model.
+        coupling: Pitch limits by yaw: rows yaw, least pitch, greatest
+            pitch, in [rad]. Shape (3, n).
         top: Mount of the colour camera on the body.
         depth: Mount of the depth camera on the body.
-        housing: Size of the depth camera, in [m]: depth, width, height.
+        housing: Depth, width and height of the depth camera, in [m].
         sonars: Mounts of the sonars on the torso, by name.
-        bottom: Mount of a second colour camera, which looks down, if there
-            is one.
+        bottom: Mount of a second colour camera, which looks down; None if
+            there is none.
     """
 
     body: str
@@ -73,7 +74,7 @@ class HeadDescription:
 
 
 def load_head(description: RobotDescription) -> HeadDescription:
-    """Read the head of a robot from the folder of its description.
+    """Read ``head.toml`` in the folder of a robot description.
 
     Raises:
         ModelError: If there is none, or an entry is missing or ill-typed.
@@ -99,7 +100,7 @@ def load_head(description: RobotDescription) -> HeadDescription:
         )
     except OSError as error:
         raise ModelError(
-            f"{description.name} cannot look about: {path} is missing; "
+            f"{description.name} has no cameras: {path} is missing; "
             "without it sensing must be ideal"
         ) from error
     except (KeyError, TypeError, ValueError) as error:

@@ -1,9 +1,9 @@
-"""Errors of a request, and what the unknowns do to them.
+"""Residuals and Jacobian of floating-base inverse kinematics.
 
-All in a level frame at the torso that heads as it does. The torso stays
-level, or leans by what is given, so that its unknowns are its velocity and
-its turning about the vertical; a row for each foot's place and rotation, and
-for the CoM.
+All quantities are in the level torso frame: origin and heading of the torso,
+vertical z axis. The torso is level or has a given roll, so that its unknowns
+are three translations and the rotation about the vertical. Rows are position
+and orientation of each foot, and the CoM.
 """
 
 from collections.abc import Callable
@@ -30,190 +30,194 @@ from .scalar_algebra import (
 )
 
 UP = (0.0, 0.0, 1.0)
-HEADING = (0.0, 0.0, 0.0, 1.0)  # of the torso, by its unknowns
+HEADING = (0.0, 0.0, 0.0, 1.0)  # Jacobian row of the torso heading
 SIDES = ("left", "right")
 
 
 class PostureTargets(NamedTuple):
-    """What is asked for, in the torso frame; positions from its origin.
+    """Targets in the level torso frame.
 
     Attributes:
-        com: CoM, in [m].
-        feet: Left and right foot, in [m].
+        com: Position of the CoM, in [m].
+        feet: Positions of left and right foot, in [m].
         yaws: Cosine and sine of the heading of each foot.
-        leans: Rotation of each foot beyond level, in [rad].
+        tilts: Small rotation of each foot from level, in [rad].
     """
 
     com: Vector
     feet: tuple[Vector, Vector]
     yaws: tuple[Vector, Vector]
-    leans: tuple[Vector, Vector]
+    tilts: tuple[Vector, Vector]
 
 
 class TorsoPose(NamedTuple):
-    """Where a level torso is.
+    """Pose of the level torso frame in the frame of the reference.
 
     Attributes:
-        place: Its origin, in [m].
-        heading: Its heading, in [rad].
+        position: Origin of the torso, in [m].
+        heading: Heading of the torso, in [rad].
     """
 
-    place: Vector
+    position: Vector
     heading: Number
 
-    def seen(self, vector: Vector) -> list[Number]:
-        """A vector of the world in the torso frame."""
+    def to_torso(self, vector: Vector) -> list[Number]:
+        """Rotate a vector from the reference frame to the torso frame."""
         x, y, z = vector
         c, s = cosine(self.heading), sine(self.heading)
         return [c * x + s * y, c * y - s * x, z]
 
     def moved(self, move: Vector) -> list[Number]:
-        """Place and heading after a move in the torso frame."""
+        """Return position and heading after a move in the torso frame."""
         x, y, z, turn = move
         c, s = cosine(self.heading), sine(self.heading)
-        place = add(self.place, [c * x - s * y, s * x + c * y, z])
-        return [*place, self.heading + turn]
+        position = add(self.position, [c * x - s * y, s * x + c * y, z])
+        return [*position, self.heading + turn]
 
 
-def trace_asked(trace: ExpressionTrace, torso: TorsoPose) -> PostureTargets:
-    """Arguments of a traced function, as :class:`.BodyReference` has them."""
+def trace_targets(trace: ExpressionTrace, torso: TorsoPose) -> PostureTargets:
+    """Add the fields of :class:`.BodyReference` as variables of a trace."""
 
-    def numbers(name: str, axes: str) -> list[Number]:
+    def variables(name: str, axes: str) -> list[Number]:
         return [trace.variable(f"{name}_{axis}") for axis in axes]
 
-    com = numbers("com", "xyz")
-    feet = [numbers(f"{side}_foot", "xyzt") for side in SIDES]
-    tilts = [numbers(f"{side}_tilt", "xy") for side in SIDES]
-    places, yaws, leans = [], [], []
-    for (x, y, z, heading), (roll, pitch) in zip(feet, tilts, strict=True):
-        places.append(torso.seen(subtract([x, y, z], torso.place)))
+    com = variables("com", "xyz")
+    feet = [variables(f"{side}_foot", "xyzt") for side in SIDES]
+    foot_tilts = [variables(f"{side}_tilt", "xy") for side in SIDES]
+    positions, yaws, tilts = [], [], []
+    for (x, y, z, heading), (roll, pitch) in zip(
+        feet, foot_tilts, strict=True
+    ):
+        positions.append(torso.to_torso(subtract([x, y, z], torso.position)))
         yaw = heading - torso.heading
         c, s = cosine(yaw), sine(yaw)
         yaws.append((c, s))
-        leans.append((c * roll - s * pitch, s * roll + c * pitch, 0.0))
+        tilts.append((c * roll - s * pitch, s * roll + c * pitch, 0.0))
     return PostureTargets(
-        torso.seen(subtract(com, torso.place)),
-        (places[0], places[1]),
+        torso.to_torso(subtract(com, torso.position)),
+        (positions[0], positions[1]),
         (yaws[0], yaws[1]),
-        (leans[0], leans[1]),
+        (tilts[0], tilts[1]),
     )
 
 
 class FootError(NamedTuple):
-    """What a foot is off by.
+    """Position of a foot, and its distance from its target.
 
     Attributes:
-        place: Where the foot is, in [m].
-        move: How far it has to move, in [m].
-        turn: How far it has to turn, in [rad].
+        position: Present position of the foot, in [m].
+        translation: Translation to the target, in [m].
+        rotation: Small rotation to the target, in [rad].
     """
 
-    place: Vector
-    move: Vector
-    turn: Vector
+    position: Vector
+    translation: Vector
+    rotation: Vector
 
 
 class TracedLegs(NamedTuple):
-    """Legs with traced angles, and what is asked of them.
+    """Legs with traced joint angles, and their targets.
 
     Attributes:
-        legs: The legs.
+        legs: Leg joints.
         trace: The trace. Its arguments are the angles of the free joints,
-            place and heading of the torso, and what is asked, as the fields
-            of :class:`.BodyReference` name it; the roll of a torso that
-            leans.
-        free: The free joints.
-        torso: Where the torso is.
-        placed: All links.
-        moments: Their masses.
-        asked: What is asked for.
+            position and heading of the torso, the fields of
+            :class:`.BodyReference`, and the roll of a torso that leans.
+        free: Angles of the free joints.
+        torso: Torso pose.
+        links: Poses of all links.
+        moments: Mass moments of all links.
+        targets: Targets of CoM and feet.
     """
 
     legs: LegJoints
     trace: ExpressionTrace
     free: list[Number]
     torso: TorsoPose
-    placed: LinkPoses
+    links: LinkPoses
     moments: MassMoments
-    asked: PostureTargets
+    targets: PostureTargets
 
     @classmethod
     def of(cls, legs: LegJoints, hints: dict[str, float]) -> "TracedLegs":
-        """Trace where the links are, near a posture."""
+        """Trace the link poses near a typical posture."""
         trace = ExpressionTrace()
         free: list[Number] = [
             trace.variable(f"q{i}", hints.get(name, 0.0))
             for i, name in enumerate(legs.free)
         ]
-        place = [trace.variable(f"torso_{axis}") for axis in "xyz"]
-        torso = TorsoPose(place, trace.variable("torso_t"))
-        asked = trace_asked(trace, torso)
+        position = [trace.variable(f"torso_{axis}") for axis in "xyz"]
+        torso = TorsoPose(position, trace.variable("torso_t"))
+        targets = trace_targets(trace, torso)
         axes = legs.torso_axes(trace)
-        placed = place_links(legs.tree, legs.angles(free), axes)
-        moments = gather_moments(placed)
-        return cls(legs, trace, free, torso, placed, moments, asked)
+        links = place_links(legs.tree, legs.angles(free), axes)
+        moments = gather_moments(links)
+        return cls(legs, trace, free, torso, links, moments, targets)
 
     @property
     def first_moment(self) -> list[Number]:
-        """Mass times CoM of all links from the torso, in [kg m]."""
-        return turn(self.placed.axes[0], self.moments.firsts[0])
+        """Mass times CoM of the robot, from the torso, in [kg m]."""
+        return turn(self.links.axes[0], self.moments.firsts[0])
 
     @property
     def com_error(self) -> list[Number]:
-        """How far the CoM has to move, in [m]."""
-        share = 1.0 / self.moments.masses[0]
-        com = scale(share, self.first_moment)
-        return subtract(self.asked.com, com)
+        """Translation of the CoM to its target, in [m]."""
+        inverse_mass = 1.0 / self.moments.masses[0]
+        com = scale(inverse_mass, self.first_moment)
+        return subtract(self.targets.com, com)
 
     def foot_error(self, side: int) -> FootError:
-        """What the left (0) or right (1) foot is off by."""
+        """Return the error of the left (0) or right (1) foot."""
         frame = self.legs.tree.sites[self.legs.sites[side]]
-        place = self.placed.place_of(frame)
-        move = subtract(self.asked.feet[side], place)
-        turn = _turn(self.placed.axes_of(frame), self.asked.yaws[side])
-        return FootError(place, move, add(turn, self.asked.leans[side]))
+        position = self.links.position_of(frame)
+        translation = subtract(self.targets.feet[side], position)
+        levelling = _rotation_to_yaw(
+            self.links.axes_of(frame), self.targets.yaws[side]
+        )
+        rotation = add(levelling, self.targets.tilts[side])
+        return FootError(position, translation, rotation)
 
     @property
     def heading_error(self) -> Number:
-        """How far the torso has to turn to head where the feet do, [rad].
+        """Tangent of the rotation to the mean heading of the feet.
 
-        The tangent of it: the same after a full turn.
+        The tangent does not change with full turns.
         """
-        (c, s), (d, t) = self.asked.yaws
+        (c, s), (d, t) = self.targets.yaws
         return (s + t) / (c + d)
 
 
-def _turn(axes: Matrix, yaw: Vector) -> list[Number]:
-    """Small rotation, in [rad], that levels a frame and turns it to a yaw.
+def _rotation_to_yaw(axes: Matrix, yaw: Vector) -> list[Number]:
+    """Return the small rotation, in [rad], to a level frame with a yaw.
 
-    Half the sum of the cross products of the axes with where they should be.
+    Half the sum of the cross products of the axes with their targets.
     """
     c, s = yaw
-    wanted = ((c, s, 0.0), (-s, c, 0.0), UP)
+    targets = ((c, s, 0.0), (-s, c, 0.0), UP)
     total: list[Number] = [0.0, 0.0, 0.0]
-    for axis, target in zip(transpose(axes), wanted, strict=True):
+    for axis, target in zip(transpose(axes), targets, strict=True):
         total = add(total, cross(axis, target))
     return scale(0.5, total)
 
 
-def trace_rows(
+def trace_residuals(
     legs: LegJoints, hints: dict[str, float]
 ) -> Callable[..., tuple[float, ...]]:
-    """Write out errors and Jacobian.
+    """Generate the function of residuals and Jacobian.
 
     Args:
-        legs: The legs.
-        hints: A usual posture, by joint, in [rad].
+        legs: Leg joints.
+        hints: A typical posture, by joint, in [rad].
 
     Returns:
-        A function of the arguments of :class:`TracedLegs`. It gives the
-        errors of all rows: of the left foot's place and rotation, the right
-        one's, the CoM, and of the torso's heading where the legs hold it.
-        Then it gives the Jacobian, row by row: by the torso's velocity and
-        turning, and by the free joints.
+        Function of the arguments of :class:`TracedLegs`. Its results are the
+        residuals of all rows: position and rotation of the left foot, then
+        of the right foot, the CoM, and the torso heading if that has a row;
+        then the Jacobian, row by row, with columns of the translation and
+        the rotation of the torso, and of the free joints.
     """
     traced = TracedLegs.of(legs, hints)
-    moments, placed = traced.moments, traced.placed
+    moments, links = traced.moments, traced.links
     mass = moments.masses[0]
     errors: list[Number] = []
     rows: list[list[Number]] = [
@@ -222,15 +226,15 @@ def trace_rows(
     for side in (0, 1):
         at = 6 * side
         error = traced.foot_error(side)
-        errors += [*error.move, *error.turn]
+        errors += [*error.translation, *error.rotation]
         for k in range(3):
             rows[k][at + k] = 1.0
-        rows[3][at : at + 6] = [*cross(UP, error.place), *UP]
+        rows[3][at : at + 6] = [*cross(UP, error.position), *UP]
         for link in legs.chain(side):
             column = rows[BASE + _column(legs, link)]
-            found = motion_of(placed, moments, link, error.place)
+            motion = motion_of(links, moments, link, error.position)
             column[at : at + 6] = add(
-                column[at : at + 6], [*found.linear, *found.angular]
+                column[at : at + 6], [*motion.linear, *motion.angular]
             )
     errors += traced.com_error
     for k in range(3):
@@ -239,8 +243,8 @@ def trace_rows(
     for link, moved in enumerate(legs.columns):
         if moved is not None:
             column = rows[BASE + moved]
-            found = motion_of(placed, moments, link, (0.0, 0.0, 0.0))
-            column[12:] = add(column[12:], scale(1.0 / mass, found.moment))
+            motion = motion_of(links, moments, link, (0.0, 0.0, 0.0))
+            column[12:] = add(column[12:], scale(1.0 / mass, motion.moment))
     if legs.holds_heading:
         errors.append(traced.heading_error)
         for column, entry in zip(rows, HEADING, strict=False):

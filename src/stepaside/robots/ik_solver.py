@@ -1,4 +1,4 @@
-"""Moves of torso and legs towards what is asked, for one robot."""
+"""Inverse kinematics solver of one robot: formulas and joint limits."""
 
 from typing import NamedTuple
 
@@ -6,84 +6,87 @@ import numpy as np
 
 from ..core.poses import Array
 from .description import RobotDescription
-from .ik_residuals import trace_rows
+from .ik_residuals import trace_residuals
 from .ik_step import trace_step
 from .jit import Function, preferred
 from .leg_joints import BASE, FIXED_ROWS, LegJoints
 from .robot_tree import RobotTree
 
 DAMPING = 1e-4  # squared, of the pseudo-inverse; rows in [m] and [rad]
+CACHE_SIZE = 16  # robots whose formulas are cached
 
 
 class LegSolver(NamedTuple):
-    """Formulas of one robot's legs, written out once.
+    """Generated formulas of one robot's legs.
 
     Attributes:
-        legs: The legs.
-        rows: Errors and Jacobian; see :func:`.leg_rows.trace_rows`.
-        quick: The step itself, undamped; see :func:`.leg_step.trace_step`.
-            None for legs that are not plain.
+        legs: Leg joints.
+        residuals: Residuals and Jacobian; see
+            :func:`.ik_residuals.trace_residuals`.
+        newton_step: Undamped Newton step; see :func:`.ik_step.trace_step`.
+            None for legs other than six hinges each.
     """
 
     legs: LegJoints
-    rows: Function
-    quick: Function | None
+    residuals: Function
+    newton_step: Function | None
 
     def linearise(self, *arguments: float) -> tuple[Array, Array]:
-        """Errors and Jacobian, all in the torso frame.
+        """Evaluate residuals and Jacobian in the level torso frame.
 
         Args:
-            arguments: See :class:`.leg_rows.TracedLegs`.
+            arguments: See :class:`.ik_residuals.TracedLegs`.
 
         Returns:
-            Errors, in [m] and [rad], shape (rows,), and the Jacobian, by
-            place and heading of the torso, then the free joints, shape
-            (rows, 4 + free). There are 15 rows, and one for the heading of
-            the torso where the legs hold it.
+            Residuals, in [m] and [rad], shape (rows,), and the Jacobian by
+            translation and heading of the torso, then the free joints,
+            shape (rows, 4 + free). There are 15 rows, and one for the torso
+            heading if the legs can hold it.
         """
-        numbers = np.array(self.rows(*arguments))
+        numbers = np.array(self.residuals(*arguments))
         rows = FIXED_ROWS + self.legs.holds_heading
         return numbers[:rows], numbers[rows:].reshape(rows, -1)
 
 
-_KNOWN: dict[tuple[object, ...], tuple[Function, Function | None]] = {}
-KEPT = 16  # robots whose formulas are kept
+_cache: dict[tuple[object, ...], tuple[Function, Function | None]] = {}
 
 
 def solver_of(description: RobotDescription, tree: RobotTree) -> LegSolver:
-    """Solver of a robot's legs; formulas are written once for each tree."""
+    """Return the solver of a robot; formulas are cached by tree."""
     legs = LegJoints.of(description, tree)
     hints = description.standing
     legs_key = (tree, legs.columns, legs.fixed, legs.sites, legs.lean > 0.0)
     key = (*legs_key, tuple(hints.items()), preferred())
-    if key not in _KNOWN:
-        if len(_KNOWN) >= KEPT:
-            _KNOWN.clear()
-        quick = trace_step(legs, hints) if legs.is_plain else None
-        _KNOWN[key] = trace_rows(legs, hints), quick
-    rows, step = _KNOWN[key]
-    return LegSolver(legs, rows, step)
+    if key not in _cache:
+        if len(_cache) >= CACHE_SIZE:
+            _cache.clear()
+        step = trace_step(legs, hints) if legs.is_plain else None
+        _cache[key] = trace_residuals(legs, hints), step
+    residuals, step = _cache[key]
+    return LegSolver(legs, residuals, step)
 
 
 def move_within(
     jacobian: Array, error: Array, low: Array, high: Array, speeds: Array
 ) -> Array:
-    """Move by the damped pseudo-inverse, and keep joints to their limits.
+    """Solve a damped least-squares step within joint limits (active set).
 
-    The joint that is farthest beyond its limit goes to it and out of the
-    solve: torso and other joints are asked for the best that they can do
-    without it; then the next one. Were joints only held back, the torso
-    would go on as if they had moved, and drag the feet along.
+    The joint farthest beyond its limit is fixed there and leaves the
+    problem, which is solved again for the torso and the other joints; then
+    the next one. Clipping joints alone would move the torso as if they had
+    followed, and drag the feet along.
 
     Args:
-        jacobian: Of the rows, by torso, then joints. Shape (rows, 4 + n).
-        error: Of the rows. Shape (rows,).
+        jacobian: Columns of the torso, then of the joints.
+            Shape (rows, 4 + n).
+        error: Residuals. Shape (rows,).
         low: Least moves of the joints, in [rad]. Shape (n,).
-        high: Greatest ones. Shape (n,).
-        speeds: By which joints are compared, in [rad/s]. Shape (n,).
+        high: Greatest moves of the joints, in [rad]. Shape (n,).
+        speeds: Speed limits, by which excesses are compared, in [rad/s].
+            Shape (n,).
 
     Returns:
-        Moves of the torso, in [m] and [rad], then of the joints.
+        Move of the torso, in [m] and [rad], then of the joints, in [rad].
         Shape (4 + n,).
     """
     fixed = np.zeros(BASE + low.size, dtype=bool)
@@ -100,7 +103,7 @@ def move_within(
         most = float(beyond.max())
         if most <= 0.0:
             break
-        # Legs that are mirror images reach their limits together.
+        # Mirror-image legs reach their limits together.
         over = beyond >= most * (1.0 - 1e-9)
         joints[over] = np.clip(joints, low, high)[over]
         fixed[BASE:][over] = True

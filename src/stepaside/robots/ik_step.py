@@ -1,10 +1,9 @@
-"""One Newton step of the joint motion, written out for one robot.
+"""Newton step of inverse kinematics, generated for one robot.
 
-Each leg has six joints, and the pose of its foot six rows: the joints
-follow from the torso's motion by a solve of its own. What is left are four
-unknowns of the torso (a level one) and four rows: the CoM, and that the
-legs agree about the joint that they share; where they share none, the
-torso's heading.
+Each leg has six joints and its foot six rows, so that a 6 x 6 solve
+eliminates the joints of a leg. Four unknowns of the torso remain, with four
+rows: the CoM, and equality of the joint that both legs share or, without
+such a joint, the torso heading.
 """
 
 from collections.abc import Callable
@@ -26,19 +25,19 @@ from .scalar_algebra import (
 )
 
 
-class _Leg(NamedTuple):
-    """One leg, solved for its joints.
+class _EliminatedLeg(NamedTuple):
+    """One leg whose joints are eliminated.
 
     Attributes:
-        jacobian: Factors of the transposed Jacobian of its foot.
-        asked: Twist that the foot has to make at the hip.
-        hip: Place of the hip, which twists refer to, in [m].
-        rows: Rates by twist of the foot: momentum of the leg, and of the
-            joint that it shares. Shape (4, 6).
+        jacobian: Factors of the transposed Jacobian of the foot.
+        twist: Twist error of the foot, referred to the hip.
+        hip: Position of the hip, in [m].
+        rows: Gradients by the foot twist: of the momentum of the leg, and of
+            the shared joint. Shape (4, 6).
     """
 
     jacobian: LuFactors
-    asked: Vector
+    twist: Vector
     hip: Vector
     rows: Matrix
 
@@ -46,47 +45,50 @@ class _Leg(NamedTuple):
 def trace_step(
     legs: LegJoints, hints: dict[str, float]
 ) -> Callable[..., tuple[float, ...]]:
-    """Write out the step.
+    """Generate the function of one Newton step.
 
     Args:
-        legs: The legs; :attr:`Legs.is_plain` has to be true.
-        hints: A usual posture, by joint, in [rad].
+        legs: Leg joints, with :attr:`LegJoints.is_plain` true.
+        hints: A typical posture, by joint, in [rad].
 
     Returns:
-        A function of the arguments of :class:`.leg_rows.TracedLegs`. It
-        gives the move (x, y, z) of the torso in its own frame, in [m], its
-        turn, in [rad], and those of the free joints; then place and heading
-        of the torso and the angles of the free joints after that. It
-        raises ZeroDivisionError where the legs are singular.
+        Function of the arguments of :class:`.ik_residuals.TracedLegs`. Its
+        results are the move (x, y, z) of the torso in its own frame, in
+        [m], its rotation, in [rad], and the moves of the free joints, in
+        [rad]; then position and heading of the torso and the angles of the
+        free joints after the step. It raises ZeroDivisionError if the legs
+        are singular.
     """
     traced = TracedLegs.of(legs, hints)
-    left, right = _solve_leg(traced, 0), _solve_leg(traced, 1)
+    left, right = _eliminate_leg(traced, 0), _eliminate_leg(traced, 1)
     moments = traced.moments
     mass = moments.masses[0]
-    # Momentum: mass (v + turn x CoM) + what the legs add = what is asked.
+    # Momentum: mass (v + w x CoM) + momentum of the legs = mass CoM error.
     spun = cross(UP, traced.first_moment)
     matrix: list[list[Number]] = []
     for row in range(3):
         along = [mass if k == row else 0.0 for k in range(3)]
         matrix.append([*along, spun[row]])
-    wanted = scale(mass, traced.com_error)
+    right_side = scale(mass, traced.com_error)
     for leg in (left, right):
         for row in range(3):
-            matrix[row] = subtract(matrix[row], _by_torso(leg, row))
-            wanted[row] = wanted[row] - dot(leg.rows[row], leg.asked)
+            matrix[row] = subtract(matrix[row], _torso_gradient(leg, row))
+            right_side[row] = right_side[row] - dot(leg.rows[row], leg.twist)
     if legs.holds_heading:
         matrix.append(list(HEADING))
-        wanted.append(traced.heading_error)
+        right_side.append(traced.heading_error)
     else:
-        matrix.append(subtract(_by_torso(left, 3), _by_torso(right, 3)))
-        shares = [dot(leg.rows[3], leg.asked) for leg in (left, right)]
-        wanted.append(shares[0] - shares[1])
-    torso = LuFactors(matrix).solve(wanted)
+        matrix.append(
+            subtract(_torso_gradient(left, 3), _torso_gradient(right, 3))
+        )
+        shared = [dot(leg.rows[3], leg.twist) for leg in (left, right)]
+        right_side.append(shared[0] - shared[1])
+    torso = LuFactors(matrix).solve(right_side)
     moves: list[Number] = [0.0] * len(legs.free)
     for side, leg in enumerate((left, right)):
-        twist = subtract(leg.asked, _twist(leg.hip, torso))
-        found = leg.jacobian.solve_transposed(twist)
-        for link, move in zip(legs.chain(side), found, strict=True):
+        twist = subtract(leg.twist, _hip_twist(leg.hip, torso))
+        joint_moves = leg.jacobian.solve_transposed(twist)
+        for link, move in zip(legs.chain(side), joint_moves, strict=True):
             column = legs.columns[link]
             assert column is not None
             moves[column] = move
@@ -94,40 +96,41 @@ def trace_step(
     return traced.trace.function("leg_step", [*torso, *moves, *after])
 
 
-def _solve_leg(traced: TracedLegs, side: int) -> _Leg:
-    legs, placed = traced.legs, traced.placed
+def _eliminate_leg(traced: TracedLegs, side: int) -> _EliminatedLeg:
+    legs, links = traced.legs, traced.links
     chain = legs.chain(side)
-    # Where hip axes meet, hip joints do not move this point: zeros.
-    hip = placed.places[chain[2]]
+    # Hip joints with intersecting axes do not move this point: zeros.
+    hip = links.positions[chain[2]]
     error = traced.foot_error(side)
-    lever = subtract(hip, error.place)
-    move = add(error.move, cross(error.turn, lever))
-    motions = [motion_of(placed, traced.moments, i, hip) for i in chain]
+    lever = subtract(hip, error.position)
+    translation = add(error.translation, cross(error.rotation, lever))
+    motions = [motion_of(links, traced.moments, i, hip) for i in chain]
     jacobian = LuFactors([[*m.linear, *m.angular] for m in motions])
     rows = [
         jacobian.solve([m.moment[axis] for m in motions]) for axis in range(3)
     ]
-    shared = _shared(legs)
+    shared = _shared_joint(legs)
     unit = [float(legs.columns[link] == shared) for link in chain]
     rows.append(jacobian.solve(unit))
-    return _Leg(jacobian, [*move, *error.turn], hip, rows)
+    twist = [*translation, *error.rotation]
+    return _EliminatedLeg(jacobian, twist, hip, rows)
 
 
-def _shared(legs: LegJoints) -> int | None:
-    """Number of the free joint that both legs have, if they share one."""
+def _shared_joint(legs: LegJoints) -> int | None:
+    """Return the index of the free joint that both legs share, if any."""
     columns = [{legs.columns[i] for i in legs.chain(side)} for side in (0, 1)]
     both = columns[0] & columns[1]
     return both.pop() if both else None
 
 
-def _twist(hip: Vector, torso: Vector) -> list[Number]:
-    """Twist of a hip by velocity and turning of the torso."""
+def _hip_twist(hip: Vector, torso: Vector) -> list[Number]:
+    """Return the twist of a hip that moves with the torso."""
     angular = scale(torso[3], UP)
     return [*add(torso[:3], cross(angular, hip)), *angular]
 
 
-def _by_torso(leg: _Leg, row: int) -> list[Number]:
-    """A row of a leg by velocity and turning of the torso."""
+def _torso_gradient(leg: _EliminatedLeg, row: int) -> list[Number]:
+    """Return the gradient of a row of a leg by the motion of the torso."""
     rates = leg.rows[row]
-    by_turn = dot(rates[:3], cross(UP, leg.hip)) + rates[5]
-    return [*rates[:3], by_turn]
+    by_rotation = dot(rates[:3], cross(UP, leg.hip)) + rates[5]
+    return [*rates[:3], by_rotation]

@@ -1,69 +1,73 @@
-"""Inertias that no body has, as published models carry them."""
+"""Repair of link inertias that are not physically possible."""
 
 import mujoco
 import numpy as np
 
-SMALL = 1e-6  # least mass of a link, in [kg]
-THIN = 1e-3  # least moment of inertia by the greatest one
-POINT = 1e-4  # a link of which all is nearer to its CoM is none, in [m]
-ROUND = 0.02  # radius of the ball that it is taken for, in [m]
-HEAVY = 1e-4  # a link with less mass turns nothing, in [kg]
-VAST = 2.0  # by the longest chain of a robot: no link's mass is so far off
-FILLED = 0.4  # of its length: radius of gyration of a link like others
+LEAST_MASS = 1e-6  # of a link, in [kg]
+LEAST_RATIO = 1e-3  # of the least to the greatest moment of inertia
+LEAST_GYRATION = 1e-4  # smaller radii of gyration are replaced, in [m]
+DEFAULT_RADIUS = 0.02  # of the ball that replaces them, in [m]
+NEGLIGIBLE_MASS = 1e-4  # links below have no effect, in [kg]
+# Radius of gyration beyond which units must be wrong, by the length of the
+# longest chain of the robot.
+GREATEST_GYRATION = 2.0
+TYPICAL_GYRATION = 0.4  # radius of gyration of a link by its length
 
 
-def mend_inertias(spec: mujoco.MjSpec) -> list[str]:
-    """Let every link of a model have a mass and an inertia that can be.
+def repair_inertias(spec: mujoco.MjSpec) -> list[str]:
+    """Give every link of a model a valid mass and inertia.
 
-    Links without mass get a millionth of a kilogram, and those whose
-    inertia is no body's one with the same axes whose moments are positive;
-    a model with any of them would not compile. Where a link's inertia is one
-    of masses far outside the robot, units are wrong, and all inertias that
-    are too large for their links become those of links as long as they are.
+    Links without mass get a millionth of a kilogram. Inertias that are not
+    positive definite keep their axes and get positive moments; MuJoCo would
+    refuse to compile them. If the radius of gyration of a link exceeds the
+    size of the robot, units are wrong, and all inertias that are too large
+    for their links are replaced by typical ones for links of that length.
 
     Args:
-        spec: The model; it is changed.
+        spec: Model; changed in place.
 
     Returns:
-        Names of the links whose inertia was none.
+        Names of the links whose inertia was replaced.
     """
-    spec.compiler.boundmass = SMALL
-    spec.compiler.boundinertia = SMALL * ROUND**2
+    spec.compiler.boundmass = LEAST_MASS
+    spec.compiler.boundinertia = LEAST_MASS * DEFAULT_RADIUS**2
     spec.compiler.balanceinertia = True
-    mended = _shrink(spec)
+    repaired = _shrink_inertias(spec)
     for body in spec.bodies:
         full = np.array(body.fullinertia)
         if not body.explicitinertial or np.isnan(full).any():
             continue
         moments, axes = np.linalg.eigh(_matrix(full))
-        mass = max(float(body.mass), SMALL)
-        if moments[0] > mass * POINT**2:
+        mass = max(float(body.mass), LEAST_MASS)
+        if moments[0] > mass * LEAST_GYRATION**2:
             continue
-        least = THIN * float(moments[2])
-        if moments[2] <= mass * POINT**2:
-            least = 0.4 * mass * ROUND**2
-        whole = axes @ np.diag(np.maximum(moments, least)) @ axes.T
-        body.fullinertia[:] = whole[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
-        mended.append(body.name)
-    return mended
+        least = LEAST_RATIO * float(moments[2])
+        if moments[2] <= mass * LEAST_GYRATION**2:
+            least = 0.4 * mass * DEFAULT_RADIUS**2
+        inertia = axes @ np.diag(np.maximum(moments, least)) @ axes.T
+        body.fullinertia[:] = inertia[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
+        repaired.append(body.name)
+    return repaired
 
 
-def _shrink(spec: mujoco.MjSpec) -> list[str]:
-    """Shrink inertias that are too large, if some are so beyond doubt."""
-    lengths = _lengths(spec)
-    spreads = {
-        body.name: _spread(body)
+def _shrink_inertias(spec: mujoco.MjSpec) -> list[str]:
+    """Shrink too large inertias of a model whose units must be wrong."""
+    lengths = _link_lengths(spec)
+    gyrations = {
+        body.name: _radius_of_gyration(body)
         for body in spec.bodies
-        if body.explicitinertial and body.mass > HEAVY
+        if body.explicitinertial and body.mass > NEGLIGIBLE_MASS
     }
-    whole = max((_reach(body) for body in spec.worldbody.bodies), default=0.0)
-    if max(spreads.values(), default=0.0) <= VAST * whole:
+    longest = max(
+        (_chain_length(body) for body in spec.worldbody.bodies), default=0.0
+    )
+    if max(gyrations.values(), default=0.0) <= GREATEST_GYRATION * longest:
         return []
     shrunk = []
     for body in spec.bodies:
         length = lengths.get(body.name, 0.0)
-        if spreads.get(body.name, 0.0) > length > 0.0:
-            moment = float(body.mass) * (FILLED * length) ** 2
+        if gyrations.get(body.name, 0.0) > length > 0.0:
+            moment = float(body.mass) * (TYPICAL_GYRATION * length) ** 2
             if np.isnan(body.fullinertia).any():
                 body.inertia[:] = moment
             else:
@@ -72,8 +76,8 @@ def _shrink(spec: mujoco.MjSpec) -> list[str]:
     return shrunk
 
 
-def _spread(body: mujoco.MjsBody) -> float:
-    """Radius of gyration of a link, in [m]."""
+def _radius_of_gyration(body: mujoco.MjsBody) -> float:
+    """Return the greatest radius of gyration of a link, in [m]."""
     full = np.array(body.fullinertia)
     moments = np.array(body.inertia)
     if not np.isnan(full).any():
@@ -81,10 +85,10 @@ def _spread(body: mujoco.MjsBody) -> float:
     return float(np.sqrt(max(float(moments.max()), 0.0) / body.mass))
 
 
-def _lengths(spec: mujoco.MjSpec) -> dict[str, float]:
-    """How far each link reaches to those that hang on it, in [m].
+def _link_lengths(spec: mujoco.MjSpec) -> dict[str, float]:
+    """Return the distance of each link to its farthest child, in [m].
 
-    A last link counts as long as the one that it hangs on.
+    A link without children gets the length of its parent.
     """
     found: dict[str, float] = {}
     for body in spec.bodies:  # parents come before their children
@@ -94,15 +98,18 @@ def _lengths(spec: mujoco.MjSpec) -> dict[str, float]:
     return found
 
 
-def _reach(body: mujoco.MjsBody) -> float:
-    """Length of the longest chain that hangs on a body, in [m]."""
+def _chain_length(body: mujoco.MjsBody) -> float:
+    """Return the length of the longest chain below a body, in [m]."""
     return max(
-        (float(np.linalg.norm(b.pos)) + _reach(b) for b in body.bodies),
+        (
+            float(np.linalg.norm(child.pos)) + _chain_length(child)
+            for child in body.bodies
+        ),
         default=0.0,
     )
 
 
 def _matrix(full: np.ndarray) -> np.ndarray:
-    """Inertia from its six numbers xx, yy, zz, xy, xz, yz. Shape (3, 3)."""
+    """Return the inertia matrix of (xx, yy, zz, xy, xz, yz). Shape (3, 3)."""
     xx, yy, zz, xy, xz, yz = full.tolist()
     return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])

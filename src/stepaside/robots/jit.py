@@ -1,9 +1,9 @@
-"""Formulas of a robot as machine code, kept from one run to the next.
+"""Just-in-time compilation of generated formulas, cached on disk.
 
-What :mod:`.tracing` writes down runs as it stands wherever Python does, and
-that is what a robot gets. Who simulates for hours can have the same text
-compiled by Numba: some seconds once, then a tenth of the time, and the same
-bits, for the order of operations stays and nothing is fused.
+Formulas of :mod:`.expression_tracing` run as plain Python by default, also on
+board. For long simulations the same source can be compiled by Numba: a few
+seconds once, then a tenth of the time, with the same bits, since the order
+of operations is preserved and nothing is fused.
 """
 
 import os
@@ -22,93 +22,93 @@ Function = Callable[..., tuple[float, ...]]
 
 
 class JitPreference(IntEnum):
-    """How formulas that are traced from now on shall run."""
+    """Execution of formulas that are traced from now on."""
 
     PLAIN = 0  # as Python
-    STORED = 1  # as machine code where it was stored
-    COMPILED = 2  # as machine code, compiled where it was not
+    STORED = 1  # as machine code if that is in the cache
+    COMPILED = 2  # as machine code, compiled if necessary
 
 
 LONG = 60.0  # simulated time that is worth loading machine code for, in [s]
-_used = JitPreference.PLAIN
+_preference = JitPreference.PLAIN
 
 
-def prefer(machine: JitPreference) -> None:
-    """Let this process run new formulas that way, or a swifter one."""
-    global _used
-    _used = max(_used, machine)
+def prefer(preference: JitPreference) -> None:
+    """Raise the preference of this process; it is never lowered."""
+    global _preference
+    _preference = max(_preference, preference)
 
 
 def prefer_for(duration: float, *, many: bool = False) -> None:
-    """Prefer machine code for games that it pays for.
+    """Prefer machine code for games that are long enough to benefit.
 
     Args:
-        duration: Simulated time of a game, in [s]; it takes half a second
-            to load what is stored.
-        many: Whether so many are played that compiling pays, too.
+        duration: Simulated time of a game, in [s]. Loading machine code
+            takes about half a second.
+        many: Whether many games are played, so that compiling pays off.
     """
     if duration >= LONG:
         prefer(JitPreference.COMPILED if many else JitPreference.STORED)
 
 
 def preferred() -> JitPreference:
-    """How new formulas run in this process."""
-    return _used
+    """Return the preference of this process."""
+    return _preference
 
 
 def function_of(name: str, text: str) -> Function:
-    """Function of floats from its text, which knows ``sin`` and ``cos``.
+    """Compile the source of a function of floats.
 
     Args:
-        name: Of the function.
-        text: Its definition in Python.
+        name: Name of the function.
+        text: Its definition in Python, which may use ``sin`` and ``cos``.
 
     Returns:
-        The function, as machine code if that is preferred and can be had.
+        The function, as machine code if that is preferred and available.
     """
-    if _used is not JitPreference.PLAIN:
-        # Whatever is wrong with stored code: the text itself runs, too.
+    if _preference is not JitPreference.PLAIN:
+        # A broken cache or Numba is no error: fall back to plain Python.
         with suppress(Exception):
-            made = _machine_code(name, text)
-            if made is not None:
-                return made
-    space: dict[str, Any] = {"sin": sin, "cos": cos}
-    exec(compile(text, f"<{name}>", "exec"), space)
-    plain: Function = space[name]
+            machine_code = _machine_code(name, text)
+            if machine_code is not None:
+                return machine_code
+    namespace: dict[str, Any] = {"sin": sin, "cos": cos}
+    exec(compile(text, f"<{name}>", "exec"), namespace)
+    plain: Function = namespace[name]
     return plain
 
 
 def folder() -> Path:
-    """Where machine code is kept; by ``XDG_CACHE_HOME`` if that is set."""
+    """Return the cache folder; ``XDG_CACHE_HOME`` is respected."""
     base = os.environ.get("XDG_CACHE_HOME")
     return (Path(base) if base else Path.home() / ".cache") / "stepaside"
 
 
 def _machine_code(name: str, text: str) -> Function | None:
-    """Stored machine code of a text; compiled, if that is preferred."""
+    """Load the machine code of a source, or compile it if preferred."""
     content = f"from math import cos, sin\n\n\n{text}"
     digest = sha256(content.encode()).hexdigest()[:16]
     path = folder() / f"{name}_{digest}.py"
     stored = path.is_file() and path.read_text(encoding="utf-8") == content
     if not stored:
-        if _used is not JitPreference.COMPILED:
+        if _preference is not JitPreference.COMPILED:
             return None
         _write(path, content)
-    import numba  # takes longer than all the rest
+    import numba  # slow to import
 
     spec = spec_from_file_location(path.stem, path)
     assert spec is not None and spec.loader is not None
     module = module_from_spec(spec)
-    sys.modules[spec.name] = module  # where stored code looks for it
+    sys.modules[spec.name] = module  # Numba's cache looks it up there
     spec.loader.exec_module(module)
     plain = getattr(module, name)
     floats = (numba.float64,) * plain.__code__.co_argcount
-    made: Function = numba.njit([floats], cache=True)(plain)
-    return made
+    machine_code: Function = numba.njit([floats], cache=True)(plain)
+    return machine_code
 
 
 def _write(path: Path, content: str) -> None:
-    """Write a text whole, for one's own eyes."""
+    """Write a file atomically, readable by its owner alone."""
     path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
     with NamedTemporaryFile(
         "w", dir=path.parent, delete=False, encoding="utf-8"

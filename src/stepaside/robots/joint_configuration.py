@@ -1,4 +1,4 @@
-"""A robot in one posture: transforms, CoM and Jacobians, in NumPy."""
+"""Joint configuration of a robot: frames, CoM and Jacobians, in NumPy."""
 
 from collections.abc import Mapping
 from functools import cached_property
@@ -18,14 +18,14 @@ from .robot_tree import LinkFrame, RobotTree
 
 
 class Configuration:
-    """Joint angles and torso pose of one robot, and what follows from them.
+    """Joint angles and torso pose of one robot, with derived quantities.
 
-    A value: to move, make another one. It is made for any frame and any
-    robot, not for speed; what control needs at every tick is written out in
-    :mod:`.leg_step` and :mod:`.forward`.
+    An immutable value for any frame of any robot, not optimised for speed;
+    real-time control uses the generated formulas of :mod:`.ik_step` and
+    :mod:`.forward_kinematics`.
 
     Attributes:
-        tree: The robot.
+        tree: Kinematic tree of the robot.
         joints: Angles of all joints in the order of ``tree.joints``, in
             [rad], or [m] for slides. Shape (joints,).
         place: Origin of the torso in the world, in [m]. Shape (3,).
@@ -39,10 +39,10 @@ class Configuration:
         place: Array | None = None,
         axes: Array | None = None,
     ) -> None:
-        """Take a posture; by default with the torso at the origin.
+        """Make a configuration; by default with the torso at the origin.
 
         Raises:
-            ModelError: If there are not as many angles as joints.
+            ModelError: If the number of angles differs from that of joints.
         """
         if len(joints) != len(tree.joints):
             raise ModelError(
@@ -59,20 +59,21 @@ class Configuration:
     def of_motors(
         cls, tree: RobotTree, angles: Array, standing: Mapping[str, float]
     ) -> "Configuration":
-        """Posture of actuated joints, whose followers follow.
+        """Make the configuration of given motor angles.
 
         Args:
-            tree: The robot.
+            tree: Kinematic tree of the robot.
             angles: In the order of ``tree.motors``, in [rad].
-            standing: Angles of joints without a motor; 0 by default.
+            standing: Angles of joints without a motor, by joint, in [rad];
+                others are 0.
         """
-        known = dict(standing)
-        known.update(
+        by_joint = dict(standing)
+        by_joint.update(
             zip(tree.motors, np.asarray(angles).tolist(), strict=True)
         )
         for follower, leader in tree.followers.items():
-            known[follower] = known.get(leader, 0.0)
-        joints = [known.get(name, 0.0) for name in tree.joints]
+            by_joint[follower] = by_joint.get(leader, 0.0)
+        joints = [by_joint.get(name, 0.0) for name in tree.joints]
         return cls(tree, np.array(joints))
 
     @cached_property
@@ -86,89 +87,85 @@ class Configuration:
     @property
     def com(self) -> Array:
         """CoM of the robot in the world, in [m]. Shape (3,)."""
-        return self._seen(self._com_of_torso)
-
-    @property
-    def _com_of_torso(self) -> Array:
         first = np.array(self._moments.firsts[0], dtype=np.float64)
-        return first / self._moments.masses[0]
+        return self._to_world(first / self._moments.masses[0])
 
-    def place_of_body(self, name: str) -> Array:
-        """Origin of a body in the world, in [m]. Shape (3,)."""
-        return self._place_of(self._find("body", name))
+    def position_body_in_world(self, name: str) -> Array:
+        """Return the origin of a body in the world, in [m]. Shape (3,)."""
+        return self._position_of(self._find("body", name))
 
-    def axes_of_body(self, name: str) -> Array:
-        """Axes of a body in the world, as columns. Shape (3, 3)."""
+    def axes_body_in_world(self, name: str) -> Array:
+        """Return the axes of a body in the world. Shape (3, 3)."""
         return self._axes_of(self._find("body", name))
 
-    def place_of_site(self, name: str) -> Array:
-        """Origin of a site in the world, in [m]. Shape (3,)."""
-        return self._place_of(self._find("site", name))
+    def position_site_in_world(self, name: str) -> Array:
+        """Return the origin of a site in the world, in [m]. Shape (3,)."""
+        return self._position_of(self._find("site", name))
 
-    def axes_of_site(self, name: str) -> Array:
-        """Axes of a site in the world, as columns. Shape (3, 3)."""
+    def axes_site_in_world(self, name: str) -> Array:
+        """Return the axes of a site in the world. Shape (3, 3)."""
         return self._axes_of(self._find("site", name))
 
     def jacobian_of_site(self, name: str) -> Array:
-        """Velocity and angular velocity of a site, by what moves it.
+        """Return the Jacobian of a site in the world.
 
         Returns:
-            Rows of the velocity [m/s], then of the angular velocity
-            [rad/s], in the world; columns of the torso's velocity and
-            angular velocity in the world, then of all joints.
-            Shape (6, 6 + joints).
+            Rows: velocity [m/s], then angular velocity [rad/s] of the site.
+            Columns: velocity and angular velocity of the torso in the world,
+            then velocities of all joints. Shape (6, 6 + joints).
         """
         frame = self._find("site", name)
-        point = self._links.place_of(frame)
+        point = self._links.position_of(frame)
         rows = np.zeros((6, 6 + len(self.tree.joints)))
         rows[:, :6] = np.eye(6)
-        rows[:3, 3:6] = _spin(self._place_of(frame) - self.place)
+        rows[:3, 3:6] = _lever_matrix(self._position_of(frame) - self.place)
         for link in self.tree.chain(frame.link):
-            found = motion_of(self._links, self._moments, link, point)
-            rows[:3, 5 + link] = self.axes @ np.array(found.linear)
-            rows[3:, 5 + link] = self.axes @ np.array(found.angular)
+            motion = motion_of(self._links, self._moments, link, point)
+            rows[:3, 5 + link] = self.axes @ np.array(motion.linear)
+            rows[3:, 5 + link] = self.axes @ np.array(motion.angular)
         return rows
 
     def jacobian_of_com(self) -> Array:
-        """Velocity of the CoM by what moves it; columns likewise.
+        """Return the Jacobian of the CoM in the world.
 
         Returns:
-            In [m/s], in the world. Shape (3, 6 + joints).
+            Rows: velocity of the CoM, in [m/s]. Columns as those of
+            :meth:`jacobian_of_site`. Shape (3, 6 + joints).
         """
         rows = np.zeros((3, 6 + len(self.tree.joints)))
         rows[:, :3] = np.eye(3)
-        rows[:, 3:6] = _spin(self.com - self.place)
+        rows[:, 3:6] = _lever_matrix(self.com - self.place)
         mass = self._moments.masses[0]
         origin = (0.0, 0.0, 0.0)
         for link in range(1, len(self.tree.links)):
-            found = motion_of(self._links, self._moments, link, origin)
-            rows[:, 5 + link] = self.axes @ np.array(found.moment) / mass
+            motion = motion_of(self._links, self._moments, link, origin)
+            rows[:, 5 + link] = self.axes @ np.array(motion.moment) / mass
         return rows
 
     def _find(self, kind: str, name: str) -> LinkFrame:
-        known = self.tree.bodies if kind == "body" else self.tree.sites
-        if name not in known:
+        frames = self.tree.bodies if kind == "body" else self.tree.sites
+        if name not in frames:
             raise ModelError(
                 f"there is no {kind} {name!r}; there are "
-                f"{', '.join(sorted(known))}"
+                f"{', '.join(sorted(frames))}"
             )
-        return known[name]
+        return frames[name]
 
-    def _seen(self, place: Array) -> Array:
-        seen: Array = self.place + self.axes @ place
-        return seen
+    def _to_world(self, point: Array) -> Array:
+        in_world: Array = self.place + self.axes @ point
+        return in_world
 
-    def _place_of(self, frame: LinkFrame) -> Array:
-        place = self._links.place_of(frame)
-        return self._seen(np.array(place, dtype=np.float64))
+    def _position_of(self, frame: LinkFrame) -> Array:
+        position = self._links.position_of(frame)
+        return self._to_world(np.array(position, dtype=np.float64))
 
     def _axes_of(self, frame: LinkFrame) -> Array:
         axes = np.array(self._links.axes_of(frame), dtype=np.float64)
-        seen: Array = self.axes @ axes
-        return seen
+        in_world: Array = self.axes @ axes
+        return in_world
 
 
-def _spin(lever: Array) -> Array:
-    """Velocity of the end of a lever by angular velocity. Shape (3, 3)."""
+def _lever_matrix(lever: Array) -> Array:
+    """Return the matrix M with M w = w x lever. Shape (3, 3)."""
     x, y, z = lever
     return np.array([[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]])

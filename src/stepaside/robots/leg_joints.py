@@ -1,7 +1,7 @@
-"""What the joint motion of a robot can move, and what it cannot.
+"""Leg joints of a robot as inverse kinematics uses them.
 
-The legs' free joints are unknown, followers move with their leaders, and
-all other joints stay where the robot stands with them.
+The free joints of the legs are unknowns, followers move with their leaders,
+and all other joints stay at their standing angles.
 """
 
 from collections.abc import Sequence
@@ -17,28 +17,27 @@ from .link_poses import LEVEL
 from .robot_tree import HINGE, RobotTree
 from .scalar_algebra import Matrix, rotation_about
 
-FIXED_ROWS = 15  # two feet, and the CoM
-BASE = 4  # unknowns of a torso that stays level
+FIXED_ROWS = 15  # of two feet and the CoM
+BASE = 4  # unknowns of the torso, whose roll and pitch are given
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class LegJoints:
-    """Legs of one robot, as joint motion sees them.
+    """Leg joints of one robot.
 
     Attributes:
-        tree: The robot.
-        free: Leg joints that are unknown.
-        columns: Number of the free joint that moves each link; None for
-            links that stay.
-        fixed: Angles of all joints while the free ones are 0, in [rad].
-        low: Least angles of the free joints, in [rad]. Shape (free,).
-        high: Greatest ones. Shape (free,).
-        speeds: Greatest speeds of the free joints, in [rad/s].
-            Shape (free,).
-        feet: Links that the soles are on, left and right.
-        sites: Names of the soles, left and right.
-        holds_heading: Whether the torso's heading has a row of its own: it
-            does where legs have a joint to spare for it.
+        tree: Kinematic tree of the robot.
+        free: Independent leg joints: the unknowns.
+        columns: Index of the free joint that moves each link; None for
+            links that are fixed to the torso.
+        fixed: Angles of all joints with the free ones at 0, in [rad].
+        low: Lower limits of the free joints, in [rad]. Shape (free,).
+        high: Upper limits of the free joints, in [rad]. Shape (free,).
+        speeds: Speed limits of the free joints, in [rad/s]. Shape (free,).
+        feet: Links of the soles, left and right.
+        sites: Sites of the soles, left and right.
+        holds_heading: Whether the torso heading is a row: legs with
+            independent hip yaws have one more unknown than the other rows.
         lean: See :class:`~.description.RobotDescription`, in [rad].
     """
 
@@ -56,7 +55,7 @@ class LegJoints:
 
     @classmethod
     def of(cls, description: RobotDescription, tree: RobotTree) -> "LegJoints":
-        """Find the legs of a robot in its tree.
+        """Look up the leg joints of a robot in its tree.
 
         Raises:
             ModelError: If a leg joint has neither motor nor leader.
@@ -101,27 +100,27 @@ class LegJoints:
         )
 
     def angles(self, free: Sequence[Number]) -> list[Number]:
-        """Angles of all joints, from those of the free ones, in [rad]."""
+        """Return the angles of all joints from the free ones, in [rad]."""
         return [
             fixed if column is None else free[column]
             for column, fixed in zip(self.columns[1:], self.fixed, strict=True)
         ]
 
     def torso_axes(self, trace: ExpressionTrace) -> Matrix:
-        """Axes of the torso in a level frame that heads as it does.
+        """Return the axes of the torso in the level torso frame.
 
-        Takes an argument of the trace where the torso leans: its roll.
+        Adds the roll as a variable of the trace if the torso leans.
         """
         if self.lean == 0.0:
             return LEVEL
         return rotation_about((1.0, 0.0, 0.0), trace.variable("roll"))
 
-    def rolled(self, roll: float) -> tuple[float, ...]:
-        """That argument: the roll of a torso that leans, in [rad]."""
+    def roll_argument(self, roll: float) -> tuple[float, ...]:
+        """Return the argument of that variable: a roll, in [rad], or none."""
         return (roll,) if self.lean > 0.0 else ()
 
     def chain(self, side: int) -> list[int]:
-        """Links between the torso and a foot that the free joints move."""
+        """Return the links of the left (0) or right (1) leg."""
         return [
             link
             for link in self.tree.chain(self.feet[side])
@@ -130,10 +129,9 @@ class LegJoints:
 
     @property
     def is_plain(self) -> bool:
-        """Whether rows and unknowns pair off: six hinges in either leg.
+        """Whether each leg has six hinges and rows match unknowns.
 
-        There are then as many unknowns as rows, and the legs share one
-        joint or the torso's heading has its row.
+        The legs then share one joint, or the torso heading is a row.
         """
         left, right = self.chain(0), self.chain(1)
         moved = [link for link, c in enumerate(self.columns) if c is not None]
@@ -142,13 +140,11 @@ class LegJoints:
             len(left) == len(right) == 6
             and sorted(left + right) == moved
             and shared + self.holds_heading == 1
-            and self._shares_across(left, right)
+            and self._are_distinct(left)
+            and self._are_distinct(right)
             and all(self.tree.links[i].kind == HINGE for i in moved)
         )
 
-    def _shares_across(self, left: list[int], right: list[int]) -> bool:
-        """Whether no leg has two joints that move as one."""
-        return all(
-            len({self.columns[link] for link in chain}) == 6
-            for chain in (left, right)
-        )
+    def _are_distinct(self, chain: list[int]) -> bool:
+        """Return whether no two joints of a leg are coupled."""
+        return len({self.columns[link] for link in chain}) == 6

@@ -1,9 +1,9 @@
 """Joint motion generation by damped pseudo-inverse (paper, Sec. III-A).
 
-Unknowns are place and heading of the torso, which is level or leans as it is
-told, and the leg joints, where joints that share a motor are one unknown; rows
-are the poses of both feet and the CoM. Where hip yaws are independent there is
-one more unknown, and a row: the torso heads where the feet do on average.
+Unknowns are position and heading of the torso, whose roll is given, and the
+leg joints; joints that share a motor are one unknown. Rows are the poses of
+both feet and the CoM. Independent hip yaws add one unknown, and one row: the
+torso heading equals the mean heading of the feet.
 """
 
 from functools import cached_property
@@ -24,10 +24,12 @@ from .tree_cache import load_tree
 
 __all__ = ["ROWS", "BodyReference", "LegKinematics"]
 
-LEAP = 0.3  # of a joint in one step while a stance is searched, in [rad]
+STAND_STEP = 0.3  # joint motion per iteration while standing, in [rad]
 TOLERANCE = 1e-4  # residual at which a posture counts as reached
-LOST = 0.5  # residual, in [m] or [rad], beyond which a request is refused
-FAR = 0.1  # move of the torso in a tick that is looked at twice, [m], [rad]
+GREATEST_ERROR = 0.5  # residual that is refused, in [m] or [rad]
+# Motion of the torso in a tick beyond which the undamped step is rejected,
+# in [m] or [rad].
+GREATEST_MOVE = 0.1
 ROWS = (
     *(f"left foot {c}" for c in ("x", "y", "z", "roll", "pitch", "yaw")),
     *(f"right foot {c}" for c in ("x", "y", "z", "roll", "pitch", "yaw")),
@@ -40,20 +42,20 @@ class LegKinematics:
     """Floating-base inverse kinematics of one robot.
 
     Attributes:
-        description: The robot.
+        description: Robot description.
         joint_names: Actuated joints, in the order of the joint targets.
-        legs: What of it moves.
+        legs: Leg joints.
     """
 
     def __init__(self, description: RobotDescription, *, tick: float) -> None:
-        """Take the standing angles, with the torso at the origin.
+        """Begin at the standing angles, with the torso at the origin.
 
         Args:
-            description: The robot.
-            tick: Time from one tracked reference to the next, in [s].
+            description: Robot description.
+            tick: Time between tracked references, in [s].
 
         Raises:
-            ModelError: If the kinematic tree of the robot cannot be had.
+            ModelError: If the kinematic tree cannot be loaded.
         """
         self.description = description
         self._tree = tree = load_tree(description)
@@ -70,16 +72,18 @@ class LegKinematics:
             )
         )
         self._slowest = float(self._reach.min())
-        self._room = 0.0  # from the free joints to the ends of their ranges
+        self._range_margin = 0.0  # lower bound of the distance to any limit
         self._start = tuple(
             float(description.standing.get(name, 0.0)) for name in legs.free
         )
         self._free: tuple[float, ...] = self._start
-        self._place: tuple[float, ...] = (0.0, 0.0, 0.0)
-        self._heading = self._faced = self._roll = 0.0
+        self._position: tuple[float, ...] = (0.0, 0.0, 0.0)
+        self._heading = 0.0
+        self._last_heading = 0.0
+        self._roll = 0.0
         self._error = np.zeros(FIXED_ROWS)
         fixed = dict(zip(tree.joints, legs.fixed, strict=True))
-        self._still = np.array([fixed[name] for name in tree.motors])
+        self._fixed_targets = np.array([fixed[name] for name in tree.motors])
         columns = dict(zip(tree.joints, legs.columns[1:], strict=True))
         moved = {
             i: column
@@ -87,57 +91,60 @@ class LegKinematics:
             if (column := columns[name]) is not None
         }
         first, last = min(moved), max(moved) + 1
-        self._at: slice | list[int] = list(moved)
-        if self._at == list(range(first, last)):
-            self._at = slice(first, last)  # much faster
-        self._pick = itemgetter(*moved.values())
+        self._leg_motors: slice | list[int] = list(moved)
+        if self._leg_motors == list(range(first, last)):
+            self._leg_motors = slice(first, last)  # much faster
+        self._to_motors = itemgetter(*moved.values())
 
     @property
     def joint_targets(self) -> Array:
         """Angles of the actuated joints, in [rad]. Shape (joints,)."""
-        targets = self._still.copy()
-        targets[self._at] = self._pick(self._free)
+        targets = self._fixed_targets.copy()
+        targets[self._leg_motors] = self._to_motors(self._free)
         return targets
 
     @property
     def posture(self) -> Array:
-        """Position and quaternion of the torso, then all joints."""
+        """Position and quaternion of the torso, then all joints.
+
+        Shape (7 + joints,).
+        """
         half, tilt = 0.5 * self._heading, 0.5 * self._roll
         c, s, r, t = cos(half), sin(half), cos(tilt), sin(tilt)
         turned = (c * r, c * t + 0.0, s * t + 0.0, s * r)
         joints = self.legs.angles(self._free)
-        return np.array([*self._place, *turned, *joints], dtype=np.float64)
+        return np.array([*self._position, *turned, *joints], dtype=np.float64)
 
     @property
     def stance(self) -> Posture:
-        """Torso and free joints as they are asked for now."""
-        x, y, z = self._place
+        """Torso pose and free joints of the present targets."""
+        x, y, z = self._position
         return Posture((x, y, z), self._heading, self._free, self._roll)
 
     @property
     def torso_heading(self) -> float:
         """Heading of the torso in the frame of the reference, in [rad].
 
-        That of the posture before the last step: by the time of the next
-        one the body has come as far as that.
+        Of the posture before the last step, which is where the body is by
+        the time of the next one.
         """
-        return remainder(self._faced, tau)
+        return remainder(self._last_heading, tau)
 
     def stand(self, reference: BodyReference) -> Array:
-        """Take a posture from scratch.
+        """Solve a posture from the standing angles.
 
         Args:
-            reference: What to reach.
+            reference: Target of CoM and feet.
 
         Returns:
             Joint targets, in [rad]. Shape (joints,).
 
         Raises:
-            ReachError: If the legs cannot reach it; names what is missed.
+            ReachError: If the legs cannot reach it; names the worst row.
         """
         if not self._try_stand(reference):
             worst = int(np.argmax(np.abs(self._error)))
-            heights = self._heights(reference).in_words(reference.com[2])
+            heights = self._heights(reference).describe(reference.com[2])
             raise ReachError(
                 f"{self.description.name} cannot reach {ROWS[worst]} with a "
                 f"CoM height of {reference.com[2]:g} m; "
@@ -146,27 +153,29 @@ class LegKinematics:
         return self.joint_targets
 
     def highest_com(self, reference: BodyReference) -> float:
-        """Greatest CoM height with the feet of ``reference``, in [m].
+        """Return the greatest CoM height with the feet of ``reference``.
 
         Returns:
-            The height; 0 if there is none.
+            The height, in [m]; 0 if there is none.
         """
         return self._heights(reference).greatest
 
     def lowest_com(self, reference: BodyReference) -> float:
-        """Least CoM height with the feet of ``reference``, in [m].
+        """Return the least CoM height with the feet of ``reference``.
 
         Returns:
-            The height; 0 if there is none.
+            The height, in [m]; 0 if there is none.
         """
         return self._heights(reference).least
 
     @cached_property
     def _natural_height(self) -> float:
-        """Height of the CoM over the soles in the natural stance, in [m]."""
+        """Height of the CoM over the soles at the standing angles, in [m]."""
         joints = np.array(self.legs.angles(self._start))
         stance = Configuration(self._tree, joints)
-        soles = [stance.place_of_site(name)[2] for name in self.legs.sites]
+        soles = [
+            stance.position_site_in_world(name)[2] for name in self.legs.sites
+        ]
         return float(stance.com[2] - max(soles))
 
     def _heights(self, reference: BodyReference) -> ReachableHeights:
@@ -180,10 +189,10 @@ class LegKinematics:
         return self._try_stand(reference._replace(com=(x, y, height)))
 
     def _try_stand(self, reference: BodyReference) -> bool:
-        self._place = reference.com
+        self._position = reference.com
         self._heading = reference.heading
         self._free = self._start
-        reach = np.full(len(self._free), LEAP)
+        reach = np.full(len(self._free), STAND_STEP)
         for _ in range(60):
             self._step(reference, reach)
             if float(np.abs(self._error).max()) < TOLERANCE:
@@ -191,88 +200,91 @@ class LegKinematics:
         return False
 
     def track(self, reference: BodyReference) -> Array:
-        """Follow a reference by one damped step from the last posture.
+        """Track a reference by one damped step from the last posture.
 
-        A joint at a limit of its range or speed stays there, and torso and
-        other joints do what they can.
+        A joint at a limit of its range or speed stays there, and the torso
+        and the other joints minimise the residuals.
 
         Args:
-            reference: What to reach at this tick.
+            reference: Target of CoM and feet at this tick.
 
         Returns:
             Joint targets, in [rad]. Shape (joints,).
 
         Raises:
-            ReachError: If the legs are hopelessly short of it; names what is.
+            ReachError: If a residual is too large; names the worst row.
         """
         if self._step_freely(reference):
             return self.joint_targets
         self._step(reference, self._reach)
         error = self._error
-        if not -LOST <= error.min() <= error.max() <= LOST:
+        if not -GREATEST_ERROR <= error.min() <= error.max() <= GREATEST_ERROR:
             worst = int(np.argmax(np.abs(error)))
             raise ReachError(
                 f"{self.description.name} cannot follow: {ROWS[worst]} is "
-                f"off by {error[worst]:.3f}, more than {LOST:g} [m, rad]"
+                f"off by {error[worst]:.3f}, more than {GREATEST_ERROR:g} "
+                "[m, rad]"
             )
         return self.joint_targets
 
     def _step_freely(self, reference: BodyReference) -> bool:
-        """Take the step that no limit holds back, if it is one.
+        """Take the undamped step if it meets all limits.
 
-        Without damping: that is for legs which are nearly singular, whose
-        steps are too long to be taken here.
+        Near singularities it is too long and rejected: there the damped
+        step is used.
         """
-        quick, n = self._solver.quick, BASE + len(self._free)
-        if quick is None:
+        newton_step, n = self._solver.newton_step, BASE + len(self._free)
+        if newton_step is None:
             return False
         try:
-            step = quick(*self._arguments(reference))
+            step = newton_step(*self._arguments(reference))
         except ZeroDivisionError:
             return False
         x, y, z, turn = step[:BASE]
-        if not max(abs(x), abs(y), abs(z), abs(turn)) < FAR:
+        if not max(abs(x), abs(y), abs(z), abs(turn)) < GREATEST_MOVE:
             return False
         moved = step[n + BASE :]
         if not self._allows(step[BASE:n], moved):
             return False
         self._free = moved
-        self._place, self._faced = step[n : n + 3], self._heading
+        self._position = step[n : n + 3]
+        self._last_heading = self._heading
         self._heading = step[n + 3]
         return True
 
     def _allows(
         self, moves: tuple[float, ...], moved: tuple[float, ...]
     ) -> bool:
-        """Whether joints that move keep to their speeds and ranges.
+        """Return whether a step keeps to the speeds and ranges of all joints.
 
-        While all of them have room to every limit, the greatest move alone
-        says so.
+        While all joints are far from their limits, the greatest move alone
+        decides.
         """
         greatest = max(max(moves), -min(moves))
-        self._room -= greatest
-        if greatest <= self._slowest and self._room >= 0.0:
+        self._range_margin -= greatest
+        if greatest <= self._slowest and self._range_margin >= 0.0:
             return True
-        room = inf
+        margin = inf
         for angle, move, (reach, low, high) in zip(
             moved, moves, self._limits, strict=True
         ):
             if not (-reach <= move <= reach and low <= angle <= high):
                 return False
-            room = min(room, angle - low, high - angle)
-        self._room = room
+            margin = min(margin, angle - low, high - angle)
+        self._range_margin = margin
         return True
 
     def _arguments(self, reference: BodyReference) -> tuple[float, ...]:
-        """Arguments of the solver's functions."""
+        """Return the arguments of the generated functions."""
         com, left, right, left_tilt, right_tilt = reference
         feet = (*left, *right, *left_tilt, *right_tilt)
         self._roll = reference.roll(self.legs.lean)
-        rolled = self.legs.rolled(self._roll)
-        return (*self._free, *self._place, self._heading, *com, *feet, *rolled)
+        torso = (*self._position, self._heading)
+        roll = self.legs.roll_argument(self._roll)
+        return (*self._free, *torso, *com, *feet, *roll)
 
     def _step(self, reference: BodyReference, reach: Array) -> None:
-        """One damped Newton step; leaves the error before it.
+        """Take one damped Newton step, and store the residuals before it.
 
         No joint moves by more than ``reach``, in [rad]: near a straight knee
         an unlimited step would land on the other branch of the leg.
@@ -289,7 +301,8 @@ class LegKinematics:
         self._error = np.append(turned, error[FIXED_ROWS:])
         moved = np.clip(angles + move[BASE:], legs.low, legs.high)
         self._free = tuple(moved.tolist())
-        self._room = 0.0
-        x, y, z = (self._place + to_world @ move[:3]).tolist()
-        self._place, self._faced = (x, y, z), self._heading
+        self._range_margin = 0.0
+        x, y, z = (self._position + to_world @ move[:3]).tolist()
+        self._position = (x, y, z)
+        self._last_heading = self._heading
         self._heading += float(move[3])

@@ -1,6 +1,7 @@
-"""Where the links of a tree are, in the frame of its torso.
+"""Link poses, mass moments and joint motion axes in the torso frame.
 
-Works on floats and on traced numbers alike: see :mod:`.tracing`.
+All functions accept floats and traced numbers, see
+:mod:`.expression_tracing`.
 """
 
 from collections.abc import Sequence
@@ -23,101 +24,102 @@ LEVEL: Matrix = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
 
 class LinkPoses(NamedTuple):
-    """Links of a tree in the torso frame, or in a level one at the torso.
+    """Poses of all links in the torso frame, or in the level torso frame.
 
     Attributes:
-        tree: The tree.
-        axes: Rotation of each link's frame, the torso's first.
-        places: Origin of each, which is where its joint is, in [m].
-        turns: Rotation of each in its parent.
-        offsets: Origin of each in its parent, in [m].
+        tree: Kinematic tree.
+        axes: Rotation matrix of each link frame, the torso first.
+        positions: Origin of each link frame, at its joint, in [m].
+        rotations: Rotation matrix of each link relative to its parent.
+        offsets: Origin of each link frame in its parent, in [m].
     """
 
     tree: RobotTree
     axes: list[Matrix]
-    places: list[Vector]
-    turns: list[Matrix]
+    positions: list[Vector]
+    rotations: list[Matrix]
     offsets: list[Vector]
 
-    def place_of(self, frame: LinkFrame) -> list[Number]:
-        """Origin of a frame in the torso frame, in [m]."""
+    def position_of(self, frame: LinkFrame) -> list[Number]:
+        """Return the origin of a frame, in [m]."""
         lever = turn(self.axes[frame.link], frame.place)
-        return add(self.places[frame.link], lever)
+        return add(self.positions[frame.link], lever)
 
     def axes_of(self, frame: LinkFrame) -> list[list[Number]]:
-        """Axes of a frame in the torso frame, as columns."""
+        """Return the axes of a frame as columns."""
         return multiply(self.axes[frame.link], frame.axes)
 
 
 def place_links(
     tree: RobotTree, angles: Sequence[Number], torso: Matrix = LEVEL
 ) -> LinkPoses:
-    """Place every link of a tree.
+    """Compute the poses of all links.
 
     Args:
-        tree: The tree.
-        angles: Of all joints, in [rad] or [m], in the order of the links.
-        torso: Axes of the torso in the frame that all is seen from.
+        tree: Kinematic tree.
+        angles: Angles of all joints, in [rad], or [m] for slides, in the
+            order of the links.
+        torso: Axes of the torso in the frame of the result.
     """
-    nowhere: Vector = (0.0, 0.0, 0.0)
-    axes, places = [torso], [nowhere]
-    turns, offsets = [LEVEL], [nowhere]
+    zero: Vector = (0.0, 0.0, 0.0)
+    axes, positions = [torso], [zero]
+    rotations, offsets = [LEVEL], [zero]
     for link, angle in zip(tree.links[1:], angles, strict=True):
         moved = angle - link.zero
         offset: Vector = link.origin
         if link.kind == HINGE:
-            turned: Matrix = rotation_about(link.axis, moved)
+            rotation: Matrix = rotation_about(link.axis, moved)
         else:
-            turned = LEVEL
+            rotation = LEVEL
             offset = add(offset, scale(moved, link.axis))
-        above = axes[link.parent]
-        axes.append(multiply(above, turned))
-        places.append(add(places[link.parent], turn(above, offset)))
-        turns.append(turned)
+        parent = axes[link.parent]
+        axes.append(multiply(parent, rotation))
+        positions.append(add(positions[link.parent], turn(parent, offset)))
+        rotations.append(rotation)
         offsets.append(offset)
-    return LinkPoses(tree, axes, places, turns, offsets)
+    return LinkPoses(tree, axes, positions, rotations, offsets)
 
 
 class MassMoments(NamedTuple):
-    """Mass that hangs on each joint.
+    """Mass and first moment of the subtree of each link.
 
     Attributes:
-        firsts: Mass times CoM of each link with all that hangs on it, from
-            its origin and in its own frame, in [kg m].
-        masses: That mass, in [kg].
+        firsts: Mass times CoM of each subtree, in the frame of its link, in
+            [kg m].
+        masses: Mass of each subtree, in [kg].
     """
 
     firsts: list[Vector]
     masses: list[float]
 
 
-def gather_moments(placed: LinkPoses) -> MassMoments:
-    """First moments, from the last links to the torso.
+def gather_moments(poses: LinkPoses) -> MassMoments:
+    """Accumulate the first moments from the last links to the torso.
 
-    Each is turned once, into its parent's frame: for an axis of the frame
-    this costs six operations.
+    Each moment is rotated once, to the frame of its parent, which costs six
+    multiplications for a rotation about a coordinate axis.
     """
-    links = placed.tree.links
+    links = poses.tree.links
     masses = [link.mass for link in links]
     firsts: list[Vector] = [scale(x.mass, x.com) for x in links]
     for i in range(len(links) - 1, 0, -1):
         parent = links[i].parent
-        hung = add(
-            turn(placed.turns[i], firsts[i]),
-            scale(masses[i], placed.offsets[i]),
+        in_parent = add(
+            turn(poses.rotations[i], firsts[i]),
+            scale(masses[i], poses.offsets[i]),
         )
-        firsts[parent] = add(firsts[parent], hung)
+        firsts[parent] = add(firsts[parent], in_parent)
         masses[parent] += masses[i]
     return MassMoments(firsts, masses)
 
 
 class JointMotionAxis(NamedTuple):
-    """What one joint does at unit speed, in the torso frame.
+    """Motion of a subtree by its joint at unit speed, in the torso frame.
 
     Attributes:
-        angular: Angular velocity of what hangs on it, in [rad/s].
-        linear: Velocity of a point that hangs on it, in [m/s].
-        moment: Momentum of all that hangs on it, in [kg m/s].
+        angular: Angular velocity of the subtree, in [rad/s].
+        linear: Velocity of a point of the subtree, in [m/s].
+        moment: Momentum of the subtree, in [kg m/s].
     """
 
     angular: Vector
@@ -126,22 +128,22 @@ class JointMotionAxis(NamedTuple):
 
 
 def motion_of(
-    placed: LinkPoses, moments: MassMoments, link: int, point: Vector
+    poses: LinkPoses, moments: MassMoments, link: int, point: Vector
 ) -> JointMotionAxis:
-    """What the joint of a link does to a point and to the masses.
+    """Return the motion by the joint of a link at unit speed.
 
     Args:
-        placed: The links.
-        moments: Their masses.
-        link: Number of the link whose joint moves.
-        point: The point, as if it hung on the link, in [m].
+        poses: Link poses.
+        moments: Mass moments of the links.
+        link: Index of the link whose joint moves.
+        point: Point that is fixed to the link, in [m].
     """
-    described = placed.tree.links[link]
-    axes, axis = placed.axes[link], described.axis
+    described = poses.tree.links[link]
+    axes, axis = poses.axes[link], described.axis
     along = turn(axes, axis)
     if described.kind != HINGE:
         mass = moments.masses[link]
         return JointMotionAxis((0.0, 0.0, 0.0), along, scale(mass, along))
-    lever = [p - q for p, q in zip(point, placed.places[link], strict=True)]
+    lever = [p - q for p, q in zip(point, poses.positions[link], strict=True)]
     moment = turn(axes, cross(axis, moments.firsts[link]))
     return JointMotionAxis(along, cross(along, lever), moment)

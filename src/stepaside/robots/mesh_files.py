@@ -1,87 +1,88 @@
-"""Mesh files of a published model, wherever they lie."""
+"""Mesh files of a published model: lookup and checks."""
 
 from pathlib import Path
 
 import mujoco
 
 PACKAGE = "package://"
-KINDS = (".stl", ".obj", ".msh")  # that MuJoCo reads
+SUFFIXES = (".stl", ".obj", ".msh")  # of formats that MuJoCo reads
 
 
-def place_meshes(
+def resolve_meshes(
     spec: mujoco.MjSpec, path: Path, folders: list[Path]
 ) -> list[str]:
-    """Let every mesh of a model name a file that is there.
+    """Replace the mesh files of a model by absolute paths.
 
-    A file is taken where the model says, or else where a folder has one of
-    that name. Meshes without a file are left out, with what shows them.
+    A file is looked up as the model names it, then by name in the folders.
+    Meshes without a file are deleted, with the geoms that show them.
 
     Args:
-        spec: The model; it is changed.
+        spec: Model; changed in place.
         path: File of the model.
-        folders: Where files are looked for besides.
+        folders: Additional folders with mesh files.
 
     Returns:
-        Files that are nowhere, or of a kind that MuJoCo does not read.
+        Files that are missing, or of a format that MuJoCo does not read.
     """
-    found: dict[str, Path] = {}
+    by_name: dict[str, Path] = {}
     for folder in folders:
         for file in sorted(folder.rglob("*")):
-            found.setdefault(file.name, file)
-    beside = path.parent / spec.meshdir
-    missing, gone = [], set()
+            by_name.setdefault(file.name, file)
+    mesh_folder = path.parent / spec.meshdir
+    missing: list[str] = []
+    unusable: set[str] = set()
     for mesh in list(spec.meshes):
-        name = Path(mesh.file)
-        places = (
-            beside / name,
-            path.parent / name,
-            *_in_package(path, mesh.file),
-            found.get(name.name, beside / name.name),
-        )
-        taken = next((p for p in places if p.is_file()), None)
         if not mesh.file:
-            continue  # it is written out in the model
-        if taken is None or not _is_readable(taken):
+            continue  # vertices are in the model itself
+        name = Path(mesh.file)
+        candidates = (
+            mesh_folder / name,
+            path.parent / name,
+            *_in_ros_package(path, mesh.file),
+            by_name.get(name.name, mesh_folder / name.name),
+        )
+        found = next((p for p in candidates if p.is_file()), None)
+        if found is None or not _is_readable(found):
             missing.append(mesh.file)
-            gone.add(mesh.name or name.stem)
+            unusable.add(mesh.name or name.stem)
             continue
-        mesh.file = str(taken.resolve())
-    _leave_out(spec, gone)
-    _let_thin_meshes_be(spec)
+        mesh.file = str(found.resolve())
+    _delete_meshes(spec, unusable)
+    _treat_massless_meshes_as_shells(spec)
     return missing
 
 
-def _in_package(path: Path, file: str) -> list[Path]:
-    """Where a file of a ROS package may lie, seen from a model in it."""
+def _in_ros_package(path: Path, file: str) -> list[Path]:
+    """Return the candidates of a ``package://`` file around a model."""
     if not file.startswith(PACKAGE):
         return []
     package, _, rest = file.removeprefix(PACKAGE).partition("/")
     return [
-        place
+        candidate
         for folder in path.resolve().parents
-        for place in (folder / package / rest, folder / rest)
+        for candidate in (folder / package / rest, folder / rest)
     ]
 
 
-def _let_thin_meshes_be(spec: mujoco.MjSpec) -> None:
-    """Take meshes as shells where their volume weighs nothing.
+def _treat_massless_meshes_as_shells(spec: mujoco.MjSpec) -> None:
+    """Treat meshes that contribute no mass as shells.
 
-    MuJoCo refuses one that is flat or open otherwise.
+    MuJoCo refuses flat or open meshes as solids.
     """
-    weigh = {
+    weighed = {
         geom.meshname
         for body in spec.bodies
         if not body.explicitinertial
         for geom in body.geoms
     }
     for mesh in spec.meshes:
-        if (mesh.name or Path(mesh.file).stem) not in weigh:
+        if (mesh.name or Path(mesh.file).stem) not in weighed:
             mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
 
 
 def _is_readable(file: Path) -> bool:
-    """Whether MuJoCo reads a file: of its kinds, an STL in binary."""
-    if file.suffix.lower() not in KINDS:
+    """Return whether MuJoCo reads a file; STL only if it is binary."""
+    if file.suffix.lower() not in SUFFIXES:
         return False
     if file.suffix.lower() != ".stl":
         return True
@@ -91,13 +92,13 @@ def _is_readable(file: Path) -> bool:
     return file.stat().st_size == 84 + 50 * faces
 
 
-def _leave_out(spec: mujoco.MjSpec, gone: set[str]) -> None:
-    """Delete meshes, and the geoms that show them."""
-    if not gone:
+def _delete_meshes(spec: mujoco.MjSpec, names: set[str]) -> None:
+    """Delete meshes and the geoms that show them."""
+    if not names:
         return
     for geom in list(spec.geoms):
-        if geom.meshname in gone:
+        if geom.meshname in names:
             spec.delete(geom)
     for mesh in list(spec.meshes):
-        if (mesh.name or Path(mesh.file).stem) in gone:
+        if (mesh.name or Path(mesh.file).stem) in names:
             spec.delete(mesh)

@@ -1,31 +1,26 @@
-"""A published model with what control needs put on it, file untouched.
+"""Overlay on a published model, whose file is not changed.
 
-It gets a free joint, servos, an IMU, soles with touch sensors and foot
-frames; what stands around the robot, what else drives it, and meshes that
-cannot be found are left out.
+The model gets a free joint, servos, an IMU, soles with touch sensors and
+foot frames. Its environment, its own actuators and meshes that cannot be
+found are removed.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import mujoco
 import numpy as np
 
 from ..core.errors import ModelError
 from ..core.poses import Array
-from .description_types import ServoGains, SoleFrame
-from .inertia_repair import mend_inertias
-from .mesh_files import place_meshes
-from .torso_frame import face, matrix_of
-
-if TYPE_CHECKING:
-    from .description import RobotDescription
+from .description_types import Overlay, SensorNames, ServoGains, SoleFrame
+from .inertia_repair import repair_inertias
+from .mesh_files import resolve_meshes
+from .torso_frame import matrix_of, rotate_torso_frame
 
 IMU = "stepaside_imu"
-THICK = 0.15  # of a sole's box, as a part of its width
-# Numbers that the size of a geom needs.
+THICKNESS = 0.15  # of a sole's box, as a fraction of its width
+# Number of size entries that must be positive, by type of geom.
 SIZES = {
     int(mujoco.mjtGeom.mjGEOM_SPHERE): 1,
     int(mujoco.mjtGeom.mjGEOM_CAPSULE): 1,
@@ -33,37 +28,51 @@ SIZES = {
     int(mujoco.mjtGeom.mjGEOM_ELLIPSOID): 3,
     int(mujoco.mjtGeom.mjGEOM_BOX): 3,
 }
-SEEN, HIDDEN = 3, 4  # groups of what collides and of what senses
+COLLISION_GROUP = 3  # of the boxes of the soles
+SENSOR_GROUP = 4  # of the sites of touch sensors
 
 
-def put_overlay(spec: mujoco.MjSpec, description: RobotDescription) -> None:
-    """Put the overlay of a description on its model.
+def put_overlay(
+    spec: mujoco.MjSpec,
+    overlay: Overlay,
+    *,
+    torso: str,
+    feet: tuple[str, str],
+    sole: dict[str, float],
+    sensors: SensorNames,
+    path: Path,
+    mesh_folders: list[Path],
+) -> None:
+    """Add an overlay to a published model.
 
     Args:
-        spec: The model as published; it is changed.
-        description: The robot.
+        spec: Model as published; changed in place.
+        overlay: Foot frames, servos and torso orientation.
+        torso: Root body of the robot.
+        feet: Names of the foot sites, left and right.
+        sole: Edges ``back``, ``front``, ``outer`` and ``inner`` of a sole
+            in its foot frame, in [m].
+        sensors: Names of the sensors.
+        path: File of the model.
+        mesh_folders: Additional folders with mesh files.
 
     Raises:
         ModelError: If the model lacks a body or a joint of the overlay.
     """
-    overlay, sensors = description.overlay, description.sensors
-    folders = [description.path_of(folder) for folder in overlay.meshes]
-    strip(spec, description.torso, description.path, folders)
-    face(spec, description.torso, overlay.turn)
-    names = (description.left_foot, description.right_foot)
-    for site in [s for s in spec.sites if s.name in (*names, *sensors.feet)]:
+    strip(spec, torso, path, mesh_folders)
+    rotate_torso_frame(spec, torso, overlay.turn)
+    for site in [s for s in spec.sites if s.name in (*feet, *sensors.feet)]:
         spec.delete(site)
-    torso = find_body(spec, description.torso)
-    imu = torso.add_site(name=IMU)
+    imu = find_body(spec, torso).add_site(name=IMU)
     _add_sensor(spec, mujoco.mjtSensor.mjSENS_GYRO, sensors.gyro, imu)
     kind = mujoco.mjtSensor.mjSENS_ACCELEROMETER
     _add_sensor(spec, kind, sensors.accelerometer, imu)
-    for side, (name, sole) in enumerate(
-        zip(names, overlay.soles, strict=True)
+    for side, (name, frame) in enumerate(
+        zip(feet, overlay.soles, strict=True)
     ):
-        feet = sensors.feet[4 * side : 4 * side + 4]
-        outline = _outline(description.sole, left=side == 0)
-        _add_sole(spec, name, sole, outline, feet)
+        touch_sensors = sensors.feet[4 * side : 4 * side + 4]
+        outline = _outline(sole, left=side == 0)
+        _add_sole(spec, name, frame, outline, touch_sensors)
     for joint, gains in overlay.servos.items():
         _add_servo(spec, joint, gains)
 
@@ -71,23 +80,24 @@ def put_overlay(spec: mujoco.MjSpec, description: RobotDescription) -> None:
 def strip(
     spec: mujoco.MjSpec, torso: str, path: Path, folders: list[Path]
 ) -> list[str]:
-    """Leave of a model what is the robot's body, free to move.
+    """Reduce a model to the floating-base body of the robot.
 
     Args:
-        spec: The model; it is changed.
-        torso: The robot's root.
+        spec: Model; changed in place.
+        torso: Root body of the robot.
         path: File of the model.
-        folders: Where meshes are looked for besides.
+        folders: Additional folders with mesh files.
 
     Returns:
-        Files of meshes that are left out, for they cannot be found or read.
+        Mesh files that are missing or cannot be read, whose geoms are
+        removed.
 
     Raises:
         ModelError: If there is no such root.
     """
     spec.compiler.fusestatic = False
-    mend_inertias(spec)
-    _forget_options(spec)
+    repair_inertias(spec)
+    _reset_options(spec)
     world = spec.worldbody
     roots = [body.name for body in world.bodies]
     if torso not in roots:
@@ -95,17 +105,17 @@ def strip(
             f"torso must be a root of {path}, one of {', '.join(roots)}, "
             f"got {torso!r}"
         )
-    # What refers to others goes first: MuJoCo takes it away with them.
-    for thing in (
+    # Referring elements first: MuJoCo deletes them with their targets.
+    for element in (
         *(*spec.keys, *spec.pairs, *spec.sensors, *spec.actuators),
         *(*world.geoms, *world.lights, *world.cameras, *world.sites),
         *[body for body in world.bodies if body.name != torso],
         *[geom for geom in spec.geoms if _is_empty(geom)],
     ):
-        spec.delete(thing)
-    for coupling in odd_couplings(spec):
+        spec.delete(element)
+    for coupling in scaled_couplings(spec):
         spec.delete(coupling)
-    missing = place_meshes(spec, path, folders)
+    missing = resolve_meshes(spec, path, folders)
     root = find_body(spec, torso)
     free = mujoco.mjtJoint.mjJNT_FREE
     if not any(joint.type == free for joint in root.joints):
@@ -116,13 +126,13 @@ def strip(
 
 
 def _is_empty(geom: mujoco.MjsGeom) -> bool:
-    """Whether a geom has no size, as a mark of a place in some URDF."""
-    needed = SIZES.get(int(geom.type), 0)
-    return not bool((geom.size[:needed] > 0.0).all())
+    """Return whether a geom has no size, like markers in some URDF files."""
+    count = SIZES.get(int(geom.type), 0)
+    return not bool((geom.size[:count] > 0.0).all())
 
 
-def odd_couplings(spec: mujoco.MjSpec) -> list[mujoco.MjsEquality]:
-    """Equalities between joints that are not simply equal, as of fingers."""
+def scaled_couplings(spec: mujoco.MjSpec) -> list[mujoco.MjsEquality]:
+    """Return joint couplings other than joint1 = joint2, as in fingers."""
     return [
         each
         for each in spec.equalities
@@ -131,21 +141,23 @@ def odd_couplings(spec: mujoco.MjSpec) -> list[mujoco.MjsEquality]:
     ]
 
 
-def _forget_options(spec: mujoco.MjSpec) -> None:
-    """Take back what a model says of physics and light: the world's."""
-    plain = mujoco.MjSpec()
-    _take(spec.option, plain.option)
+def _reset_options(spec: mujoco.MjSpec) -> None:
+    """Reset the options of physics and rendering, which the world sets."""
+    default = mujoco.MjSpec()
+    _copy_settings(spec.option, default.option)
     for kind in ("global_", "headlight", "map", "quality", "rgba", "scale"):
-        _take(getattr(spec.visual, kind), getattr(plain.visual, kind))
+        _copy_settings(
+            getattr(spec.visual, kind), getattr(default.visual, kind)
+        )
     for name in ("memory", "nconmax", "njmax", "nstack"):
-        setattr(spec, name, getattr(plain, name))
+        setattr(spec, name, getattr(default, name))
     spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
 
 
-def _take(settings: Any, others: Any) -> None:
-    """Let settings be like others of their kind."""
-    for name in dir(others):
-        value = getattr(others, name)
+def _copy_settings(settings: Any, source: Any) -> None:
+    """Copy all public attributes of a MuJoCo structure."""
+    for name in dir(source):
+        value = getattr(source, name)
         if name.startswith("_") or callable(value):
             continue
         if isinstance(value, np.ndarray):
@@ -155,7 +167,7 @@ def _take(settings: Any, others: Any) -> None:
 
 
 def find_body(spec: mujoco.MjSpec, name: str) -> mujoco.MjsBody:
-    """Body by its name.
+    """Return a body by name.
 
     Raises:
         ModelError: If there is none.
@@ -168,7 +180,7 @@ def find_body(spec: mujoco.MjSpec, name: str) -> mujoco.MjsBody:
 
 
 def _outline(sole: dict[str, float], *, left: bool) -> Array:
-    """Edges back, front, right, left of a sole in its frame, in [m]."""
+    """Return the edges back, front, right, left of a sole, in [m]."""
     try:
         back, front, outer, inner = (
             sole[name] for name in ("back", "front", "outer", "inner")
@@ -185,9 +197,9 @@ def _add_sole(
     name: str,
     sole: SoleFrame,
     outline: Array,
-    feet: tuple[str, ...],
+    touch_sensors: tuple[str, ...],
 ) -> None:
-    """Let a foot press on the floor with a box, and feel where it does."""
+    """Add a foot site, a box that alone collides, and touch sensors."""
     body = find_body(spec, sole.body)
     for part in (body, *body.find_all("body")):
         for geom in part.geoms:
@@ -196,7 +208,7 @@ def _add_sole(
     place, turn = np.array(sole.place), np.array(sole.turn)
     axes = matrix_of(turn)
     half = 0.5 * np.array([front - back, left - right, 0.0])
-    half[2] = 0.5 * THICK * (left - right)
+    half[2] = 0.5 * THICKNESS * (left - right)
     middle = np.array([0.5 * (front + back), 0.5 * (left + right), half[2]])
     body.add_geom(
         name=f"{name}_box",
@@ -205,7 +217,7 @@ def _add_sole(
         quat=turn,
         size=half,
         mass=0.0,
-        group=SEEN,
+        group=COLLISION_GROUP,
         contype=1,
         conaffinity=1,
         friction=[0.8, 0.005, 0.0001],
@@ -213,17 +225,17 @@ def _add_sole(
     )
     body.add_site(name=name, pos=place, quat=turn)
     corners = ((front, left), (front, right), (back, left), (back, right))
-    for foot, (x, y) in zip(feet, corners, strict=True):
+    for sensor, (x, y) in zip(touch_sensors, corners, strict=True):
         site = body.add_site(
-            name=foot,
+            name=sensor,
             type=mujoco.mjtGeom.mjGEOM_BOX,
             pos=place + axes @ np.array([x, y, 0.0]),
             quat=turn,
             size=[0.95 * half[0], 0.95 * half[1], half[2]],
-            group=HIDDEN,
+            group=SENSOR_GROUP,
             rgba=[0.9, 0.7, 0.1, 0.5],
         )
-        _add_sensor(spec, mujoco.mjtSensor.mjSENS_TOUCH, foot, site)
+        _add_sensor(spec, mujoco.mjtSensor.mjSENS_TOUCH, sensor, site)
 
 
 def _add_sensor(
@@ -241,13 +253,13 @@ def _add_sensor(
 
 
 def _add_servo(spec: mujoco.MjSpec, name: str, gains: ServoGains) -> None:
-    """Let a position servo move a joint, whatever did before."""
+    """Drive a joint by a position servo."""
     joint = spec.joint(name)
     if joint is None:
         names = ", ".join(j.name for j in spec.joints)
         raise ModelError(f"there is no joint {name!r}; there are {names}")
     joint.actfrclimited = 0
-    # A servo leads its targets by its own damping: there may be no other.
+    # Target feedforward compensates the damping of the servo alone.
     if isinstance(joint.damping, np.ndarray):
         joint.damping[:] = 0.0
     else:

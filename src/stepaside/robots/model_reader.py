@@ -1,4 +1,4 @@
-"""Model files as vendors publish them, read also where they are dated."""
+"""Reader of published MJCF and URDF files, including outdated ones."""
 
 import re
 from pathlib import Path
@@ -6,12 +6,26 @@ from xml.etree import ElementTree
 
 import mujoco
 
-# Of a file's words those that say nothing of the robot: MuJoCo forgets some
-# of them from version to version, and refuses files that still have them.
-ASIDE = ("option", "flag", "size", "visual", "global", "quality", "statistic")
-ASIDE_TOO = ("map", "scale", "headlight", "rgba", "compiler")
-ENDINGS = (".xml", ".urdf")  # of files that MuJoCo takes for models
-UNKNOWN = re.compile(
+# Elements that do not describe the robot. MuJoCo drops some of their
+# attributes between versions and then rejects files that still have them.
+SETTINGS_ELEMENTS = frozenset(
+    {
+        "compiler",
+        "flag",
+        "global",
+        "headlight",
+        "map",
+        "option",
+        "quality",
+        "rgba",
+        "scale",
+        "size",
+        "statistic",
+        "visual",
+    }
+)
+SUFFIXES = (".xml", ".urdf")  # that MuJoCo accepts for model files
+UNKNOWN_ATTRIBUTE = re.compile(
     r"unrecognized attribute: '(\w+)'\s+Element '(\w+)'", re.DOTALL
 )
 
@@ -20,52 +34,52 @@ def read_model(path: Path) -> mujoco.MjSpec:
     """Read an MJCF or URDF file.
 
     Args:
-        path: The file; it is only read.
+        path: Model file; it is not changed.
 
     Returns:
-        The editable model; settings of physics and of pictures that this
-        version of MuJoCo does not know any more are passed over.
+        The editable model. Attributes of physics and rendering settings
+        that this version of MuJoCo does not support are ignored.
 
     Raises:
-        ValueError: If it is no model; as MuJoCo says it.
+        ValueError: If it is not a model; with the message of MuJoCo.
     """
-    path = path.resolve()  # MuJoCo loses includes of a relative path
+    path = path.resolve()  # MuJoCo does not find includes of a relative path
     try:
-        if path.suffix in ENDINGS:
+        if path.suffix in SUFFIXES:
             return mujoco.MjSpec.from_file(str(path))
         return _read_text(path, _root_of(path))
     except ValueError as error:
-        if UNKNOWN.search(str(error)) is None:
+        if UNKNOWN_ATTRIBUTE.search(str(error)) is None:
             raise
-        return _read_dated(path, error)
+        return _read_outdated(path, error)
 
 
 def _root_of(path: Path) -> ElementTree.Element:
-    """Root of a file with what it includes.
+    """Return the root element with includes expanded.
 
     Raises:
-        ValueError: If it is no XML.
+        ValueError: If the file is not XML.
     """
     try:
-        return _included(path, path.parent)
+        return _expand_includes(path, path.parent)
     except (ElementTree.ParseError, UnicodeDecodeError) as error:
-        raise ValueError(f"no XML: {error}") from error
+        raise ValueError(f"not XML: {error}") from error
 
 
 def _read_text(path: Path, root: ElementTree.Element) -> mujoco.MjSpec:
-    """Read what lies at a path, whatever its name ends with."""
+    """Read a parsed model; relative paths refer to the folder of ``path``."""
     text = ElementTree.tostring(root, encoding="unicode")
     spec = mujoco.MjSpec.from_string(text)
     spec.modelfiledir = str(path.parent)
     return spec
 
 
-def _read_dated(path: Path, error: ValueError) -> mujoco.MjSpec:
-    """Read a file without the words that MuJoCo has forgotten."""
+def _read_outdated(path: Path, error: ValueError) -> mujoco.MjSpec:
+    """Read a file without the attributes that MuJoCo rejects, one by one."""
     root = _root_of(path)
     while True:
-        found = UNKNOWN.search(str(error))
-        if found is None or found[2] not in (*ASIDE, *ASIDE_TOO):
+        found = UNKNOWN_ATTRIBUTE.search(str(error))
+        if found is None or found[2] not in SETTINGS_ELEMENTS:
             raise error
         for element in root.iter(found[2]):
             element.attrib.pop(found[1], None)
@@ -77,12 +91,13 @@ def _read_dated(path: Path, error: ValueError) -> mujoco.MjSpec:
             error = other
 
 
-def _included(path: Path, folder: Path) -> ElementTree.Element:
-    """Root of a file with what it includes from a folder in its place."""
+def _expand_includes(path: Path, folder: Path) -> ElementTree.Element:
+    """Return the root element, includes replaced by their content."""
     root = ElementTree.parse(path).getroot()
     for parent in list(root.iter()):
         for i, child in reversed(list(enumerate(parent))):
             if child.tag == "include":
-                other = _included(folder / str(child.get("file")), folder)
+                file = folder / str(child.get("file"))
+                other = _expand_includes(file, folder)
                 parent[i : i + 1] = list(other)
     return root

@@ -1,8 +1,8 @@
-"""The kinematic tree of a robot, as plain numbers.
+"""Kinematic tree of a robot, independent of MuJoCo.
 
-Links hang on joints that turn or slide. Every link has its frame on its
-joint; in the zero posture all of these frames are parallel to the torso's.
-What is welded together is one link.
+Joints are hinges or slides. The frame of a link is at its joint; in the zero
+posture all link frames are parallel to the torso frame. Bodies that are
+welded together are one link.
 """
 
 import json
@@ -17,19 +17,19 @@ Triple = tuple[float, float, float]
 
 
 class Link(NamedTuple):
-    """A link and the joint that moves it.
+    """A link and the joint to its parent.
 
     Attributes:
         joint: Name of the joint; empty for the torso.
-        parent: Number of the link that it hangs on; -1 for the torso.
+        parent: Index of the parent link; -1 for the torso.
         kind: ``hinge`` or ``slide``.
-        axis: Unit axis of the joint, in the link's frame.
-        origin: Place of the joint in the parent's frame, in [m].
-        zero: Angle [rad] or length [m] in the zero posture.
-        low: Least angle or length.
-        high: Greatest one.
+        axis: Unit axis of the joint in the frame of the link.
+        origin: Position of the joint in the frame of the parent, in [m].
+        zero: Joint angle [rad] or length [m] in the zero posture.
+        low: Lower limit, in [rad] or [m].
+        high: Upper limit, in [rad] or [m].
         mass: Mass of the link, in [kg].
-        com: Its CoM in its frame, in [m].
+        com: CoM of the link in its frame, in [m].
     """
 
     joint: str
@@ -45,12 +45,12 @@ class Link(NamedTuple):
 
 
 class Servo(NamedTuple):
-    """What holds an actuated joint at its target.
+    """Gains of the position servo of a joint.
 
     Attributes:
-        stiffness: Torque by angle, in [N m/rad]; 0 if it is no position
-            servo.
-        damping: Torque by speed, in [N m s/rad].
+        stiffness: Proportional gain, in [N m/rad]; 0 if the actuator is not
+            a position servo.
+        damping: Derivative gain, in [N m s/rad].
     """
 
     stiffness: float
@@ -61,9 +61,9 @@ class LinkFrame(NamedTuple):
     """A frame that is fixed to a link.
 
     Attributes:
-        link: Number of the link.
-        place: Origin in the link's frame, in [m].
-        axes: Its axes as columns, row by row.
+        link: Index of the link.
+        place: Origin in the frame of the link, in [m].
+        axes: Rotation matrix in the frame of the link, row by row.
     """
 
     link: int
@@ -77,10 +77,10 @@ class RobotTree:
 
     Attributes:
         links: The torso, then a link for each joint, parents first.
-        bodies: Frames of the model's bodies, by name.
-        sites: Frames of its sites, by name.
-        motors: Joints that have an actuator, in the order of those.
-        servos: How stiff each is.
+        bodies: Frames of the bodies of the model, by name.
+        sites: Frames of the sites of the model, by name.
+        motors: Actuated joints, in the order of the actuators.
+        servos: Servo gains, in the same order.
         followers: Joints that share a motor, as follower to leader.
     """
 
@@ -104,11 +104,11 @@ class RobotTree:
         return sum(link.mass for link in self.links)
 
     def link_of(self, joint: str) -> int:
-        """Number of the link that a joint moves."""
+        """Return the index of the link that a joint moves."""
         return self.joints.index(joint) + 1
 
     def chain(self, link: int) -> list[int]:
-        """Links from the one below the torso to ``link``."""
+        """Return the links from below the torso to ``link``."""
         chain: list[int] = []
         while link > 0:
             chain.insert(0, link)
@@ -116,7 +116,7 @@ class RobotTree:
         return chain
 
     def to_json(self) -> dict[str, Any]:
-        """Entries that :meth:`from_json` reads."""
+        """Return entries for JSON, which :meth:`from_json` reads."""
         return {
             "links": [link._asdict() for link in self.links],
             "bodies": {n: f._asdict() for n, f in self.bodies.items()},
@@ -128,28 +128,28 @@ class RobotTree:
 
     @classmethod
     def from_json(cls, entries: dict[str, Any]) -> "RobotTree":
-        """Read what :meth:`to_json` wrote.
+        """Read the entries of :meth:`to_json`.
 
         Raises:
             ModelError: If an entry is missing or ill-typed.
         """
         try:
-            known = {f.name: entries[f.name] for f in fields(cls)}
-            known["links"] = tuple(
+            values = {f.name: entries[f.name] for f in fields(cls)}
+            values["links"] = tuple(
                 Link(**{**x, "axis": _triple(x["axis"])})._replace(
                     origin=_triple(x["origin"]), com=_triple(x["com"])
                 )
-                for x in known["links"]
+                for x in values["links"]
             )
             for kind in ("bodies", "sites"):
-                known[kind] = {n: _frame(x) for n, x in known[kind].items()}
-            known["motors"] = tuple(known["motors"])
-            known["servos"] = tuple(
-                Servo(float(s), float(d)) for s, d in known["servos"]
+                values[kind] = {n: _frame(x) for n, x in values[kind].items()}
+            values["motors"] = tuple(values["motors"])
+            values["servos"] = tuple(
+                Servo(float(s), float(d)) for s, d in values["servos"]
             )
-            return cls(**known)
+            return cls(**values)
         except (KeyError, TypeError, ValueError, AttributeError) as error:
-            raise ModelError(f"no tree of a robot: {error!r}") from error
+            raise ModelError(f"not a robot tree: {error!r}") from error
 
 
 def _triple(numbers: Any) -> Triple:
@@ -165,7 +165,7 @@ def _frame(entries: Any) -> LinkFrame:
 
 
 def write_tree(tree: RobotTree, digest: str, version: int) -> str:
-    """Text of a tree's file: one link or frame a line."""
+    """Return the text of a tree file, one link or frame per line."""
     entries = tree.to_json()
     lines = [f'{{"version": {version},', f' "digest": "{digest}",']
     links = ",\n  ".join(json.dumps(link) for link in entries["links"])

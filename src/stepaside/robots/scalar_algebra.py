@@ -1,4 +1,4 @@
-"""Vectors and matrices of single numbers, floats or traced ones."""
+"""Linear algebra on lists of scalars, which may be traced numbers."""
 
 from collections.abc import Sequence
 
@@ -6,26 +6,26 @@ from .expression_tracing import Number, cosine, hint_of, sine
 
 Vector = Sequence[Number]
 Matrix = Sequence[Vector]  # rows
-PIVOT = 0.3  # of the greatest in its row: what is large enough to divide by
+PIVOT = 0.3  # least pivot relative to the largest entry of its row
 
 
 def add(a: Vector, b: Vector) -> list[Number]:
-    """Sum of two vectors."""
+    """Add two vectors."""
     return [x + y for x, y in zip(a, b, strict=True)]
 
 
 def subtract(a: Vector, b: Vector) -> list[Number]:
-    """Difference of two vectors."""
+    """Subtract two vectors."""
     return [x - y for x, y in zip(a, b, strict=True)]
 
 
 def scale(factor: Number, a: Vector) -> list[Number]:
-    """Multiple of a vector."""
+    """Scale a vector."""
     return [factor * x for x in a]
 
 
 def dot(a: Vector, b: Vector) -> Number:
-    """Inner product of two vectors."""
+    """Return the inner product of two vectors."""
     total: Number = 0.0
     for x, y in zip(a, b, strict=True):
         total = total + x * y
@@ -33,7 +33,7 @@ def dot(a: Vector, b: Vector) -> Number:
 
 
 def cross(a: Vector, b: Vector) -> list[Number]:
-    """Vector product in space."""
+    """Return the cross product of two vectors."""
     return [
         a[1] * b[2] - a[2] * b[1],
         a[2] * b[0] - a[0] * b[2],
@@ -42,24 +42,25 @@ def cross(a: Vector, b: Vector) -> list[Number]:
 
 
 def transpose(a: Matrix) -> list[list[Number]]:
-    """Columns of a matrix as rows."""
+    """Transpose a matrix."""
     return [list(column) for column in zip(*a, strict=True)]
 
 
 def turn(a: Matrix, b: Vector) -> list[Number]:
-    """Product of a matrix and a vector."""
+    """Return the product of a matrix and a vector."""
     return [dot(row, b) for row in a]
 
 
 def multiply(a: Matrix, b: Matrix) -> list[list[Number]]:
-    """Product of two matrices."""
+    """Return the product of two matrices."""
     return transpose([turn(a, column) for column in transpose(b)])
 
 
 def rotation_about(axis: Sequence[float], angle: Number) -> list[list[Number]]:
-    """Rotation by an angle, in [rad], about a unit axis (Rodrigues).
+    """Return the rotation by an angle, in [rad], about a unit axis.
 
-    Written so that for an axis of the frame every 0 and 1 is exact.
+    Rodrigues' formula, arranged so that entries 0 and 1 are exact for a
+    coordinate axis.
     """
     x, y, z = axis
     c, s = cosine(angle), sine(angle)
@@ -76,15 +77,15 @@ def rotation_about(axis: Sequence[float], angle: Number) -> list[list[Number]]:
 
 
 class LuFactors:
-    """A square matrix, taken apart once by elimination.
+    """LU factors of a square matrix with sparse pivoting.
 
-    Where numbers are traced, pivots are chosen by their hints and by what
-    is zero for good, so that structure (hip axes that meet, pitch axes that
-    are parallel) costs nothing. The order is then fixed.
+    Traced entries are compared by their hints, and constant zeros are
+    skipped, so that structure (intersecting hip axes, parallel pitch axes)
+    saves operations. The order of elimination is fixed by the trace.
     """
 
     def __init__(self, matrix: Matrix) -> None:
-        """Eliminate, row by row.
+        """Factorise by Gaussian elimination.
 
         Raises:
             ZeroDivisionError: If the matrix is singular.
@@ -106,7 +107,7 @@ class LuFactors:
                 entry = rows[other][column]
                 if _is_zero(entry):
                     continue
-                # The same number: 1 for good, where axes are parallel.
+                # The same node: a constant 1, as with parallel axes.
                 factor = 1.0 if entry is pivot else entry * inverse
                 multipliers.append((other, factor))
                 for k in columns:
@@ -154,7 +155,7 @@ def _is_zero(number: Number) -> bool:
 def _pivot(
     rows: list[list[Number]], left: list[int], columns: list[int]
 ) -> tuple[int, int]:
-    """Place of a large number in a row and a column of many zeros."""
+    """Return row and column of the pivot with the least fill-in."""
     best: tuple[float, float, int, int] | None = None
     for i in left:
         sizes = {j: abs(hint_of(rows[i][j])) for j in columns}

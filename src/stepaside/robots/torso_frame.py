@@ -1,59 +1,62 @@
-"""A torso whose axes are not forward, left and up gets such axes."""
+"""Rotation of a torso frame to axes forward, left and up."""
 
 import mujoco
 import numpy as np
 
 from ..core.poses import Array
 
-AHEAD = (1.0, 0.0, 0.0, 0.0)
+IDENTITY = (1.0, 0.0, 0.0, 0.0)
 
 
-def face(spec: mujoco.MjSpec, torso: str, turn: tuple[float, ...]) -> None:
-    """Give a torso axes forward, left and up, and leave all else in place.
+def rotate_torso_frame(
+    spec: mujoco.MjSpec, torso: str, quaternion: tuple[float, ...]
+) -> None:
+    """Rotate the frame of a torso; its body and links do not move.
 
     Args:
-        spec: The model; it is changed.
-        torso: Its root, with nothing but a free joint.
-        turn: Quaternion (w, x, y, z) of the published torso in these axes.
+        spec: Model; changed in place.
+        torso: Root body, with no joint but a free one.
+        quaternion: Orientation (w, x, y, z) of the published torso frame in
+            the new one.
     """
-    if tuple(turn) == AHEAD:
+    if tuple(quaternion) == IDENTITY:
         return
     root = spec.body(torso)
-    frame = root.add_frame(quat=turn)
-    hanging = (root.bodies, root.geoms, root.sites, root.cameras, root.lights)
-    for thing in [each for kind in hanging for each in kind]:
-        top = thing
+    frame = root.add_frame(quat=quaternion)
+    children = (root.bodies, root.geoms, root.sites, root.cameras, root.lights)
+    for element in [each for kind in children for each in kind]:
+        top = element
         while top.frame is not None and top.frame is not frame:
             top = top.frame
-        if top is thing or top.frame is None:
+        if top is element or top.frame is None:
             top.set_frame(frame)
     if root.explicitinertial:
-        _turn_inertia(root, np.array(turn))
+        _rotate_inertia(root, np.array(quaternion))
 
 
-def _turn_inertia(root: mujoco.MjsBody, turn: Array) -> None:
-    """See the mass of a body in other axes."""
-    root.ipos[:] = turned(turn, np.array(root.ipos))
+def _rotate_inertia(root: mujoco.MjsBody, quaternion: Array) -> None:
+    """Express CoM and inertia of a body in a rotated frame."""
+    root.ipos[:] = rotate_vector(quaternion, np.array(root.ipos))
     if np.isnan(np.array(root.fullinertia)).any():
-        whole = np.zeros(4)
-        mujoco.mju_mulQuat(whole, turn, np.array(root.iquat))
-        root.iquat[:] = whole
+        product = np.zeros(4)
+        mujoco.mju_mulQuat(product, quaternion, np.array(root.iquat))
+        root.iquat[:] = product
         return
-    axes = matrix_of(turn)
+    axes = matrix_of(quaternion)
     xx, yy, zz, xy, xz, yz = np.array(root.fullinertia).tolist()
     full = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-    seen = axes @ full @ axes.T
-    root.fullinertia[:] = seen[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
+    rotated = axes @ full @ axes.T
+    root.fullinertia[:] = rotated[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
 
 
-def matrix_of(turn: Array) -> Array:
-    """Matrix of a quaternion. Shape (3, 3)."""
+def matrix_of(quaternion: Array) -> Array:
+    """Return the rotation matrix of a quaternion. Shape (3, 3)."""
     axes = np.zeros(9)
-    mujoco.mju_quat2Mat(axes, turn / np.linalg.norm(turn))
+    mujoco.mju_quat2Mat(axes, quaternion / np.linalg.norm(quaternion))
     return axes.reshape(3, 3)
 
 
-def turned(turn: Array, vector: Array) -> Array:
-    """A vector in other axes. Shape (3,)."""
-    seen: Array = matrix_of(turn) @ vector
-    return seen
+def rotate_vector(quaternion: Array, vector: Array) -> Array:
+    """Rotate a vector by a quaternion. Shape (3,)."""
+    rotated: Array = matrix_of(quaternion) @ vector
+    return rotated

@@ -1,4 +1,4 @@
-"""The tree of a robot beside its description, so that MuJoCo can be away."""
+"""Kinematic tree stored beside a description, for use without MuJoCo."""
 
 import json
 from hashlib import sha256
@@ -10,27 +10,28 @@ from .description_types import NO_OVERLAY
 from .robot_tree import RobotTree, write_tree
 
 FILE = "tree.json"
-VERSION = 2  # of the file; rises with what it means
-KEPT = 16  # trees that are kept
-_KNOWN: dict[tuple[Path, str], RobotTree] = {}
+VERSION = 2  # of the file format
+CACHE_SIZE = 16  # trees that are cached
+_cache: dict[tuple[Path, str], RobotTree] = {}
 
 
 def load_tree(description: RobotDescription) -> RobotTree:
-    """Tree of a robot: the stored one, or compiled if that is out of date.
+    """Return the tree of a robot, stored or else compiled.
 
-    The same model gives the same object.
+    The stored tree is used unless it is older than the model. The same model
+    gives the same object.
 
     Raises:
-        ModelError: If the tree lacks what is described, or has to be
-            compiled and MuJoCo is not installed.
+        ModelError: If the tree lacks an element of the description, or has
+            to be compiled and MuJoCo is not installed.
     """
     digest = digest_of(description)
     key = (description.folder, digest)
-    if key not in _KNOWN:
-        if len(_KNOWN) >= KEPT:
-            _KNOWN.clear()
-        _KNOWN[key] = _stored_or_compiled(description, digest)
-    tree = _KNOWN[key]
+    if key not in _cache:
+        if len(_cache) >= CACHE_SIZE:
+            _cache.clear()
+        _cache[key] = _read_or_compile(description, digest)
+    tree = _cache[key]
     description.check(tree.bodies, tree.sites, tree.joints, tree.motors)
     return tree
 
@@ -39,8 +40,8 @@ def store_tree(description: RobotDescription) -> Path:
     """Compile the tree of a robot and write it beside its description.
 
     Raises:
-        ModelError: If the model lacks what is described, or a file of that
-            name holds something else.
+        ModelError: If the model lacks an element of the description, or a
+            file of that name is not a compiled tree.
     """
     from .tree_compiler import compile_tree
 
@@ -57,11 +58,11 @@ def store_tree(description: RobotDescription) -> Path:
 
 
 def digest_of(description: RobotDescription) -> str:
-    """Digest of all that a tree is compiled from.
+    """Return a digest of all inputs of the compilation of a tree.
 
-    That is the MJCF files of the folder, with their names, which body is
-    the torso, and the overlay with the model that it is put on, wherever
-    that lies. Meshes are not looked into.
+    These are the MJCF files of the folder with their names, the name of the
+    torso, and the overlay with the model that it refers to. The content of
+    meshes is not included.
     """
     digest = sha256(f"{description.model} {description.torso}\n".encode())
     for path in sorted(description.folder.rglob("*.xml")):
@@ -76,7 +77,7 @@ def digest_of(description: RobotDescription) -> str:
 
 
 def _is_tree(path: Path) -> bool:
-    """Whether a file is a tree that was stored before."""
+    """Return whether a file is a stored tree."""
     try:
         entries = json.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError, RecursionError):
@@ -84,24 +85,23 @@ def _is_tree(path: Path) -> bool:
     return isinstance(entries, dict) and {"version", "digest"} <= set(entries)
 
 
-def _stored_or_compiled(
-    description: RobotDescription, digest: str
-) -> RobotTree:
+def _read_or_compile(description: RobotDescription, digest: str) -> RobotTree:
     path = description.folder / FILE
-    why = "is missing"
+    reason = "is missing"
     if path.is_file():
         try:
             entries = json.loads(path.read_text(encoding="utf-8"))
             if (entries["version"], entries["digest"]) == (VERSION, digest):
                 return RobotTree.from_json(entries)
-            why = "is older than the model"
+            reason = "is older than the model"
         except (KeyError, TypeError, ValueError) as error:
-            why = f"cannot be read ({error!r})"
+            reason = f"cannot be read ({error!r})"
     try:
         from .tree_compiler import compile_tree
     except ImportError as error:
         raise ModelError(
-            f"{path} {why}, and MuJoCo is not here to compile the model: "
-            f"run `stepaside robot {description.folder} --compile` where it is"
+            f"{path} {reason}, and MuJoCo is not installed to compile the "
+            f"model: run `stepaside robot {description.folder} --compile` on "
+            "a machine with MuJoCo"
         ) from error
     return compile_tree(description)

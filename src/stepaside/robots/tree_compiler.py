@@ -1,4 +1,4 @@
-"""From a MuJoCo model to the tree of a robot; the only use of MuJoCo here."""
+"""Compilation of a MuJoCo model to a kinematic tree."""
 
 from typing import Any
 
@@ -14,24 +14,25 @@ KINDS = {
     int(mujoco.mjtJoint.mjJNT_HINGE): HINGE,
     int(mujoco.mjtJoint.mjJNT_SLIDE): SLIDE,
 }
-DECIMALS = 14  # kept: what is meant to be 0 or 1 is
+DECIMALS = 14  # to which numbers are rounded: 0 and 1 become exact
 
 
 def compile_tree(description: RobotDescription) -> RobotTree:
-    """Let MuJoCo compile a robot's model, and take the tree out of it.
+    """Compile the model of a robot and extract its kinematic tree.
 
     Raises:
-        ModelError: If the model lacks what is described, the torso has no
-            free joint, or another joint is neither hinge nor slide.
+        ModelError: If the model lacks an element of the description, the
+            torso has no free joint, or another joint is neither hinge nor
+            slide.
     """
     model = description.compile()
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)  # at the zero posture
-    return _Reader(model, data, description).tree()
+    return _TreeExtractor(model, data, description).tree()
 
 
-class _Reader:
-    """A compiled model in its zero posture, seen from the torso."""
+class _TreeExtractor:
+    """Extraction of the tree from a compiled model in its zero posture."""
 
     def __init__(
         self, model: Any, data: Any, description: RobotDescription
@@ -46,14 +47,14 @@ class _Reader:
                 f"torso of {description.name}: body {description.torso!r} "
                 "has no free joint"
             )
-        self._place = data.xpos[torso].copy()
+        self._origin = data.xpos[torso].copy()
         self._axes = data.xmat[torso].reshape(3, 3).copy()
         self._links: list[Link] = []
         self._anchors: list[Array] = []
         self._link_of_body: dict[int, int] = {}
 
     def tree(self) -> RobotTree:
-        """Take links and frames out of the model."""
+        """Extract links, frames and motors."""
         model = self._model
         for body in range(self._torso, model.nbody):
             parent = int(model.body_parentid[body])
@@ -90,7 +91,7 @@ class _Reader:
         )
 
     def _servo(self, actuator: int) -> Servo:
-        """Gains of a position actuator: torque = k (target - q) - d q'."""
+        """Return the gains of torque = k (target - q) - d q'."""
         gain = float(self._model.actuator_gainprm[actuator, 0])
         _, by_angle, by_speed = self._model.actuator_biasprm[actuator, :3]
         if gain <= 0.0 or by_angle != -gain:
@@ -98,22 +99,22 @@ class _Reader:
         return Servo(gain, -float(by_speed))
 
     def _add_torso(self) -> None:
-        nothing = (0.0, 0.0, 0.0)
+        zero = (0.0, 0.0, 0.0)
         self._anchors.append(np.zeros(3))
         self._links.append(
-            Link("", -1, "", nothing, nothing, 0.0, 0.0, 0.0, 0.0, nothing)
+            Link("", -1, "", zero, zero, 0.0, 0.0, 0.0, 0.0, zero)
         )
         self._link_of_body[self._torso] = 0
-        self._weigh(self._torso, 0)
+        self._add_mass(self._torso, 0)
 
     def _add_body(self, body: int, link: int) -> None:
-        """Hang a body's joints on a link, one link each, or weld it."""
+        """Add a link for each joint of a body, or weld it to its parent."""
         model = self._model
         start = int(model.body_jntadr[body])
         for joint in range(start, start + int(model.body_jntnum[body])):
             link = self._add_joint(joint, link)
         self._link_of_body[body] = link
-        self._weigh(body, link)
+        self._add_mass(body, link)
 
     def _add_joint(self, joint: int, parent: int) -> int:
         model, data = self._model, self._data
@@ -124,7 +125,7 @@ class _Reader:
                 f"joint {name!r} of {self._description.name} must be a hinge "
                 "or a slide"
             )
-        anchor = self._seen(data.xanchor[joint])
+        anchor = self._to_torso(data.xanchor[joint])
         low, high = model.jnt_range[joint].tolist()
         if not model.jnt_limited[joint]:
             low, high = -np.inf, np.inf
@@ -145,30 +146,30 @@ class _Reader:
         self._anchors.append(anchor)
         return len(self._links) - 1
 
-    def _weigh(self, body: int, link: int) -> None:
+    def _add_mass(self, body: int, link: int) -> None:
         """Lump the mass of a body into its link."""
         mass = float(self._model.body_mass[body])
-        com = self._seen(self._data.xipos[body]) - self._anchors[link]
+        com = self._to_torso(self._data.xipos[body]) - self._anchors[link]
         old = self._links[link]
         total = old.mass + mass
         if total > 0.0:
             com = (old.mass * np.array(old.com) + mass * com) / total
             self._links[link] = old._replace(mass=total, com=_clean(com))
 
-    def _frame(self, link: int, place: Array, axes: Array) -> LinkFrame:
+    def _frame(self, link: int, position: Array, axes: Array) -> LinkFrame:
         x, y, z = self._axes.T @ axes.reshape(3, 3)
         return LinkFrame(
             link,
-            _clean(self._seen(place) - self._anchors[link]),
+            _clean(self._to_torso(position) - self._anchors[link]),
             (_clean(x), _clean(y), _clean(z)),
         )
 
-    def _seen(self, place: Array) -> Array:
-        seen: Array = self._axes.T @ (place - self._place)
-        return seen
+    def _to_torso(self, position: Array) -> Array:
+        in_torso: Array = self._axes.T @ (position - self._origin)
+        return in_torso
 
 
 def _clean(numbers: Array) -> Triple:
-    """Numbers without the noise of turning them about."""
+    """Round to remove the noise of rotations."""
     x, y, z = (np.round(numbers, DECIMALS) + 0.0).tolist()
     return x, y, z

@@ -1,4 +1,4 @@
-"""Versions that change exactly when what a result depends on may change."""
+"""Fingerprints of the code and the libraries that a result depends on."""
 
 import ast
 from collections.abc import Iterable
@@ -10,7 +10,7 @@ from pathlib import Path
 from .dependencies import dependencies
 
 ROOT = Path(__file__).parents[1]
-# Where results begin; what these import is found from their code.
+# Entry modules of results; their imports are found from the source.
 PLANNER = ("planning",)
 UNICYCLES = ("theory/unicycle",)
 PHYSICS = ("games/duel", "games/walk_game")
@@ -19,16 +19,16 @@ DIGITS = 12
 
 
 @cache
-def code_version(rooms: tuple[str, ...]) -> str:
+def code_version(modules: tuple[str, ...]) -> str:
     """Return a fingerprint of modules and of all that they import.
 
-    Comments, docstrings and layout do not count, so that a result is not
-    made again because a sentence was mended. Imports are followed inside
-    this package, see :func:`~stepaside.studies.dependencies.dependencies`.
+    Comments, docstrings and layout do not count, so that editing prose does
+    not invalidate a result. Imports are followed inside this package, see
+    :func:`~stepaside.studies.dependencies.dependencies`.
 
     Args:
-        rooms: Modules or folders of the package with which the computation
-            of the result begins, such as "games/duel".
+        modules: Modules or folders of the package where the computation of
+            the result begins, such as "games/duel".
 
     Returns:
         Hexadecimal digits.
@@ -37,7 +37,7 @@ def code_version(rooms: tuple[str, ...]) -> str:
         FileNotFoundError: If there is no such module or folder.
     """
     digest = sha256()
-    for file in sorted(dependencies(ROOT, rooms)):
+    for file in sorted(dependencies(ROOT, modules)):
         digest.update(str(file.relative_to(ROOT).as_posix()).encode())
         digest.update(_substance(file))
     return digest.hexdigest()[:DIGITS]
@@ -46,7 +46,7 @@ def code_version(rooms: tuple[str, ...]) -> str:
 def library_versions(
     names: Iterable[str] = LIBRARIES,
 ) -> dict[str, str | None]:
-    """Installed versions of what the results stand on; None if absent."""
+    """Return the installed versions of libraries; None if absent."""
     found: dict[str, str | None] = {}
     for name in names:
         try:
@@ -57,7 +57,7 @@ def library_versions(
 
 
 def _substance(file: Path) -> bytes:
-    """Bytes of a file; of code, what is left without its docstrings."""
+    """Return the bytes of a file; of code, its syntax without docstrings."""
     if file.suffix != ".py":
         return file.read_bytes()
     tree = ast.parse(file.read_text(encoding="utf-8"))

@@ -15,9 +15,9 @@ Import = tuple[str, str | None]  # module in the package, and a name in it
 
 
 def dependencies(root: Path, names: Iterable[str]) -> frozenset[Path]:
-    """Return the files that modules or folders depend on, themselves included.
+    """Return the files that modules or folders depend on, including their own.
 
-    Data files count together with the modules of the package they lie in.
+    Data files belong to the modules of the package that contains them.
 
     Args:
         root: Folder of the package.
@@ -47,7 +47,7 @@ class _Graph:
         self._trees: dict[Path, ast.Module] = {}
 
     def add_root(self, name: str) -> None:
-        """Follow a module, or all that is in a folder."""
+        """Follow the imports of a module, or of all modules of a folder."""
         folder, module = self.root / name, self.root / f"{name}.py"
         found = [module] if module.is_file() else []
         if folder.is_dir():
@@ -72,7 +72,7 @@ class _Graph:
         return found
 
     def _data_in(self, folder: Path) -> Iterator[Path]:
-        """Data files of a package, not those of packages inside it."""
+        """Yield the data files of a package without its subpackages."""
         for file in folder.iterdir():
             if file.is_dir():
                 if file.name != "__pycache__" and not (file / INIT).is_file():
@@ -92,13 +92,13 @@ class _Graph:
                 left += self._resolve(module, name)
 
     def _packages_of(self, file: Path) -> list[Path]:
-        """Packages around a file, whose own files run before it."""
+        """Return the ``__init__`` files of the packages around a file."""
         around = file.relative_to(self.root).parents
         files = [self.root / folder / INIT for folder in around]
         return [each for each in files if each.is_file()]
 
     def _resolve(self, module: str, name: str | None) -> list[Path]:
-        """Files that importing a module, or a name from it, depends on."""
+        """Return the files behind the import of a module or of its name."""
         file = self._file(module)
         if file is None:
             return []
@@ -112,7 +112,7 @@ class _Graph:
         return [file, *self._public(file, name)]
 
     def _public(self, file: Path, name: str | None = None) -> list[Path]:
-        """Files behind the public names of a package, or behind one."""
+        """Return the files behind all public names of a package, or one."""
         found: list[Path] = []
         package = self._names(file)
         stub = file.with_suffix(".pyi")  # names that are imported lazily
@@ -131,7 +131,7 @@ class _Graph:
         return path / INIT if (path / INIT).is_file() else None
 
     def _names(self, file: Path) -> tuple[str, ...]:
-        """Package that a file is in, as names below the root."""
+        """Return the package of a file, as names below the root."""
         return file.relative_to(self.root).parts[:-1]
 
     def _parse(self, file: Path) -> ast.Module:
@@ -145,7 +145,7 @@ def _is_code(file: Path) -> bool:
 
 
 def _imports(tree: ast.AST, package: tuple[str, ...]) -> Iterator[Import]:
-    """Modules of the package that a file imports when it runs."""
+    """Yield the imports of the package that are executed in a file."""
     for node in _import_nodes(tree, for_types=False):
         for _, found in _named(node, package):
             yield found
@@ -154,16 +154,16 @@ def _imports(tree: ast.AST, package: tuple[str, ...]) -> Iterator[Import]:
 def _import_nodes(
     tree: ast.AST, *, for_types: bool
 ) -> Iterator[ast.Import | ast.ImportFrom]:
-    """Import statements, at any depth.
+    """Yield the import statements at any depth.
 
     Args:
-        tree: Where to look.
-        for_types: Whether those under ``if TYPE_CHECKING`` count.
+        tree: Syntax tree to search.
+        for_types: Whether to include those under ``if TYPE_CHECKING``.
     """
     for node in ast.iter_child_nodes(tree):
         if isinstance(node, ast.Import | ast.ImportFrom):
             yield node
-        elif isinstance(node, ast.If) and _asks_for_types(node.test):
+        elif isinstance(node, ast.If) and _is_type_checking(node.test):
             for each in (*(node.body if for_types else ()), *node.orelse):
                 wrapped = ast.Module([each], [])
                 yield from _import_nodes(wrapped, for_types=for_types)
@@ -171,7 +171,7 @@ def _import_nodes(
             yield from _import_nodes(node, for_types=for_types)
 
 
-def _asks_for_types(test: ast.expr) -> bool:
+def _is_type_checking(test: ast.expr) -> bool:
     name = test.attr if isinstance(test, ast.Attribute) else test
     name = name.id if isinstance(name, ast.Name) else name
     return name == "TYPE_CHECKING"
@@ -180,7 +180,7 @@ def _asks_for_types(test: ast.expr) -> bool:
 def _named(
     node: ast.Import | ast.ImportFrom, package: tuple[str, ...]
 ) -> Iterator[tuple[str, Import]]:
-    """Names that a statement binds, and what of the package they are."""
+    """Yield the names that a statement binds, with their imports."""
     if isinstance(node, ast.Import):
         for alias in node.names:
             first, _, rest = alias.name.partition(".")

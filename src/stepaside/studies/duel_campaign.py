@@ -1,4 +1,4 @@
-"""Many duels from many starts: what comes out, how surely, what was worst."""
+"""Campaign of duels from random initial poses: one record per seed."""
 
 import json
 from collections.abc import Callable, Iterable, Sequence
@@ -30,17 +30,15 @@ from .duel_statistics import FIELDS
 from .record_store import RecordStore
 
 Record = dict[str, Any]
-# Modules that play a duel and make its record.
-ROOMS = ("studies/duel_campaign",)
-# Of a record, what depends on the machine and not on the duel alone.
+MODULES = ("studies/duel_campaign",)  # which play and record a duel
+# Entries of a record that depend on the machine.
 MACHINE = ("version", "libraries", "verified", "wall_s")
 
 
 def settings_hash(settings: DuelSettings) -> str:
-    """Fingerprint of everything that decides a duel but its seed.
+    """Return a fingerprint of the settings of a duel without its seed.
 
-    Of strategies in files, what the files hold counts, too; what they import
-    does not.
+    The content of strategy files is included, that of their imports is not.
     """
     entries = asdict(replace(settings.named(), seed=0))
     for name in (settings.evader_strategy, settings.pursuer_strategy):
@@ -52,24 +50,24 @@ def settings_hash(settings: DuelSettings) -> str:
 
 
 def key_of(settings: DuelSettings) -> str:
-    """Key of a duel among records: its seed and its settings."""
+    """Return the key of a duel among records: its seed and its settings."""
     return f"{settings.seed}/{settings_hash(settings)}"
 
 
 @cache
 def _stamp() -> Record:
     return {
-        "version": code_version(ROOMS),
+        "version": code_version(MODULES),
         "libraries": library_versions(("mujoco", "numpy")),
     }
 
 
 def play_record(settings: DuelSettings) -> Record:
-    """Play one duel and keep its figures.
+    """Play one duel and return its record.
 
     Returns:
-        Figures in SI units and [deg] as their names say, ``digest`` of the
-        whole trajectories, versions of code and libraries.
+        Summary values in SI units, or [deg] as their names say, the
+        ``digest`` of the trajectories, and versions of code and libraries.
     """
     began = perf_counter()
     prefer_for(settings.duration, many=True)
@@ -102,10 +100,10 @@ def play_record(settings: DuelSettings) -> Record:
 
 
 def _evasion(run: DuelRun) -> Record:
-    """Closest approach while evading, and what is certain of the template.
+    """Return the closest approach while evading, and its certificate.
 
-    The certificate is that of two unicycles that start like the players at
-    the moment evasion begins, with an evader that keeps its side.
+    The certificate is that of two unicycles at the poses of the players when
+    evasion begins, with an evader that keeps its side.
     """
     found: Record = {"evading_min_distance_m": None, "certified_m": None}
     triggered = run.summary.triggered_at_s
@@ -114,8 +112,7 @@ def _evasion(run: DuelRun) -> Record:
     since = run.times >= triggered - 1e-9
     if not since.any():
         return found
-    apart = run.distance[since]
-    found["evading_min_distance_m"] = float(apart.min())
+    found["evading_min_distance_m"] = float(run.distance[since].min())
     first = int(np.argmax(since))
     start = RelativeStart.from_world(
         Pose(*run.pursuer.unicycle[first].tolist()),
@@ -124,16 +121,19 @@ def _evasion(run: DuelRun) -> Record:
     gait, strategy = run.settings.gait, run.settings.strategy
     ends = strategy.trigger == "time" or isfinite(strategy.release_distance)
     if ends or not run.settings.is_of_the_paper:
-        return found  # the certificate is of an evader that does not cease
+        return found  # the certificate assumes permanent evasion
     try:
         game = make_game(
-            *(gait.speed, gait.speed, gait.gain, gait.gain),
+            gait.speed,
+            gait.speed,
+            gait.gain,
+            gait.gain,
             strategy.angle,
             "saturated" if strategy.saturated else "proportional",
             side_rule="latched",
         )
         certificate = certify(game, start)
-    except PlanError:  # not a game that the certificate speaks of
+    except PlanError:  # the certificate does not cover this game
         return found
     if certificate.holds:
         found["certified_m"] = certificate.distance_m
@@ -141,7 +141,7 @@ def _evasion(run: DuelRun) -> Record:
 
 
 def digest_of(run: DuelRun) -> str:
-    """Fingerprint of every number that was recorded of a duel."""
+    """Return a fingerprint of all recorded arrays of a duel."""
     digest = sha256()
     for name, array in sorted(run.arrays().items()):
         digest.update(name.encode())
@@ -157,21 +157,22 @@ def run_duels(
     report: Callable[[int], None] | None = None,
     done: dict[str, Record] | None = None,
 ) -> dict[str, Record]:
-    """Play what a file of records does not hold yet.
+    """Play the duels that are not in a file of records yet.
 
     Args:
-        settings: Of every duel but for the seed.
-        seeds: One duel each.
-        file: Where records are kept as they come; None keeps nothing. One
-            that was made by another version of the code is made again.
+        settings: Settings of every duel; the seed is ignored.
+        seeds: Seeds of the duels.
+        file: Record store, extended by each duel; None to store nothing.
+            Records of another version of the code are replaced.
         executor: Any executor of ``concurrent.futures``.
-        report: Called with the number of duels that are done.
-        done: Filled with the records as they come, for whoever stops it.
+        report: Called with the number of finished duels.
+        done: Dictionary that receives the records as they arrive, and holds
+            them if the campaign is interrupted.
 
     Returns:
         Records by key, in the order of the seeds.
     """
-    wanted = {
+    requested = {
         key_of(one): one
         for one in (replace(settings, seed=seed) for seed in seeds)
     }
@@ -181,13 +182,13 @@ def run_duels(
         results |= {
             key: record
             for key, record in file.read(FIELDS).items()
-            if key in wanted and is_current(record)
+            if key in requested and is_current(record)
         }
     if report is not None:
         report(len(results))
     futures = {
         executor.submit(play_record, one): key
-        for key, one in wanted.items()
+        for key, one in requested.items()
         if key not in results
     }
     try:
@@ -201,14 +202,14 @@ def run_duels(
     except BaseException:
         give_up(executor, futures)
         raise
-    return {key: results[key] for key in wanted}
+    return {key: results[key] for key in requested}
 
 
 def is_current(record: Record) -> bool:
-    """Whether this version of the code and libraries made a record.
+    """Return whether a record is of this version of code and libraries.
 
-    A record that another version made counts, too, once
-    :func:`verify_duels` has found that the two play the same.
+    Records of another version count as current once :func:`verify_duels` has
+    found that both play the same.
     """
     now = _stamp()
     stamp = record.get("verified", record)
@@ -221,19 +222,19 @@ def verify_duels(
     number: int,
     executor: Executor,
 ) -> tuple[list[int], list[int]]:
-    """Hold records of an older version against duels played anew.
+    """Compare records of an older version with repeated duels.
 
-    If every one of some drawn records comes out the same, all of them are
-    marked as verified by this version: by whom they were played stays.
+    If all repeated duels give the same record, all records of the older
+    version are marked as verified by this one; their version is kept.
 
     Args:
-        settings: Of every duel but for the seed.
-        file: Records.
-        number: How many to play again.
+        settings: Settings of every duel; the seed is ignored.
+        file: Record store.
+        number: Number of randomly chosen duels to repeat.
         executor: Any executor of ``concurrent.futures``.
 
     Returns:
-        Seeds that were played again, and those that came out otherwise.
+        Seeds of the repeated duels, and of those that differ.
     """
     own = settings_hash(settings)
     records = file.read(FIELDS)
@@ -265,12 +266,12 @@ def _substance(record: Record) -> Record:
 
 
 def stamps_of(records: Iterable[Record]) -> Record:
-    """Which versions played records, for whoever keeps what they say.
+    """Return the versions of code and libraries of some records.
 
     Returns:
-        ``version`` and ``libraries`` that played them, and ``verified``:
-        versions that were found to play the same, if any. Lists where there
-        is more than one.
+        ``version`` and ``libraries`` of the records, and ``verified``:
+        versions that were found to play the same, if any. Each is a list if
+        there are several.
     """
     stamps: dict[str, list[Any]] = {}
     for record in records:

@@ -1,4 +1,4 @@
-"""Statistics of many duels: shares, means with intervals, worst seeds."""
+"""Statistics of many duels: proportions, means and worst seeds."""
 
 from collections.abc import Iterable, Sequence
 from math import sqrt
@@ -11,19 +11,31 @@ from ..games.duel_settings import DuelSettings
 from .survival import CONFIDENCE, wilson
 
 FIELDS = (  # of every record
-    *("seed", "outcome", "message", "duration_s", "start_distance_m"),
-    *("pursuer_radius_m", "evader_radius_m", "distance_m"),
-    *("relative_orientation_deg", "converged_at_s", "min_distance_m"),
-    *("triggered_at_s", "triggered_at_distance_m", "min_zmp_margin_m"),
-    *("max_com_velocity_jump_m_s", "evading_min_distance_m"),
-    *("certified_m", "digest"),
+    "seed",
+    "outcome",
+    "message",
+    "duration_s",
+    "start_distance_m",
+    "pursuer_radius_m",
+    "evader_radius_m",
+    "distance_m",
+    "relative_orientation_deg",
+    "converged_at_s",
+    "min_distance_m",
+    "triggered_at_s",
+    "triggered_at_distance_m",
+    "min_zmp_margin_m",
+    "max_com_velocity_jump_m_s",
+    "evading_min_distance_m",
+    "certified_m",
+    "digest",
 )
 Record = dict[str, Any]
-BEFORE = 2.0 / 3.0  # of a duel: its figures are those of the rest
-OUTCOMES = ("completed", "fall", "contact")  # counted also where there is none
-# Figure of a record, the theory that it stands beside, and which end of its
-# range is bad: farthest from theory (0), largest (1), smallest (-1).
-FIGURES: dict[str, tuple[str | None, int]] = {
+BEFORE = 2.0 / 3.0  # of a duel; means are taken over the rest
+OUTCOMES = ("completed", "fall", "contact")  # reported even if there are none
+# Value of a record, the theoretical value to compare with, and the worst end
+# of its range: farthest from theory (0), largest (1), smallest (-1).
+VALUES: dict[str, tuple[str | None, int]] = {
     "pursuer_radius_m": ("radius_m", 0),
     "evader_radius_m": ("radius_m", 0),
     "distance_m": ("distance_m", 0),
@@ -42,26 +54,27 @@ FIGURES: dict[str, tuple[str | None, int]] = {
 def summarise_duels(
     settings: DuelSettings, records: Sequence[Record]
 ) -> dict[str, Any]:
-    """Figures of many duels, ready for JSON.
+    """Summarise many duels, as values for JSON.
 
-    Outcomes and convergence are shares with a 95 % interval after Wilson.
-    On the circle is a duel that stays on it for at least its last 5 s; in
-    time, by the rule of the claims page, one that is on it before the last
-    third begins. Figures are those of the duels that were played to their
-    end, with the 95 % interval of their mean.
+    Outcomes and convergence are proportions with the 95 % interval after
+    Wilson. A duel is on the circle if it stays on it for at least the last
+    5 s, and in time if it converges before the last third (the rule of the
+    claims page). Other values are those of completed duels, with the 95 %
+    interval of their mean.
 
     Args:
-        settings: Of all of them.
-        records: Of :func:`~stepaside.studies.duel_campaign.play_record`.
+        settings: Settings of the duels.
+        records: Records of
+            :func:`~stepaside.studies.duel_campaign.play_record`.
     """
     theory = _theory(settings)
     played = [r for r in records if r["outcome"] == "completed"]
     outcomes = dict.fromkeys([*OUTCOMES, *(r["outcome"] for r in records)])
-    figures = {}
-    for name, (beside, bad) in FIGURES.items():
-        found = figure_row(name, played, theory.get(beside or ""), bad)
-        if found is not None:
-            figures[name] = found
+    values = {}
+    for name, (theory_name, bad) in VALUES.items():
+        row = figure_row(name, played, theory.get(theory_name or ""), bad)
+        if row is not None:
+            values[name] = row
     return {
         "duels": len(records),
         "outcomes": {
@@ -78,7 +91,7 @@ def summarise_duels(
             for r in records
         ),
         "theory": theory,
-        "figures": figures,
+        "figures": values,
         "certificate": certificate_row(records),
         "not_completed": [
             {key: r[key] for key in ("seed", "outcome", "message")}
@@ -92,7 +105,7 @@ def summarise_duels(
 
 
 def share(hits: Iterable[bool]) -> dict[str, float]:
-    """Number and share of hits, with its 95 % interval."""
+    """Return the number of hits and the 95 % interval of their proportion."""
     each = list(hits)
     low, high = wilson(sum(each), len(each))
     return {"number": sum(each), "of": len(each), "low": low, "high": high}
@@ -101,18 +114,18 @@ def share(hits: Iterable[bool]) -> dict[str, float]:
 def figure_row(
     name: str, records: Sequence[Record], theory: float | None, bad: int
 ) -> dict[str, Any] | None:
-    """Mean, spread and worst seed of a figure; None if nobody has it.
+    """Return mean, spread and worst seed of a value; None without records.
 
     Args:
         name: Key of a record.
-        records: Those that count.
-        theory: Value that it stands beside, if there is one.
-        bad: Which end of its range is bad; see ``FIGURES``.
+        records: Records; those without the value are skipped.
+        theory: Theoretical value, if there is one.
+        bad: Worst end of the range; see ``VALUES``.
     """
-    having = [r for r in records if r.get(name) is not None]
-    if not having:
+    present = [r for r in records if r.get(name) is not None]
+    if not present:
         return None
-    values = np.array([r[name] for r in having], dtype=np.float64)
+    values = np.array([r[name] for r in present], dtype=np.float64)
     badness = bad * values
     if bad == 0:
         middle = values.mean() if theory is None else theory
@@ -132,12 +145,12 @@ def figure_row(
         "median": float(np.median(values)),
         "greatest": float(values.max()),
         "worst": float(values[worst]),
-        "worst_seed": int(having[worst]["seed"]),
+        "worst_seed": int(present[worst]["seed"]),
     }
 
 
 def certificate_row(records: Sequence[Record]) -> dict[str, Any]:
-    """Closest approaches beside what is certain of the template."""
+    """Compare closest approaches with the certificates of the template."""
     both = [
         r
         for r in records

@@ -1,4 +1,4 @@
-"""Who plays in a tournament: strategies by name."""
+"""Entrants of a tournament: strategies by name."""
 
 import re
 from collections.abc import Callable, Iterable, Mapping
@@ -14,8 +14,8 @@ from ..strategies import (
     load_strategy,
 )
 
-SIGHT = radians(148.0)  # bearing up to which a turned head sees, in [rad]
-ALWAYS = 1e6  # safety radius of who evades from the first sight on, in [m]
+SIGHT = radians(148.0)  # greatest bearing in view of a turned head, in [rad]
+ALWAYS = 1e6  # safety radius that always triggers evasion, in [m]
 
 EVADERS: Mapping[str, Callable[[float], Strategy]] = {
     "look-ahead": lambda angle: LookAhead(),
@@ -25,7 +25,7 @@ EVADERS: Mapping[str, Callable[[float], Strategy]] = {
     "deflected": lambda angle: DeflectedEvasion(),
     "optimal": lambda angle: Optimal(),
 }
-"""Makes an evader of each name, given the angle of "alpha"."""
+"""Factories of the evaders, which take the angle of "alpha" in [rad]."""
 PURSUERS: Mapping[str, str] = {
     "pure": "pursuit",
     "sharp": "sharp",
@@ -39,7 +39,7 @@ _WITH_GAIN = re.compile(r"pure-x(?P<ratio>\d+(?:\.\d*)?)", re.ASCII)
 
 
 def evader_of(name: str, angle: float = pi / 2) -> Strategy:
-    """Evader of a name, or of FILE.py:NAME.
+    """Return the evader of a name, or of FILE.py:NAME.
 
     Raises:
         ConfigurationError: If there is none.
@@ -50,7 +50,7 @@ def evader_of(name: str, angle: float = pi / 2) -> Strategy:
 
 
 def pursuer_of(name: str) -> Strategy:
-    """Pursuer of a name, of pure-xRATIO, or of FILE.py:NAME.
+    """Return the pursuer of a name, of pure-xRATIO, or of FILE.py:NAME.
 
     Raises:
         ConfigurationError: If there is none.
@@ -61,13 +61,13 @@ def pursuer_of(name: str) -> Strategy:
 
 
 def pursuer_strategy(name: str) -> str:
-    """Name by which :func:`~stepaside.strategies.load_strategy` knows it."""
+    """Return the name of a pursuer for ``strategies.load_strategy``."""
     found = _WITH_GAIN.fullmatch(name)
     return f"pursuit-x{found['ratio']}" if found else PURSUERS.get(name, name)
 
 
 def gain_ratio_of(name: str) -> float | None:
-    """Gain of a pursuer over the evader's, in [1]; None if not by eq. (2)."""
+    """Return the gain of a pursuer by the evader's; None if not by eq. (2)."""
     found = _WITH_GAIN.fullmatch(name)
     return float(found["ratio"]) if found else {"pure": 1.0}.get(name)
 

@@ -1,4 +1,4 @@
-"""How much floor a player needs for the way that it took."""
+"""Floor area that a player needs for its path."""
 
 from math import pi
 
@@ -8,16 +8,16 @@ from ..core.convex import convex_hull, signed_area
 from ..core.poses import Array
 
 
-def floor_used(places: Array, radius: float) -> float:
-    """Area of the least convex floor on which a disc can go a way.
+def floor_used(positions: Array, radius: float) -> float:
+    """Return the area of the smallest convex floor for the path of a disc.
 
     Args:
-        places: Where its centre was, (x, y), in [m]. Shape (n, 2).
-        radius: Of the disc, in [m].
+        positions: Positions (x, y) of its centre, in [m]. Shape (n, 2).
+        radius: Radius of the disc, in [m].
 
     Returns:
-        Area of the convex hull of the way, grown by the radius, in [m^2].
+        Area of the convex hull of the path, grown by the radius, in [m^2].
     """
-    ring = convex_hull(np.asarray(places, dtype=np.float64))
-    around = float(np.hypot(*(np.roll(ring, -1, axis=0) - ring).T).sum())
-    return signed_area(ring) + around * radius + pi * radius**2
+    hull = convex_hull(np.asarray(positions, dtype=np.float64))
+    perimeter = float(np.hypot(*(np.roll(hull, -1, axis=0) - hull).T).sum())
+    return signed_area(hull) + perimeter * radius + pi * radius**2

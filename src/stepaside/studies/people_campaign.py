@@ -1,4 +1,4 @@
-"""Campaigns of people who come: from where, how fast, seen by what."""
+"""Campaign of encounters with approaching people."""
 
 import json
 from collections.abc import Callable, Iterator, Sequence
@@ -21,30 +21,36 @@ from .record_store import RecordStore
 from .robustness_campaign import stamp
 
 SPEEDS = (0.3, 0.6, 1.0, 1.4)  # of people, in [m/s]
-BEARINGS = (0, 45, -90, 135, 180)  # where they come from, in [deg]
-OFFSETS = (0.0, 0.3, -0.3, 1.2)  # how far beside the robot they aim, in [m]
-PASSING = 1.0  # offset from which on nobody means the robot, in [m]
-STANDING = 1.5  # time that a robot has before anybody counts, in [s]
-SPACE = 4.0  # from a robot that sees to the walls, in [m]
-PAST = 2.5  # how far behind the robot they walk on, in [m]
+BEARINGS = (0, 45, -90, 135, 180)  # from which they approach, in [deg]
+OFFSETS = (0.0, 0.3, -0.3, 1.2)  # lateral, of their path, in [m]
+PASSING = 1.0  # least offset of people who only pass, in [m]
+STANDING = 1.5  # time before a person can trigger evasion, in [s]
+WALL_CLEARANCE = 4.0  # from the person to the walls with cameras, in [m]
+PAST = 2.5  # distance that they walk on behind the robot, in [m]
 Record = dict[str, Any]
 FIELDS = (  # of every record
-    *("outcome", "duration_s", "triggered_at_s", "triggered_at_distance_m"),
-    *("closest_m", "theory_closest_m"),
+    "outcome",
+    "duration_s",
+    "triggered_at_s",
+    "triggered_at_distance_m",
+    "closest_m",
+    "theory_closest_m",
 )
 
 
 @dataclass(frozen=True, slots=True)
 class Encounter:
-    """One person who comes.
+    """Encounter with one approaching person.
 
     Attributes:
-        speed: Of the person, in [m/s].
-        bearing: Where the person comes from, in the robot's frame, in [deg].
-        offset: How far to the left of the robot the person aims, in [m].
-        sensing: How the robot sees, as of :class:`DuelSettings`.
-        seed: Of every random draw.
-        base: What else the game has.
+        speed: Speed of the person, in [m/s].
+        bearing: Bearing of the person at first in the frame of the robot,
+            in [deg].
+        offset: Lateral offset of the path from the robot, to its left, in
+            [m].
+        sensing: Sensing of the robot, as in :class:`DuelSettings`.
+        seed: Seed of the game.
+        base: All other settings of the game.
     """
 
     speed: float
@@ -56,27 +62,27 @@ class Encounter:
 
     @property
     def key(self) -> str:
-        """Name in a file of results."""
-        plain = json.dumps(plain_settings(self.base), sort_keys=True)
-        mark = sha256(plain.encode()).hexdigest()[:12]
-        where = (self.speed, self.bearing, self.offset, self.sensing)
-        return json.dumps([*where, self.seed, mark])
+        """Key in a file of results."""
+        text = json.dumps(plain_settings(self.base), sort_keys=True)
+        digest = sha256(text.encode()).hexdigest()[:12]
+        path = (self.speed, self.bearing, self.offset, self.sensing)
+        return json.dumps([*path, self.seed, digest])
 
     @property
     def passes(self) -> bool:
-        """Whether the person would pass a robot that stays."""
+        """Whether the person would pass a robot that does not move."""
         return abs(self.offset) >= PASSING
 
     @property
     def settings(self) -> DuelSettings:
-        """Game: the person begins so far away that the robot has time."""
+        """Settings of the game, with the person far enough away at first."""
         strategy = self.base.strategy
         ahead = strategy.contact_time + STANDING
         distance = strategy.clearance + self.speed * ahead
         room = self.base.room
         if self.sensing == "cameras":
-            # Whoever stands by a wall sees that first.
-            room = replace(room, walls=distance + SPACE)
+            # A near wall would be detected before the person.
+            room = replace(room, walls=distance + WALL_CLEARANCE)
         return replace(
             self.base,
             seed=self.seed,
@@ -91,10 +97,10 @@ class Encounter:
 
 
 def base_of(walk: WalkSettings) -> DuelSettings:
-    """Game of a campaign whose robot walks like one that walks alone.
+    """Return the game settings of a campaign.
 
     Args:
-        walk: Gait, body, control and floor.
+        walk: Robot, gait, physics, body and control.
     """
     return DuelSettings(
         robot=walk.robot,
@@ -116,15 +122,15 @@ def encounters(
     bearings: Sequence[int] = BEARINGS,
     offsets: Sequence[float] = OFFSETS,
 ) -> Iterator[Encounter]:
-    """Everybody who comes, one after the other.
+    """Yield the encounters of a grid.
 
     Args:
-        walk: Of the robot; its seed is the first one.
-        sensings: How the robot sees.
-        seeds: Number of each.
-        speeds: Of people, in [m/s].
-        bearings: Where they come from, in [deg].
-        offsets: How far beside the robot they aim, in [m].
+        walk: Settings of the robot; its seed is the first one.
+        sensings: Kinds of sensing, as in :class:`DuelSettings`.
+        seeds: Number of seeds for each combination.
+        speeds: Speeds of people, in [m/s].
+        bearings: Initial bearings of people, in [deg].
+        offsets: Lateral offsets of their paths, in [m].
     """
     base = base_of(walk)
     for sensing in sensings:
@@ -138,7 +144,7 @@ def encounters(
 
 
 def meet(encounter: Encounter) -> tuple[str, Record]:
-    """Key of an encounter, and what happened."""
+    """Play an encounter and return its key and record."""
     settings = encounter.settings
     summary = run_duel(settings).summary
     return encounter.key, {
@@ -158,25 +164,28 @@ def run_encounters(
     report: Callable[[int], None] | None = None,
     done: dict[str, Record] | None = None,
 ) -> dict[str, Record]:
-    """Play what a file of results does not hold yet.
+    """Play the encounters that are not in a file of results yet.
 
     Args:
-        grid: Who comes.
-        file: Results that are done, which grows, so that a campaign that
-            was stopped goes on. None keeps nothing.
+        grid: Encounters.
+        file: Results so far, extended by each encounter; None to store
+            nothing.
         executor: Any executor of ``concurrent.futures``.
-        report: Called with the number of encounters that are done.
-        done: Filled with the results as they come, for whoever stops it.
+        report: Called with the number of finished encounters.
+        done: Dictionary that receives the records as they arrive, and holds
+            them if the campaign is interrupted.
 
     Returns:
-        What happened in each, by key.
+        Records by key.
     """
     results: dict[str, Record] = {} if done is None else done
-    now, store = stamp(), None if file is None else RecordStore(file)
-    wanted = {encounter.key for encounter in grid}
-    known = {} if store is None else store.read(FIELDS)
-    for key, record in known.items():
-        if key in wanted and all(record.get(k) == v for k, v in now.items()):
+    now = stamp()
+    store = None if file is None else RecordStore(file)
+    requested = {encounter.key for encounter in grid}
+    stored = {} if store is None else store.read(FIELDS)
+    for key, record in stored.items():
+        current = all(record.get(k) == v for k, v in now.items())
+        if key in requested and current:
             results[key] = {k: v for k, v in record.items() if k not in now}
     missing = [each for each in grid if each.key not in results]
     if report is not None:

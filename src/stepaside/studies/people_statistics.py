@@ -1,4 +1,4 @@
-"""What a campaign of people came to: contacts, room, false alarms."""
+"""Statistics of encounters with people: contacts, clearance, false alarms."""
 
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
@@ -9,22 +9,23 @@ from ..theory.unicycle.side_step import side_clearance
 from .people_campaign import Encounter, Record
 from .survival import wilson
 
-SEEN_AT = 3.5  # distance at which a depth camera sees people, in [m]
+SEEN_AT = 3.5  # distance at which a depth camera detects people, in [m]
 
 
 def people_rows(
     grid: Sequence[Encounter], results: Mapping[str, Record]
 ) -> list[Record]:
-    """Those who come at the robot, by what sees them and how fast they are.
+    """Tabulate people who approach the robot, by sensing and speed.
 
     Args:
-        grid: Who comes.
-        results: What happened, by key.
+        grid: Encounters.
+        results: Records by key.
 
     Returns:
-        Number, contacts with their 95 % interval, falls, least and mean
-        closest approach, the least that the template reaches, when evasion
-        began, and theory's room for somebody seen at 3.5 m.
+        For each row: number, contacts with their 95 % interval, falls, least
+        and mean closest approach, least closest approach of the template,
+        distance at which evasion began, and theoretical clearance for a
+        person who is detected at 3.5 m.
     """
     groups: dict[tuple[str, float], list[Record]] = defaultdict(list)
     for each in grid:
@@ -35,7 +36,7 @@ def people_rows(
     for (sensing, speed), found in groups.items():
         contacts = sum(row["outcome"] == "contact" for row in found)
         closest = [row["closest_m"] for row in found]
-        begun = [
+        triggered_at = [
             row["triggered_at_distance_m"]
             for row in found
             if row["triggered_at_distance_m"] is not None
@@ -58,8 +59,10 @@ def people_rows(
                 "closest_m": min(closest),
                 "mean_closest_m": sum(closest) / len(closest),
                 "template_closest_m": min(theory, default=None),
-                "triggered": len(begun),
-                "triggered_at_m": sum(begun) / len(begun) if begun else None,
+                "triggered": len(triggered_at),
+                "triggered_at_m": sum(triggered_at) / len(triggered_at)
+                if triggered_at
+                else None,
                 "theory_room_m": theory_room(gait, speed),
             }
         )
@@ -69,14 +72,15 @@ def people_rows(
 def passing_rows(
     grid: Sequence[Encounter], results: Mapping[str, Record]
 ) -> list[Record]:
-    """Those who only pass: how often the robot moved for nothing.
+    """Tabulate the false triggers by people who only pass.
 
     Args:
-        grid: Who comes.
-        results: What happened, by key.
+        grid: Encounters.
+        results: Records by key.
 
     Returns:
-        Number, false triggers, time, and false triggers an hour.
+        For each kind of sensing: number, false triggers, hours, and false
+        triggers per hour.
     """
     groups: dict[str, list[Record]] = defaultdict(list)
     for each in grid:
@@ -102,7 +106,7 @@ def passing_rows(
 def origin_rows(
     grid: Sequence[Encounter], results: Mapping[str, Record]
 ) -> list[Record]:
-    """How near people came, by where they came from and how fast."""
+    """Tabulate closest approaches by sensing, speed and bearing."""
     groups: dict[tuple[str, float, int], list[Record]] = defaultdict(list)
     for each in grid:
         if each.key in results and not each.passes:
@@ -122,16 +126,19 @@ def origin_rows(
 
 
 def theory_room(gait: GaitSettings, speed: float) -> float:
-    """Theory's room beside somebody who is seen at 3.5 m, in [m].
+    """Return the theoretical clearance from a person detected at 3.5 m.
 
     Args:
-        gait: Of the robot.
-        speed: Of the person, in [m/s].
+        gait: Gait of the robot.
+        speed: Speed of the person, in [m/s].
+
+    Returns:
+        Clearance, in [m].
     """
-    pace = gait.path_interval / gait.step_duration
+    time_scale = gait.path_interval / gait.step_duration
     return side_clearance(
-        gait.speed * pace,
-        0.5 * pi * gait.gain * pace,
+        gait.speed * time_scale,
+        0.5 * pi * gait.gain * time_scale,
         person_speed=speed,
         distance=SEEN_AT,
         first_step=gait.start_support,

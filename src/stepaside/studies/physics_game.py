@@ -1,4 +1,4 @@
-"""A game of a tournament in physics: humanoids that walk and fall."""
+"""Tournament games in physics, as duels of two humanoids."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
@@ -27,7 +27,7 @@ PAPER: Mapping[str, Callable[[float], Evasion]] = {
     "saturated": lambda angle: Evasion(saturated=True, safety_radius=ALWAYS),
     "alpha": lambda angle: Evasion(angle, safety_radius=ALWAYS),
 }
-"""Evaders of the paper, as a duel knows them, given the angle of "alpha"."""
+"""Evaders of the paper, as strategies of a duel, by the angle of "alpha"."""
 OUTCOMES = {Outcome.COMPLETED: "survived", Outcome.FALL: "fell"}
 
 
@@ -41,17 +41,16 @@ def duel_settings(
     angle: float,
     source: str,
 ) -> DuelSettings:
-    """The duel in which two entrants of a tournament meet.
+    """Return the settings of a duel between two entrants.
 
     Args:
         pairing: Names of an evader and of a pursuer.
-        room: Where they play.
-        starts: Where pursuer and evader stand at first.
-        seed: Of what is drawn in the duel.
-        duration: Of the game, as its clock goes, in [s].
-        angle: Strategy alpha of the evader "alpha", in [rad].
-        source: Map that they have; with one that is seen, they see with
-            cameras.
+        room: Room of the game.
+        starts: Initial poses of pursuer and evader in the world.
+        seed: Seed of the duel.
+        duration: Duration of the game, in [s].
+        angle: Angle of the evader "alpha", in [rad].
+        source: Source of their map; "seen" implies cameras.
     """
     evader, pursuer = pairing
     own = PAPER.get(evader)
@@ -68,10 +67,10 @@ def duel_settings(
 
 
 class DuelPaths(NamedTuple):
-    """Where two humanoids went.
+    """Paths of two humanoids in the world.
 
     Attributes:
-        outcome: How it ended, see :func:`outcome_of`.
+        outcome: Outcome, see :func:`outcome_of`.
         pursuer: Poses (x [m], y [m], theta [rad]). Shape (n, 3).
         evader: Poses of the evader, likewise.
     """
@@ -82,24 +81,24 @@ class DuelPaths(NamedTuple):
 
 
 def ways_of(run: DuelRun) -> DuelPaths:
-    """Where the players of a duel went."""
+    """Return the paths of the players of a duel."""
     pursuer, evader = (run.tracks[name].unicycle for name in PLAYERS)
     return DuelPaths(outcome_of(run), pursuer, evader)
 
 
 def figures_of(run: DuelRun, radius: float) -> dict[str, Any]:
-    """Figures of a duel in a room, as of a game of a tournament.
+    """Return the record values of a duel as a tournament game.
 
     Args:
-        run: The duel.
-        radius: Of the body that needs floor, in [m].
+        run: Duel in a room.
+        radius: Body radius for the floor that is used, in [m].
 
     Returns:
-        Figures in SI units; ``survived_s`` ends with capture or contact,
-        ``contact`` says whether the bodies of the two players touched,
-        ``touched`` names who and what met,
-        ``PLAYER_clearance_m`` is the least distance of a trunk from what
-        rests, and a decision is all that a replan takes.
+        Values in SI units: ``survived_s`` ends with capture or contact,
+        ``contact`` is whether the bodies of the two players touched,
+        ``touched`` names the bodies in contact, ``PLAYER_clearance_m`` is
+        the least distance of a trunk from resting obstacles, and
+        ``decision_s`` is the time of a whole replan.
     """
     summary = run.summary
     outcome, pursuer, evader = ways_of(run)
@@ -131,13 +130,12 @@ def players_touched(run: DuelRun) -> bool:
 
 
 def outcome_of(run: DuelRun) -> str:
-    """How a duel ended, in the words of a tournament.
+    """Return the outcome of a duel as that of a tournament game.
 
     Returns:
-        "captured" if the distance ever was at most the capture distance,
-        whatever came after; else "survived", "contact" between the players,
-        "touched" for contact with an obstacle, "fell", or what a duel calls
-        it.
+        "captured" if the distance was at most the capture distance at any
+        time; else "survived", "contact" between the players, "touched" for
+        contact with an obstacle, "fell", or the outcome of the duel.
     """
     if run.summary.captured_at_s is not None:
         return "captured"
@@ -147,14 +145,14 @@ def outcome_of(run: DuelRun) -> str:
 
 
 def clearance(run: DuelRun, name: str) -> float | None:
-    """Least distance of a trunk from all that rests, by the record.
+    """Return the least distance of a trunk from resting obstacles.
 
     Args:
-        run: A duel in a room.
-        name: Whose trunk.
+        run: Duel in a room.
+        name: Name of the player.
 
     Returns:
-        Distance, in [m]; None where nothing rests.
+        Distance, in [m]; None without resting obstacles.
     """
     settings, track = run.settings, run.tracks[name]
     if settings.room.plan is None:
@@ -168,12 +166,13 @@ def clearance(run: DuelRun, name: str) -> float | None:
 
 
 def _corners(trunk: Array, track: Trajectory) -> Array:
-    """Corners of a trunk at all samples. Shape (n, corners, 2)."""
-    places, headings = track.com[:, :2].tolist(), track.torso[:, 2].tolist()
-    found: Array = np.array(
+    """Return the corners of a trunk at all samples. Shape (n, corners, 2)."""
+    positions = track.com[:, :2].tolist()
+    headings = track.torso[:, 2].tolist()
+    corners: Array = np.array(
         [
             Pose(x, y, heading).transform_points(trunk)
-            for (x, y), heading in zip(places, headings, strict=True)
+            for (x, y), heading in zip(positions, headings, strict=True)
         ]
     )
-    return found
+    return corners

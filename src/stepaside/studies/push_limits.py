@@ -1,4 +1,4 @@
-"""The largest push that a walk survives, found by halving."""
+"""Search for the largest push that a walk survives, by bisection."""
 
 import json
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -15,10 +15,10 @@ from .robustness_campaign import (
     run_trial,
 )
 
-# In [N s] for NAO; see :func:`.robustness.push_scale`.
+# In [N s] for NAO; see :func:`.robustness_campaign.push_scale`.
 RESOLUTION = 0.1  # to which a limit is found
-STRIDE = 0.4  # between the first pushes tried
-LARGEST = 8.0  # push that is tried
+STRIDE = 0.4  # between pushes before bisection
+LARGEST = 8.0
 
 
 def push_cases(
@@ -29,18 +29,24 @@ def push_cases(
     seed: int = 1,
     changes: str = "",
 ) -> Iterator[RobustnessTrial]:
-    """One trial of no strength for each method, direction and phase."""
+    """Yield a trial with strength 0 for each method, direction and phase."""
     for method in methods:
         for direction in DIRECTIONS:
             for i in range(phases):
                 yield RobustnessTrial(
-                    *("push", 0.0, direction, i / phases, seed, method, body),
+                    "push",
+                    0.0,
+                    direction,
+                    i / phases,
+                    seed,
+                    method,
+                    body,
                     changes,
                 )
 
 
 def limit_of(outcomes: Mapping[float, bool]) -> float:
-    """Largest strength survived together with all smaller ones tried."""
+    """Return the largest strength survived with all smaller ones tried."""
     failed = min((s for s, ok in outcomes.items() if not ok), default=None)
     return max(
         (
@@ -53,16 +59,16 @@ def limit_of(outcomes: Mapping[float, bool]) -> float:
 
 
 def next_strength(outcomes: Mapping[float, bool]) -> float | None:
-    """What to try next, in [N s]; None once the limit is known.
+    """Return the next strength to try, in [N s]; None once the limit is known.
 
-    Pushes grow by a stride until one is not survived; then the gap below it
-    is halved. So what lies above the first failure is not tried.
+    Pushes grow by a stride until one is not survived; then the interval
+    below it is bisected. Strengths above the first failure are not tried.
     """
     limit = limit_of(outcomes)
     failed = min((s for s, ok in outcomes.items() if not ok), default=None)
     if failed is None:
-        wanted = limit + STRIDE
-        return round(wanted, 6) if wanted <= LARGEST else None
+        larger = limit + STRIDE
+        return round(larger, 6) if larger <= LARGEST else None
     parts = round((failed - limit) / RESOLUTION)
     if parts <= 1:
         return None
@@ -72,7 +78,7 @@ def next_strength(outcomes: Mapping[float, bool]) -> float | None:
 def outcomes_of(
     cases: Sequence[RobustnessTrial], results: Mapping[str, bool]
 ) -> dict[RobustnessTrial, dict[float, bool]]:
-    """Whether each strength that was tried was survived, by case."""
+    """Return the outcome of each strength that was tried, by case."""
     outcomes: dict[RobustnessTrial, dict[float, bool]] = {
         case: {} for case in cases
     }
@@ -84,7 +90,7 @@ def outcomes_of(
 
 
 def _case_of(key: str) -> tuple[RobustnessTrial, float]:
-    """Trial of no strength that a key belongs to, and its strength."""
+    """Return the case of a key, and its strength."""
     trial = RobustnessTrial(*json.loads(key))
     return replace(trial, strength=0.0), trial.strength
 
@@ -96,26 +102,27 @@ def search_limits(
     report: Callable[[int], None] | None = None,
     done: dict[str, bool] | None = None,
 ) -> dict[str, bool]:
-    """Walk until the limit of every case is known.
+    """Run trials until the limit of every case is known.
 
     Args:
-        cases: Trials of no strength.
-        file: Results that are done, which grows; None keeps nothing. Those
-            of other cases are left out.
+        cases: Trials with strength 0.
+        file: Results so far, extended by each trial; None to store nothing.
+            Results of other cases are ignored.
         executor: Any executor of ``concurrent.futures``.
-        report: Called with the number of cases that are done.
-        done: Filled with the results as they come, for whoever stops it.
+        report: Called with the number of finished cases.
+        done: Dictionary that receives the results as they arrive, and holds
+            them if the campaign is interrupted.
 
     Returns:
-        Whether each trial of the cases was survived, by key, beside what
-        was in ``done``.
+        Whether each trial was survived, by key, including the entries of
+        ``done``.
     """
     results: dict[str, bool] = {} if done is None else done
-    asked = set(cases)
+    requested = set(cases)
     results.update(
         (key, survived)
         for key, survived in read_results(file).items()
-        if _case_of(key)[0] in asked
+        if _case_of(key)[0] in requested
     )
     outcomes = outcomes_of(cases, results)
     running: dict[Future[tuple[str, bool]], tuple[RobustnessTrial, float]] = {}

@@ -1,4 +1,4 @@
-"""The largest pushes of a campaign, with all that they depend on."""
+"""Result file of a campaign of largest pushes."""
 
 from collections.abc import Sequence
 from dataclasses import asdict
@@ -11,7 +11,7 @@ from .robustness_campaign import mass_of
 from .settings_diff import changes_of
 from .survival import DEFAULT, PUSH, summarise_limits, walking_reach
 
-ROOMS = ("studies/survival",)  # module that finds limits and the bounds
+MODULES = ("studies/survival",)  # which finds the limits and their bounds
 
 
 def pushes_result(
@@ -23,20 +23,20 @@ def pushes_result(
     seed: int,
     walk: WalkSettings = DEFAULT,
 ) -> dict[str, Any]:
-    """Rows of limits with the command, the version and the settings.
+    """Return the rows of limits with command, version and settings.
 
     Args:
-        rows: Of :func:`~stepaside.studies.survival.limit_rows`.
-        methods: That were tried.
+        rows: Rows of :func:`~stepaside.studies.survival.limit_rows`.
+        methods: Control methods of the campaign.
         body: Preset of the body.
-        phases: Of the gait cycle at which pushes begin.
-        seed: Of every walk.
-        walk: That was pushed.
+        phases: Number of phases of the gait cycle at which pushes begin.
+        seed: Seed of every walk.
+        walk: Settings of the walk.
 
     Returns:
-        What can be written as JSON.
+        Values for JSON.
     """
-    asked = " ".join(f"--method {method}" for method in methods)
+    options = " ".join(f"--method {method}" for method in methods)
     settings = {
         "body": body,
         "phases": phases,
@@ -48,16 +48,16 @@ def pushes_result(
         "robot": walk.robot,
         "mass_kg": mass_of(walk.robot),
     }
-    # Any other walk needs the file or the options that it was made by.
+    # A changed walk cannot be repeated by this command alone.
     command = (
         None
         if changes_of(walk)[1]
         else (
-            f"stepaside robustness --kind push {asked} "
+            f"stepaside robustness --kind push {options} "
             f"--body {body} --phases {phases} --seed {seed}"
         )
     )
-    return header(settings, rooms=ROOMS, command=command) | {
+    return header(settings, modules=MODULES, command=command) | {
         "summary": summarise_limits(rows),
         "rows": list(rows),
     }

@@ -1,4 +1,4 @@
-"""Results of a long study on disk: one whole, checked record a line."""
+"""Record store of a campaign: one checksummed JSON record per line."""
 
 import json
 import os
@@ -20,31 +20,31 @@ DIGITS = 12
 
 
 class RecordStore:
-    """Records by key; what was cut off or altered is done again.
+    """Records by key, in a file of JSON lines.
 
-    A line holds a key, a record and a checksum of both. Lines that are torn
-    or foreign are kept beside the file, with ``.aside`` behind its name, and
-    count as not done.
+    A line holds a key, a record and a checksum of both. Incomplete, altered
+    or unknown lines are moved to a file with the suffix ``.aside``, and
+    their records are computed again.
 
     Attributes:
-        path: JSON lines.
-        aside: How many lines were set aside.
+        path: File of JSON lines.
+        aside: Number of lines that were set aside.
     """
 
     def __init__(self, path: Path) -> None:
-        """Open a file of records, or a place for one; nothing is written."""
+        """Make a store for a path; nothing is read or written."""
         self.path = path
         self.aside = 0
 
     def read(self, fields: Iterable[str] = ()) -> dict[str, dict[str, Any]]:
-        """Records by key; of several with one key, the last.
+        """Read the records by key; the last of several with the same key.
 
         Args:
-            fields: That every record must have; one without is foreign.
+            fields: Required entries of a record; others are set aside.
         """
         if not self.path.exists():
             return {}
-        with alone_in(self.path.parent):
+        with exclusive_access(self.path.parent):
             return self._read(set(fields))
 
     def _read(self, fields: set[str]) -> dict[str, dict[str, Any]]:
@@ -62,18 +62,18 @@ class RecordStore:
         return found
 
     def append(self, key: str, record: dict[str, Any]) -> None:
-        """Add one record, on a line of its own whatever was before.
+        """Append one record; an incomplete last line does not corrupt it.
 
         Raises:
-            OutputError: If the system does not let it be written.
+            OutputError: If it cannot be written.
         """
         line = _line(key, record).encode()
         try:
             self.path.parent.mkdir(parents=True, exist_ok=True)
-            made = not self.path.exists()
-            # Without a buffer, which would be written again as it is closed.
+            is_new = not self.path.exists()
+            # Unbuffered: a buffer would be written again on close.
             with (
-                alone_in(self.path.parent),
+                exclusive_access(self.path.parent),
                 self.path.open("ab+", buffering=0) as out,
             ):
                 end = out.seek(0, os.SEEK_END)
@@ -83,9 +83,9 @@ class RecordStore:
                 try:
                     while line:
                         line = line[out.write(line) :]
-                except OSError:  # nothing of it stays where room ran out
+                except OSError:  # disk full: remove the partial line
                     os.truncate(self.path, end)
-                    if made and not end:
+                    if is_new and not end:
                         self.path.unlink()
                     raise
         except OSError as error:
@@ -94,7 +94,7 @@ class RecordStore:
             ) from error
 
     def write(self, records: dict[str, dict[str, Any]]) -> None:
-        """Replace the file by these records, whole or not at all."""
+        """Replace the content of the file atomically."""
         lines = [_line(key, record) for key, record in records.items()]
         with writing(self.path) as draft:
             draft.write_text("".join(lines), encoding="utf-8")
@@ -102,33 +102,33 @@ class RecordStore:
     def _set_aside(
         self, lines: list[str], good: dict[str, dict[str, Any]]
     ) -> None:
-        """Move bad lines out of the way, so that none grows onto them."""
+        """Move bad lines to the file ``.aside``."""
         self.aside += len(lines)
-        place = self.path.with_name(self.path.name + ".aside")
-        with place.open("a", encoding="utf-8") as out:
+        aside = self.path.with_name(self.path.name + ".aside")
+        with aside.open("a", encoding="utf-8") as out:
             out.writelines(line + "\n" for line in lines)
         self.write(good)
 
 
 @contextmanager
-def alone_in(folder: Path) -> Iterator[None]:
-    """Wait until no other process reads or writes records of a folder.
+def exclusive_access(folder: Path) -> Iterator[None]:
+    """Lock the records of a folder against other processes.
 
-    Where the system knows no such locks, nobody waits.
+    Without effect on systems and file systems without such locks.
 
     Args:
-        folder: It exists.
+        folder: Existing folder.
     """
     if fcntl is None:
         yield
         return
-    place = os.open(folder, os.O_RDONLY)
+    descriptor = os.open(folder, os.O_RDONLY)
     try:
-        with suppress(OSError):  # some file systems have none
-            fcntl.flock(place, fcntl.LOCK_EX)
+        with suppress(OSError):  # not supported by all file systems
+            fcntl.flock(descriptor, fcntl.LOCK_EX)
         yield
     finally:
-        os.close(place)
+        os.close(descriptor)
 
 
 def _line(key: str, record: dict[str, Any]) -> str:
@@ -143,13 +143,13 @@ def _checksum(key: str, record: Any) -> str:
 
 
 def _parse(line: str) -> tuple[str, dict[str, Any]] | None:
-    """Key and record of a line; None unless it is whole."""
+    """Return key and record of a line; None if it is not valid."""
     try:
         entry = json.loads(line)
         key, record = entry["key"], entry["record"]
-        whole = entry["check"] == _checksum(key, record)
+        valid = entry["check"] == _checksum(key, record)
     except (ValueError, TypeError, KeyError, RecursionError):
         return None
-    if whole and isinstance(key, str) and isinstance(record, dict):
+    if valid and isinstance(key, str) and isinstance(record, dict):
         return key, record
     return None

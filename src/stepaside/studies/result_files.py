@@ -1,7 +1,7 @@
-"""Files of measured results: what was found, how, and of which code.
+"""Result files: measurements with their command, code version and settings.
 
-A result is one JSON object. Whoever measures writes it whole; whoever makes
-tables and figures only reads it.
+A result is one JSON object. Measuring programs write it; tables and figures
+are made from it.
 """
 
 import json
@@ -16,45 +16,46 @@ from ..core.atomic_output import writing
 from ..core.errors import ConfigurationError
 from .code_version import LIBRARIES, PHYSICS, code_version, library_versions
 
-# What every result names, before what was found.
-HEADER = ("command", "rooms", "version", "libraries", "settings")
-DIGITS = 6  # significant digits that are kept of a number
+# Entries of every result before the measured values.
+HEADER = ("command", "modules", "version", "libraries", "settings")
+DIGITS = 6  # significant digits of numbers in a result
 
 
 def header(
     settings: Mapping[str, Any],
     *,
-    rooms: tuple[str, ...] = PHYSICS,
+    modules: tuple[str, ...] = PHYSICS,
     libraries: Sequence[str] = LIBRARIES,
     command: str | None = None,
 ) -> dict[str, Any]:
-    """Where a result comes from: what every file of results begins with.
+    """Return the header of a result: its command, version and settings.
 
     Args:
-        settings: What was asked for: seeds, durations, numbers of runs.
-        rooms: Rooms of the package that the result depends on.
-        libraries: Packages that it depends on.
-        command: That makes it again; the one that runs by default.
+        settings: Settings of the measurement: seeds, durations, numbers.
+        modules: Modules or packages that the result depends on.
+        libraries: Libraries that it depends on.
+        command: Command that repeats it; that of this process by default.
 
     Returns:
         The entries of ``HEADER``.
     """
     return {
         "command": running_command() if command is None else command,
-        "rooms": list(rooms),
-        "version": code_version(rooms),
+        "modules": list(modules),
+        "version": code_version(modules),
         "libraries": library_versions(libraries),
         "settings": dict(settings),
     }
 
 
 def running_command(arguments: Sequence[str] | None = None) -> str:
-    """Command line of this process, as one types it in the repository.
+    """Return the command line of this process, for use in the repository.
 
     Args:
         arguments: Program and its arguments; those of this process by
-            default. A program that is no Python file stands by its name,
-            and files below the working folder by their way from there.
+            default. Programs other than Python files are reduced to their
+            name, and absolute paths below the working folder are made
+            relative.
     """
     program, *rest = sys.argv if arguments is None else arguments
     if Path(program).parts[-2:] == ("stepaside", "__main__.py"):
@@ -70,20 +71,21 @@ def running_command(arguments: Sequence[str] | None = None) -> str:
 def write_result(
     file: Path, head: Mapping[str, Any], **found: Any
 ) -> dict[str, Any]:
-    """Write a result, whole or not at all.
+    """Write a result atomically.
 
-    Numbers keep six significant digits; a number that is none is refused.
+    Numbers are rounded to six significant digits.
 
     Args:
-        file: Where to; its folder is made.
-        head: Of :func:`header`.
-        found: What was measured, ready for JSON.
+        file: File to write; its folder is created.
+        head: Header, see :func:`header`.
+        found: Measured values for JSON.
 
     Returns:
-        What the file holds.
+        Content of the file.
 
     Raises:
-        ConfigurationError: If the head is not one, or a value not finite.
+        ConfigurationError: If the header is incomplete, or a value is NaN
+            or inf.
         OutputError: If it cannot be written.
     """
     missing = [name for name in HEADER if name not in head]
@@ -103,7 +105,7 @@ def read_result(file: Path) -> dict[str, Any]:
     """Read a result.
 
     Raises:
-        ConfigurationError: If it is not there, or is none.
+        ConfigurationError: If it does not exist, or is not a result.
     """
     try:
         result = json.loads(file.read_text(encoding="utf-8"))
@@ -111,26 +113,28 @@ def read_result(file: Path) -> dict[str, Any]:
         raise ConfigurationError(f"no result {file.name}") from None
     except ValueError as error:
         raise ConfigurationError(
-            f"{file.name} is no result: {error}"
+            f"{file.name} is not a result: {error}"
         ) from error
     missing = [name for name in HEADER if name not in result]
     if missing:
         raise ConfigurationError(
-            f"{file.name} is no result, it lacks {', '.join(missing)}"
+            f"{file.name} is not a result, it lacks {', '.join(missing)}"
         )
     return dict(result)
 
 
 def is_current(result: Mapping[str, Any]) -> bool:
-    """Whether the code that a result depends on is what made it."""
+    """Return whether a result is of the present version of its modules."""
     try:
-        return bool(result["version"] == code_version(tuple(result["rooms"])))
-    except FileNotFoundError:  # of rooms that are no more
+        return bool(
+            result["version"] == code_version(tuple(result["modules"]))
+        )
+    except FileNotFoundError:  # of modules that were moved
         return False
 
 
 def _relative(word: str) -> str:
-    """A path below the working folder by its way from there."""
+    """Make an absolute path below the working folder relative."""
     path = Path(word)
     if not path.is_absolute():
         return word
@@ -139,7 +143,7 @@ def _relative(word: str) -> str:
 
 
 def _rounded(value: Any, where: str) -> Any:
-    """Numbers of a tree to a few significant digits."""
+    """Round all numbers of nested values to significant digits."""
     if isinstance(value, Mapping):
         return {k: _rounded(v, f"{where}.{k}") for k, v in value.items()}
     if isinstance(value, list | tuple):

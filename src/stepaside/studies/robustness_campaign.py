@@ -1,4 +1,4 @@
-"""Campaigns: what a walk survives, over disturbance, strength and method."""
+"""Robustness campaign: walks by disturbance, strength and control method."""
 
 import json
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -25,16 +25,19 @@ from .code_version import code_version, library_versions
 from .record_store import RecordStore
 from .settings_diff import OWN, changed_walk
 
-# Modules that play a trial and judge it.
-ROOMS = ("studies/robustness_campaign", "studies/people_campaign")
+# Modules that run a trial and evaluate it.
+MODULES = ("studies/robustness_campaign", "studies/people_campaign")
 
 
 def read_results(file: Path | None) -> dict[str, bool]:
-    """Results of this version of the code and libraries, by key of the trial.
+    """Read the results of this version of code and libraries.
 
     Args:
-        file: Of :class:`RecordStore`; those of another version, and lines
-            that are not whole, are left out. None holds nothing.
+        file: File of a :class:`RecordStore`; results of other versions are
+            ignored. None for no results.
+
+    Returns:
+        Whether each trial was survived, by key.
     """
     if file is None:
         return {}
@@ -47,19 +50,19 @@ def read_results(file: Path | None) -> dict[str, bool]:
 
 
 def note_result(file: Path | None, key: str, survived: bool) -> None:
-    """Add a result, at once, so that a campaign can be stopped any time."""
+    """Append a result to the file, if there is one."""
     if file is not None:
         RecordStore(file).append(key, record_of(survived))
 
 
 def record_of(survived: bool) -> dict[str, Any]:
-    """A result as it is recorded, with what it is of."""
+    """Return the record of a result, with its versions."""
     return {"survived": survived} | stamp()
 
 
 def stamp() -> dict[str, Any]:
-    """Versions of the code and the libraries that a result is of."""
-    return {"version": code_version(ROOMS), "libraries": library_versions()}
+    """Return the present versions of the code and the libraries."""
+    return {"version": code_version(MODULES), "libraries": library_versions()}
 
 
 DIRECTIONS = {"left": 90.0, "right": -90.0, "forward": 0.0, "backward": 180.0}
@@ -72,7 +75,7 @@ STRENGTHS: dict[str, tuple[float, ...]] = {
     "noise": (0.0, 1.0, 2.0, 4.0, 8.0),
     "model": (0.0, 0.03, 0.06, 0.1, 0.2),
 }
-KINDS = (*STRENGTHS, "person")  # of the last see .encounters
+KINDS = (*STRENGTHS, "person")  # for the last see people_campaign
 UNITS = {
     "push": "N s",
     "friction": "1",
@@ -83,8 +86,9 @@ UNITS = {
     "model": "relative mass error",
 }
 METHODS = ("open-loop", "closed-form", "measured", "mpc")
-BEFORE, AFTER = 6, 4.0  # steps before a push, seconds after it
-REFERENCE = "nao"  # robot that the strengths of pushes are made for
+BEFORE = 6  # steps before a push
+AFTER = 4.0  # time after a push, in [s]
+REFERENCE = "nao"  # robot to which strengths of pushes refer
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,13 +98,13 @@ class RobustnessTrial:
     Attributes:
         kind: Disturbance, a key of ``STRENGTHS``.
         strength: In the unit of ``UNITS``.
-        direction: Of a push, a key of ``DIRECTIONS``; else empty.
-        phase: Of a push, as a fraction of the gait cycle.
-        seed: Of the walk.
+        direction: Direction of a push, a key of ``DIRECTIONS``; else empty.
+        phase: Phase of a push, as a fraction of the gait cycle.
+        seed: Seed of the walk.
         method: One of ``METHODS``.
         body: Preset of the body; ``OWN`` for the one of ``changes``.
-        changes: What else the walk has other than by default, as JSON; see
-            :func:`~.changes.changes_of`.
+        changes: Other settings that differ from the default, as JSON; see
+            :func:`~.settings_diff.changes_of`.
     """
 
     kind: str
@@ -114,7 +118,7 @@ class RobustnessTrial:
 
     @property
     def key(self) -> str:
-        """Name of the trial in a file of results."""
+        """Key of the trial in a file of results."""
         values = list(asdict(self).values())
         return json.dumps(values if self.changes else values[:-1])
 
@@ -122,11 +126,11 @@ class RobustnessTrial:
 def control_of(
     method: str, control: ControlSettings | None = None
 ) -> ControlSettings:
-    """Control of a method's name.
+    """Return the control settings of a method.
 
     Args:
         method: One of ``METHODS``.
-        control: What holds beside it; the default by default.
+        control: Settings to change; the default ones by default.
     """
     named: dict[str, Method] = {
         "open-loop": "closed-form",
@@ -144,14 +148,14 @@ def control_of(
 def push_time(
     phase: float, control: ControlSettings, gait: GaitSettings | None = None
 ) -> float:
-    """When a push at a phase of the cycle begins, in [s]."""
+    """Return the time at which a push at a phase begins, in [s]."""
     gait = gait or GaitSettings()
     begins = gait.start_support + (1.0 if control.feedback else 0.0)
     return begins + (BEFORE + 2.0 * phase) * gait.step_duration
 
 
 def walk_of(trial: RobustnessTrial) -> WalkSettings:
-    """Walk of a trial, not disturbed yet."""
+    """Return the walk of a trial without its disturbance."""
     walk = changed_walk(trial.changes)
     return replace(
         walk,
@@ -163,16 +167,15 @@ def walk_of(trial: RobustnessTrial) -> WalkSettings:
 
 @cache
 def mass_of(robot: str) -> float:
-    """Mass of a robot, in [kg]."""
+    """Return the mass of a robot, in [kg]."""
     return float(ForwardKinematics(load_robot(robot)).mass)
 
 
 def push_scale(robot: str) -> float:
-    """What a push must be to do the same to a robot, by one of NAO's.
+    """Return the factor on pushes of NAO for the same effect on a robot.
 
-    Strengths of pushes are in N s for NAO. A description has its robot's
-    unit of pushes, which goes with the mass and the speed of the pendulum;
-    where one says nothing, all are pushed to the same speeds.
+    It is the ratio of the push units of their descriptions, which scale with
+    mass and pendulum speed; without them, the ratio of the masses.
     """
     own, nao = (game_of(load_robot(name)) for name in (robot, REFERENCE))
     if own is None or nao is None:
@@ -181,7 +184,7 @@ def push_scale(robot: str) -> float:
 
 
 def settings_of(trial: RobustnessTrial) -> WalkSettings:
-    """Walk of a trial.
+    """Return the walk of a trial with its disturbance.
 
     Raises:
         ConfigurationError: If the kind is unknown.
@@ -222,11 +225,15 @@ def settings_of(trial: RobustnessTrial) -> WalkSettings:
 
 
 def louder(body: BodySettings, factor: float) -> BodySettings:
-    """Body with the hardware's noise and bias, times a factor."""
+    """Return a body with the noise and bias of "hardware" times a factor."""
     hardware = BODIES["hardware"]
     names = (
-        *("gyro_noise", "gyro_bias", "accelerometer_noise"),
-        *("accelerometer_bias", "force_noise", "force_gain_error"),
+        "gyro_noise",
+        "gyro_bias",
+        "accelerometer_noise",
+        "accelerometer_bias",
+        "force_noise",
+        "force_gain_error",
     )
     return replace(
         body, **{name: factor * getattr(hardware, name) for name in names}
@@ -234,7 +241,7 @@ def louder(body: BodySettings, factor: float) -> BodySettings:
 
 
 def run_trial(trial: RobustnessTrial) -> tuple[str, bool]:
-    """Key of a trial, and whether the robot stood to the end."""
+    """Run a trial; return its key and whether the walk was completed."""
     result = run_walk(settings_of(trial), record=False)
     return trial.key, result.outcome is Outcome.COMPLETED
 
@@ -248,7 +255,7 @@ def trials(
     first_seed: int = 1,
     changes: str = "",
 ) -> Iterator[RobustnessTrial]:
-    """Grid of strengths and seeds; for pushes see :mod:`.limits`."""
+    """Yield a grid of strengths and seeds; for pushes see ``push_limits``."""
     for method in methods:
         for kind in kinds:
             if kind == "push":
@@ -256,8 +263,7 @@ def trials(
             for strength in STRENGTHS[kind]:
                 for seed in range(first_seed, first_seed + seeds):
                     yield RobustnessTrial(
-                        *(kind, strength, "", 0.0, seed, method, body),
-                        changes,
+                        kind, strength, "", 0.0, seed, method, body, changes
                     )
 
 
@@ -268,23 +274,23 @@ def run_campaign(
     report: Callable[[int], None] | None = None,
     done: dict[str, bool] | None = None,
 ) -> dict[str, bool]:
-    """Run what a file of results does not hold yet.
+    """Run the trials that are not in a file of results yet.
 
     Args:
         grid: Trials.
-        file: Results that are done, which grows, so that a campaign that
-            was stopped goes on. None keeps nothing.
+        file: Results so far, extended by each trial; None to store nothing.
         executor: Any executor of ``concurrent.futures``.
-        report: Called with the number of trials that are done.
-        done: Filled with the results as they come, for whoever stops it.
+        report: Called with the number of finished trials.
+        done: Dictionary that receives the results as they arrive, and holds
+            them if the campaign is interrupted.
 
     Returns:
         Whether each trial was survived, by key.
     """
-    wanted = {trial.key for trial in grid}
+    requested = {trial.key for trial in grid}
     results: dict[str, bool] = {} if done is None else done
-    known = read_results(file)
-    results.update((key, known[key]) for key in wanted & known.keys())
+    stored = read_results(file)
+    results.update((key, stored[key]) for key in requested & stored.keys())
     missing = [trial for trial in grid if trial.key not in results]
     number = len(grid) - len(missing)
     if report is not None:

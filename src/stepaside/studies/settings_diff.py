@@ -1,4 +1,4 @@
-"""What a walk has other than by default, as text that names it."""
+"""Difference of walk settings from the default, as JSON text."""
 
 import json
 from dataclasses import replace
@@ -13,17 +13,17 @@ OWN = "own"  # body that is no preset
 
 
 def changes_of(walk: WalkSettings) -> tuple[str, str]:
-    """Name of a walk's body, and what else it has other than by default.
+    """Return the body preset of a walk and its other changed settings.
 
-    What each trial of a campaign sets itself is left out: seed, duration,
+    Settings that each trial of a campaign sets are left out: seed, duration,
     method, feedback and pushes.
 
     Args:
-        walk: That is to be disturbed.
+        walk: Settings of the undisturbed walk.
 
     Returns:
-        Preset of the body, or ``OWN``, and the changes as JSON; empty for
-        none.
+        Preset of the body, or ``OWN``; and the changes as JSON, empty if
+        there are none.
     """
     default = WalkSettings()
     presets = [name for name, body in BODIES.items() if body == walk.body]
@@ -45,10 +45,10 @@ def changes_of(walk: WalkSettings) -> tuple[str, str]:
 
 @cache
 def changed_walk(changes: str) -> WalkSettings:
-    """Walk with changes.
+    """Return the default walk with changes.
 
     Args:
-        changes: Of :func:`changes_of`.
+        changes: Changes of :func:`changes_of`.
     """
     entries = json.loads(changes) if changes else {}
     return parse_settings(WalkSettings, entries, "changes of a walk")
@@ -57,9 +57,9 @@ def changed_walk(changes: str) -> WalkSettings:
 def _differences(
     entries: dict[str, Any], default: dict[str, Any]
 ) -> dict[str, Any]:
-    """Entries that are not as by default, section by section.
+    """Return the entries that differ from the default, by section.
 
-    What is None by default has no entry there.
+    Settings that are None by default have no entry there.
     """
     found = {}
     for name, value in entries.items():

@@ -1,4 +1,4 @@
-"""Survival of a campaign, with confidence, beside the pendulum's bound."""
+"""Survival statistics of a robustness campaign, and bounds on pushes."""
 
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
@@ -28,7 +28,7 @@ DEFAULT = WalkSettings()
 
 
 def wilson(survived: int, number: int) -> tuple[float, float]:
-    """95 % confidence interval of a share, after Wilson (1927)."""
+    """Return the 95 % interval of a proportion, after Wilson (1927)."""
     if number == 0:
         return 0.0, 1.0
     z, n = CONFIDENCE, number
@@ -42,7 +42,7 @@ def wilson(survived: int, number: int) -> tuple[float, float]:
 def survival_rows(
     grid: Sequence[RobustnessTrial], results: Mapping[str, bool]
 ) -> list[dict[str, Any]]:
-    """Share of survivors for each method, kind and strength of a grid."""
+    """Tabulate survival by method, kind, direction and strength."""
     groups: dict[tuple[str, str, str, float], list[bool]] = defaultdict(list)
     for trial in grid:
         if trial.key in results:
@@ -54,20 +54,23 @@ def survival_rows(
 def push_survival_rows(
     limits: Sequence[dict[str, Any]], scale: float = 1.0
 ) -> list[dict[str, Any]]:
-    """Share of phases at which pushes up to each strength are survived.
+    """Tabulate the number of phases at which each push is survived.
 
     Args:
-        limits: Of :func:`limit_rows`.
-        scale: Of the strengths, for a robot of another mass than NAO's; see
-            :func:`~.robustness.push_scale`.
+        limits: Rows of :func:`limit_rows`.
+        scale: Factor on the strengths for another robot than NAO; see
+            :func:`~.robustness_campaign.push_scale`.
     """
     groups: dict[tuple[str, str], list[float]] = defaultdict(list)
     for row in limits:
         groups[row["method"], row["direction"]].append(row["limit_n_s"])
     return [
         _survival_row(
-            *(method, "push", direction, scale * strength),
-            # A strength that was reached exactly, but for rounding, counts.
+            method,
+            "push",
+            direction,
+            scale * strength,
+            # The tolerance is for rounding of the limits.
             [x >= (scale - 1e-9) * strength for x in found],
         )
         for (method, direction), found in groups.items()
@@ -98,7 +101,7 @@ def _survival_row(
 def limit_rows(
     cases: Sequence[RobustnessTrial], results: Mapping[str, bool]
 ) -> list[dict[str, Any]]:
-    """Largest push survived with all smaller ones, beside the bounds.
+    """Tabulate the largest survived pushes with their bounds.
 
     Cases whose limit is not known yet are left out.
     """
@@ -134,17 +137,18 @@ def bound_at(
     *,
     impulse: bool = False,
 ) -> float:
-    """Bound of the pendulum at a phase of a walk, in [N s].
+    """Return the push bound of the linear inverted pendulum, in [N s].
 
-    The walk is under way: the push meets the state that recurs.
+    The walk is in its steady gait cycle when it is pushed.
 
     Args:
-        direction: Of the push, a key of ``DIRECTIONS``.
-        phase: At which the push begins, as a fraction of the gait cycle.
+        direction: Direction of the push, a key of ``DIRECTIONS``.
+        phase: Phase at which the push begins, as a fraction of the gait
+            cycle.
         walk: Robot, gait, heading and reach; a straight walk by default.
-        impulse: Whether to take an impulse at the middle of the push
-            instead. That is no bound for the push, for it denies the ZMP
-            the first half of it.
+        impulse: Whether to replace the push by an impulse at its middle.
+            That does not bound the push, during whose first half the ZMP
+            can already react.
     """
     gait = walk.gait
     cycle = 2.0 * gait.step_duration
@@ -164,7 +168,7 @@ def bound_at(
 
 
 def walking_reach(walk: WalkSettings = DEFAULT) -> FootReach:
-    """Where the feedback of a walk may set a foot."""
+    """Return the foot placements that the feedback of a walk allows."""
     gains = walk.control.stabiliser
     return FootReach(
         gains.reach_forward,
@@ -175,7 +179,7 @@ def walking_reach(walk: WalkSettings = DEFAULT) -> FootReach:
 
 
 def summarise_limits(rows: Sequence[dict[str, Any]]) -> dict[str, Any]:
-    """Ratio of limit to bound by method: median, least, number above."""
+    """Summarise the ratios of limit to bound by method."""
     methods = dict.fromkeys(row["method"] for row in rows)
     summary = {}
     for method in methods:

@@ -1,4 +1,4 @@
-"""Evaders against pursuers, in rooms by seed: one game a record."""
+"""Tournament of evaders and pursuers: one record per game."""
 
 from collections.abc import Callable, Sequence
 from concurrent.futures import Executor, Future, as_completed
@@ -26,13 +26,22 @@ if TYPE_CHECKING:
 
 Record = dict[str, Any]
 FIELDS = (  # of every record
-    *("evader", "pursuer", "seed", "outcome", "survived_s", "closest_m"),
-    *("bound_m", "floor_m2", "walked_m", "turning_rad_s", "unseen"),
-    *("decision_s", "longest_decision_s"),
+    "evader",
+    "pursuer",
+    "seed",
+    "outcome",
+    "survived_s",
+    "closest_m",
+    "bound_m",
+    "floor_m2",
+    "walked_m",
+    "turning_rad_s",
+    "unseen",
+    "decision_s",
+    "longest_decision_s",
 )
-CELLS = 64  # of the bound's table
-FEEDBACK = 8  # decisions in a step, of unicycles
-
+CELLS = 64  # of the value table of the bound
+FEEDBACK = 8  # decisions per step at level "unicycles"
 
 Pairing = tuple[str, str]
 """Names of an evader and of a pursuer."""
@@ -41,7 +50,7 @@ Pairing = tuple[str, str]
 def play_ways(
     settings: TournamentSettings, pairing: Pairing, seed: int
 ) -> "tuple[Room, StepTrack | DuelPaths]":
-    """Play one game of a tournament, and keep where both went."""
+    """Play one game of a tournament; return its room and both paths."""
     if settings.level != HUMANOIDS:
         return play_track(settings, pairing, seed)
     from .physics_game import ways_of
@@ -56,7 +65,7 @@ def _play_humanoids(
     """Play one game in physics.
 
     Raises:
-        KeyboardInterrupt: If it was stopped: one that was cut short is none.
+        KeyboardInterrupt: If it was interrupted; it is not recorded then.
     """
     from ..games.duel import run_duel
     from ..games.outcome import Outcome
@@ -82,7 +91,7 @@ def _play_humanoids(
 def play_track(
     settings: TournamentSettings, pairing: Pairing, seed: int
 ) -> tuple[Room, StepTrack]:
-    """Play one game in steps, or of unicycles, and keep all of it."""
+    """Play one game at level "steps" or "unicycles"; return its track."""
     room, starts = settings.arena(seed)
     unicycles = settings.level == "unicycles"
     values = asdict(settings.game)
@@ -100,24 +109,24 @@ def play_track(
 def play_record(
     settings: TournamentSettings, pairing: Pairing, seed: int
 ) -> Record:
-    """Play one game of a tournament, and keep its figures.
+    """Play one game of a tournament and return its record.
 
     Returns:
-        Figures in SI units, and the version of code and libraries.
+        Values in SI units, and the versions of code and libraries.
     """
-    played = _humanoids if settings.level == HUMANOIDS else _steps
+    play = _humanoid_values if settings.level == HUMANOIDS else _step_values
     return {
         "evader": pairing[0],
         "pursuer": pairing[1],
         "seed": seed,
-        **played(settings, pairing, seed),
+        **play(settings, pairing, seed),
     } | _stamp(*settings.depends)
 
 
-def _steps(
+def _step_values(
     settings: TournamentSettings, pairing: Pairing, seed: int
 ) -> Record:
-    """Figures of a game in steps, or of unicycles."""
+    """Play a game at level "steps" or "unicycles" and return its values."""
     _, track = play_track(settings, pairing, seed)
     game = settings.game
     distances = track.distances
@@ -141,10 +150,10 @@ def _steps(
     }
 
 
-def _humanoids(
+def _humanoid_values(
     settings: TournamentSettings, pairing: Pairing, seed: int
 ) -> Record:
-    """Figures of a game in physics."""
+    """Play a game in physics and return its values."""
     from .physics_game import figures_of
 
     _, run = _play_humanoids(settings, pairing, seed)
@@ -156,7 +165,11 @@ def _humanoids(
 
 
 def bound_of(pursuer: Array, evader: Array, game: StepGame) -> float:
-    """Best least distance on an open floor from two poses, in [m]."""
+    """Return the value of the game on an open floor from two poses.
+
+    Returns:
+        Closest approach under optimal play, in [m].
+    """
     x, y = (evader[:2] - pursuer[:2]).tolist()
     sight, unit = atan2(y, x), game.speed / game.gain
     value = pursuit_bound(CELLS).value(
@@ -168,7 +181,7 @@ def bound_of(pursuer: Array, evader: Array, game: StepGame) -> float:
 
 
 def key_of(settings: TournamentSettings, pairing: Pairing, seed: int) -> str:
-    """Key of a game among records."""
+    """Return the key of a game among records."""
     return f"{settings.fingerprint()}/{'/'.join(pairing)}/{seed}"
 
 
@@ -181,22 +194,24 @@ def play_tournament(
     report: Callable[[int], None] | None = None,
     done: dict[str, Record] | None = None,
 ) -> dict[str, Record]:
-    """Play what a file of records does not hold yet.
+    """Play the games that are not in a file of records yet.
 
     Args:
-        settings: Of every game.
-        pairings: Who plays whom.
-        seeds: One game of each pairing for each.
-        file: Where records are kept as they come; one that another version
-            of the code made is made again.
-        executor: Any executor of ``concurrent.futures``; None plays here.
-        report: Called with the number of games that are done.
-        done: Filled with the records as they come, for whoever stops it.
+        settings: Settings of every game.
+        pairings: Evader and pursuer of each pairing.
+        seeds: Seeds of the games of each pairing.
+        file: Record store, extended by each game. Records of another
+            version of the code are replaced.
+        executor: Any executor of ``concurrent.futures``; None to play in
+            this process.
+        report: Called with the number of finished games.
+        done: Dictionary that receives the records as they arrive, and holds
+            them if the campaign is interrupted.
 
     Returns:
         Records by key, by pairing and then by seed.
     """
-    wanted = {
+    requested = {
         key_of(settings, pairing, seed): (pairing, seed)
         for pairing in pairings
         for seed in seeds
@@ -206,12 +221,12 @@ def play_tournament(
         for key, record in file.read(FIELDS).items():
             now = _stamp(*settings.depends)
             stamp = {name: record.get(name) for name in now}
-            if key in wanted and stamp == now:
+            if key in requested and stamp == now:
                 results[key] = record
-    left = [key for key in wanted if key not in results]
-    pursuit_bound(CELLS)  # solved once, before many want it
+    missing = [key for key in requested if key not in results]
+    pursuit_bound(CELLS)  # solved once here, not in each worker
 
-    def take(keys: list[str], records: list[Record]) -> None:
+    def add(keys: list[str], records: list[Record]) -> None:
         for key, record in zip(keys, records, strict=True):
             results[key] = record
             if file is not None:
@@ -219,26 +234,26 @@ def play_tournament(
         if report is not None:
             report(len(results))
 
-    take([], [])
+    add([], [])
     size = settings.block
-    blocks = [left[i : i + size] for i in range(0, len(left), size)]
+    blocks = [missing[i : i + size] for i in range(0, len(missing), size)]
     if executor is None:
         for keys in blocks:
-            take(keys, _play_block(settings, [wanted[key] for key in keys]))
+            add(keys, _play_block(settings, [requested[key] for key in keys]))
     else:
         futures: dict[Future[list[Record]], list[str]] = {
             executor.submit(
-                _play_block, settings, [wanted[key] for key in keys]
+                _play_block, settings, [requested[key] for key in keys]
             ): keys
             for keys in blocks
         }
         try:
             for future in as_completed(futures):
-                take(futures[future], future.result())
+                add(futures[future], future.result())
         except BaseException:
             give_up(executor, futures)
             raise
-    return {key: results[key] for key in wanted}
+    return {key: results[key] for key in requested}
 
 
 def _play_block(
@@ -248,8 +263,8 @@ def _play_block(
 
 
 @cache
-def _stamp(rooms: tuple[str, ...], libraries: tuple[str, ...]) -> Record:
+def _stamp(modules: tuple[str, ...], libraries: tuple[str, ...]) -> Record:
     return {
-        "version": code_version(rooms),
+        "version": code_version(modules),
         "libraries": library_versions(libraries),
     }

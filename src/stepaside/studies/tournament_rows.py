@@ -1,4 +1,4 @@
-"""What came out of a tournament: a row for each pairing."""
+"""Results of a tournament: one row per pairing."""
 
 from collections.abc import Sequence
 from math import pi, sqrt
@@ -18,16 +18,17 @@ NORMAL = 1.959964  # standard deviations of a 95 % interval
 def tournament_rows(
     records: Sequence[Record], game: StepGame | None = None
 ) -> list[Record]:
-    """Rows of a tournament, ready for JSON.
+    """Tabulate the records of a tournament, as values for JSON.
 
     Args:
-        records: Of :func:`~stepaside.studies.tournament_campaign.play_record`.
+        records: Records of
+            :func:`~stepaside.studies.tournament_campaign.play_record`.
         game: Rules of the games.
 
     Returns:
-        For each pairing: shares with 95 % intervals after Wilson, means with
-        95 % intervals, the seeds of the games that came worst, and the
-        capture distance beside the distance on the paper's circle.
+        For each pairing: proportions with 95 % intervals after Wilson, means
+        with 95 % intervals, the seeds of the worst games, the capture
+        distance, and the distance on the paper's circle.
     """
     game = game or StepGame()
     pairings = dict.fromkeys((r["evader"], r["pursuer"]) for r in records)
@@ -42,23 +43,29 @@ def tournament_rows(
 
 
 def circle_distance(game: StepGame, pursuer: str) -> float | None:
-    """Distance on the paper's circle for the gain of a pursuer, in [m].
+    """Return the distance on the paper's circle for a pursuer.
 
-    The evader moves aside at the gain of the game. Where this distance is
-    at most the capture distance, moving aside leads to capture.
+    The evader uses strategy "aside" with the gain of the game. If this
+    distance is at most the capture distance, that strategy is captured.
 
     Args:
         game: Rules of the games.
-        pursuer: Its name in a tournament.
+        pursuer: Name of the pursuer in a tournament.
 
     Returns:
-        The distance; None for a pursuer that does not turn by eq. (2).
+        Distance, in [m]; None for a pursuer that does not steer by eq. (2).
     """
     ratio = gain_ratio_of(pursuer)
     if ratio is None:
         return None
-    speeds, gains = 2 * (game.speed,), (ratio * game.gain, game.gain)
-    circle = find_circle(*speeds, *gains, 0.5 * pi, "proportional")
+    circle = find_circle(
+        game.speed,
+        game.speed,
+        ratio * game.gain,
+        game.gain,
+        0.5 * pi,
+        "proportional",
+    )
     return float(circle.distance_m) if circle.exists else None
 
 
@@ -69,8 +76,8 @@ def _row(records: Sequence[Record]) -> Record:
     closest = np.array([r["closest_m"] for r in records])
     bound = np.array([r["bound_m"] for r in records])
     decisions = 1e3 * np.array([r["decision_s"] for r in records])
-    # Who survived is worse the nearer the pursuer came, and better than who
-    # did not, which is worse the sooner it ended.
+    # Worst first: lost games by survival time, then survived games by
+    # closest approach.
     order = sorted(
         records,
         key=lambda r: (
@@ -87,16 +94,18 @@ def _row(records: Sequence[Record]) -> Record:
         "survived_low": low,
         "survived_high": high,
         "captured": outcomes.count("captured") / len(records),
-        "contact": _share_of_contact(records),
+        "contact": _contact_proportion(records),
         "touched_obstacle": outcomes.count("touched") / len(records),
         "fell": outcomes.count("fell") / len(records),
         "mean_survival_s": float(np.mean([r["survived_s"] for r in records])),
         "mean_closest_m": float(closest.mean()),
-        "mean_closest_pm_m": _half(closest),
+        "mean_closest_pm_m": _half_interval(closest),
         "mean_bound_m": float(bound.mean()),
         "closest_over_bound": float(closest.mean() / bound.mean()),
         "floor_used_m2": float(np.mean([r["floor_m2"] for r in records])),
-        "floor_used_pm_m2": _half(np.array([r["floor_m2"] for r in records])),
+        "floor_used_pm_m2": _half_interval(
+            np.array([r["floor_m2"] for r in records])
+        ),
         "turning_rad_s": float(np.mean([r["turning_rad_s"] for r in records])),
         "out_of_view": float(np.mean([r["unseen"] for r in records])),
         "decision_ms": float(decisions.mean()),
@@ -106,15 +115,15 @@ def _row(records: Sequence[Record]) -> Record:
     }
 
 
-def _share_of_contact(records: Sequence[Record]) -> float | None:
-    """Share of games in which bodies touched; None at levels without."""
+def _contact_proportion(records: Sequence[Record]) -> float | None:
+    """Return the proportion of games with contact; None without physics."""
     if any("contact" not in r for r in records):
         return None
     return [r["contact"] for r in records].count(True) / len(records)
 
 
-def _half(values: Any) -> float:
-    """Half of the 95 % interval of a mean."""
+def _half_interval(values: Any) -> float:
+    """Return half of the 95 % interval of a mean."""
     if len(values) < 2:
         return 0.0
     return NORMAL * float(values.std(ddof=1)) / sqrt(len(values))

@@ -1,4 +1,4 @@
-"""What decides the games of a tournament."""
+"""Settings of a tournament."""
 
 import json
 from dataclasses import asdict, dataclass, field
@@ -15,24 +15,21 @@ ERROR = ConfigurationError
 HUMANOIDS = "physics"
 LEVELS = ("steps", "unicycles", HUMANOIDS)
 MAPS = ("given", "seen", "none")
-ROOMS = (
-    "studies/tournament_campaign",
-)  # modules that play a game and record it
-BLOCK = 10  # games that a process is given at once
+MODULES = ("studies/tournament_campaign",)  # which play and record a game
+BLOCK = 10  # games per task of a worker process
 
 
 @dataclass(frozen=True)
 class TournamentSettings:
-    """What decides a game of a tournament but its seed and its players.
+    """Settings of a tournament game, without its seed and players.
 
     Attributes:
-        level: "steps", "unicycles", which decide eight times a step, or
-            "physics", in which humanoids walk, fall and touch.
-        room: What the seeds make rooms of, or one room for all of them.
-        game: Rules. In physics only the duration counts, of a clock that
-            passes as for humanoids.
-        angle: Strategy alpha of the evader "alpha", in [rad].
-        map: What humanoids know of the room: "given", "seen", "none".
+        level: "steps"; "unicycles", with eight decisions per step; or
+            "physics", with simulated humanoids.
+        room: Recipe of a random room per seed, or one room for all seeds.
+        game: Rules. At level "physics" only the duration is used.
+        angle: Angle of the evader "alpha", in [rad].
+        map: Map of the humanoids: "given", "seen" or "none".
     """
 
     level: str = "steps"
@@ -42,7 +39,7 @@ class TournamentSettings:
     map: str = "given"
 
     def __post_init__(self) -> None:
-        """Refuse other levels and angles."""
+        """Validate the settings."""
         if self.level not in LEVELS:
             raise ERROR(
                 f"level must be one of {', '.join(LEVELS)}, "
@@ -59,13 +56,13 @@ class TournamentSettings:
         moving = isinstance(self.room, Room) and self.room.moving
         if moving and self.level != HUMANOIDS:
             raise ERROR(
-                f"level must be {HUMANOIDS!r} in a room in which boxes "
-                f"move, got {self.level!r}"
+                f"level must be {HUMANOIDS!r} in a room with moving boxes, "
+                f"got {self.level!r}"
             )
         check_within(self.angle, 0.0, pi, "angle", "rad", ERROR)
 
     def arena(self, seed: int) -> tuple[Room, tuple[Pose, Pose]]:
-        """Room of a seed, and where both start in it."""
+        """Return the room of a seed, and the initial poses in it."""
         if isinstance(self.room, Room):
             room = self.room
             return room, room.starts or draw_starts(room, seed)
@@ -74,7 +71,7 @@ class TournamentSettings:
         return room, room.starts
 
     def entries(self) -> dict[str, Any]:
-        """All of it, as an object for other programs."""
+        """Return the settings as values for JSON."""
         room = self.room
         physics = {"map": self.map} if self.level == HUMANOIDS else {}
         return {
@@ -88,17 +85,17 @@ class TournamentSettings:
 
     @property
     def depends(self) -> tuple[tuple[str, ...], tuple[str, ...]]:
-        """Rooms of the code and libraries that its games depend on."""
+        """Modules and libraries on which the games depend."""
         if self.level == HUMANOIDS:
-            return ROOMS, ("mujoco", "numba", "numpy")
-        return ROOMS, ("numba", "numpy")
+            return MODULES, ("mujoco", "numba", "numpy")
+        return MODULES, ("numba", "numpy")
 
     @property
     def block(self) -> int:
-        """Games that a process is given at once."""
+        """Number of games per task of a worker process."""
         return 1 if self.level == HUMANOIDS else BLOCK
 
     def fingerprint(self) -> str:
-        """Digits that change with any of it."""
+        """Return a fingerprint of all settings."""
         text = json.dumps(self.entries(), sort_keys=True)
         return sha256(text.encode()).hexdigest()[:12]
