@@ -4,7 +4,7 @@ import mujoco
 import numpy as np
 
 from ..core.errors import ConfigurationError
-from ..core.poses import Pose
+from ..core.poses import Array, Pose
 from ..games.duel_settings import EVADER, DuelSettings
 from ..games.initial_poses import frames_of, walls_of
 from ..games.run import Run
@@ -80,6 +80,10 @@ class RunScene:
         none = np.zeros((len(run.times), 0))
         self._postures = np.concatenate([none, *known], axis=1)
         self._persons = {name: parts_of(self.model, name) for name in persons}
+        self._walked = {
+            name: _distance_walked(run.tracks[name].torso[:, :2])
+            for name in persons
+        }
         self._tracks, self._times = run.tracks, run.times
         self._moves = []
         if plan is not None:
@@ -96,16 +100,25 @@ class RunScene:
         for move in self._moves:
             move(float(self._times[index]))
         for name, parts in self._persons.items():
-            walked = self._tracks[name].torso
-            frame = Pose(*walked[index].tolist())
-            steps = np.diff(walked[: index + 1, :2], axis=0)
-            way = float(np.hypot(steps[:, 0], steps[:, 1]).sum())
-            pose_figure(self.data, parts, frame, way, self._figure)
+            pose = Pose(*self._tracks[name].torso[index].tolist())
+            walked = float(self._walked[name][index])
+            pose_figure(self.data, parts, pose, walked, self._figure)
         for name in self._templates:
             stood = Pose(*self._tracks[name].torso[index].tolist())
             pose_template(self.model, self.data, name, stood)
         mujoco.mj_kinematics(self.model, self.data)
         mujoco.mj_camlight(self.model, self.data)
+
+
+def _distance_walked(positions: Array) -> Array:
+    """Return the length of the path up to each sample, in [m]. Shape (n,).
+
+    Args:
+        positions: In the world, in [m]. Shape (n, 2).
+    """
+    steps = np.diff(positions, axis=0)
+    lengths = np.hypot(steps[:, 0], steps[:, 1])
+    return np.concatenate([[0.0], np.cumsum(lengths)])
 
 
 def surroundings_of(run: Run) -> Furnish | None:
