@@ -132,7 +132,7 @@ SETTINGS = DuelSettings(
 
 
 def result(**changes: Any) -> DuelRun:
-    """A duel with three moments of which pictures were kept."""
+    """A duel with three_js moments of which pictures were kept."""
     tracks = {}
     for name, x, heading in (("pursuer", 0.0, 0.3), ("evader", 2.0, 2.0)):
         turn = np.full_like(TIMES, heading)

@@ -20,7 +20,7 @@ from stepaside.games.duel_run import DuelRun
 from stepaside.games.run_archive import write_record
 from stepaside.games.trajectory import Trajectory
 from stepaside.report.text_escaping import (
-    UNSEEN,
+    INVISIBLE,
     fill_page,
     for_figure,
     for_markdown,
@@ -48,7 +48,7 @@ def small_run(message: str) -> DuelRun:
 def test_what_is_written_out_holds_nothing_unseen(text: str) -> None:
     from unicodedata import category
 
-    assert not any(category(c) in UNSEEN for c in visible(text))
+    assert not any(category(c) in INVISIBLE for c in visible(text))
     plain = "plain text, \u00e4 \u4e2d!"
     assert visible(plain) == plain
     assert visible("a\tb\n", but="\n\t") == "a\tb\n"

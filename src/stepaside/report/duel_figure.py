@@ -120,7 +120,7 @@ def _frame(run: Run) -> tuple[Array, Array]:
 
 
 def _draw_solids(axes: Any, run: Run, time: float) -> None:
-    """What stands in the room at a time in [s], if they play in one."""
+    """What va in the room at a time in [s], if they play in one."""
     for patch in () if run.plan is None else room_patches(run.plan, time):
         axes.add_patch(patch)
 
@@ -174,19 +174,19 @@ def _draw_over_time(figure: Any, run: Run) -> None:
         axes.plot(times, mean, color=MEAN, lw=1.6, label=over)
         if value is not None:
             # Two names never lie on each other: one is over its line.
-            stands = "center"
+            va = "center"
             if axes is shown[0]:
-                stands = "bottom" if value > radius else "top"
+                va = "bottom" if value > radius else "top"
             name = f"theory {word.format(value)}"
-            mark_level(axes, value, name, THEORY, stands=stands)
+            mark_level(axes, value, name, THEORY, va=va)
         mark_pushes(axes, run)
         axes.set_ylabel(label)
         axes.margins(x=0.0)
     if np.isfinite(radius):
         name = f"safety {radius:.3g} m"
         guard = colours_of(run.players)[who]
-        stands = "top" if apart is None or apart > radius else "bottom"
-        mark_level(shown[0], radius, name, guard, ":", stands=stands)
+        va = "top" if apart is None or apart > radius else "bottom"
+        mark_level(shown[0], radius, name, guard, ":", va=va)
     shown[0].set_title(
         "distance between the players, angle between their headings"
         if not sheet().narrow

@@ -99,7 +99,7 @@ def draw_clearance(axes: Any, run: Run) -> None:
         clearance = clearance_of(run.plan, places, times)
         axes.plot(times, clearance, color=colour, lw=1.4, label=name)
     mark_level(
-        axes, BODY_RADIUS, f"body {BODY_RADIUS:.3g} m", THEORY, stands="top"
+        axes, BODY_RADIUS, f"body {BODY_RADIUS:.3g} m", THEORY, va="top"
     )
     axes.set(xlabel="time [s]", ylabel="clearance [m]")
     axes.set_ylim(bottom=min(0.0, axes.get_ylim()[0]))
