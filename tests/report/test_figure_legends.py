@@ -53,9 +53,9 @@ def test_people_have_their_ring_speeds_and_touches_named(
     ]
     people_figure.draw_people(rows, 0.7, Path("people.png"))
     told = names_of(kept[0])
-    for name in ("0.7 m: to be kept", "0.3 m/s", "1.4 m/s"):
+    for name in ("desired clearance 0.7 m", "0.3 m/s", "1.4 m/s"):
         assert name in told
-    assert ("touched" in told) == bool(touched)
+    assert ("contact" in told) == bool(touched)
     title = kept[0].axes[0].get_title()
     assert "[m]" in title and "cameras" in title and "ahead" in title
     style.plt.close("all")
