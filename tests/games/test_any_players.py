@@ -137,8 +137,8 @@ def test_everybody_is_on_the_page(count: int, tmp_path: Path) -> None:
     text = file.read_text(encoding="utf-8")
     (found,) = re.findall(r"(\{\"times\".*\})", text)
     shown = json.loads(found)
-    assert [robot["name"] for robot in shown["robots"]] == [*run.players]
-    assert [robot["pushes"] for robot in shown["robots"]] == [
+    assert [robot["name"] for robot in shown["players"]] == [*run.players]
+    assert [robot["pushes"] for robot in shown["players"]] == [
         *([[]] * (count - 1)),
         PUSH.tolist(),
     ]
