@@ -144,7 +144,7 @@ def test_everybody_is_on_the_page(count: int, tmp_path: Path) -> None:
     ]
     assert (shown["distance"] is None) is (shown["angle"] is None)
     assert (shown["distance"] is None) is (count == 1)
-    assert shown["safety"] is None and shown["guarded"] is None
+    assert shown["safety"] is None and shown["safety_player"] is None
 
 
 @by_count
