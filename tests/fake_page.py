@@ -295,12 +295,10 @@ class Server:
 
 
 def open_fake(host: str, port: int) -> Any:
-    """Open a server that serves nobody, behind no door."""
-    server = Server(host=host, port=port)
-    listener = SimpleNamespace(say=None)
+    """Return a fake server without access control."""
     return SimpleNamespace(
-        server=server,
+        server=Server(host=host, port=port),
         gate=None,
-        listener=listener,
-        hand=SimpleNamespace(attend=lambda steer: None),
+        messages=SimpleNamespace(notify=None),
+        joystick=SimpleNamespace(connect=lambda steer: None),
     )

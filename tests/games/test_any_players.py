@@ -139,14 +139,14 @@ def test_every_player_is_on_the_page(count: int, tmp_path: Path) -> None:
     text = file.read_text(encoding="utf-8")
     (found,) = re.findall(r"(\{\"times\".*\})", text)
     shown = json.loads(found)
-    assert [robot["name"] for robot in shown["robots"]] == [*run.players]
-    assert [robot["pushes"] for robot in shown["robots"]] == [
+    assert [robot["name"] for robot in shown["players"]] == [*run.players]
+    assert [robot["pushes"] for robot in shown["players"]] == [
         *([[]] * (count - 1)),
         PUSH.tolist(),
     ]
     assert (shown["distance"] is None) is (shown["angle"] is None)
     assert (shown["distance"] is None) is (count == 1)
-    assert shown["safety"] is None and shown["guarded"] is None
+    assert shown["safety"] is None and shown["safety_player"] is None
 
 
 @by_count

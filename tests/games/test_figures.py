@@ -212,7 +212,7 @@ def test_distance_and_angle_are_drawn_with_theory(
     assert levels(distance) == {0.9: THEORY, 0.8: EVADER}
     assert levels(angle) == {90.0: THEORY}
     for text, name in zip(
-        distance.texts, ("theory 0.9 m", "safety 0.8 m"), strict=True
+        distance.texts, ("theory 0.9 m", "safety radius\n0.8 m"), strict=True
     ):
         assert text.get_text() == name
         # To the right of the axes, where no curve is.
@@ -236,9 +236,7 @@ def test_balance_is_leftward_of_each_robot_over_six_steps(
     for axes, name, heading in zip(
         figure.axes[7:], COLOURS, (0.4, 1.4), strict=True
     ):
-        assert (
-            axes.get_title() == f"{name}: sideways balance in its last steps"
-        )
+        assert axes.get_title() == f"{name}: lateral balance, last steps"
         # Along the way it drifts by what its heading is off the x axis.
         drift = -0.1 * sin(heading) * (shown - shown.mean())
         sway = 0.02 * np.sin(2.0 * pi * shown / CYCLE)

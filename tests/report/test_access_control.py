@@ -22,7 +22,7 @@ from stepaside.core.errors import ConfigurationError  # noqa: E402
 from stepaside.report.viewer import access_control as gates  # noqa: E402
 from stepaside.report.viewer.access_control import AccessControl  # noqa: E402
 from stepaside.report.viewer.page_address import PageAddress, listen  # noqa: E402
-from stepaside.report.viewer.page_messages import LARGEST  # noqa: E402
+from stepaside.report.viewer.page_messages import MAX_SIZE  # noqa: E402
 from stepaside.report.viewer.page_server import PageServer, open_server  # noqa: E402
 
 PROTOCOL: Any = [f"viser-v{viser.__version__}"]
@@ -145,7 +145,7 @@ def test_a_control_takes_its_own_values_alone(served: PageServer) -> None:
     gui = served.server.gui
     told: list[Any] = []
     refused: list[str] = []
-    served.listener.say = refused.append
+    served.messages.notify = refused.append
     speed = gui.add_dropdown("Speed", ("1", "2"))
     gain = gui.add_number("Gain", 1.5, min=0.0, max=9.0)
     seed = gui.add_number("Seed", 1)
@@ -195,7 +195,7 @@ def test_a_control_takes_its_own_values_alone(served: PageServer) -> None:
     assert count == 37
     assert [each.value for each in controls] == [before[0], 2.5, *before[2:]]
     assert len(refused) == count + 6
-    assert "Speed cannot be set to that" in refused
+    assert "invalid value for Speed" in refused
     assert gain.label == "Gain"
 
 
@@ -203,7 +203,7 @@ def test_a_message_that_is_too_long_ends_the_connection(
     served: PageServer,
 ) -> None:
     with plug(served, own(served)) as connection:
-        connection.send(b"\xc4" * (LARGEST + 1))
+        connection.send(b"\xc4" * (MAX_SIZE + 1))
         with pytest.raises(ConnectionClosed) as closed:
             while True:
                 connection.recv(timeout=200)
@@ -213,7 +213,7 @@ def test_a_message_that_is_too_long_ends_the_connection(
 def test_so_many_pages_are_open_and_no_more(
     served: PageServer, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(gates, "CLIENTS", 2)
+    monkeypatch.setattr(gates, "MAX_CLIENTS", 2)
     until(lambda: served.gate.connected == 0)
     with plug(served, own(served)), plug(served, own(served)):
         until(lambda: served.gate.connected == 2)
@@ -292,6 +292,6 @@ def test_a_viser_that_starts_otherwise_is_not_let_serve(
 
     stopped: list[bool] = []
     monkeypatch.setattr(viser, "ViserServer", Other)
-    with pytest.raises(ConfigurationError, match="open to all"):
+    with pytest.raises(ConfigurationError, match="access can be"):
         open_server("127.0.0.1", 8795)
     assert stopped == [True]

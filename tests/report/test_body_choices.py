@@ -13,7 +13,7 @@ from stepaside.locomotion.zmp.control_settings import (
     ControlSettings,
 )
 from stepaside.report.viewer import live_page as pages
-from stepaside.report.viewer.body_choices import OWN, body_choices
+from stepaside.report.viewer.duel_panel import CUSTOM_BODY, body_choices
 from stepaside.report.viewer.live_page import Page
 from stepaside.sim.body_settings import BODIES
 from stepaside.strategies import Evasion
@@ -39,8 +39,8 @@ def test_a_preset_keeps_the_control_that_it_was_started_with() -> None:
 def test_a_body_of_its_own_stands_beside_the_presets() -> None:
     body = replace(BODIES["hardware"], backlash=0.05)
     choices, name = body_choices(DuelSettings(body=body, control=STABILISED))
-    assert name == OWN and tuple(choices) == (*BODIES, OWN)
-    assert choices[OWN] == (body, STABILISED)
+    assert name == CUSTOM_BODY and tuple(choices) == (*BODIES, CUSTOM_BODY)
+    assert choices[CUSTOM_BODY] == (body, STABILISED)
 
 
 def test_controls_show_a_start_that_is_not_the_usual_one(

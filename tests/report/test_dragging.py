@@ -1,4 +1,4 @@
-"""A robot is pushed the way it is pulled."""
+"""A robot is pushed the way it is impulse_of_drag."""
 
 import asyncio
 from math import hypot, pi
@@ -14,9 +14,9 @@ from fake_page import Handle, Scene  # noqa: E402
 from stepaside.core.errors import ConfigurationError  # noqa: E402
 from stepaside.core.poses import Array  # noqa: E402
 from stepaside.report.viewer.dragging import (  # noqa: E402
-    MOST,
+    MAX_IMPULSE,
     PushDragging,
-    pulled,
+    impulse_of_drag,
 )
 from stepaside.report.viewer.scene_layers import PUSH_LENGTH  # noqa: E402
 
@@ -34,14 +34,14 @@ def test_a_pull_is_as_strong_as_its_way_on_the_level_of_the_grip(
     tip = GRABBED + [*(PUSH_LENGTH * impulse), 0.0]
     pointed = EYE + depth * (tip - EYE)
     np.testing.assert_allclose(
-        pulled(EYE, GRABBED, pointed), impulse, atol=1e-12
+        impulse_of_drag(EYE, GRABBED, pointed), impulse, atol=1e-12
     )
 
 
 def test_no_hand_gives_more_than_the_most() -> None:
     far = GRABBED + [30.0, -40.0, 0.0]
-    impulse = pulled(EYE, GRABBED, far)
-    np.testing.assert_allclose(impulse, MOST * np.array([0.6, -0.8]))
+    impulse = impulse_of_drag(EYE, GRABBED, far)
+    np.testing.assert_allclose(impulse, MAX_IMPULSE * np.array([0.6, -0.8]))
 
 
 @pytest.mark.parametrize("rise", [0.0, 0.5])
@@ -51,7 +51,9 @@ def test_a_level_or_rising_sight_pulls_as_far_as_it_passes_by(
     eye = np.array([0.0, -1.0, 0.3])
     pointed = np.array([0.3, 0.1, 0.3 + rise])
     np.testing.assert_allclose(
-        pulled(eye, GRABBED, pointed) * PUSH_LENGTH, [0.1, 0.0], atol=1e-12
+        impulse_of_drag(eye, GRABBED, pointed) * PUSH_LENGTH,
+        [0.1, 0.0],
+        atol=1e-12,
     )
 
 
@@ -80,7 +82,7 @@ def table(player: Player) -> tuple[Any, Any, Handle, list[str]]:
     duel = SimpleNamespace(world=world, players=(None, player))
     session: Any = SimpleNamespace(change=lambda request: request(duel))
     scene, mesh, said = Scene(), Handle("mesh"), list[str]()
-    PushDragging(scene, session, said.append).attend(1, [mesh])  # type: ignore[arg-type]
+    PushDragging(scene, session, said.append).add(1, [mesh])  # type: ignore[arg-type]
     return session, scene, mesh, said
 
 

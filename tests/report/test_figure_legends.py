@@ -12,7 +12,7 @@ from stepaside.games.trajectory import Trajectory
 from stepaside.report import bound_figure, people_figure
 from stepaside.report import figure_style as style
 from stepaside.report.film_shot import FilmSettings
-from stepaside.report.film_strip import line_names
+from stepaside.report.film_strip import legend_entries
 from stepaside.theory.bound import Bound, Grid, against_any, solve_bound
 
 
@@ -53,9 +53,9 @@ def test_people_have_their_ring_speeds_and_touches_named(
     ]
     people_figure.draw_people(rows, 0.7, Path("people.png"))
     told = names_of(kept[0])
-    for name in ("0.7 m: to be kept", "0.3 m/s", "1.4 m/s"):
+    for name in ("desired clearance 0.7 m", "0.3 m/s", "1.4 m/s"):
         assert name in told
-    assert ("touched" in told) == bool(touched)
+    assert ("contact" in told) == bool(touched)
     title = kept[0].axes[0].get_title()
     assert "[m]" in title and "cameras" in title and "ahead" in title
     style.plt.close("all")
@@ -68,14 +68,14 @@ def test_pictures_of_a_strip_have_every_line_named() -> None:
         torso = np.tile([x, 0.0, 0.0], (31, 1))
         tracks[name] = Trajectory(com=torso.copy(), torso=torso)
     run = run_of(times, tracks)
-    _, names = line_names(run, FilmSettings())
+    _, names = legend_entries(run, FilmSettings())
     assert names == [
         "path of the pursuer",
         "path of the evader",
         "ring: safety radius of the evader, 0.8 m",
         "line of sight",
     ]
-    assert len(line_names(run, FilmSettings(layers=False))[1]) == 2
+    assert len(legend_entries(run, FilmSettings(layers=False))[1]) == 2
 
 
 def test_the_bound_s_lines_are_named(kept: list[Figure], bound: Bound) -> None:

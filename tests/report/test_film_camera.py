@@ -1,4 +1,4 @@
-"""Where a film's camera stands, when it is slow, and what it says."""
+"""Cameras, slow motion and captions of films."""
 
 from dataclasses import replace
 from functools import cache
@@ -15,7 +15,7 @@ from stepaside.games.trajectory import Trajectory
 from stepaside.report import film_layers
 from stepaside.report.film import FilmSettings, closest_time
 from stepaside.report.film_camera import MARGIN, VIEWS, FilmCamera, framing
-from stepaside.report.film_captions import caption, title_of
+from stepaside.report.film_captions import caption, draw_title
 from stepaside.report.film_shot import AROUND, SLOWEST
 from stepaside.report.palette import PALETTES
 
@@ -25,7 +25,7 @@ TIMES = np.linspace(0.0, 30.0, 301)
 
 @cache
 def run() -> Run:
-    """One walks round a wide circle, the other away from it."""
+    """Return a run: one player on a wide circle, one on a straight line."""
     angle = 0.1 * TIMES
     ways = {
         "pursuer": (3.0 * np.cos(angle), 3.0 * np.sin(angle)),
@@ -41,9 +41,9 @@ def run() -> Run:
     return run_of(TIMES, tracks, settings=DuelSettings(seed=7))
 
 
-def seen_at(man: FilmCamera, index: int, height: float) -> Array:
-    """Places of both players in the picture. Shape (2, 2)."""
-    view = man.view(index)
+def projected(camera: FilmCamera, index: int, height: float) -> Array:
+    """Return both players' positions in the image. Shape (2, 2)."""
+    view = camera.view(index)
     found = []
     for name in PLAYERS:
         place = [*run().tracks[name].torso[index, :2], height]
@@ -55,41 +55,43 @@ def seen_at(man: FilmCamera, index: int, height: float) -> Array:
 
 @pytest.mark.parametrize("name", ["fixed", "follow", "top"])
 @pytest.mark.parametrize("index", [0, 77, 150, 300])
-def test_both_players_are_in_the_picture_from_foot_to_head(
+def test_both_players_are_in_the_image_from_foot_to_head(
     name: str, index: int
 ) -> None:
-    man = FilmCamera(run(), name, FOVY, ASPECT)
+    camera = FilmCamera(run(), name, FOVY, ASPECT)
     for height in (0.0, 0.6):
-        places = np.abs(seen_at(man, index, height))
-        assert (places <= [0.97 * ASPECT, 0.97]).all()
+        positions = np.abs(projected(camera, index, height))
+        assert (positions <= [0.97 * ASPECT, 0.97]).all()
 
 
-def test_who_follows_comes_nearer_and_moves_calmly() -> None:
+def test_the_following_camera_is_nearer_and_moves_smoothly() -> None:
     fixed, follow = (
         FilmCamera(run(), name, FOVY, ASPECT) for name in ("fixed", "follow")
     )
     views = [follow.view(i) for i in range(len(TIMES))]
     assert views[0].distance < 0.6 * fixed.view(0).distance
-    places = np.array([[*view.target, view.distance] for view in views])
-    jerks = np.diff(places, 2, axis=0) / 0.1**2
-    assert np.abs(jerks).max() < 0.5  # [m/s2]
+    rows = np.array([[*view.target, view.distance] for view in views])
+    accelerations = np.diff(rows, 2, axis=0) / 0.1**2
+    assert np.abs(accelerations).max() < 0.5  # [m/s2]
     assert follow.reach > views[0].distance
 
 
-@pytest.mark.parametrize("turn", [(0.0, -20.0), (60.0, -32.0), (90.0, -89.9)])
-def test_a_view_frames_its_points_and_wastes_no_room(
-    turn: tuple[float, float],
+@pytest.mark.parametrize(
+    "direction", [(0.0, -20.0), (60.0, -32.0), (90.0, -89.9)]
+)
+def test_a_view_frames_its_points_tightly(
+    direction: tuple[float, float],
 ) -> None:
     points = np.random.default_rng(3).uniform(-2.0, 3.0, (50, 3))
-    view = framing(points, *turn, FOVY, ASPECT)
-    seen = np.array([view.project(p, FOVY) for p in points])
-    share = np.abs(seen) / [ASPECT, 1.0]
-    assert share.max() == pytest.approx(MARGIN)
+    view = framing(points, *direction, FOVY, ASPECT)
+    image = np.array([view.project(p, FOVY) for p in points])
+    fractions = np.abs(image) / [ASPECT, 1.0]
+    assert fractions.max() == pytest.approx(MARGIN)
 
 
-def test_the_evader_s_eyes_see_the_pursuer_in_the_middle() -> None:
-    man = FilmCamera(run(), "eyes", FOVY, ASPECT)
-    view = man.view(100)
+def test_the_evader_s_view_has_the_pursuer_in_the_center() -> None:
+    camera = FilmCamera(run(), "eyes", FOVY, ASPECT)
+    view = camera.view(100)
     pursuer, evader = (run().tracks[n].com[100] for n in PLAYERS)
     assert view.project(pursuer, FOVY) == pytest.approx((0.0, 0.0), abs=1e-9)
     eye = view.target - view.distance * view.axes[2]
@@ -99,8 +101,7 @@ def test_the_evader_s_eyes_see_the_pursuer_in_the_middle() -> None:
 
 
 @pytest.mark.parametrize("name", VIEWS)
-def test_a_view_is_that_of_mujoco_s_camera(name: str) -> None:
-    """Their axes: what is projected lies where it is drawn."""
+def test_a_view_has_the_axes_of_mujoco_s_camera(name: str) -> None:
     view = FilmCamera(run(), name, FOVY, ASPECT).view(50)
     model = mujoco.MjModel.from_xml_string("<mujoco><worldbody/></mujoco>")
     data = mujoco.MjData(model)
@@ -118,11 +119,11 @@ def test_a_view_is_that_of_mujoco_s_camera(name: str) -> None:
 @pytest.mark.parametrize(
     "way", [(1.0, 0.0, 0.0), (0.6, -0.8, 0.0), (0.1, 0.2, 0.97), (0, 0, -1)]
 )
-def test_a_bar_lies_along_its_way_and_flat_on_the_floor(
+def test_a_line_has_its_direction_and_a_horizontal_side(
     way: tuple[float, float, float],
 ) -> None:
     ahead = np.array(way) / np.linalg.norm(way)
-    turn = film_layers.turn_along(*ahead.tolist()).reshape(3, 3)
+    turn = film_layers.rotation_along(*ahead.tolist()).reshape(3, 3)
     np.testing.assert_allclose(turn @ turn.T, np.eye(3), atol=1e-12)
     assert np.linalg.det(turn) == pytest.approx(1.0)
     np.testing.assert_allclose(turn[:, 2], ahead)
@@ -130,7 +131,7 @@ def test_a_bar_lies_along_its_way_and_flat_on_the_floor(
         assert turn[2, 0] == 0.0
 
 
-def test_the_light_shines_on_what_is_looked_at() -> None:
+def test_the_light_shines_on_the_target() -> None:
     model = mujoco.MjModel.from_xml_string(
         "<mujoco><worldbody><light dir='0.3 0 -1' castshadow='true'/>"
         "</worldbody></mujoco>"
@@ -143,17 +144,17 @@ def test_the_light_shines_on_what_is_looked_at() -> None:
         model, data, mujoco.MjvOption(), None, camera, every, scene
     )
     target = np.array([5.0, -2.0, 0.3])
-    film_layers.light_up(scene, target)
+    film_layers.aim_light(scene, target)
     (light,) = [x for x in scene.lights[: scene.nlight] if x.castshadow]
     away = target - light.pos
     np.testing.assert_allclose(np.cross(away, light.dir), 0.0, atol=1e-5)
     assert away @ light.dir > 1.0
 
 
-def test_time_is_slow_about_the_closest_approach_alone() -> None:
+def test_a_film_is_slow_only_about_the_closest_approach() -> None:
     closest = 12.0
     shot = FilmSettings(slow=True, speed=2.0, rate=10.0)
-    times = np.array(shot.instants(30.0, closest))
+    times = np.array(shot.frame_times(30.0, closest))
     paces = np.diff(times) * 10.0
     near = np.abs(times[:-1] - closest)
     np.testing.assert_allclose(paces[near > AROUND], 2.0)
@@ -161,7 +162,7 @@ def test_time_is_slow_about_the_closest_approach_alone() -> None:
     assert near[paces.argmin()] <= 0.5 * AROUND + 0.2
     assert np.abs(np.diff(paces)).max() < 0.5
     plain = FilmSettings(speed=2.0, rate=10.0)
-    assert plain.instants(30.0, closest) == plain.instants(30.0)
+    assert plain.frame_times(30.0, closest) == plain.frame_times(30.0)
 
 
 def test_the_closest_approach_is_that_of_the_run() -> None:
@@ -170,10 +171,10 @@ def test_the_closest_approach_is_that_of_the_run() -> None:
     assert distance is not None and TIMES[int(np.argmin(distance))] == at
 
 
-def test_words_are_written_over_the_players_and_below() -> None:
+def test_names_are_written_above_the_players_and_values_below() -> None:
     grey = np.full((360, 640, 3), 128, dtype=np.uint8)
     view = FilmCamera(run(), "fixed", FOVY, ASPECT).view(0)
-    told = caption(grey, run(), 0, view=view, fovy=FOVY, pace=1.0)
+    told = caption(grey, run(), 0, view=view, fovy=FOVY, speed=1.0)
     assert told.shape == grey.shape and (grey == 128).all()
     assert told[-5, 300].min() > 180  # the band
     for name in PLAYERS:
@@ -186,18 +187,18 @@ def test_words_are_written_over_the_players_and_below() -> None:
             list(bytes.fromhex(getattr(PALETTES["light"], name)[1:]))
         )
         assert np.abs(chip.astype(int) - ink).sum(axis=2).min() < 60
-    fast = caption(grey, run(), 0, view=view, fovy=FOVY, pace=2.0)
+    fast = caption(grey, run(), 0, view=view, fovy=FOVY, speed=2.0)
     assert (fast != told).any()
     small = np.full((90, 160, 3), 128, dtype=np.uint8)
-    assert caption(small, run(), 0, view=view, fovy=FOVY, pace=1.0) is small
+    assert caption(small, run(), 0, view=view, fovy=FOVY, speed=1.0) is small
 
 
-def test_words_of_anybody_are_written_however_long_they_are() -> None:
+def test_untrusted_text_of_any_length_is_written() -> None:
     long = replace(run(), message="x" * 500 + "\x1b\n")
     grey = np.full((360, 640, 3), 128, dtype=np.uint8)
     view = FilmCamera(run(), "top", FOVY, ASPECT).view(0)
     last = len(TIMES) - 1
-    caption(grey, long, last, view=view, fovy=FOVY, pace=1.0)
-    titled = title_of(grey, "a\x1b[2J title")
+    caption(grey, long, last, view=view, fovy=FOVY, speed=1.0)
+    titled = draw_title(grey, "a\x1b[2J title")
     assert (titled[:40, :40] != 128).any() and (titled[100:] == 128).all()
-    assert title_of(grey, "") is grey
+    assert draw_title(grey, "") is grey

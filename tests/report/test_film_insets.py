@@ -1,4 +1,4 @@
-"""What robots see, beside the scene of a film."""
+"""Images of the robots' cameras beside the scene of a film."""
 
 from dataclasses import replace
 from functools import cache
@@ -12,38 +12,39 @@ from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.outcome import Outcome
 from stepaside.games.run import Run
-from stepaside.report import film
-from stepaside.report import film_insets as film_split
+from stepaside.report import film, film_insets
 from stepaside.report.film import FilmRenderer, FilmSettings
-from stepaside.report.film_insets import WITH_WALLS, room_beside
+from stepaside.report.film_insets import WITH_WALLS, inset_width
 from stepaside.report.scene import RunScene
 from stepaside.sim.camera_settings import RoomObject, SceneSettings
 from stepaside.sim.offscreen_rendering import PLAIN
 from stepaside.sim.room_furnishing import SIDES
 
-SEEN = 200  # brightness of all that a robot sees
+BRIGHTNESS = 200  # of every pixel of a robot's camera
 
 
-class FakeScreen:
-    """Draws one shade, and keeps by which camera."""
+class FakeRenderer:
+    """Renderer that draws one shade and records the cameras."""
 
     def __init__(self, model: Any, width: int, height: int, *more: Any):
-        """Note the size."""
+        """Store the size."""
         self.size = height, width, 3
         self.cameras: list[Any] = []
 
     def draw(self, data: Any, camera: Any, add: Any = None) -> Any:
-        """Draw for the sensors alone."""
+        """Return a bright image for a sensor, a black one for the scene."""
         self.cameras.append(camera)
-        return np.full(self.size, SEEN if add is None else 0, dtype=np.uint8)
+        return np.full(
+            self.size, BRIGHTNESS if add is None else 0, dtype=np.uint8
+        )
 
     def close(self) -> None:
-        """Be closed."""
+        """Do nothing."""
 
 
 @cache
 def short_run() -> Run:
-    """Two robots that stand and face each other."""
+    """Return a run of two standing robots that face each other."""
     start = StartSettings(distance=1.0, pursuer_offset=0.0, evader_offset=0.0)
     duel = Duel(DuelSettings(start=start))
     for _ in range(25):
@@ -53,8 +54,8 @@ def short_run() -> Run:
     return run
 
 
-def believing(bearing: float, *, since: float = 0.0) -> Run:
-    """The run in which the pursuer takes the evader to be there."""
+def with_sighting(bearing: float, *, since: float = 0.0) -> Run:
+    """Return the run with a sighting by the pursuer from a time on."""
     run = short_run()
     pursuer = run.tracks["pursuer"]
     sight = np.array([[since, bearing, 1.0, 0.0, 1.0, 0.0]])
@@ -63,20 +64,20 @@ def believing(bearing: float, *, since: float = 0.0) -> Run:
 
 
 @pytest.fixture
-def screened(monkeypatch: pytest.MonkeyPatch) -> None:
-    for place in (film, film_split):
-        monkeypatch.setattr(place, "OffscreenRenderer", FakeScreen)
+def fake_renderer(monkeypatch: pytest.MonkeyPatch) -> None:
+    for module in (film, film_insets):
+        monkeypatch.setattr(module, "OffscreenRenderer", FakeRenderer)
 
 
 def insets_of(run: Run) -> Any:
     cinema = FilmRenderer(run, FilmSettings(camera="split"), "egl")
-    cinema._stage.put(1)
+    cinema._scene.put(1)
     return cinema._insets
 
 
-@pytest.mark.usefixtures("screened")
+@pytest.mark.usefixtures("fake_renderer")
 @pytest.mark.parametrize(("width", "height"), [(1280, 720), (480, 270)])
-def test_a_split_picture_is_whole_and_half_of_it_is_what_both_see(
+def test_a_split_image_has_the_scene_beside_two_stacked_insets(
     width: int, height: int
 ) -> None:
     shot = FilmSettings(
@@ -85,54 +86,58 @@ def test_a_split_picture_is_whole_and_half_of_it_is_what_both_see(
     cinema = FilmRenderer(short_run(), shot, "egl")
     picture = cinema.picture(0.05)
     assert picture.shape == (height, width, 3)
-    beside = room_beside(width, height)
+    beside = inset_width(width, height)
     assert (picture[:, :-beside] == 0).all()
-    assert np.median(picture[: height // 2, -beside:]) == SEEN
-    assert np.median(picture[height // 2 :, -beside:]) == SEEN
+    assert np.median(picture[: height // 2, -beside:]) == BRIGHTNESS
+    assert np.median(picture[height // 2 :, -beside:]) == BRIGHTNESS
     insets: Any = cinema._insets
-    one, other = insets._screen.cameras
-    assert one != other
+    first, second = insets._renderer.cameras
+    assert first != second
     cinema.close()
 
 
 @pytest.mark.parametrize("height", [270, 720, 1080])
-def test_what_is_seen_is_four_to_three_and_never_half_the_picture(
+def test_insets_are_four_to_three_and_at_most_half_the_image(
     height: int,
 ) -> None:
-    assert room_beside(16 * height // 9, height) == 2 * round(height / 3)
-    assert room_beside(height, height) <= height / 2
+    assert inset_width(16 * height // 9, height) == 2 * round(height / 3)
+    assert inset_width(height, height) <= height / 2
 
 
-@pytest.mark.usefixtures("screened")
+@pytest.mark.usefixtures("fake_renderer")
 @pytest.mark.parametrize("bearing", [0.05, 0.2, 0.4])
-def test_the_tick_is_where_a_robot_takes_the_other_to_be(
+def test_the_tick_is_at_the_estimated_bearing(
     bearing: float,
 ) -> None:
     columns = []
     for each in (bearing, 0.0, -bearing):
-        insets = insets_of(believing(each))
+        insets = insets_of(with_sighting(each))
         number = insets._cameras["pursuer"]
-        columns.append(insets._believed("pursuer", 1, number))
+        columns.append(insets._estimated_column("pursuer", 1, number))
     left, middle, right = columns
     assert left < middle < right
     assert left + right == pytest.approx(2.0 * middle, abs=5e-3)
     assert middle == pytest.approx(0.5, abs=5e-3)
-    # Nearly as far aside as its tangent says: the camera is before the torso.
-    half = 0.5 * insets._seen.width / insets._seen.focal_x
+    # Approximately: the camera is in front of the torso.
+    half = 0.5 * insets._model.width / insets._model.focal_x
     aside = 0.5 + 0.5 * np.tan(bearing) / half
     assert right == pytest.approx(aside, abs=0.15 * bearing)
 
 
-@pytest.mark.usefixtures("screened")
-def test_there_is_no_tick_of_what_is_behind_or_not_known_yet() -> None:
-    for run in (believing(3.0), believing(1.2), believing(0.0, since=9.0)):
+@pytest.mark.usefixtures("fake_renderer")
+def test_there_is_no_tick_outside_the_image_or_before_a_sighting() -> None:
+    for run in (
+        with_sighting(3.0),
+        with_sighting(1.2),
+        with_sighting(0.0, since=9.0),
+    ):
         insets = insets_of(run)
         number = insets._cameras["pursuer"]
-        assert insets._believed("pursuer", 1, number) is None
+        assert insets._estimated_column("pursuer", 1, number) is None
 
 
 def cluttered() -> Run:
-    """The run of robots that see boxes and walls."""
+    """Return the run in a room with an object and walls."""
     room = SceneSettings(things=[RoomObject("red box", 1.0, 2.0)], walls=4.0)
     run = short_run()
     start = StartSettings(distance=1.0, pursuer_offset=0.0, evader_offset=0.0)
@@ -140,7 +145,7 @@ def cluttered() -> Run:
     return replace(run, settings=settings)
 
 
-def test_things_stand_in_a_film_and_walls_in_what_is_seen_alone() -> None:
+def test_objects_are_in_the_scene_and_walls_only_in_the_insets() -> None:
     model = RunScene(cluttered()).model
     assert model.body("thing 0").pos[:2].tolist() == [1.0, 2.0]
     box = model.body("thing 0").geomadr[0]
@@ -153,12 +158,12 @@ def test_things_stand_in_a_film_and_walls_in_what_is_seen_alone() -> None:
     assert bare.ngeom < model.ngeom and bare.nq == model.nq
 
 
-@pytest.mark.usefixtures("screened")
+@pytest.mark.usefixtures("fake_renderer")
 def test_a_run_without_a_robot_s_camera_is_refused(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     run = short_run()
     stage = RunScene(run)
-    monkeypatch.setattr(film_split, "_cameras", lambda run: {})
+    monkeypatch.setattr(film_insets, "_cameras", lambda run: {})
     with pytest.raises(ConfigurationError, match="has none"):
-        film_split.FilmInsets(run, stage, "egl", (480, 720))
+        film_insets.FilmInsets(run, stage, "egl", (480, 720))

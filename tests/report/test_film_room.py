@@ -1,4 +1,4 @@
-"""Films of rooms: near walls hide nobody, and rings have names."""
+"""Films of rooms: near walls hide no player, and rings have labels."""
 
 from math import cos, sin
 
@@ -11,9 +11,9 @@ from stepaside.arena import Door, Room
 from stepaside.games.duel_run import DuelRun
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.trajectory import Trajectory
+from stepaside.report.film import hidden_walls, walls_before
 from stepaside.report.film_camera import FilmCamera
-from stepaside.report.film_captions import rings_of
-from stepaside.report.film_walls import see_through, walls_before
+from stepaside.report.film_captions import ring_labels
 from stepaside.sim.camera_settings import SceneSettings
 from stepaside.sim.obstacle_geoms import add_solids
 
@@ -21,14 +21,14 @@ SHAPES = [(3.0, 3.0), (2.0, 8.0), (9.0, 1.6)]
 
 
 def model_of(room: Room) -> mujoco.MjModel:
-    """A world with a room alone."""
+    """Return a model of only a room."""
     spec = mujoco.MjSpec()
     add_solids(spec, room)
     return spec.compile()
 
 
 @pytest.mark.parametrize("shape", SHAPES)
-def test_walls_between_a_camera_and_the_room_are_hidden_for_a_picture(
+def test_walls_between_the_camera_and_the_room_are_hidden_for_one_image(
     shape: tuple[float, float],
 ) -> None:
     width, depth = shape
@@ -48,7 +48,7 @@ def test_walls_between_a_camera_and_the_room_are_hidden_for_a_picture(
         }
         assert set(walls_before(model, eye)) == wanted
         before = model.geom_rgba.copy()
-        with see_through(model, eye):
+        with hidden_walls(model, eye):
             hidden = np.flatnonzero(model.geom_rgba[:, 3] == 0.0)
             assert set(hidden.tolist()) == wanted
         np.testing.assert_array_equal(model.geom_rgba, before)
@@ -57,7 +57,7 @@ def test_walls_between_a_camera_and_the_room_are_hidden_for_a_picture(
 
 
 def still(plan: Room | None) -> DuelRun:
-    """Two players that stand near the middle."""
+    """Return a run of two standing players near the center."""
     times = np.linspace(0.0, 2.0, 21)
     tracks = {}
     for name, x in (("pursuer", -0.3), ("evader", 0.4)):
@@ -69,7 +69,7 @@ def still(plan: Room | None) -> DuelRun:
 
 @pytest.mark.parametrize("shape", SHAPES)
 @pytest.mark.parametrize("aspect", [0.6, 1.8])
-def test_all_of_a_room_is_in_a_film_from_above(
+def test_the_top_view_of_a_film_shows_the_whole_room(
     shape: tuple[float, float], aspect: float
 ) -> None:
     room = Room(width=shape[0], depth=shape[1])
@@ -81,9 +81,9 @@ def test_all_of_a_room_is_in_a_film_from_above(
             assert abs(seen[0]) < aspect and abs(seen[1]) < 1.0
 
 
-def test_every_ring_of_a_film_has_its_name_on_it() -> None:
+def test_the_label_of_a_ring_is_on_the_ring() -> None:
     run = still(None)
-    ((text, place, _),) = rings_of(run, 3)
-    assert text == "safety area 0.8 m"
+    ((text, place, _),) = ring_labels(run, 3)
+    assert text == "safety radius 0.8 m"
     away = place[:2] - run.evader.torso[3, :2]
     assert np.hypot(*away) == pytest.approx(0.8, rel=1e-2)

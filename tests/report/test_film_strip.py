@@ -1,4 +1,4 @@
-"""A strip of a film: evenly over its time, each picture over its top view."""
+"""Film strip: images evenly over time, each above its top view."""
 
 from collections.abc import Iterator
 from functools import cache
@@ -13,15 +13,15 @@ from stepaside.games.duel_settings import PLAYERS
 from stepaside.games.run import Run
 from stepaside.games.trajectory import Trajectory
 from stepaside.report import film_strip
-from stepaside.report.film import FilmSettings, instants_of
-from stepaside.report.film_strip import FRAMES, spread, write_strip
+from stepaside.report.film import FilmSettings, frame_times_of
+from stepaside.report.film_strip import FRAMES, strip_settings, write_strip
 
 TIMES = np.linspace(0.0, 30.0, 301)
 
 
 @cache
 def run() -> Run:
-    """Two who walk apart."""
+    """Return a run of two players that walk apart."""
     tracks = {
         name: Trajectory(
             com=np.column_stack([way, 0.1 * TIMES, 0.27 + 0.0 * TIMES]),
@@ -35,15 +35,15 @@ def run() -> Run:
 @pytest.mark.parametrize(
     ("begin", "duration", "end"), [(0.0, 100.0, 30.0), (4.0, 12.0, 16.0)]
 )
-def test_pictures_are_evenly_spread_from_begin_to_end(
+def test_images_are_evenly_spaced_from_begin_to_end(
     begin: float, duration: float, end: float
 ) -> None:
-    asked = FilmSettings(begin=begin, duration=duration, speed=3.0, slow=True)
-    times = instants_of(run(), spread(asked, 30.0))
+    film = FilmSettings(begin=begin, duration=duration, speed=3.0, slow=True)
+    times = frame_times_of(run(), strip_settings(film, 30.0))
     np.testing.assert_allclose(times, np.linspace(begin, end, FRAMES))
 
 
-def test_a_strip_has_each_picture_over_its_view_from_above(
+def test_a_strip_has_each_image_above_its_top_view(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     drawn: list[float] = []
@@ -58,13 +58,14 @@ def test_a_strip_has_each_picture_over_its_view_from_above(
     monkeypatch.setattr(film_strip, "load_run", lambda folder: run())
     monkeypatch.setattr(film_strip, "pictures", shades)
     monkeypatch.setattr(film_strip, "draw_top", top)
-    file, told = tmp_path / "strip.png", list[tuple[int, int]]()
+    file = tmp_path / "strip.png"
+    reported: list[tuple[int, int]] = []
     count = write_strip(
         tmp_path,
         file,
         FilmSettings(),
-        lambda done, every: told.append((done, every)),
+        lambda done, total: reported.append((done, total)),
     )
     assert count == FRAMES and file.stat().st_size > 0
     np.testing.assert_allclose(drawn, [0.0, 10.0, 20.0, 30.0])
-    assert told == [(done, FRAMES) for done in range(1, FRAMES + 1)]
+    assert reported == [(done, FRAMES) for done in range(1, FRAMES + 1)]

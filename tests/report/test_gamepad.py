@@ -7,7 +7,7 @@ import pytest
 
 pytest.importorskip("viser")
 
-from stepaside.report.viewer.gamepad import held_by  # noqa: E402
+from stepaside.report.viewer.gamepad import parse_position  # noqa: E402
 from stepaside.report.viewer.page_server import PageServer, open_server  # noqa: E402
 
 Held = list[tuple[float, bool]]
@@ -49,7 +49,7 @@ def ask(served: PageServer, path: str, **headers: str) -> tuple[int, str]:
 def test_only_a_stick_that_can_be_held_so_is_heard(
     query: str, held: tuple[float, bool] | None
 ) -> None:
-    assert held_by(query) == held
+    assert parse_position(query) == held
 
 
 def test_a_stick_is_on_the_page_that_attends_and_tells_how_it_is_held(
@@ -58,7 +58,7 @@ def test_a_stick_is_on_the_page_that_attends_and_tells_how_it_is_held(
     assert "stick.js" not in ask(served, "/")[1]
     assert ask(served, "/hand?turn=0&going=1")[0] == 404
     held: Held = []
-    served.hand.attend(lambda turn, going: held.append((turn, going)))
+    served.joystick.connect(lambda turn, going: held.append((turn, going)))
     status, page = ask(served, "/")
     assert status == 200 and page.count('<script src="stick.js"') == 1
     status, script = ask(served, "/stick.js")
@@ -71,7 +71,7 @@ def test_a_stick_is_on_the_page_that_attends_and_tells_how_it_is_held(
 def test_pages_of_elsewhere_hold_no_stick(served: PageServer) -> None:
     """An image or a form elsewhere sends no header of ours; nor a script."""
     held: Held = []
-    served.hand.attend(lambda turn, going: held.append((turn, going)))
+    served.joystick.connect(lambda turn, going: held.append((turn, going)))
     asked = "/hand?turn=1&going=1"
     assert ask(served, asked)[0] == 400
     elsewhere = {"X-Stepaside": "hand", "Origin": "http://evil.example"}

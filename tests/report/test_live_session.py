@@ -22,7 +22,7 @@ from stepaside.report.viewer import live_session as live
 from stepaside.report.viewer import plot_history as trails
 from stepaside.report.viewer import run_saving as saving
 from stepaside.report.viewer.live_session import LiveSession
-from stepaside.report.viewer.status_text import outlook, words_of
+from stepaside.report.viewer.status_text import outlook, status_text
 from stepaside.strategies.teleoperation import TURN, TeleoperatedPursuit
 
 START = StartSettings(distance=1.0, pursuer_offset=0.0, evader_offset=0.0)
@@ -155,7 +155,7 @@ def test_time_passes_at_the_speed_asked_for(
 ) -> None:
     took, made = time_for(clock, speed)
     assert took * speed == pytest.approx(1.5, abs=0.015)
-    assert made.factor == pytest.approx(speed, rel=0.05)
+    assert made.real_time_factor == pytest.approx(speed, rel=0.05)
 
 
 def test_a_short_delay_is_made_up_and_a_long_one_is_not(clock: Clock) -> None:
@@ -163,14 +163,14 @@ def test_a_short_delay_is_made_up_and_a_long_one_is_not(clock: Clock) -> None:
         return lambda time: length if abs(time - 0.5) < 1e-9 else 0.0
 
     assert time_for(clock, 1.0, hitch(0.1))[0] == pytest.approx(1.5, abs=0.02)
-    assert 0.1 < live.BEHIND < 3.0
+    assert 0.1 < live.MAX_DELAY < 3.0
     assert time_for(clock, 1.0, hitch(3.0))[0] == pytest.approx(4.5, abs=0.02)
 
 
 def test_a_slow_machine_is_told_by_the_factor(clock: Clock) -> None:
     took, made = time_for(clock, 1.0, lambda time: 0.008)
     assert took == pytest.approx(3.0, abs=0.02)
-    assert made.factor == pytest.approx(0.5, rel=0.05)
+    assert made.real_time_factor == pytest.approx(0.5, rel=0.05)
 
 
 def test_a_push_changes_the_run() -> None:
@@ -180,10 +180,10 @@ def test_a_push_changes_the_run() -> None:
         made.speed = inf
         way: list[float] = []
 
-        def note(duel: Duel, way: list[float] = way) -> None:
+        def record_command(duel: Duel, way: list[float] = way) -> None:
             way.append(float(duel.players[0].truth.com[1]))
 
-        look_on(made.duel, note)
+        look_on(made.duel, record_command)
         made.push(0, impulse, pi / 2)
         run_until(made, 1.0)
         made.close()
@@ -268,9 +268,9 @@ def test_history_is_bounded(
     session: LiveSession, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """What is full forgets its oldest, so that a page can stay open."""
-    assert session.trail.history.maxlen == trails.HISTORY
-    monkeypatch.setattr(trails, "HISTORY", 4)
-    monkeypatch.setattr(trails, "TRACE", 3)
+    assert session.trail.history.maxlen == trails.MAX_SAMPLES
+    monkeypatch.setattr(trails, "MAX_SAMPLES", 4)
+    monkeypatch.setattr(trails, "MAX_TRACE", 3)
     session.reset()
     # What is true at 1.0 s is noted by the tick that begins then.
     run_until(session, 1.004)
@@ -289,13 +289,13 @@ def test_history_is_bounded(
         ((Phase.WALKING, Phase.WALKING), 0.5, 120.0, "evading"),
         ((Phase.WALKING, Phase.WALKING), 0.91, 91.0, "on the circle"),
         ((Phase.FALLEN, Phase.WALKING), 0.91, 91.0, "pursuer fell"),
-        ((Phase.WALKING, Phase.HALTING), 0.91, 91.0, "comes to rest"),
+        ((Phase.WALKING, Phase.HALTING), 0.91, 91.0, "**halting**"),
     ],
 )
 def test_words_say_what_goes_on(
     phases: tuple[Phase, Phase], distance: float, angle: float, expected: str
 ) -> None:
-    words = words_of(phases, distance, angle, 0.8, (0.9, 90.0))
+    words = status_text(phases, distance, angle, 0.8, (0.9, 90.0))
     assert expected in words
 
 
@@ -303,7 +303,7 @@ def test_of_a_live_duel_the_first_minutes_are_kept(
     session: LiveSession, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """What would grow for ever is cut."""
-    monkeypatch.setattr(saving, "KEPT", 1.0)
+    monkeypatch.setattr(saving, "MAX_RECORDED", 1.0)
     run_until(session, 2.0)
     duel = session.duel
     assert duel.world.time >= 2.0
@@ -316,17 +316,17 @@ def test_what_was_played_is_saved_with_pushes_and_commands(
     session: LiveSession, tmp_path: Path
 ) -> None:
     kept = saving.RunSaver(tmp_path)
-    with pytest.raises(StepAsideError, match="nothing has been played"):
+    with pytest.raises(StepAsideError, match="nothing has been recorded"):
         session.save(kept)
     run_until(session, 0.6)
     session.push(1, 0.2, 0.0)
-    session.note(turn=1.0, going=True)
+    session.record_command(turn=1.0, going=True)
     run_until(session, 1.2)
     folder = session.save(kept)
     run = load_run(folder)
     assert run.tracks["evader"].pushes is not None
     assert run.times[-1] >= 1.0 and folder.parent == tmp_path
-    (asked,) = json.loads((folder / saving.HAND).read_text())
+    (asked,) = json.loads((folder / saving.COMMAND_FILE).read_text())
     assert asked["turn"] == 1.0 and 0.5 < asked["time_s"] <= 1.2
     again = session.save(kept)
     assert again.name == f"{folder.name}-2"
@@ -335,7 +335,7 @@ def test_what_was_played_is_saved_with_pushes_and_commands(
 def test_a_page_saves_a_few_runs_at_most(
     session: LiveSession, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(saving, "MOST", 0)
+    monkeypatch.setattr(saving, "MAX_FOLDERS", 0)
     with pytest.raises(StepAsideError, match="must be at most 0"):
         session.save(saving.RunSaver(tmp_path))
     assert list(tmp_path.iterdir()) == []

@@ -28,7 +28,7 @@ def test_the_page_comes_whatever_encodings_are_accepted(
     scripts = PageScripts("stick.js")
     scripts.add("stick.js")
     connection: Any = SimpleNamespace()
-    page = scripts.answering(answer)(connection, Request("/", Headers(sent)))
+    page = scripts.handle(answer)(connection, Request("/", Headers(sent)))
     assert page is not None
     assert bytes(page.body).count(b'<script src="stick.js" defer>') == 1
     assert "Accept-Encoding" not in asked[0].headers

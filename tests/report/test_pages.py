@@ -166,7 +166,7 @@ def test_a_robot_is_pulled_with_the_pointer_and_driven_by_hand(
         page = open_page(browser, width=900, has_touch=True)
         page.goto(f"http://127.0.0.1:{live.server.get_port()}")
         page.get_by_text("standing").first.wait_for()
-        # By the evader's eyes the pursuer is in the middle.
+        # By the evader's view the pursuer is in the middle.
         box = page.locator("canvas").first.bounding_box()
         x = box["x"] + 0.5 * box["width"]
         y = box["y"] + 0.5 * box["height"]
@@ -179,7 +179,7 @@ def test_a_robot_is_pulled_with_the_pointer_and_driven_by_hand(
             pointer meets is where it was drawn last.
             """
             with looking(page):
-                for camera in ("top", "evader's eyes"):
+                for camera in ("top", "evader's view"):
                     press(page, camera)
                     page.wait_for_timeout(50)
                 page.evaluate(FRAMES)
@@ -356,7 +356,7 @@ def test_robots_stand_on_the_page_where_the_numbers_say(
     stage = RunScene(run)
     for time in (0.0, 1.0, 2.0):
         page.evaluate(f"stepaside.seek({time})")
-        places = page.evaluate("stepaside.places()")
+        places = page.evaluate("stepaside.positions()")
         index = min(round(time / 0.02), len(run.times) - 1)
         for name in ("pursuer", "evader"):
             body = stage.model.body(f"{name}/torso").id
@@ -396,9 +396,9 @@ def test_nothing_in_a_run_folder_runs_in_its_page(
     page, wrong = flat
     page.goto((tmp_path / "run.html").as_uri())
     assert page.inner_text("#clock") == "0.0 s"
-    page.get_by_text("draws no 3D").wait_for()
+    page.get_by_text("No 3D view").wait_for()
     page.fill("#time", page.get_attribute("#time", "max"))
-    assert page.text_content("#words") == visible(text)
+    assert page.text_content("#message") == visible(text)
     assert page.text_content("h1") == visible(there.name)
     assert page.locator("img, iframe, svg").count() == 0
     assert page.locator("script").count() == 3

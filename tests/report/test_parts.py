@@ -1,13 +1,13 @@
-"""Parts of a model as pages draw them, and the colours of pages."""
+"""Visible geoms of a model, colours of pages, and three.js."""
 
 import mujoco
 import numpy as np
 import pytest
 
 from stepaside.core.errors import ConfigurationError
-from stepaside.report import replay_page as library
-from stepaside.report.palette import LIGHTS, PALETTES, contrast
-from stepaside.report.visual_geoms import parts_of
+from stepaside.report import replay_page
+from stepaside.report.palette import PALETTES, THEMES, contrast
+from stepaside.report.visual_geoms import visual_geoms_of
 
 MODEL = """
 <mujoco>
@@ -29,57 +29,58 @@ quat="0.7071067811865476 0 0.7071067811865476 0"/>
 """
 
 
-def test_parts_lie_in_their_body_as_they_are() -> None:
+def test_geoms_keep_their_shape_pose_and_colour() -> None:
     model = mujoco.MjModel.from_xml_string(MODEL)
-    wall, thing, capsule, sphere, box, cylinder, ellipsoid, mesh = parts_of(
-        model
+    wall, obstacle, capsule, sphere, box, cylinder, ellipsoid, mesh = (
+        visual_geoms_of(model)
     )
-    assert (wall.body, thing.body, capsule.body) == (0, 0, 1)
-    assert (wall.is_wall, thing.is_wall, box.is_wall) == (True, False, False)
+    assert (wall.body, obstacle.body, capsule.body) == (0, 0, 1)
+    walls = (wall.is_wall, obstacle.is_wall, box.is_wall)
+    assert walls == (True, False, False)
     kinds = [p.kind for p in (capsule, sphere, box, cylinder, ellipsoid)]
     assert kinds == ["capsule", "sphere", "box", "cylinder", "ellipsoid"]
     np.testing.assert_allclose(capsule.size[:2], [0.02, 0.1])
-    np.testing.assert_allclose(capsule.place, [0.5, 0.0, 0.0])
+    np.testing.assert_allclose(capsule.position, [0.5, 0.0, 0.0])
     half = 0.5**0.5
-    np.testing.assert_allclose(capsule.turn, [half, 0.0, half, 0.0])
+    np.testing.assert_allclose(capsule.quaternion, [half, 0.0, half, 0.0])
     assert capsule.colour == (255, 0, 0) and sphere.colour == (0, 127, 0)
     np.testing.assert_allclose(box.size, [0.1, 0.4, 0.025])
-    told = box.to_json()
-    assert told["colour"] == "#0000ff" and told["kind"] == "box"
-    assert told["place"] == [0.0, 0.0, 1.0] and told["body"] == 1
-    assert mesh.kind == "mesh" and mesh.shell is not None
-    frame = np.zeros(9)
-    mujoco.mju_quat2Mat(frame, mesh.turn)
-    corners = mesh.shell.corners @ frame.reshape(3, 3).T + mesh.place
-    wanted = np.array([[0, 0, 0], [0, 0, 0.6], [0, 0.2, 0], [0.4, 0, 0]])
-    order = np.lexsort(np.round(corners, 6).T[::-1])
-    np.testing.assert_allclose(corners[order], wanted, atol=1e-6)
-    told = mesh.to_json()
-    assert len(told["corners"]) == len(told["faces"]) == 4
+    values = box.to_json()
+    assert values["colour"] == "#0000ff" and values["kind"] == "box"
+    assert values["position"] == [0.0, 0.0, 1.0] and values["body"] == 1
+    assert mesh.kind == "mesh" and mesh.mesh is not None
+    rotation = np.zeros(9)
+    mujoco.mju_quat2Mat(rotation, mesh.quaternion)
+    vertices = mesh.mesh.vertices @ rotation.reshape(3, 3).T + mesh.position
+    expected = np.array([[0, 0, 0], [0, 0, 0.6], [0, 0.2, 0], [0.4, 0, 0]])
+    order = np.lexsort(np.round(vertices, 6).T[::-1])
+    np.testing.assert_allclose(vertices[order], expected, atol=1e-6)
+    values = mesh.to_json()
+    assert len(values["vertices"]) == len(values["faces"]) == 4
 
 
-@pytest.mark.parametrize("light", LIGHTS)
-def test_words_and_lines_of_pages_can_be_told_from_what_is_behind(
-    light: str,
-) -> None:
-    """Words at 4.5 to 1, lines at 3 to 1, as WCAG asks."""
-    here = PALETTES[light]
-    for word in ("ink", "soft", "pursuer", "evader", "theory", "mean"):
-        assert contrast(getattr(here, word), here.paper) > 4.5
+@pytest.mark.parametrize("theme", THEMES)
+def test_text_and_lines_of_pages_have_the_contrast_of_wcag(theme: str) -> None:
+    """Text at least 4.5 to 1, lines at least 3 to 1."""
+    palette = PALETTES[theme]
+    for text in ("ink", "soft", "pursuer", "evader", "theory", "mean"):
+        assert contrast(getattr(palette, text), palette.paper) > 4.5
     for line in ("pursuer", "evader", "theory", "support"):
-        for behind in ("floor", "tile", "sky", "paper"):
-            ratio = contrast(getattr(here, line), getattr(here, behind))
-            assert ratio > 3.0, (line, behind)
+        for background in ("floor", "tile", "sky", "paper"):
+            ratio = contrast(
+                getattr(palette, line), getattr(palette, background)
+            )
+            assert ratio > 3.0, (line, background)
 
 
-def test_contrast_is_that_of_the_standard() -> None:
+def test_contrast_agrees_with_wcag() -> None:
     assert contrast("#000000", "#ffffff") == pytest.approx(21.0)
     assert contrast("#777777", "#ffffff") == pytest.approx(4.48, abs=0.005)
     assert contrast("#1f5fbf", "#1f5fbf") == 1.0
 
 
-def test_the_library_is_three_with_its_licence_and_nothing_more() -> None:
-    text = library.three()
+def test_three_js_has_its_licence_and_nothing_else_is_included() -> None:
+    text = replay_page.three_js()
     assert text.startswith("/**\n * @license\n")
     assert "SPDX-License-Identifier: MIT" in text[:200]
     assert "THREE={}" in text[:600]
@@ -87,11 +88,13 @@ def test_the_library_is_three_with_its_licence_and_nothing_more() -> None:
     assert "TrackballControls" not in text and "GLTFLoader" not in text
 
 
-def test_a_trimesh_without_three_is_named(
+def test_a_trimesh_without_three_js_is_refused(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    library.three.cache_clear()
-    monkeypatch.setattr(library, "TEMPLATE", "another.html")
-    with pytest.raises(ConfigurationError, match="trimesh that brings three"):
-        library.three()
-    library.three.cache_clear()
+    replay_page.three_js.cache_clear()
+    monkeypatch.setattr(replay_page, "TEMPLATE", "another.html")
+    with pytest.raises(
+        ConfigurationError, match="trimesh that contains three"
+    ):
+        replay_page.three_js()
+    replay_page.three_js.cache_clear()

@@ -1,4 +1,4 @@
-"""Runs seen again: offline page, films, comparison."""
+"""Replay of a run: page from disk, films, comparison."""
 
 import json
 import re
@@ -11,7 +11,7 @@ from stepaside.cli.main import main
 from stepaside.core.errors import ConfigurationError
 from stepaside.games.run_archive import load_run
 from stepaside.report.film import FilmSettings
-from stepaside.report.replay_page import three, write_page
+from stepaside.report.replay_page import three_js, write_page
 from stepaside.sim.offscreen_rendering import RAYCAST, choose_renderer
 
 needs_graphics = pytest.mark.skipif(
@@ -42,8 +42,8 @@ def test_the_page_needs_nothing_from_outside(
 ) -> None:
     file = tmp_path / "run.html"
     write_page(load_run(run), file)
-    # three.js names where its bugs are told; the policy lets it go nowhere.
-    text = file.read_text(encoding="utf-8").replace(three(), "")
+    # three.js contains the address of its bug tracker; the policy blocks it.
+    text = file.read_text(encoding="utf-8").replace(three_js(), "")
     assert "default-src 'none'" in text and "connect-src" not in text
     assert not re.search(r"(src|href)\s*=|https?://|@@", text)
     assert [p.name for p in tmp_path.iterdir()] == ["run.html"]
@@ -52,14 +52,16 @@ def test_the_page_needs_nothing_from_outside(
 def test_two_minutes_fit_into_six_megabytes(run: Path, tmp_path: Path) -> None:
     file = tmp_path / "run.html"
     write_page(load_run(run), file)
-    once = len(three())
-    # What grows with time is at most all the rest.
-    rest = file.stat().st_size - once
-    assert once + rest * 120.0 / 6.0 < 6e6
+    constant = len(three_js())
+    # Upper bound: everything else grows with time.
+    rest = file.stat().st_size - constant
+    assert constant + rest * 120.0 / 6.0 < 6e6
 
 
 @needs_graphics
-def test_a_film_has_the_pictures_it_should(run: Path, tmp_path: Path) -> None:
+def test_a_film_has_the_requested_size_and_number_of_frames(
+    run: Path, tmp_path: Path
+) -> None:
     av = pytest.importorskip("av")
     file = tmp_path / "run.mp4"
     code, out, _ = invoke(
@@ -84,21 +86,23 @@ def test_a_gif_moves(run: Path, tmp_path: Path) -> None:
     file = tmp_path / "run.gif"
     code, _, _ = invoke(
         *("replay", str(run), "--gif", str(file), "--duration", "0.5"),
-        *("--width", "96", "--height", "72", "--camera", "following"),
+        *("--width", "96", "--height", "72", "--camera", "follow"),
     )
     assert code == 0
     assert image.open(file).n_frames == 6
 
 
-def test_a_film_knows_its_instants() -> None:
-    shot = FilmSettings(rate=10.0, speed=2.0, begin=1.0, duration=4.0)
-    instants = shot.instants(100.0)
-    assert instants[0] == 1.0 and instants[-1] == pytest.approx(5.0)
-    assert len(instants) == 21
-    assert shot.instants(0.5) == []
+def test_frame_times_follow_from_rate_speed_and_duration() -> None:
+    settings = FilmSettings(rate=10.0, speed=2.0, begin=1.0, duration=4.0)
+    times = settings.frame_times(100.0)
+    assert times[0] == 1.0 and times[-1] == pytest.approx(5.0)
+    assert len(times) == 21
+    assert settings.frame_times(0.5) == []
 
 
-def test_comparison_draws_and_tells(run: Path, tmp_path: Path) -> None:
+def test_a_comparison_is_drawn_and_its_file_reported(
+    run: Path, tmp_path: Path
+) -> None:
     file = tmp_path / "both.png"
     code, out, _ = invoke(
         "compare", str(run), str(run), "--output", str(file), "--json"
@@ -107,13 +111,15 @@ def test_comparison_draws_and_tells(run: Path, tmp_path: Path) -> None:
     assert json.loads(out)["figure"] == str(file)
 
 
-def test_what_is_no_run_is_refused(tmp_path: Path) -> None:
+def test_a_folder_without_a_run_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ConfigurationError, match="has no configuration"):
         load_run(tmp_path)
     code, out, err = invoke("replay", str(tmp_path))
     assert code == 2 and out == "" and err.count("\n") == 1
 
 
-def test_words_follow_the_run(run: Path) -> None:
+def test_the_message_of_the_first_sample_is_that_players_stand(
+    run: Path,
+) -> None:
     loaded = load_run(run)
     assert "stands" in loaded.words(0)

@@ -26,7 +26,7 @@ from stepaside.report.figure_style import COLOURS, THEORY
 from stepaside.report.film import FilmRenderer, FilmSettings
 from stepaside.report.replay_page import write_page
 from stepaside.report.scene import RunScene
-from stepaside.report.visual_geoms import parts_of
+from stepaside.report.visual_geoms import visual_geoms_of
 from stepaside.sim.offscreen_rendering import RAYCAST
 
 TIMES: Array = 0.02 * np.arange(102, dtype=float)  # 2.02 s
@@ -90,11 +90,11 @@ def test_a_page_without_frequent_samples_shows_them_all(
 
 
 def poses(shown: Any) -> tuple[Array, Array]:
-    """Places [m] and turns of the page's bodies, by sample and body."""
+    """Return positions [m] and quaternions by sample and body."""
     shape = (len(shown["times"]), len(shown["bodies"]))
-    places = np.frombuffer(b64decode(shown["places"]), dtype="<f4")
-    turns = np.frombuffer(b64decode(shown["turns"]), dtype="<i2")
-    return places.reshape(*shape, 3), turns.reshape(*shape, 4) / 32767.0
+    positions = np.frombuffer(b64decode(shown["positions"]), dtype="<f4")
+    turns = np.frombuffer(b64decode(shown["quaternions"]), dtype="<i2")
+    return positions.reshape(*shape, 3), turns.reshape(*shape, 4) / 32767.0
 
 
 @pytest.mark.parametrize("away", [0.0, 7.0, -3000.0])
@@ -108,7 +108,7 @@ def test_bodies_on_the_page_are_where_they_were(
     shown = content(run, tmp_path)
     places, turns = poses(shown)
     stage = RunScene(run)
-    seen = {part.body for part in parts_of(stage.model)} - {0}
+    seen = {part.body for part in visual_geoms_of(stage.model)} - {0}
     assert shown["bodies"] == sorted(seen)
     for row, index in ((0, 0), (20, 40), (51, 101)):
         stage.put(index)
@@ -131,9 +131,9 @@ def test_a_page_tells_what_the_run_tells(tmp_path: Path) -> None:
     run = made()
     shown = content(run, tmp_path)
     chosen = [*range(0, 101, 2), 101]
-    said = [shown["words"][number] for number in shown["says"]]
+    said = [shown["messages"][number] for number in shown["message_index"]]
     assert said == [run.words(index) for index in chosen]
-    assert len(set(said)) == 4 == len(shown["words"])
+    assert len(set(said)) == 4 == len(shown["messages"])
     cycle = 2.0 * run.settings.gait.step_duration
     for key, values, size in (
         ("distance", run.distance, 5e-4),
@@ -154,12 +154,12 @@ def test_a_page_tells_what_the_run_tells(tmp_path: Path) -> None:
         [track.torso[:, :2] for track in run.tracks.values()]
     )
     middle = 0.5 * (both.min(axis=0) + both.max(axis=0))
-    np.testing.assert_allclose(shown["middle"], middle, atol=6e-4)
+    np.testing.assert_allclose(shown["center"], middle, atol=6e-4)
     size = np.hypot(*(both.max(axis=0) - both.min(axis=0)))
-    assert shown["away"] == pytest.approx(1.4 + 1.05 * size)
+    assert shown["camera_distance"] == pytest.approx(1.4 + 1.05 * size)
     stage = RunScene(run)
     for robot, name in zip(
-        shown["robots"], ("pursuer", "evader"), strict=True
+        shown["players"], ("pursuer", "evader"), strict=True
     ):
         assert robot["name"] == name
         assert stage.model.body(robot["torso"]).name == f"{name}/torso"
@@ -190,7 +190,7 @@ def test_a_page_of_a_person_has_its_way_but_no_footsteps(
     )
     run = replace(run_duel(settings), name="a </b> run")
     shown = content(run, tmp_path)
-    person, robot = shown["robots"]
+    person, robot = shown["players"]
     assert (person["name"], robot["name"]) == ("pursuer", "evader")
     model = RunScene(run).model
     assert model.body(person["torso"]).name == "pursuer/trunk"
@@ -202,8 +202,8 @@ def test_a_page_of_a_person_has_its_way_but_no_footsteps(
     )
     bodies = {part["body"] for part in shown["parts"]}
     assert {person["torso"], robot["torso"]} <= bodies & set(shown["bodies"])
-    # A person's name stands higher than a robot's.
-    assert person["head"] + 1.0 > robot["head"] > 0.1
+    # Heights over the torso: a person's trunk is a body on the floor.
+    assert person["label_height"] + 1.0 > robot["label_height"] > 0.1
 
 
 @pytest.mark.parametrize(
@@ -224,10 +224,10 @@ def test_a_page_of_a_person_has_its_way_but_no_footsteps(
 def test_pictures_of_a_film_are_evenly_spaced(
     shot: FilmSettings, last: float, expected: list[float]
 ) -> None:
-    np.testing.assert_allclose(shot.instants(last), expected, atol=1e-12)
+    np.testing.assert_allclose(shot.frame_times(last), expected, atol=1e-12)
 
 
-class FakeScreen:
+class FakeRenderer:
     """Keeps what it was asked to draw."""
 
     def __init__(self, model: Any, *asked: Any):
@@ -246,13 +246,13 @@ class FakeScreen:
 
 
 @pytest.fixture
-def screened(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(film, "OffscreenRenderer", FakeScreen)
+def fake_renderer(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(film, "OffscreenRenderer", FakeRenderer)
 
 
 def filmed(shot: FilmSettings, time: float) -> tuple[Any, Any, Any]:
     cinema = FilmRenderer(made(), shot, "egl")
-    screen: Any = cinema._screen
+    screen: Any = cinema._renderer
     width, height, backend, look = screen.asked
     assert (width, height, backend) == (shot.width, shot.height, "egl")
     assert look.samples >= 4 and look.shadow >= 1024
@@ -263,7 +263,7 @@ def filmed(shot: FilmSettings, time: float) -> tuple[Any, Any, Any]:
     return found  # type: ignore[no-any-return]
 
 
-@pytest.mark.usefixtures("screened")
+@pytest.mark.usefixtures("fake_renderer")
 @pytest.mark.parametrize(
     ("time", "index"), [(0.0, 0), (1.0, 50), (1.01, 51), (2.02, 101), (9, 101)]
 )
@@ -329,7 +329,7 @@ def test_lines_of_a_film_lie_where_the_run_was() -> None:
         frame[:2, 0], [np.cos(heading), np.sin(heading)], atol=1e-5
     )
     np.testing.assert_allclose(np.linalg.det(frame), 1.0, atol=1e-5)
-    np.testing.assert_allclose(foot.size[:2], film_layers.PRINT, atol=1e-6)
+    np.testing.assert_allclose(foot.size[:2], film_layers.FOOTPRINT, atol=1e-6)
     assert foot.rgba[3] == pytest.approx(0.55)
     rest = [ends(g) for g in blue if g.rgba[3] > 0.9]
     safety = [e for e in rest if abs(e[0, 2] - 0.003) < 1e-6]
@@ -421,7 +421,7 @@ def test_a_worker_keeps_its_graphics(monkeypatch: pytest.MonkeyPatch) -> None:
 
     monkeypatch.setattr(film, "FilmRenderer", Kept)
     monkeypatch.setattr(film, "load_run", lambda folder: folder)
-    monkeypatch.setattr(film, "_cinemas", {})
+    monkeypatch.setattr(film, "_renderers", {})
     for times in ([1.0, 2.0], [3.0]):
         drawn = film._draw(Path("run"), FilmSettings(), "egl", times)
         assert drawn == [2.0 * time for time in times]

@@ -131,7 +131,7 @@ def test_limits_are_drawn_over_the_phase_beside_the_bound(
         lines["pendulum's bound"].get_xydata(), [[0.0, 2.0], [0.5, 2.5]]
     )
     np.testing.assert_allclose(
-        lines["the same for an impulse at mid-push"].get_xydata(),
+        lines["bound for an impulse at mid-push"].get_xydata(),
         [[0.0, 1.0], [0.5, 1.5]],
     )
     assert left.get_ylim()[0] == 0.0 and left.get_ylim()[1] > 3.0

@@ -6,42 +6,42 @@ import pytest
 
 pytest.importorskip("viser")
 
-from stepaside.report.viewer.scoreboard import KEPT, Scoreboard  # noqa: E402
+from stepaside.report.viewer.scoreboard import MAX_ROUNDS, Scoreboard  # noqa: E402
 
 
 def played(score: Scoreboard, *distances: float, began: float = 0.0) -> None:
     """Play a round of a sample every tenth of a second."""
     score.begin(began)
     for number, distance in enumerate(distances, 1):
-        score.watch(began + 0.1 * number, distance)
+        score.update(began + 0.1 * number, distance)
 
 
 def test_what_nobody_drives_is_no_round() -> None:
     score = Scoreboard()
-    score.watch(1.0, 0.3)
+    score.update(1.0, 0.3)
     score.end("fall")
-    assert score.words() == "" and not score.is_close(0.8)
+    assert score.text() == "" and not score.is_close(0.8)
 
 
 def test_a_second_command_begins_no_second_round() -> None:
     score = Scoreboard()
     played(score, 0.9, 0.7)
     score.begin(5.0)
-    score.watch(6.0, 0.8)
-    assert score.words().startswith("round 1: the evader survived 6.0 s; ")
-    assert "closest approach 0.70 m" in score.words()
+    score.update(6.0, 0.8)
+    assert score.text().startswith("round 1: the evader survived 6.0 s; ")
+    assert "closest approach 0.70 m" in score.text()
 
 
 def test_the_table_keeps_the_last_rounds_and_marks_the_closest() -> None:
     score = Scoreboard()
-    for number in range(KEPT + 2):
+    for number in range(MAX_ROUNDS + 2):
         played(score, 0.9, 0.5 + 0.01 * abs(number - 4), began=9.0 * number)
-        score.end("let go")
-    rows = score.words().splitlines()[2:]
-    assert len(rows) == KEPT
+        score.end("released")
+    rows = score.text().splitlines()[2:]
+    assert len(rows) == MAX_ROUNDS
     assert rows[0].startswith("| 3 | 0.2 s | 0.52 m |")
     assert [row for row in rows if "**" in row] == [
-        "| 5 | 0.2 s | **0.50 m** | let go |"
+        "| 5 | 0.2 s | **0.50 m** | released |"
     ]
 
 
@@ -52,13 +52,13 @@ def test_an_approach_is_close_while_it_comes_nearer_than_ever(
     score = Scoreboard()
     played(score, 0.7, 0.61)
     assert not score.is_close(safety)
-    score.watch(1.0, 0.59)
+    score.update(1.0, 0.59)
     assert score.is_close(safety)
-    score.watch(1.2, 0.5899)
+    score.update(1.2, 0.5899)
     assert score.is_close(safety)
-    score.watch(1.4, 0.62)
+    score.update(1.4, 0.62)
     assert not score.is_close(safety)
-    score.end("let go")
+    score.end("released")
     assert not score.is_close(safety)
 
 
@@ -66,5 +66,5 @@ def test_a_small_safety_area_is_entered_before_time_slows() -> None:
     score = Scoreboard()
     played(score, 0.5)
     assert not score.is_close(0.6)
-    score.watch(1.0, 0.44)
+    score.update(1.0, 0.44)
     assert score.is_close(0.6)

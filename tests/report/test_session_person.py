@@ -96,13 +96,13 @@ def test_nobody_drives_a_person(session: LiveSession) -> None:
         session.reset()
         if driven:
             gui["Turn"].press("right")
-            gui["Walk"].press("stop")
+            gui["Walk"].press("halt")
             gui["Drive left"].press()
         stepped(session, 0.5)
         panel.show(session.duel.world.time, 1.0)
         assert score.content == "" and session.error is None
         ways.append(session.duel.players[0].truth.position)
-        gui["Let it pursue by itself"].press()
+        gui["Stop driving"].press()
         stepped(session, 0.01)
     assert ways[0] == ways[1]
 
@@ -125,10 +125,10 @@ def test_of_a_person_only_its_way_is_drawn(session: LiveSession) -> None:
     assert len(drawn["pushes", "pursuer"]) == 0
     of_robot = {layer for layer, owner in drawn if owner == "evader"}
     assert of_robot == {
-        *("CoM trace", "ZMP trace", "pushes", "safety area"),
+        *("CoM trace", "ZMP trace", "pushes", "safety radius"),
         *("planned path", "footsteps", "support polygon"),
     }
     places = [player.truth.position for player in session.duel.players]
     (sight,) = drawn["line of sight", "both"]
     np.testing.assert_allclose(sight[:, :2], places)
-    assert len(drawn["circle of theory", "both"]) == 0
+    assert len(drawn["theoretical circle", "both"]) == 0

@@ -43,10 +43,11 @@ def test_a_game_without_a_circle_settles_nowhere() -> None:
         (
             pi / 2,
             20.0,
-            "not reached: 40 s of evasion; theory's slowest mode takes 14 s",
+            "not reached: 40 s of evasion; time constant of the "
+            "theory's slowest mode 14 s",
         ),
         (pi / 2, None, "not reached: the evader was never triggered"),
-        (0.0, 20.0, "not expected: theory has none"),
+        (0.0, 20.0, "not expected: the theory has no stable circle"),
     ],
 )
 def test_it_is_said_why_the_circle_was_not_reached(
@@ -66,7 +67,7 @@ def test_time_is_not_missing_where_no_circle_was_expected(
 @pytest.mark.parametrize(
     ("outcome", "words"),
     [
-        (Outcome.COMPLETED, "not reached, unlike theory: "),
+        (Outcome.COMPLETED, "not reached, unlike in theory: "),
         (Outcome.FALL, "not reached by 60 s: "),
     ],
 )
@@ -75,7 +76,7 @@ def test_it_is_said_when_theory_is_on_the_circle(
 ) -> None:
     run = made(pi / 2, 20.0, "circle", 34.0, outcome)
     told = settling_words(run)
-    assert told == f"{words}the template is on it from 34 s on"
+    assert told == f"{words}the template reaches it at 34 s"
 
 
 def made(

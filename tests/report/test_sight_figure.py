@@ -132,7 +132,7 @@ SETTINGS = DuelSettings(
 
 
 def result(**changes: Any) -> DuelRun:
-    """A duel with three moments of which pictures were kept."""
+    """A duel with three_js moments of which pictures were kept."""
     tracks = {}
     for name, x, heading in (("pursuer", 0.0, 0.3), ("evader", 2.0, 2.0)):
         turn = np.full_like(TIMES, heading)
@@ -185,7 +185,7 @@ def test_a_film_strip_has_its_pictures_top_views_and_errors(
     assert len(shown) == 6
     assert [a.get_title() for a in shown[:3]] == ["1.0 s", "5.0 s", "10.0 s"]
     labels = [axes.get_ylabel() for axes in shown]
-    assert labels == ["pursuer sees", "", "", "evader sees", "", ""]
+    assert labels == ["pursuer's camera", "", "", "evader's camera", "", ""]
     tops = figure.axes[6:9]
     tracks = result().tracks
     for axes, time, index in zip(
@@ -263,7 +263,7 @@ def test_of_a_duel_with_a_person_the_robots_sight_is_shown(
     figure: Any = kept[0]
     shown = [axes for axes in figure.axes if axes.images]
     assert [axes.get_ylabel() for axes in shown] == [
-        *("evader sees", "", "", "its depth", "")
+        *("evader's camera", "", "", "evader's depth", "")
     ]
     assert [a.get_title() for a in shown[:3]] == ["1.0 s", "5.0 s", "10.0 s"]
     tops = figure.axes[5:8]

@@ -1,4 +1,4 @@
-"""Walls hide no robot from outside, and names stand over their players."""
+"""Walls hide no robot from outside, and labels are above their players."""
 
 from typing import Any
 
@@ -9,14 +9,16 @@ import pytest
 from fake_page import Scene
 from stepaside.arena import Disc, Door, Room
 from stepaside.core.poses import Array, Pose
-from stepaside.report.body_heights import BodyHeights
 from stepaside.report.viewer.scene_bodies import SceneBodies
-from stepaside.report.visual_geoms import VisualGeom, parts_of
+from stepaside.report.visual_geoms import (
+    BodyHeights,
+    VisualGeom,
+    visual_geoms_of,
+)
 from stepaside.robots.description import load_robot
 from stepaside.sim.obstacle_geoms import add_solids
 from stepaside.sim.pedestrian_models import FIGURES
-from stepaside.sim.person_body import add_person, pose_figure
-from stepaside.sim.person_body import parts_of as person_parts
+from stepaside.sim.person_body import add_person, parts_of, pose_figure
 from stepaside.sim.physics_settings import PhysicsSettings
 from stepaside.sim.world import build_model
 
@@ -25,28 +27,28 @@ DOORS = (Door("east", 0.2, 0.6), Door("south", -0.3, 0.7))
 
 
 def room_model(room: Room) -> mujoco.MjModel:
-    """A world with the solids of a room alone."""
+    """Return a model of only a room."""
     spec = mujoco.MjSpec()
     add_solids(spec, room)
     return spec.compile()
 
 
 def triangles_of(part: VisualGeom, model: mujoco.MjModel) -> Array:
-    """Triangles of a part in the world. Shape (n, 3, 3)."""
-    assert part.shell is not None
-    frame = np.zeros(9)
-    mujoco.mju_quat2Mat(frame, part.turn)
-    corners = part.shell.corners @ frame.reshape(3, 3).T
-    placed: Array = corners + part.place + model.body_pos[part.body]
-    return placed[part.shell.faces]
+    """Return the triangles of a geom in the world. Shape (n, 3, 3)."""
+    assert part.mesh is not None
+    rotation = np.zeros(9)
+    mujoco.mju_quat2Mat(rotation, part.quaternion)
+    vertices = part.mesh.vertices @ rotation.reshape(3, 3).T
+    in_world: Array = vertices + part.position + model.body_pos[part.body]
+    return in_world[part.mesh.faces]
 
 
 def hides(triangles: Array, eye: Array, point: Array) -> bool:
-    """Whether the front of a triangle lies between an eye and a point."""
+    """Return whether the front of a triangle lies between eye and point."""
     for a, b, c in triangles:
         normal = np.cross(b - a, c - a)
         if normal @ (eye - a) <= 0.0:
-            continue  # seen from behind: it is not drawn
+            continue  # back faces are not drawn
         matrix = np.column_stack([b - a, c - a, eye - point])
         if abs(np.linalg.det(matrix)) < 1e-12:
             continue
@@ -58,13 +60,13 @@ def hides(triangles: Array, eye: Array, point: Array) -> bool:
 
 @pytest.mark.parametrize("doors", [(), DOORS])
 @pytest.mark.parametrize("shape", SHAPES)
-def test_no_wall_hides_what_is_in_the_room_from_outside(
+def test_no_wall_hides_the_inside_of_the_room_from_outside(
     shape: tuple[float, float], doors: tuple[Door, ...]
 ) -> None:
     width, depth = shape
     room = Room(width=width, depth=depth, doors=doors)
     model = room_model(room)
-    walls = [p for p in parts_of(model) if p.kind == "mesh"]
+    walls = [g for g in visual_geoms_of(model) if g.kind == "mesh"]
     assert len(walls) == len(room.walls) == 4 + len(doors)
     all_faces = np.concatenate([triangles_of(p, model) for p in walls])
     random = np.random.default_rng(3)
@@ -77,17 +79,17 @@ def test_no_wall_hides_what_is_in_the_room_from_outside(
         spot = random.uniform(-0.95, 0.95, 2) * half
         point = np.array([*spot, random.uniform(0.05, 0.6)])
         assert not hides(all_faces, eye, point)
-    # From inside, all walls are seen: what lies beyond them is hidden.
+    # From inside, all walls are drawn and hide points beyond them.
     eye = np.array([0.0, 0.0, 0.3])
     for wall in room.walls:
         beyond = np.array([*(1.5 * wall.points.mean(axis=0)), 0.3])
         assert hides(all_faces, eye, beyond)
 
 
-def test_the_footprint_of_a_wall_is_seen_from_above() -> None:
+def test_the_footprint_of_a_wall_faces_upward() -> None:
     room = Room(width=3.0, depth=2.0)
     model = room_model(room)
-    for part in parts_of(model):
+    for part in visual_geoms_of(model):
         triangles = triangles_of(part, model)
         flat = np.ptp(triangles[:, :, 2], axis=1) < 1e-9
         normals = np.cross(
@@ -100,13 +102,13 @@ def test_the_footprint_of_a_wall_is_seen_from_above() -> None:
         assert area > 0.0 and (xy >= [1.0, 1.0]).any()
 
 
-def test_obstacles_stay_whole() -> None:
+def test_only_walls_of_the_room_lose_their_outer_faces() -> None:
     model = room_model(
         Room(width=3.0, depth=3.0, obstacles=(Disc(0.5, 0, 0.2),))
     )
-    shades = {part.kind: part.shades for part in parts_of(model)}
-    assert shades == {"cylinder": True, "mesh": False}
-    kinds = sorted(part.kind for part in parts_of(model))
+    shadows = {g.kind: g.casts_shadow for g in visual_geoms_of(model)}
+    assert shadows == {"cylinder": True, "mesh": False}
+    kinds = sorted(geom.kind for geom in visual_geoms_of(model))
     assert kinds == ["cylinder", "mesh", "mesh", "mesh", "mesh"]
 
 
@@ -127,14 +129,14 @@ BODY = """
         ("ellipsoid", "0.1 0.2 0.3"),
     ],
 )
-def test_a_top_is_over_every_point_of_a_body_and_not_far(
+def test_the_height_of_a_body_bounds_its_vertices_within_25_cm(
     kind: str, size: str
 ) -> None:
     from stepaside.report.viewer.scene_bodies import shape_of
 
     model = mujoco.MjModel.from_xml_string(BODY.format(kind=kind, size=size))
-    (part,) = parts_of(model)
-    tops = BodyHeights([part])
+    (part,) = visual_geoms_of(model)
+    heights = BodyHeights([part])
     random = np.random.default_rng(1)
     for _ in range(20):
         quaternion = random.normal(size=4)
@@ -143,16 +145,16 @@ def test_a_top_is_over_every_point_of_a_body_and_not_far(
         mujoco.mju_quat2Mat(frame, quaternion)
         position = random.normal(size=3)
         points = shape_of(part).vertices @ frame.reshape(3, 3).T + position
-        places = np.array([np.zeros(3), position])
-        turns = np.array([[1.0, 0, 0, 0], quaternion])
-        top = tops.of([1], places, turns)
+        positions = np.array([np.zeros(3), position])
+        quaternions = np.array([[1.0, 0, 0, 0], quaternion])
+        top = heights.highest([1], positions, quaternions)
         high = float(points[:, 2].max())
         assert high - 1e-6 <= top <= high + 0.25
 
 
 @pytest.mark.parametrize("figure", FIGURES)
 @pytest.mark.parametrize("place", [(0.0, 0.0), (12.0, -5.0)])
-def test_a_name_stands_over_the_head_of_a_person_wherever_it_is(
+def test_the_label_of_a_person_is_above_its_head(
     figure: str, place: tuple[float, float]
 ) -> None:
     shape = FIGURES[figure]
@@ -164,12 +166,12 @@ def test_a_name_stands_over_the_head_of_a_person_wherever_it_is(
     )
     data = mujoco.MjData(model)
     pose_figure(
-        data, person_parts(model, "pursuer"), Pose(*place, 0.4), 1.3, shape
+        data, parts_of(model, "pursuer"), Pose(*place, 0.4), 1.3, shape
     )
     mujoco.mj_kinematics(model, data)
     scene: Any = Scene()
     bodies = SceneBodies(scene, model)
-    bodies.name(model, ("pursuer", "evader"))
+    bodies.add_labels(model, ("pursuer", "evader"))
     bodies.move(data.xpos, data.xquat)
     x, y, z = scene.items["/names/pursuer"].position
     assert np.hypot(x - place[0], y - place[1]) < 0.3

@@ -13,7 +13,7 @@ from stepaside.control import Phase
 from stepaside.games.approach_forecast import CourseApproach, approach_between
 from stepaside.games.duel_run import DuelRun
 from stepaside.games.trajectory import Trajectory
-from stepaside.report.viewer.status_text import outlook, words_of
+from stepaside.report.viewer.status_text import outlook, status_text
 
 SPEED = st.floats(-2.0, 2.0)
 PLACE = st.floats(-20.0, 20.0)
@@ -82,7 +82,7 @@ def test_a_time_is_said_of_who_comes_within_the_radius_alone() -> None:
         said = seen(offset, velocity)
         assert "in about" not in said
         assert "0.80 m" in said
-    assert "passes 1.50 m" in seen((5.0, 1.5), (-0.8, 0.0))
+    assert "passes at 1.50 m" in seen((5.0, 1.5), (-0.8, 0.0))
 
 
 def test_nothing_is_said_of_a_time_that_cannot_be_told() -> None:
@@ -115,10 +115,10 @@ def test_a_pursuer_comes_only_while_the_distance_falls(
         None if velocity is None else CourseApproach((3.0, 0.0), velocity)
     )
     phases = (Phase.WALKING, Phase.STANDING)
-    words = words_of(phases, 3.0, 90.0, 0.8, None, approach=approach)
+    words = status_text(phases, 3.0, 90.0, 0.8, None, approach=approach)
     assert said in words and "standing" in words
     assert words.count("pursuer") == 1
-    near = words_of(phases, 0.3, 90.0, inf, None, approach=approach)
+    near = status_text(phases, 0.3, 90.0, inf, None, approach=approach)
     assert "triggered" not in near
 
 

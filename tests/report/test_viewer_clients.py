@@ -8,8 +8,8 @@ import pytest
 from fake_page import Client, Gui, Server
 from stepaside.arena import Room
 from stepaside.core.poses import Array
-from stepaside.report.palette import FLOORS, FOR_BOTH, contrast
-from stepaside.report.viewer.page_layout import arrange
+from stepaside.report.palette import FLOORS, ON_BOTH_FLOORS, contrast
+from stepaside.report.viewer.page_layout import arrange_panels
 from stepaside.report.viewer.scene_layers import rgb
 from stepaside.report.viewer.viewer_clients import CAMERAS, ViewerClients
 
@@ -31,18 +31,18 @@ def test_a_light_is_of_one_viewer_alone(
 ) -> None:
     viewers, server = looked
     one, other = server.clients[1], server.clients[2]
-    viewers.turn_light(one)
+    viewers.toggle_theme(one)
     assert one.gui.themes == [True] and other.gui.themes == []
     ground = one.scene.items["/floor"].plane_color
     assert ground == rgb(FLOORS["dark"].ground)
     assert other.scene.items["/floor"].plane_color == rgb(
         FLOORS["light"].ground
     )
-    viewers.turn_light(one)
+    viewers.toggle_theme(one)
     assert one.gui.themes == [True, False]
-    viewers.light_up(other, "dark")
+    viewers.set_theme(other, "dark")
     assert other.gui.themes == [True]
-    viewers.turn_light(None)  # who has gone meanwhile
+    viewers.toggle_theme(None)  # who has gone meanwhile
 
 
 def test_cameras_go_along_until_somebody_takes_them(
@@ -54,7 +54,7 @@ def test_cameras_go_along_until_somebody_takes_them(
     viewers.aim(PLACES, HEIGHTS)
     np.testing.assert_allclose(one.camera.look_at, [0.5, 1.0, 0.2])
     np.testing.assert_array_equal(other.camera.position, 0.0)
-    viewers.choose(one, "evader's eyes")
+    viewers.choose(one, "evader's view")
     viewers.aim(PLACES, HEIGHTS)
     np.testing.assert_allclose(one.camera.look_at, [0.0, 0.0, 0.27])
     eye = np.array(one.camera.position)
@@ -132,16 +132,16 @@ def test_who_goes_is_forgotten(looked: tuple[ViewerClients, Any]) -> None:
 
 
 def test_what_all_see_is_seen_on_both_floors() -> None:
-    for colour in {*FOR_BOTH.values(), "#c8321f"}:
+    for colour in {*ON_BOTH_FLOORS.values(), "#c8321f"}:
         for floor in FLOORS.values():
             assert contrast(colour, floor.ground) > 2.9, colour
 
 
 def test_panels_lie_on_both_sides_of_the_scene() -> None:
     gui: Any = Gui()
-    layout = arrange(gui)
+    layout = arrange_panels(gui)
     assert gui.main_panel.place == "right"
     (acting,) = gui.panels
     assert acting.place == "left" and acting.tabs == list(layout)
-    assert [tab.label for tab in layout] == ["Play", "Settings", "Shown"]
+    assert [tab.label for tab in layout] == ["Play", "Settings", "Layers"]
     assert CAMERAS[0] == "free"

@@ -26,7 +26,7 @@ from stepaside.locomotion.zmp.control_settings import OPEN_LOOP, STABILISED
 from stepaside.perception.images import ColourImage, DepthImage
 from stepaside.planning import GaitSettings
 from stepaside.report.figure_style import EVADER, PURSUER
-from stepaside.report.palette import FOR_BOTH
+from stepaside.report.palette import ON_BOTH_FLOORS
 from stepaside.report.scene import RunScene
 from stepaside.report.viewer import live_page as pages
 from stepaside.report.viewer import plot_history as trails
@@ -103,7 +103,7 @@ def test_a_zmp_in_flight_is_left_out(session: LiveSession) -> None:
 def test_what_grows_is_cut() -> None:
     """Steps, plots and traces: the newest stay, of each player its own."""
     trail = PlotHistory()
-    assert trail.history.maxlen == trails.HISTORY
+    assert trail.history.maxlen == trails.MAX_SAMPLES
     now = SimpleNamespace(time=0.0, ticks=0, physics=SimpleNamespace(tick=0.1))
     for number in range(130):
         players = [
@@ -119,8 +119,8 @@ def test_what_grows_is_cut() -> None:
     for name in ("pursuer", "evader"):
         kept: list[Any] = [(name, number) for number in range(30, 130)]
         assert list(trail.steps[name]) == kept
-    assert len(trail.steps) == 2 and trails.KEPT == 100
-    assert {t.maxlen for t in trail.traces.values()} == {trails.TRACE}
+    assert len(trail.steps) == 2 and trails.MAX_STEPS == 100
+    assert {t.maxlen for t in trail.traces.values()} == {trails.MAX_TRACE}
     assert len(trail.history) == 129
 
 
@@ -239,7 +239,7 @@ def test_a_change_and_a_moment_are_of_the_duel(session: LiveSession) -> None:
     session.change(changed.append)
     played(session, 10)
     assert changed == [session.duel]
-    moment = session.moment()
+    moment = session.snapshot()
     data = session.duel.world.data
     assert moment.time == pytest.approx(0.04)
     np.testing.assert_array_equal(moment.positions, data.xpos)
@@ -268,21 +268,21 @@ class FakeSession:
             world=SimpleNamespace(time=5.0), players=(pursuer, None)
         )
         self.pushes: list[tuple[int, float, float]] = []
-        self.asked: list[dict[str, Any]] = []
+        self.commands: list[dict[str, Any]] = []
         self.trail: Any = SimpleNamespace(history=[])
         self.theory: tuple[float, float] | None = (0.9, 90.0)
         self.driven = False
         self.settings = DuelSettings()
         self.outcome: Outcome | None = None
-        self.slow = 1.0
+        self.slow_motion = 1.0
 
     def change(self, request: Any) -> None:
         """Change at once."""
         request(self.duel)
 
-    def note(self, **asked: Any) -> None:
+    def record_command(self, **asked: Any) -> None:
         """Keep what a hand asks."""
-        self.asked.append(asked)
+        self.commands.append(asked)
 
     def push(self, robot: int, impulse: float, direction: float) -> None:
         """Note a push, or refuse it."""
@@ -306,7 +306,7 @@ def test_the_push_button_pushes_who_and_where_it_says(
     gui, session = panels()
     said: list[str] = []
     add_push(gui, session, said.append)
-    gui["Robot"].value, gui["To"].value = who, where
+    gui["Robot"].value, gui["Direction"].value = who, where
     gui["Impulse [N s]"].value = 0.7
     gui["Push"].press()
     assert session.pushes == [(number, 0.7, pytest.approx(radians(angle)))]
@@ -338,7 +338,7 @@ def test_a_hand_takes_the_pursuer_over_and_gives_it_back() -> None:
     for label, going in (("Drive: halt", False), ("Drive: go", True)):
         gui[label].press()
         assert hand() == TeleoperatedPursuit(0.0, going)
-    gui["Walk"].press("stop")
+    gui["Walk"].press("halt")
     assert hand() == TeleoperatedPursuit(0.0, going=False)
     gui["Walk"].press("go")
     assert hand() == TeleoperatedPursuit(0.0, going=True)
@@ -350,25 +350,25 @@ def test_a_hand_takes_the_pursuer_over_and_gives_it_back() -> None:
             f"round 1: the evader survived {time - 5.0:.1f} s; closest "
             f"approach {closest:.2f} m\n\n"
         )
-        assert session.slow == (0.25 if closest < 0.6 else 1.0)
+        assert session.slow_motion == (0.25 if closest < 0.6 else 1.0)
     panel.show(8.0, 0.8)
-    assert "0.50 m" in score.content and session.slow == 1.0
-    gui["Slow at the closest"].press(False)
+    assert "0.50 m" in score.content and session.slow_motion == 1.0
+    gui["Slow motion at the closest approach"].press(False)
     panel.show(8.1, 0.4)
-    assert session.slow == 1.0
-    gui["Let it pursue by itself"].press()
+    assert session.slow_motion == 1.0
+    gui["Stop driving"].press()
     assert hand() == Pursuit()
     session.duel.world.time = 20.0
     gui["Drive straight"].press()
     panel.show(21.0, 0.7)
     assert "survived 1.0 s; closest approach 0.70 m" in score.content
-    assert session.asked[0] == {"turn": -1.0, "going": True}
-    assert {"released": True} in session.asked
-    panel.forget()
+    assert session.commands[0] == {"turn": -1.0, "going": True}
+    assert {"released": True} in session.commands
+    panel.reset()
     panel.show(30.0, 0.1)
     assert score.content.splitlines()[2:] == [
-        "| 1 | 3.1 s | **0.40 m** | let go |",
-        "| 2 | 1.0 s | 0.70 m | begun anew |",
+        "| 1 | 3.1 s | **0.40 m** | released |",
+        "| 2 | 1.0 s | 0.70 m | reset |",
     ]
 
 
@@ -393,7 +393,7 @@ def test_plots_show_the_history_beside_theory() -> None:
     assert distance.label == "Distance [m]"
     assert angle.label == "Angle between the headings [deg]"
     colours = [plot.series[1]["stroke"] for plot in gui.plots]
-    assert colours == [PURSUER, FOR_BOTH[EVADER]]
+    assert colours == [PURSUER, ON_BOTH_FLOORS[EVADER]]
     for plot in gui.plots:  # seconds, and no date
         assert plot.options["scales"]["x"]["time"] is False
     session.trail.history = [(0.1, 1.0, 170.0)]
@@ -461,13 +461,13 @@ def test_the_page_shows_the_duel_as_it_is(live: tuple[Page, Any]) -> None:
         np.testing.assert_array_equal(frame.position, data.xpos[body])
         np.testing.assert_array_equal(frame.wxyz, data.xquat[body])
     assert "/layers/line of sight/both" in server.scene.items
-    ring = server.scene.items["/rings/safety area"]
+    ring = server.scene.items["/rings/safety radius"]
     assert ring.text == "safety radius 0.80 m"
     status = gui.texts[0].content
     assert "the pursuer walks" in status and "x real time" not in status
     assert "1.0 s simulated" in status
     assert f"distance {session.duel.distance:.2f} m" in status
-    assert f"closest {session.duel.min_distance:.2f} m" in status
+    assert f"closest approach {session.duel.min_distance:.2f} m" in status
     assert "over" not in status and "stopped" not in status
     assert gui["Start"].label == "Start"
     session.outcome, session.error = Outcome.CONTACT, "a bolt"
@@ -538,7 +538,7 @@ def test_buttons_start_step_and_set_the_speed(
     for value, speed in (("0.25", 0.25), ("4", 4.0)):
         gui["Speed"].press(value)
         assert session.speed == speed
-    gui["Speed"].press("as fast as it goes")
+    gui["Speed"].press("as fast as possible")
     assert session.speed == inf
     gui["Footsteps"].press(False)
     assert page._layers.shown["footsteps"] is False
@@ -550,12 +550,12 @@ def test_controls_begin_with_the_duels_own_values(
 ) -> None:
     gui = live[1].gui
     expected = {
-        "Angle [deg]": 90.0,
+        "Evasion angle [deg]": 90.0,
         "Law": "proportional (4)",
         "Seed": 1,
         "Distance [m]": 1.0,
-        "Pursuer turned by [deg]": round(degrees(0.3), 1),
-        "Evader turned by [deg]": round(degrees(-0.2), 1),
+        "Pursuer's heading offset [deg]": round(degrees(0.3), 1),
+        "Evader's heading offset [deg]": round(degrees(-0.2), 1),
         "Template speed [m/s]": 0.1,
         "Gain k [1/s]": 0.2,
         "Sensing": "ideal",
@@ -573,7 +573,7 @@ def test_a_strategy_reaches_the_evader_while_it_evades(
     session, gui = page.session, server.gui
     decisions = walker(session, 1).scheme.decisions
     decisions.memory = EvasionMemory(True, -1)
-    gui["Angle [deg]"].press(60.0)
+    gui["Evasion angle [deg]"].press(60.0)
     gui["Law"].press("saturated (6)")
     played(session, 0)
     strategy: Any = decisions.strategy
@@ -584,11 +584,11 @@ def test_a_strategy_reaches_the_evader_while_it_evades(
     viewer = Client(1)
     server.welcome(viewer)
     before = len(gui.texts)
-    gui["Angle [deg]"].press(1e6)
+    gui["Evasion angle [deg]"].press(1e6)
     (message,) = viewer.notices
     assert "angle" in message.body and not message.removed
     assert decisions.strategy is strategy
-    gui["Angle [deg]"].press(80.0)
+    gui["Evasion angle [deg]"].press(80.0)
     assert message.removed and len(viewer.notices) == 1
     assert len(gui.texts) == before
     assert session.theory is not None
@@ -620,7 +620,7 @@ def test_the_page_says_that_a_hand_drives_and_no_theory_then(
     page, server = live
     session, gui = page.session, server.gui
     played(session, 30)
-    release = gui["Let it pursue by itself"]
+    release = gui["Stop driving"]
 
     def said() -> str:
         page._refresh()
@@ -632,10 +632,10 @@ def test_the_page_says_that_a_hand_drives_and_no_theory_then(
     assert not release.disabled
     assert "**Driven by hand**: the pursuer walks to the left" in said()
     status = gui.texts[0].content
-    assert "A hand drives the pursuer" in status
+    assert "**driven by hand**" in status
     assert "Theory:" not in status and "m apart" not in status
     assert session.theory is None and session.theory_radius is None
-    gui["Walk"].press("stop")
+    gui["Walk"].press("halt")
     assert "the pursuer halts" in said()
     release.press()
     assert release.disabled and "Driven by hand" not in said()
@@ -649,10 +649,10 @@ def test_the_pace_is_told_only_while_time_passes(
     live: tuple[Page, Any],
 ) -> None:
     page, server = live
-    page.session.factor = 0.0
+    page.session.real_time_factor = 0.0
     page._refresh()
     assert "real time" not in server.gui.texts[0].content
-    page.session.factor = 1.04
+    page.session.real_time_factor = 1.04
     page._refresh()
     assert "real time" not in server.gui.texts[0].content
     page.session._advance = lambda ticks: None  # type: ignore[method-assign]
@@ -668,8 +668,8 @@ def test_a_reset_takes_what_the_controls_say(live: tuple[Page, Any]) -> None:
     for label, value in (
         ("Seed", 9),
         ("Distance [m]", 1.4),
-        ("Pursuer turned by [deg]", 45.0),
-        ("Evader turned by [deg]", -10.0),
+        ("Pursuer's heading offset [deg]", 45.0),
+        ("Evader's heading offset [deg]", -10.0),
         ("Template speed [m/s]", 0.08),
         ("Gain k [1/s]", 0.25),
         ("Body", "hardware"),
@@ -740,8 +740,8 @@ def test_a_replay_shows_the_sample_of_its_time(
     status = unescape(server.gui.texts[0].content)
     assert status == (
         f"**short**: {run.words(index)}\n\n{run.times[index]:.2f} s, "
-        f"distance {run.distance[index]:.2f} m, between the headings "
-        f"{run.orientation[index]:.0f}°"
+        f"distance {run.distance[index]:.2f} m, angle between "
+        f"the headings {run.orientation[index]:.0f}°"
     )
     items = server.scene.items
     torsos = [run.tracks[name].torso for name in ("pursuer", "evader")]
@@ -749,10 +749,10 @@ def test_a_replay_shows_the_sample_of_its_time(
     sight = items["/layers/line of sight/both"].points[0]
     np.testing.assert_allclose(sight[:, :2], places, atol=1e-6)
     np.testing.assert_allclose(sight[:, 2], 0.25)
-    safety = items["/layers/safety area/evader"].points[..., :2]
+    safety = items["/layers/safety radius/evader"].points[..., :2]
     away = np.hypot(*(safety[:, 0] - places[1]).T)
     np.testing.assert_allclose(away, 0.8, atol=1e-5)
-    circle = items["/layers/circle of theory/both"].points[..., :2]
+    circle = items["/layers/theoretical circle/both"].points[..., :2]
     assert run.circle is not None
     middle = circle[:, 0].mean(axis=0)
     np.testing.assert_allclose(middle, run.circle[:2], atol=1e-5)
@@ -793,9 +793,9 @@ def test_a_replay_has_its_slider_plots_and_layers(
         camera.position, [place[0] - 1.5, place[1] - 1.6, 1.3]
     )
     np.testing.assert_allclose(camera.look_at, [place[0], place[1], 0.2])
-    server.gui["Safety area"].press(False)
+    server.gui["Safety radius"].press(False)
     page._show(1.0)
-    assert "/layers/safety area/evader" not in server.scene.items
+    assert "/layers/safety radius/evader" not in server.scene.items
     assert "/layers/line of sight/both" in server.scene.items
     server.gui["Play"].press()
     page._show(1.0)

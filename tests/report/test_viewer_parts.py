@@ -20,27 +20,35 @@ from stepaside.perception.images import ColourImage
 from stepaside.planning import Foot, SoleRectangle
 from stepaside.planning.support_polygon import sole_corners
 from stepaside.report.figure_style import COLOURS, EVADER, THEORY
-from stepaside.report.palette import FOR_BOTH
+from stepaside.report.palette import ON_BOTH_FLOORS
 from stepaside.report.viewer import live_drawing as drawing
-from stepaside.report.viewer.camera_panel import FOUND, CameraPanel, picture
+from stepaside.report.viewer.camera_panel import (
+    DETECTION_COLOUR,
+    CameraPanel,
+    picture,
+)
 from stepaside.report.viewer.live_drawing import ZMP_COLOURS, draw_session
 from stepaside.report.viewer.plot_history import PlotHistory
-from stepaside.report.viewer.scene_bodies import SceneBodies, joined, shape_of
+from stepaside.report.viewer.scene_bodies import (
+    SceneBodies,
+    join_meshes,
+    shape_of,
+)
 from stepaside.report.viewer.scene_layers import (
     HEIGHTS,
     LAYERS,
-    PRINTS,
+    MAX_FOOTPRINTS,
     SceneLayers,
-    chain,
+    footprints_of,
     path_of,
-    prints_of,
+    polyline,
     rgb,
     ring,
-    safety_of,
-    support_of,
+    safety_ring,
+    support_outline,
 )
-from stepaside.report.viewer.status_text import phases_of, words_of
-from stepaside.report.visual_geoms import colour_of, parts_of
+from stepaside.report.viewer.status_text import phases_of, status_text
+from stepaside.report.visual_geoms import colour_of, visual_geoms_of
 
 SHAPES = """
 <mujoco>
@@ -59,7 +67,7 @@ quat="0.7071067811865476 0 0.7071067811865476 0"/>
 
 
 def test_meshes_are_as_large_as_their_shapes_and_in_their_place() -> None:
-    parts = parts_of(mujoco.MjModel.from_xml_string(SHAPES))
+    parts = visual_geoms_of(mujoco.MjModel.from_xml_string(SHAPES))
     for part, (middle, half, close) in zip(
         parts,
         (
@@ -96,7 +104,7 @@ def test_every_visible_body_is_on_the_page_once_for_each_colour() -> None:
     assert set(meshes) >= {(255, 0, 0), (0, 127, 255), (0, 0, 0)}
     red = meshes[255, 0, 0]
     # Capsule and box are one mesh; every triangle has its own corners.
-    parts = parts_of(model)
+    parts = visual_geoms_of(model)
     alone = [shape_of(parts[i]) for i in (0, 2)]
     assert len(red.corners) == sum(len(m.vertices) for m in alone)
     assert red.faces.max() == len(red.corners) - 1
@@ -111,26 +119,26 @@ def test_every_visible_body_is_on_the_page_once_for_each_colour() -> None:
 
 
 def test_joined_meshes_keep_their_triangles() -> None:
-    parts = parts_of(mujoco.MjModel.from_xml_string(SHAPES))
+    parts = visual_geoms_of(mujoco.MjModel.from_xml_string(SHAPES))
     meshes = [shape_of(part) for part in parts[2:4]]
-    corners, faces = joined(meshes)
+    corners, faces = join_meshes(meshes)
     triangles = np.concatenate([m.vertices[m.faces] for m in meshes])
     np.testing.assert_allclose(corners[faces], triangles, atol=1e-6)
 
 
 def test_a_chain_joins_neighbours_at_its_height() -> None:
     points = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]])
-    open_chain = chain(points, 0.3)
+    segments = polyline(points, 0.3)
     np.testing.assert_array_equal(
-        open_chain,
+        segments,
         [[[0, 0, 0.3], [1, 0, 0.3]], [[1, 0, 0.3], [1, 1, 0.3]]],
     )
-    closed = chain(points, 0.3, closed=True)
-    np.testing.assert_array_equal(closed[:2], open_chain)
+    closed = polyline(points, 0.3, closed=True)
+    np.testing.assert_array_equal(closed[:2], segments)
     np.testing.assert_array_equal(closed[2], [[1, 1, 0.3], [0, 0, 0.3]])
-    assert chain(points[:1], 0.3).shape == (0, 2, 3)
-    assert chain(points[:0], 0.3, closed=True).shape == (0, 2, 3)
-    assert chain(points[:2], 0.3).shape == (1, 2, 3)
+    assert polyline(points[:1], 0.3).shape == (0, 2, 3)
+    assert polyline(points[:0], 0.3, closed=True).shape == (0, 2, 3)
+    assert polyline(points[:2], 0.3).shape == (1, 2, 3)
 
 
 def test_a_ring_is_round_and_closed() -> None:
@@ -146,10 +154,10 @@ def test_a_ring_is_round_and_closed() -> None:
 
 
 def test_the_safety_area_is_a_ring_or_nothing() -> None:
-    lines = safety_of(np.array([1.0, 2.0, 9.0]), 0.8)
+    lines = safety_ring(np.array([1.0, 2.0, 9.0]), 0.8)
     away = np.hypot(lines[..., 0] - 1.0, lines[..., 1] - 2.0)
     np.testing.assert_allclose(away, 0.8)
-    assert safety_of(np.zeros(2), inf).shape == (0, 2, 3)
+    assert safety_ring(np.zeros(2), inf).shape == (0, 2, 3)
 
 
 def test_lines_are_drawn_when_they_change_and_go_when_hidden() -> None:
@@ -162,7 +170,7 @@ def test_lines_are_drawn_when_they_change_and_go_when_hidden() -> None:
     assert scene.drawn == 1 and set(scene.items) == {name}
     np.testing.assert_allclose(scene.items[name].points, lines, atol=1e-6)
     # A blue that is seen on the dark floor, too.
-    assert scene.items[name].colors == rgb(FOR_BOTH["#1f5fbf"])
+    assert scene.items[name].colors == rgb(ON_BOTH_FLOORS["#1f5fbf"])
     layers.draw("footsteps", "evader", 2.0 * lines, "#1f5fbf")
     assert scene.drawn == 2
     layers.shown["footsteps"] = False
@@ -227,7 +235,7 @@ def test_a_plan_is_drawn_in_the_world(
         np.testing.assert_allclose(path, 0.5 * (placed[1:-1] + placed[2:]))
         begun = trail.steps[name]
         assert len(begun) >= 2
-        prints = prints_of(walk, begun, frame)
+        prints = footprints_of(walk, begun, frame)
         kept = [(step.foot, frame.compose(step.landing)) for step in begun]
         wanted = [
             (step.foot, at.compose(Pose(step.x, step.y, step.theta)))
@@ -245,7 +253,7 @@ def test_nothing_is_planned_before_anybody_walks() -> None:
     duel, trail = playing(0.0)
     for name, walk, frame in walks(duel):
         assert path_of(walk, frame).shape == (0, 2)
-        assert prints_of(walk, (), frame).shape == (0, 2, 3)
+        assert footprints_of(walk, (), frame).shape == (0, 2, 3)
         assert name not in trail.steps
 
 
@@ -262,8 +270,8 @@ def test_old_footsteps_are_left_out(played: tuple[Duel, PlotHistory]) -> None:
     lines, _ = drawn(session)["footsteps", name]
     plan = walk.plan
     assert plan is not None
-    assert len(lines) == 4 * (PRINTS + len(plan.footsteps))
-    wanted = prints_of(walk, many[-PRINTS:], frame)
+    assert len(lines) == 4 * (MAX_FOOTPRINTS + len(plan.footsteps))
+    wanted = footprints_of(walk, many[-MAX_FOOTPRINTS:], frame)
     np.testing.assert_array_equal(lines, wanted)
 
 
@@ -301,7 +309,7 @@ def test_the_support_polygon_is_of_the_feet_that_stand(
         right_foot=feet["right_foot"],
     )
     frame = Pose(1.0, 2.0, 0.7)
-    outline = support_of(walk, frame, 0.0)
+    outline = support_outline(walk, frame, 0.0)
     stand = [(feet["support"], swing.other)]
     if others is not None:
         stand.append((feet[others], swing))
@@ -365,17 +373,17 @@ def test_every_layer_of_the_present_moment_is_drawn(
         for layer, wanted, colour in (
             (
                 "planned path",
-                chain(path_of(walk, frame), HEIGHTS["planned path"]),
+                polyline(path_of(walk, frame), HEIGHTS["planned path"]),
                 COLOURS[name],
             ),
             (
                 "footsteps",
-                prints_of(walk, trail.steps[name], frame),
+                footprints_of(walk, trail.steps[name], frame),
                 COLOURS[name],
             ),
             (
                 "support polygon",
-                support_of(walk, frame, duel.world.time),
+                support_outline(walk, frame, duel.world.time),
                 "#2a9d55",
             ),
         ):
@@ -387,11 +395,11 @@ def test_every_layer_of_the_present_moment_is_drawn(
         np.testing.assert_allclose(trace[:, 0, 0], [0.0, 0.1, 0.2])
         trace, shade = found["ZMP trace", name]
         assert trace.shape == (3, 2, 3) and shade == ZMP_COLOURS[name]
-    safety, shade = found["safety area", "evader"]
+    safety, shade = found["safety radius", "evader"]
     away = np.hypot(*(safety[:, 0, :2] - places[1]).T)
     np.testing.assert_allclose(away, 0.8)
     assert shade == EVADER
-    circle, shade = found["circle of theory", "both"]
+    circle, shade = found["theoretical circle", "both"]
     assert circle.shape == (72, 2, 3) and shade == THEORY
     assert duel.triggered_at is not None and len(found) == 15
     sight, shade = found["line of sight", "both"]
@@ -426,7 +434,7 @@ def test_the_circle_passes_both_robots_on_the_pursuers_side(
     assert left == pytest.approx(
         (-1.0 if bearing == -0.5 else 1.0) * sqrt(2.0 * (0.36 - 0.18))
     )
-    np.testing.assert_array_equal(lines[..., 2], HEIGHTS["circle of theory"])
+    np.testing.assert_array_equal(lines[..., 2], HEIGHTS["theoretical circle"])
 
 
 def test_a_circle_that_cannot_be_is_not_drawn() -> None:
@@ -458,7 +466,7 @@ STAND, WALK, HALT, FELL = (
         ((WALK, STAND), 0.79, 90.0, "the evader is **triggered**"),
         ((WALK, STAND), 0.81, 90.0, "the pursuer walks"),
         ((HALT, STAND), 0.81, 90.0, "the pursuer walks"),
-        ((STAND, HALT), 0.9, 90.0, "the evader comes to rest"),
+        ((STAND, HALT), 0.9, 90.0, "the evader is **halting**"),
         ((WALK, WALK), 0.944, 90.0, "**on the circle**"),
         ((WALK, WALK), 0.856, 90.0, "**on the circle**"),
         ((WALK, WALK), 0.946, 90.0, "**evading**"),
@@ -475,15 +483,15 @@ STAND, WALK, HALT, FELL = (
 def test_words_follow_phases_and_bands(
     phases: tuple[Phase, Phase], distance: float, angle: float, expected: str
 ) -> None:
-    words = words_of(phases, distance, angle, 0.8, (0.9, 90.0))
+    words = status_text(phases, distance, angle, 0.8, (0.9, 90.0))
     assert expected in words
     if distance == 0.9 and phases == (WALK, WALK):
-        alone = words_of(phases, distance, angle, 0.8, None)
+        alone = status_text(phases, distance, angle, 0.8, None)
         assert "**evading**" in alone
 
 
 def test_without_a_safety_area_nobody_is_triggered() -> None:
-    assert "walks" in words_of((WALK, STAND), 0.1, 0.0, inf, None)
+    assert "walks" in status_text((WALK, STAND), 0.1, 0.0, inf, None)
 
 
 def test_a_true_fall_counts_as_a_phase() -> None:
@@ -539,10 +547,10 @@ def test_a_line_stands_where_something_was_found(
     """Three times as large; what is to the left is left in the picture."""
     large = picture(image((azimuth,)))
     assert large.shape == (180, 240, 3)
-    marked = np.flatnonzero((large[0] == FOUND).all(axis=1))
+    marked = np.flatnonzero((large[0] == DETECTION_COLOUR).all(axis=1))
     at = int(3 * column)
     np.testing.assert_array_equal(marked, [at - 1, at, at + 1])
-    assert (large[:, marked] == FOUND).all()
+    assert (large[:, marked] == DETECTION_COLOUR).all()
     assert (np.delete(large, marked, axis=1) == 7).all()
 
 
@@ -566,7 +574,7 @@ def test_the_panel_shows_the_newest_image_of_each_camera() -> None:
     panel = CameraPanel(gui)
     folder = gui.folders["Cameras"]
     assert folder.visible is False
-    panel.forget(visible=True)
+    panel.reset(visible=True)
     assert folder.visible is True
     first, second = image(()), image((0.0,))
     panel.show({"pursuer, colour": first})
@@ -581,11 +589,11 @@ def test_the_panel_shows_the_newest_image_of_each_camera() -> None:
     before = handle.image
     panel.show({})
     assert handle.image is before
-    panel.forget(visible=False)
+    panel.reset(visible=False)
     assert handle.removed and gui["evader, depth"].removed
     assert folder.visible is False
     # Another duel: its pictures are put up anew.
     del gui.items["pursuer, colour"]
-    panel.forget(visible=True)
+    panel.reset(visible=True)
     panel.show({"pursuer, colour": first})
     assert gui["pursuer, colour"] is not handle

@@ -1,1 +1,1 @@
-"""Figures and files that runs are looked at with."""
+"""Figures, pages, films and run folders."""

@@ -11,20 +11,20 @@ from ..theory.bound.barrier import barrier_slice
 from .figure_sizes import sheet
 from .figure_style import EVADER, PURSUER, THEORY, new_figure, save
 
-HEADINGS = (0.25, 0.5, 0.75, 1.0)  # between the motions, in pi
+HEADINGS = (0.25, 0.5, 0.75, 1.0)  # angles between the motions, in [pi rad]
 POINTS = 161  # along each side of a slice
 
 
 def draw_bound(bound: Bound, capture: float, path: str) -> None:
-    """Write slices of the value, as seen from the pursuer.
+    """Draw slices of the value function in the pursuer's frame.
 
-    Each slice has one angle between the directions of motion; the evader
-    stands at (x, y), and an arrow shows how it moves.
+    Each slice has one angle between the directions of motion; the evader is
+    at (x, y), and an arrow shows its direction of motion.
 
     Args:
         bound: Table to draw.
-        capture: Distance whose barrier is drawn, in [m].
-        path: File, of a format that its suffix tells.
+        capture: Capture distance whose barrier is drawn, in [m].
+        path: File to write; its suffix gives the format.
     """
     far = min(bound.grid.far, 1.4 * float(bound.barrier(capture).max()))
     side = np.linspace(-far, far, POINTS)
@@ -49,7 +49,7 @@ def draw_bound(bound: Bound, capture: float, path: str) -> None:
         if bound.game.identical:
             unit = bound.game.unit
             points, _ = barrier_slice(capture / unit, theta)
-            label = "the same edge, computed directly"
+            label = "the same boundary, computed directly"
             ax.plot(*(unit * points.T), ":", color=THEORY, lw=1.5, label=label)
         circle = np.linspace(0.0, tau, 100)
         ring = capture * np.cos(circle), capture * np.sin(circle)
@@ -67,14 +67,14 @@ def draw_bound(bound: Bound, capture: float, path: str) -> None:
     figure.colorbar(
         image,
         ax=list(axes),
-        label="closest approach, both at their best [m]",
+        label="closest approach with optimal play [m]",
         shrink=0.8,
     )
     handles, labels = axes[0].get_legend_handles_labels()
     for colour, name in (
-        ("w", "edge of the starts from which capture is certain"),
+        ("w", "boundary of the initial poses with certain capture"),
         (PURSUER, "pursuer's direction"),
-        (EVADER, "evader's direction, wherever it starts"),
+        (EVADER, "evader's direction, at any position"),
     ):
         handles.append(Line2D([], [], color=colour, lw=2.5))
         labels.append(name)
@@ -84,7 +84,7 @@ def draw_bound(bound: Bound, capture: float, path: str) -> None:
         loc="outside lower center",
         ncols=1 if sheet().narrow else 5,
         frameon=True,
-        facecolor="0.82",  # on which the white line is seen, too
+        facecolor="0.82",  # so that the white line is visible
     )
     save(figure, path)
 

@@ -1,4 +1,4 @@
-"""The page of claims, in Markdown and HTML."""
+"""Page of the paper's claims, in Markdown and HTML."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -59,12 +59,12 @@ def markdown_page(
     figures: Sequence[tuple[str, str]],
     made: Mapping[str, Any],
 ) -> str:
-    """Text of the page.
+    """Return the page in Markdown.
 
     Args:
         rows: Claims as JSON objects.
-        beside: What the paper's figures show: figure, what, paper, where,
-            ours.
+        beside: Rows about the paper's figures: figure, quantity, value in
+            the paper, its source, value measured here.
         figures: Pairs of a caption and the name of a file beside the page.
         made: First seed, runs, and version and libraries of each job.
     """
@@ -90,7 +90,18 @@ def write_page(
     figures: Sequence[tuple[str, str]],
     made: Mapping[str, Any],
 ) -> Path:
-    """Write ``claims.md`` and ``claims.html``; return the latter."""
+    """Write ``claims.md`` and ``claims.html``.
+
+    Args:
+        folder: Folder of the files.
+        rows: As for :func:`markdown_page`.
+        beside: As for :func:`markdown_page`.
+        figures: As for :func:`markdown_page`.
+        made: As for :func:`markdown_page`.
+
+    Returns:
+        Path of ``claims.html``.
+    """
     import markdown
 
     text = markdown_page(rows, beside, figures, made)
@@ -109,7 +120,7 @@ def write_page(
 
 
 def _cells(row: Mapping[str, Any]) -> tuple[str, ...]:
-    """Cells of a claim, as Markdown."""
+    """Return the cells of a claim in Markdown."""
     measured, extremes = _number(row["measured"]), ""
     if row["runs"] > 1:
         measured += f" ± {_number(row['spread'], 2)}"
@@ -130,7 +141,7 @@ def _cells(row: Mapping[str, Any]) -> tuple[str, ...]:
 
 
 def _jobs(jobs: Mapping[str, Any]) -> list[str]:
-    """Lines on versions; jobs of one version share a line."""
+    """Return the rows of versions; jobs of one version share a row."""
     groups: dict[tuple[str, str], list[str]] = {}
     for name, job in jobs.items():
         libraries = ", ".join(f"{k} {v}" for k, v in job["libraries"].items())
@@ -142,12 +153,12 @@ def _jobs(jobs: Mapping[str, Any]) -> list[str]:
 
 
 def _line(cells: Sequence[str]) -> str:
-    """One line of a table."""
+    """Return one row of a table."""
     return "| " + " | ".join(_text(cell) for cell in cells) + " |"
 
 
 def _text(text: str) -> str:
-    """Keep the table and the stars of a text that Markdown would take."""
+    """Escape bars and stars; print verdicts in bold."""
     if text in ("holds", "fails"):
         return f"**{text}**"
     return text.replace("|", "\\|").replace("*", "\\*")

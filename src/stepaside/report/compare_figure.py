@@ -1,4 +1,4 @@
-"""Several runs on one figure."""
+"""Figure that compares several runs."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -18,8 +18,8 @@ def draw_comparison(runs: Sequence[Run], file: AnyPath) -> None:
     """Draw paths, and distance and orientation over gait cycles.
 
     Args:
-        runs: The runs; each has its own kind of line.
-        file: Picture to write.
+        runs: The runs; each has its own line style.
+        file: Figure to write.
     """
     turned = any(run.orientation is not None for run in runs)
     if not turned:
@@ -63,12 +63,12 @@ def draw_comparison(runs: Sequence[Run], file: AnyPath) -> None:
             )
     _draw_theories(axes, runs)
     axes["path"].set_aspect("equal", adjustable="datalim")
-    axes["path"].set_title("torsos: pursuer red, evader blue")
+    axes["path"].set_title("paths of the torsos: pursuer red, evader blue")
     axes["path"].set_xlabel("x [m]")
     axes["path"].set_ylabel("y [m]")
     axes["distance"].set_ylabel("distance [m]")
     if turned:
-        axes["angle"].set_ylabel("between headings [deg]")
+        axes["angle"].set_ylabel("angle between headings [deg]")
     axes["angle" if turned else "distance"].set_xlabel("time [s]")
     handles, labels = axes["distance"].get_legend_handles_labels()
     columns = 1 if sheet().narrow else 3
@@ -77,10 +77,10 @@ def draw_comparison(runs: Sequence[Run], file: AnyPath) -> None:
 
 
 def _draw_theories(axes: Any, runs: Sequence[Run]) -> None:
-    """Draw the level of every circle that a run has, each once.
+    """Draw each distinct value of the theory once.
 
-    A level that is not everybody's has the colour and the line of the first
-    run whose it is.
+    A value that is not common to all runs has the colour and line style of
+    the first run that has it.
     """
     for key, column, unit in (("distance", 1, " m"), ("angle", 2, "°")):
         if key not in axes:
@@ -95,8 +95,8 @@ def _draw_theories(axes: Any, runs: Sequence[Run]) -> None:
         for level, number in levels.items():
             colour = THEORY if shared else RUNS[number % len(RUNS)]
             line = "--" if shared else LINES[number % len(LINES)]
-            # Of levels too near for a name each, the first names all.
+            # Labels that would overlap become one, at the first level.
             close = [x for x in levels if abs(x - level) < near]
-            told = ", ".join(f"{x:.3g}" for x in sorted(close))
-            name = f"theory {told}{unit}" if level == close[0] else ""
+            values = ", ".join(f"{x:.3g}" for x in sorted(close))
+            name = f"theory {values}{unit}" if level == close[0] else ""
             mark_level(axes[key], level, name, colour, line)

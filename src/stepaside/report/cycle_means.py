@@ -7,10 +7,11 @@ from ..games.duel_circle import cycle_mean
 
 
 def whole_cycles(values: Array, times: Array, period: float) -> Array:
-    """Mean over a gait cycle, where a whole one lies about a sample.
+    """Return the mean over the gait cycle around each sample.
 
-    At both ends the window of :func:`~stepaside.games.duel_circle.cycle_mean`
-    is cut; what is left of it is no cycle, and its mean would bend away.
+    Near both ends the window of
+    :func:`~stepaside.games.duel_circle.cycle_mean` is truncated and its mean
+    biased by the sway, so these samples are NaN.
 
     Args:
         values: Samples. Shape (n,).

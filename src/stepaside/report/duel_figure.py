@@ -25,23 +25,23 @@ from .sole_outlines import draw_heading, draw_soles
 from .text_escaping import for_figure
 
 SNAPSHOTS = 4
-STEPS = 6.0  # of the balance that is shown
+STEPS = 6.0  # last steps whose balance is shown
 
 
 def draw_duel(
     run: Run,
     path: AnyPath,
 ) -> None:
-    """Write the figure of a duel, or of another game of two or more.
+    """Write the figure of a duel, or of another game of several players.
 
     Args:
-        run: The duel.
-        path: File, of a format that its suffix tells.
+        run: The game.
+        path: File to write; its suffix gives the format.
     """
-    # Of robots that are played elsewhere nobody here knows the plans.
+    # Robots that are controlled elsewhere have no recorded plans.
     walkers = [n for n, t in run.tracks.items() if t.zmp_reference is not None]
     if has_obstacles(run):
-        walkers = [""]  # one panel for all players: how near to the room
+        walkers = [""]  # one panel with the clearance of all players
     if sheet().narrow:
         figure = new_figure(4.2, 8.6 + 1.5 * len(walkers))
         rows = [2.3, 2.5, 2.0] + [1.2] * len(walkers)
@@ -70,9 +70,9 @@ def draw_duel(
 
 
 def _draw_snapshots(figure: Any, run: Run) -> None:
-    """Top views at four times, with the path walked so far."""
+    """Draw top views at four times, with the paths so far."""
     times = run.times
-    # Early on more happens: the times grow as squares.
+    # Quadratic spacing, since more happens early.
     fractions = (np.arange(SNAPSHOTS) / (SNAPSHOTS - 1)) ** 2
     lines = 2 if sheet().narrow else 1
     shown = figure.subplots(
@@ -89,11 +89,11 @@ def _draw_snapshots(figure: Any, run: Run) -> None:
 
 
 def draw_top(axes: Any, run: Run, index: int) -> None:
-    """Draw who is where at a sample, with the path walked so far.
+    """Draw the top view of a sample, with the paths so far.
 
     Args:
-        axes: Matplotlib axes.
-        run: The run, all of which is within the axes.
+        axes: Matplotlib axes, scaled to the whole run.
+        run: The run.
         index: Sample.
     """
     low, high = _frame(run)
@@ -107,7 +107,10 @@ def draw_top(axes: Any, run: Run, index: int) -> None:
 
 
 def _frame(run: Run) -> tuple[Array, Array]:
-    """Corners of what snapshots show: no side less than half the other."""
+    """Return the corners of the top views, in [m]. Shapes (2,).
+
+    No side is shorter than half of the other.
+    """
     every = np.concatenate([track.com[:, :2] for track in run.tracks.values()])
     low, high = every.min(axis=0) - 0.2, every.max(axis=0) + 0.2
     plan = run.plan
@@ -120,18 +123,23 @@ def _frame(run: Run) -> tuple[Array, Array]:
 
 
 def _draw_solids(axes: Any, run: Run, time: float) -> None:
-    """What stands in the room at a time in [s], if they play in one."""
+    """What va in the room at a time in [s], if they play in one."""
     for patch in () if run.plan is None else room_patches(run.plan, time):
         axes.add_patch(patch)
 
 
 def draw_paths(axes: Any, run: Run) -> None:
-    """CoM paths with every footstep, and the pushes."""
+    """Draw CoM paths with all footsteps and pushes.
+
+    Args:
+        axes: Matplotlib axes.
+        run: The run.
+    """
     _draw_solids(axes, run, float(run.times[-1]))
     every = np.concatenate([track.com[:, :2] for track in run.tracks.values()])
-    wide = float(np.ptp(every, axis=0).max())
-    # A wedge is as large as its robot, or can be seen where ways are long.
-    size = min(max(0.2, 0.04 * wide), 0.1 * wide + 0.02)
+    extent = float(np.ptp(every, axis=0).max())
+    # As large as a robot, larger for long paths.
+    size = min(max(0.2, 0.04 * extent), 0.1 * extent + 0.02)
     colours = colours_of(run.players)
     for name, colour in colours.items():
         track = run.tracks[name]
@@ -146,47 +154,49 @@ def draw_paths(axes: Any, run: Run) -> None:
         draw_pushes(axes, track.pushes)
     axes.set(xlabel="x [m]", ylabel="y [m]")
     axes.set_aspect("equal", adjustable="datalim")
-    axes.set_title("seen from above; dot: start, arrow: end", pad=18)
+    axes.set_title("top view; dot: start, wedge: end", pad=18)
     axes.legend(
         loc="lower center", bbox_to_anchor=(0.5, 0.985), ncols=len(colours)
     )
 
 
 def _draw_over_time(figure: Any, run: Run) -> None:
-    """Distance and relative orientation, beside theory's values."""
+    """Draw distance and angle between headings with the theory's values."""
     times = run.times
-    apart = turned = None
+    theory_distance = theory_angle = None
     if isinstance(run, DuelRun):
         theory = run.summary.theory
-        apart, turned = theory.distance_m, theory.relative_orientation_deg
+        theory_distance = theory.distance_m
+        theory_angle = theory.relative_orientation_deg
     period = run.settings.cycle
     panels = (
-        (run.distance, apart, "distance [m]", "{:.3g} m"),
-        (run.orientation, turned, "angle [deg]", "{:.3g}°"),
+        (run.distance, theory_distance, "distance [m]", "{:.3g} m"),
+        (run.orientation, theory_angle, "angle [deg]", "{:.3g}°"),
     )
     shown = figure.subplots(2, 1, sharex=True)
-    who, radius = run.safety or ("", np.inf)
-    for axes, (values, value, label, word) in zip(shown, panels, strict=True):
+    guarded, radius = run.safety or ("", np.inf)
+    for axes, (values, value, label, form) in zip(shown, panels, strict=True):
         assert values is not None
         axes.plot(times, values, color=SWAY, lw=0.8, label="every sample")
         mean = whole_cycles(values, times, period)
-        over = "mean over a gait cycle"
-        axes.plot(times, mean, color=MEAN, lw=1.6, label=over)
+        mean_label = "mean over a gait cycle"
+        axes.plot(times, mean, color=MEAN, lw=1.6, label=mean_label)
         if value is not None:
-            # Two names never lie on each other: one is over its line.
-            stands = "center"
+            # The label of the higher line is above it, the other below.
+            va = "center"
             if axes is shown[0]:
-                stands = "bottom" if value > radius else "top"
-            name = f"theory {word.format(value)}"
-            mark_level(axes, value, name, THEORY, stands=stands)
+                va = "bottom" if value > radius else "top"
+            name = f"theory {form.format(value)}"
+            mark_level(axes, value, name, THEORY, va=va)
         mark_pushes(axes, run)
         axes.set_ylabel(label)
         axes.margins(x=0.0)
     if np.isfinite(radius):
-        name = f"safety {radius:.3g} m"
-        guard = colours_of(run.players)[who]
-        stands = "top" if apart is None or apart > radius else "bottom"
-        mark_level(shown[0], radius, name, guard, ":", stands=stands)
+        name = f"safety radius\n{radius:.3g} m"
+        colour = colours_of(run.players)[guarded]
+        above = theory_distance is not None and theory_distance <= radius
+        va = "bottom" if above else "top"
+        mark_level(shown[0], radius, name, colour, ":", va=va)
     shown[0].set_title(
         "distance between the players, angle between their headings"
         if not sheet().narrow
@@ -198,7 +208,7 @@ def _draw_over_time(figure: Any, run: Run) -> None:
 
 
 def _draw_balance(axes: Any, run: Run, name: str) -> None:
-    """CoM against ZMP of one robot for the last few steps."""
+    """Draw CoM and ZMP of one robot during the last steps, leftward."""
     times, track = run.times, run.tracks[name]
     colour = colours_of(run.players)[name]
     span = 0.5 * STEPS * run.settings.cycle
@@ -218,7 +228,7 @@ def _draw_balance(axes: Any, run: Run, name: str) -> None:
 
     line("ZMP", track.zmp, shift, color="#a0a0a0", lw=0.8)
     line("ZMP reference", track.zmp_reference, origin, color=THEORY, lw=1.2)
-    # Dashed and on top: where the reference is kept, both are seen.
+    # Dashed and on top, so that both are visible where they coincide.
     line("CoM", track.com, shift, color=colour, lw=2.0)
     line(
         "CoM reference",
@@ -230,7 +240,7 @@ def _draw_balance(axes: Any, run: Run, name: str) -> None:
     )
     axes.set(xlabel="time [s]", ylabel="leftward [mm]")
     axes.margins(x=0.0)
-    axes.set_title(f"{name}: sideways balance in its last steps", pad=18)
+    axes.set_title(f"{name}: lateral balance, last steps", pad=18)
     axes.legend(
         ncols=4,
         loc="lower center",

@@ -1,4 +1,4 @@
-"""Figure of many duels: how their figures are distributed."""
+"""Histograms of the measurements of many duels."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -8,7 +8,7 @@ import numpy as np
 
 from .figure_style import COLOURS, LEFT, RIGHT, THEORY, new_figure, save
 
-# Record, label, unit, colour and where theory stands, panel by panel.
+# Keys of the records and label of each panel.
 PANELS = (
     (("pursuer_radius_m", "evader_radius_m"), "radius of the path [m]"),
     (("distance_m",), "distance on the circle [m]"),
@@ -28,12 +28,12 @@ def draw_duels(
     summary: Mapping[str, Any],
     file: Path,
 ) -> None:
-    """Draw histograms of the duels that were played to their end.
+    """Draw histograms of the completed duels.
 
     Args:
-        groups: Records of duels, a row of panels for each name.
-        summary: Of one of them; theory is taken from it.
-        file: Picture to write.
+        groups: Records of duels, with a row of panels for each name.
+        summary: Summary of the duels, with the theory's values.
+        file: Figure to write.
     """
     figure = new_figure(2.6 * len(PANELS), 0.6 + 2.0 * len(groups))
     axes = figure.subplots(

@@ -1,4 +1,4 @@
-"""Sizes of figures: on a screen, in a column, across a page."""
+"""Figure sizes: for a screen, a column or the width of a page."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -9,13 +9,13 @@ from ..core.errors import ConfigurationError
 
 
 class FigureSheet(NamedTuple):
-    """How wide a figure is, and how its words are set.
+    """Width and typography of figures.
 
     Attributes:
-        width: Of the whole figure, in [inch]; as the figure wants if None.
-        font: Size of its words, in [pt].
-        family: Fonts, the first that is there.
-        narrow: Whether what lies side by side should lie one below the other.
+        width: Of the whole figure, in [inch]; None for each figure's own.
+        font: Font size, in [pt].
+        family: Font families; the first that is installed is used.
+        narrow: Whether panels are stacked instead of side by side.
     """
 
     width: float | None
@@ -37,13 +37,13 @@ _chosen: ContextVar[FigureSheet] = ContextVar(
 
 
 def sheet() -> FigureSheet:
-    """What figures are drawn on at present."""
+    """Return the sheet on which figures are drawn at present."""
     return _chosen.get()
 
 
 @contextmanager
 def figures_on(name: str) -> Iterator[FigureSheet]:
-    """Draw figures on a sheet of one of ``SHEETS`` meanwhile.
+    """Draw figures on one of ``SHEETS`` inside a ``with`` block.
 
     Args:
         name: "screen", "page" or "column".

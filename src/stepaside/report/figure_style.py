@@ -1,4 +1,4 @@
-"""One look for every figure: colours, sizes, units."""
+"""Common style of all figures: colours, fonts, saving."""
 
 from collections.abc import Iterable
 from io import BytesIO
@@ -20,12 +20,12 @@ PURSUER = "#c8321f"
 EVADER = "#1f5fbf"
 THEORY = "#444444"
 LEFT, RIGHT = "#0f7b6c", "#b5651d"
-MEAN = "#5b2a86"  # of both players together
-SWAY = "#b9a5cf"  # of the same, with every step in it
+MEAN = "#5b2a86"  # mean over a gait cycle
+SWAY = "#b9a5cf"  # the same quantity at every sample
 COLOURS = {"pursuer": PURSUER, "evader": EVADER}
 OTHERS = (LEFT, RIGHT, "#6a3d9a", "#8a6d00", "#c0307f", "#3d6b8a")
 PUSHED = "#b5006b"
-# When it was drawn is no part of a figure: the same run, the same file.
+# Without dates, the same run gives the same file.
 UNDATED: dict[str, dict[str, Any]] = {
     "pdf": {"CreationDate": None},
     "svg": {"Date": None},
@@ -44,7 +44,7 @@ plt.rcParams.update(
         "legend.frameon": False,
         "figure.constrained_layout.use": True,
         "mathtext.fontset": "stix",
-        # Letters stay letters, which editors of papers can change.
+        # Text stays editable in PDF and SVG.
         "pdf.fonttype": 42,
         "svg.fonttype": "none",
         "svg.hashsalt": "stepaside",
@@ -53,28 +53,28 @@ plt.rcParams.update(
 
 
 def new_figure(width: float, height: float) -> Any:
-    """Begin a figure on the sheet that is chosen.
+    """Create a figure on the current sheet.
 
     Args:
-        width: That it has on a screen, in [inch].
-        height: Likewise; what the sheet narrows is lower by nearly as much,
-            since words do not shrink with it.
+        width: Width on the sheet "screen", in [inch].
+        height: Height on the sheet "screen", in [inch]; on a narrower sheet
+            it shrinks less than the width, since fonts do not shrink.
 
     Returns:
-        Figure of matplotlib.
+        Figure of Matplotlib.
     """
-    _set_words()
-    wide = sheet().width
-    if wide is None:
+    _set_fonts()
+    sheet_width = sheet().width
+    if sheet_width is None:
         return plt.figure(figsize=(width, height))
-    scale = wide / width
-    return plt.figure(figsize=(wide, max(scale, scale**0.75) * height))
+    scale = sheet_width / width
+    return plt.figure(figsize=(sheet_width, max(scale, scale**0.75) * height))
 
 
-def _set_words() -> None:
-    """Set words as the sheet asks; figures read this when they are drawn."""
-    wide, font, family, _ = sheet()
-    line = 0.8 if wide is None else 0.5
+def _set_fonts() -> None:
+    """Set fonts and line widths of the sheet; read when figures are drawn."""
+    sheet_width, font, family, _ = sheet()
+    line = 0.8 if sheet_width is None else 0.5
     plt.rcParams.update(
         {
             "font.family": list(family),
@@ -100,34 +100,34 @@ def mark_level(
     colour: str,
     line: str = "--",
     *,
-    stands: str = "center",
+    va: str = "center",
 ) -> None:
-    """Draw a level across a plot, and name it beside the plot.
+    """Draw a horizontal line across a plot and label it beside the plot.
 
     Args:
         axes: Matplotlib axes.
         level: Height of the line, in units of the axes.
-        text: Its name; it stands to the right of the axes, on no curve.
-        colour: Of both.
+        text: Label, to the right of the axes.
+        colour: Of line and label.
         line: Style of the line.
-        stands: Whether the name is over the level ("bottom"), under it
-            ("top"), or at its height.
+        va: Vertical alignment of the label: "bottom" is over the line, "top"
+            under it.
     """
     axes.axhline(level, color=colour, ls=line, lw=1.0)
     axes.annotate(
         text,
         (1.0, level),
-        (4.0, {"bottom": 1.0, "top": -1.0}.get(stands, 0.0)),
+        (4.0, {"bottom": 1.0, "top": -1.0}.get(va, 0.0)),
         xycoords=("axes fraction", "data"),
         textcoords="offset points",
-        va=stands,
+        va=va,
         color=colour,
         fontsize=sheet().font - 1.0,
     )
 
 
 def colours_of(players: Iterable[str]) -> dict[str, str]:
-    """Colour of each player: of its role, or one that nobody else has.
+    """Return the colour of each player: its role's, or the next free one.
 
     Args:
         players: Their names.
@@ -140,25 +140,25 @@ def colours_of(players: Iterable[str]) -> dict[str, str]:
 
 
 def save(figure: Any, file: AnyPath) -> None:
-    """Write a figure whole, or not at all, and let it go.
+    """Write a figure atomically and close it.
 
     Args:
-        figure: Of matplotlib.
-        file: What to write; its suffix says which kind.
+        figure: Figure of Matplotlib.
+        file: File to write; its suffix gives the format.
 
     Raises:
         OutputError: If it cannot be written.
     """
-    drawn = BytesIO()
+    buffer = BytesIO()
     try:
         path = as_path(file, "file")
         kind = path.suffix[1:].lower() or "png"
-        # In memory: what draws does not end well on a disk that is full.
-        figure.savefig(drawn, format=kind, metadata=UNDATED.get(kind))
+        # To memory first: backends do not recover from a full disk.
+        figure.savefig(buffer, format=kind, metadata=UNDATED.get(kind))
     finally:
         plt.close(figure)
     with writing(path) as draft:
-        draft.write_bytes(drawn.getvalue())
+        draft.write_bytes(buffer.getvalue())
 
 
 __all__ = [

@@ -1,7 +1,8 @@
-"""Films of a run, drawn off screen."""
+"""Films of a run, rendered off screen by several processes."""
 
 import os
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from fractions import Fraction
 from functools import partial
 from pathlib import Path
@@ -11,10 +12,12 @@ import numpy as np
 
 from ..core.atomic_output import reason_of, writing
 from ..core.errors import ConfigurationError, OutputError
+from ..core.poses import Array
 from ..core.worker_pool import worker_pool
 from ..games.run import Run
 from ..games.run_archive import load_run
 from ..perception.images import Pixels
+from ..sim.obstacle_geoms import is_room_wall
 from ..sim.offscreen_rendering import (
     RAYCAST,
     OffscreenRenderer,
@@ -22,88 +25,88 @@ from ..sim.offscreen_rendering import (
     choose_renderer,
 )
 from .film_camera import FilmCamera
-from .film_captions import caption, title_of
-from .film_insets import FilmInsets, room_beside
-from .film_layers import decorate, light_up
+from .film_captions import caption, draw_title
+from .film_insets import FilmInsets, inset_width
+from .film_layers import aim_light, decorate
 from .film_shot import FilmSettings
-from .film_walls import see_through
 from .scene import RunScene
 
-CHUNK = 15  # pictures that one worker draws at a time
-TRAIL = 20.0  # how long traces are, in [s]
-FINE = RenderQuality(samples=4, shadow=2048, slices=18, stacks=10)
-# Beyond, nothing has shadows; who looks far must not see where that is.
-REACH = {"eyes": 12.0}
-NEARBY = 4.0  # for all other cameras
+CHUNK = 15  # images that one worker renders at a time
+TRAIL = 20.0  # duration of traces, in [s]
+QUALITY = RenderQuality(samples=4, shadow=2048, slices=18, stacks=10)
+# Shadows end at this distance from the target, in [m]. The evader's view
+# looks far, so that the edge would be visible.
+SHADOW_REACH = {"eyes": 12.0}
+DEFAULT_SHADOW_REACH = 4.0  # of all other cameras, in [m]
 
 
 class FilmRenderer:
-    """Draws pictures of one run."""
+    """Renders the images of a film of one run."""
 
-    def __init__(self, run: Run, shot: FilmSettings, backend: str) -> None:
-        """Set up graphics."""
-        self._run, self._shot = run, shot
-        self._stage = RunScene(run)
-        model = self._stage.model
-        _dim(model)
+    def __init__(self, run: Run, settings: FilmSettings, backend: str) -> None:
+        """Set up the scene and the graphics."""
+        self._run = run
+        self._settings = settings
+        self._scene = RunScene(run)
+        model = self._scene.model
+        _dim_lights(model)
         self._fovy = float(model.vis.global_.fovy)
-        wide, self._insets = shot.width, None
-        if shot.camera == "split":
-            beside = room_beside(shot.width, shot.height)
-            wide -= beside
-            size = beside, shot.height
-            self._insets = FilmInsets(run, self._stage, backend, size)
-        aspect = wide / shot.height
-        self._man = FilmCamera(run, shot.camera, self._fovy, aspect)
-        self._screen = OffscreenRenderer(
+        width, self._insets = settings.width, None
+        if settings.camera == "split":
+            inset = inset_width(settings.width, settings.height)
+            width -= inset
+            size = inset, settings.height
+            self._insets = FilmInsets(run, self._scene, backend, size)
+        aspect = width / settings.height
+        self._camera = FilmCamera(run, settings.camera, self._fovy, aspect)
+        reach = SHADOW_REACH.get(settings.camera, DEFAULT_SHADOW_REACH)
+        self._renderer = OffscreenRenderer(
             model,
-            wide,
-            shot.height,
+            width,
+            settings.height,
             backend,
-            FINE._replace(
-                reach=max(REACH.get(shot.camera, NEARBY), self._man.reach)
-            ),
+            QUALITY._replace(reach=max(reach, self._camera.reach)),
         )
         self._closest = closest_time(run)
 
     def picture(self, time: float) -> Pixels:
-        """Picture of a time, in [s]. Shape (height, width, 3)."""
-        run, shot = self._run, self._shot
+        """Return the image of a time, in [s]. Shape (height, width, 3)."""
+        run, settings = self._run, self._settings
         index = run.index_at(time)
-        self._stage.put(index)
-        view = self._man.view(index)
+        self._scene.put(index)
+        view = self._camera.view(index)
 
         def add(scene: mujoco.MjvScene) -> None:
-            light_up(scene, view.target)
-            if shot.layers:
+            aim_light(scene, view.target)
+            if settings.layers:
                 decorate(scene, run=run, index=index, trail=TRAIL)
 
-        with see_through(self._stage.model, view.eye):
-            drawn = self._screen.draw(self._stage.data, view.camera(), add)
-        if shot.words:
-            drawn = caption(
-                drawn,
+        with hidden_walls(self._scene.model, view.eye):
+            image = self._renderer.draw(self._scene.data, view.camera(), add)
+        if settings.words:
+            image = caption(
+                image,
                 run,
                 index,
                 view=view,
                 fovy=self._fovy,
-                pace=shot.pace(time, self._closest),
+                speed=settings.speed_at(time, self._closest),
             )
-        drawn = title_of(drawn, shot.title)
+        image = draw_title(image, settings.title)
         if self._insets is not None:
-            seen = self._insets.picture(index)
-            drawn = np.concatenate([drawn, seen], axis=1)
-        return drawn
+            inset = self._insets.picture(index)
+            image = np.concatenate([image, inset], axis=1)
+        return image
 
     def close(self) -> None:
-        """Let go of the graphics."""
-        self._screen.close()
+        """Release the graphics."""
+        self._renderer.close()
         if self._insets is not None:
             self._insets.close()
 
 
-def _dim(model: mujoco.MjModel) -> None:
-    """Let light fall so that a pale floor is not white, seen from above."""
+def _dim_lights(model: mujoco.MjModel) -> None:
+    """Dim the lights so that the pale floor is not overexposed from above."""
     model.vis.headlight.ambient[:] = 0.3
     model.vis.headlight.diffuse[:] = 0.2
     model.vis.headlight.specular[:] = 0.0
@@ -111,44 +114,102 @@ def _dim(model: mujoco.MjModel) -> None:
     model.light_specular[:] = 0.1
 
 
+def walls_before(model: mujoco.MjModel, eye: Array) -> list[int]:
+    """Return the walls between a camera and the inside of the room.
+
+    Args:
+        model: Model of a room that is centered at the world's origin.
+        eye: Position of the camera, in the world, in [m]. Shape (3,).
+
+    Returns:
+        Numbers of their geoms.
+    """
+    found = []
+    for geom in range(model.ngeom):
+        if not is_room_wall(model, geom):
+            continue
+        rotation = np.zeros(9)
+        mujoco.mju_quat2Mat(rotation, model.geom_quat[geom])
+        axes = rotation.reshape(3, 3)
+        position = model.body_pos[model.geom_bodyid[geom]]
+        normal = axes[:, int(np.argmin(model.geom_size[geom][:2]))]
+        # The room's center and the camera are on different sides of it.
+        if (normal @ position) * (normal @ (position - eye)) < 0.0:
+            found.append(geom)
+    return found
+
+
+@contextmanager
+def hidden_walls(model: mujoco.MjModel, eye: Array) -> Iterator[None]:
+    """Hide the walls of :func:`walls_before` inside a ``with`` block.
+
+    Args:
+        model: Model of a room that is centered at the world's origin.
+        eye: Position of the camera, in the world, in [m]. Shape (3,).
+    """
+    walls = walls_before(model, eye)
+    opacity = model.geom_rgba[walls, 3].copy()
+    model.geom_rgba[walls, 3] = 0.0
+    try:
+        yield
+    finally:
+        model.geom_rgba[walls, 3] = opacity
+
+
 def closest_time(run: Run) -> float | None:
-    """When the first two of a run were closest, in [s]; None for one."""
+    """Return the time of the closest approach, in [s].
+
+    Args:
+        run: The run.
+
+    Returns:
+        The time; None for a run of one player.
+    """
     if run.distance is None:
         return None
     return float(run.times[int(np.argmin(run.distance))])
 
 
-def instants_of(run: Run, shot: FilmSettings) -> list[float]:
-    """Times of the pictures of a film of a run, in [s]."""
-    return shot.instants(float(run.times[-1]), closest_time(run))
+def frame_times_of(run: Run, settings: FilmSettings) -> list[float]:
+    """Return the times in a run at which a film has images, in [s].
+
+    Args:
+        run: The run.
+        settings: Settings of the film.
+    """
+    return settings.frame_times(float(run.times[-1]), closest_time(run))
 
 
-_cinemas: dict[tuple[Path, FilmSettings, str], FilmRenderer] = {}
+# One per process; workers reuse it for all chunks of a film.
+_renderers: dict[tuple[Path, FilmSettings, str], FilmRenderer] = {}
 
 
 def _draw(
-    folder: Path, shot: FilmSettings, backend: str, times: list[float]
+    folder: Path, settings: FilmSettings, backend: str, times: list[float]
 ) -> list[Pixels]:
-    """Draw some pictures in a process that keeps its graphics."""
-    key = (folder, shot, backend)
-    if key not in _cinemas:
-        _cinemas[key] = FilmRenderer(load_run(folder), shot, backend)
-    return [_cinemas[key].picture(time) for time in times]
+    """Render some images in a process that keeps its renderer."""
+    key = (folder, settings, backend)
+    if key not in _renderers:
+        _renderers[key] = FilmRenderer(load_run(folder), settings, backend)
+    return [_renderers[key].picture(time) for time in times]
 
 
 def pictures(
-    folder: Path, shot: FilmSettings, *, workers: int | None = None
+    folder: Path, settings: FilmSettings, *, workers: int | None = None
 ) -> Iterator[Pixels]:
-    """Draw the pictures of a film in order, on all cores.
+    """Render the images of a film in order, on all cores.
 
     Args:
         folder: Run folder.
-        shot: How the film is taken.
-        workers: Processes; as many as there are cores by default.
+        settings: Settings of the film.
+        workers: Number of processes; by default one per core.
+
+    Yields:
+        Images. Shape (height, width, 3).
 
     Raises:
-        ConfigurationError: If the machine cannot draw, or there is nothing
-            to draw.
+        ConfigurationError: If this machine has no OpenGL, or the film begins
+            after the end of the run.
     """
     backend = choose_renderer("auto")
     if backend == RAYCAST:
@@ -156,58 +217,62 @@ def pictures(
             "films need EGL or OSMesa, and neither works here: install "
             "libegl1 or libosmesa6"
         )
-    times = instants_of(load_run(folder), shot)
+    times = frame_times_of(load_run(folder), settings)
     if not times:
         raise ConfigurationError(
-            f"film must begin before the run's end, got {shot.begin:g} [s]"
+            f"film must begin before the run's end, got {settings.begin:g} [s]"
         )
     chunks = [times[i : i + CHUNK] for i in range(0, len(times), CHUNK)]
-    draw = partial(_draw, folder, shot, backend)
+    draw = partial(_draw, folder, settings, backend)
     count = workers or os.cpu_count() or 1
     with worker_pool(count) as pool:
-        # A few chunks ahead of what was taken, so that memory is bounded.
+        # Only a few chunks are submitted ahead, to bound the memory used.
         ahead = [pool.submit(draw, c) for c in chunks[: 2 * count]]
         following = iter(chunks[2 * count :])
         while ahead:
-            drawn = ahead.pop(0).result()
+            images = ahead.pop(0).result()
             chunk = next(following, None)
             if chunk is not None:
                 ahead.append(pool.submit(draw, chunk))
-            yield from drawn
+            yield from images
 
 
 def write_video(
     folder: Path,
     file: Path,
-    shot: FilmSettings,
+    settings: FilmSettings,
     report: Callable[[int, int], None] | None = None,
 ) -> int:
-    """Write a film as H.264, which browsers play.
+    """Write a film as H.264, which browsers can play.
 
     Args:
         folder: Run folder.
         file: Film to write; it appears when it is complete.
-        shot: How it is taken.
-        report: Called with the pictures that are done, and all of them.
+        settings: Settings of the film.
+        report: Called with the numbers of finished and of all images.
 
     Returns:
-        Number of pictures.
+        Number of images.
+
+    Raises:
+        ConfigurationError: As in :func:`pictures`.
+        OutputError: If the file cannot be written.
     """
     import av
 
-    number = len(instants_of(load_run(folder), shot))
+    number = len(frame_times_of(load_run(folder), settings))
     done = 0
     with writing(file) as draft:
         try:
             with av.open(
                 str(draft), "w", options={"movflags": "faststart"}
             ) as out:
-                rate = Fraction(shot.rate).limit_denominator(1000)
+                rate = Fraction(settings.rate).limit_denominator(1000)
                 stream = out.add_stream("libx264", rate=rate)
-                stream.width, stream.height = shot.width, shot.height
+                stream.width, stream.height = settings.width, settings.height
                 stream.pix_fmt = "yuv420p"
                 stream.options = {"crf": "23", "preset": "veryfast"}
-                for picture in pictures(folder, shot):
+                for picture in pictures(folder, settings):
                     frame = av.VideoFrame.from_ndarray(picture, format="rgb24")
                     out.mux(stream.encode(frame))
                     done += 1
@@ -224,15 +289,29 @@ def write_video(
 def write_gif(
     folder: Path,
     file: Path,
-    shot: FilmSettings,
+    settings: FilmSettings,
     report: Callable[[int, int], None] | None = None,
 ) -> int:
-    """Write a short film as GIF; see :func:`write_video`."""
+    """Write a short film as GIF.
+
+    Args:
+        folder: Run folder.
+        file: Film to write; it appears when it is complete.
+        settings: Settings of the film.
+        report: Called with the numbers of finished and of all images.
+
+    Returns:
+        Number of images.
+
+    Raises:
+        ConfigurationError: As in :func:`pictures`.
+        OutputError: If the file cannot be written.
+    """
     from PIL import Image
 
-    number = len(instants_of(load_run(folder), shot))
+    number = len(frame_times_of(load_run(folder), settings))
     frames = []
-    for picture in pictures(folder, shot):
+    for picture in pictures(folder, settings):
         image = Image.fromarray(picture)
         frames.append(image.quantize(64, dither=Image.Dither.NONE))
         if report is not None:
@@ -243,7 +322,7 @@ def write_gif(
             format="GIF",
             save_all=True,
             append_images=frames[1:],
-            duration=round(1000.0 / shot.rate),
+            duration=round(1000.0 / settings.rate),
             loop=0,
             optimize=True,
         )

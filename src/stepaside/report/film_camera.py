@@ -1,7 +1,7 @@
-"""Where the camera of a film stands: whole ways in view, or along with them.
+"""Cameras of films: fixed on all paths, following, from above, evader's view.
 
-What shall be seen are points; how far away a camera has to be for all of them
-is closed form, since each lies within the picture from some distance on.
+A camera frames a set of points. The distance from which all of them are in
+the image has a closed form, since each point is in it from some distance on.
 """
 
 from math import atan2, cos, degrees, hypot, radians, sin, tan
@@ -13,28 +13,28 @@ import numpy as np
 from ..core.errors import ConfigurationError
 from ..core.poses import Array
 from ..games.run import Run
-from ..sim.obstacle_geoms import HEIGHT as WALLS
+from ..sim.obstacle_geoms import HEIGHT as WALL_HEIGHT
 from .room_extent import wall_corners
 
 VIEWS = ("fixed", "follow", "top", "eyes", "split")
-AZIMUTH, ELEVATION = 60.0, -32.0  # of a camera that stands, in [deg]
-MARGIN = 0.86  # of the picture's half sides that points may take
-HEIGHT = 0.62  # of what stands where a player is, with its name, in [m]
-CENTRED = 4  # times that a view is centred
-ASIDE = 0.15  # of what is beside it, in [m]
-EYES = 0.2, 0.09  # of the evader, above and before its torso's middle, in [m]
-EVERY = 0.1  # between the views from which one that follows is made, in [s]
-CALM = 1.5  # standard deviation over which they are averaged, in [s]
+AZIMUTH, ELEVATION = 60.0, -32.0  # of the fixed and following view, in [deg]
+MARGIN = 0.86  # fraction of the image's half sides that points may take
+HEIGHT = 0.62  # of a player with its label, in [m]
+CENTERING_STEPS = 4  # iterations that center a view
+HALF_WIDTH = 0.15  # of a player, in [m]
+EYES = 0.2, 0.09  # of the evader, above and in front of its torso, in [m]
+PERIOD = 0.1  # between the views that a following camera smooths, in [s]
+SMOOTHING = 1.5  # standard deviation of its Gaussian window, in [s]
 
 
 class CameraView(NamedTuple):
-    """A camera that looks at a point.
+    """Camera that looks at a point.
 
     Attributes:
-        target: What it looks at, in the world, in [m]. Shape (3,).
-        distance: How far away it is, in [m].
+        target: Point that it looks at, in the world, in [m]. Shape (3,).
+        distance: From the camera to the target, in [m].
         azimuth: Direction in which it looks, in [deg].
-        elevation: Negative from above, in [deg].
+        elevation: Elevation of that direction, in [deg]; negative from above.
     """
 
     target: Array
@@ -52,12 +52,12 @@ class CameraView(NamedTuple):
 
     @property
     def eye(self) -> Array:
-        """Place of the camera, in the world, in [m]. Shape (3,)."""
-        place: Array = self.target - self.distance * self.axes[2]
-        return place
+        """Position of the camera, in the world, in [m]. Shape (3,)."""
+        position: Array = self.target - self.distance * self.axes[2]
+        return position
 
     def project(self, point: Array, fovy: float) -> tuple[float, float] | None:
-        """Place of a point in the picture, in half heights from its middle.
+        """Return the image of a point, in half heights from the center.
 
         Args:
             point: In the world, in [m]. Shape (3,).
@@ -67,14 +67,14 @@ class CameraView(NamedTuple):
             Rightward and upward; None behind the camera.
         """
         right, up, ahead = (self.axes @ (point - self.target)).tolist()
-        away = self.distance + ahead
-        if away <= 0.05:
+        depth = self.distance + ahead
+        if depth <= 0.05:
             return None
-        scale = away * tan(0.5 * radians(fovy))
+        scale = depth * tan(0.5 * radians(fovy))
         return right / scale, up / scale
 
     def camera(self) -> mujoco.MjvCamera:
-        """The same for MuJoCo."""
+        """Return the same view as a camera of MuJoCo."""
         camera = mujoco.MjvCamera()
         camera.type = mujoco.mjtCamera.mjCAMERA_FREE
         camera.lookat[:] = self.target
@@ -86,93 +86,104 @@ class CameraView(NamedTuple):
 def framing(
     points: Array, azimuth: float, elevation: float, fovy: float, aspect: float
 ) -> CameraView:
-    """View from which all points are in the picture, from as near as can be.
+    """Return the nearest view that has all points in the image.
 
     Args:
         points: In the world, in [m]. Shape (n, 3).
-        azimuth: Direction in which it looks, in [deg].
-        elevation: Likewise.
+        azimuth: Direction in which the camera looks, in [deg].
+        elevation: Elevation of that direction, in [deg].
         fovy: Vertical field of view, in [deg].
-        aspect: Width over height of the picture.
+        aspect: Width over height of the image.
     """
     target = 0.5 * (points.min(axis=0) + points.max(axis=0))
     view = CameraView(target, 0.0, azimuth, elevation)
-    high = MARGIN * tan(0.5 * radians(fovy))
-    for _ in range(CENTRED):
+    slope = MARGIN * tan(0.5 * radians(fovy))
+    for _ in range(CENTERING_STEPS):
         right, up, ahead = view.axes @ (points - view.target).T
-        away = np.maximum(np.abs(up) / high, np.abs(right) / (aspect * high))
-        distance = float((away - ahead).max())
-        # What is near is seen larger: the middle of all is another one.
-        seen = np.array([right, up]) / (distance + ahead)
-        middle = 0.5 * (seen.min(axis=1) + seen.max(axis=1))
-        shift = distance * (middle @ view.axes[:2])
+        depth = _least_depth(right, up, slope, aspect)
+        distance = float((depth - ahead).max())
+        # Perspective: the center of the image is not the center of the box.
+        image = np.array([right, up]) / (distance + ahead)
+        center = 0.5 * (image.min(axis=1) + image.max(axis=1))
+        shift = distance * (center @ view.axes[:2])
         view = view._replace(target=view.target + shift)
     right, up, ahead = view.axes @ (points - view.target).T
-    away = np.maximum(np.abs(up) / high, np.abs(right) / (aspect * high))
-    return view._replace(distance=float((away - ahead).max()))
+    depth = _least_depth(right, up, slope, aspect)
+    return view._replace(distance=float((depth - ahead).max()))
+
+
+def _least_depth(
+    right: Array, up: Array, slope: float, aspect: float
+) -> Array:
+    """Return the depths from which on points are in the image, in [m]."""
+    depth: Array = np.maximum(
+        np.abs(up) / slope, np.abs(right) / (aspect * slope)
+    )
+    return depth
 
 
 class FilmCamera:
-    """Chooses the view of every moment of a film."""
+    """Camera of a film, with a view for every sample of the run."""
 
     def __init__(self, run: Run, name: str, fovy: float, aspect: float):
-        """Look at a run.
+        """Plan the views of a run.
 
         Args:
             run: The run.
             name: One of ``VIEWS``.
             fovy: Vertical field of view, in [deg].
-            aspect: Width over height of the picture.
+            aspect: Width over height of the image.
 
         Raises:
-            ConfigurationError: If nobody is there to be seen through eyes.
+            ConfigurationError: If the evader's view is requested for a run
+                of one player.
         """
         if name == "eyes" and run.pair is None:
             raise ConfigurationError(
                 "camera eyes needs a run of two players, got one of "
                 f"{len(run.players)}"
             )
-        # Beside what the robots see, the scene is followed.
+        # The scene beside the insets has the following camera.
         name = "follow" if name == "split" else name
         self._run, self._name = run, name
         self._fovy, self._aspect = fovy, aspect
         self._whole = self._frame(slice(None), with_circle=True)
         if name == "follow":
-            self._times, self._views = self._followed()
+            self._times, self._views = self._smoothed_views()
 
     @property
     def reach(self) -> float:
-        """How far about what it looks at it sees the floor, in [m]."""
+        """Radius of the visible floor around the target, in [m]."""
         if self._name == "follow":
             return 1.3 * float(self._views[:, 3].max())
         return (1.6 if self._name == "top" else 1.3) * self._whole.distance
 
     def view(self, index: int) -> CameraView:
-        """View of a sample of the run."""
+        """Return the view of a sample of the run."""
         if self._name == "follow":
             now = self._run.times[index]
-            x, y, z, away = (
+            x, y, z, distance = (
                 float(np.interp(now, self._times, column))
                 for column in self._views.T
             )
-            return CameraView(np.array([x, y, z]), away, AZIMUTH, ELEVATION)
+            target = np.array([x, y, z])
+            return CameraView(target, distance, AZIMUTH, ELEVATION)
         return self._eyes(index) if self._name == "eyes" else self._whole
 
     def _frame(self, chosen: slice, *, with_circle: bool) -> CameraView:
-        """View of the players over some samples."""
+        """Return the view that frames the players over some samples."""
         corners = np.array(
             [
                 [x, y, z]
-                for x in (-ASIDE, ASIDE)
-                for y in (-ASIDE, ASIDE)
+                for x in (-HALF_WIDTH, HALF_WIDTH)
+                for y in (-HALF_WIDTH, HALF_WIDTH)
                 for z in (0.0, HEIGHT)
             ]
         )
         tracks = self._run.tracks.values()
-        ways = [track.torso[chosen, :2] for track in tracks]
-        every = np.concatenate(ways)
-        places = np.column_stack([every, np.zeros(len(every))])
-        points = (places[:, None] + corners).reshape(-1, 3)
+        paths = np.concatenate([track.torso[chosen, :2] for track in tracks])
+        on_floor = np.column_stack([paths, np.zeros(len(paths))])
+        points = (on_floor[:, None] + corners).reshape(-1, 3)
         if with_circle and self._run.circle is not None:
             x, y, radius = self._run.circle
             angle = np.linspace(0.0, 2.0 * np.pi, 37)
@@ -183,23 +194,24 @@ class FilmCamera:
         top = self._name == "top"
         if top and with_circle:
             corners = wall_corners(self._run.plan)
-            high = np.full(len(corners), WALLS)
-            points = np.concatenate([points, np.column_stack([corners, high])])
+            height = np.full(len(corners), WALL_HEIGHT)
+            tops = np.column_stack([corners, height])
+            points = np.concatenate([points, tops])
         azimuth, elevation = (90.0, -89.9) if top else (AZIMUTH, ELEVATION)
         return framing(points, azimuth, elevation, self._fovy, self._aspect)
 
-    def _followed(self) -> tuple[Array, Array]:
-        """Times, and rows (target x, y, z, distance), calm and wide enough."""
+    def _smoothed_views(self) -> tuple[Array, Array]:
+        """Return times, and rows (target x, y, z, distance), smoothed."""
         times = self._run.times
-        gap = float(times[1] - times[0]) if len(times) > 1 else EVERY
-        every = max(1, round(EVERY / gap))
+        gap = float(times[1] - times[0]) if len(times) > 1 else PERIOD
+        every = max(1, round(PERIOD / gap))
         chosen = np.arange(0, len(times), every)
         views = [
             self._frame(slice(i, i + 1), with_circle=False) for i in chosen
         ]
         rows = np.array([[*v.target, v.distance] for v in views])
-        half = round(3.0 * CALM / (every * gap))
-        # As far as it ever has to be nearby: then nobody is cut.
+        half = round(3.0 * SMOOTHING / (every * gap))
+        # The largest distance in the window keeps all players in the image.
         padded = np.pad(rows[:, 3], half, mode="edge")
         windows = np.lib.stride_tricks.sliding_window_view(
             padded, 2 * half + 1
@@ -208,27 +220,26 @@ class FilmCamera:
         kernel = np.exp(-0.5 * np.linspace(-3.0, 3.0, 2 * half + 1) ** 2)
         kernel /= kernel.sum()
         for column in rows.T:
-            wide = np.pad(column, half, mode="edge")
-            column[:] = np.convolve(wide, kernel, mode="valid")
+            padded = np.pad(column, half, mode="edge")
+            column[:] = np.convolve(padded, kernel, mode="valid")
         return times[chosen], rows
 
     def _eyes(self, index: int) -> CameraView:
-        """From the head of the second player to the first."""
-        over, before = EYES
+        """Return the view from the second player's head to the first."""
+        above, forward = EYES
         assert self._run.pair is not None
         first, second = self._run.pair
         pursuer, evader = (t.torso[index, :2] for t in (first, second))
-        com = float(second.com[index, 2])
-        toward = pursuer - evader
-        apart = max(float(hypot(*toward)), 1e-6)
-        eye = np.array([*(evader + before * toward / apart), com + over])
-        seen = float(first.com[index, 2])
-        target = np.array([*pursuer, seen])
+        sight = pursuer - evader
+        distance = max(float(hypot(*sight)), 1e-6)
+        height = float(second.com[index, 2]) + above
+        eye = np.array([*(evader + forward * sight / distance), height])
+        target = np.array([*pursuer, float(first.com[index, 2])])
         ahead = target - eye
-        flat = float(hypot(ahead[0], ahead[1]))
+        level = float(hypot(ahead[0], ahead[1]))
         return CameraView(
             target,
             float(np.linalg.norm(ahead)),
             degrees(atan2(ahead[1], ahead[0])),
-            degrees(atan2(ahead[2], flat)),
+            degrees(atan2(ahead[2], level)),
         )

@@ -1,4 +1,4 @@
-"""Lines that are drawn into a film."""
+"""Layers of a film: traces, footprints, pushes, rings and line of sight."""
 
 from functools import cache
 from math import hypot
@@ -10,34 +10,34 @@ from ..core.poses import Array
 from ..games.run import Run
 from .figure_style import PUSHED, THEORY, colours_of
 
-THICK = 0.005  # of a line, in [m]
-POINTS = 80  # of a trace, at most about
-LIGHT_AWAY = 4.0  # of a light from what it shines on, in [m]
+LINE_WIDTH = 0.005  # half width, in [m]
+TRACE_POINTS = 80  # of a trace, approximately
+LIGHT_DISTANCE = 4.0  # from a light to its target, in [m]
 PUSH_HEIGHT = 0.3  # of an arrow over the floor, in [m]
-PUSH_LENGTH = 0.25  # in [m] per [N s]
-PUSH_SHOWN = 1.0  # how long it is seen, in [s]
-PRINT = (0.045, 0.025)  # half sizes of a footprint, in [m]
+PUSH_LENGTH = 0.25  # of an arrow, in [m] per [N s]
+PUSH_SHOWN = 1.0  # time for which an arrow is shown, in [s]
+FOOTPRINT = (0.045, 0.025)  # half sizes, in [m]
 
 
 def decorate(
     scene: mujoco.MjvScene, *, run: Run, index: int, trail: float
 ) -> None:
-    """Add traces, footprints, pushes, line of sight, areas and circle.
+    """Add traces, footprints, pushes, line of sight and rings to a scene.
 
     Args:
         scene: Scene to add to.
         run: The run.
         index: Sample that is drawn.
-        trail: How long traces are, in [s].
+        trail: Duration of the traces, in [s].
     """
     now = float(run.times[index])
     first = int(np.searchsorted(run.times, now - trail))
-    every = max(1, (index - first) // POINTS)
+    every = max(1, (index - first) // TRACE_POINTS)
     for name, colour in colours_of(run.players).items():
         track = run.tracks[name]
         com = track.com[first : index + 1 : every, :2]
-        _lines(scene, com, 0.004, colour)
-        _pushes(scene, track.pushes, now)
+        _add_lines(scene, com, 0.004, colour)
+        _add_pushes(scene, track.pushes, now)
         landings = track.landings
         if landings is None:
             continue
@@ -45,42 +45,43 @@ def decorate(
             (landings[:, 0] <= now + 0.5) & (landings[:, 0] > now - trail)
         ]
         for _, _, x, y, heading in shown.tolist():
-            _print(scene, x, y, heading, colour)
+            _add_footprint(scene, x, y, heading, colour)
     if run.pair is not None:
-        one, other = (
+        pursuer, evader = (
             np.array([*track.torso[index, :2], 0.25]) for track in run.pair
         )
-        _line(scene, one, other, 0.5 * THICK, THEORY)
+        _add_line(scene, pursuer, evader, 0.5 * LINE_WIDTH, THEORY)
     if run.safety is not None:
-        who, radius = run.safety
-        place = run.tracks[who].torso[index, :2]
-        colour = colours_of(run.players)[who]
-        _lines(scene, _ring(place, radius), 0.003, colour)
+        player, radius = run.safety
+        center = run.tracks[player].torso[index, :2]
+        colour = colours_of(run.players)[player]
+        _add_lines(scene, _ring(center, radius), 0.003, colour)
     if run.circle is not None:
-        x, y, size = run.circle
-        _lines(scene, _ring(np.array([x, y]), size), 0.002, THEORY)
+        x, y, radius = run.circle
+        _add_lines(scene, _ring(np.array([x, y]), radius), 0.002, THEORY)
 
 
-def light_up(scene: mujoco.MjvScene, target: Array) -> None:
-    """Let the light that casts shadows shine on what is looked at.
+def aim_light(scene: mujoco.MjvScene, target: Array) -> None:
+    """Move the lights that cast shadows so that they shine on a target.
 
     Args:
-        scene: Whose lights lie where the model has them.
-        target: Middle of what has shadows, in [m]. Shape (3,).
+        scene: Scene with the lights of the model.
+        target: Center of the shadows, in [m]. Shape (3,).
     """
     for light in scene.lights[: scene.nlight]:
         if light.castshadow:
-            light.pos[:] = target - LIGHT_AWAY * np.asarray(light.dir)
+            light.pos[:] = target - LIGHT_DISTANCE * np.asarray(light.dir)
 
 
-def _pushes(scene: mujoco.MjvScene, pushes: Array | None, now: float) -> None:
-    """Arrows of the pushes of the last second."""
+def _add_pushes(
+    scene: mujoco.MjvScene, pushes: Array | None, now: float
+) -> None:
+    """Add arrows of the pushes of the last second."""
     for time, _, x, y, *impulse in () if pushes is None else pushes.tolist():
         if 0.0 <= now - time < PUSH_SHOWN:
-            way = PUSH_LENGTH * np.array(impulse)
-            end = np.array([x, y, PUSH_HEIGHT])
-            start = end - [*way, 0.0]
-            _arrow(scene, start, end, 3.0 * THICK, PUSHED)
+            tip = np.array([x, y, PUSH_HEIGHT])
+            start = tip - [*(PUSH_LENGTH * np.array(impulse)), 0.0]
+            _add_arrow(scene, start, tip, 3.0 * LINE_WIDTH, PUSHED)
 
 
 def _ring(center: Array, radius: float) -> Array:
@@ -91,57 +92,60 @@ def _ring(center: Array, radius: float) -> Array:
     return ring
 
 
-def _lines(
+def _add_lines(
     scene: mujoco.MjvScene, points: Array, height: float, colour: str
 ) -> None:
     raised = np.column_stack([points, np.full(len(points), height)])
     for a, b in zip(raised[:-1], raised[1:], strict=True):
-        _line(scene, a, b, THICK, colour)
+        _add_line(scene, a, b, LINE_WIDTH, colour)
 
 
-def _line(
+def _add_line(
     scene: mujoco.MjvScene, a: Array, b: Array, width: float, colour: str
 ) -> None:
-    """Add a square bar, of far fewer corners than a round one."""
+    """Add a line as a bar, which has far fewer vertices than a capsule."""
     x, y, z = (b - a).tolist()
-    long = hypot(x, y, z)
-    if scene.ngeom >= scene.maxgeom or long < 1e-9:
+    length = hypot(x, y, z)
+    if scene.ngeom >= scene.maxgeom or length < 1e-9:
         return
     mujoco.mjv_initGeom(
         scene.geoms[scene.ngeom],
         mujoco.mjtGeom.mjGEOM_BOX,
-        np.array([width, 0.3 * width, 0.5 * long]),
+        np.array([width, 0.3 * width, 0.5 * length]),
         0.5 * (a + b),
-        turn_along(x / long, y / long, z / long),
+        rotation_along(x / length, y / length, z / length),
         _rgba(colour),
     )
     scene.ngeom += 1
 
 
-def turn_along(x: float, y: float, z: float) -> Array:
-    """Rotation of a bar whose third axis lies along a unit vector.
+def rotation_along(x: float, y: float, z: float) -> Array:
+    """Return a rotation whose third axis is a unit vector.
 
-    Its first axis lies flat on the floor, whichever way the bar lies there;
-    in plain numbers, since a film has hundreds of bars in each picture.
+    Its first axis is horizontal unless the vector is nearly vertical.
+    Computed with scalars, since an image has hundreds of lines.
+
+    Args:
+        x: First component of the unit vector.
+        y: Second component.
+        z: Third component.
 
     Returns:
-        Rows of the matrix, one after another. Shape (9,).
+        Rotation matrix, row by row. Shape (9,).
     """
     if abs(z) < 0.9:
-        flat = hypot(x, y)
-        right, up, over = -y / flat, x / flat, 0.0
+        level = hypot(x, y)
+        a, b, c = -y / level, x / level, 0.0
     else:
         steep = hypot(y, z)
-        right, up, over = 0.0, -z / steep, y / steep
-    rows = (
-        *(right, y * over - z * up, x),
-        *(up, z * right - x * over, y),
-        *(over, x * up - y * right, z),
-    )
-    return np.array(rows)
+        a, b, c = 0.0, -z / steep, y / steep
+    first_row = (a, y * c - z * b, x)
+    second_row = (b, z * a - x * c, y)
+    third_row = (c, x * b - y * a, z)
+    return np.array([*first_row, *second_row, *third_row])
 
 
-def _arrow(
+def _add_arrow(
     scene: mujoco.MjvScene, a: Array, b: Array, width: float, colour: str
 ) -> None:
     if scene.ngeom >= scene.maxgeom:
@@ -154,19 +158,19 @@ def _arrow(
     scene.ngeom += 1
 
 
-def _print(
+def _add_footprint(
     scene: mujoco.MjvScene, x: float, y: float, heading: float, colour: str
 ) -> None:
     if scene.ngeom >= scene.maxgeom:
         return
     c, s = np.cos(heading), np.sin(heading)
-    turn = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+    rotation = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
     mujoco.mjv_initGeom(
         scene.geoms[scene.ngeom],
         mujoco.mjtGeom.mjGEOM_BOX,
-        np.array([*PRINT, 0.0015]),
+        np.array([*FOOTPRINT, 0.0015]),
         np.array([x + 0.02 * c, y + 0.02 * s, 0.0015]),
-        turn.ravel(),
+        rotation.ravel(),
         _rgba(colour, 0.55),
     )
     scene.ngeom += 1

@@ -1,4 +1,4 @@
-"""A few pictures of a film side by side, each over its view from above."""
+"""Figure of a few images of a film, each above its top view."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -10,61 +10,61 @@ from ..games.run_archive import load_run
 from .duel_figure import draw_top
 from .figure_sizes import sheet
 from .figure_style import THEORY, colours_of, new_figure, save
-from .film import FilmSettings, instants_of, pictures
+from .film import FilmSettings, frame_times_of, pictures
 
 FRAMES = 4
 
 
-def spread(shot: FilmSettings, last: float) -> FilmSettings:
-    """The same shot with a few pictures, evenly from begin to end.
+def strip_settings(settings: FilmSettings, last: float) -> FilmSettings:
+    """Return the settings for ``FRAMES`` images, evenly from begin to end.
 
     Args:
-        shot: How a film would be taken.
+        settings: Settings of a film of the same time.
         last: End of the run, in [s].
     """
-    span = min(last, shot.begin + shot.duration) - shot.begin
+    span = min(last, settings.begin + settings.duration) - settings.begin
     rate = (FRAMES - 1) / span if span > 0.0 else 1.0
-    return shot._replace(rate=rate, speed=1.0, slow=False, words=False)
+    return settings._replace(rate=rate, speed=1.0, slow=False, words=False)
 
 
 def write_strip(
     folder: Path,
     file: Path,
-    shot: FilmSettings,
+    settings: FilmSettings,
     report: Callable[[int, int], None] | None = None,
 ) -> int:
-    """Write the strip of a run.
+    """Write the film strip of a run.
 
     Args:
         folder: Run folder.
-        file: Figure, of a format that its suffix tells.
-        shot: How a film would be taken, from its begin to its end.
-        report: Called with the pictures that are done, and all of them.
+        file: Figure to write; its suffix gives the format.
+        settings: Settings of a film of the same time.
+        report: Called with the numbers of finished and of all images.
 
     Returns:
-        Number of pictures.
+        Number of images.
 
     Raises:
-        ConfigurationError: If the machine cannot draw, or there is nothing
-            to draw.
-        OutputError: If it cannot be written.
+        ConfigurationError: If this machine has no OpenGL, or the film begins
+            after the end of the run.
+        OutputError: If the file cannot be written.
     """
     run = load_run(folder)
-    shot = spread(shot, float(run.times[-1]))
-    times = instants_of(run, shot)
-    drawn = []
-    for picture in pictures(folder, shot):
-        drawn.append(picture)
+    settings = strip_settings(settings, float(run.times[-1]))
+    times = frame_times_of(run, settings)
+    images = []
+    for image in pictures(folder, settings):
+        images.append(image)
         if report is not None:
-            report(len(drawn), len(times))
-    lines = 2 if sheet().narrow else 1
-    columns = -(-len(drawn) // lines)
-    figure = new_figure(2.75 * columns, 0.5 + 4.6 * lines)
-    grid = figure.subplots(2 * lines, columns, squeeze=False)
-    for number, (picture, time) in enumerate(zip(drawn, times, strict=True)):
-        line, column = divmod(number, columns)
-        above, below = grid[2 * line, column], grid[2 * line + 1, column]
-        above.imshow(picture)
+            report(len(images), len(times))
+    rows = 2 if sheet().narrow else 1
+    columns = -(-len(images) // rows)
+    figure = new_figure(2.75 * columns, 0.5 + 4.6 * rows)
+    grid = figure.subplots(2 * rows, columns, squeeze=False)
+    for number, (image, time) in enumerate(zip(images, times, strict=True)):
+        row, column = divmod(number, columns)
+        above, below = grid[2 * row, column], grid[2 * row + 1, column]
+        above.imshow(image)
         above.set_title(f"{time:.1f} s")
         above.set_axis_off()
         draw_top(below, run, run.index_at(time))
@@ -72,31 +72,33 @@ def write_strip(
         if column == 0:
             below.set_ylabel("y [m]")
     figure.legend(
-        *line_names(run, shot),
+        *legend_entries(run, settings),
         loc="outside lower center",
         ncols=2 if sheet().narrow else 5,
     )
     save(figure, file)
-    return len(drawn)
+    return len(images)
 
 
-def line_names(run: Run, shot: FilmSettings) -> tuple[list[Line2D], list[str]]:
-    """Return a sample and the name of every line of the pictures.
+def legend_entries(
+    run: Run, settings: FilmSettings
+) -> tuple[list[Line2D], list[str]]:
+    """Return the handles and labels of all lines in the images.
 
     Args:
         run: The run.
-        shot: How its film would be taken.
+        settings: Settings of the film.
     """
     colours = colours_of(run.players)
-    found = [(f"path of the {n}", c, 1.5) for n, c in colours.items()]
-    if shot.layers and run.safety is not None:
-        who, radius = run.safety
-        name = f"ring: safety radius of the {who}, {radius:.3g} m"
-        found.append((name, colours[who], 3.0))
-    if shot.layers and run.circle is not None:
-        name = f"ring: circle of theory, radius {run.circle[2]:.2f} m"
-        found.append((name, THEORY, 3.0))
-    if shot.layers and run.pair is not None:
-        found.append(("line of sight", THEORY, 0.8))
-    lines = [Line2D([], [], color=colour, lw=w) for _, colour, w in found]
-    return lines, [name for name, _, _ in found]
+    entries = [(f"path of the {n}", c, 1.5) for n, c in colours.items()]
+    if settings.layers and run.safety is not None:
+        player, radius = run.safety
+        label = f"ring: safety radius of the {player}, {radius:.3g} m"
+        entries.append((label, colours[player], 3.0))
+    if settings.layers and run.circle is not None:
+        label = f"ring: theoretical circle, radius {run.circle[2]:.2f} m"
+        entries.append((label, THEORY, 3.0))
+    if settings.layers and run.pair is not None:
+        entries.append(("line of sight", THEORY, 0.8))
+    lines = [Line2D([], [], color=colour, lw=w) for _, colour, w in entries]
+    return lines, [label for label, _, _ in entries]

@@ -1,7 +1,8 @@
-"""Meshes of a model, small enough to be sent to a page once.
+"""Simplification of the meshes of a model for web pages.
 
-Vendors publish shells of some hundred thousand triangles. What is drawn of
-them is what is left when all corners in one cell of a grid become one.
+Published robot models have meshes of some hundred thousand triangles. They
+are reduced by vertex clustering: all vertices in one cell of a grid become
+their mean.
 """
 
 from typing import NamedTuple
@@ -12,66 +13,72 @@ from numpy.typing import NDArray
 
 from ..core.poses import Array
 
-MOST = 800  # triangles of one mesh on a page
-COARSE, FINE = 2, 64  # cells along the longest side of a mesh
+MAX_TRIANGLES = 800  # of one mesh on a page
+MIN_CELLS, MAX_CELLS = 2, 64  # along the longest side of a mesh
 
 
 class TriangleMesh(NamedTuple):
-    """A surface of triangles.
+    """Triangle mesh.
 
     Attributes:
-        corners: In the frame of its geom, in [m]. Shape (corners, 3).
-        faces: Three corners each. Shape (faces, 3).
+        vertices: In the frame of its geom, in [m]. Shape (vertices, 3).
+        faces: Three vertices each. Shape (faces, 3).
     """
 
-    corners: Array
+    vertices: Array
     faces: NDArray[np.int64]
 
 
-def shell_of(model: mujoco.MjModel, geom: int) -> TriangleMesh:
-    """Surface of a mesh geom, as fine as a page can bear."""
-    mesh = int(model.geom_dataid[geom])
-    first, count = int(model.mesh_vertadr[mesh]), int(model.mesh_vertnum[mesh])
-    corners = model.mesh_vert[first : first + count].astype(np.float64)
-    first, count = int(model.mesh_faceadr[mesh]), int(model.mesh_facenum[mesh])
-    faces = model.mesh_face[first : first + count].astype(np.int64)
-    return thinned(TriangleMesh(corners, faces))
-
-
-def thinned(shell: TriangleMesh, most: int = MOST) -> TriangleMesh:
-    """The finest shell of at most some triangles.
+def mesh_of(model: mujoco.MjModel, geom: int) -> TriangleMesh:
+    """Return the simplified mesh of a mesh geom.
 
     Args:
-        shell: Any; it is left as it is if it has no more.
-        most: Greatest number of triangles.
+        model: Model.
+        geom: Number of the geom.
+    """
+    mesh = int(model.geom_dataid[geom])
+    first, count = int(model.mesh_vertadr[mesh]), int(model.mesh_vertnum[mesh])
+    vertices = model.mesh_vert[first : first + count].astype(np.float64)
+    first, count = int(model.mesh_faceadr[mesh]), int(model.mesh_facenum[mesh])
+    faces = model.mesh_face[first : first + count].astype(np.int64)
+    return simplify(TriangleMesh(vertices, faces))
+
+
+def simplify(
+    mesh: TriangleMesh, max_triangles: int = MAX_TRIANGLES
+) -> TriangleMesh:
+    """Reduce a mesh by the finest vertex clustering that is small enough.
+
+    Args:
+        mesh: Mesh; it is returned unchanged if it is small enough.
+        max_triangles: Largest number of triangles.
 
     Returns:
-        Corners that lie in one cell of a grid are their mean, and triangles
-        that are a line then are gone.
+        Mesh whose degenerate and duplicate triangles are removed.
     """
-    cells = FINE
-    thin = shell
-    while len(thin.faces) > most and cells >= COARSE:
-        thin = _clustered(shell, cells)
+    cells = MAX_CELLS
+    reduced = mesh
+    while len(reduced.faces) > max_triangles and cells >= MIN_CELLS:
+        reduced = _cluster_vertices(mesh, cells)
         cells = int(cells / 1.3)
-    return thin
+    return reduced
 
 
-def _clustered(shell: TriangleMesh, cells: int) -> TriangleMesh:
-    """Shell whose corners are the means of those in a cell of a grid."""
-    low = shell.corners.min(axis=0)
-    side = float((shell.corners.max(axis=0) - low).max()) / cells
-    at = np.floor((shell.corners - low) / max(side, 1e-9)).astype(np.int64)
+def _cluster_vertices(mesh: TriangleMesh, cells: int) -> TriangleMesh:
+    """Replace the vertices in each cell of a grid by their mean."""
+    low = mesh.vertices.min(axis=0)
+    side = float((mesh.vertices.max(axis=0) - low).max()) / cells
+    at = np.floor((mesh.vertices - low) / max(side, 1e-9)).astype(np.int64)
     _, cell, counts = np.unique(
         at @ np.array([1, 1 << 20, 1 << 40]),
         return_inverse=True,
         return_counts=True,
     )
-    corners = np.zeros((len(counts), 3))
-    np.add.at(corners, cell, shell.corners)
-    corners /= counts[:, None]
-    faces = cell[shell.faces]
+    vertices = np.zeros((len(counts), 3))
+    np.add.at(vertices, cell, mesh.vertices)
+    vertices /= counts[:, None]
+    faces = cell[mesh.faces]
     a, b, c = faces.T
     faces = faces[(a != b) & (b != c) & (c != a)]
-    _, kept = np.unique(np.sort(faces, axis=1), axis=0, return_index=True)
-    return TriangleMesh(corners, faces[np.sort(kept)])
+    _, unique = np.unique(np.sort(faces, axis=1), axis=0, return_index=True)
+    return TriangleMesh(vertices, faces[np.sort(unique)])

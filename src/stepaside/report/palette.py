@@ -1,31 +1,31 @@
-"""Colours of pages by day and by night, of words and of what is drawn."""
+"""Colours of pages in the light and the dark theme."""
 
 from collections.abc import Iterable
 from itertools import cycle
 from typing import NamedTuple
 
-LIGHTS = ("light", "dark")
+THEMES = ("light", "dark")
 
 
 class Palette(NamedTuple):
-    """Colours of one light, as ``#rrggbb``.
+    """Colours of one theme, as ``#rrggbb``.
 
     Attributes:
-        paper: Behind words.
-        ink: Of words.
-        soft: Of words that stand back.
-        grid: Of lines that only part.
-        sky: Behind the robots.
-        floor: Of one half of the floor's tiles.
-        tile: Of the other half.
-        pursuer: The role's own.
-        evader: Likewise.
-        others: Of players who have no role, one after the other.
-        pushed: Of pushes.
-        theory: Of all that theory says.
-        mean: Of what both players make together.
-        sway: Of the same with every step in it.
-        support: Of support polygons.
+        paper: Background of text.
+        ink: Text.
+        soft: Secondary text.
+        grid: Grid and separating lines.
+        sky: Background of the scene.
+        floor: One half of the floor's tiles.
+        tile: The other half.
+        pursuer: The pursuer.
+        evader: The evader.
+        others: Further players, in this order.
+        pushed: Pushes.
+        theory: Values of the theory.
+        mean: Means over a gait cycle.
+        sway: The same quantities at every sample.
+        support: Support polygons.
     """
 
     paper: str
@@ -45,7 +45,7 @@ class Palette(NamedTuple):
     support: str
 
 
-# Red and blue that differ in brightness, too, for who sees no red.
+# Red and blue differ in brightness, too, for readers with colour blindness.
 PALETTES = {
     "light": Palette(
         paper="#fbfbf9",
@@ -85,12 +85,12 @@ PALETTES = {
 
 
 class FloorColour(NamedTuple):
-    """Floor of a page that is served.
+    """Floor of a served page.
 
     Attributes:
-        ground: Its colour.
-        line: Of its grid.
-        shadow: How dark shadows are, from 0 to 1.
+        ground: Colour of the floor.
+        line: Colour of its grid.
+        shadow: Opacity of shadows, 0 to 1.
     """
 
     ground: str
@@ -102,8 +102,9 @@ FLOORS = {
     "light": FloorColour("#f0efec", "#dad9d4", 0.30),
     "dark": FloorColour("#1b1e21", "#32373c", 0.55),
 }
-# What is drawn for all viewers at once is seen on both floors.
-FOR_BOTH = {
+# Lines of a served page are shared by all viewers, so that each colour needs
+# enough contrast on both floors.
+ON_BOTH_FLOORS = {
     "#1f5fbf": "#2c6fd6",
     "#444444": "#767676",
     "#2a9d55": "#23894a",
@@ -113,39 +114,40 @@ FOR_BOTH = {
 }
 
 
-def seen_by_all(colour: str) -> str:
-    """Colour that is seen on both floors, for one of figures."""
-    return FOR_BOTH.get(colour, colour)
+def on_both_floors(colour: str) -> str:
+    """Return a colour of figures as served pages draw it."""
+    return ON_BOTH_FLOORS.get(colour, colour)
 
 
-def colours_in(light: str, players: Iterable[str]) -> dict[str, str]:
-    """Colour of each player: of its role, or one that nobody else has.
+def colours_in(theme: str, players: Iterable[str]) -> dict[str, str]:
+    """Return the colour of each player: its role's, or the next free one.
 
     Args:
-        light: One of ``LIGHTS``.
+        theme: One of ``THEMES``.
         players: Their names.
     """
-    here = PALETTES[light]
-    own = {"pursuer": here.pursuer, "evader": here.evader}
-    others = cycle(here.others)
-    return {name: own.get(name) or next(others) for name in players}
+    palette = PALETTES[theme]
+    roles = {"pursuer": palette.pursuer, "evader": palette.evader}
+    others = cycle(palette.others)
+    return {name: roles.get(name) or next(others) for name in players}
 
 
-def contrast(one: str, other: str) -> float:
-    """Contrast of two colours, from 1 to 21.
+def contrast(first: str, second: str) -> float:
+    """Return the contrast ratio of two colours, from 1 to 21.
 
     Args:
-        one: As ``#rrggbb``.
-        other: Likewise.
+        first: As ``#rrggbb``.
+        second: As ``#rrggbb``.
 
     Returns:
         Ratio of relative luminances, as WCAG 2.2 defines it.
     """
-    dim, bright = sorted((_luminance(one), _luminance(other)))
-    return (bright + 0.05) / (dim + 0.05)
+    darker, lighter = sorted((_luminance(first), _luminance(second)))
+    return (lighter + 0.05) / (darker + 0.05)
 
 
 def _luminance(colour: str) -> float:
+    """Return the relative luminance, 0 to 1, as WCAG 2.2 defines it."""
     parts = [part / 255.0 for part in bytes.fromhex(colour[1:])]
     red, green, blue = (
         c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4

@@ -1,4 +1,4 @@
-"""A map of where people come from, and how near they get."""
+"""Polar plot of the closest approach of people by direction and speed."""
 
 from collections.abc import Sequence
 from math import radians
@@ -11,14 +11,14 @@ from .figure_style import THEORY, new_figure, plt, save
 def draw_people(
     rows: Sequence[dict[str, Any]], clearance: float, file: Path
 ) -> None:
-    """Draw the least distance by direction, a ring for each speed.
+    """Draw the closest approach by direction, with a colour for each speed.
 
-    Ahead of the robot is up. A cross marks who touched it.
+    Ahead of the robot is up. A cross marks a contact.
 
     Args:
         rows: Of :func:`~stepaside.studies.people_statistics.origin_rows`.
-        clearance: That the robot tries to keep, in [m].
-        file: Picture to write.
+        clearance: Clearance that the robot tries to keep, in [m].
+        file: Figure to write.
     """
     ways = list(dict.fromkeys(row["sensing"] for row in rows))
     speeds = sorted({row["speed_m_s"] for row in rows})
@@ -34,7 +34,7 @@ def draw_people(
             [clearance] * 121,
             color=THEORY,
             linewidth=1.0,
-            label=f"{clearance:g} m: to be kept",
+            label=f"desired clearance {clearance:g} m",
         )
         for i, speed in enumerate(speeds):
             here = sorted(
@@ -63,12 +63,12 @@ def draw_people(
                 marker="x",
                 markersize=11,
                 linestyle="none",
-                label="touched the robot" if touched else None,
+                label="contact" if touched else None,
             )
         axis.set_ylim(0.0)
         axis.set_title(
-            f"closest approach [m] by where the person comes from\n"
-            f"(0°: ahead of the robot, 90°: its left); sensing: {sensing}"
+            "closest approach [m] over the direction of approach\n"
+            f"(0°: from ahead, 90°: from the left); sensing: {sensing}"
         )
     named: dict[str, Any] = {}
     for axis in axes.flat:
@@ -77,7 +77,7 @@ def draw_people(
     figure.legend(
         named.values(),
         named.keys(),
-        title="ring, and speeds of the person",
+        title="speed of the person",
         loc="outside lower center",
         ncols=3,
     )

@@ -13,9 +13,9 @@ def draw_plan(plan: ManeuverPlan, role: str, path: AnyPath) -> None:
     """Write the figure of a maneuver.
 
     Args:
-        plan: What was planned.
-        role: Pursuer or evader, for the colour.
-        path: File, of a format that its suffix tells.
+        plan: Plan of the maneuver.
+        role: "pursuer" or "evader", for the colour.
+        path: File to write; its suffix gives the format.
     """
     colour = COLOURS[role]
     gait = plan.schedule.settings
@@ -38,11 +38,11 @@ def draw_plan(plan: ManeuverPlan, role: str, path: AnyPath) -> None:
     above.plot(*samples.zmp.T, color=THEORY, lw=0.8, label="ZMP")
     above.plot(*samples.com.T, color=colour, lw=2.0, label="CoM")
     above.set(
-        xlabel="x in the support foot frame [m]",
+        xlabel="x in the plan frame [m]",
         ylabel="y [m]",
     )
     above.set_aspect("equal", adjustable="datalim")
-    # What is drawn is named above the axes, where nothing is drawn.
+    # Legends above the axes cover no data.
     above.set_title(
         f"{role}: desired heading {np.degrees(plan.bearing):.1f}°", pad=18
     )

@@ -1,4 +1,4 @@
-"""Figure of a player at a robot: its way, what it saw, what it did."""
+"""Figure of a run on a robot: path, sightings and commands or balance."""
 
 from pathlib import Path
 from typing import Any
@@ -10,15 +10,15 @@ from .duel_figure import draw_paths
 from .figure_style import MEAN, SWAY, THEORY, colours_of, new_figure, save
 from .text_escaping import for_figure
 
-STEPS = 6.0  # of the balance that is shown
+STEPS = 6.0  # last steps whose balance is shown
 
 
 def draw_play(run: PlayRun, path: Path) -> None:
-    """Write the figure of a play.
+    """Write the figure of a run on a robot.
 
     Args:
-        run: The play.
-        path: File, of a format that its suffix tells.
+        run: The run.
+        path: File to write; its suffix gives the format.
     """
     figure = new_figure(11.0, 6.4)
     left, right = figure.subfigures(1, 2, width_ratios=[1.0, 1.15])
@@ -35,7 +35,7 @@ def draw_play(run: PlayRun, path: Path) -> None:
 
 
 def _draw_distance(axes: Any, run: PlayRun) -> None:
-    """How far off it saw the other, and the area that it keeps free."""
+    """Draw the measured distance of the opponent and the safety radius."""
     sight = run.player.sight
     if sight is not None:
         axes.plot(sight[:, 0], sight[:, 2], color=MEAN, lw=1.2)
@@ -43,7 +43,7 @@ def _draw_distance(axes: Any, run: PlayRun) -> None:
         axes.axhline(run.safety.radius, color=THEORY, ls=":", lw=1.0)
     _mark_changes(axes, run)
     axes.set_ylabel("distance [m]")
-    axes.set_title("the other as it was seen; lines: changes of state")
+    axes.set_title("sightings of the opponent; grey lines: state changes")
 
 
 def _draw_bearing(axes: Any, run: PlayRun) -> None:
@@ -55,23 +55,23 @@ def _draw_bearing(axes: Any, run: PlayRun) -> None:
 
 
 def _draw_command(axes: Any, run: PlayRun) -> None:
-    """What was wanted, and what was asked for."""
+    """Draw the desired velocity and the command that was sent."""
     command = run.player.command
     assert command is not None
     colour = colours_of(run.players)[run.settings.role]
     turns = axes.twinx()
-    for part, name, look in ((0, "wanted", ":"), (2, "asked", "-")):
+    for part, name, look in ((0, "desired", ":"), (2, "command", "-")):
         speed, turn = command[:, part], command[:, part + 1]
         axes.plot(run.times, speed, color=colour, ls=look, label=name)
         turns.plot(run.times, turn, color=SWAY, ls=look, lw=0.9)
     axes.set(xlabel="time [s]", ylabel="forward [m/s]")
-    turns.set_ylabel("turn [rad/s], pale")
+    turns.set_ylabel("turning rate [rad/s], pale")
     _mark_changes(axes, run)
     axes.legend(ncols=2, loc="lower right")
 
 
 def _draw_balance(axes: Any, run: PlayRun) -> None:
-    """CoM against ZMP for the last steps of the walk, leftward."""
+    """Draw CoM and ZMP during the last steps of the walk, leftward."""
     track, times = run.player, run.times
     landings = track.landings
     last = times[-1]
@@ -94,12 +94,12 @@ def _draw_balance(axes: Any, run: PlayRun) -> None:
         axes.plot(times[show], aside, label=name, **look)
     axes.set(xlabel="time [s]", ylabel="leftward [mm]")
     axes.margins(x=0.0)
-    axes.set_title("last steps, as measured and believed", pad=18)
+    axes.set_title("last steps, measured and estimated", pad=18)
     axes.legend(ncols=4, loc="lower center", bbox_to_anchor=(0.5, 0.97))
 
 
 def _mark_changes(axes: Any, run: PlayRun) -> None:
-    """A line where the robot began to do something else."""
+    """Mark the changes of the robot's state."""
     for change in run.summary.changes[:50]:
         axes.axvline(change.time_s, color="#c0c0c0", lw=0.6)
     axes.set_xlim(0.0, max(0.02, float(run.times[-1])))

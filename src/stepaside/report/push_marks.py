@@ -1,4 +1,4 @@
-"""Pushes in figures: from above, and over time."""
+"""Pushes in figures: arrows in top views, lines in plots over time."""
 
 from typing import Any
 
@@ -12,11 +12,12 @@ LENGTH = 0.2  # of an arrow, in [m] per [N s]
 
 
 def draw_pushes(axes: Any, pushes: Array | None) -> None:
-    """Draw pushes from above, as arrows that end where they were felt.
+    """Draw pushes in a top view, as arrows that end where they act.
 
     Args:
         axes: Matplotlib axes.
-        pushes: Rows of a track, if it has any. Shape (j, 6).
+        pushes: Rows (time [s], duration [s], x [m], y [m], impulse x and y
+            [N s]); None for none. Shape (j, 6).
     """
     for _, _, x, y, *impulse in () if pushes is None else pushes.tolist():
         start = np.array([x, y]) - LENGTH * np.array(impulse)
@@ -27,12 +28,12 @@ def draw_pushes(axes: Any, pushes: Array | None) -> None:
             arrowprops={"arrowstyle": "-|>", "color": PUSHED, "lw": 1.6},
             zorder=6,
         )
-        # Arrows do not count when axes are fitted to what they show.
+        # Annotations do not count for the limits of the axes; a dot does.
         axes.plot(*start, ".", color=PUSHED, ms=2)
 
 
 def mark_pushes(axes: Any, run: Run) -> None:
-    """Mark the times of all pushes in a plot over time."""
+    """Mark the times of all pushes of a run in a plot over time."""
     times = [
         time
         for track in run.tracks.values()

@@ -1,4 +1,4 @@
-"""Picture of a robot as it stands: links, soles, CoM and frames."""
+"""Figure of a standing robot: links, soles, CoM and frames."""
 
 from pathlib import Path
 from typing import Any
@@ -19,19 +19,19 @@ from .figure_style import plt, save
 VIEWS = (("from the front", 1, "y [m]"), ("from the left", 0, "x [m]"))
 LINK, SOLE, COM = "#9aa4b2", "#d9862b", "#b02a2a"
 AXES = ("#b02a2a", "#2a8a3a", "#2a50b0")  # of x, y and z
-TICK = 0.004  # of the kinematics that stands, in [s]
+TICK = 0.004  # of the leg kinematics, in [s]
 
 
 def draw_robot(description: RobotDescription, file: Path) -> None:
-    """Draw a robot in the stance that its gait begins with.
+    """Draw a robot in the initial stance of its gait.
 
     Args:
         description: The robot.
-        file: Picture to write.
+        file: Figure to write.
 
     Raises:
-        StepAsideError: If it cannot stand so.
-        OutputError: If the picture cannot be written.
+        StepAsideError: If the stance is out of reach.
+        OutputError: If the figure cannot be written.
     """
     gait = settings_of(description).gait
     half = 0.5 * gait.foot_spacing
@@ -77,14 +77,14 @@ def draw_robot(description: RobotDescription, file: Path) -> None:
 def _draw_links(
     axes: Any, model: mujoco.MjModel, data: mujoco.MjData, across: int
 ) -> None:
-    """Outlines of all geoms, and lines from joint to joint."""
+    """Draw the outlines of all geoms, and lines from joint to joint."""
     for geom in range(model.ngeom):
         points = points_of(model, data, geom)[:, [across, 2]]
         if len(points) < 3:
             continue
         try:
             outline = points[ConvexHull(points).vertices]
-        except QhullError:  # seen from its edge
+        except QhullError:  # flat in this view
             continue
         axes.add_patch(
             Polygon(outline, closed=True, fc=LINK, ec="#606a78", alpha=0.25)
@@ -108,7 +108,7 @@ def _draw_frame(
 
 
 def _corners(description: RobotDescription, *, left: bool) -> Array:
-    """Outline of a sole in its frame, in [m]. Shape (5, 3)."""
+    """Return the outline of a sole in its frame, in [m]. Shape (5, 3)."""
     sole = settings_of(description).gait.sole
     outer, inner = (sole.outer, -sole.inner)
     high, low = (outer, inner) if left else (-inner, -outer)

@@ -1,4 +1,4 @@
-"""Figures of a campaign: survival against strength, pushes by direction."""
+"""Figures of a robustness campaign: survival rates and largest pushes."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -19,19 +19,19 @@ METHOD_STYLES = {
 SIDES = ("left", "right")
 BOUNDS = (  # column, label, width of the line
     ("bound_n_s", "pendulum's bound", 1.6),
-    ("impulse_bound_n_s", "the same for an impulse at mid-push", 0.6),
+    ("impulse_bound_n_s", "bound for an impulse at mid-push", 0.6),
 )
 
 
 def draw_survival(
     rows: Sequence[dict[str, Any]], units: dict[str, str], file: Path
 ) -> None:
-    """Draw survival with its 95 % interval for every kind and direction.
+    """Draw survival rates with 95 % intervals by kind and direction.
 
     Args:
         rows: Of :func:`~stepaside.studies.survival.survival_rows`.
-        units: Unit of each kind's strength.
-        file: Picture to write.
+        units: Unit of the strength of each kind of disturbance.
+        file: Figure to write.
     """
     panels = list(dict.fromkeys((r["kind"], r["direction"]) for r in rows))
     columns = min(2 if sheet().narrow else 4, len(panels))
@@ -59,7 +59,7 @@ def draw_survival(
                 100.0 * share,
                 color=colour,
                 marker=marker,
-                # One trial has an outcome, which is no share.
+                # A single trial has an outcome but no rate.
                 linestyle="none" if single else line,
                 markersize=4,
                 label=f"{method}, {_count(trials)}",
@@ -98,14 +98,14 @@ def draw_survival(
 
 
 def _title(kind: str, direction: str) -> str:
-    """Say what disturbs a walk, and from which side."""
+    """Return kind and direction of a disturbance as text."""
     if direction in SIDES:
         return f"{kind} to the {direction}"
     return f"{kind} {direction}".strip()
 
 
 def _count(trials: Sequence[int]) -> str:
-    """Say how many trials each point is of."""
+    """Return the number of trials per point as text."""
     low, high = trials[0], trials[-1]
     if low == high:
         return f"{low} trial{'s' if low > 1 else ''} per point"
@@ -113,11 +113,11 @@ def _count(trials: Sequence[int]) -> str:
 
 
 def draw_limits(rows: Sequence[dict[str, Any]], file: Path) -> None:
-    """Draw the largest push survived over the phase, beside the bounds.
+    """Draw the largest push survived over the gait phase, with bounds.
 
     Args:
         rows: Of :func:`~stepaside.studies.survival.limit_rows`.
-        file: Picture to write.
+        file: Figure to write.
     """
     directions = list(dict.fromkeys(r["direction"] for r in rows))
     columns = min(2 if sheet().narrow else 8, len(directions))
@@ -154,7 +154,7 @@ def draw_limits(rows: Sequence[dict[str, Any]], file: Path) -> None:
             )
         axis.set_title(_title("push", direction))
         axis.set_xlabel("phase of the gait cycle [1]")
-    # Once all is drawn: a limit that is set ends the scaling of all axes.
+    # Last, because a fixed limit ends autoscaling of the shared axes.
     axes.flat[0].set_ylim(bottom=0.0)
     for row in axes:
         row[0].set_ylabel("largest push survived [N s]")

@@ -1,4 +1,4 @@
-"""What of a room has to be in a picture of all of it."""
+"""Extent of a room, for views that show all of it."""
 
 import numpy as np
 
@@ -6,11 +6,11 @@ from ..arena import Room
 from ..core.poses import Array
 
 
-def wall_corners(plan: Room | None) -> Array:
+def wall_corners(room: Room | None) -> Array:
     """Return the corners of all walls of a room, in [m]. Shape (n, 2).
 
     Args:
-        plan: The room; None for an open floor, which has none.
+        room: The room; None for an open floor, which has no walls.
     """
-    walls = () if plan is None else plan.walls
+    walls = () if room is None else room.walls
     return np.concatenate([np.zeros((0, 2)), *(w.points for w in walls)])

@@ -1,6 +1,7 @@
-"""Figure of a room, and solids for other figures."""
+"""Figure of a room, and its walls and obstacles in other figures."""
 
 from collections.abc import Iterable
+from math import cos, sin
 from typing import Any
 
 import numpy as np
@@ -21,27 +22,27 @@ from .figure_style import (
     save,
 )
 
-MOST = 1500  # samples of a curve, about
+MAX_SAMPLES = 1500  # of a curve, approximately
 SOLID, MOVING = "#8a8f98", "#99704a"
 
 
 def solid_patches(solids: Iterable[Obstacle], **look: Any) -> list[Patch]:
-    """Solids as patches of matplotlib.
+    """Return walls and obstacles as patches of Matplotlib.
 
     Args:
         solids: In the frame of the axes, in [m].
-        look: How to draw them.
+        look: Further arguments of the patches.
     """
     look = {"facecolor": SOLID, "edgecolor": "none", "zorder": 1} | look
     return [Outline(solid.outline, closed=True, **look) for solid in solids]
 
 
 def room_patches(room: Room, time: float = 0.0) -> list[Patch]:
-    """All of a room as patches; what moves is outlined where it turns.
+    """Return a room as patches, with moving boxes outlined at their ends.
 
     Args:
         room: The room.
-        time: At which what moves is where it is drawn, in [s].
+        time: Time at which moving boxes are drawn, in [s].
     """
     return [
         *solid_patches(room.solids),
@@ -58,7 +59,7 @@ def room_patches(room: Room, time: float = 0.0) -> list[Patch]:
 
 
 def has_obstacles(run: Run) -> bool:
-    """Whether a run took place among walls or obstacles."""
+    """Return whether a run has walls or obstacles."""
     plan = run.plan
     return plan is not None and bool(plan.solids or plan.moving)
 
@@ -68,8 +69,8 @@ def clearance_of(room: Room, places: Array, times: Array) -> Array:
 
     Args:
         room: The room.
-        places: Places (x, y) in it, in [m]. Shape (n, 2).
-        times: When each of them is taken, in [s]. Shape (n,).
+        places: Positions (x, y) in the room, in [m]. Shape (n, 2).
+        times: Time at each position, in [s]. Shape (n,).
 
     Returns:
         Signed distances, negative inside. Shape (n,).
@@ -85,38 +86,42 @@ def clearance_of(room: Room, places: Array, times: Array) -> Array:
 
 
 def draw_clearance(axes: Any, run: Run) -> None:
-    """Draw how far each player is from the nearest wall or obstacle.
+    """Draw each player's clearance over time.
 
     Args:
         axes: Matplotlib axes.
         run: The run, in a room.
     """
     assert run.plan is not None
-    every = slice(None, None, max(1, len(run.times) // MOST))
+    every = slice(None, None, max(1, len(run.times) // MAX_SAMPLES))
     times = run.times[every]
     for name, colour in colours_of(run.players).items():
         places = run.tracks[name].unicycle[every, :2]
         clearance = clearance_of(run.plan, places, times)
         axes.plot(times, clearance, color=colour, lw=1.4, label=name)
     mark_level(
-        axes, BODY_RADIUS, f"body {BODY_RADIUS:.3g} m", THEORY, stands="top"
+        axes,
+        BODY_RADIUS,
+        f"body radius\n{BODY_RADIUS:.3g} m",
+        THEORY,
+        va="top",
     )
     axes.set(xlabel="time [s]", ylabel="clearance [m]")
     axes.set_ylim(bottom=min(0.0, axes.get_ylim()[0]))
     axes.margins(x=0.0)
     title = "distance to the nearest wall or obstacle"
     if not sheet().narrow:
-        title += ", from the middle of each player"
+        title += ", from each player's reference point"
     axes.set_title(title, pad=18)
     axes.legend(ncols=2, loc="lower center", bbox_to_anchor=(0.5, 0.965))
 
 
 def draw_room(room: Room, path: str) -> None:
-    """Write a figure of a room with its starts.
+    """Write a figure of a room with the initial poses.
 
     Args:
         room: The room.
-        path: File, of a format that its suffix tells.
+        path: File to write; its suffix gives the format.
     """
     figure, ax = plt.subplots(figsize=(4.0, 4.0))
     for patch in room_patches(room):
@@ -138,9 +143,14 @@ def draw_room(room: Room, path: str) -> None:
 
 
 def draw_body(ax: Any, pose: Any, colour: str, name: str = "") -> None:
-    """Draw a body as a disc that looks somewhere."""
-    from math import cos, sin
+    """Draw a body as a disc with a line along its heading.
 
+    Args:
+        ax: Matplotlib axes.
+        pose: (x [m], y [m], theta [rad]).
+        colour: Of the body.
+        name: Label in the legend.
+    """
     x, y, theta = pose
     ax.add_patch(
         Circle((x, y), BODY_RADIUS, facecolor=colour, alpha=0.35, lw=0)

@@ -1,4 +1,4 @@
-"""Run folders: a game on disk, whole or not at all."""
+"""Run folders: atomic output of a game with its figures."""
 
 import errno
 import os
@@ -18,17 +18,17 @@ SIGHT = "sight.png"
 
 
 def check_output(folder: Path) -> None:
-    """Refuse a folder that a run cannot be written to.
+    """Check that a run can be written to a folder.
 
     Raises:
-        ConfigurationError: If it holds something already, or cannot be.
+        ConfigurationError: If the folder is not empty or cannot be written.
     """
     check_folder(folder, new=True)
     check_folder(folder.absolute().parent, new=False)  # of the draft
 
 
 def free_folder(parent: Path, name: str) -> Path:
-    """Folder in ``parent`` that does not exist yet: name, name-2, ..."""
+    """Return the first unused folder of name, name-2, ... in ``parent``."""
     folder, number = parent / name, 1
     while os.path.lexists(folder):
         number += 1
@@ -37,19 +37,18 @@ def free_folder(parent: Path, name: str) -> Path:
 
 
 def figure_of(run: Run) -> str:
-    """Name of the figure in a run's folder: ``duel.png``, ``walk.png``."""
+    """Return the name of a run's figure, like ``duel.png``."""
     return f"{run.game}.png"
 
 
 def draw_run(run: Run, file: Path) -> None:
-    """Write the figure of a game, whatever was played.
+    """Write the figure of a game of any kind.
 
     Args:
         run: The game.
-        file: File, of a format that its suffix tells.
+        file: Figure to write; its suffix gives the format.
     """
-    # Matplotlib takes as long to import as all the rest: who only checks a
-    # folder shall not wait for it.
+    # Imported here: checking a folder must not wait for Matplotlib.
     if isinstance(run, PlayRun):
         from .play_figure import draw_play
 
@@ -67,19 +66,19 @@ def draw_run(run: Run, file: Path) -> None:
 def write_run(folder: AnyPath, run: Run, *, drawn: bool = True) -> Path:
     """Write a game: configuration, summary, trajectories and figures.
 
-    The folder appears when it is complete. If somebody else was first, it
-    lies beside theirs, as ``NAME-2``.
+    The folder appears when it is complete. If another process has created
+    ``NAME`` meanwhile, the run is written to ``NAME-2``.
 
     Args:
-        folder: Where it shall lie.
+        folder: Folder to create.
         run: The game.
-        drawn: Whether with figures, which take a second or two.
+        drawn: Whether to draw figures, which takes a second or two.
 
     Returns:
-        Path of the figure, in the folder where the game is.
+        Path of the figure in the folder that was written.
 
     Raises:
-        OutputError: If it cannot be written; nothing of it is left then.
+        OutputError: If it cannot be written; partial output is removed.
     """
     draft = None
     folder = as_path(folder, "folder")
@@ -114,37 +113,38 @@ def write_run(folder: AnyPath, run: Run, *, drawn: bool = True) -> Path:
 
 
 def _move(draft: Path, folder: Path) -> Path:
-    """Move a folder into place, or beside what took the place meanwhile."""
-    place = folder
+    """Rename a draft to its folder, or to the next unused name."""
+    target = folder
     while True:
         try:
-            return draft.rename(place)  # an empty folder gives way
+            return draft.rename(target)  # replaces an empty folder
         except OSError as error:
             if error.errno not in (errno.ENOTEMPTY, errno.EEXIST):
                 raise
-            place = free_folder(folder.parent, folder.name)
+            target = free_folder(folder.parent, folder.name)
 
 
 def keep_run(folder: Path, run: Run) -> tuple[Path | None, OutputError | None]:
-    """Write a game, or keep it elsewhere if it cannot be written there.
+    """Write a game, falling back to the temporary folder.
 
-    A game that Ctrl-C ended has no figures: whoever pressed it waits.
+    A game that was interrupted is written without figures, since the user is
+    waiting for the prompt.
 
     Args:
-        folder: Where it shall lie.
+        folder: Folder to create.
         run: The game.
 
     Returns:
-        Folder in which it lies; None if it lies nowhere. And why it does not
-        lie where it should; None if it does.
+        Folder that was written, or None if both failed; and the error of the
+        first attempt, or None if it succeeded.
     """
     drawn = run.outcome is not Outcome.INTERRUPTED
     try:
         return write_run(folder, run, drawn=drawn).parent, None
     except OutputError as error:
-        place = Path(tempfile.gettempdir())
+        parent = Path(tempfile.gettempdir())
         try:
-            spare = free_folder(place, f"stepaside-{folder.name}")
-            return write_run(spare, run, drawn=drawn).parent, error
+            fallback = free_folder(parent, f"stepaside-{folder.name}")
+            return write_run(fallback, run, drawn=drawn).parent, error
         except OutputError:
             return None, error

@@ -1,10 +1,10 @@
-"""Bodies of a run, put where they were."""
+"""MuJoCo scene of a recorded run, posed sample by sample."""
 
 import mujoco
 import numpy as np
 
 from ..core.errors import ConfigurationError
-from ..core.poses import Pose
+from ..core.poses import Array, Pose
 from ..games.duel_settings import EVADER, DuelSettings
 from ..games.initial_poses import frames_of, walls_of
 from ..games.run import Run
@@ -21,18 +21,19 @@ from ..sim.world import build_model
 
 
 class RunScene:
-    """Bodies of a run, put where they were.
+    """Players, floor and obstacles of a run as a kinematic MuJoCo model.
 
     Attributes:
-        model: Robots, floor and what stands on it.
-        data: Their state.
+        model: Robots, persons, floor and obstacles.
+        data: Their poses at the sample that was shown last.
     """
 
     def __init__(self, run: Run) -> None:
-        """Build the robots of a run, without its physics.
+        """Build the model of a run, without its dynamics.
 
         Raises:
-            ConfigurationError: If it is a run of other robots.
+            ConfigurationError: If the recorded joint angles do not fit the
+                robots.
         """
         robots = run.robots
         names = {name: run.settings.robot_of(name).robot for name in robots}
@@ -42,17 +43,20 @@ class RunScene:
         ]
 
         settings = run.settings
-        who, passers = "adult", tuple[Passer, ...]()
+        figure = "adult"
+        passers: tuple[Passer, ...] = ()
         if isinstance(settings, DuelSettings):
-            who, passers = settings.person.figure, settings.passers
-        self._figure = FIGURES[who]
-        plan, surround = run.plan, surroundings_of(run)
+            figure = settings.person.figure
+            passers = settings.passers
+        self._figure = FIGURES[figure]
+        room = run.plan
+        furnish_surroundings = surroundings_of(run)
 
         def furnish(spec: mujoco.MjSpec) -> None:
-            if surround is not None:
-                surround(spec)
-            if plan is not None:
-                add_solids(spec, plan)
+            if furnish_surroundings is not None:
+                furnish_surroundings(spec)
+            if room is not None:
+                add_solids(spec, room)
             for name in persons:
                 add_person(spec, name, self._figure)
             add_passers(spec, passers)
@@ -67,49 +71,70 @@ class RunScene:
         )
         hide_walls(self.model)
         self.data = mujoco.MjData(self.model)
-        postures = [run.tracks[name].qpos for name in robots]
-        known = [qpos for qpos in postures if qpos is not None]
-        wide = sum(qpos.shape[1] for qpos in known)
-        if len(known) < len(robots) or wide != self.model.nq:
+        recorded = [run.tracks[name].qpos for name in robots]
+        known = [qpos for qpos in recorded if qpos is not None]
+        columns = sum(qpos.shape[1] for qpos in known)
+        if len(known) < len(robots) or columns != self.model.nq:
             raise ConfigurationError(
                 f"qpos of run {run.name} must have {self.model.nq} columns "
                 f"for {', '.join(robots)}, as "
                 f"{' and '.join(dict.fromkeys(names.values()))} have, "
-                f"got {wide}"
+                f"got {columns}"
             )
-        none = np.zeros((len(run.times), 0))
-        self._postures = np.concatenate([none, *known], axis=1)
+        empty = np.zeros((len(run.times), 0))
+        self._qpos = np.concatenate([empty, *known], axis=1)
         self._persons = {name: parts_of(self.model, name) for name in persons}
-        self._tracks, self._times = run.tracks, run.times
-        self._moves = []
-        if plan is not None:
-            self._moves.append(mover_of(self.model, self.data, plan))
+        self._walked = {
+            name: _distance_walked(run.tracks[name].torso[:, :2])
+            for name in persons
+        }
+        self._tracks = run.tracks
+        self._times = run.times
+        self._movers = []
+        if room is not None:
+            self._movers.append(mover_of(self.model, self.data, room))
         if isinstance(settings, DuelSettings) and passers:
             evader = frames_of(settings)[1]
-            self._moves.append(
+            self._movers.append(
                 passer_mover(self.model, self.data, passers, evader)
             )
 
     def put(self, index: int) -> None:
-        """Put the bodies where they were at a sample."""
-        self.data.qpos[:] = self._postures[index]
-        for move in self._moves:
+        """Pose all bodies as at a sample of the run."""
+        self.data.qpos[:] = self._qpos[index]
+        for move in self._movers:
             move(float(self._times[index]))
         for name, parts in self._persons.items():
-            walked = self._tracks[name].torso
-            frame = Pose(*walked[index].tolist())
-            steps = np.diff(walked[: index + 1, :2], axis=0)
-            way = float(np.hypot(steps[:, 0], steps[:, 1]).sum())
-            pose_figure(self.data, parts, frame, way, self._figure)
+            pose = Pose(*self._tracks[name].torso[index].tolist())
+            walked = float(self._walked[name][index])
+            pose_figure(self.data, parts, pose, walked, self._figure)
         for name in self._templates:
-            stood = Pose(*self._tracks[name].torso[index].tolist())
-            pose_template(self.model, self.data, name, stood)
+            pose = Pose(*self._tracks[name].torso[index].tolist())
+            pose_template(self.model, self.data, name, pose)
         mujoco.mj_kinematics(self.model, self.data)
         mujoco.mj_camlight(self.model, self.data)
 
 
+def _distance_walked(positions: Array) -> Array:
+    """Return the length of the path up to each sample, in [m]. Shape (n,).
+
+    Args:
+        positions: In the world, in [m]. Shape (n, 2).
+    """
+    steps = np.diff(positions, axis=0)
+    lengths = np.hypot(steps[:, 0], steps[:, 1])
+    return np.concatenate([[0.0], np.cumsum(lengths)])
+
+
 def surroundings_of(run: Run) -> Furnish | None:
-    """What stood around robots that saw: walls, things, a depth camera."""
+    """Return what adds walls, objects and depth camera of a run with cameras.
+
+    Args:
+        run: The run.
+
+    Returns:
+        Function that furnishes a model; None for runs without cameras.
+    """
     settings = run.settings
     if not isinstance(settings, DuelSettings):
         return None

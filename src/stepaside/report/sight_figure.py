@@ -1,4 +1,4 @@
-"""Film strip of what the robots saw, and how far off they were."""
+"""Film strip of the robots' camera images, with sighting errors."""
 
 from math import degrees
 from pathlib import Path
@@ -17,9 +17,9 @@ from .figure_sizes import sheet
 from .figure_style import THEORY, colours_of, new_figure, save
 from .sole_outlines import draw_heading
 
-FOUND = (30, 170, 60)  # red, green and blue of what was detected
-TRUE = (235, 0, 190)  # of where the other truly is
-SCALE = 3  # by which depth images are enlarged
+FOUND = (30, 170, 60)  # red, green and blue of detections
+TRUE = (235, 0, 190)  # of the true bearing of the opponent
+SCALE = 3  # factor by which depth images are enlarged
 
 
 def draw_sight(run: Run, path: Path) -> None:
@@ -27,7 +27,7 @@ def draw_sight(run: Run, path: Path) -> None:
 
     Args:
         run: The duel.
-        path: File, of a format that its suffix tells.
+        path: File to write; its suffix gives the format.
     """
     rows = _rows(run)
     count = max(1, *(len(run.stills[name][kind]) for name, kind, _ in rows))
@@ -51,26 +51,25 @@ def draw_sight(run: Run, path: Path) -> None:
         _draw_top(axes, run, still.report.image.time)
     _draw_errors(figure, grid, run)
     figure.suptitle(
-        f"What the robots saw, seed {run.settings.seed}: detections in "
-        "green, the true direction as a tick",
+        f"Camera images, seed {run.settings.seed}: detections green, "
+        "true bearing magenta",
     )
     save(figure, path)
 
 
 def _rows(run: Run) -> list[tuple[str, str, str]]:
-    """Player, camera and label of each row of pictures."""
+    """Return player, camera and label of each row of images."""
     rows = []
     for name, stills in run.stills.items():
         if stills["colour"] or not stills["depth"]:
-            rows.append((name, "colour", f"{name} sees"))
+            rows.append((name, "colour", f"{name}'s camera"))
         if stills["depth"]:
-            said = "its" if stills["colour"] else f"{name}'s"
-            rows.append((name, "depth", f"{said} depth"))
+            rows.append((name, "depth", f"{name}'s depth"))
     return rows
 
 
 def picture(still: EvaluatedImage) -> Pixels:
-    """Image with what was detected drawn in. Shape (height, width, 3)."""
+    """Return an image with its detections. Shape (height, width, 3)."""
     image = still.report.image
     if isinstance(image, ColourImage):
         canvas = image.pixels.copy()
@@ -94,7 +93,7 @@ def picture(still: EvaluatedImage) -> Pixels:
 
 
 def _depth_picture(still: EvaluatedImage, image: DepthImage) -> Pixels:
-    """Depth as brightness, what came back not at all in black."""
+    """Return depth as brightness, with missing values black."""
     share = np.clip(image.depths / image.far, 0.0, 1.0)
     grey = np.where(image.depths > 0.0, 255.0 - 190.0 * share, 0.0)
     small = np.repeat(grey.astype(np.uint8)[..., None], 3, axis=2)
@@ -110,7 +109,7 @@ def _depth_picture(still: EvaluatedImage, image: DepthImage) -> Pixels:
         cv2.rectangle(canvas, (left, 4), (right, height - 5), FOUND, 2)
     for shadow in scene.shadows:
         left, right = _columns(image, shadow.azimuth, 0.5 * shadow.width)
-        # Too near to be measured: a bracket, not a box.
+        # An opponent below the least depth is drawn as a bracket.
         cv2.line(canvas, (left, 8), (right, 8), FOUND, 3)
         cv2.line(canvas, (left, 8), (left, 26), FOUND, 2)
         cv2.line(canvas, (right, 8), (right, 26), FOUND, 2)
@@ -129,15 +128,15 @@ def _columns(
 
 
 def _draw_top(axes: Any, run: Run, time: float) -> None:
-    """Top view at a time, with the way so far."""
+    """Draw the top view at a time, with the paths so far."""
     times = run.times
     index = min(int(np.searchsorted(times, time)), len(times) - 1)
     for name, colour in colours_of(run.players).items():
         track = run.tracks[name]
-        way = track.torso[: index + 1]
-        axes.plot(way[:, 0], way[:, 1], color=colour, lw=1.0)
-        draw_heading(axes, way[-1], colour, 0.28)
-        _draw_belief(axes, track, colour, time, way[-1])
+        path = track.torso[: index + 1]
+        axes.plot(path[:, 0], path[:, 1], color=colour, lw=1.0)
+        draw_heading(axes, path[-1], colour, 0.28)
+        _draw_sighting(axes, track, colour, time, path[-1])
     every = np.concatenate([t.torso[:, :2] for t in run.tracks.values()])
     for thing in run.things:
         axes.plot(thing.x, thing.y, "s", color="#888888", ms=5)
@@ -146,10 +145,10 @@ def _draw_top(axes: Any, run: Run, time: float) -> None:
     axes.tick_params(labelsize=sheet().font - 2.0)
 
 
-def _draw_belief(
+def _draw_sighting(
     axes: Any, track: Trajectory, colour: str, time: float, torso: Array
 ) -> None:
-    """Line from a robot to where it believes the other is."""
+    """Draw a line from a robot to the estimated position of its opponent."""
     rows = track.sight
     if rows is None or not len(rows):
         return
@@ -169,17 +168,17 @@ def _draw_belief(
 
 
 def _draw_errors(figure: Any, grid: Any, run: Run) -> None:
-    """Bearing and distance against the truth, over time."""
+    """Draw the errors of bearing and distance over time."""
     upper = figure.add_subplot(grid[-2, :])
     lower = figure.add_subplot(grid[-1, :], sharex=upper)
     for name, colour in colours_of(run.players).items():
         rows = run.tracks[name].sight
         if rows is None:
             continue
-        off = np.degrees(wrap_angles(rows[:, 1] - rows[:, 3]))
-        upper.plot(rows[:, 0], off, color=colour, lw=0.7, label=name)
-        away = rows[:, 2] - rows[:, 4]
-        lower.plot(rows[:, 0], away, color=colour, lw=0.7, label=name)
+        bearing = np.degrees(wrap_angles(rows[:, 1] - rows[:, 3]))
+        upper.plot(rows[:, 0], bearing, color=colour, lw=0.7, label=name)
+        distance = rows[:, 2] - rows[:, 4]
+        lower.plot(rows[:, 0], distance, color=colour, lw=0.7, label=name)
     for axes, label, limit in (
         (upper, "bearing error [deg]", 8.0),
         (lower, "distance error [m]", 0.2),

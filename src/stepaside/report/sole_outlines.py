@@ -1,4 +1,4 @@
-"""Soles and robots as seen from above."""
+"""Soles and headings in top views."""
 
 from typing import Any
 
@@ -13,7 +13,7 @@ from ..planning.support_polygon import sole_corners
 def draw_soles(
     axes: Any, landings: Array, sole: SoleRectangle, colour: str, **style: Any
 ) -> None:
-    """Draw footsteps as outlines.
+    """Draw footsteps as outlines of the soles.
 
     Args:
         axes: Matplotlib axes.
@@ -30,11 +30,11 @@ def draw_soles(
 
 
 def draw_heading(axes: Any, pose: Array, colour: str, size: float) -> None:
-    """Draw a robot as a wedge that points where it heads.
+    """Draw a player as a wedge that points along its heading.
 
     Args:
         axes: Matplotlib axes.
-        pose: Place and heading (x [m], y [m], theta [rad]). Shape (3,).
+        pose: (x [m], y [m], theta [rad]). Shape (3,).
         colour: Fill.
         size: Length, in [m].
     """

@@ -1,8 +1,8 @@
-"""Text of anybody, written where it can do nothing but be read.
+"""Escaping of untrusted text for terminals, figures, Markdown and HTML.
 
-A run folder may come from anywhere: its name, its messages and its settings
-are text that somebody else chose. Every place where such text is shown has
-its own characters that do something; here each is written out instead.
+A run folder may come from anywhere: its name, messages and settings are
+untrusted text. Each output has its own active characters; the functions here
+escape those of one output each.
 """
 
 import json
@@ -14,40 +14,41 @@ from html import escape
 from typing import Any
 from unicodedata import category
 
-UNSEEN = {"Cc", "Cf", "Cs", "Zl", "Zp"}  # control, format, halves, breaks
-PLACE = re.compile("@@([A-Z]+)@@")
+# Unicode categories: control, format, surrogate, line and paragraph separator.
+INVISIBLE = {"Cc", "Cf", "Cs", "Zl", "Zp"}
+PLACEHOLDER = re.compile("@@([A-Z]+)@@")
 INLINE = re.compile(r"<(script|style)>(.*?)</\1>", re.DOTALL)
 ACTIVE = {ord(c): f"\\u{ord(c):04x}" for c in "<>&\u2028\u2029"}
 
 
 def visible(text: str, *, but: str = "") -> str:
-    r"""Text without anything that is not seen, like ``\x1b`` for escape.
+    r"""Escape invisible characters, like ``\x1b`` for escape.
 
     Args:
-        text: Of anybody; it may hold halves of characters, as names of
-            files that are no text do.
-        but: Characters that stay.
+        text: Untrusted text; it may contain lone surrogates, as file names
+            that are not valid UTF-8 do.
+        but: Characters that are not escaped.
     """
     return "".join(
         c.encode("unicode_escape").decode("ascii")
-        if category(c) in UNSEEN and c not in but
+        if category(c) in INVISIBLE and c not in but
         else c
         for c in text
     )
 
 
 def for_figure(text: str) -> str:
-    """Text as a figure shows it: no formula, and never left out.
+    """Escape text for Matplotlib.
 
-    A dollar would begin a formula, and labels that begin with an underscore
-    stand in no legend.
+    A dollar sign would begin a formula, and a label that begins with an
+    underscore would be missing from the legend.
     """
     text = visible(text).replace("$", r"\$")
     return f" {text}" if text.startswith("_") else text
 
 
 def for_markdown(text: str) -> str:
-    """Text as Markdown shows it, with no mark of Markdown or HTML in it."""
+    """Escape text for Markdown, including HTML in it."""
     return "".join(
         c if c.isalnum() or c == " " or not c.isascii() else f"&#{ord(c)};"
         for c in visible(text)
@@ -55,33 +56,41 @@ def for_markdown(text: str) -> str:
 
 
 def for_script(value: Any) -> str:
-    """JSON that cannot end the script element that it stands in.
+    """Return JSON that cannot end the script element around it.
+
+    Args:
+        value: Plain values.
 
     Raises:
-        ValueError: If a number is not finite.
+        ValueError: If a number is NaN or inf.
     """
     plain = json.dumps(value, separators=(",", ":"), allow_nan=False)
     return plain.translate(ACTIVE)
 
 
 def fill_page(template: str, texts: Mapping[str, str], run: Any) -> str:
-    """Fill a page's places, and let nothing run but its own scripts.
+    """Fill in a page template and allow only its own scripts.
 
-    All places are filled in one pass, so what is filled in holds none.
+    All placeholders are replaced in one pass, so that placeholders in the
+    filled-in text have no effect.
 
     Args:
-        template: Page with places like ``@@NAME@@``; ``@@RUN@@`` is in a
-            script element, ``@@POLICY@@`` in an attribute.
-        texts: Text for the places, in whatever characters.
+        template: Page with placeholders like ``@@NAME@@``; ``@@RUN@@`` is in
+            a script element, ``@@POLICY@@`` in an attribute.
+        texts: Untrusted text for the placeholders.
         run: JSON value for ``@@RUN@@``.
     """
     filled = {name: escape(visible(text)) for name, text in texts.items()}
     filled |= {"RUN": for_script(run), "POLICY": policy_of(template)}
-    return PLACE.sub(lambda place: filled[place[1]], template)
+    return PLACEHOLDER.sub(lambda match: filled[match[1]], template)
 
 
 def policy_of(page: str) -> str:
-    """Content security policy: a page's own scripts and styles alone."""
+    """Return a content security policy for a page's inline elements.
+
+    Args:
+        page: Page; only its inline scripts and styles are allowed.
+    """
     allowed: dict[str, list[str]] = {"script": [], "style": []}
     for kind, text in INLINE.findall(page):
         digest = b64encode(sha256(text.encode()).digest()).decode("ascii")

@@ -1,4 +1,4 @@
-"""Figures of a tournament: what distance costs in floor, and worst games."""
+"""Figures of a tournament: closest approach over floor used, worst games."""
 
 from collections.abc import Sequence
 from math import ceil
@@ -14,7 +14,7 @@ COLUMNS = 3
 
 
 class GamePaths(Protocol):
-    """Where two players went: poses (x [m], y [m], theta [rad])."""
+    """Recorded poses (x [m], y [m], theta [rad]) of two players."""
 
     @property
     def pursuer(self) -> Array:
@@ -26,11 +26,11 @@ class GamePaths(Protocol):
 
 
 def draw_front(rows: Sequence[dict[str, Any]], path: str) -> None:
-    """Draw closest approach against the floor used, a mark for each pairing.
+    """Draw closest approach over floor used, with a mark for each pairing.
 
     Args:
-        rows: Of a tournament.
-        path: File, of a format that its suffix tells.
+        rows: Rows of the tournament.
+        path: File to write; its suffix gives the format.
     """
     figure, ax = plt.subplots(figsize=(5.6, 4.0))
     pursuers = list(dict.fromkeys(row["pursuer"] for row in rows))
@@ -46,7 +46,7 @@ def draw_front(rows: Sequence[dict[str, Any]], path: str) -> None:
             marker=MARKS[pursuers.index(row["pursuer"]) % len(MARKS)],
             markersize=7,
             linestyle="",
-            label=f"{row['evader']} by {row['pursuer']}"
+            label=f"{row['evader']} against {row['pursuer']}"
             if len(pursuers) > 1
             else row["evader"],
         )
@@ -59,7 +59,7 @@ def draw_front(rows: Sequence[dict[str, Any]], path: str) -> None:
         )
     ax.set_xlabel("floor used [m²], mean and 95 % interval")
     ax.set_ylabel("closest approach [m], mean and 95 % interval")
-    ax.set_title("what survives stands beside each mark")
+    ax.set_title("percentage beside each mark: games survived")
     ax.set_xlim(left=0.0)
     ax.set_ylim(bottom=0.0)
     ax.legend(fontsize=8)
@@ -69,11 +69,11 @@ def draw_front(rows: Sequence[dict[str, Any]], path: str) -> None:
 def draw_worst(
     games: Sequence[tuple[str, Room, GamePaths]], path: str
 ) -> None:
-    """Draw games in their rooms, from the start to the end.
+    """Draw the paths of whole games in their rooms.
 
     Args:
-        games: Title, room and ways of each.
-        path: File, of a format that its suffix tells.
+        games: Title, room and recorded poses of each game.
+        path: File to write; its suffix gives the format.
     """
     columns = min(COLUMNS, len(games))
     lines = ceil(len(games) / columns)

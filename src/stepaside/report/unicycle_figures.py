@@ -14,9 +14,10 @@ _FRACTIONS = (0.0, 0.12, 0.4, 1.0)  # of the time shown
 
 
 def time_shown(run: PlayedGame) -> float:
-    """Time of the last snapshot of a game, in [s].
+    """Return the time of the last snapshot of a game, in [s].
 
-    Five time constants of the circle and one turn, at most the whole game.
+    Five time constants of the circle and one revolution, at most the whole
+    game.
     """
     circle = circle_of(run.game)
     if not (circle.exists and circle.stable):
@@ -32,7 +33,7 @@ def draw_game(
 
     Args:
         run: The game.
-        path: File, of a format that its suffix tells.
+        path: File to write; its suffix gives the format.
         shown: Time of the last snapshot, in [s]; by default that of
             :func:`time_shown`.
     """
@@ -52,7 +53,7 @@ def draw_game(
         ax.set_aspect("equal")
         ax.set_xlim(middle[0] - half, middle[0] + half)
         ax.set_ylim(middle[1] - half, middle[1] + half)
-        if half < 40.0 * TICK:  # beyond, ticks would be a grey bar
+        if half < 40.0 * TICK:  # more ticks would merge
             ax.set_xticks(_ticks(middle[0], half), minor=True)
             ax.set_yticks(_ticks(middle[1], half), minor=True)
             ax.grid(which="minor", alpha=0.15)
@@ -73,7 +74,7 @@ def _ticks(middle: float, half: float) -> Array:
 
 
 def _draw_paths(ax: Any, pursuer: Array, evader: Array, size: float) -> None:
-    """Draw both paths, and both players where they are."""
+    """Draw both paths with the players at their ends."""
     players = (
         ("pursuer", pursuer, PURSUER, "-"),
         ("evader", evader, EVADER, "--"),

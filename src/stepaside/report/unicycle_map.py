@@ -1,4 +1,4 @@
-"""Figure of a map over starts."""
+"""Figure of a map over initial poses."""
 
 from typing import Any
 
@@ -11,23 +11,23 @@ from .figure_style import new_figure, save
 
 _QUANTITIES = (
     ("closest_distance", "closest approach [m]", "viridis"),
-    ("settled_time", "time until it circles [s]", "cividis"),
+    ("settled_time", "time to reach the circle [s]", "cividis"),
 )
-# By Okabe and Ito, told apart by everybody; the main way round is pale.
+# Colours of Okabe and Ito, distinct with colour blindness, too.
 _COLOURS = ("#f0e442", "#0072b2", "#cc79a7", "#d55e00", "#009e73", "#56b4e9")
 
 
 def draw_map(
     found: StartMap, path: str, *, circles: tuple[Circle, ...], body: float
 ) -> None:
-    """Write closest approach, settling time and circle over the bearings.
+    """Draw closest approach, settling time and circle over the bearings.
 
     Args:
-        found: The map; four of its distances at most are drawn.
-        path: File, of a format that its suffix tells.
-        circles: Circles of the game; which of them a game ends on is drawn
-            where there is more than one.
-        body: Distance that counts as capture, in [m], drawn as a line.
+        found: The map; at most four of its distances are drawn.
+        path: File to write; its suffix gives the format.
+        circles: Circles of the game. If there are several, the one that each
+            game ends on is drawn.
+        body: Capture distance, in [m], drawn as a line.
     """
     count = len(found.distances)
     picks = np.unique(np.linspace(0, count - 1, min(4, count)).astype(int))
@@ -41,11 +41,11 @@ def draw_map(
     if count == 3:
         _draw_circles(figure, axes[2], found, picks, circles)
     for ax, i in zip(axes[0], picks, strict=True):
-        ax.set_title(f"start {found.distances[i]:.2f} m apart")
+        ax.set_title(f"initial distance {found.distances[i]:.2f} m")
     for ax in axes[-1]:
-        ax.set_xlabel("bearing of the pursuer\nseen by the evader [deg]")
+        ax.set_xlabel("bearing of the pursuer\nfrom the evader [deg]")
     for ax in axes[:, 0]:
-        ax.set_ylabel("bearing of the evader\nseen by the pursuer [deg]")
+        ax.set_ylabel("bearing of the evader\nfrom the pursuer [deg]")
     save(figure, path)
 
 
@@ -57,7 +57,7 @@ def _draw_quantity(
     quantity: tuple[str, str, str],
     body: float,
 ) -> None:
-    """Draw one quantity; captured and not settled stay grey."""
+    """Draw one quantity; grey where captured or not settled."""
     name, label, colours = quantity
     values, closest = found.grid(name).copy(), found.grid("closest_distance")
     values[~np.isfinite(values)] = np.nan
@@ -82,7 +82,7 @@ def _draw_circles(
     picks: Any,
     circles: tuple[Circle, ...],
 ) -> None:
-    """Draw which circle games end on; captured and on the way stay grey."""
+    """Draw the circle that games end on; grey where captured or unsettled."""
     numbers = found.grid("circle").astype(float)
     numbers[numbers < 0.0] = np.nan
     count = len(circles)
@@ -98,9 +98,9 @@ def _draw_circles(
         ax.set_facecolor("0.8")
         ax.grid(visible=False)
     bar = figure.colorbar(
-        image, ax=list(row), ticks=range(count), label="circle [m apart]"
+        image, ax=list(row), ticks=range(count), label="circle, distance [m]"
     )
-    names = {1: "main way", -1: "reversed"}
+    names = {1: "main", -1: "reversed"}
     bar.ax.set_yticklabels(
         [f"{names[c.direction]}\n{c.distance_m:.3g}" for c in circles]
     )

@@ -15,12 +15,12 @@ _GAINS = (0.25, 16.0)  # evader's over pursuer's
 
 
 def draw_ratios(game: Game, path: str, *, count: int = _COUNT) -> RatioMap:
-    """Write where a stable reversed circle agrees with the side behind.
+    """Draw the ratios at which a stable reversed circle exists.
 
     Args:
-        game: Its angle is kept, its ratios are marked; both laws are drawn.
-        path: File, of a format that its suffix tells.
-        count: Points along each ratio.
+        game: Game with the evasion angle; its ratios are marked.
+        path: File to write; its suffix gives the format.
+        count: Number of points along each ratio.
 
     Returns:
         The map under the game's own law.
@@ -56,7 +56,7 @@ def draw_ratios(game: Game, path: str, *, count: int = _COUNT) -> RatioMap:
     figure.colorbar(
         image,
         ax=list(axes),
-        label="distance of the players on that circle\n"
+        label="distance between the players on that circle\n"
         "[evader's speed / pursuer's gain]",
     )
     named: dict[str, Any] = {}
@@ -71,8 +71,8 @@ def draw_ratios(game: Game, path: str, *, count: int = _COUNT) -> RatioMap:
     )
     degrees = np.rad2deg(game.angle)
     figure.suptitle(
-        "Coloured: a second stable circle, walked the other way round; "
-        f"evasion angle {degrees:.0f} deg"
+        "Coloured: a second stable circle, in the opposite direction; "
+        f"evasion angle {degrees:.0f}°"
     )
     save(figure, path)
     return maps[game.law]
@@ -116,7 +116,7 @@ def _draw(ax: Any, found: RatioMap, high: float) -> Any:
         lines = ax.contour(
             speeds, gains, share.T, [0.25, 0.5], colors="w", linewidths=1.3
         )
-        ax.clabel(lines, fmt=lambda v: f"{v:g} of the main", fontsize=8)
+        ax.clabel(lines, fmt=lambda v: f"{v:g} of the main circle", fontsize=8)
     ticks = {"x": (1, 1.5, 2, 3, 4), "y": (0.25, 0.5, 1, 2, 4, 8, 16)}
     ax.set_xticks(ticks["x"], [f"{t:g}" for t in ticks["x"]])
     ax.set_yticks(ticks["y"], [f"{t:g}" for t in ticks["y"]])

@@ -1,4 +1,4 @@
-"""Figure of the circle over angle and ratios: theory line, simulated dots."""
+"""Figure of the circle over evasion angle, gain ratio and speed ratio."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -21,13 +21,13 @@ _STYLES = {
 
 
 class ParameterSweep(NamedTuple):
-    """One thing that is varied.
+    """Range of one parameter.
 
     Attributes:
-        label: What it is, with its unit.
-        low: Where it begins.
-        high: Where it ends.
-        vary: Gives the game at a value of it.
+        label: Name of the parameter, with its unit.
+        low: Smallest value.
+        high: Largest value.
+        vary: Function that returns the game with a value.
     """
 
     label: str
@@ -37,13 +37,13 @@ class ParameterSweep(NamedTuple):
 
 
 def _with_gain(game: Game, ratio: float) -> Game:
-    """Game with another ratio of the evader's to the pursuer's gain."""
+    """Return the game with a ratio of the evader's to the pursuer's gain."""
     evader = replace(game.evader, gain=ratio * game.pursuer.gain)
     return replace(game, evader=evader)
 
 
 def _with_speed(game: Game, ratio: float) -> Game:
-    """Game with another ratio of the pursuer's to the evader's speed."""
+    """Return the game with a ratio of the pursuer's to the evader's speed."""
     pursuer = replace(game.pursuer, speed=ratio * game.evader.speed)
     return replace(game, pursuer=pursuer)
 
@@ -63,9 +63,9 @@ def draw_sweep(game: Game, path: str, *, marks: int = 7) -> None:
     """Write radius and distance over angle, gain ratio and speed ratio.
 
     Args:
-        game: Game about which is swept.
-        path: File, of a format that its suffix tells.
-        marks: Simulated games along each line.
+        game: Game whose parameters are varied one at a time.
+        path: File to write; its suffix gives the format.
+        marks: Number of simulated games along each line.
     """
     figure = new_figure(10.0, 5.6)
     axes = figure.subplots(2, 3, sharex="col", sharey="row")
@@ -75,7 +75,7 @@ def draw_sweep(game: Game, path: str, *, marks: int = 7) -> None:
             _draw_marks(column, game, sweep, law, marks)
         column[1].set_xlabel(sweep.label)
     axes[0, 0].set_ylabel("radius of the pursuer's circle [m]")
-    axes[1, 0].set_ylabel("distance of the players [m]")
+    axes[1, 0].set_ylabel("distance between the players [m]")
     unit = game.evader.speed / game.evader.gain
     for ax in axes[:, 0]:
         ax.set_ylim(0.0, 6.0 * unit)
@@ -85,7 +85,7 @@ def draw_sweep(game: Game, path: str, *, marks: int = 7) -> None:
         ncols=2 if sheet().narrow else 4,
     )
     figure.suptitle(
-        "Circle on which the game ends: equations (lines), simulation (marks)"
+        "Circle at the end of a game: equations (lines), simulation (marks)"
     )
     save(figure, path)
 
@@ -93,7 +93,7 @@ def draw_sweep(game: Game, path: str, *, marks: int = 7) -> None:
 def _draw_lines(
     axes: Any, game: Game, sweep: ParameterSweep, law: TurningLaw
 ) -> None:
-    """Draw what the equations say into a column of two axes."""
+    """Draw radius and distance of the equations into a column of axes."""
     line, _, colour = _STYLES[law]
     xs = np.linspace(sweep.low, sweep.high, 200)
     games = [replace(sweep.vary(game, float(x)), law=law) for x in xs]
@@ -107,7 +107,7 @@ def _draw_lines(
 def _draw_marks(
     axes: Any, game: Game, sweep: ParameterSweep, law: TurningLaw, count: int
 ) -> None:
-    """Draw what simulated games end on, where a stable circle exists."""
+    """Draw the circles of simulated games, where a stable circle exists."""
     _, mark, colour = _STYLES[law]
     found = []
     for x in np.linspace(sweep.low, sweep.high, count).tolist():
@@ -123,9 +123,9 @@ def _draw_marks(
 
 
 def _simulated(game: Game) -> FittedCircle | None:
-    """What a game that starts near its circle ends on, if that is stable.
+    """Return the circle at the end of a game that starts near it.
 
-    A circle as small as the distance of a capture is none to end on.
+    None if it is not stable or the evader is captured.
     """
     circle = circle_of(game)
     if not (circle.exists and circle.stable):
@@ -135,7 +135,7 @@ def _simulated(game: Game) -> FittedCircle | None:
         circle.pursuer_error_rad,
         circle.evader_error_rad - game.angle,
     )
-    # On a kept side: near the circle the rule behind changes nothing.
+    # With a latched side: near the circle the side rule has no effect.
     kept = replace(game, side_rule=SideRule.LATCHED, hysteresis=0.0)
     played = simulate(kept, start, settling_time(game), side=1)
     return None if played.captured else measure(played)

@@ -1,5 +1,6 @@
-"""What is seen of a model: one list of parts for every page."""
+"""Visible geoms of a model, in the form in which all pages draw them."""
 
+from collections.abc import Iterable
 from itertools import product
 from typing import Any, NamedTuple
 
@@ -8,10 +9,10 @@ import numpy as np
 
 from ..core.poses import Array
 from ..sim.obstacle_geoms import is_room_wall
-from .mesh_simplification import TriangleMesh, shell_of
+from .mesh_simplification import TriangleMesh, mesh_of
 
-VISIBLE = 2  # last geom group that is seen
-TALL = 1.5  # height from which on what stands is a wall, in [m]
+MAX_VISIBLE_GROUP = 2  # geoms of higher groups are collision shapes
+WALL_HEIGHT = 1.5  # of a fixed box from which on it counts as a wall, in [m]
 FOOTPRINT = 0.003  # height of a wall's outline over the floor, in [m]
 _TYPES = mujoco.mjtGeom
 KINDS = {
@@ -24,144 +25,182 @@ KINDS = {
 
 
 class VisualGeom(NamedTuple):
-    """A thing of simple shape, at rest in one body.
+    """Visible shape that is fixed to one body.
 
     Attributes:
         body: Number of the body; 0 is the world.
-        kind: One of ``KINDS``, "mesh", or "box" round what else there is.
-        size: Half sizes along its axes, in [m]: three of a box, of a mesh
-            and of an ellipsoid; radius of a sphere; radius and half length
-            along z of the others. Shape (3,).
-        place: In the body, in [m]. Shape (3,).
-        turn: Quaternion (w, x, y, z) in the body. Shape (4,).
+        kind: One of ``KINDS``, or "mesh"; other types become their bounding
+            "box".
+        size: Half sizes along its axes, in [m], of a box, a mesh or an
+            ellipsoid; radius of a sphere; radius and half length along z of
+            a capsule or cylinder. Shape (3,).
+        position: In the body, in [m]. Shape (3,).
+        quaternion: (w, x, y, z) in the body. Shape (4,).
         colour: Red, green, blue, 0 to 255.
-        shell: Surface of a mesh, around its place; None of others.
-        shades: Whether it casts a shadow; a wall of which only the inside
-            is drawn does not.
+        mesh: Of a geom of kind "mesh", in the frame of the geom.
+        casts_shadow: Whether it casts a shadow. A wall of a room casts none,
+            because only its inner face is drawn.
     """
 
     body: int
     kind: str
     size: Array
-    place: Array
-    turn: Array
+    position: Array
+    quaternion: Array
     colour: tuple[int, int, int]
-    shell: TriangleMesh | None = None
-    shades: bool = True
+    mesh: TriangleMesh | None = None
+    casts_shadow: bool = True
 
     @property
     def corners(self) -> Array:
-        """Corners of a box around it, in its body, in [m]. Shape (8, 3)."""
+        """Corners of its bounding box in the body, in [m]. Shape (8, 3)."""
         a, b, c = self.size.tolist()
         if self.kind == "sphere":
             b = c = a
         elif self.kind in ("capsule", "cylinder"):
             a, b, c = a, a, b + (a if self.kind == "capsule" else 0.0)
         signs = np.array(list(product((-1.0, 1.0), repeat=3)))
-        frame = np.zeros(9)
-        mujoco.mju_quat2Mat(frame, self.turn)
+        rotation = np.zeros(9)
+        mujoco.mju_quat2Mat(rotation, self.quaternion)
         around = signs * [a, b, c]
-        corners: Array = around @ frame.reshape(3, 3).T + self.place
+        corners: Array = around @ rotation.reshape(3, 3).T + self.position
         return corners
 
     @property
     def is_wall(self) -> bool:
-        """Whether it stands in the way of who looks from outside."""
-        high = self.kind == "box" and 2.0 * float(self.size[2]) >= TALL
+        """Whether it would hide the players from an outside camera."""
+        high = self.kind == "box" and 2.0 * float(self.size[2]) >= WALL_HEIGHT
         return self.body == 0 and high
 
     def to_json(self) -> dict[str, Any]:
-        """The same for a page, to a tenth of a millimetre."""
+        """Return plain values for a page, rounded to 0.1 mm."""
         red, green, blue = self.colour
-        told: dict[str, Any] = {
+        values: dict[str, Any] = {
             "body": self.body,
             "kind": self.kind,
             "size": np.round(self.size, 4).tolist(),
-            "place": np.round(self.place, 4).tolist(),
-            "turn": np.round(self.turn, 5).tolist(),
+            "position": np.round(self.position, 4).tolist(),
+            "quaternion": np.round(self.quaternion, 5).tolist(),
             "colour": f"#{red:02x}{green:02x}{blue:02x}",
             "wall": self.is_wall,
-            "shades": self.shades,
+            "casts_shadow": self.casts_shadow,
         }
-        if self.shell is not None:
-            told["corners"] = np.round(self.shell.corners, 4).tolist()
-            told["faces"] = self.shell.faces.tolist()
-        return told
+        if self.mesh is not None:
+            values["vertices"] = np.round(self.mesh.vertices, 4).tolist()
+            values["faces"] = self.mesh.faces.tolist()
+        return values
 
 
-def parts_of(model: mujoco.MjModel) -> list[VisualGeom]:
-    """Parts of all that is seen, but the floor, which every page lays."""
-    parts = []
+def visual_geoms_of(model: mujoco.MjModel) -> list[VisualGeom]:
+    """Return all visible geoms but the floor, which each page draws itself."""
+    geoms = []
     for geom in range(model.ngeom):
         kind = int(model.geom_type[geom])
-        if model.geom_group[geom] > VISIBLE or kind == _TYPES.mjGEOM_PLANE:
+        if model.geom_group[geom] > MAX_VISIBLE_GROUP:
             continue
-        if kind == _TYPES.mjGEOM_HFIELD:
+        if kind in (_TYPES.mjGEOM_PLANE, _TYPES.mjGEOM_HFIELD):
             continue
-        size, place = model.geom_size[geom], model.geom_pos[geom]
-        turn = model.geom_quat[geom]
-        name, shell = KINDS.get(kind, "box"), None
+        size, position = model.geom_size[geom], model.geom_pos[geom]
+        quaternion = model.geom_quat[geom]
+        name, mesh = KINDS.get(kind, "box"), None
         if is_room_wall(model, geom):
-            name, shell = "mesh", inside_of_wall(model, geom)
+            name, mesh = "mesh", inside_of_wall(model, geom)
         elif kind == _TYPES.mjGEOM_MESH:
-            name, shell = "mesh", shell_of(model, geom)
+            name, mesh = "mesh", mesh_of(model, geom)
         elif kind not in KINDS:
-            middle, size = model.geom_aabb[geom].reshape(2, 3)
-            away = np.zeros(3)
-            mujoco.mju_rotVecQuat(away, middle, turn)
-            place = place + away
-        parts.append(
+            center, size = model.geom_aabb[geom].reshape(2, 3)
+            offset = np.zeros(3)
+            mujoco.mju_rotVecQuat(offset, center, quaternion)
+            position = position + offset
+        geoms.append(
             VisualGeom(
                 int(model.geom_bodyid[geom]),
                 name,
                 np.array(size, dtype=np.float64),
-                np.array(place, dtype=np.float64),
-                np.array(turn, dtype=np.float64),
+                np.array(position, dtype=np.float64),
+                np.array(quaternion, dtype=np.float64),
                 colour_of(model, geom),
-                shell,
+                mesh,
                 not is_room_wall(model, geom),
             )
         )
-    return parts
+    return geoms
 
 
 def inside_of_wall(model: mujoco.MjModel, geom: int) -> TriangleMesh:
-    """Return the face of a wall towards its room, and its footprint.
+    """Return the inner face of a room's wall, and its footprint.
 
-    Pages draw the front of a face alone: from outside, the nearest wall hides
+    Pages draw only the front of a face: from outside, the nearest wall hides
     nothing then, and its footprint shows where it stands.
 
     Args:
-        model: Of the room, in the middle of which is the world's origin.
+        model: Model of a room that is centered at the world's origin.
         geom: Number of a box.
 
     Returns:
-        Two rectangles in the frame of the geom; each is seen from the side
-        on which its corners turn left.
+        Two rectangles in the frame of the geom, with counterclockwise
+        vertices on the visible side.
     """
     half: Array = np.array(model.geom_size[geom])
-    frame = np.zeros(9)
-    mujoco.mju_quat2Mat(frame, model.geom_quat[geom])
+    rotation = np.zeros(9)
+    mujoco.mju_quat2Mat(rotation, model.geom_quat[geom])
     body = int(model.geom_bodyid[geom])
-    place = frame.reshape(3, 3).T @ model.body_pos[body]
+    position = rotation.reshape(3, 3).T @ model.body_pos[body]
     thin = int(np.argmin(half[:2]))
-    long, inward = 1 - thin, -np.sign(place[thin])
+    long, inward = 1 - thin, -np.sign(position[thin])
     signs = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
-    face, floor = np.zeros((4, 3)), np.zeros((4, 3))
+    face, footprint = np.zeros((4, 3)), np.zeros((4, 3))
     face[:, thin] = inward * half[thin]
     face[:, [long, 2]] = signs * half[[long, 2]]
     if inward * (1.0 if thin == 0 else -1.0) < 0.0:
         face = face[::-1]
-    floor[:, :2] = signs * half[:2]
-    floor[:, 2] = FOOTPRINT - half[2]
+    footprint[:, :2] = signs * half[:2]
+    footprint[:, 2] = FOOTPRINT - half[2]
     triangles = np.array([[0, 1, 2], [0, 2, 3]])
-    corners = np.concatenate([face, floor])
-    return TriangleMesh(corners, np.concatenate([triangles, triangles + 4]))
+    vertices = np.concatenate([face, footprint])
+    return TriangleMesh(vertices, np.concatenate([triangles, triangles + 4]))
 
 
 def colour_of(model: mujoco.MjModel, geom: int) -> tuple[int, int, int]:
-    """Colour of one geom, 0 to 255."""
+    """Return the colour of a geom: red, green, blue, 0 to 255."""
     material = model.geom_matid[geom]
     rgba = model.geom_rgba[geom] if material < 0 else model.mat_rgba[material]
     red, green, blue = (np.clip(rgba[:3], 0.0, 1.0) * 255).astype(int)
     return int(red), int(green), int(blue)
+
+
+class BodyHeights:
+    """Heights of bodies in any posture, from the bounding boxes of geoms."""
+
+    def __init__(self, geoms: Iterable[VisualGeom]) -> None:
+        """Collect the corners of the bounding boxes by body."""
+        found: dict[int, list[Array]] = {}
+        for geom in geoms:
+            found.setdefault(geom.body, []).append(geom.corners)
+        self._corners = {b: np.concatenate(c) for b, c in found.items()}
+
+    def highest(
+        self, bodies: Iterable[int], positions: Array, quaternions: Array
+    ) -> float:
+        """Return the height of the highest point of some bodies, in [m].
+
+        Args:
+            bodies: Their numbers; bodies without geoms are ignored.
+            positions: Of all bodies, in the world, in [m]. Shape (bodies, 3).
+            quaternions: (w, x, y, z) of all bodies. Shape (bodies, 4).
+        """
+        highest = -np.inf
+        for body in bodies:
+            if body in self._corners:
+                w, x, y, z = quaternions[body].tolist()
+                # Third row of the rotation matrix: the world's z.
+                up = np.array(
+                    [
+                        2.0 * (x * z - w * y),
+                        2.0 * (y * z + w * x),
+                        1.0 - 2.0 * (x * x + y * y),
+                    ]
+                )
+                over = positions[body, 2] + (self._corners[body] @ up).max()
+                highest = max(highest, float(over))
+        return highest

@@ -1,4 +1,4 @@
-"""Figure of a walk: its way, its lean, its balance."""
+"""Figure of a walk: path, torso tilt, CoM error and balance."""
 
 from pathlib import Path
 from typing import Any
@@ -14,16 +14,16 @@ from .figure_style import LEFT, MEAN, RIGHT, THEORY, new_figure, save
 from .push_marks import mark_pushes
 from .text_escaping import for_figure
 
-BEFORE, AFTER = 1.0, 4.0  # what is shown round a push, in [s]
-STEPS = 6.0  # that are shown where nobody pushed
+BEFORE, AFTER = 1.0, 4.0  # time shown before and after a push, in [s]
+STEPS = 6.0  # last steps that are shown without a push
 
 
 def draw_walk(run: Run, path: Path) -> None:
-    """Write the figure of a walk; of several walkers, of the first.
+    """Write the figure of a walk, with details of the first walker.
 
     Args:
         run: The walk.
-        path: File, of a format that its suffix tells.
+        path: File to write; its suffix gives the format.
     """
     track = run.tracks[run.players[0]]
     figure = new_figure(11.0, 8.2)
@@ -48,7 +48,7 @@ def draw_walk(run: Run, path: Path) -> None:
 def _draw_over_time(
     figure: Any, grid: Any, run: Run, track: Trajectory
 ) -> None:
-    """Lean of the torso, and how far the CoM is from where it should be."""
+    """Draw roll and pitch of the torso, and the CoM error."""
     times, seen = run.times, seen_from_foot(run.times, track)
     upper = figure.add_subplot(grid[1, :])
     lower = figure.add_subplot(grid[2, :], sharex=upper)
@@ -69,7 +69,7 @@ def _draw_over_time(
 
 
 def _while_shown(run: Run, track: Trajectory) -> tuple[NDArray[np.bool_], str]:
-    """Samples round the first push, or those of the last steps."""
+    """Return the samples around the first push, or of the last steps."""
     pushes, times = track.pushes, run.times
     if pushes is None:
         span = STEPS * run.settings.gait.step_duration
@@ -80,7 +80,7 @@ def _while_shown(run: Run, track: Trajectory) -> tuple[NDArray[np.bool_], str]:
 
 
 def _cut(track: Trajectory, show: NDArray[np.bool_]) -> dict[str, Any]:
-    """What balance is made of, at some samples; headings first."""
+    """Return heading, ZMP and CoM with their references at some samples."""
     assert track.com_reference is not None
     assert track.zmp_reference is not None and track.zmp is not None
     return {
@@ -95,11 +95,11 @@ def _cut(track: Trajectory, show: NDArray[np.bool_]) -> dict[str, Any]:
 def _draw_balance(
     axes: Any, times: Any, cut: dict[str, Any], forward: bool
 ) -> None:
-    """CoM against ZMP, leftward or forward.
+    """Draw CoM and ZMP, leftward or forward.
 
-    References live in odometry: what is true and what is asked each have
-    their own mean as origin. Forward, the steady way of the plan is taken
-    out.
+    References are in odometry, true values in the world, so that each are
+    relative to their own mean. Forward, the mean motion of the reference is
+    subtracted.
     """
     heading = float(cut["heading"].mean())
     c, s = np.cos(heading), np.sin(heading)
@@ -120,12 +120,12 @@ def _draw_balance(
         axes.plot(times, 1e3 * (along - way), label=label, **look)
     axes.set(
         xlabel="time [s]",
-        ylabel="ahead of steady [mm]" if forward else "leftward [mm]",
+        ylabel="forward, less mean [mm]" if forward else "leftward [mm]",
     )
     axes.legend(ncols=4, loc="lower center", bbox_to_anchor=(0.5, 0.97))
 
 
 def _limits(times: Any) -> tuple[float, float]:
-    """Times from the first to the last, which are never the same."""
+    """Return first and last time, in [s], at least 0.02 s apart."""
     first, last = float(times[0]), float(times[-1])
     return first, max(last, first + 0.02)

@@ -1,4 +1,4 @@
-"""Several walks on one figure."""
+"""Figure that compares several walks."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -20,8 +20,8 @@ def draw_walks(runs: Sequence[Run], file: Path) -> None:
     """Draw paths, tilt, and speed over gait cycles, of each first walker.
 
     Args:
-        runs: The walks; each has its own kind of line.
-        file: Picture to write.
+        runs: The walks; each has its own colour and line style.
+        file: Figure to write.
     """
     figure = new_figure(9.5, 5.8)
     axes = figure.subplot_mosaic([["path", "path"], ["tilt", "speed"]])
@@ -52,15 +52,15 @@ def draw_walks(runs: Sequence[Run], file: Path) -> None:
 
 
 def speed_over(places: Array, times: Array, period: float) -> Array:
-    """Speed over a gait cycle round each sample, in [m/s]. Shape (n,).
-
-    The sway of a whole cycle is no way. Where a cycle is cut by an end,
-    there is none: NaN.
+    """Return the mean speed over the gait cycle around each sample.
 
     Args:
-        places: In [m]. Shape (n, 2) or more columns.
+        places: Positions, in [m]. Shape (n, 2) or more columns.
         times: Their times, in [s]. Shape (n,).
         period: Duration of a gait cycle, in [s].
+
+    Returns:
+        Speeds, in [m/s]; NaN within half a cycle of both ends. Shape (n,).
     """
     speed = np.full(len(times), np.nan)
     if len(times) < 2:

@@ -3,13 +3,13 @@
 
 const byId = (id) => document.getElementById(id);
 const run = JSON.parse(byId("run").textContent);
-const bytes = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer;
-run.places = bytes(run.places);
-run.turns = bytes(run.turns);
+const decode = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer;
+run.positions = decode(run.positions);
+run.quaternions = decode(run.quaternions);
 
 const frames = run.times.length, end = run.times[frames - 1];
 const canvas = byId("world");
-/* Kept for pictures of the page, which are taken between two frames. */
+/* The drawing buffer is preserved so that screenshots taken between two frames are not blank. */
 const context = canvas.getContext("webgl2", { antialias: true, preserveDrawingBuffer: true });
 const scene = context && makeScene(run, canvas, context);
 byId("flat").hidden = Boolean(scene);
@@ -19,58 +19,58 @@ const seek = (time) => {
   stale = true;
 };
 
-const spans = (place) => run.robots.map((robot) => {
-  const word = document.createElement("span");
-  word.textContent = robot.name;
-  byId(place).append(word);
-  return word;
+const addNames = (id) => run.players.map((player) => {
+  const span = document.createElement("span");
+  span.textContent = player.name;
+  byId(id).append(span);
+  return span;
 });
-const names = spans("players"), labels = spans("labels");
+const names = addNames("players"), labels = addNames("labels");
 
-/* Light and dark: as the system says, until this viewer says otherwise. */
-const night = window.matchMedia("(prefers-color-scheme: dark)");
-let light = night.matches ? "dark" : "light";
-function dress() {
-  for (const [name, colour] of Object.entries(run.palettes[light]))
+/* Light or dark theme: that of the system until the button is pressed. */
+const systemDark = window.matchMedia("(prefers-color-scheme: dark)");
+let theme = systemDark.matches ? "dark" : "light";
+function applyTheme() {
+  for (const [name, colour] of Object.entries(run.palettes[theme]))
     document.documentElement.style.setProperty(`--${name}`, colour);
-  document.documentElement.style.colorScheme = light;
-  byId("light").setAttribute("aria-pressed", String(light === "dark"));
-  if (scene) scene.dress(light);
-  run.robots.forEach((robot, i) => {
-    for (const word of [names[i], labels[i]]) word.style.color = robot.colours[light];
+  document.documentElement.style.colorScheme = theme;
+  byId("light").setAttribute("aria-pressed", String(theme === "dark"));
+  if (scene) scene.applyTheme(theme);
+  run.players.forEach((player, i) => {
+    for (const span of [names[i], labels[i]]) span.style.color = player.colours[theme];
   });
-  paintMarks();
+  colourLegend();
   stale = true;
 }
-/* The marks of the legend; what each player has is in the colour of each. */
-function paintMarks() {
-  const shown = run.robots.map((robot) => robot.colours[light]);
+/* Colour the marks of the legend; a mark that stands for both players has both colours. */
+function colourLegend() {
+  const colours = run.players.map((player) => player.colours[theme]);
   for (const [mark, name] of marks) {
-    const colour = name === "players" ? shown[0] : typeof name === "number" ? shown[name] : run.palettes[light][name];
+    const colour = name === "players" ? colours[0] : typeof name === "number" ? colours[name] : run.palettes[theme][name];
     mark.style.borderTopColor = colour;
-    mark.style.borderBottomColor = name === "players" ? shown[shown.length - 1] : colour;
+    mark.style.borderBottomColor = name === "players" ? colours[colours.length - 1] : colour;
   }
 }
-night.onchange = () => { light = night.matches ? "dark" : "light"; dress(); };
-byId("light").onclick = () => { light = light === "dark" ? "light" : "dark"; dress(); };
+systemDark.onchange = () => { theme = systemDark.matches ? "dark" : "light"; applyTheme(); };
+byId("light").onclick = () => { theme = theme === "dark" ? "light" : "dark"; applyTheme(); };
 
-/* Cameras: round a target, or in the evader's head. */
-const view = { turn: -1.05, tilt: 0.5, away: 1, aside: [0, 0] };
-const VIEWS = { whole: "Whole", follow: "Follow", top: "Top", eyes: "Evader's eyes" };
+/* Cameras: around a target, or at the evader's head. Angles in [rad], zoom and offset [m]. */
+const view = { azimuth: -1.05, elevation: 0.5, zoom: 1, offset: [0, 0] };
+const VIEWS = { whole: "Whole scene", follow: "Follow", top: "Top", eyes: "Evader's view" };
 let chosen = "whole";
 function choose(name) {
   chosen = name;
-  view.aside = [0, 0];
-  view.away = 1;
-  view.tilt = name === "top" ? 1.5706 : 0.5;
-  if (name === "top") view.turn = -Math.PI / 2;
+  view.offset = [0, 0];
+  view.zoom = 1;
+  view.elevation = name === "top" ? 1.5706 : 0.5;
+  if (name === "top") view.azimuth = -Math.PI / 2;
   for (const [key, button] of Object.entries(buttons))
     button.setAttribute("aria-pressed", String(key === name));
   stale = true;
 }
 const buttons = {};
 for (const [name, text] of Object.entries(VIEWS)) {
-  if (name === "eyes" && run.robots.length < 2) continue;
+  if (name === "eyes" && run.players.length < 2) continue;
   const button = document.createElement("button");
   button.textContent = text;
   button.onclick = () => choose(name);
@@ -78,83 +78,84 @@ for (const [name, text] of Object.entries(VIEWS)) {
   byId("cameras").append(button);
 }
 
-function aim(seats) {
+/* Aim the camera; return the point that it looks at, in [m]. */
+function aim(torsos) {
   const camera = scene.camera;
-  const [one, two] = [seats[0], seats[1] || seats[0]];
+  const [first, second] = [torsos[0], torsos[1] || torsos[0]];
   if (chosen === "eyes") {
-    const toward = one.clone().sub(two).setZ(0).normalize();
+    const sight = first.clone().sub(second).setZ(0).normalize();
     camera.fov = 60;
-    camera.position.copy(two).addScaledVector(toward, 0.09);
-    camera.position.z = two.z + 0.2;
-    camera.lookAt(one.x, one.y, one.z);
-    return one;
+    camera.position.copy(second).addScaledVector(sight, 0.09);
+    camera.position.z = second.z + 0.2;
+    camera.lookAt(first.x, first.y, first.z);
+    return first;
   }
-  const target = new THREE.Vector3(run.middle[0], run.middle[1], 0.15);
-  let away = run.away;
+  const target = new THREE.Vector3(run.center[0], run.center[1], 0.15);
+  let distance = run.camera_distance;
   if (chosen === "follow") {
-    const about = new THREE.Box3().setFromPoints(seats);
-    about.getCenter(target).setZ(0.2);
-    away = 1.5 + 1.1 * about.min.distanceTo(about.max);
+    const box = new THREE.Box3().setFromPoints(torsos);
+    box.getCenter(target).setZ(0.2);
+    distance = 1.5 + 1.1 * box.min.distanceTo(box.max);
   }
-  /* From above all of the room is seen, whatever the page's shape. */
-  const steep = Math.tan(20 * Math.PI / 180);
+  /* The top view shows the whole room at any aspect ratio. */
+  const slope = Math.tan(20 * Math.PI / 180);
   if (chosen === "top")
-    away = 0.6 + Math.max(run.half[1], run.half[0] / camera.aspect) / steep;
-  target.x += view.aside[0];
-  target.y += view.aside[1];
-  /* A phone held upright sees less from side to side. */
-  away *= view.away * (chosen === "top" ? 1 : Math.max(1, 1.35 / camera.aspect));
-  const flat = Math.cos(view.tilt);
+    distance = 0.6 + Math.max(run.half_extent[1], run.half_extent[0] / camera.aspect) / slope;
+  target.x += view.offset[0];
+  target.y += view.offset[1];
+  /* On a narrow screen the camera stands farther away. */
+  distance *= view.zoom * (chosen === "top" ? 1 : Math.max(1, 1.35 / camera.aspect));
+  const level = Math.cos(view.elevation);
   camera.fov = 40;
-  camera.position.set(target.x + away * flat * Math.cos(view.turn),
-    target.y + away * flat * Math.sin(view.turn), target.z + away * Math.sin(view.tilt));
+  camera.position.set(target.x + distance * level * Math.cos(view.azimuth),
+    target.y + distance * level * Math.sin(view.azimuth), target.z + distance * Math.sin(view.elevation));
   camera.lookAt(target);
   return target;
 }
 
-const held = new Map();
-let spread = 0;
+const pointers = new Map();
+let pinch = 0;
 canvas.onpointerdown = (event) => {
-  held.set(event.pointerId, [event.clientX, event.clientY]);
+  pointers.set(event.pointerId, [event.clientX, event.clientY]);
   canvas.setPointerCapture(event.pointerId);
 };
-canvas.onpointerup = canvas.onpointercancel = (event) => { held.delete(event.pointerId); spread = 0; };
+canvas.onpointerup = canvas.onpointercancel = (event) => { pointers.delete(event.pointerId); pinch = 0; };
 canvas.oncontextmenu = (event) => event.preventDefault();
 canvas.onpointermove = (event) => {
-  const was = held.get(event.pointerId);
-  if (!was) return;
-  const dx = event.clientX - was[0], dy = event.clientY - was[1];
-  held.set(event.pointerId, [event.clientX, event.clientY]);
-  if (held.size === 2) {
-    const [a, b] = [...held.values()], now = Math.hypot(a[0] - b[0], a[1] - b[1]);
-    if (spread) near(spread / now);
-    spread = now;
+  const last = pointers.get(event.pointerId);
+  if (!last) return;
+  const dx = event.clientX - last[0], dy = event.clientY - last[1];
+  pointers.set(event.pointerId, [event.clientX, event.clientY]);
+  if (pointers.size === 2) {
+    const [a, b] = [...pointers.values()], now = Math.hypot(a[0] - b[0], a[1] - b[1]);
+    if (pinch) zoomBy(pinch / now);
+    pinch = now;
     move(0.5 * dx, 0.5 * dy);
   } else if (event.shiftKey || event.buttons & 2) move(dx, dy);
   else {
-    view.turn -= dx / 200;
-    view.tilt = Math.min(1.5706, Math.max(0.04, view.tilt + dy / 200));
+    view.azimuth -= dx / 200;
+    view.elevation = Math.min(1.5706, Math.max(0.04, view.elevation + dy / 200));
   }
   stale = true;
 };
 function move(dx, dy) {
-  const per = 1.2 * view.away * run.away / canvas.clientHeight;
-  const c = Math.cos(view.turn), s = Math.sin(view.turn);
-  view.aside[0] += per * (s * dx - c * dy);
-  view.aside[1] += per * (-c * dx - s * dy);
+  const scale = 1.2 * view.zoom * run.camera_distance / canvas.clientHeight;
+  const c = Math.cos(view.azimuth), s = Math.sin(view.azimuth);
+  view.offset[0] += scale * (s * dx - c * dy);
+  view.offset[1] += scale * (-c * dx - s * dy);
 }
-function near(factor) { view.away = Math.min(6, Math.max(0.08, view.away * factor)); stale = true; }
-canvas.onwheel = (event) => { event.preventDefault(); near(Math.exp(event.deltaY / 800)); };
+function zoomBy(factor) { view.zoom = Math.min(6, Math.max(0.08, view.zoom * factor)); stale = true; }
+canvas.onwheel = (event) => { event.preventDefault(); zoomBy(Math.exp(event.deltaY / 800)); };
 
-/* Layers, labels, plots: of each line what it is, how it is drawn, its colour. */
-const metres = (value) => value === null || value === undefined ? "" : `, radius ${value.toFixed(2)} m`;
-const guard = run.safety === null ? "" : run.robots[run.guarded].name;
+/* Legend of each layer: text, style of its line, colour. */
+const metres = (value) => value === null || value === undefined ? "" : `, ${value.toFixed(2)} m`;
+const guarded = run.safety === null ? "" : run.players[run.safety_player].name;
 const LINES = {
   traces: ["path of the center of mass", "solid", "players"],
   footsteps: ["footsteps", "broad", "players"],
   pushes: ["pushes", "solid", "pushed"],
-  "safety area": [`safety area of the ${guard}${metres(run.safety)}`, "dashed", run.guarded],
-  "circle of theory": [`circle of theory${metres(run.circle && run.circle[2])}`, "solid", "theory"],
+  "safety radius": [`safety radius of the ${guarded}${metres(run.safety)}`, "dashed", run.safety_player],
+  "theoretical circle": [`theoretical circle, radius${metres(run.circle && run.circle[2]).slice(1)}`, "solid", "theory"],
   "line of sight": ["line of sight", "solid", "theory"],
 };
 const marks = [];
@@ -169,19 +170,19 @@ for (const name of Object.keys(scene ? scene.layers : {})) {
   byId("layers").append(label);
 }
 const level = (value, colour, dash) => value === null || value === undefined ? [] : [{ value, colour, dash }];
-const theory = run.theory || [null, null, null];
+const [, theoryDistance, theoryAngle] = run.theory || [null, null, null];
 const plots = run.distance ? [
   makePlot(byId("distance"), run, run.distance, run.means.distance, { unit: "m", digits: 2,
-    levels: [...level(theory[1], "theory", [6, 4]), ...level(run.safety, "soft", [2, 3])] }, seek),
+    levels: [...level(theoryDistance, "theory", [6, 4]), ...level(run.safety, "soft", [2, 3])] }, seek),
   makePlot(byId("angle"), run, run.angle, run.means.angle, { unit: "\u00b0", digits: 0,
-    levels: level(theory[2], "theory", [6, 4]) }, seek),
+    levels: level(theoryAngle, "theory", [6, 4]) }, seek),
 ] : [];
 byId("plots").hidden = !run.distance;
-byId("legend").textContent = !run.distance ? "" : ["thin: each step", "thick: mean of a gait cycle", run.theory ? "dashed: theory" : "",
+byId("legend").textContent = !run.distance ? "" : ["thin: every sample", "thick: mean over a gait cycle", run.theory ? "dashed: theory" : "",
   run.safety ? "dotted: safety radius" : ""].filter(Boolean).join("; ");
 
-const told = (value, digits, unit) => value === null ? "not known" : value.toFixed(digits) + unit;
-function put() {
+const format = (value, digits, unit) => value === null ? "unknown" : value.toFixed(digits) + unit;
+function draw() {
   stale = false;
   index = sampleAt(run.times, clock + 1e-9);
   const next = Math.min(index + 1, frames - 1), gap = run.times[next] - run.times[index];
@@ -191,30 +192,30 @@ function put() {
     const size = scene.renderer.getSize(new THREE.Vector2());
     if (size.x !== w || size.y !== h) scene.renderer.setSize(w, h, false);
     scene.camera.aspect = w / h;
-    const seats = scene.show(index, gap > 0 ? (clock - run.times[index]) / gap : 0);
-    const target = aim(seats);
+    const torsos = scene.show(index, gap > 0 ? (clock - run.times[index]) / gap : 0);
+    const target = aim(torsos);
     scene.camera.updateProjectionMatrix();
     scene.camera.updateMatrixWorld();
     scene.draw(target);
     labels.forEach((label, i) => {
-      const top = seats[i].clone().setZ(seats[i].z + run.robots[i].head).project(scene.camera);
+      const top = torsos[i].clone().setZ(torsos[i].z + run.players[i].label_height).project(scene.camera);
       const own = chosen === "eyes" && i === 1;
       label.hidden = own || top.z > 1 || Math.abs(top.x) > 1.1 || Math.abs(top.y) > 1.1;
       label.style.left = `${50 * (top.x + 1)}%`;
       label.style.top = `${50 * (1 - top.y)}%`;
     });
   }
-  byId("words").textContent = run.words[run.says[index]];
-  plots.forEach((plot) => plot.draw(index, run.palettes[light]));
+  byId("message").textContent = run.messages[run.message_index[index]];
+  plots.forEach((plot) => plot.draw(index, run.palettes[theme]));
   byId("clock").textContent = `${run.times[index].toFixed(1)} s`;
-  byId("figures").textContent = !run.distance ? "" :
-    `distance ${told(run.distance[index], 2, " m")}, between the headings ${told(run.angle[index], 0, "\u00b0")}`;
+  byId("values").textContent = !run.distance ? "" :
+    `distance ${format(run.distance[index], 2, " m")}, angle between the headings ${format(run.angle[index], 0, "\u00b0")}`;
   byId("time").value = index;
 }
 
 const slider = byId("time"), play = byId("play");
 slider.max = frames - 1;
-slider.oninput = () => { seek(run.times[+slider.value]); put(); };
+slider.oninput = () => { seek(run.times[+slider.value]); draw(); };
 function toggle(on) {
   playing = on;
   play.textContent = playing ? "Pause" : "Play";
@@ -228,9 +229,9 @@ const KEYS = { " ": () => toggle(!playing), ArrowLeft: () => seek(clock - 1),
   l: () => byId("light").click(), "?": () => byId("keys").showModal() };
 Object.keys(VIEWS).forEach((name, i) => { if (buttons[name]) KEYS[String(i + 1)] = () => choose(name); });
 document.onkeydown = (event) => {
-  const own = /^(INPUT|SELECT|BUTTON)$/.test(event.target.tagName);
+  const control = /^(INPUT|SELECT|BUTTON)$/.test(event.target.tagName);
   if (event.ctrlKey || event.metaKey || event.altKey || byId("keys").open) return;
-  if (own && (event.key === " " || event.key.length > 1)) return;
+  if (control && (event.key === " " || event.key.length > 1)) return;
   if (KEYS[event.key]) { event.preventDefault(); KEYS[event.key](); }
 };
 
@@ -241,14 +242,14 @@ function tick(now) {
     if (clock >= end) toggle(false);
   }
   last = now;
-  if (stale) put();
+  if (stale) draw();
   requestAnimationFrame(tick);
 }
 new ResizeObserver(() => { stale = true; }).observe(canvas);
-/* For tests, and for whoever looks closer: where bodies are drawn, in [m]. */
-globalThis.stepaside = { seek: (time) => { seek(time); put(); },
-  places: () => Object.fromEntries(run.bodies.map((body, i) => [body, scene.bodies[i].position.toArray()])) };
-dress();
+/* For tests and for the browser's console: positions at which bodies are drawn, in [m]. */
+globalThis.stepaside = { seek: (time) => { seek(time); draw(); },
+  positions: () => Object.fromEntries(run.bodies.map((body, i) => [body, scene.bodies[i].position.toArray()])) };
+applyTheme();
 choose("whole");
-put();
+draw();
 requestAnimationFrame(tick);

@@ -1,19 +1,18 @@
-/* The last sample that is not after a time. */
+/* Index of the last sample at or before a time, in [s]. */
 function sampleAt(times, time) {
   let a = 0, b = times.length - 1;
   while (a < b) { const m = (a + b + 1) >> 1; if (times[m] <= time) a = m; else b = m - 1; }
   return a;
 }
 
-/* A plot over time: ticks at round numbers, theory dashed, press to go there. */
-
+/* Plot over time with ticks at round numbers; a click seeks to that time. */
 function makePlot(canvas, run, values, means, options, seek) {
   const end = run.times[run.times.length - 1] || 1;
   const known = values.filter((v) => v !== null).concat(options.levels.map((l) => l.value));
   let [low, high] = known.reduce(([a, b], v) => [Math.min(a, v), Math.max(b, v)], [Infinity, -Infinity]);
   if (!known.length) [low, high] = [0, 1];
-  const room = 0.08 * (high - low) || 0.5;
-  low -= room; high += room;
+  const margin = 0.08 * (high - low) || 0.5;
+  low -= margin; high += margin;
   let box = null, over = null;
 
   function step(range, most) {
@@ -52,7 +51,7 @@ function makePlot(canvas, run, values, means, options, seek) {
     }
     for (const level of options.levels)
       stroke(palette[level.colour], 1.5, level.dash, [[box.left, py(level.value)], [box.right, py(level.value)]]);
-    /* One point a pixel is enough; the steps' sway stays in it. */
+    /* Two points per pixel suffice, and keep the sway of single steps. */
     const every = Math.max(1, Math.floor(values.length / (2 * (box.right - box.left))));
     const curve = (of) => of.flatMap((v, i) => v === null
       || (i % every && i !== of.length - 1) ? [] : [[px(run.times[i]), py(v)]]);
@@ -64,7 +63,7 @@ function makePlot(canvas, run, values, means, options, seek) {
     pen.fillStyle = palette.ink;
     const value = values[shown], known = value !== null;
     if (known) { pen.beginPath(); pen.arc(x, py(value), 3.5, 0, 2 * Math.PI); pen.fill(); }
-    const text = `${run.times[shown].toFixed(1)} s: ${known ? `${value.toFixed(options.digits)} ${options.unit}` : "not known"}`;
+    const text = `${run.times[shown].toFixed(1)} s: ${known ? `${value.toFixed(options.digits)} ${options.unit}` : "unknown"}`;
     pen.textBaseline = "top";
     pen.textAlign = x > (box.left + box.right) / 2 ? "right" : "left";
     const aside = pen.textAlign === "right" ? -7 : 7;
@@ -81,13 +80,13 @@ function makePlot(canvas, run, values, means, options, seek) {
     const x = event.clientX - canvas.getBoundingClientRect().left;
     return Math.min(end, Math.max(0, end * (x - box.left) / (box.right - box.left)));
   };
-  let held = false;
-  canvas.onpointerdown = (event) => { held = true; seek(timeOf(event)); };
-  canvas.onpointerup = canvas.onpointercancel = () => { held = false; };
+  let dragging = false;
+  canvas.onpointerdown = (event) => { dragging = true; seek(timeOf(event)); };
+  canvas.onpointerup = canvas.onpointercancel = () => { dragging = false; };
   canvas.onpointermove = (event) => {
-    if (held && event.buttons) seek(timeOf(event));
+    if (dragging && event.buttons) seek(timeOf(event));
     else { over = sampleAt(run.times, timeOf(event)); seek(null); }
   };
-  canvas.onpointerleave = () => { over = null; held = false; seek(null); };
+  canvas.onpointerleave = () => { over = null; dragging = false; seek(null); };
   return { draw };
 }

@@ -1,4 +1,4 @@
-/* The scene: floor, bodies, lines on the floor. Units are metres, z is up. */
+/* Scene of a run: floor, bodies and lines on the floor. Lengths in [m], z up. */
 
 function makeScene(run, canvas, context) {
   const renderer = new THREE.WebGLRenderer({ canvas, context });
@@ -8,7 +8,7 @@ function makeScene(run, canvas, context) {
   const world = new THREE.Scene();
   const camera = new THREE.PerspectiveCamera(40, 1, 0.05, 200);
   camera.up.set(0, 0, 1);
-  const paint = (colour) => new THREE.Color(colour).convertSRGBToLinear();
+  const linear = (colour) => new THREE.Color(colour).convertSRGBToLinear();
 
   const sky = new THREE.HemisphereLight(0xffffff, 0x8a8782, 0.5);
   const sun = new THREE.DirectionalLight(0xffffff, 0.62);
@@ -18,7 +18,7 @@ function makeScene(run, canvas, context) {
   sun.shadow.bias = -0.0005;
   world.add(sky, sun, sun.target);
 
-  /* Tiles of half a metre, far enough for whoever walks for an hour. */
+  /* Tiles of 0.5 m, repeated beyond the extent of the run. */
   const side = 64;
   const tiles = new THREE.DataTexture(new Uint8Array(4 * side * side), side, side);
   tiles.magFilter = THREE.LinearFilter;
@@ -27,76 +27,76 @@ function makeScene(run, canvas, context) {
   tiles.anisotropy = 8;
   tiles.encoding = THREE.sRGBEncoding;
   tiles.wrapS = tiles.wrapT = THREE.RepeatWrapping;
-  const reach = 2 * Math.ceil(run.away + 20);
+  const reach = 2 * Math.ceil(run.camera_distance + 20);
   const floor = new THREE.Mesh(new THREE.PlaneGeometry(2 * reach, 2 * reach),
     new THREE.MeshStandardMaterial({ map: tiles, roughness: 1 }));
-  floor.position.set(2 * Math.round(run.middle[0] / 2),
-    2 * Math.round(run.middle[1] / 2), 0);
+  floor.position.set(2 * Math.round(run.center[0] / 2),
+    2 * Math.round(run.center[1] / 2), 0);
   tiles.repeat.set(2 * reach, 2 * reach);
   floor.receiveShadow = true;
   world.add(floor);
 
   function shape(part) {
     const [a, b, c] = part.size;
-    const round = 24;
+    const segments = 24;
     if (part.kind === "mesh") {
-      const shell = new THREE.BufferGeometry();
-      const corners = new Float32Array(part.corners.flat());
-      shell.setAttribute("position", new THREE.BufferAttribute(corners, 3));
-      shell.setIndex(part.faces.flat());
-      shell.computeVertexNormals();
-      return shell;
+      const mesh = new THREE.BufferGeometry();
+      const vertices = new Float32Array(part.vertices.flat());
+      mesh.setAttribute("position", new THREE.BufferAttribute(vertices, 3));
+      mesh.setIndex(part.faces.flat());
+      mesh.computeVertexNormals();
+      return mesh;
     }
     if (part.kind === "box") return new THREE.BoxGeometry(2 * a, 2 * b, 2 * c);
-    if (part.kind === "sphere") return new THREE.SphereGeometry(a, round, 16);
+    if (part.kind === "sphere") return new THREE.SphereGeometry(a, segments, 16);
     if (part.kind === "ellipsoid")
-      return new THREE.SphereGeometry(1, round, 16).scale(a, b, c);
-    const long = part.kind === "capsule"
-      ? new THREE.CapsuleGeometry(a, 2 * b, 8, round)
-      : new THREE.CylinderGeometry(a, a, 2 * b, round);
-    return long.rotateX(Math.PI / 2);
+      return new THREE.SphereGeometry(1, segments, 16).scale(a, b, c);
+    const column = part.kind === "capsule"
+      ? new THREE.CapsuleGeometry(a, 2 * b, 8, segments)
+      : new THREE.CylinderGeometry(a, a, 2 * b, segments);
+    return column.rotateX(Math.PI / 2);
   }
 
   const quaternion = ([w, x, y, z]) => new THREE.Quaternion(x, y, z, w);
   const bodies = run.bodies.map(() => new THREE.Group());
-  const walls = [];
   world.add(...bodies);
   for (const part of run.parts) {
-    const see = part.wall ? { transparent: true, opacity: 0.12, depthWrite: false } : {};
+    const glass = part.wall ? { transparent: true, opacity: 0.12, depthWrite: false } : {};
     const mesh = new THREE.Mesh(shape(part), new THREE.MeshStandardMaterial({
-      color: paint(part.colour), roughness: 0.55, ...see }));
-    mesh.position.set(...part.place);
-    mesh.quaternion.copy(quaternion(part.turn));
+      color: linear(part.colour), roughness: 0.55, ...glass }));
+    mesh.position.set(...part.position);
+    mesh.quaternion.copy(quaternion(part.quaternion));
     mesh.receiveShadow = !part.wall;
-    mesh.castShadow = !part.wall && part.shades;
+    mesh.castShadow = !part.wall && part.casts_shadow;
     const body = run.bodies.indexOf(part.body);
     (body < 0 ? world : bodies[body]).add(mesh);
   }
 
-  /* A flat ribbon along points; its first triangles can be drawn alone. */
+  /* Flat ribbon through points (x, y); a prefix of its triangles draws a prefix of the path. */
   function ribbon(points, width, height, closed) {
     const all = closed ? [...points, points[0]] : points;
     const corners = [];
     for (let i = 0; i + 1 < all.length; i++) {
       const [ax, ay] = all[i], [bx, by] = all[i + 1];
-      const long = Math.hypot(bx - ax, by - ay) || 1;
-      const nx = -0.5 * width * (by - ay) / long, ny = 0.5 * width * (bx - ax) / long;
+      const length = Math.hypot(bx - ax, by - ay) || 1;
+      const nx = -0.5 * width * (by - ay) / length, ny = 0.5 * width * (bx - ax) / length;
       corners.push(ax + nx, ay + ny, height, ax - nx, ay - ny, height,
         bx + nx, by + ny, height, bx + nx, by + ny, height,
         ax - nx, ay - ny, height, bx - nx, by - ny, height);
     }
-    const flat = new THREE.BufferGeometry();
-    flat.setAttribute("position", new THREE.Float32BufferAttribute(corners, 3));
-    flat.computeBoundingSphere();
-    return flat;
+    const strip = new THREE.BufferGeometry();
+    strip.setAttribute("position", new THREE.Float32BufferAttribute(corners, 3));
+    strip.computeBoundingSphere();
+    return strip;
   }
 
-  const dyes = [];
+  /* Materials whose colour depends on the theme: [material, player or palette name]. */
+  const themed = [];
   function line(geometry, name, opacity) {
-    const ink = new THREE.MeshBasicMaterial({ side: THREE.DoubleSide,
+    const material = new THREE.MeshBasicMaterial({ side: THREE.DoubleSide,
       transparent: opacity < 1, opacity, depthWrite: opacity === 1 });
-    dyes.push([ink, name]);
-    const mesh = new THREE.Mesh(geometry, ink);
+    themed.push([material, name]);
+    const mesh = new THREE.Mesh(geometry, material);
     world.add(mesh);
     return mesh;
   }
@@ -104,124 +104,125 @@ function makeScene(run, canvas, context) {
   const circle = (x, y, r, n) => Array.from({ length: n }, (_, i) => [
     x + r * Math.cos(2 * Math.PI * i / n), y + r * Math.sin(2 * Math.PI * i / n)]);
 
-  /* A push: an arrow that ends where it was felt, as long as it was strong. */
-  function arrow([time, , x, y, ix, iy]) {
-    const strength = Math.hypot(ix, iy), long = Math.max(0.12, 0.25 * strength);
-    const shaft = line(new THREE.CylinderGeometry(0.012, 0.012, long - 0.08, 12)
-      .translate(0, -0.5 * long - 0.04, 0), "pushed", 1);
+  /* Arrow of a push: its tip is where the push acts; 0.25 m of length per [N s]. */
+  function pushArrow([time, , x, y, ix, iy]) {
+    const length = Math.max(0.12, 0.25 * Math.hypot(ix, iy));
+    const shaft = line(new THREE.CylinderGeometry(0.012, 0.012, length - 0.08, 12)
+      .translate(0, -0.5 * length - 0.04, 0), "pushed", 1);
     const head = line(new THREE.ConeGeometry(0.035, 0.08, 16).translate(0, -0.04, 0), "pushed", 1);
-    const all = new THREE.Group();
-    all.add(shaft, head);
-    all.position.set(x, y, 0.3);
-    all.rotation.z = Math.atan2(iy, ix) - Math.PI / 2;
-    const switched = new THREE.Group();
-    switched.add(all);
-    world.add(layer("pushes", switched));
-    return { time, all };
+    const arrow = new THREE.Group();
+    arrow.add(shaft, head);
+    arrow.position.set(x, y, 0.3);
+    arrow.rotation.z = Math.atan2(iy, ix) - Math.PI / 2;
+    /* The group is switched with its layer, the arrow with time. */
+    const group = new THREE.Group();
+    group.add(arrow);
+    world.add(layer("pushes", group));
+    return { time, arrow };
   }
 
   const layers = {};
   const layer = (name, mesh) => { (layers[name] = layers[name] || []).push(mesh); return mesh; };
-  const robots = run.robots.map((robot, who) => {
-    const made = { body: run.bodies.indexOf(robot.torso), robot };
-    made.trace = layer("traces", line(
-      ribbon(robot.trace, 0.014, 0.006, false), who, 1));
-    made.trace.frustumCulled = false;
+  const players = run.players.map((player, number) => {
+    const drawn = { body: run.bodies.indexOf(player.torso), landings: player.landings };
+    drawn.trace = layer("traces", line(
+      ribbon(player.trace, 0.014, 0.006, false), number, 1));
+    drawn.trace.frustumCulled = false;
     const [back, front, right, left] = run.sole;
     const prints = new THREE.InstancedMesh(
       new THREE.PlaneGeometry(front - back, left - right)
         .translate(0.5 * (front + back), 0.5 * (left + right), 0),
       new THREE.MeshBasicMaterial({ transparent: true, opacity: 0.3,
-        side: THREE.DoubleSide, depthWrite: false }), Math.max(1, robot.landings.length));
-    dyes.push([prints.material, who]);
-    robot.landings.forEach(([, side, x, y, turn], i) => {
-      const c = Math.cos(turn), s = Math.sin(turn);
-      const place = new THREE.Matrix4();
-      place.set(c, -s * side, 0, x, s, c * side, 0, y, 0, 0, 1, 0.003, 0, 0, 0, 1);
-      prints.setMatrixAt(i, place);
+        side: THREE.DoubleSide, depthWrite: false }), Math.max(1, player.landings.length));
+    themed.push([prints.material, number]);
+    player.landings.forEach(([, side, x, y, heading], i) => {
+      const c = Math.cos(heading), s = Math.sin(heading);
+      const pose = new THREE.Matrix4();
+      pose.set(c, -s * side, 0, x, s, c * side, 0, y, 0, 0, 1, 0.003, 0, 0, 0, 1);
+      prints.setMatrixAt(i, pose);
     });
     prints.count = 0;
     prints.frustumCulled = false;
     world.add(prints);
-    made.prints = layer("footsteps", prints);
-    made.pushes = robot.pushes.map(arrow);
-    return made;
+    drawn.prints = layer("footsteps", prints);
+    drawn.pushes = player.pushes.map(pushArrow);
+    return drawn;
   });
-  const guarded = run.safety ? robots[run.guarded] : null;
+  const guarded = run.safety ? players[run.safety_player] : null;
   let safety = null;
   if (guarded) {
     const dashes = new THREE.Group();
-    const all = circle(0, 0, run.safety, 96);
+    const points = circle(0, 0, run.safety, 96);
     for (let i = 0; i < 96; i += 3) {
-      const dash = line(ribbon([all[i], all[i + 1], all[(i + 2) % 96]], 0.012, 0.008, false), run.guarded, 1);
-      dashes.add(dash);
+      const dash = [points[i], points[i + 1], points[(i + 2) % 96]];
+      dashes.add(line(ribbon(dash, 0.012, 0.008, false), run.safety_player, 1));
     }
     world.add(dashes);
-    safety = layer("safety area", dashes);
+    safety = layer("safety radius", dashes);
   }
   if (run.circle)
-    layer("circle of theory", line(
+    layer("theoretical circle", line(
       ribbon(circle(...run.circle, 128), 0.012, 0.010, true), "theory", 1));
   let sight = null;
-  if (robots.length > 1)
+  if (players.length > 1)
     sight = layer("line of sight", line(
       new THREE.CylinderGeometry(0.004, 0.004, 1, 8).rotateX(Math.PI / 2), "theory", 0.8));
 
-  function dress(light) {
-    const palette = run.palettes[light];
-    const bytes = (c) => [1, 3, 5].map((i) => parseInt(c.slice(i, i + 2), 16)).concat(255);
-    const [one, two] = [bytes(palette.floor), bytes(palette.tile)];
+  function applyTheme(theme) {
+    const palette = run.palettes[theme];
+    const rgba = (c) => [1, 3, 5].map((i) => parseInt(c.slice(i, i + 2), 16)).concat(255);
+    const [floorColour, tileColour] = [rgba(palette.floor), rgba(palette.tile)];
     for (let i = 0; i < side * side; i++)
-      tiles.image.data.set((i % side < side / 2) === (i < side * side / 2) ? one : two, 4 * i);
+      tiles.image.data.set((i % side < side / 2) === (i < side * side / 2) ? floorColour : tileColour, 4 * i);
     tiles.needsUpdate = true;
-    world.background = paint(palette.sky);
-    world.fog = new THREE.Fog(paint(palette.sky), 12 + run.away, 40 + 2 * run.away);
-    for (const [ink, name] of dyes) 
-      ink.color = paint(typeof name === "number" ? run.robots[name].colours[light] : palette[name]);
+    world.background = linear(palette.sky);
+    world.fog = new THREE.Fog(linear(palette.sky), 12 + run.camera_distance, 40 + 2 * run.camera_distance);
+    for (const [material, name] of themed)
+      material.color = linear(typeof name === "number" ? run.players[name].colours[theme] : palette[name]);
   }
 
-  const places = new Float32Array(run.places), turns = new Int16Array(run.turns);
+  const positions = new Float32Array(run.positions), quaternions = new Int16Array(run.quaternions);
   const count = run.bodies.length;
   const from = new THREE.Quaternion(), to = new THREE.Quaternion();
-  /* Put all where it was: a share of the way from one sample to the next. */
-  function show(index, share) {
+  /* Show a time between two samples (fraction 0 to 1); return the torsos' positions, in [m]. */
+  function show(index, fraction) {
     const next = Math.min(index + 1, run.times.length - 1);
     bodies.forEach((body, number) => {
       const p = 3 * (index * count + number), q = 3 * (next * count + number);
-      const at = [0, 1, 2].map((i) => places[p + i] + share * (places[q + i] - places[p + i]));
+      const at = [0, 1, 2].map((i) => positions[p + i] + fraction * (positions[q + i] - positions[p + i]));
       body.position.set(...at);
       const a = 4 * (index * count + number), b = 4 * (next * count + number);
-      from.set(turns[a + 1], turns[a + 2], turns[a + 3], turns[a]).normalize();
-      to.set(turns[b + 1], turns[b + 2], turns[b + 3], turns[b]).normalize();
-      body.quaternion.copy(from).slerp(to, share);
+      from.set(quaternions[a + 1], quaternions[a + 2], quaternions[a + 3], quaternions[a]).normalize();
+      to.set(quaternions[b + 1], quaternions[b + 2], quaternions[b + 3], quaternions[b]).normalize();
+      body.quaternion.copy(from).slerp(to, fraction);
     });
-    const now = run.times[index] + share * (run.times[next] - run.times[index]);
-    for (const one of robots) {
-      one.trace.geometry.setDrawRange(0, 6 * index);
-      const steps = one.robot.landings;
-      let seen = 0;
-      while (seen < steps.length && steps[seen][0] <= now + 0.5) seen++;
-      one.prints.count = seen;
-      for (const push of one.pushes) push.all.visible = now >= push.time && now < push.time + 1;
+    const now = run.times[index] + fraction * (run.times[next] - run.times[index]);
+    for (const player of players) {
+      player.trace.geometry.setDrawRange(0, 6 * index);
+      /* A footstep appears 0.5 s before it lands. */
+      let count = 0;
+      while (count < player.landings.length && player.landings[count][0] <= now + 0.5) count++;
+      player.prints.count = count;
+      for (const push of player.pushes) push.arrow.visible = now >= push.time && now < push.time + 1;
     }
-    const seats = robots.map((one) => bodies[one.body].position);
+    const torsos = players.map((player) => bodies[player.body].position);
     if (safety) safety.position.copy(bodies[guarded.body].position).setZ(0);
     if (sight) {
-      sight.position.addVectors(seats[0], seats[1]).multiplyScalar(0.5);
-      sight.scale.z = seats[0].distanceTo(seats[1]);
-      sight.lookAt(seats[1]);
+      sight.position.addVectors(torsos[0], torsos[1]).multiplyScalar(0.5);
+      sight.scale.z = torsos[0].distanceTo(torsos[1]);
+      sight.lookAt(torsos[1]);
     }
-    return seats;
+    return torsos;
   }
 
   function draw(target) {
     sun.position.set(target.x + 2.5, target.y - 3.5, 6);
     sun.target.position.copy(target);
-    const wide = Math.min(12, 1.5 + 0.5 * camera.position.distanceTo(target));
-    Object.assign(sun.shadow.camera, { left: -wide, right: wide, top: wide, bottom: -wide, far: 30 });
+    const half = Math.min(12, 1.5 + 0.5 * camera.position.distanceTo(target));
+    Object.assign(sun.shadow.camera, { left: -half, right: half, top: half, bottom: -half, far: 30 });
     sun.shadow.camera.updateProjectionMatrix();
     renderer.render(world, camera);
   }
 
-  return { renderer, camera, layers, dress, show, draw, bodies, robots };
+  return { renderer, camera, layers, applyTheme, show, draw, bodies };
 }

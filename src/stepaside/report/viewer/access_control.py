@@ -1,4 +1,4 @@
-"""Who may come in: the door of the page's server."""
+"""Access control of the page's server: Host, Origin, secret, connections."""
 
 from collections.abc import Awaitable, Callable
 from http import HTTPStatus
@@ -11,7 +11,7 @@ from websockets.http11 import Request, Response
 
 from .page_address import PageAddress
 
-CLIENTS = 16  # pages that are open at the same time
+MAX_CLIENTS = 16  # pages that may be open at the same time
 Handler = Callable[[ServerConnection], Awaitable[None]]
 Answer = Callable[[ServerConnection, Request], Response | None]
 HEADERS = {
@@ -23,58 +23,62 @@ HEADERS = {
 
 
 class AccessControl:
-    """Lets in who asks for this place from this place.
+    """Accepts requests to an address only from the pages served there.
 
-    A browser lets any page of the web ask any address, and says in ``Host``
-    what was asked for and in ``Origin`` by whom. So the first must be a name
-    of this place and the second the same; where other machines can ask, the
-    link holds a secret, too.
+    A browser lets any web page send requests to any address; it reports the
+    requested name in ``Host`` and the origin of the page in ``Origin``. So
+    ``Host`` must be a name of this address and ``Origin`` must equal it. If
+    other machines can connect, each path must begin with a secret, too.
 
     Attributes:
-        address: Of the place.
-        secret: First part of every path; empty on this machine alone.
-        connected: Pages that are open.
+        address: The address.
+        secret: First part of every path; empty for a loopback address.
+        connected: Number of open pages.
     """
 
     def __init__(self, address: PageAddress) -> None:
-        """Stand before an address."""
+        """Control an address."""
         self.address = address
         self.secret = "" if address.is_local else token_urlsafe(24)
         self.connected = 0
 
     @property
     def link(self) -> str:
-        """What a browser is given."""
+        """URL to open, including the secret."""
         return self.address.url + (f"/{self.secret}/" if self.secret else "")
 
     def refusal(self, request: Request) -> str:
-        """Why somebody may not come in; empty if they may."""
+        """Return why a request is refused; empty if it is accepted."""
         hosts = request.headers.get_all("Host")
         if len(hosts) != 1 or not self.address.answers_to(_name_of(hosts[0])):
-            return "this place has another name"
+            return "unexpected Host header"
         origins = request.headers.get_all("Origin")
         if origins and origins != [f"http://{hosts[0]}"]:
-            return "only this page may ask"
-        if _wants_socket(request) and not origins:
-            return "say whence you ask"
-        if self.secret and not self._knows(request.path):
-            return "the link is not whole"
+            return "unexpected Origin header"
+        if _is_websocket(request) and not origins:
+            return "missing Origin header"
+        if self.secret and not self._has_secret(request.path):
+            return "the path must begin with the secret of the link"
         return ""
 
-    def _knows(self, path: str) -> bool:
+    def _has_secret(self, path: str) -> bool:
         first = path.split("?")[0].split("/")[1:2]
         given = first[0] if first else ""
         return compare_digest(given.encode(), self.secret.encode())
 
-    def guarded(self, answer: Answer) -> Answer:
-        """Answer to requests, behind the door."""
+    def guard(self, answer: Answer) -> Answer:
+        """Return a request handler that refuses unauthorised requests.
+
+        Args:
+            answer: Handler of authorised requests.
+        """
 
         def checked(
             connection: ServerConnection, request: Request
         ) -> Response | None:
-            why = self.refusal(request)
-            if why:
-                return _forbid(why)
+            reason = self.refusal(request)
+            if reason:
+                return _forbid(reason)
             if self.secret:
                 rest = request.path[len(self.secret) + 1 :]
                 request = Request(rest or "/", request.headers)
@@ -85,12 +89,17 @@ class AccessControl:
 
         return checked
 
-    def counted(self, handler: Handler) -> Handler:
-        """What serves an open page, for so many at a time."""
+    def limit(self, handler: Handler) -> Handler:
+        """Return a connection handler that limits the number of open pages.
+
+        Args:
+            handler: Handler of one connection.
+        """
 
         async def handle(connection: ServerConnection) -> None:
-            if self.connected >= CLIENTS:
-                await connection.close(1013, f"{CLIENTS} pages are open")
+            if self.connected >= MAX_CLIENTS:
+                reason = f"{MAX_CLIENTS} pages are open already"
+                await connection.close(1013, reason)
                 return
             self.connected += 1
             try:
@@ -101,7 +110,7 @@ class AccessControl:
         return handle
 
 
-def _wants_socket(request: Request) -> bool:
+def _is_websocket(request: Request) -> bool:
     return any(
         "websocket" in each.lower()
         for each in request.headers.get_all("Upgrade")
@@ -109,18 +118,18 @@ def _wants_socket(request: Request) -> bool:
 
 
 def _name_of(host: str) -> str:
-    """Name in a ``Host`` header; empty if there is more in it than that."""
+    """Return the name in a ``Host`` header; empty if it is malformed."""
     try:
         parts = urlsplit(f"//{host}")
         _ = parts.port
     except ValueError:
         return ""
-    only = parts.netloc == host and "@" not in host
-    return (parts.hostname or "") if only else ""
+    well_formed = parts.netloc == host and "@" not in host
+    return (parts.hostname or "") if well_formed else ""
 
 
-def _forbid(why: str) -> Response:
-    body = f"stepaside: {why}\n".encode()
+def _forbid(reason: str) -> Response:
+    body = f"stepaside: {reason}\n".encode()
     headers = Headers(
         {
             "Content-Type": "text/plain; charset=utf-8",

@@ -1,4 +1,4 @@
-"""Pushes by pulling a robot with the pointer: an arrow, then the push."""
+"""Pushes by dragging a robot with the pointer."""
 
 from collections.abc import Callable, Iterable
 from math import atan2, hypot, pi
@@ -12,73 +12,77 @@ from ...core.poses import Array
 from ...games.duel import Duel
 from ...sim.push import Push
 from ..figure_style import PUSHED
-from ..palette import seen_by_all
+from ..palette import on_both_floors
 from .live_session import LiveSession
 from .scene_layers import PUSH_LENGTH, rgb
 
-LEAST, MOST = 0.05, 4.0  # impulse of a hand, in [N s]
-LEVEL = 0.1  # slope of a line of sight that meets the floor nowhere near
+MIN_IMPULSE, MAX_IMPULSE = 0.05, 4.0  # of a push, in [N s]
+MIN_SLOPE = 0.1  # of a line of sight that is intersected with a plane
 
 
-def pulled(eye: Array, grabbed: Array, pointed: Array) -> Array:
-    """Impulse of a pull, level with the floor, in [N s]. Shape (2,).
+def impulse_of_drag(eye: Array, grabbed: Array, pointed: Array) -> Array:
+    """Return the horizontal impulse of a drag, in [N s]. Shape (2,).
 
-    The pointer is where its line of sight is as high as what was grabbed; if
-    that line is level, where it passes the grabbed point.
+    The pointer's line of sight is intersected with the horizontal plane
+    through the grabbed point. If it is nearly horizontal, the pointed
+    position itself is used.
 
     Args:
-        eye: Place of the camera, in the world, in [m]. Shape (3,).
-        grabbed: Place that was grabbed, likewise.
-        pointed: Any place on the line of sight of the pointer, likewise.
+        eye: Position of the camera, in the world, in [m]. Shape (3,).
+        grabbed: Position that was grabbed, in the world, in [m]. Shape (3,).
+        pointed: Any position on the pointer's line of sight, in the world,
+            in [m]. Shape (3,).
     """
     sight = pointed - eye
-    steep = sight[2] / max(float(np.linalg.norm(sight)), 1e-9)
-    way = (pointed - grabbed)[:2]
-    if abs(steep) > LEVEL and (grabbed[2] - eye[2]) * steep > 0.0:
-        met = eye + (grabbed[2] - eye[2]) / sight[2] * sight
-        way = (met - grabbed)[:2]
-    impulse: Array = way / PUSH_LENGTH
+    slope = sight[2] / max(float(np.linalg.norm(sight)), 1e-9)
+    offset = (pointed - grabbed)[:2]
+    if abs(slope) > MIN_SLOPE and (grabbed[2] - eye[2]) * slope > 0.0:
+        intersection = eye + (grabbed[2] - eye[2]) / sight[2] * sight
+        offset = (intersection - grabbed)[:2]
+    impulse: Array = offset / PUSH_LENGTH
     strength = hypot(*impulse.tolist())
-    return impulse * min(1.0, MOST / max(strength, 1e-9))
+    return impulse * min(1.0, MAX_IMPULSE / max(strength, 1e-9))
 
 
 class PushDragging:
-    """Lets all who look pull the robots of a page."""
+    """Lets all viewers of a page push robots by dragging them."""
 
     def __init__(
         self,
         scene: viser.SceneApi,
         session: LiveSession,
-        say: Callable[[str], None],
+        notify: Callable[[str], None],
     ) -> None:
-        """Watch nothing yet.
+        """Start without robots.
 
         Args:
-            scene: Of the page, for the arrows.
-            session: Whose robots are pushed.
-            say: Shows a message.
+            scene: Scene of the page, for the arrows.
+            session: Session whose robots are pushed.
+            notify: Function that shows a message.
         """
-        self._scene, self._session, self._say = scene, session, say
+        self._scene = scene
+        self._session = session
+        self._notify = notify
 
-    def attend(self, number: int, meshes: Iterable[Any]) -> None:
-        """Let a robot be pushed by what is seen of it.
+    def add(self, number: int, meshes: Iterable[Any]) -> None:
+        """Let a robot be dragged.
 
         Args:
             number: 0 for the pursuer, 1 for the evader.
-            meshes: What is seen of it.
+            meshes: Meshes of the robot.
         """
 
         # viser keeps the order only of callbacks that are coroutines.
-        async def pull(event: Any) -> None:
-            self._pull(number, event)
+        async def drag(event: Any) -> None:
+            self._drag(number, event)
 
         for mesh in meshes:
-            mesh.on_drag(pull)
+            mesh.on_drag(drag)
 
-    def _pull(self, number: int, event: Any) -> None:
-        """Draw the arrow while the hand pulls, and push when it lets go."""
+    def _drag(self, number: int, event: Any) -> None:
+        """Draw an arrow during a drag, and push at its end."""
         grabbed = np.array(event.start_position)
-        impulse = pulled(
+        impulse = impulse_of_drag(
             np.array(event.client.camera.position),
             grabbed,
             np.array(event.end_position),
@@ -88,19 +92,19 @@ class PushDragging:
             self._show(name, grabbed, impulse)
             return
         self._scene.remove_by_name(name)
-        if hypot(*impulse.tolist()) >= LEAST:
+        if hypot(*impulse.tolist()) >= MIN_IMPULSE:
             self._session.change(
                 lambda duel: self._push(duel, number, impulse)
             )
 
     def _show(self, name: str, grabbed: Array, impulse: Array) -> None:
-        """Draw the arrow with its impulse."""
+        """Draw the arrow of a drag, labelled with its impulse."""
         tip = grabbed + [*(PUSH_LENGTH * impulse), 0.0]
         self._scene.add_frame(name, show_axes=False)
         self._scene.add_arrows(
             f"{name}/arrow",
             np.array([[grabbed, tip]], dtype=np.float32),
-            rgb(seen_by_all(PUSHED)),
+            rgb(on_both_floors(PUSHED)),
             shaft_radius=0.012,
             head_radius=0.03,
             head_length=0.07,
@@ -114,15 +118,15 @@ class PushDragging:
         )
 
     def _push(self, duel: Duel, number: int, impulse: Array) -> None:
-        """Push between two ticks, from the heading of that time."""
+        """Push a player between two ticks, relative to its heading then."""
         player = duel.players[number]
         heading = player.snapshot().torso[2]
-        toward = atan2(impulse[1], impulse[0]) - heading
-        toward = (toward + pi) % (2.0 * pi) - pi
+        direction = atan2(impulse[1], impulse[0]) - heading
+        direction = (direction + pi) % (2.0 * pi) - pi
         strength = hypot(*impulse.tolist())
         try:
-            player.push(Push(strength, duel.world.time, toward))
+            player.push(Push(strength, duel.world.time, direction))
         except StepAsideError as error:
-            self._say(str(error))
+            self._notify(str(error))
         else:
-            self._say(f"pushed the {player.name} by {strength:.1f} N s")
+            self._notify(f"pushed the {player.name} by {strength:.1f} N s")

@@ -1,4 +1,4 @@
-"""Buttons, keys and a stick with which a hand drives the pursuer."""
+"""Panels for pushes and for teleoperation of the pursuer."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -13,46 +13,45 @@ from ...strategies import Pursuit, Strategy, TeleoperatedPursuit
 from .live_session import LiveSession
 from .scoreboard import Scoreboard
 
-DIRECTIONS = {"left": 90, "right": -90, "forward": 0, "backward": 180}
+DIRECTIONS = {"left": 90, "right": -90, "forward": 0, "backward": 180}  # [deg]
 ROBOTS = ("pursuer", "evader")
+TURNS = {"left": 1.0, "straight": 0.0, "right": -1.0}
+SLOW_MOTION = 0.25  # factor of the speed at a closest approach
 
 
 def add_push(
-    gui: viser.GuiApi, session: LiveSession, say: Callable[[str], None]
+    gui: viser.GuiApi, session: LiveSession, notify: Callable[[str], None]
 ) -> None:
-    """Add the controls to a page.
+    """Add the controls of pushes to a page.
 
     Args:
-        gui: Of the page.
-        session: Whose robots are pushed.
-        say: Shows a message.
+        gui: Controls of the page.
+        session: Session whose robots are pushed.
+        notify: Function that shows a message.
     """
     with gui.add_folder("Push"):
-        who = gui.add_dropdown("Robot", ROBOTS)
-        strength = gui.add_number("Impulse [N s]", 0.5, step=0.1)
-        direction = gui.add_dropdown("To", tuple(DIRECTIONS))
+        robot = gui.add_dropdown("Robot", ROBOTS)
+        impulse = gui.add_number("Impulse [N s]", 0.5, step=0.1)
+        direction = gui.add_dropdown("Direction", tuple(DIRECTIONS))
         push = gui.add_button("Push")
 
     @push.on_click
     def _(_: object) -> None:
         angle = radians(DIRECTIONS[direction.value])
+        number = ROBOTS.index(robot.value)
         try:
-            session.push(ROBOTS.index(who.value), float(strength.value), angle)
+            session.push(number, float(impulse.value), angle)
         except StepAsideError as error:
-            say(str(error))
+            notify(str(error))
         else:
-            say(
-                f"pushed the {who.value} {direction.value} by "
-                f"{strength.value:g} N s"
+            notify(
+                f"pushed the {robot.value} {direction.value} by "
+                f"{impulse.value:g} N s"
             )
 
 
-TURNS = {"left": 1.0, "straight": 0.0, "right": -1.0}
-SLOW = 0.25  # of the speed, while the closest approach is made
-
-
 class DrivePanel:
-    """Takes the pursuer over, and keeps the score."""
+    """Teleoperation of the pursuer, with a scoreboard."""
 
     def __init__(self, gui: viser.GuiApi, session: LiveSession) -> None:
         """Add the controls to a page."""
@@ -61,22 +60,24 @@ class DrivePanel:
         self._score = Scoreboard()
         with gui.add_folder("Drive the pursuer"):
             gui.add_markdown(
-                "Catch the evader with the buttons, a gamepad, the stick on "
-                "a phone or the keys: arrows left, right and up (straight), "
-                "g (go), h (halt)."
+                "Catch the evader with the buttons, a gamepad, the joystick "
+                "on a touch screen or the keys: arrows left, right and up "
+                "(straight), g (go), h (halt)."
             )
-            wheel = gui.add_button_group("Turn", tuple(TURNS))
-            walk = gui.add_button_group("Walk", ("go", "stop"))
-            self._state = gui.add_markdown(self._words())
+            turn = gui.add_button_group("Turn", tuple(TURNS))
+            walk = gui.add_button_group("Walk", ("go", "halt"))
+            self._state = gui.add_markdown(self._state_text())
             self._release_button = gui.add_button(
-                "Let it pursue by itself", disabled=True
+                "Stop driving", disabled=True
             )
-            self._slows = gui.add_checkbox("Slow at the closest", True)
-            self._told = gui.add_markdown("")
+            self._slow_motion = gui.add_checkbox(
+                "Slow motion at the closest approach", True
+            )
+            self._score_text = gui.add_markdown("")
 
-        @wheel.on_click
+        @turn.on_click
         def _(_: object) -> None:
-            self._drive(turn=TURNS[wheel.value])
+            self._drive(turn=TURNS[turn.value])
 
         @walk.on_click
         def _(_: object) -> None:
@@ -97,43 +98,43 @@ class DrivePanel:
         go.on_trigger(lambda _: self._drive(going=True))
         halt.on_trigger(lambda _: self._drive(going=False))
 
-    def forget(self) -> None:
-        """Note that another duel began, which nobody drives."""
-        self._take(None)
-        self._score.end("begun anew")
+    def reset(self) -> None:
+        """End teleoperation, since another duel has begun."""
+        self._set_hand(None)
+        self._score.end("reset")
 
     def show(self, time: float, distance: float) -> None:
-        """Show the score, and let what is close pass slowly.
+        """Show the score, and set slow motion at a closest approach.
 
         Args:
             time: Simulated time, in [s].
-            distance: Between the robots, in [m].
+            distance: Between the players, in [m].
         """
         session = self._session
-        self._score.watch(time, distance)
+        self._score.update(time, distance)
         if session.outcome is not None and self._hand is not None:
-            self._take(None)
+            self._set_hand(None)
             self._score.end(session.outcome.value)
         radius = session.settings.strategy.area
-        close = self._slows.value and self._score.is_close(radius)
-        session.slow = SLOW if close else 1.0
-        text = self._score.words()
-        if self._told.content != text:
-            self._told.content = text
+        close = self._slow_motion.value and self._score.is_close(radius)
+        session.slow_motion = SLOW_MOTION if close else 1.0
+        text = self._score.text()
+        if self._score_text.content != text:
+            self._score_text.content = text
 
     def steer(self, turn: float, going: bool) -> None:
-        """Drive as a stick is held.
+        """Drive the pursuer by a joystick.
 
         Args:
-            turn: From -1, a full turn to the right, to 1, one to the left.
-            going: Whether the robot walks.
+            turn: From -1 (right) to 1 (left).
+            going: Whether to walk.
         """
         self._drive(turn=turn, going=going)
 
     def _drive(
         self, *, turn: float | None = None, going: bool | None = None
     ) -> None:
-        """Take the pursuer over, or steer it; a person takes no orders."""
+        """Change the command, taking over the pursuer if it is a robot."""
         if not isinstance(self._session.duel.players[0], Walker):
             return
         hand = self._hand
@@ -144,39 +145,39 @@ class DrivePanel:
             hand = replace(hand, turn=turn)
         if going is not None:
             hand = replace(hand, going=going)
-        self._take(hand)
-        self._session.note(turn=hand.turn, going=hand.going)
-        self._give(hand)
+        self._set_hand(hand)
+        self._session.record_command(turn=hand.turn, going=hand.going)
+        self._adopt(hand)
 
     def _release(self) -> None:
-        """Give the pursuer back to itself."""
-        self._take(None)
-        self._score.end("let go")
-        self._session.note(released=True)
-        self._give(Pursuit())
+        """Return the pursuer to its own strategy."""
+        self._set_hand(None)
+        self._score.end("released")
+        self._session.record_command(released=True)
+        self._adopt(Pursuit())
 
-    def _take(self, hand: TeleoperatedPursuit | None) -> None:
-        """Note how the pursuer is driven, and show it; None if by itself."""
+    def _set_hand(self, hand: TeleoperatedPursuit | None) -> None:
+        """Set and show the command of teleoperation; None for none."""
         self._hand = hand
         self._session.driven = hand is not None
-        self._state.content = self._words()
+        self._state.content = self._state_text()
         self._release_button.disabled = hand is None
 
-    def _words(self) -> str:
-        """Say who steers the pursuer, and where to."""
+    def _state_text(self) -> str:
+        """Return the state of teleoperation as text."""
         hand = self._hand
         if not isinstance(self._session.duel.players[0], Walker):
-            return "A person cannot be driven."
+            return "The pursuer is a person and cannot be driven."
         if hand is None:
             return "Not driven: the pursuer follows its own strategy."
-        way = "straight ahead"
+        direction = "straight ahead"
         if hand.turn:
-            way = f"to the {'left' if hand.turn > 0.0 else 'right'}"
-        does = f"walks {way}" if hand.going else "halts"
-        return f"**Driven by hand**: the pursuer {does}."
+            direction = f"to the {'left' if hand.turn > 0.0 else 'right'}"
+        motion = f"walks {direction}" if hand.going else "halts"
+        return f"**Driven by hand**: the pursuer {motion}."
 
-    def _give(self, strategy: Strategy) -> None:
-        """Let a pursuer that is a robot follow a strategy from now on."""
+    def _adopt(self, strategy: Strategy) -> None:
+        """Set the strategy of the pursuer if it is a robot."""
 
         def change(duel: Duel) -> None:
             pursuer = duel.players[0]

@@ -1,4 +1,4 @@
-"""What a live page lets its visitor choose of the duel."""
+"""Panel with the settings of the evader and of the next duel."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -8,71 +8,105 @@ import viser
 
 from ...core.errors import StepAsideError
 from ...games.duel import Duel
-from ...games.duel_settings import SENSING
+from ...games.duel_settings import SENSING, DuelSettings
 from ...games.strategy_objects import EVASION
 from ...games.walker import Walker
+from ...locomotion.zmp.control_settings import (
+    OPEN_LOOP,
+    STABILISED,
+    ControlSettings,
+)
 from ...planning import GaitSettings
-from .body_choices import body_choices
+from ...sim.body_settings import BODIES, BodySettings
 from .live_session import LiveSession
 
 LAWS = ("proportional (4)", "saturated (6)")
+CUSTOM_BODY = "as started"  # name of a body that is no preset
 
 
-def walking_words(gait: GaitSettings) -> str:
-    """Say how fast robots walk, which the template's speed does not set."""
-    walked = gait.stride / gait.step_duration
+def body_choices(
+    settings: DuelSettings,
+) -> tuple[dict[str, tuple[BodySettings, ControlSettings]], str]:
+    """Return bodies with their control by name, and the name of the current.
+
+    The current body has the control of the settings.
+
+    Args:
+        settings: Settings with which the page was started.
+    """
+    choices = {
+        name: (body, OPEN_LOOP if name == "ideal" else STABILISED)
+        for name, body in BODIES.items()
+    }
+    names = [n for n, body in BODIES.items() if body == settings.body]
+    name = (names or [CUSTOM_BODY])[0]
+    choices[name] = settings.body, settings.control
+    return choices, name
+
+
+def walking_speed_text(gait: GaitSettings) -> str:
+    """Return the walking speed as text; the template speed does not set it.
+
+    Args:
+        gait: Settings of the gait.
+    """
+    speed = gait.stride / gait.step_duration
     return (
-        f"sets the circle with the gain; the robots walk {walked:.3f} m/s, "
-        f"a stride of {gait.stride:g} m in {gait.step_duration:.3g} s"
+        "Template speed and gain set the circle. The robots walk at "
+        f"{speed:.3f} m/s: a stride of {gait.stride:g} m in "
+        f"{gait.step_duration:.3g} s."
     )
 
 
 class DuelPanel:
-    """Strategy, which acts at the next step, and start, at the next reset."""
+    """Controls of the evader's strategy and of the next duel."""
 
     def __init__(
         self,
         gui: viser.GuiApi,
         session: LiveSession,
-        say: Callable[[str], None],
+        notify: Callable[[str], None],
     ) -> None:
-        """Add the controls to a page, with the values that it began with.
+        """Add the controls to a page, with the current settings.
 
         Args:
-            gui: Of the page.
-            session: Whose duel is chosen.
-            say: Shows a message.
+            gui: Controls of the page.
+            session: Session whose settings are changed.
+            notify: Function that shows a message.
         """
-        self._session, self._say = session, say
+        self._session = session
+        self._notify = notify
         settings = session.settings
         self._bodies_by_name, self._body_name = body_choices(settings)
         start = self._session.duel.settings.start
-        with gui.add_folder("Evader, from its next step on"):
+        with gui.add_folder("Evader (from its next step)"):
             self._angle = gui.add_number(
-                "Angle [deg]", degrees(settings.strategy.angle), step=5.0
+                "Evasion angle [deg]",
+                degrees(settings.strategy.angle),
+                step=5.0,
             )
             self._law = gui.add_dropdown(
                 "Law", LAWS, initial_value=LAWS[settings.strategy.saturated]
             )
-        with gui.add_folder("Next duel, at a reset"):
+        with gui.add_folder("Next duel (from the next reset)"):
             self._seed = gui.add_number("Seed", settings.seed, step=1)
             self._distance = gui.add_number(
                 "Distance [m]", round(start.distance or 1.0, 3), step=0.05
             )
             self._pursuer_off = gui.add_number(
-                "Pursuer turned by [deg]",
+                "Pursuer's heading offset [deg]",
                 round(degrees(start.pursuer_offset or 0.0), 1),
                 step=5.0,
             )
             self._evader_off = gui.add_number(
-                "Evader turned by [deg]",
+                "Evader's heading offset [deg]",
                 round(degrees(start.evader_offset or 0.0), 1),
                 step=5.0,
             )
             self._speed_m_s = gui.add_number(
                 "Template speed [m/s]", settings.gait.speed, step=0.01
             )
-            self._walks = gui.add_markdown(walking_words(settings.gait))
+            gui.add_markdown(walking_speed_text(settings.gait))
             self._gain = gui.add_number(
                 "Gain k [1/s]", settings.gait.gain, step=0.05
             )
@@ -87,14 +121,14 @@ class DuelPanel:
 
         @self._angle.on_update
         def _(_: object) -> None:
-            self._strategy()
+            self._update_strategy()
 
         @self._law.on_update
         def _(_: object) -> None:
-            self._strategy()
+            self._update_strategy()
 
-    def _strategy(self) -> None:
-        """Give the evader another strategy at its next replan."""
+    def _update_strategy(self) -> None:
+        """Change the evader's strategy from its next plan on."""
         try:
             strategy = replace(
                 self._session.settings.strategy,
@@ -102,14 +136,14 @@ class DuelPanel:
                 saturated=self._law.value.startswith("saturated"),
             )
         except StepAsideError as error:
-            self._say(str(error))
+            self._notify(str(error))
             return
-        self._say("")
+        self._notify("")
         session = self._session
         session.settings = replace(
             session.settings, strategy=strategy, evader_strategy=EVASION
         )
-        session.expect()
+        session.update_theory()
 
         def change(duel: Duel) -> None:
             evader = duel.players[1]
@@ -119,7 +153,11 @@ class DuelPanel:
         session.change(change)
 
     def restart(self) -> bool:
-        """Begin again with what the controls say; false if they may not."""
+        """Start a duel with the settings of the controls.
+
+        Returns:
+            Whether the settings were valid.
+        """
         session = self._session
         body, control = self._bodies_by_name[self._body.value]
         try:
@@ -143,10 +181,10 @@ class DuelPanel:
             )
             session.reset(settings)
         except StepAsideError as error:
-            self._say(str(error))
+            self._notify(str(error))
             return False
-        except (ArithmeticError, ValueError) as error:  # no range names it
-            self._say(f"no duel can begin so: {error}")
+        except (ArithmeticError, ValueError) as error:
+            self._notify(f"invalid settings: {error}")
             return False
-        self._say("")
+        self._notify("")
         return True

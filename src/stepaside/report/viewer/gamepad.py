@@ -1,8 +1,7 @@
-"""A stick and a gamepad for the live page, which viser itself lacks.
+"""Joystick and gamepad input of the live page.
 
-viser has no control that says how far something is held to one side. A script
-on its page draws a stick where fingers point, reads a gamepad, and tells how
-both are held in requests of its own.
+viser has no analogue control. A script on its page draws a joystick on touch
+screens, reads a gamepad, and sends the position of either in HTTP requests.
 """
 
 from collections.abc import Callable
@@ -16,67 +15,71 @@ from websockets.http11 import Request, Response
 from .page_scripts import Answer, PageScripts, respond
 
 Steer = Callable[[float, bool], None]
-ASKS = "X-Stepaside"  # a header that only a page of this place can send
-STICK = "stick.js"
+HEADER = "X-Stepaside"  # that pages of other origins cannot send
+SCRIPT = "stick.js"
 
 
 class GamepadInput:
-    """Answers the stick of a page, once somebody attends to it."""
+    """Handler of joystick requests, inactive until it is connected."""
 
     def __init__(self, scripts: PageScripts) -> None:
-        """Begin with nobody who attends.
+        """Start without a receiver.
 
         Args:
-            scripts: Of the page; the stick's joins them.
+            scripts: Scripts of the page; the joystick's is added to them.
         """
         self._scripts = scripts
         self._steer: Steer | None = None
 
-    def attend(self, steer: Steer) -> None:
-        """Tell somebody how the stick is held.
+    def connect(self, steer: Steer) -> None:
+        """Show the joystick and send its position to a receiver.
 
         Args:
             steer: Takes the turn, from -1 (right) to 1 (left), and whether
-                the robot shall walk.
+                to walk.
         """
         self._steer = steer
-        self._scripts.add(STICK)
+        self._scripts.add(SCRIPT)
 
-    def answering(self, answer: Answer) -> Answer:
-        """Answer the stick's requests, and leave others as they are."""
+    def handle(self, answer: Answer) -> Answer:
+        """Return a request handler that also answers the joystick's requests.
+
+        Args:
+            answer: Handler of all other requests.
+        """
 
         def answered(
             connection: ServerConnection, request: Request
         ) -> Response | None:
-            hears = self._steer and "Upgrade" not in request.headers
-            if hears and urlsplit(request.path).path == "/hand":
-                return self._hear(request)
+            active = self._steer and "Upgrade" not in request.headers
+            if active and urlsplit(request.path).path == "/hand":
+                return self._receive(request)
             return answer(connection, request)
 
         return answered
 
-    def _hear(self, request: Request) -> Response:
-        """Steer as a request says, if it comes from a page of this place."""
-        held = held_by(urlsplit(request.path).query)
-        asks = request.headers.get_all(ASKS)
-        if held is None or len(asks) != 1 or self._steer is None:
+    def _receive(self, request: Request) -> Response:
+        """Steer as requested, if the request comes from a page served here."""
+        position = parse_position(urlsplit(request.path).query)
+        headers = request.headers.get_all(HEADER)
+        if position is None or len(headers) != 1 or self._steer is None:
             return respond(b"", "text/plain", HTTPStatus.BAD_REQUEST)
-        self._steer(*held)
+        self._steer(*position)
         return respond(b"", "text/plain")
 
 
-def held_by(query: str) -> tuple[float, bool] | None:
-    """Turn, and whether to walk; None if the query does not say.
+def parse_position(query: str) -> tuple[float, bool] | None:
+    """Return turn, -1 to 1, and whether to walk; None if invalid.
 
     Args:
-        query: As in ``turn=0.5&going=1``.
+        query: Query string, like ``turn=0.5&going=1``.
     """
     try:
-        said = parse_qs(query, strict_parsing=True, max_num_fields=2)
-        [turn], [going] = said["turn"], said["going"]
-        held = float(turn)
+        fields = parse_qs(query, strict_parsing=True, max_num_fields=2)
+        [turn_text], [going] = fields["turn"], fields["going"]
+        turn = float(turn_text)
     except (KeyError, ValueError):
         return None
-    if not isfinite(held) or abs(held) > 1.0 or going not in ("0", "1"):
+    if not isfinite(turn) or abs(turn) > 1.0 or going not in ("0", "1"):
         return None
-    return held, going == "1"
+    return turn, going == "1"

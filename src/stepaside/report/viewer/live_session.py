@@ -1,24 +1,26 @@
-"""A duel that runs in a thread of its own, whoever looks at it."""
+"""Live duel in its own thread, paced by the wall clock."""
 
 import logging
 import threading
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
+from math import degrees
 from pathlib import Path
 from time import perf_counter, sleep
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from ...control import Phase
 from ...core.errors import StepAsideError
 from ...core.poses import Array
 from ...games.approach_forecast import CourseApproach
 from ...games.duel import Duel
+from ...games.duel_circle import theory_of
 from ...games.duel_settings import DuelSettings
 from ...games.outcome import Outcome
 from ...games.player import Snapshot
 from ...sim.push import Push
-from .live_theory import expected_of
+from ..settling_report import settling_time
 from .plot_history import PlotHistory
 from .run_saving import LiveRecording, RunSaver
 from .status_text import phases_of
@@ -27,25 +29,52 @@ if TYPE_CHECKING:
     from ...perception.frame_report import FrameReport
 
 LOG = logging.getLogger(__name__)
-MOST_ASKED = 10_000  # commands of a hand that are kept
-BEHIND = 0.25  # delay after which lost time is given up, in [s]
+MAX_COMMANDS = 10_000  # of teleoperation that are recorded
+MAX_DELAY = 0.25  # beyond which lost time is not caught up, in [s]
+
+
+class LiveTheory(NamedTuple):
+    """Predictions of the theory for a duel; each None if it has none.
+
+    Attributes:
+        circle: Distance [m] and angle between headings [deg] on the circle.
+        radius: Radius of the evader's circle, in [m].
+        settling: Time constant of the approach to the circle, in [s].
+    """
+
+    circle: tuple[float, float] | None
+    radius: float | None
+    settling: float | None
+
+
+def predict(settings: DuelSettings) -> LiveTheory:
+    """Return the predictions of the theory for some settings.
+
+    Args:
+        settings: Settings of the duel.
+    """
+    circle, settling = theory_of(settings), settling_time(settings)
+    if not circle.exists:
+        return LiveTheory(None, None, settling)
+    values = circle.distance_m, degrees(circle.headings_apart_rad)
+    return LiveTheory(values, circle.radius_evader_m, settling)
 
 
 @dataclass(frozen=True, slots=True)
-class LiveFrame:
-    """What the page shows of one moment.
+class LiveSnapshot:
+    """State of a duel at one instant, as the page shows it.
 
     Attributes:
         time: Simulated time, in [s].
         positions: Of all bodies in the world, in [m]. Shape (bodies, 3).
-        quaternions: (w, x, y, z). Shape (bodies, 4).
-        players: State of each player.
-        phases: What pursuer and evader do.
+        quaternions: (w, x, y, z) of all bodies. Shape (bodies, 4).
+        players: Snapshot of each player.
+        phases: Phases of pursuer and evader.
         distance: Between the two, in [m].
-        closest: Least distance so far, in [m].
-        angle: Between their headings when it was last noted, in [deg].
+        closest: Closest approach so far, in [m].
+        angle: Between their headings at the last sample, in [deg].
         approach: Of the pursuer to the evader; None before it is known.
-        message: What the duel says of itself.
+        message: Message of the duel.
     """
 
     time: float
@@ -64,36 +93,37 @@ class LiveSession:
     """Runs a duel against the wall clock.
 
     The page never blocks it: requests go into a queue that the loop empties
-    between two ticks, and what the page shows it copies under a lock that is
-    held for microseconds.
+    between two ticks, and snapshots are copied under a lock that is held for
+    microseconds.
 
     Attributes:
-        settings: Of the duel that runs, or is started next.
+        settings: Settings of the duel, which a reset uses again.
         duel: The duel.
-        running: Whether time passes.
-        speed: Simulated time per time that passes; inf for all it can.
-        slow: Share of that speed that is kept for what is worth a look.
-        outcome: How the duel ended, if it did.
-        error: What went wrong in the loop, if anything did.
-        trail: What the page draws of the time that has passed.
+        running: Whether simulated time passes.
+        speed: Simulated time per wall-clock time; inf for no limit.
+        slow_motion: Factor of that speed, 1 except near a closest approach.
+        outcome: Outcome of the duel; None while it is played.
+        error: Message of an error in the loop; None if there was none.
+        trail: Recent history of the duel.
         lock: Held while the duel changes.
-        asked: What a hand has asked of the robots.
-        driven: Whether a hand drives the pursuer; no theory holds then.
-        factor: Simulated time over time passed, lately; 0 while it is not
-            known.
+        commands: Recorded commands of teleoperation.
+        driven: Whether the pursuer is teleoperated; theory does not apply
+            then.
+        real_time_factor: Measured simulated time per wall-clock time; 0
+            before the first measurement.
     """
 
     def __init__(self, settings: DuelSettings) -> None:
-        """Prepare a duel and a loop in which no time passes yet.
+        """Start the loop with a duel that is paused.
 
         Raises:
-            StepAsideError: If the settings ask for what cannot be.
+            StepAsideError: If the settings are invalid.
         """
         self.lock = threading.RLock()
         self.running = False
         self.speed = 1.0
-        self.slow = 1.0
-        self.factor = 0.0
+        self.slow_motion = 1.0
+        self.real_time_factor = 0.0
         self.error: str | None = None
         self._requests: deque[Callable[[], None]] = deque()
         self._closing = threading.Event()
@@ -108,7 +138,7 @@ class LiveSession:
             raise
 
     def _in_loop(self, call: Callable[[], None]) -> None:
-        """Let the loop do something, and wait: graphics know one thread."""
+        """Call a function in the loop's thread, which owns the graphics."""
         done = threading.Event()
         failed: list[Exception] = []
 
@@ -126,34 +156,34 @@ class LiveSession:
             raise failed[0]
 
     def _begin(self, settings: DuelSettings) -> None:
-        # A live duel has no end: of what grows with it, a part is kept.
+        # A live duel has no end, so that its history is bounded.
         trail = PlotHistory()
         duel = Duel(settings, (trail, LiveRecording()), recorded=False)
-        self._let_go()
+        self._close_duel()
         self._open = duel
         self.settings = settings
         self.duel = duel
         self.outcome: Outcome | None = None
         self.trail = trail
         self.driven = False
-        self.expect()
-        self.asked: list[dict[str, float | str | bool]] = []
+        self.update_theory()
+        self.commands: list[dict[str, float | str | bool]] = []
         self.generation += 1
 
-    def expect(self) -> None:
-        """Find the circle of theory for the settings of this moment."""
-        self._expected = expected_of(self.settings)
-        self.settling = self._expected.settling
+    def update_theory(self) -> None:
+        """Compute the predictions of the theory for the current settings."""
+        self._predicted = predict(self.settings)
+        self.settling = self._predicted.settling
 
     @property
     def theory(self) -> tuple[float, float] | None:
-        """Distance [m] and angle [deg] of the circle, if there is one."""
-        return None if self.driven else self._expected.theory
+        """Distance [m] and angle [deg] of the circle; None without one."""
+        return None if self.driven else self._predicted.circle
 
     @property
     def theory_radius(self) -> float | None:
-        """Radius of the evader's circle, in [m], if there is one."""
-        return None if self.driven else self._expected.radius
+        """Radius of the evader's circle, in [m]; None without a circle."""
+        return None if self.driven else self._predicted.radius
 
     def close(self) -> None:
         """Stop the loop and wait for it."""
@@ -162,18 +192,25 @@ class LiveSession:
             self._thread.join(timeout=5.0)
 
     def reset(self, settings: DuelSettings | None = None) -> None:
-        """Begin again, with other settings if they are given.
+        """Start a new duel.
+
+        Args:
+            settings: Its settings; None for those of the last duel.
 
         Raises:
-            StepAsideError: If the settings ask for what cannot be; the duel
-                that runs goes on then.
+            StepAsideError: If the settings are invalid; the current duel
+                continues then.
         """
-        wanted = self.settings if settings is None else settings
-        self._in_loop(lambda: self._begin(wanted))
+        new_settings = self.settings if settings is None else settings
+        self._in_loop(lambda: self._begin(new_settings))
         self.error = None
 
     def step(self, duration: float) -> None:
-        """Let a paused duel go on for a while, in [s]."""
+        """Advance a paused duel.
+
+        Args:
+            duration: Simulated time, in [s].
+        """
         ticks = max(1, round(duration / self.duel.world.physics.tick))
         self._requests.append(lambda: self._advance(ticks))
 
@@ -183,51 +220,63 @@ class LiveSession:
         Args:
             robot: 0 for the pursuer, 1 for the evader.
             impulse: In [N s].
-            direction: From its heading, in [rad].
+            direction: Relative to its heading, in [rad].
 
         Raises:
-            ConfigurationError: If the push makes no sense, or nobody is
-                there who can be pushed.
+            ConfigurationError: If the push is invalid or the player is not a
+                robot.
         """
         duel = self.duel
         push = Push(impulse, duel.world.time, direction)
         self._in_loop(lambda: duel.players[robot].push(push))
 
     def change(self, request: Callable[[Duel], None]) -> None:
-        """Change the duel between two ticks; acts at the next replan."""
+        """Request a change of the duel between two ticks.
+
+        Args:
+            request: Called with the duel in the loop's thread.
+        """
         duel = self.duel
         self._requests.append(lambda: request(duel))
 
     def save(self, saving: RunSaver) -> Path:
-        """Write what was played so far; time stands meanwhile.
+        """Write the duel so far, which pauses meanwhile.
 
         Args:
-            saving: Writes it.
+            saving: Writer of run folders.
+
+        Returns:
+            The run folder.
 
         Raises:
             StepAsideError: If it cannot be written.
         """
         with self.lock:
-            return saving.save(self.duel, self.outcome, self.asked)
+            return saving.save(self.duel, self.outcome, self.commands)
 
-    def note(self, **asked: float | str | bool) -> None:
-        """Note what a hand asks of a robot, with the time."""
-        if len(self.asked) < MOST_ASKED:
-            self.asked.append({"time_s": self.duel.world.time, **asked})
+    def record_command(self, **command: float | str | bool) -> None:
+        """Record a command of teleoperation with the simulated time.
+
+        Args:
+            command: Its values.
+        """
+        if len(self.commands) < MAX_COMMANDS:
+            time = self.duel.world.time
+            self.commands.append({"time_s": time, **command})
 
     def new_frames(self) -> "dict[str, FrameReport]":
-        """Newest images of all cameras, once; see :class:`PlotHistory`."""
+        """Return images that arrived since the last call, by camera."""
         with self.lock:
             frames = dict(self.trail.frames)
             self.trail.frames.clear()
         return frames
 
-    def moment(self) -> LiveFrame:
-        """Copy what the page shows."""
-        with self.lock:  # the physics must not move what is worked out here
+    def snapshot(self) -> LiveSnapshot:
+        """Return a copy of the present state."""
+        with self.lock:  # no tick may change the state meanwhile
             duel, history = self.duel, self.trail.history
             data = duel.world.data
-            return LiveFrame(
+            return LiveSnapshot(
                 duel.world.time,
                 data.xpos.copy(),
                 data.xquat.copy(),
@@ -245,7 +294,7 @@ class LiveSession:
         measured, simulated = due, 0.0
         while not self._closing.is_set():
             try:
-                self._serve()
+                self._run_requests()
                 if not self.running or self.outcome is not None:
                     sleep(0.01)
                     due = measured = perf_counter()
@@ -256,10 +305,10 @@ class LiveSession:
                 simulated += tick
                 now = perf_counter()
                 if now - measured > 0.5:
-                    self.factor = simulated / (now - measured)
+                    self.real_time_factor = simulated / (now - measured)
                     measured, simulated = now, 0.0
-                due += tick / (self.speed * self.slow)
-                if due < now - BEHIND:
+                due += tick / (self.speed * self.slow_motion)
+                if due < now - MAX_DELAY:
                     due = now
                 elif due > now + 0.002:
                     sleep(due - now)
@@ -268,10 +317,10 @@ class LiveSession:
             except Exception as error:
                 LOG.exception("the duel stopped")
                 self._fail(f"{type(error).__name__}: {error}")
-        self._let_go()
+        self._close_duel()
 
-    def _let_go(self) -> None:
-        """Close the duel in the thread that drew for it."""
+    def _close_duel(self) -> None:
+        """Close the duel in the thread that owns its graphics."""
         if self._open is not None:
             self._open.close()
             self._open = None
@@ -280,7 +329,7 @@ class LiveSession:
         LOG.error("%s", message)
         self.error, self.running = message, False
 
-    def _serve(self) -> None:
+    def _run_requests(self) -> None:
         while self._requests:
             with self.lock:
                 self._requests.popleft()()

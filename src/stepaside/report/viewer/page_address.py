@@ -1,4 +1,4 @@
-"""Where a page is served: a socket that listens, and the names it has."""
+"""Address of a page: a listening socket and its host names."""
 
 import errno
 import socket
@@ -9,20 +9,20 @@ from typing import Any
 
 from ...core.errors import ConfigurationError
 
-PATIENCE = 3.0  # with the resolution of a name, in [s]
-PORTS = 100  # tried one after the other, while they are taken
+RESOLUTION_TIMEOUT = 3.0  # of a host name, in [s]
+PORTS = 100  # tried in turn while they are in use
 LOCAL = frozenset({"127.0.0.1", "::1", "localhost"})
 
 
 @dataclass(frozen=True, slots=True)
 class PageAddress:
-    """A place that listens.
+    """Listening socket with its address.
 
     Attributes:
         listening: The socket.
-        host: As it was asked for.
-        ip: What it was resolved to.
-        port: Where it listens.
+        host: Host as requested.
+        ip: IP address of the host.
+        port: Port.
     """
 
     listening: socket.socket
@@ -32,25 +32,29 @@ class PageAddress:
 
     @property
     def is_local(self) -> bool:
-        """Whether only this machine reaches it."""
+        """Whether it is a loopback address."""
         return ip_address(self.ip).is_loopback
 
     @property
     def is_everywhere(self) -> bool:
-        """Whether it is every address of this machine."""
+        """Whether it is all addresses of this machine."""
         return ip_address(self.ip).is_unspecified
 
     @property
     def url(self) -> str:
-        """Link to it, without a secret."""
+        """URL without a secret."""
         host = "127.0.0.1" if self.is_everywhere else self.host
         return f"http://{f'[{host}]' if ':' in host else host}:{self.port}"
 
     def answers_to(self, name: str) -> bool:
-        """Whether a name, in small letters, is one of this place.
+        """Return whether a name is one of this address.
 
-        A page of elsewhere can have its own name resolved to this machine,
-        so a name counts only if it is known; numbers cannot be so bent.
+        Another site can let its own name resolve to this machine (DNS
+        rebinding), so that only known names count; numeric addresses cannot
+        be rebound.
+
+        Args:
+            name: Host name, in lower case.
         """
         known = {self.host.lower(), self.ip}
         if self.is_local:
@@ -61,16 +65,17 @@ class PageAddress:
 
 
 def listen(host: str, port: int) -> PageAddress:
-    """Listen at a port, or at the next that is free.
+    """Listen at a port, or at the next free one.
 
     Args:
-        host: Name or number of an address of this machine.
-        port: First one to try; 0 for any.
+        host: Name or IP address of this machine.
+        port: First port to try; 0 for any.
 
     Raises:
-        ConfigurationError: If the host has no address, or is not here.
+        ConfigurationError: If the host cannot be resolved or is not an
+            address of this machine, or all ports are in use.
     """
-    family, ip = _resolved(host)
+    family, ip = _resolve(host)
     for tried in range(port, min(port + PORTS, 65536)):
         try:
             sock = socket.create_server((ip, tried), family=family)
@@ -79,38 +84,38 @@ def listen(host: str, port: int) -> PageAddress:
                 raise _refused(host, error.strerror or str(error)) from error
         else:
             return PageAddress(sock, host, ip, sock.getsockname()[1])
-    raise _refused(host, f"ports {port} to {port + PORTS - 1} are taken")
+    raise _refused(host, f"ports {port} to {port + PORTS - 1} are in use")
 
 
-def _refused(host: str, why: str) -> ConfigurationError:
+def _refused(host: str, reason: str) -> ConfigurationError:
     return ConfigurationError(
-        f"host must be an address of this machine, got {host!r}: {why}"
+        f"host must be an address of this machine, got {host!r}: {reason}"
     )
 
 
-def _resolved(host: str) -> tuple[Any, str]:
-    """Family and number of a host; names that take long have none."""
+def _resolve(host: str) -> tuple[Any, str]:
+    """Return family and IP address of a host, within a timeout."""
     if not host.strip() or len(host) > 253:
-        raise _refused(host[:40], "no name is empty or so long")
+        raise _refused(host[:40], "a name has 1 to 253 characters")
     found: list[Any] = []
-    why = [f"not resolved within {PATIENCE:g} s"]
+    reason = [f"not resolved within {RESOLUTION_TIMEOUT:g} s"]
 
     def resolve() -> None:
         try:
             found.extend(
                 socket.getaddrinfo(host, None, type=socket.SOCK_STREAM)
             )
-        except (OSError, ValueError) as error:  # no address, or no name
-            why[0] = getattr(error, "strerror", None) or str(error)
+        except (OSError, ValueError) as error:  # unknown or malformed name
+            reason[0] = getattr(error, "strerror", None) or str(error)
 
-    # What asks far away for a name cannot be told to stop.
-    asking = threading.Thread(target=resolve, daemon=True)
-    asking.start()
-    asking.join(PATIENCE)
+    # A blocked name resolution cannot be cancelled.
+    thread = threading.Thread(target=resolve, daemon=True)
+    thread.start()
+    thread.join(RESOLUTION_TIMEOUT)
     if not found:
-        raise _refused(host, why[0])
-    family, _, _, _, place = found[0]
-    return family, str(place[0]).split("%")[0]
+        raise _refused(host, reason[0])
+    family, _, _, _, address = found[0]
+    return family, str(address[0]).split("%")[0]
 
 
 def _is_number(name: str) -> bool:

@@ -1,4 +1,4 @@
-"""Where things stand on a page: what is watched, what is done, what is set."""
+"""Layout and theme of a page."""
 
 from typing import Any, NamedTuple
 
@@ -7,55 +7,56 @@ import viser
 from ..palette import PALETTES
 from .scene_layers import rgb
 
-WATCH, ACT = 340.0, 290.0  # widths of the panels, in [pixels]
-# viser paints buttons of a light page in a brighter shade than it is given:
-# of this one it makes the evader's blue, on which white words are read.
-BRAND = {"light": "#143d7b", "dark": PALETTES["light"].evader}
+STATUS_WIDTH = 340.0  # of the panel on the right, in [pixels]
+CONTROL_WIDTH = 290.0  # of the panel on the left, in [pixels]
+# viser brightens the colour of buttons in the light theme: this one becomes
+# the evader's blue, with enough contrast to white text.
+BUTTON_COLOURS = {"light": "#143d7b", "dark": PALETTES["light"].evader}
 
 
 class PageLayout(NamedTuple):
-    """Places for controls, each to be filled in a ``with``.
+    """Tabs for controls, each to be filled in a ``with`` block.
 
     Attributes:
-        play: Tab of what a hand does to the robots.
-        settings: Tab of what the next game is.
-        shown: Tab of what is drawn.
+        play: Tab with the controls of the running duel.
+        settings: Tab with the settings of the next duel.
+        layers: Tab with the layers of the scene.
     """
 
     play: Any
     settings: Any
-    shown: Any
+    layers: Any
 
 
-def arrange(gui: viser.GuiApi) -> PageLayout:
-    """Dock what is watched to the right of the scene, what acts to its left.
+def arrange_panels(gui: viser.GuiApi) -> PageLayout:
+    """Dock the status to the right of the scene, controls to its left.
 
-    What is added without a place is watched. On a phone viser makes sheets
-    below the scene of both.
+    Elements that are added outside of a tab go to the status panel. On a
+    phone viser shows both panels below the scene.
 
     Args:
-        gui: Of a page.
+        gui: Controls of a page.
     """
     gui.set_panel_label("stepaside")
     gui.main_panel.dock_right()
-    gui.main_panel.set_width(WATCH)
-    acting = gui.add_panel()
-    tabs = [acting.add_tab(name) for name in ("Play", "Settings", "Shown")]
-    acting.dock_left()
-    acting.set_width(ACT)
+    gui.main_panel.set_width(STATUS_WIDTH)
+    controls = gui.add_panel()
+    tabs = [controls.add_tab(name) for name in ("Play", "Settings", "Layers")]
+    controls.dock_left()
+    controls.set_width(CONTROL_WIDTH)
     return PageLayout(*tabs)
 
 
-def dress(gui: viser.GuiApi, light: str) -> None:
-    """Let a page, or the page of one viewer, be light or dark.
+def set_theme(gui: viser.GuiApi, theme: str) -> None:
+    """Set the theme of a page, or of the page of one viewer.
 
     Args:
-        gui: Of a page or of one viewer.
-        light: One of :data:`~stepaside.report.palette.LIGHTS`.
+        gui: Controls of all viewers or of one.
+        theme: One of :data:`~stepaside.report.palette.THEMES`.
     """
     gui.configure_theme(
-        dark_mode=light == "dark",
+        dark_mode=theme == "dark",
         show_logo=False,
         show_share_button=False,
-        brand_color=rgb(BRAND[light]),
+        brand_color=rgb(BUTTON_COLOURS[theme]),
     )

@@ -1,4 +1,4 @@
-"""What a page may say: messages that mean something here."""
+"""Filter of the messages that pages send to the server."""
 
 from collections.abc import Callable, Mapping
 from math import isfinite
@@ -7,15 +7,25 @@ from typing import Any
 import msgspec
 import viser
 
-LARGEST = 65_536  # of a message, in [bytes]; a page's own have some hundred
-GREATEST = 1e9  # of a number in a message
-CAMERA = {  # numbers of each entry
-    **dict.fromkeys(("fov", "near", "far", "image_height", "image_width"), 0),
-    **{"wxyz": 4, "position": 3, "look_at": 3, "up_direction": 3},
+MAX_SIZE = 65_536  # of a message, in [bytes]; typical ones have some hundred
+MAX_VALUE = 1e9  # of a number in a message
+# Fields of the messages and their lengths; 0 is a number, not a list.
+CAMERA = {
+    "fov": 0,
+    "near": 0,
+    "far": 0,
+    "image_height": 0,
+    "image_width": 0,
+    "wxyz": 4,
+    "position": 3,
+    "look_at": 3,
+    "up_direction": 3,
 }
-DRAG = {  # likewise, of a pull at a part of a robot
-    **{"start_position": 3, "start_screen_pos": 2},
-    **{"end_position": 3, "end_screen_pos": 2},
+DRAG = {
+    "start_position": 3,
+    "start_screen_pos": 2,
+    "end_position": 3,
+    "end_screen_pos": 2,
 }
 PHASES = "start", "update", "end"
 SWITCHES = viser.GuiButtonHandle, viser.GuiCheckboxHandle
@@ -24,28 +34,33 @@ NUMBERS = viser.GuiNumberHandle, viser.GuiSliderHandle
 
 
 class MessageFilter:
-    """Hears what is a control's own value, and nothing else.
+    """Accepts only messages that the controls of a page can produce.
 
-    viser takes whatever a page sends for whatever attribute it names; this
-    stands before it. What a control may be told is what its page could show.
+    viser sets any attribute that a message names to any value; this filter
+    runs before it and accepts only values that a control can take.
 
     Attributes:
-        say: Told what was refused, in words.
+        notify: Called with the reason for a refusal.
     """
 
     def __init__(self) -> None:
-        """Begin without controls."""
+        """Start without controls."""
         self._controls: Mapping[str, Any] = {}
         self._nodes: Mapping[str, Any] = {}
-        self.say: Callable[[str], None] = lambda text: None
+        self.notify: Callable[[str], None] = lambda text: None
 
-    def attend(self, gui: viser.GuiApi, scene: viser.SceneApi) -> None:
-        """Know a page's controls and its scene, also what comes later."""
+    def watch(self, gui: viser.GuiApi, scene: viser.SceneApi) -> None:
+        """Accept messages of a page's controls and scene.
+
+        Args:
+            gui: Controls; controls that are added later count, too.
+            scene: Scene; nodes that are added later count, too.
+        """
         self._controls = gui._gui_input_handle_from_uuid
         self._nodes = scene._handle_from_node_name
 
-    def hears(self, raw: str | bytes) -> bool:
-        """Whether a message may be heard; text never."""
+    def accepts(self, raw: str | bytes) -> bool:
+        """Return whether a message is accepted; text never is."""
         if isinstance(raw, str):
             return False
         try:
@@ -66,9 +81,9 @@ class MessageFilter:
         return False
 
     def _is_drag(self, message: Mapping[Any, Any]) -> bool:
-        """Whether something that can be pulled is, by plain numbers."""
-        words = "phase", "name", "instance_index", "button", "modifier"
-        if not _has(message, *words, "owner", *DRAG):
+        """Return whether a message drags a known node by finite numbers."""
+        keys = "phase", "name", "instance_index", "button", "modifier"
+        if not _has(message, *keys, "owner", *DRAG):
             return False
         name, owner = message["name"], message["owner"]
         return (
@@ -86,19 +101,19 @@ class MessageFilter:
         control = self._controls.get(uuid) if isinstance(uuid, str) else None
         if control is None or not isinstance(updates, dict):
             return False
-        if set(updates) == {"value"} and may_be(control, updates["value"]):
+        if set(updates) == {"value"} and can_take(control, updates["value"]):
             return True
         label = getattr(control, "label", "a control")
-        self.say(f"{label} cannot be set to that")
+        self.notify(f"invalid value for {label}")
         return False
 
 
-def may_be(control: Any, value: Any) -> bool:
-    """Whether a control can have a value.
+def can_take(control: Any, value: Any) -> bool:
+    """Return whether a control can take a value.
 
     Args:
-        control: Of a page.
-        value: What it would be.
+        control: Control of a page.
+        value: New value.
     """
     if isinstance(control, SWITCHES):
         return isinstance(value, bool)
@@ -119,7 +134,7 @@ def _is_number(value: Any) -> bool:
         isinstance(value, int | float)
         and not isinstance(value, bool)
         and isfinite(value)
-        and abs(value) <= GREATEST
+        and abs(value) <= MAX_VALUE
     )
 
 
@@ -134,7 +149,7 @@ def _is_camera(message: Mapping[Any, Any]) -> bool:
 
 
 def _are_numbers(message: Mapping[Any, Any], counts: dict[str, int]) -> bool:
-    """Whether entries are numbers, or so many of them in a list."""
+    """Return whether fields are finite numbers, or lists of given lengths."""
     for name, count in counts.items():
         value = message[name]
         values = value if count else [value]

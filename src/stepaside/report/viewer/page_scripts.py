@@ -1,7 +1,7 @@
-"""Scripts of our own on a page of viser's, which has no place for them.
+"""Additional scripts on viser's page.
 
-They are put into the page at the door: whoever asks for the page gets it with
-them in its head, and then asks for each by its name.
+viser has no way to add a script, so they are inserted into the head of the
+page when it is served, and served by their own names.
 """
 
 from collections.abc import Callable
@@ -15,32 +15,36 @@ from websockets.datastructures import Headers
 from websockets.http11 import Request, Response
 
 Answer = Callable[[ServerConnection, Request], Response | None]
-HEAD = b"</title>"  # after which the scripts are put
+HEAD = b"</title>"  # after which the scripts are inserted
 PAGE = ("/", "/index.html")
 
 
 class PageScripts:
-    """Puts scripts into a page, and answers who asks for them."""
+    """Inserts scripts into a page and serves them."""
 
     def __init__(self, *names: str) -> None:
-        """Begin with some.
+        """Start with some scripts.
 
         Args:
-            names: Of files beside this one.
+            names: Names of files beside this module.
         """
         self._names = list(names)
 
     def add(self, name: str) -> None:
-        """Put one more into the page from now on."""
+        """Insert one more script from now on.
+
+        Args:
+            name: Name of a file beside this module.
+        """
         if name not in self._names:
             self._names.append(name)
 
-    def answering(self, answer: Answer) -> Answer:
-        """Answer for the page and its scripts, and leave others as they are.
+    def handle(self, answer: Answer) -> Answer:
+        """Return a request handler that adds the scripts to a page.
 
         Args:
-            answer: What the page is served by; it is asked for the page as
-                it is, not compressed.
+            answer: Handler of all other requests, and of the page, which it
+                is asked for uncompressed.
         """
 
         def answered(
@@ -55,15 +59,15 @@ class PageScripts:
             if path not in PAGE:
                 return answer(connection, request)
             headers = Headers(request.headers)
-            if "Accept-Encoding" in headers:  # not everybody sends it
+            if "Accept-Encoding" in headers:  # optional; del needs the key
                 del headers["Accept-Encoding"]
             page = answer(connection, Request(request.path, headers))
-            return page if page is None else self._put_into(page)
+            return page if page is None else self._insert_into(page)
 
         return answered
 
-    def _put_into(self, page: Response) -> Response:
-        """The page with the scripts in its head."""
+    def _insert_into(self, page: Response) -> Response:
+        """Return the page with the scripts in its head."""
         tags = "".join(
             f'<script src="{name}" defer></script>' for name in self._names
         )
@@ -82,12 +86,12 @@ def _script(name: str) -> bytes:
 def respond(
     body: bytes, kind: str, status: HTTPStatus = HTTPStatus.OK
 ) -> Response:
-    """An answer that nobody keeps.
+    """Return a response that must not be cached.
 
     Args:
-        body: What it says.
-        kind: Its media type.
-        status: Of HTTP.
+        body: Content.
+        kind: Media type.
+        status: HTTP status.
     """
     headers = Headers(
         {

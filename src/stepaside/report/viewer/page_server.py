@@ -1,10 +1,10 @@
-"""The server of the pages: viser's, behind a door of our own.
+"""Server of the pages: viser's, with access control and message filter.
 
-viser starts the server of ``websockets`` itself and has no place for checks
-of ``Host`` and ``Origin``, for bounds or for a socket that is open already.
-``websockets`` has a place for each. So while viser starts, the function that
-it starts its server with is ours, which adds them; a viser that starts
-otherwise is not let serve.
+viser starts a ``websockets`` server itself and offers no way to check
+``Host`` and ``Origin``, to limit messages or to use a socket that listens
+already; ``websockets`` does. So ``websockets.asyncio.server.serve`` is
+replaced while viser starts. A version of viser that starts its server in
+another way is refused.
 """
 
 import logging
@@ -21,32 +21,32 @@ from ...core.errors import ConfigurationError
 from .access_control import AccessControl
 from .gamepad import GamepadInput
 from .page_address import PageAddress, listen
-from .page_layout import dress
-from .page_messages import LARGEST, MessageFilter
+from .page_layout import set_theme
+from .page_messages import MAX_SIZE, MessageFilter
 from .page_scripts import Answer, PageScripts
 
 STARTING = threading.Lock()
-READABLE = "readable.js"  # names, headings and contrast for those who need it
-# Whoever knocks with what is no request leaves no traceback on our terminal.
-QUIET = logging.getLogger(f"{__name__}.requests")
-QUIET.addFilter(lambda record: record.msg != "opening handshake failed")
+ACCESSIBILITY_SCRIPT = "readable.js"
+# Invalid requests must not print tracebacks on the terminal.
+REQUEST_LOG = logging.getLogger(f"{__name__}.requests")
+REQUEST_LOG.addFilter(lambda record: record.msg != "opening handshake failed")
 
 
 @dataclass(frozen=True, slots=True)
 class PageServer:
-    """A page's server and its door.
+    """Server of a page with its access control.
 
     Attributes:
-        server: The server.
-        gate: Who may come in.
-        listener: What they may say.
-        hand: Hears the stick.
+        server: viser's server.
+        gate: Access control.
+        messages: Filter of the messages of pages.
+        joystick: Joystick and gamepad input.
     """
 
     server: viser.ViserServer
     gate: AccessControl
-    listener: MessageFilter
-    hand: GamepadInput
+    messages: MessageFilter
+    joystick: GamepadInput
 
 
 def open_server(host: str, port: int) -> PageServer:
@@ -57,17 +57,17 @@ def open_server(host: str, port: int) -> PageServer:
         port: First port to try.
 
     Raises:
-        ConfigurationError: If nothing can be served there.
+        ConfigurationError: If the address cannot be used.
     """
     address = listen(host, port)
-    gate, listener = AccessControl(address), MessageFilter()
-    scripts = PageScripts(READABLE)
-    hand = GamepadInput(scripts)
+    gate, messages = AccessControl(address), MessageFilter()
+    scripts = PageScripts(ACCESSIBILITY_SCRIPT)
+    joystick = GamepadInput(scripts)
 
-    def ours(answer: Answer) -> Answer:
-        return gate.guarded(hand.answering(scripts.answering(answer)))
+    def handle(answer: Answer) -> Answer:
+        return gate.guard(joystick.handle(scripts.handle(answer)))
 
-    with STARTING, _behind(address, gate, listener, ours) as started:
+    with STARTING, _controlled(address, gate, messages, handle) as started:
         server = viser.ViserServer(
             host=host, port=address.port, label="stepaside", verbose=False
         )
@@ -75,45 +75,49 @@ def open_server(host: str, port: int) -> PageServer:
         server.stop()
         address.listening.close()
         raise ConfigurationError(
-            f"viser must be one that starts a server of websockets; "
-            f"{viser.__version__} does not, and would be open to all"
+            "viser must start a websockets server, so that access can be "
+            f"controlled; version {viser.__version__} does not"
         )
-    listener.attend(server.gui, server.scene)
-    dress(server.gui, "light")
-    return PageServer(server, gate, listener, hand)
+    messages.watch(server.gui, server.scene)
+    set_theme(server.gui, "light")
+    return PageServer(server, gate, messages, joystick)
 
 
 @contextmanager
-def _behind(
+def _controlled(
     address: PageAddress,
     gate: AccessControl,
-    listener: MessageFilter,
-    ours: Callable[[Answer], Answer],
+    messages: MessageFilter,
+    handle: Callable[[Answer], Answer],
 ) -> Iterator[list[bool]]:
-    """Let servers that start meanwhile start behind a door."""
+    """Add access control to servers that start inside a ``with`` block.
+
+    Yields:
+        List with an entry for each server that was started.
+    """
     begin, started = sockets.serve, []
 
     class FilteredConnection(sockets.ServerConnection):
-        """A connection on which only what may be said is heard."""
+        """Connection that drops messages a page could not have sent."""
 
         async def recv(self, decode: bool | None = None) -> Any:
-            """Wait for the next message that is heard."""
+            """Wait for the next accepted message."""
             while True:
                 raw = await super().recv(decode)
-                if listener.hears(raw):
+                if messages.accepts(raw):
                     return raw
 
     def serve(handler: Any, *_: Any, **options: Any) -> Any:
         started.append(True)
         answer = options.pop("process_request")
         options |= {
-            "process_request": ours(answer),
+            "process_request": handle(answer),
             "create_connection": FilteredConnection,
-            "logger": QUIET,
-            "max_size": LARGEST,
+            "logger": REQUEST_LOG,
+            "max_size": MAX_SIZE,
             "sock": address.listening,
         }
-        return begin(gate.counted(handler), **options)
+        return begin(gate.limit(handler), **options)
 
     sockets.serve = serve  # type: ignore[misc, assignment]
     try:

@@ -1,4 +1,4 @@
-"""Plots of distance and orientation beside theory."""
+"""Plots of distance and angle over time, with the theory's values."""
 
 import numpy as np
 import viser
@@ -6,12 +6,11 @@ from viser import uplot
 
 from ...core.poses import Array
 from ..figure_style import EVADER, PURSUER, THEORY
-from ..palette import seen_by_all
+from ..palette import on_both_floors
 from .live_session import LiveSession
 
-# Room above and to the right of a plot for its last marks, in [pixels].
-PADDING = (12, 12, 0, 0)
-LAST = 1e6  # order of what stands below everything else
+PADDING = (12, 12, 0, 0)  # for the last tick labels, in [pixels]
+LAST = 1e6  # order of elements below all others
 TITLES = ("Distance [m]", "Angle between the headings [deg]")
 Data = tuple[Array, ...]
 
@@ -25,20 +24,25 @@ def add_plot(
     *,
     order: float | None = None,
 ) -> viser.GuiUplotHandle:
-    """Add a plot over time, beside what theory says if it says something.
+    """Add a plot of a quantity over time.
 
     Args:
-        gui: Of the page.
-        title: Says what is shown, and its unit.
-        label: Of what is shown.
-        colour: Of its line.
-        data: As of :func:`plot_data`.
-        order: Of the plot on its panel; by default below what is there.
+        gui: Controls of the page.
+        title: Quantity with its unit.
+        label: Label of the line.
+        colour: Colour of the line.
+        data: As returned by :func:`plot_data`.
+        order: Position on its panel; by default below existing elements.
+
+    Returns:
+        Handle of the plot.
     """
     series = (
         uplot.Series(label="time [s]"),
-        uplot.Series(label=label, stroke=seen_by_all(colour), width=2),
-        uplot.Series(label="theory", stroke=seen_by_all(THEORY), dash=(5, 5)),
+        uplot.Series(label=label, stroke=on_both_floors(colour), width=2),
+        uplot.Series(
+            label="theory", stroke=on_both_floors(THEORY), dash=(5, 5)
+        ),
     )
     return gui.add_uplot(
         data,
@@ -47,22 +51,21 @@ def add_plot(
         height=125,
         padding=PADDING,
         order=order,
-        # Seconds of the run, which are no date.
+        # uPlot takes seconds for dates by default.
         scales={"x": uplot.Scale(time=False)},
     )
 
 
 def plot_data(times: Array, values: Array, level: float | None) -> Data:
-    """Return what a plot shows, without NaN: uPlot draws no series with one.
+    """Return the data of a plot, without NaN, which uPlot cannot draw.
 
     Args:
         times: In [s]. Shape (n,).
-        values: At these times; samples that are not finite are left out.
-            Shape (n,).
-        level: Of theory; None or NaN if there is none.
+        values: At these times; NaN and inf are left out. Shape (n,).
+        level: Value of the theory; None or NaN if there is none.
 
     Returns:
-        Times and values, and the level at each time if there is one.
+        Times, values and, if there is one, the level at each time.
     """
     known = np.isfinite(times) & np.isfinite(values)
     data = times[known], values[known]
@@ -72,7 +75,7 @@ def plot_data(times: Array, values: Array, level: float | None) -> Data:
 
 
 class Plots:
-    """Two plots of a live duel."""
+    """Plots of distance and angle of a live duel."""
 
     def __init__(self, gui: viser.GuiApi) -> None:
         """Add empty plots to a page."""
@@ -81,13 +84,13 @@ class Plots:
         self._plots = [self._add(number, empty) for number in (0, 1)]
 
     def _add(self, number: int, data: Data) -> viser.GuiUplotHandle:
-        """Add one of the two below all else that is watched."""
+        """Add one of the two plots below all other elements."""
         label, colour = (("distance", PURSUER), ("angle", EVADER))[number]
         title, order = TITLES[number], LAST + number
         return add_plot(self._gui, title, label, colour, data, order=order)
 
     def show(self, session: LiveSession) -> None:
-        """Show what a session has gone through."""
+        """Show the history of a session."""
         with session.lock:
             rows = np.array(session.trail.history).reshape(-1, 3)
         if len(rows) < 2:
@@ -98,6 +101,6 @@ class Plots:
             data = plot_data(rows[:, 0], rows[:, number + 1], level)
             if len(data) == len(plot.data):
                 plot.data = data
-            else:  # theory came or went, and its line with it
+            else:  # the number of lines of a plot is fixed
                 plot.remove()
                 self._plots[number] = self._add(number, data)

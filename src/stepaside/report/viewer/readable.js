@@ -1,24 +1,24 @@
 "use strict";
-/* What viser's page lacks for those who hear it read or see little contrast. */
+/* Accessible names, landmarks and contrast that viser's page lacks. */
 (() => {
-  const NAMES = { // of buttons that show a sign alone, by the sign
+  const NAMES = { // of buttons that show only an icon, by the icon
     "list-search": "Commands", adjustments: "Connection", "device-floppy": "Save",
-    x: "Close", "chevron-down": "Fold", "chevron-up": "Unfold",
+    x: "Close", "chevron-down": "Collapse", "chevron-up": "Expand",
   };
   const style = document.createElement("style");
   style.textContent = `
-    .unseen { position: absolute; width: 1px; height: 1px; margin: -1px;
+    .visually-hidden { position: absolute; width: 1px; height: 1px; margin: -1px;
       overflow: hidden; clip-path: inset(50%); white-space: nowrap; }
     :root[data-mantine-color-scheme="light"] {
       --mantine-color-dimmed: #5c6166 !important; }
     :root[data-mantine-color-scheme="dark"] {
       --mantine-color-dimmed: #a3a8ae !important; }
-    /* The sheet of a phone leaves the robots more than half of the page. */
+    /* On a phone the panel covers less than half of the page. */
     @media (max-width: 48em) {
       .mantine-Paper-root[style*="position: fixed"][style*="max-height: 60%"] {
         max-height: 45% !important; } }`;
 
-  function sign(button) {
+  function icon(button) {
     for (const name of button.querySelector("svg")?.classList ?? [])
       if (name.startsWith("tabler-icon-")) return name.slice(12);
     return "";
@@ -26,19 +26,19 @@
 
   function nameButton(button) {
     if (button.textContent.trim() || button.ariaLabel || button.title) return;
-    const known = NAMES[sign(button)];
+    const known = NAMES[icon(button)];
     const closes = /closeButton|CloseButton/.test(button.className);
-    button.ariaLabel = known || (closes ? "Close" : sign(button) || "More");
+    button.ariaLabel = known || (closes ? "Close" : icon(button) || "More");
   }
 
-  /* What is said of a fold begins with what is written on it. */
-  function nameFold(fold) {
-    const words = fold.innerText.trim();
-    if (words && fold.ariaLabel && !fold.ariaLabel.includes(words))
-      fold.ariaLabel = `${words}: ${fold.ariaLabel}`;
+  /* The accessible name of a folder begins with its visible title. */
+  function nameFolder(folder) {
+    const title = folder.innerText.trim();
+    if (title && folder.ariaLabel && !folder.ariaLabel.includes(title))
+      folder.ariaLabel = `${title}: ${folder.ariaLabel}`;
   }
 
-  /* A slider and the number beside it are called what their row is called. */
+  /* A slider and its number field take the label of their row. */
   function nameField(field) {
     if (field.ariaLabel || field.labels?.length) return;
     for (let row = field.parentElement; row; row = row.parentElement) {
@@ -47,34 +47,34 @@
     }
   }
 
-  function attend() {
+  function nameAll() {
     document.querySelectorAll("button").forEach(nameButton);
-    document.querySelectorAll("div[role=button]").forEach(nameFold);
+    document.querySelectorAll("div[role=button]").forEach(nameFolder);
     document.querySelectorAll("[role=slider], input").forEach(nameField);
-    /* what opens over the page stands beside viser's root, in a place of its own */
+    /* Dialogs and menus open beside viser's root and need a landmark of their own. */
     for (const each of document.body.children)
       if (each.dataset.portal && !each.role) {
         each.role = "region";
-        each.ariaLabel = "Opened";
+        each.ariaLabel = "Dialog";
       }
   }
 
-  let asked = false;
-  function soon() {
-    if (asked) return;
-    asked = true;
-    setTimeout(() => { asked = false; attend(); }, 250);
+  let scheduled = false;
+  function schedule() {
+    if (scheduled) return;
+    scheduled = true;
+    setTimeout(() => { scheduled = false; nameAll(); }, 250);
   }
 
   const heading = document.createElement("h1");
-  heading.className = "unseen";
+  heading.className = "visually-hidden";
   heading.textContent = document.title;
   const header = document.createElement("header");
   header.append(heading);
   document.head.append(style);
   document.body.prepend(header);
   document.getElementById("root").role = "main";
-  new MutationObserver(soon).observe(
+  new MutationObserver(schedule).observe(
     document.body, { childList: true, subtree: true });
-  attend();
+  nameAll();
 })();

@@ -1,4 +1,4 @@
-"""A run on the page, with a slider for time."""
+"""Replay of a run on a served page, with a time slider."""
 
 import logging
 import threading
@@ -11,56 +11,66 @@ import viser
 from ...core.poses import Array
 from ...games.run import Run
 from ..figure_style import EVADER, PURSUER, PUSHED, THEORY, colours_of
-from ..palette import LIGHTS
+from ..palette import THEMES
 from ..scene import RunScene
 from ..text_escaping import for_markdown
-from .page_layout import WATCH
+from .page_layout import STATUS_WIDTH
 from .page_server import open_server
 from .plots import TITLES, add_plot, plot_data
 from .scene_bodies import SceneBodies
 from .scene_layers import (
     HEIGHTS,
     SceneLayers,
-    chain,
+    footprints_at,
     legend,
-    prints_at,
+    polyline,
     pushes_at,
     ring,
-    safety_of,
+    safety_ring,
 )
 from .viewer_clients import CAMERAS, ViewerClients
 
 LOG = logging.getLogger(__name__)
-RATE = 30.0  # updates of the scene a second
-MOST_PLOTTED = 1500  # samples of a curve, about
-REPLAYED = (
-    *("CoM trace", "footsteps", "pushes", "line of sight", "safety area"),
-    "circle of theory",
+RATE = 30.0  # updates of the scene per second
+PLOT_SAMPLES = 1500  # of a curve, approximately
+REPLAY_LAYERS = (
+    "CoM trace",
+    "footsteps",
+    "pushes",
+    "line of sight",
+    "safety radius",
+    "theoretical circle",
 )
 
 
 class ReplayPage:
-    """A run on a server.
+    """Recorded run on a server.
 
     Attributes:
-        server: The server.
-        slider: Time of the run that is shown, in [s].
+        server: viser's server.
+        slider: Slider of the time that is shown, in [s].
     """
 
     def __init__(self, run: Run, *, port: int) -> None:
-        """Serve a run on this machine alone."""
-        self._run, self._stage = run, RunScene(run)
+        """Serve a run on this machine only.
+
+        Args:
+            run: The run.
+            port: First port to try.
+        """
+        self._run = run
+        self._scene = RunScene(run)
         self.server = open_server("127.0.0.1", port).server
         self._closing = threading.Event()
         self._playing = False
         self._set_scene()
         self._layers = SceneLayers(self.server.scene)
         self._viewers = ViewerClients(self.server, self._run.plan)
-        self._arrange()
+        self._add_controls()
         self._thread = threading.Thread(target=self._loop, daemon=True)
 
     def _set_scene(self) -> None:
-        """Put the robots with their names into the scene, with light."""
+        """Add lights, players and labels to the scene."""
         scene, camera = self.server.scene, self.server.initial_camera
         scene.set_up_direction("+z")
         scene.configure_default_lights(cast_shadow=True)
@@ -68,15 +78,15 @@ class ReplayPage:
         x, y = float(last[0]), float(last[1])
         camera.position = (x - 1.5, y - 1.6, 1.3)
         camera.look_at = (x, y, 0.2)
-        self._bodies = SceneBodies(scene, self._stage.model)
-        self._bodies.name(self._stage.model, self._run.players)
+        self._bodies = SceneBodies(scene, self._scene.model)
+        self._bodies.add_labels(self._scene.model, self._run.players)
 
-    def _arrange(self) -> None:
-        """Dock what is watched and moved to the right of the scene."""
+    def _add_controls(self) -> None:
+        """Add status, controls and plots to the right of the scene."""
         gui = self.server.gui
         gui.set_panel_label("stepaside")
         gui.main_panel.dock_right()
-        gui.main_panel.set_width(WATCH)
+        gui.main_panel.set_width(STATUS_WIDTH)
         self._status = gui.add_markdown("")
         self._play = gui.add_button("Play")
         self.slider: viser.GuiSliderHandle[float] = gui.add_slider(
@@ -91,17 +101,17 @@ class ReplayPage:
         )
         self._add_views()
         self._add_plots()
-        with gui.add_folder("Shown", expand_by_default=False):
-            for layer in REPLAYED:
+        with gui.add_folder("Layers", expand_by_default=False):
+            for layer in REPLAY_LAYERS:
                 self._add_layer(layer)
-            gui.add_markdown(legend(REPLAYED))
+            gui.add_markdown(legend(REPLAY_LAYERS))
 
         @self._play.on_click
         def _(_: object) -> None:
             self._playing = not self._playing
 
     def _add_plots(self) -> None:
-        """Show distance and angle of the whole run beside theory."""
+        """Add plots of distance and angle with the theory's values."""
         run = self._run
         _, distance, angle = run.theory or (None, None, None)
         shown = (
@@ -115,27 +125,27 @@ class ReplayPage:
     def _add_plot(
         self, title: str, values: Array, level: float | None, colour: str
     ) -> None:
-        """Show one figure over time, and where theory ends."""
+        """Add a plot of one quantity."""
         times = self._run.times
-        thin = slice(None, None, max(1, len(times) // MOST_PLOTTED))
-        data = plot_data(times[thin], values[thin], level)
+        samples = slice(None, None, max(1, len(times) // PLOT_SAMPLES))
+        data = plot_data(times[samples], values[samples], level)
         add_plot(self.server.gui, title, "run", colour, data)
 
     def _add_views(self) -> None:
-        """Let each viewer choose a camera, and a light."""
+        """Add the buttons of camera and theme."""
         gui, viewers = self.server.gui, self._viewers
-        alone = len(self._run.players) < 2
-        names = CAMERAS[:3] if alone else CAMERAS
+        single = len(self._run.players) < 2
+        names = CAMERAS[:3] if single else CAMERAS
         camera = gui.add_button_group("Camera", names)
-        light = gui.add_button_group("Light", LIGHTS)
+        theme = gui.add_button_group("Light", THEMES)
 
         @camera.on_click
         def _(event: Any) -> None:
             viewers.choose(event.client, camera.value)
 
-        @light.on_click
+        @theme.on_click
         def _(event: Any) -> None:
-            viewers.light_up(event.client, light.value)
+            viewers.set_theme(event.client, theme.value)
 
     def _add_layer(self, layer: str) -> None:
         box = self.server.gui.add_checkbox(layer[0].upper() + layer[1:], True)
@@ -145,11 +155,11 @@ class ReplayPage:
             self._layers.shown[layer] = box.value
 
     def start(self) -> None:
-        """Start to show."""
+        """Start the thread that updates the page."""
         self._thread.start()
 
     def close(self) -> None:
-        """Stop the server."""
+        """Stop the updates and the server."""
         self._closing.set()
         self._thread.join(timeout=5.0)
         self.server.stop()
@@ -174,8 +184,8 @@ class ReplayPage:
     def _show(self, time: float) -> None:
         run = self._run
         index = run.index_at(time)
-        self._stage.put(index)
-        data = self._stage.data
+        self._scene.put(index)
+        data = self._scene.data
         with self.server.atomic():
             self._bodies.move(data.xpos, data.xquat)
             self._draw(index)
@@ -193,7 +203,7 @@ class ReplayPage:
         if distance is not None:
             text += f", distance {distance[index]:.2f} m"
         if angle is not None:
-            text += f", between the headings {angle[index]:.0f}\u00b0"
+            text += f", angle between the headings {angle[index]:.0f}\u00b0"
         if self._status.content != text:
             self._status.content = text
 
@@ -203,18 +213,18 @@ class ReplayPage:
         colours = colours_of(run.players)
         for name, track in run.tracks.items():
             trace = track.com[first : index + 1 : 5, :2]
-            lines = chain(trace, HEIGHTS["CoM trace"])
+            lines = polyline(trace, HEIGHTS["CoM trace"])
             layers.draw("CoM trace", name, lines, colours[name])
-            prints = prints_at(track.landings, run.settings.gait.sole, now)
+            prints = footprints_at(track.landings, run.settings.gait.sole, now)
             layers.draw("footsteps", name, prints, colours[name])
             layers.draw("pushes", name, pushes_at(track.pushes, now), PUSHED)
         if run.safety is not None:
-            who, radius = run.safety
-            area = safety_of(run.tracks[who].torso[index, :2], radius)
-            layers.draw("safety area", who, area, colours[who])
+            player, radius = run.safety
+            area = safety_ring(run.tracks[player].torso[index, :2], radius)
+            layers.draw("safety radius", player, area, colours[player])
         if run.pair is not None:
             sight = [[*t.torso[index, :2], 0.25] for t in run.pair]
             layers.draw("line of sight", "both", np.array([sight]), THEORY)
         if run.circle is not None:
-            circle = ring(*run.circle, HEIGHTS["circle of theory"])
-            layers.draw("circle of theory", "both", circle, THEORY)
+            circle = ring(*run.circle, HEIGHTS["theoretical circle"])
+            layers.draw("theoretical circle", "both", circle, THEORY)

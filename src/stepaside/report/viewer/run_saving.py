@@ -1,4 +1,4 @@
-"""What was played on a page, kept: a run folder like any other."""
+"""Run folders of live duels."""
 
 import json
 from pathlib import Path
@@ -12,70 +12,74 @@ from ...games.match import Match
 from ...games.outcome import Outcome
 from ..run_folder import free_folder, write_run
 
-KEPT = 600.0  # of a live duel that can be saved, from its beginning, in [s]
-MOST = 20  # folders that one page may write
-HAND = "hand.json"
+MAX_RECORDED = 600.0  # simulated time that is recorded, in [s]
+MAX_FOLDERS = 20  # that one page may write
+COMMAND_FILE = "hand.json"
 
 
 class LiveRecording:
-    """Lets the recorder of a live duel look on, for so long as it may."""
+    """Observer that records the first ``MAX_RECORDED`` seconds of a duel."""
 
     def before(self, match: Match) -> None:
-        """Let it take a sample."""
-        if isinstance(match, Duel) and match.world.time <= KEPT:
+        """Record a sample."""
+        if isinstance(match, Duel) and match.world.time <= MAX_RECORDED:
             match.recorder.before(match)
 
     def acted(self, match: Match) -> None:
-        """Let it note the steps that begin."""
-        if isinstance(match, Duel) and match.world.time <= KEPT:
+        """Record the steps that begin."""
+        if isinstance(match, Duel) and match.world.time <= MAX_RECORDED:
             match.recorder.acted(match)
 
     def ended(self, match: Match, outcome: Outcome) -> None:
-        """Let it take the last sample."""
-        if isinstance(match, Duel) and match.world.time <= KEPT:
+        """Record the last sample."""
+        if isinstance(match, Duel) and match.world.time <= MAX_RECORDED:
             match.recorder.ended(match, outcome)
 
 
 class RunSaver:
-    """Writes run folders of a live duel, a few at most."""
+    """Writer of the run folders of one page."""
 
     def __init__(self, parent: Path) -> None:
         """Write into a folder.
 
         Args:
-            parent: Where run folders shall lie.
+            parent: Parent of the run folders.
         """
         self._parent = parent
         self._written = 0
         self._lock = Lock()
 
-    def save(self, duel: Duel, outcome: Outcome | None, hand: Any) -> Path:
-        """Write what was played so far.
+    def save(self, duel: Duel, outcome: Outcome | None, commands: Any) -> Path:
+        """Write a duel so far.
 
         Args:
-            duel: The duel; nothing may happen to it meanwhile.
-            outcome: How it ended, if it did.
-            hand: What a hand asked of the robots, as plain values.
+            duel: The duel; it must not change meanwhile.
+            outcome: Outcome of the duel; None while it is played.
+            commands: Commands of teleoperation, as plain values.
 
         Returns:
-            The folder.
+            The run folder.
 
         Raises:
-            ConfigurationError: If nothing was played, or too much is kept.
+            ConfigurationError: If nothing has been recorded yet, or
+                ``MAX_FOLDERS`` have been written.
             OutputError: If it cannot be written.
         """
         with self._lock:
-            if self._written >= MOST:
+            if self._written >= MAX_FOLDERS:
                 raise ConfigurationError(
-                    f"saved runs must be at most {MOST}; start the page anew"
+                    f"saved runs must be at most {MAX_FOLDERS}; restart "
+                    "stepaside view to save more"
                 )
             if len(duel.recorder.times) < 3:
-                raise ConfigurationError("nothing has been played yet")
+                raise ConfigurationError(
+                    "nothing has been recorded yet: start the duel first"
+                )
             run = duel.run(outcome or Outcome.INTERRUPTED, duel.world.time)
             name = f"live-seed{run.settings.seed}"
             folder = write_run(free_folder(self._parent, name), run).parent
-            if hand:
-                with writing(folder / HAND) as draft:
-                    draft.write_text(json.dumps(hand, indent=1) + "\n")
+            if commands:
+                with writing(folder / COMMAND_FILE) as draft:
+                    draft.write_text(json.dumps(commands, indent=1) + "\n")
             self._written += 1
         return folder

@@ -1,4 +1,4 @@
-"""Visible bodies of a model on the page."""
+"""Visible bodies of a model in the scene of a page."""
 
 from collections import defaultdict
 from collections.abc import Iterable
@@ -11,105 +11,107 @@ import viser
 from numpy.typing import NDArray
 
 from ...core.poses import Array
-from ..body_heights import BodyHeights
-from ..visual_geoms import VisualGeom, parts_of
+from ..visual_geoms import BodyHeights, VisualGeom, visual_geoms_of
 
-RING = 20  # corners of a round shape
-LABEL = 0.04  # of a name over the highest point of its player, in [m]
+SECTIONS = 20  # of a round shape
+LABEL_GAP = 0.04  # between a player's highest point and its label, in [m]
 
 
 def shape_of(part: VisualGeom) -> trimesh.Trimesh:
-    """Mesh of one part in the frame of its body."""
+    """Return the mesh of a visible geom in the frame of its body."""
     mesh: trimesh.Trimesh
     a, b, _ = part.size
-    if part.shell is not None:
-        mesh = trimesh.Trimesh(*part.shell, process=False)
+    if part.mesh is not None:
+        mesh = trimesh.Trimesh(*part.mesh, process=False)
     elif part.kind == "sphere":
         mesh = trimesh.creation.icosphere(subdivisions=2, radius=a)
     elif part.kind == "ellipsoid":
         mesh = trimesh.creation.icosphere(subdivisions=2)
         mesh.vertices = mesh.vertices * part.size
     elif part.kind == "capsule":
-        mesh = trimesh.creation.capsule(2 * b, a, [RING, RING])
+        mesh = trimesh.creation.capsule(2 * b, a, [SECTIONS, SECTIONS])
     elif part.kind == "cylinder":
-        mesh = trimesh.creation.cylinder(a, 2 * b, RING)
+        mesh = trimesh.creation.cylinder(a, 2 * b, SECTIONS)
     else:
         mesh = trimesh.creation.box(2 * part.size)
-    place = np.eye(4)
-    frame = np.zeros(9)
-    mujoco.mju_quat2Mat(frame, part.turn)
-    place[:3, :3] = frame.reshape(3, 3)
-    place[:3, 3] = part.place
-    mesh.apply_transform(place)
+    rotation = np.zeros(9)
+    mujoco.mju_quat2Mat(rotation, part.quaternion)
+    transform = np.eye(4)
+    transform[:3, :3] = rotation.reshape(3, 3)
+    transform[:3, 3] = part.position
+    mesh.apply_transform(transform)
     return mesh
 
 
-def joined(
+def join_meshes(
     meshes: list[trimesh.Trimesh],
 ) -> tuple[NDArray[np.float32], NDArray[np.uint32]]:
-    """Corners and triangles of several meshes as one."""
-    corners = np.concatenate([mesh.vertices for mesh in meshes])
+    """Return vertices and triangles of several meshes as one mesh."""
+    vertices = np.concatenate([mesh.vertices for mesh in meshes])
     starts = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
     faces = [
         mesh.faces + start
         for mesh, start in zip(meshes, starts[:-1], strict=True)
     ]
-    return corners.astype(np.float32), np.concatenate(faces).astype(np.uint32)
+    joined_faces = np.concatenate(faces).astype(np.uint32)
+    return vertices.astype(np.float32), joined_faces
 
 
 class SceneBodies:
-    """Bodies of one model; what moves is one frame for each body."""
+    """Bodies of one model; each is a frame with one mesh per colour."""
 
     def __init__(self, scene: viser.SceneApi, model: mujoco.MjModel) -> None:
-        """Put every part that is seen on the page, once."""
+        """Add all visible bodies to a scene, except walls."""
         looks = defaultdict[
             int, defaultdict[tuple[Any, ...], list[trimesh.Trimesh]]
         ](lambda: defaultdict(list))
-        parts = parts_of(model)
-        for part in parts:
-            if not part.is_wall:  # it would hide all from who is outside
-                look = part.colour, part.shades
-                looks[part.body][look].append(shape_of(part))
+        geoms = visual_geoms_of(model)
+        for geom in geoms:
+            if not geom.is_wall:  # it would hide the players from outside
+                look = geom.colour, geom.casts_shadow
+                looks[geom.body][look].append(shape_of(geom))
         self._frames: dict[int, viser.FrameHandle] = {}
         self._meshes = defaultdict[int, list[viser.MeshHandle]](list)
-        self._tops = BodyHeights(parts)
-        self._names: dict[tuple[int, ...], viser.LabelHandle] = {}
+        self._heights = BodyHeights(geoms)
+        self._labels: dict[tuple[int, ...], viser.LabelHandle] = {}
         for body, colours in looks.items():
             name = f"/bodies/{body}"
             self._frames[body] = scene.add_frame(name, show_axes=False)
-            for number, ((colour, shades), meshes) in enumerate(
+            for number, ((colour, casts_shadow), meshes) in enumerate(
                 colours.items()
             ):
-                corners, faces = joined(meshes)
+                vertices, faces = join_meshes(meshes)
                 mesh = scene.add_mesh_simple(
                     f"{name}/{number}",
-                    corners,
+                    vertices,
                     faces,
                     color=colour,
-                    cast_shadow=shades,
+                    cast_shadow=casts_shadow,
                     receive_shadow=False,
                 )
                 self._meshes[body].append(mesh)
         self._scene = scene
 
-    def name(self, model: mujoco.MjModel, players: Iterable[str]) -> None:
-        """Write the name of each player over it, wherever it moves.
+    def add_labels(
+        self, model: mujoco.MjModel, players: Iterable[str]
+    ) -> None:
+        """Add a label above each player, which moves with it.
 
         Args:
-            model: Of the bodies, which begin with the names of their players.
-            players: Their names.
+            model: Model of the bodies, whose names begin with the player's.
+            players: Names of the players.
         """
         for player in players:
-            own = tuple(self._own(model, player))
-            self._names[own] = self._scene.add_label(
+            bodies = tuple(self._bodies_of(model, player))
+            self._labels[bodies] = self._scene.add_label(
                 f"/names/{player}",
                 player,
                 anchor="bottom-center",
                 depth_test=False,
             )
 
-    def _own(self, model: mujoco.MjModel, player: str) -> list[int]:
-        """Bodies of a player."""
+    def _bodies_of(self, model: mujoco.MjModel, player: str) -> list[int]:
+        """Return the numbers of a player's visible bodies."""
         return [
             body
             for body in self._frames
@@ -119,17 +121,17 @@ class SceneBodies:
     def meshes_of(
         self, model: mujoco.MjModel, player: str
     ) -> list[viser.MeshHandle]:
-        """What is seen of a player.
+        """Return all meshes of a player.
 
         Args:
-            model: Of the bodies.
-            player: Its name.
+            model: Model of the bodies.
+            player: Name of the player.
         """
-        own = self._own(model, player)
-        return [mesh for body in own for mesh in self._meshes[body]]
+        bodies = self._bodies_of(model, player)
+        return [mesh for body in bodies for mesh in self._meshes[body]]
 
     def move(self, positions: Array, quaternions: Array) -> None:
-        """Move all bodies.
+        """Move all bodies and labels.
 
         Args:
             positions: In the world, in [m]. Shape (bodies, 3).
@@ -138,7 +140,7 @@ class SceneBodies:
         for body, frame in self._frames.items():
             frame.position = positions[body]
             frame.wxyz = quaternions[body]
-        for own, label in self._names.items():
-            x, y = positions[list(own), :2].mean(axis=0).tolist()
-            top = self._tops.of(own, positions, quaternions)
-            label.position = (x, y, top + LABEL)
+        for bodies, label in self._labels.items():
+            x, y = positions[list(bodies), :2].mean(axis=0).tolist()
+            top = self._heights.highest(bodies, positions, quaternions)
+            label.position = (x, y, top + LABEL_GAP)

@@ -1,4 +1,4 @@
-"""Lines on the floor: plans, footsteps, traces, circles."""
+"""Layers of lines in the scene of a page: plans, footsteps, traces, rings."""
 
 from collections.abc import Iterable
 from math import inf
@@ -11,8 +11,7 @@ from ...core.convex import convex_hull
 from ...core.poses import Array, Pose
 from ...planning import Foot, SoleRectangle
 from ...planning.support_polygon import sole_corners
-from ..figure_style import COLOURS, EVADER, THEORY
-from ..palette import seen_by_all
+from ..palette import on_both_floors
 
 LAYERS = (
     "planned path",
@@ -20,54 +19,60 @@ LAYERS = (
     "CoM trace",
     "ZMP trace",
     "line of sight",
-    "safety area",
-    "circle of theory",
+    "safety radius",
+    "theoretical circle",
     "support polygon",
     "pushes",
 )
 MEANINGS = {
-    "planned path": "where each robot plans to walk",
-    "footsteps": "outlines of the soles, made and planned",
-    "CoM trace": "path of the center of mass over the floor",
+    "planned path": "path of the current plan of each robot",
+    "footsteps": "outlines of the soles, past and planned",
+    "CoM trace": "path of the center of mass, on the floor",
     "ZMP trace": "path of the zero-moment point, paler",
-    "line of sight": "grey line from one player to the other",
-    "safety area": "blue ring; inside it the pursuer is too near",
-    "circle of theory": "grey ring, on which the paper's game ends",
-    "support polygon": "green outline of the feet that bear",
-    "pushes": "magenta arrow, for a second after each push",
+    "line of sight": "grey line between the players",
+    "safety radius": "blue ring; the evader is triggered inside it",
+    "theoretical circle": "grey ring, on which the paper's game ends",
+    "support polygon": "green outline of the feet in contact",
+    "pushes": "magenta arrow, for 1 s after each push",
 }
-# Rings are named where they lie: the direction of the name from the middle.
-RINGS = {  # its name there, and the number of the segment
-    "safety area": ("safety radius", 52),
-    "circle of theory": ("circle of theory", 44),
-}
-SMALL = 0.85  # size of these names, of that of the players' names
+# Layers whose rings have a label, and the segment that carries it.
+RINGS = {"safety radius": 52, "theoretical circle": 44}
+RING_LABEL_SCALE = 0.85  # relative to the players' labels
 HEIGHTS = {name: 0.002 + 0.001 * i for i, name in enumerate(LAYERS)}
-PRINTS = 60  # footsteps kept
-COMING = 0.5  # how long before it lands a footstep is shown, in [s]
+MAX_FOOTPRINTS = 60  # past footsteps that are drawn
+FOOTPRINT_LEAD = 0.5  # time before landing at which one appears, in [s]
 PUSH_HEIGHT = 0.3  # of an arrow over the floor, in [m]
-PUSH_LENGTH = 0.25  # in [m] per [N s]
-PUSH_SHOWN = 1.0  # how long it is seen, in [s]
+PUSH_LENGTH = 0.25  # of an arrow, in [m] per [N s]
+PUSH_SHOWN = 1.0  # time for which an arrow is shown, in [s]
 
 
 def rgb(colour: str) -> tuple[int, int, int]:
-    """Colour from ``#rrggbb``, 0 to 255."""
+    """Return red, green and blue, 0 to 255, of a colour ``#rrggbb``."""
     red, green, blue = bytes.fromhex(colour[1:])
     return red, green, blue
 
 
 def legend(layers: Iterable[str]) -> str:
-    """Say in Markdown what each layer shows.
+    """Return a legend of layers in Markdown.
 
     Args:
         layers: Those of ``LAYERS`` that a page has.
     """
     lines = [f"- **{layer}**: {MEANINGS[layer]}" for layer in layers]
-    return "\n".join(["Pursuer red, evader blue.", "", *lines])
+    return "\n".join(["Pursuer: red. Evader: blue.", "", *lines])
 
 
-def chain(points: Array, height: float, *, closed: bool = False) -> Array:
-    """Segments through points of the floor. Shape (n, 2, 3)."""
+def polyline(points: Array, height: float, *, closed: bool = False) -> Array:
+    """Return the segments of a horizontal polyline, in [m].
+
+    Args:
+        points: (x, y) in [m]. Shape (m, 2).
+        height: Height over the floor, in [m].
+        closed: Whether the last point is connected to the first.
+
+    Returns:
+        Start and end of each segment. Shape (n, 2, 3).
+    """
     if closed and len(points):
         points = np.concatenate([points, points[:1]])
     if len(points) < 2:
@@ -77,27 +82,34 @@ def chain(points: Array, height: float, *, closed: bool = False) -> Array:
 
 
 def ring(x: float, y: float, radius: float, height: float) -> Array:
-    """Segments of a circle. Shape (n, 2, 3)."""
+    """Return the segments of a circle, in [m]. Shape (n, 2, 3).
+
+    Args:
+        x: Coordinate of its center, in [m].
+        y: Coordinate of its center, in [m].
+        radius: In [m].
+        height: Height over the floor, in [m].
+    """
     angle = np.linspace(0.0, 2.0 * np.pi, 73)[:-1]
     points = np.column_stack(
         [x + radius * np.cos(angle), y + radius * np.sin(angle)]
     )
-    return chain(points, height, closed=True)
+    return polyline(points, height, closed=True)
 
 
 class SceneLayers:
-    """The lines of one page; each layer can be switched.
+    """Lines of one page, by layer and player.
 
     Attributes:
         shown: Whether each layer is shown.
     """
 
     def __init__(self, scene: viser.SceneApi) -> None:
-        """Begin with empty lines."""
+        """Start without lines."""
         self._scene = scene
         self.shown = dict.fromkeys(LAYERS, True)
         self._drawn: dict[str, bytes] = {}
-        self._named: dict[str, tuple[str, viser.LabelHandle]] = {}
+        self._labels: dict[str, tuple[str, viser.LabelHandle]] = {}
 
     def draw(
         self, layer: str, owner: str, segments: Array, colour: str
@@ -112,7 +124,7 @@ class SceneLayers:
         """
         name = f"/layers/{layer}/{owner}"
         if layer in RINGS:
-            self._name_ring(layer, segments if self.shown[layer] else None)
+            self._label_ring(layer, segments if self.shown[layer] else None)
         if not self.shown[layer] or len(segments) == 0:
             if self._drawn.pop(name, None) is not None:
                 self._scene.remove_by_name(name)
@@ -122,45 +134,50 @@ class SceneLayers:
         if self._drawn.get(name) == content:
             return
         self._drawn[name] = content
-        seen = rgb(seen_by_all(colour))
         self._scene.add_line_segments(
-            name, points, colors=seen, thickness=0.008
+            name, points, colors=rgb(on_both_floors(colour)), thickness=0.008
         )
 
-    def _name_ring(self, layer: str, segments: Array | None) -> None:
-        """Write its name and radius beside a ring; no ring, no name."""
-        known = self._named.get(layer)
+    def _label_ring(self, layer: str, segments: Array | None) -> None:
+        """Write name and radius beside a ring; remove them without a ring."""
+        label = self._labels.get(layer)
         if segments is None or len(segments) == 0:
-            if known is not None:
-                self._named.pop(layer)[1].remove()
+            if label is not None:
+                self._labels.pop(layer)[1].remove()
             return
         points = np.asarray(segments)[:, 0]
-        name, number = RINGS[layer]
-        text = f"{name} {0.5 * float(np.ptp(points[:, 0])):.2f} m"
-        if known is None or known[0] != text:
-            if known is not None:
-                known[1].remove()
-            made = self._scene.add_label(
+        text = f"{layer} {0.5 * float(np.ptp(points[:, 0])):.2f} m"
+        if label is None or label[0] != text:
+            if label is not None:
+                label[1].remove()
+            handle = self._scene.add_label(
                 f"/rings/{layer}",
                 text,
                 anchor="center-center",
-                font_screen_scale=SMALL,
+                font_screen_scale=RING_LABEL_SCALE,
             )
-            known = self._named[layer] = text, made
-        x, y, z = points[number % len(points)].tolist()
-        known[1].position = (x, y, z + 0.02)
+            label = self._labels[layer] = text, handle
+        x, y, z = points[RINGS[layer] % len(points)].tolist()
+        label[1].position = (x, y, z + 0.02)
 
     def clear(self) -> None:
-        """Take every line off the page."""
+        """Remove all lines and their labels."""
         for layer in RINGS:
-            self._name_ring(layer, None)
+            self._label_ring(layer, None)
         for name in list(self._drawn):
             self._scene.remove_by_name(name)
         self._drawn.clear()
 
 
 def path_of(walk: WalkState, frame: Pose) -> Array:
-    """Points of the template's path under the plan. Shape (n, 2)."""
+    """Return the planned path in the world, in [m]. Shape (n, 2).
+
+    It runs midway between successive footsteps.
+
+    Args:
+        walk: State of the walk.
+        frame: Pose of the odometry frame in the world.
+    """
     plan = walk.plan
     if plan is None:
         return np.zeros((0, 2))
@@ -169,43 +186,50 @@ def path_of(walk: WalkState, frame: Pose) -> Array:
     return frame.compose(walk.plan_frame).transform_points(middle)
 
 
-def prints_of(
+def footprints_of(
     walk: WalkState, steps: Iterable[StepStarted], frame: Pose
 ) -> Array:
-    """Outlines of the last footsteps and the planned ones."""
+    """Return outlines of past and planned footsteps. Shape (n, 2, 3).
+
+    Args:
+        walk: State of the walk.
+        steps: Past steps.
+        frame: Pose of the odometry frame in the world.
+    """
     sole = walk.gait.sole
     height = HEIGHTS["footsteps"]
     outlines = []
     for step in steps:
-        place = np.array(frame.compose(step.landing))
-        corners = sole_corners(place, step.foot, sole)
-        outlines.append(chain(corners, height, closed=True))
+        pose = np.array(frame.compose(step.landing))
+        corners = sole_corners(pose, step.foot, sole)
+        outlines.append(polyline(corners, height, closed=True))
     plan = walk.plan
     if plan is not None:
-        at = frame.compose(walk.plan_frame)
+        pose_plan_in_world = frame.compose(walk.plan_frame)
         for planned in plan.footsteps:
-            pose = Pose(planned.x, planned.y, planned.theta)
-            place = np.array(at.compose(pose))
-            corners = sole_corners(place, planned.foot, sole)
-            outlines.append(chain(corners, height, closed=True))
+            pose_in_plan = Pose(planned.x, planned.y, planned.theta)
+            pose = np.array(pose_plan_in_world.compose(pose_in_plan))
+            corners = sole_corners(pose, planned.foot, sole)
+            outlines.append(polyline(corners, height, closed=True))
     return np.concatenate(outlines) if outlines else np.zeros((0, 2, 3))
 
 
-def prints_at(
+def footprints_at(
     landings: Array | None, sole: SoleRectangle, now: float
 ) -> Array:
-    """Outlines of the last footsteps of a track. Shape (n, 2, 3).
+    """Return outlines of the footsteps of a trajectory. Shape (n, 2, 3).
 
     Args:
-        landings: Of the track, if it has any. Shape (m, 5).
+        landings: Rows (time [s], side, x [m], y [m], theta [rad]); None for
+            none. Shape (m, 5).
         sole: Shape of a left sole.
-        now: Time, in [s]; the footstep that comes next is shown, too.
+        now: Time, in [s]; the next footstep is included.
     """
     if landings is None:
         return np.zeros((0, 2, 3))
-    begun = landings[landings[:, 0] <= now + COMING][-PRINTS:]
+    begun = landings[landings[:, 0] <= now + FOOTPRINT_LEAD][-MAX_FOOTPRINTS:]
     outlines = [
-        chain(
+        polyline(
             sole_corners(np.array(pose), Foot(int(side)), sole),
             HEIGHTS["footsteps"],
             closed=True,
@@ -216,29 +240,36 @@ def prints_at(
 
 
 def pushes_at(pushes: Array | None, now: float) -> Array:
-    """Arrows of the pushes of the last second. Shape (n, 2, 3).
+    """Return arrows of the pushes of the last second. Shape (n, 2, 3).
 
     Args:
-        pushes: Of a track, if it has any. Shape (j, 6).
+        pushes: Rows (time [s], duration [s], x [m], y [m], impulse x and y
+            [N s]); None for none. Shape (j, 6).
         now: Time, in [s].
     """
     arrows = [np.zeros((0, 2, 3))]
     for time, _, x, y, *impulse in () if pushes is None else pushes.tolist():
         if not 0.0 <= now - time < PUSH_SHOWN:
             continue
-        way = PUSH_LENGTH * np.array(impulse)
+        shaft = PUSH_LENGTH * np.array(impulse)
         tip = np.array([x, y])
-        back = 0.25 * np.array([-way[1], way[0]])
-        arrow = [tip - way, tip, tip - 0.3 * way + back, tip]
-        arrow += [tip, tip - 0.3 * way - back]
+        aside = 0.25 * np.array([-shaft[1], shaft[0]])
+        arrow = [tip - shaft, tip, tip - 0.3 * shaft + aside, tip]
+        arrow += [tip, tip - 0.3 * shaft - aside]
         ends = np.array(arrow).reshape(3, 2, 2)
-        high = np.full((3, 2, 1), PUSH_HEIGHT)
-        arrows.append(np.concatenate([ends, high], axis=2))
+        heights = np.full((3, 2, 1), PUSH_HEIGHT)
+        arrows.append(np.concatenate([ends, heights], axis=2))
     return np.concatenate(arrows)
 
 
-def support_of(walk: WalkState, frame: Pose, now: float) -> Array:
-    """Outline of the support polygon."""
+def support_outline(walk: WalkState, frame: Pose, now: float) -> Array:
+    """Return the outline of the support polygon. Shape (n, 2, 3).
+
+    Args:
+        walk: State of the walk.
+        frame: Pose of the odometry frame in the world.
+        now: Time, in [s].
+    """
     step = walk.step(now)
     sole = walk.gait.sole
     feet = [(step.support, step.swing.other)]
@@ -250,32 +281,20 @@ def support_of(walk: WalkState, frame: Pose, now: float) -> Array:
         for pose, foot in feet
     ]
     hull = convex_hull(np.concatenate(corners))
-    return chain(hull, HEIGHTS["support polygon"], closed=True)
+    return polyline(hull, HEIGHTS["support polygon"], closed=True)
 
 
-def safety_of(place: Array, radius: float) -> Array:
-    """Ring of the safety area round the evader."""
+def safety_ring(position: Array, radius: float) -> Array:
+    """Return a ring around a player; empty for an infinite radius.
+
+    Args:
+        position: Of the player, in the world, in [m]. Shape (2,).
+        radius: Safety radius, in [m].
+
+    Returns:
+        Segments. Shape (n, 2, 3).
+    """
     if radius == inf:
         return np.zeros((0, 2, 3))
-    x, y = place[:2].tolist()
-    return ring(x, y, radius, HEIGHTS["safety area"])
-
-
-__all__ = [
-    "COLOURS",
-    "EVADER",
-    "HEIGHTS",
-    "LAYERS",
-    "MEANINGS",
-    "THEORY",
-    "SceneLayers",
-    "chain",
-    "legend",
-    "path_of",
-    "prints_at",
-    "prints_of",
-    "pushes_at",
-    "ring",
-    "safety_of",
-    "support_of",
-]
+    x, y = position[:2].tolist()
+    return ring(x, y, radius, HEIGHTS["safety radius"])

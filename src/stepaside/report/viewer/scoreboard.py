@@ -1,24 +1,24 @@
-"""How long an evader survived the hand, and how near the hand came."""
+"""Scoreboard of teleoperation: survival time and closest approach."""
 
 from math import inf
 from threading import Lock
 from typing import NamedTuple
 
-KEPT = 8  # rounds of the table
-NEAR = 0.75  # share of the safety radius below which an approach is close
-WIDEST = 0.8  # safety radius of who has none, in [m]
-LASTING = 0.3  # how long an approach is the closest one, in [s]
-NOTICED = 1e-3  # by how much a closer one is closer, in [m]
+MAX_ROUNDS = 8  # of the table
+NEAR = 0.75  # fraction of the safety radius below which an approach is close
+MAX_RADIUS = 0.8  # in place of an infinite or larger safety radius, in [m]
+HOLD_TIME = 0.3  # time for which an approach counts as the closest, in [s]
+TOLERANCE = 1e-3  # by which a closer approach must be closer, in [m]
 
 
 class ScoreRound(NamedTuple):
-    """One round of the game.
+    """Result of one round.
 
     Attributes:
-        number: From 1 on.
-        survived: Simulated time that it lasted, in [s].
-        closest: Least distance, in [m].
-        ended: How, in words.
+        number: Number of the round, from 1.
+        survived: Survival time of the evader, in [s].
+        closest: Closest approach, in [m].
+        ended: How the round ended, as text.
     """
 
     number: int
@@ -28,10 +28,10 @@ class ScoreRound(NamedTuple):
 
 
 class Scoreboard:
-    """Rounds of one visit; whoever drives begins one."""
+    """Rounds of teleoperation since the page was started."""
 
     def __init__(self) -> None:
-        """Begin without a round."""
+        """Start without a round."""
         self._lock = Lock()
         self._rounds: list[ScoreRound] = []
         self._number = 0
@@ -43,66 +43,78 @@ class Scoreboard:
         self._closest, self._closest_at = inf, -inf
 
     def begin(self, time: float) -> None:
-        """Begin a round at a simulated time, in [s], unless one is on."""
+        """Begin a round, unless one has begun.
+
+        Args:
+            time: Simulated time, in [s].
+        """
         with self._lock:
             if self._began is None:
                 self._clear()
                 self._began = self._now = time
                 self._number += 1
 
-    def watch(self, time: float, distance: float) -> None:
-        """See how far apart the robots are, in [m]."""
+    def update(self, time: float, distance: float) -> None:
+        """Update the round with a distance.
+
+        Args:
+            time: Simulated time, in [s].
+            distance: Between the players, in [m].
+        """
         with self._lock:
             if self._began is None:
                 return
             self._now = max(time, self._began)
-            if distance < self._closest - NOTICED:
+            if distance < self._closest - TOLERANCE:
                 self._closest, self._closest_at = distance, self._now
 
     def end(self, how: str) -> None:
-        """End the round, if one is on.
+        """End the round, if one has begun.
 
         Args:
-            how: In words.
+            how: How it ended, as text.
         """
         with self._lock:
             if self._began is not None and self._closest < inf:
                 survived = self._now - self._began
                 ended = ScoreRound(self._number, survived, self._closest, how)
-                self._rounds = [*self._rounds, ended][-KEPT:]
+                self._rounds = [*self._rounds, ended][-MAX_ROUNDS:]
             self._clear()
 
     def is_close(self, safety: float) -> bool:
-        """Whether the closest approach of a round is being made.
+        """Return whether the closest approach of a round is happening.
 
         Args:
-            safety: Radius of the evader's safety area, in [m].
+            safety: Safety radius of the evader, in [m].
         """
         with self._lock:
-            near = self._closest < NEAR * min(safety, WIDEST)
-            return near and self._now - self._closest_at < LASTING
+            near = self._closest < NEAR * min(safety, MAX_RADIUS)
+            return near and self._now - self._closest_at < HOLD_TIME
 
-    def words(self) -> str:
-        """The round that is on, and a table of those before it."""
+    def text(self) -> str:
+        """Return the current round and a table of past rounds in Markdown."""
         with self._lock:
-            said = ""
+            current = ""
             if self._began is not None and self._closest < inf:
-                said = (
+                current = (
                     f"round {self._number}: the evader survived "
                     f"{self._now - self._began:.1f} s; closest approach "
                     f"{self._closest:.2f} m\n\n"
                 )
-            return said + _table(self._rounds)
+            return current + _table(self._rounds)
 
 
 def _table(rounds: list[ScoreRound]) -> str:
-    """Rounds as markdown; the closest of all is bold."""
+    """Return the rounds in Markdown; the closest approach is bold."""
     if not rounds:
         return ""
     best = min(each.closest for each in rounds)
-    rows = ["| round | survived | closest | ended |", "|--|--|--|--|"]
+    rows = [
+        "| round | survival time | closest approach | ended by |",
+        "|--|--|--|--|",
+    ]
     for number, survived, closest, ended in rounds:
-        told = f"{closest:.2f} m"
-        told = f"**{told}**" if closest == best else told
-        rows.append(f"| {number} | {survived:.1f} s | {told} | {ended} |")
+        cell = f"{closest:.2f} m"
+        cell = f"**{cell}**" if closest == best else cell
+        rows.append(f"| {number} | {survived:.1f} s | {cell} | {ended} |")
     return "\n".join(rows)

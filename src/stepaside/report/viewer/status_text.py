@@ -1,4 +1,4 @@
-"""What is going on, in words."""
+"""Status texts of a live duel: current state and outlook."""
 
 from math import inf, isfinite, log
 
@@ -7,12 +7,12 @@ from ...games.approach_forecast import CourseApproach, motion_words
 from ...games.duel import Duel
 from ...games.player import Player
 
-NEAR_DISTANCE = 0.05  # of theory's distance, on the circle
-NEAR_ANGLE = 5.0  # of theory's angle, on the circle, in [deg]
-LONGEST = 600.0  # for which a straight course is believed, in [s]
+NEAR_DISTANCE = 0.05  # relative tolerance of the distance on the circle
+NEAR_ANGLE = 5.0  # tolerance of the angle on the circle, in [deg]
+MAX_FORECAST = 600.0  # of an approach on a straight course, in [s]
 
 
-def words_of(
+def status_text(
     phases: tuple[Phase, Phase],
     distance: float,
     orientation: float,
@@ -21,15 +21,15 @@ def words_of(
     *,
     approach: CourseApproach | None = None,
 ) -> str:
-    """Say what two robots are doing.
+    """Return the state of a duel as text.
 
     Args:
-        phases: Of pursuer and evader.
+        phases: Phases of pursuer and evader.
         distance: Between the torsos, in [m].
         orientation: Angle between the headings, in [deg].
         safety_radius: Of the evader, in [m].
-        theory: Distance [m] and angle [deg] of the circle, if there is one.
-        approach: Of the pursuer to the evader, where it is known.
+        theory: Distance [m] and angle [deg] on the circle; None without one.
+        approach: Of the pursuer to the evader; None if it is unknown.
     """
     pursuer, evader = phases
     if Phase.FALLEN in phases:
@@ -43,15 +43,18 @@ def words_of(
         if pursuer is Phase.STANDING:
             return "both robots are **standing**"
         if safety_radius < inf and distance < safety_radius:
-            return "the evader is **triggered**: the pursuer came too near"
-        moves = motion_words(approach)
-        return f"the pursuer {moves}; the evader is **standing**"
+            return (
+                "the evader is **triggered**: the pursuer is within the "
+                "safety radius"
+            )
+        motion = motion_words(approach)
+        return f"the pursuer {motion}; the evader is **standing**"
     if evader is Phase.HALTING:
-        return "the evader comes to rest"
+        return "the evader is **halting**"
     if theory is not None:
-        away, angle = theory
+        circle_distance, angle = theory
         if (
-            abs(distance - away) < NEAR_DISTANCE * away
+            abs(distance - circle_distance) < NEAR_DISTANCE * circle_distance
             and abs(orientation - angle) < NEAR_ANGLE
         ):
             return "both robots are **on the circle**"
@@ -67,49 +70,54 @@ def outlook(
     theory: tuple[float, float] | None,
     settling: float | None,
 ) -> str:
-    """Say what is expected next, and when.
+    """Return what is expected next, and when, as text.
 
     Args:
         distance: Between the torsos, in [m].
-        phase: Of the evader.
+        phase: Phase of the evader.
         safety: Distance at which the evader begins to move, in [m].
-        approach: Of the pursuer to the evader, where it is known.
-        theory: Distance [m] and angle [deg] of the circle, if there is one.
-        settling: Time in which what is off it shrinks by e, in [s], if it
-            does.
+        approach: Of the pursuer to the evader; None if it is unknown.
+        theory: Distance [m] and angle [deg] on the circle; None without one.
+        settling: Time constant of the approach to the circle, in [s]; None
+            if it is not stable.
     """
     if phase is Phase.STANDING:
         if not isfinite(safety):
             return ""
-        told = f"The evader moves when the pursuer is within {safety:.2f} m"
+        text = f"The evader starts when the pursuer is within {safety:.2f} m"
         if approach is None or not approach.is_approaching:
-            return f"{told}."
+            return f"{text}."
         left = approach.time_to(safety)
         if left is None:
-            away = approach.closest
-            return f"{told}; on this course it passes {away:.2f} m from it."
-        return told + (f": in about {left:.0f} s." if left < LONGEST else ".")
+            closest = approach.closest
+            return (
+                f"{text}; on its present course the pursuer passes at "
+                f"{closest:.2f} m."
+            )
+        if left >= MAX_FORECAST:
+            return f"{text}."
+        return f"{text}: in about {left:.0f} s."
     if theory is None or settling is None:
-        return "Theory predicts no circle for this game."
-    away, angle = theory
-    told = (
-        f"Theory: on a circle, {away:.2f} m and {angle:.0f}\u00b0 between the "
-        "headings"
+        return "The theory predicts no circle for this game."
+    circle_distance, angle = theory
+    text = (
+        f"Theory: a circle with distance {circle_distance:.2f} m and "
+        f"{angle:.0f}\u00b0 between the headings"
     )
-    off = abs(distance - away) / away
-    if off <= NEAR_DISTANCE:
-        return f"{told}; the distance is within 5 % of it."
-    return f"{told}, in about {settling * log(off / NEAR_DISTANCE):.0f} s."
+    error = abs(distance - circle_distance) / circle_distance
+    if error <= NEAR_DISTANCE:
+        return f"{text}; the distance is within 5 % of it."
+    return f"{text}, in about {settling * log(error / NEAR_DISTANCE):.0f} s."
 
 
 def phases_of(duel: Duel) -> tuple[Phase, Phase]:
-    """What both players do; a true fall counts."""
+    """Return the phases of pursuer and evader."""
     pursuer, evader = (phase_of(player) for player in duel.players)
     return pursuer, evader
 
 
 def phase_of(player: Player) -> Phase:
-    """What a player does; who has no phases of its own walks."""
+    """Return the phase of a player; a player without phases is walking."""
     if player.has_fallen:
         return Phase.FALLEN
     walk = player.snapshot().walk

@@ -1,21 +1,23 @@
 "use strict";
-/* A stick for fingers and gamepads: says how far it is held, and no more. */
+/* Joystick for touch screens, and gamepad input; sends its position to the server. */
 (() => {
-  const DEAD = 0.25, EVERY = 100; // of the way that holds nothing; in [ms]
-  let told = "", due = 0, waiting = 0;
+  const DEAD_ZONE = 0.25; // fraction of full travel
+  const PERIOD = 100; // between two requests, in [ms]
+  let sent = "", due = 0, timer = 0;
 
-  function tell(right, up) {
-    const held = Math.hypot(right, up) > DEAD && up > -0.3;
-    const turn = held ? Math.max(-1, Math.min(1, -right)) : 0;
-    const says = `hand?turn=${turn.toFixed(2)}&going=${held ? 1 : 0}`;
-    clearTimeout(waiting);
+  /* Send the position of the stick: rightward and upward, each -1 to 1. */
+  function send(right, up) {
+    const going = Math.hypot(right, up) > DEAD_ZONE && up > -0.3;
+    const turn = going ? Math.max(-1, Math.min(1, -right)) : 0;
+    const request = `hand?turn=${turn.toFixed(2)}&going=${going ? 1 : 0}`;
+    clearTimeout(timer);
     const left = due - performance.now();
-    if (left > 0) { waiting = setTimeout(() => tell(right, up), left); return; }
-    if (says === told) return;
-    told = says;
-    due = performance.now() + EVERY;
-    fetch(says, { headers: { "X-Stepaside": "hand" }, cache: "no-store" })
-      .catch(() => { told = ""; });
+    if (left > 0) { timer = setTimeout(() => send(right, up), left); return; }
+    if (request === sent) return;
+    sent = request;
+    due = performance.now() + PERIOD;
+    fetch(request, { headers: { "X-Stepaside": "hand" }, cache: "no-store" })
+      .catch(() => { sent = ""; });
   }
 
   const style = document.createElement("style");
@@ -31,11 +33,11 @@
   stick.id = "stick";
   stick.setAttribute("role", "img");
   stick.setAttribute("aria-label",
-    "Stick that drives the pursuer; the keys are the arrows, g and h");
+    "Joystick that drives the pursuer; keys: arrows, g (go), h (halt)");
   stick.append(knob);
 
   let finger = null;
-  function hold(event) {
+  function follow(event) {
     const box = stick.getBoundingClientRect(), most = 0.5 * box.width;
     let right = (event.clientX - box.left - most) / most;
     let down = (event.clientY - box.top - most) / most;
@@ -43,35 +45,35 @@
     right /= far;
     down /= far;
     knob.style.transform = `translate(${32 * right}px, ${32 * down}px)`;
-    tell(right, -down);
+    send(right, -down);
   }
   stick.onpointerdown = (event) => {
     finger = event.pointerId;
     stick.setPointerCapture(finger);
     event.preventDefault();
-    hold(event);
+    follow(event);
   };
-  stick.onpointermove = (event) => { if (event.pointerId === finger) hold(event); };
+  stick.onpointermove = (event) => { if (event.pointerId === finger) follow(event); };
   stick.onpointerup = stick.onpointercancel = () => {
     finger = null;
     knob.style.transform = "";
-    tell(0, 0);
+    send(0, 0);
   };
 
-  /* Browsers tell of a gamepad once a button on it was pressed. */
-  let moved = false;
+  /* Browsers report a gamepad only after one of its buttons was pressed. */
+  let active = false;
   setInterval(() => {
     const pads = navigator.getGamepads ? [...navigator.getGamepads()] : [];
     const pad = pads.find((each) => each && each.axes.length > 1);
     if (!pad || finger !== null) return;
-    const [right, down] = pad.axes, held = Math.hypot(right, down) > DEAD;
-    if (held || moved) tell(right, -down);
-    moved = held;
-  }, EVERY);
+    const [right, down] = pad.axes, deflected = Math.hypot(right, down) > DEAD_ZONE;
+    if (deflected || active) send(right, -down);
+    active = deflected;
+  }, PERIOD);
 
   document.head.append(style);
-  const place = document.createElement("aside");
-  place.ariaLabel = "Driving";
-  place.append(stick);
-  document.body.append(place);
+  const aside = document.createElement("aside");
+  aside.ariaLabel = "Driving";
+  aside.append(stick);
+  document.body.append(aside);
 })();

@@ -1,4 +1,4 @@
-"""What each viewer of a page has alone: its light, and its camera."""
+"""Theme and camera of each viewer of a page."""
 
 from collections.abc import Sequence
 from math import hypot, tan
@@ -11,151 +11,158 @@ from ...arena import Room
 from ...core.poses import Array
 from ..palette import FLOORS
 from ..room_extent import wall_corners
-from .page_layout import dress
+from .page_layout import set_theme
 from .scene_layers import rgb
 
-CAMERAS = ("free", "follow", "top", "evader's eyes")
-ASIDE = np.array([-0.55, -0.85, 0.62])  # of a camera that follows, per [m]
-UPRIGHT = 0.8  # width over height of a page that is held upright
-NARROW = 1.5  # there: how much farther away a camera that follows is
-FREE = 0.52  # there: share of the picture over the sheet, with a margin
-BESIDE = 0.15  # margin around a room that is seen from above, in [m]
-AROUND = 1.0  # margin around players on an open floor: a safety area, in [m]
-LOOKED_AT = 0.2  # height of what is looked at, in [m]
-TALL = 0.7  # height of what is to be seen from above, in [m]
-SMALL = 3e-3  # moves of a camera that are not worth a message, in [m]
+CAMERAS = ("free", "follow", "top", "evader's view")
+FOLLOW_DIRECTION = np.array([-0.55, -0.85, 0.62])  # of the following camera
+MAX_PHONE_ASPECT = 0.8  # width over height of a phone held upright
+PHONE_DISTANCE = 1.5  # factor of the following camera's distance on a phone
+PHONE_IMAGE = 0.52  # fraction of the image above the panel of a phone
+ROOM_MARGIN = 0.15  # around a room in the top view, in [m]
+PLAYER_MARGIN = 1.0  # around players on an open floor, in [m]
+TARGET_HEIGHT = 0.2  # in [m]
+PLAYER_HEIGHT = 0.7  # that the top view shows, in [m]
+MIN_MOVE = 3e-3  # of a camera that is sent to the viewer, in [m]
 
 
 class ViewerClients:
-    """Lights and cameras of all who look, by the number of each.
+    """Themes and cameras of all connected viewers.
 
     Attributes:
-        cameras: Which camera each has; "free" if it is not here.
+        cameras: Camera of each viewer, by client number; "free" if missing.
     """
 
     def __init__(
-        self, server: viser.ViserServer, plan: Room | None = None
+        self, server: viser.ViserServer, room: Room | None = None
     ) -> None:
-        """Give everybody who comes a floor in its own light.
+        """Serve viewers that connect from now on.
 
         Args:
-            server: Of the page.
-            plan: Room that is seen from above; None for an open floor.
+            server: Server of the page.
+            room: Room that the top view shows; None for an open floor.
         """
         self._server = server
-        self._walls = wall_corners(plan)
-        self._lights: dict[int, str] = {}
+        self._walls = wall_corners(room)
+        self._themes: dict[int, str] = {}
         self.cameras: dict[int, str] = {}
-        server.on_client_connect(self._welcome)
-        server.on_client_disconnect(self._forget)
+        server.on_client_connect(self._connect)
+        server.on_client_disconnect(self._disconnect)
 
-    def _welcome(self, client: Any) -> None:
-        self._lights[client.client_id] = "light"
+    def _connect(self, client: Any) -> None:
+        self._themes[client.client_id] = "light"
         self.cameras.setdefault(client.client_id, "follow")
-        _lay_floor(client, "light")
+        _add_floor(client, "light")
 
-    def _forget(self, client: Any) -> None:
-        self._lights.pop(client.client_id, None)
+    def _disconnect(self, client: Any) -> None:
+        self._themes.pop(client.client_id, None)
         self.cameras.pop(client.client_id, None)
 
-    def turn_light(self, client: Any) -> None:
-        """Let the page of one viewer be dark if it is light, or light."""
-        if client is not None:
-            was = self._lights.get(client.client_id, "light")
-            self.light_up(client, "light" if was == "dark" else "dark")
-
-    def light_up(self, client: Any, light: str) -> None:
-        """Let the page of one viewer be light or dark.
+    def toggle_theme(self, client: Any) -> None:
+        """Switch the theme of one viewer.
 
         Args:
-            client: Who asks for it.
-            light: One of :data:`~stepaside.report.palette.LIGHTS`.
+            client: The viewer; None if it has disconnected.
+        """
+        if client is not None:
+            theme = self._themes.get(client.client_id, "light")
+            self.set_theme(client, "light" if theme == "dark" else "dark")
+
+    def set_theme(self, client: Any, theme: str) -> None:
+        """Set the theme of one viewer.
+
+        Args:
+            client: The viewer; None if it has disconnected.
+            theme: One of :data:`~stepaside.report.palette.THEMES`.
         """
         if client is None:
             return
-        self._lights[client.client_id] = light
-        dress(client.gui, light)
-        _lay_floor(client, light)
+        self._themes[client.client_id] = theme
+        set_theme(client.gui, theme)
+        _add_floor(client, theme)
 
     def choose(self, client: Any, camera: str) -> None:
-        """Give one viewer another camera.
+        """Set the camera of one viewer.
 
         Args:
-            client: Who asks for it.
+            client: The viewer; None if it has disconnected.
             camera: One of ``CAMERAS``.
         """
         if client is not None:
             self.cameras[client.client_id] = camera
 
-    def aim(self, places: Sequence[Array], heights: Sequence[float]) -> None:
-        """Move the cameras that go along.
+    def aim(
+        self, positions: Sequence[Array], heights: Sequence[float]
+    ) -> None:
+        """Move the cameras that are not free.
 
         Args:
-            places: Of the players, on the floor, in [m]. Shape (2,) each.
+            positions: Of the players in the world, in [m]. Shape (2,) each.
             heights: Of their centers of mass, in [m].
         """
         for number, client in self._server.get_clients().items():
-            camera = self.cameras.get(number, "free")
-            if camera == "free":
+            name = self.cameras.get(number, "free")
+            if name == "free":
                 continue
-            now = client.camera
-            if camera == CAMERAS[3]:
-                eye, target = _eyes(places, heights)
+            camera = client.camera
+            if name == CAMERAS[3]:
+                eye, target = _evader_view(positions, heights)
             else:
-                eye, target = self._over(now, camera == "top", places)
-            if np.abs(np.array(now.position) - eye).max() > SMALL:
+                eye, target = self._overview(camera, name == "top", positions)
+            if np.abs(np.array(camera.position) - eye).max() > MIN_MOVE:
                 with client.atomic():
-                    now.position, now.look_at = eye, target
+                    camera.position, camera.look_at = eye, target
 
-    def _over(
-        self, camera: Any, top: bool, places: Sequence[Array]
+    def _overview(
+        self, camera: Any, top: bool, positions: Sequence[Array]
     ) -> tuple[Array, Array]:
-        """Where a camera is that sees all players, and what it looks at.
+        """Return eye and target of a camera that shows all players.
 
-        On a phone a sheet covers the lower part of the picture: there all of
-        them, and from above all of the room, lie in the part over it.
+        On a phone the panel covers the lower part of the image, so that the
+        players, or the room in the top view, are shown above it.
         """
-        every = np.array(places)
-        low, high = every.min(axis=0), every.max(axis=0)
+        points = np.array(positions)
+        low, high = points.min(axis=0), points.max(axis=0)
         if top and len(self._walls):
-            low = np.minimum(low, self._walls.min(axis=0)) - BESIDE
-            high = np.maximum(high, self._walls.max(axis=0)) + BESIDE
+            low = np.minimum(low, self._walls.min(axis=0)) - ROOM_MARGIN
+            high = np.maximum(high, self._walls.max(axis=0)) + ROOM_MARGIN
         elif top:
-            low, high = low - AROUND, high + AROUND
-        target = np.array([*(0.5 * (low + high)), LOOKED_AT])
-        share = FREE if camera.aspect < UPRIGHT else 1.0
-        steep = tan(0.5 * camera.fov)
+            low, high = low - PLAYER_MARGIN, high + PLAYER_MARGIN
+        target = np.array([*(0.5 * (low + high)), TARGET_HEIGHT])
+        fraction = PHONE_IMAGE if camera.aspect < MAX_PHONE_ASPECT else 1.0
+        slope = tan(0.5 * camera.fov)
         half = 0.5 * (high - low)
         if top:
-            way = np.array([0.0, -5e-4, 1.0])
-            away = max(half[1] / share, half[0] / camera.aspect) / steep
-            away += TALL - LOOKED_AT
+            direction = np.array([0.0, -5e-4, 1.0])
+            distance = max(half[1] / fraction, half[0] / camera.aspect) / slope
+            distance += PLAYER_HEIGHT - TARGET_HEIGHT
         else:
-            way = ASIDE / np.linalg.norm(ASIDE)
-            wide = 1.3 + float(hypot(*(high - low)))
-            away = wide * float(np.linalg.norm(ASIDE))
-            away *= NARROW if share < 1.0 else 1.0
-        # The picture's own upward direction in the world.
-        ahead = -way / np.linalg.norm(way)
+            norm = float(np.linalg.norm(FOLLOW_DIRECTION))
+            direction = FOLLOW_DIRECTION / norm
+            distance = (1.3 + float(hypot(*(high - low)))) * norm
+            distance *= PHONE_DISTANCE if fraction < 1.0 else 1.0
+        # The image's upward direction in the world.
+        ahead = -direction / np.linalg.norm(direction)
         right = np.cross(ahead, [0.0, 1.0, 0.0] if top else [0.0, 0.0, 1.0])
         up = np.cross(right / np.linalg.norm(right), ahead)
-        target = target - (1.0 - share) * steep * away * up
-        return target - away * ahead, target
+        target = target - (1.0 - fraction) * slope * distance * up
+        return target - distance * ahead, target
 
 
-def _eyes(
-    places: Sequence[Array], heights: Sequence[float]
+def _evader_view(
+    positions: Sequence[Array], heights: Sequence[float]
 ) -> tuple[Array, Array]:
-    """From the evader's head to the pursuer. Shape (3,) each."""
-    first, second = places[0], places[min(1, len(places) - 1)]
-    toward = (first - second) / max(float(hypot(*(first - second))), 1e-6)
-    eye = np.array([*(second + 0.09 * toward), heights[-1] + 0.2])
-    return eye, np.array([*first, heights[0]])
+    """Return the evader's head and the pursuer, in [m]. Shape (3,) each."""
+    pursuer, evader = positions[0], positions[min(1, len(positions) - 1)]
+    sight = pursuer - evader
+    ahead = sight / max(float(hypot(*sight)), 1e-6)
+    eye = np.array([*(evader + 0.09 * ahead), heights[-1] + 0.2])
+    return eye, np.array([*pursuer, heights[0]])
 
 
-def _lay_floor(client: Any, light: str) -> None:
-    """Lay the floor of one viewer, on which shadows fall."""
-    floor = FLOORS[light]
+def _add_floor(client: Any, theme: str) -> None:
+    """Add the floor of one viewer, which receives shadows."""
+    floor = FLOORS[theme]
     client.scene.add_grid(
         "/floor",
         width=40.0,
