@@ -190,8 +190,8 @@ def test_how_clear_a_maneuver_is_depends_on_no_odometry(
         for around in (here, there)
     )
     moved = odometry.compose(support)
-    assert one.passage(plan, support) == pytest.approx(
-        two.passage(plan, moved), abs=1e-9
+    assert one.evaluate(plan, support) == pytest.approx(
+        two.evaluate(plan, moved), abs=1e-9
     )
 
 
@@ -228,7 +228,7 @@ def test_how_clear_a_maneuver_is_turns_with_all_that_stands_around(
     for moved in (Pose(0.0, 0.0, 0.0), room):
         around: Any = Around(moved.compose(here), moved)
         guard = Guard(around, OUTLINE, planner, margin=0.02)
-        found.append(guard.passage(plan, support))
+        found.append(guard.evaluate(plan, support))
     assert found[0] == pytest.approx(found[1], abs=1e-9)
 
 
@@ -258,7 +258,7 @@ def test_a_reference_turns_with_the_frame_of_its_plan(
         plain, row = (table.at(time) for table in tables)
         same_row(row, row_in(frame, plain))
     if swings:
-        assert plan.schedule.feels_swing
+        assert plan.schedule.has_swing_reaction
         assert any(hypot(*tables[0].at(t).reaction) > 1e-4 for t in (1.1, 1.2))
 
 

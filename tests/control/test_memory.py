@@ -2,7 +2,7 @@
 
 import pytest
 
-from stepaside.control.state_history import KEPT, StateHistory
+from stepaside.control.state_history import DURATION, StateHistory
 
 TICK = 0.02
 
@@ -39,9 +39,9 @@ def test_two_seconds_are_kept_and_no_more() -> None:
     memory = filled(500)
     newest = 499 * TICK
     assert memory.at(newest - 1.9) == pytest.approx(newest - 1.9)
-    oldest = newest - KEPT + TICK
+    oldest = newest - DURATION + TICK
     assert memory.at(0.0) == pytest.approx(oldest)
-    assert KEPT == 2.0
+    assert DURATION == 2.0
 
 
 def test_a_slow_clock_keeps_at_least_one() -> None:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from made_up_robot import FIRST, GAIT, STEP, FakeStrategy, Run
-from stepaside.control.strategy_runner import QUICKENING, next_pace
+from stepaside.control.strategy_runner import MAX_PACE_CHANGE, next_pace
 from stepaside.core.errors import PlanError
 from stepaside.core.poses import Pose
 from stepaside.games.outcome import Outcome
@@ -108,8 +108,8 @@ def test_a_change_at_one_stroke_would_take_more_of_the_sole() -> None:
 
 
 def test_a_walk_changes_its_pace_step_by_step() -> None:
-    assert next_pace(1.0, 0.5, standing=False) == 1.0 - QUICKENING
-    assert next_pace(0.5, 1.0, standing=False) == 0.5 + QUICKENING
+    assert next_pace(1.0, 0.5, standing=False) == 1.0 - MAX_PACE_CHANGE
+    assert next_pace(0.5, 1.0, standing=False) == 0.5 + MAX_PACE_CHANGE
     assert next_pace(0.6, 0.7, standing=False) == 0.7
     assert next_pace(1.0, 0.5, standing=True) == 0.5
 

@@ -9,7 +9,7 @@ import pytest
 
 from made_up_robot import FIRST, GAIT, STEP, TICK, FakeStrategy, Run, measure
 from stepaside.control.phase import Phase
-from stepaside.control.scheme import PATIENCE, SETTLING
+from stepaside.control.scheme import RETRY_PERIOD, SETTLING
 from stepaside.control.sight_sources import MeasuredSight
 from stepaside.core.poses import Pose
 from stepaside.perception.measurement import Sighting
@@ -308,7 +308,7 @@ def test_who_has_no_room_for_one_foot_tries_the_other(
         assert run.landings[0][1] is asked[-1]
         return
     assert run.phase() is Phase.STANDING and not run.steps
-    run.until(PATIENCE)
+    run.until(RETRY_PERIOD)
     assert len(asked) == 2
-    run.until(PATIENCE + 2.0 * TICK)
+    run.until(RETRY_PERIOD + 2.0 * TICK)
     assert asked == 2 * [foot, foot.other]

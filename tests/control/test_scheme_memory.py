@@ -10,7 +10,7 @@ from made_up_robot import GAIT, STEP, TICK, FakeStrategy, Run, measure
 from made_up_state import FakeEstimator
 from stepaside.control.phase import Phase
 from stepaside.control.sight_sources import CameraSight
-from stepaside.control.state_history import KEPT
+from stepaside.control.state_history import DURATION
 from stepaside.locomotion.zmp.control_settings import (
     ControlSettings,
     MpcSettings,
@@ -104,7 +104,7 @@ def weights(run: Run, rounds: int, times: int = 4) -> list[int]:
 
 def test_four_steps_are_whole_ticks() -> None:
     assert AGAIN * TICK == pytest.approx(4 * STEP, abs=1e-12)
-    assert AGAIN * TICK > KEPT
+    assert AGAIN * TICK > DURATION
 
 
 def test_twenty_thousand_ticks_leave_nothing_behind() -> None:

@@ -7,7 +7,11 @@ import numpy as np
 import pytest
 
 from made_up_robot import FakePerception, measure
-from stepaside.control.sight_sources import BELIEF, CameraSight, MeasuredSight
+from stepaside.control.sight_sources import (
+    CORRECTION,
+    CameraSight,
+    MeasuredSight,
+)
 from stepaside.core.constants import GRAVITY
 from stepaside.core.poses import Array, Pose
 from stepaside.locomotion.zmp.current_step import CurrentStep, resting_step
@@ -102,11 +106,11 @@ def test_without_one_gravity_is_believed_at_its_rate() -> None:
     sight, eyes = seeing()
     for i in range(round(2.0 / TICK)):
         sight.see(leaning(i * TICK, 0.04, -0.03), resting, None)
-    share = 1.0 - exp(-BELIEF * 2.0)
+    share = 1.0 - exp(-CORRECTION * 2.0)
     assert eyes.tilts[0] == pytest.approx((0.0, 0.0), abs=2e-4)
     expected = (0.04 * share, -0.03 * share)
     assert eyes.tilts[-1] == pytest.approx(expected, rel=5e-3)
-    assert BELIEF == 0.5
+    assert CORRECTION == 0.5
 
 
 def test_without_one_the_gyro_is_integrated() -> None:

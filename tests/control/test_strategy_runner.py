@@ -115,8 +115,8 @@ def test_a_robot_that_stands_remembers_but_not_what_made_it_walk() -> None:
 
     made = decisions(Counting())
     far, near = Sighting(0.0, 0.0, 3.0), Sighting(0.0, 0.0, 1.0)
-    assert not made.starts(0.0, far) and made.memory == 1
-    assert made.starts(0.0, near) and made.memory == 1
+    assert not made.should_start(0.0, far) and made.memory == 1
+    assert made.should_start(0.0, near) and made.memory == 1
     made.decide(0.0, near, moving=False)
     assert made.memory == 2
 
@@ -183,7 +183,7 @@ def test_a_speed_of_nothing_brings_it_to_rest() -> None:
         (lambda: dict[str, int]()["lost"], "KeyError: 'lost'"),
         (lambda: (Intent(nan), None), "PlanError: heading must be finite"),
         (lambda: None, "TypeError: cannot unpack"),
-        (lambda: (0.3, None), "decide gave no Intent, got 0.3"),
+        (lambda: (0.3, None), "decide must return an Intent, got 0.3"),
     ],
 )
 def test_a_strategy_that_gives_no_intent_is_told_from_other_errors(
@@ -198,7 +198,7 @@ def test_a_strategy_that_gives_no_intent_is_told_from_other_errors(
     made, seen = decisions(Failing()), Sighting(0.0, 0.1, 1.0)
     before = made.memory
     with pytest.raises(StrategyError, match=said):
-        made.starts(0.0, seen)
+        made.should_start(0.0, seen)
     with pytest.raises(StrategyError, match=said):
         made.decide(0.0, seen, moving=True)
     assert made.memory == before
@@ -221,8 +221,8 @@ def test_nobody_begins_to_walk_for_who_is_not_watched_long_enough() -> None:
     """A robot under way goes on all the same."""
     made = decisions()
     seen = Sighting(0.0, 0.3, 1.0)
-    assert made.starts(0.0, seen)
-    assert not made.starts(0.0, seen._replace(settled=False))
+    assert made.should_start(0.0, seen)
+    assert not made.should_start(0.0, seen._replace(settled=False))
     intent = made.decide(0.0, seen._replace(settled=False), moving=True)
     assert intent.walks
 

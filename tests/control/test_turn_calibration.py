@@ -8,9 +8,9 @@ import pytest
 from made_up_robot import TICK as FAKE_TICK
 from made_up_robot import FakeStrategy, Run, measure
 from stepaside.control.turn_calibration import (
-    LEAST,
-    MOST,
-    RESTED,
+    BIAS_TIME,
+    MAX_RATIO,
+    MIN_RATIO,
     TurnCalibration,
 )
 from stepaside.perception.measurement import Measurement
@@ -65,19 +65,23 @@ def test_what_was_long_ago_is_forgotten() -> None:
 
 def test_what_is_asked_for_is_made() -> None:
     turns = stood()
-    assert turns.asked(1.2) == 1.2
+    assert turns.compensate(1.2) == 1.2
     walked(turns, 0.9)
     for heading in (-1.6, -0.3, 0.0, 0.8, 1.6):
-        assert turns.share * turns.asked(heading) == pytest.approx(heading)
-    assert turns.asked(-3.1) == -pi and turns.asked(3.1) == pi
-    assert turns.asked(4.0) == 4.0  # as by (8), where a turn is not wrapped
+        assert turns.share * turns.compensate(heading) == pytest.approx(
+            heading
+        )
+    assert turns.compensate(-3.1) == -pi and turns.compensate(3.1) == pi
+    assert (
+        turns.compensate(4.0) == 4.0
+    )  # as by (8), where a turn is not wrapped
 
 
 def test_nothing_is_believed_without_a_bias_a_turn_or_a_reason() -> None:
     assert set(walked(TurnCalibration(TICK), 0.9)) == {1.0}
     assert set(walked(stood(), 0.9, rate=0.01)) == {1.0}
-    assert walked(stood(), 0.2)[-1] == LEAST
-    assert walked(stood(), 3.0)[-1] == MOST
+    assert walked(stood(), 0.2)[-1] == MIN_RATIO
+    assert walked(stood(), 3.0)[-1] == MAX_RATIO
 
 
 def turn_of_a_step(made: float, *, learns: bool) -> float:
@@ -111,21 +115,21 @@ def test_a_robot_without_a_gyro_about_the_vertical_turns_as_it_is_told() -> (
     None
 ):
     turns = TurnCalibration(FAKE_TICK)
-    for i in range(round(2.0 * RESTED / FAKE_TICK)):
-        assert turns.rested == (i * FAKE_TICK >= RESTED)
+    for i in range(round(2.0 * BIAS_TIME / FAKE_TICK)):
+        assert turns.ready == (i * FAKE_TICK >= BIAS_TIME)
         turns.note(nan, 0.0, stands=True)
     for i in range(1000):
         turns.note(nan, 0.01 * i, stands=False)
-    assert turns.share == 1.0 and turns.asked(0.5) == 0.5
+    assert turns.share == 1.0 and turns.compensate(0.5) == 0.5
 
 
 def test_who_learns_stands_until_the_bias_of_the_gyro_is_known() -> None:
     run = Run()
     run.scheme.decisions.turns = turns = TurnCalibration(FAKE_TICK)
-    run.until(RESTED - 2 * FAKE_TICK)
-    assert run.replans == 0 and not turns.rested
-    run.until(RESTED + 2 * FAKE_TICK)
-    assert run.replans == 1 and turns.rested
+    run.until(BIAS_TIME - 2 * FAKE_TICK)
+    assert run.replans == 0 and not turns.ready
+    run.until(BIAS_TIME + 2 * FAKE_TICK)
+    assert run.replans == 1 and turns.ready
 
 
 def test_a_robot_whose_feet_twist_turns_as_it_wants() -> None:

@@ -288,10 +288,10 @@ def test_tails_assume_what_their_names_say() -> None:
     now = p.sample([passed])
     lead = (now.dcm - now.zmp)[0]
     share = 1.0 - np.exp(-GAIT.eta * span)
-    truncated = mpc._wanted(p, passed, ZERO, ZERO)
+    truncated = mpc._boundedness(p, passed, ZERO, ZERO)
     np.testing.assert_allclose(truncated, lead - inside, atol=1e-6)
-    repeated = solver(tail="periodic")._wanted(p, passed, ZERO, ZERO)
+    repeated = solver(tail="periodic")._boundedness(p, passed, ZERO, ZERO)
     np.testing.assert_allclose(repeated, share * lead - inside, atol=1e-6)
     shift = np.array([0.002, -0.001])
-    moved = mpc._wanted(p, passed, shift, ZERO)
+    moved = mpc._boundedness(p, passed, shift, ZERO)
     np.testing.assert_allclose(moved - truncated, shift, atol=1e-12)

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from stepaside.planning import PRESETS
 from stepaside.strategies import Evasion, EvasionMemory, Knowledge, Limits
 from stepaside.strategies.approach import (
-    SHARPEST,
+    MAX_HEADING,
     Approach,
     clearance_of,
     swift_heading,
@@ -80,7 +80,7 @@ def test_what_was_seen_a_while_ago_has_moved_on() -> None:
 def test_a_swift_turn_takes_what_it_can_of_an_error(error: float) -> None:
     share = LIMITS.gain * LIMITS.stride / LIMITS.speed
     turned = share * swift_heading(error, LIMITS)
-    most = share * SHARPEST
+    most = share * MAX_HEADING
     assert turned == pytest.approx(max(-most, min(most, error)), abs=1e-12)
 
 
@@ -173,7 +173,7 @@ def test_the_angle_is_kept_to_where_the_other_comes_from(
     intent, memory = strategy.decide(coming(2.0, 1.0, 0.02), strategy.begin())
     share = LIMITS.gain * LIMITS.stride / LIMITS.speed
     wanted = 0.02 + memory.side * angle
-    turned = max(-share * SHARPEST, min(share * SHARPEST, wanted))
+    turned = max(-share * MAX_HEADING, min(share * MAX_HEADING, wanted))
     assert share * intent.heading == pytest.approx(turned, abs=1e-6)
 
 

@@ -31,7 +31,7 @@ from stepaside.strategies.look_ahead import (
     rules_of,
 )
 from stepaside.strategies.opponent_track import (
-    STEPS_OFF,
+    PREDICTION_STD,
     Trace,
     note,
     pursuer_heading,
@@ -278,14 +278,14 @@ def test_what_is_not_sure_counts_as_much_as_it_is() -> None:
     assert (exact[-1].x, exact[-1].y) == pytest.approx((0.91, 0.2))
     steady = walked_past(0.1, 0.0)
     assert steady[-1].y == pytest.approx(0.0, abs=1e-12)
-    half = walked_past(STEPS_OFF, 0.2)
+    half = walked_past(PREDICTION_STD, 0.2)
     assert half[-1].y == pytest.approx(0.1)
     assert walked_past(10.0, 0.2)[-1].y == pytest.approx(0.0, abs=1e-4)
     # Who goes on as before is found there, however vague it is.
     trace = exact[:1]
     for n in range(1, 9):
         known = know(0.0, 1.0 - 0.03 * n, Pose(0.0, 0.0, 0.0), 0.4 * n)
-        trace = note(trace, replace(known, spread=STEPS_OFF))
+        trace = note(trace, replace(known, spread=PREDICTION_STD))
     assert trace[-1].x == pytest.approx(1.0 - 0.03 * 8, abs=0.01)
 
 

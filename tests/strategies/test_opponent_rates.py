@@ -59,7 +59,7 @@ def test_few_sightings_are_kept_for_however_long() -> None:
     rates = SightRates(STEP)
     for tick in range(5000):
         rates.note(0.004 * tick, 0.0, 1.0)
-    assert len(rates._seen) <= 20
+    assert len(rates._samples) <= 20
 
 
 @pytest.mark.parametrize("every", [0.004, 0.1, STEP])

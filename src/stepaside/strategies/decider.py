@@ -1,4 +1,4 @@
-"""A strategy at work: what it remembers, and what it is told."""
+"""Execution of a strategy in a template game, with its memory."""
 
 from math import cos, sin
 from typing import Any
@@ -13,10 +13,10 @@ from .strategy import Strategy
 
 
 class TemplatePlayer:
-    """A player of a game of templates, by a strategy.
+    """Player of a template game.
 
     Attributes:
-        strategy: How it plays.
+        strategy: Strategy of the player.
     """
 
     def __init__(
