@@ -15,15 +15,19 @@ from stepaside.planning import GaitSettings
 from stepaside.robots.description import load_robot
 from stepaside.robots.forward_kinematics import ForwardKinematics
 
-ROOMS = ("robots", "sensing", "perception", "strategies", "control")
+ROOMS = ("robots", "perception", "strategies", "control")
 TICK = 0.004
 
 # Where models are read, changed and compiled.
 WITH_MUJOCO = [
     f"stepaside.robots.{name}"
     for name in (
-        *("compiling", "facing", "inertias"),
-        *("meshes", "overlaying", "reading"),
+        "inertia_repair",
+        "mesh_files",
+        "model_overlay",
+        "model_reader",
+        "torso_frame",
+        "tree_compiler",
     )
 ]
 

@@ -24,7 +24,7 @@ from stepaside.strategies import (
     Pursuit,
 )
 from stepaside.strategies.approach import Approach
-from stepaside.strategies.decider import TemplatePlayer
+from stepaside.strategies.decision_maker import TemplatePlayer
 from stepaside.strategies.look_ahead import moved_on
 from stepaside.strategies.opponent_track import Trace, heading_of_way, note
 from stepaside.strategies.search import PlayerPair
@@ -280,15 +280,13 @@ def test_a_player_is_told_the_velocity_in_its_own_frame(
 ) -> None:
     """Of the other on the floor, however the own body moves and turns."""
     strategy: Any = Noting()
-    decider = TemplatePlayer(
-        strategy, LIMITS, STEP, SOLIDS, sees_velocity=True
-    )
+    player = TemplatePlayer(strategy, LIMITS, SOLIDS)
     for i in range(6):
         time = STEP * i
         here = own.compose(Pose(-0.03 * i, 0.0, 0.3 * i))
         there = Pose(own.x + 2.0 + u * time, own.y + v * time, 0.0)
         x, y, _ = here.inverse().compose(there)
-        decider.decide(time, here, atan2(y, x), hypot(x, y))
+        player.decide(time, here, atan2(y, x), hypot(x, y))
     first, last = strategy.told[0], strategy.told[-1]
     assert first.velocity is None and last.pose == here
     assert last.obstacles == SOLIDS and last.age == 0.0

@@ -1,16 +1,14 @@
 """Execution of the strategy of one robot, with its memory."""
 
 from dataclasses import replace
-from math import cos, pi, sin
-from typing import Any
+from math import pi
 
-from ..core.poses import Pose, wrap_angle
+from ..core.poses import Pose
 from ..perception.measurement import Measurement, Sighting
 from ..planning import Foot, GaitSettings
 from ..planning.template_path import passed_beside
-from ..strategies.foreign_code import ask
+from ..strategies.decision_maker import DecisionMaker
 from ..strategies.knowledge import ON_THE_SPOT, Intent, Knowledge, Limits
-from ..strategies.opponent_rates import FloorVelocity, SightRates
 from ..strategies.strategy import Strategy
 from .clearance.surroundings import OpenFloor, Surroundings
 from .state_history import StateHistory
@@ -36,7 +34,7 @@ def next_pace(before: float, wanted: float, *, standing: bool) -> float:
     return min(max(wanted, before - MAX_PACE_CHANGE), before + MAX_PACE_CHANGE)
 
 
-class StrategyRunner:
+class StrategyRunner(DecisionMaker):
     """Strategy of a robot with its memory and its history of states.
 
     Attributes:
@@ -64,25 +62,17 @@ class StrategyRunner:
             tick: Control period, in [s].
             surroundings: Known obstacles; none by default.
         """
+        super().__init__(
+            strategy,
+            Limits(gait.speed, gait.gain, gait.stride, gait.step_duration),
+        )
         self._surroundings = surroundings or OpenFloor()
-        self.strategy = strategy
-        self.memory: Any = strategy.begin()
         self.pace = 1.0
         self.headings: StateHistory[float] = StateHistory(tick)
         self.templates: StateHistory[Pose] = StateHistory(tick)
         self.turns: TurnCalibration | None = None
-        self._step_duration = gait.step_duration
         self._spacing = gait.foot_spacing
         self._track = 0
-        self._reset_rates()
-        self._limits = Limits(
-            gait.speed, gait.gain, gait.stride, gait.step_duration
-        )
-
-    def _reset_rates(self) -> None:
-        """Forget the motion of the opponent."""
-        self._rates = SightRates(self._step_duration)
-        self._drift = FloorVelocity(self._step_duration)
 
     def calibrate(self, measurement: Measurement, *, stands: bool) -> None:
         """Update the turn calibration, if there is one.
@@ -95,17 +85,6 @@ class StrategyRunner:
             heading = self.templates.at(measurement.time).theta
             rate = float(measurement.gyro[2])
             self.turns.note(rate, heading, stands=stands)
-
-    def adopt(self, strategy: Strategy) -> None:
-        """Replace the strategy from the next decision on.
-
-        Args:
-            strategy: New strategy. One of the same class continues with the
-                present memory; another class begins anew.
-        """
-        if type(strategy) is not type(self.strategy):
-            self.memory = strategy.begin()
-        self.strategy = strategy
 
     def should_start(
         self, now: float, sighting: Sighting | None, turning: float = 0.0
@@ -129,7 +108,7 @@ class StrategyRunner:
         if sighting is None:
             return turning != 0.0
         known = self._knowledge(now, sighting, moving=False)
-        intent, memory = ask(self.strategy, known, self.memory)
+        intent, memory = self.preview(known)
         if not intent.walks:
             self.memory = memory
         # A new track does not yet determine the opponent's path.
@@ -164,7 +143,7 @@ class StrategyRunner:
             begins = passed_beside(*stands, self._spacing)
             begins = self._surroundings.frame.compose(begins)
             known = replace(known, begins=begins)
-        intent, self.memory = ask(self.strategy, known, self.memory)
+        intent = self.evaluate(known)
         if self.turns is not None:
             intent = replace(
                 intent, heading=self.turns.compensate(intent.heading)
@@ -186,33 +165,19 @@ class StrategyRunner:
         if sighting.who != self._track:
             # A different person: its motion is unknown.
             self._track = sighting.who
-            self._reset_rates()
+            self.reset_rates()
         template = self.templates.at(sighting.time)
         sight = self.headings.at(sighting.time) + sighting.bearing
-        rates = self._rates.note(sighting.time, sight, sighting.distance)
-        position = template.compose(
-            Pose(
-                sighting.distance * cos(sight - template.theta),
-                sighting.distance * sin(sight - template.theta),
-                0.0,
-            )
-        )
-        drift = self._drift.note(sighting.time, position.x, position.y)
-        if drift is not None:
-            turned = Pose(0.0, 0.0, -template.theta)
-            drift = turned.compose(Pose(*drift, 0.0))[:2]
-        return Knowledge(
+        return self.observe(
             now,
-            wrap_angle(sight - template.theta),
+            template,
+            sight,
+            sight - template.theta,
             sighting.distance,
-            self._limits,
-            rates.bearing_rate,
-            rates.closing_speed,
-            max(0.0, now - sighting.time),
-            self._surroundings.frame.compose(template),
-            moving,
-            self._surroundings.solids.shapes,
-            drift,
+            time=sighting.time,
+            frame=self._surroundings.frame,
+            moving=moving,
+            obstacles=self._surroundings.solids.shapes,
             spread=sighting.spread,
             blur=self._surroundings.blur,
         )

@@ -14,7 +14,7 @@ from ..core.constants import CAPTURE_DISTANCE
 from ..core.errors import check_bearing, check_positive, check_within
 from ..core.poses import Array, Pose, wrap_angle
 from ..planning import Direction
-from .decider import TemplatePlayer
+from .decision_maker import TemplatePlayer
 from .knowledge import Intent, Limits
 from .search.packed_obstacles import clearance_at
 from .strategy import Strategy
@@ -147,8 +147,8 @@ class _StepPlayer:
         solids: tuple[Obstacle, ...],
     ) -> None:
         self.strategy, self.pose, self.game = strategy, pose, game
-        self._decider = TemplatePlayer(
-            strategy, game.limits, game.period, solids
+        self._player = TemplatePlayer(
+            strategy, game.limits, solids, estimates_velocity=False
         )
 
     def bearing_of(self, other: Pose) -> float:
@@ -161,7 +161,7 @@ class _StepPlayer:
         x, y, _ = self.pose
         distance = hypot(other.x - x, other.y - y)
         bearing = self.bearing_of(other)
-        return self._decider.decide(time, self.pose, bearing, distance)
+        return self._player.decide(time, self.pose, bearing, distance)
 
     def after(self, intent: Intent) -> Pose:
         """Return the pose after a decision: the exact arc of the maneuver."""

@@ -10,7 +10,7 @@ from ..core.poses import Array, Pose
 from ..planning.path import UnicycleTrajectory
 from ..theory.unicycle.relative_coordinates import RelativeStart
 from ..theory.unicycle.unicycle_game import Unicycle
-from .decider import TemplatePlayer
+from .decision_maker import TemplatePlayer
 from .knowledge import Intent, Limits
 from .strategy import Strategy
 
@@ -55,13 +55,11 @@ class _UnicyclePlayer:
     ) -> None:
         self.strategy, self.body, self.pose = strategy, body, pose
         limits = Limits(body.speed, body.gain, body.speed * period, period)
-        self._decider = TemplatePlayer(
-            strategy, limits, period, sees_velocity=True
-        )
+        self._player = TemplatePlayer(strategy, limits)
 
     def decide(self, time: float, bearing: float, distance: float) -> Intent:
         """Evaluate the strategy."""
-        return self._decider.decide(time, self.pose, bearing, distance)
+        return self._player.decide(time, self.pose, bearing, distance)
 
     def drive(self, intent: Intent, times: Array) -> Array:
         """Drive along a decision; poses at times since then. Shape (n, 3)."""
