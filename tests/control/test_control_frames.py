@@ -140,7 +140,7 @@ def told(odometry: Pose, room: Pose) -> Knowledge:
 
 @FEW
 @given(MOVED, MOVED)
-def test_a_strategy_is_told_places_in_the_room_and_velocities_in_its_frame(
+def test_knowledge_has_poses_in_the_room_and_velocities_in_its_frame(
     odometry: Pose, room: Pose
 ) -> None:
     """Wherever odometry lies; obstacles and poses are in the same frame."""
@@ -197,7 +197,7 @@ def test_how_clear_a_maneuver_is_depends_on_no_odometry(
 
 @FEW
 @given(MOVED, MOVED, MOVED)
-def test_a_measured_place_puts_odometry_where_the_body_is(
+def test_a_measured_pose_aligns_odometry_with_the_body(
     start: Pose, planned: Pose, place: Pose
 ) -> None:
     """What was planned for the body, seen from the room, is its place."""
@@ -215,7 +215,7 @@ def test_a_measured_place_puts_odometry_where_the_body_is(
 
 @FEW
 @given(METRES, METRES, st.integers(0, 63), MOVED)
-def test_how_clear_a_maneuver_is_turns_with_all_that_stands_around(
+def test_maneuver_clearance_is_invariant_to_rotation(
     x: float, y: float, turns: int, support: Pose
 ) -> None:
     """Step and halt alike; by as much as distances are told along."""
@@ -381,7 +381,9 @@ def test_feedback_turns_with_odometry(frame: Pose, method: str) -> None:
 
 
 @pytest.mark.parametrize("late", [0, 1, 4])
-def test_what_is_told_of_a_body_was_asked_a_delay_ago(late: int) -> None:
+def test_the_estimator_gets_the_delayed_command_in_any_frame(
+    late: int,
+) -> None:
     """Feet, acceleration and swing reaction, all of the same instant."""
     feedback, fake = stabiliser(delay=late * TICK)
     made: FakeEstimator = fake
@@ -457,9 +459,7 @@ class Paced:
 
 @pytest.mark.parametrize("lost", [False, True])
 @pytest.mark.parametrize("pace", [1.0, 0.75, 0.5])
-def test_a_robot_halts_at_the_pace_at_which_it_walks(
-    pace: float, lost: bool
-) -> None:
+def test_a_halt_has_the_pace_of_the_walk(pace: float, lost: bool) -> None:
     """Whether it wants to stand or lost the other."""
     strategy = Paced(pace)
     run = Run(strategy)

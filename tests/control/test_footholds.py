@@ -82,7 +82,7 @@ def clear(p: ManeuverPlan, solids: tuple[Obstacle, ...]) -> Array:
 
 
 @pytest.mark.parametrize("solids", [(), (Disc(3.0, 0.0, 0.5),)])
-def test_with_nothing_near_it_is_the_plan_itself(
+def test_without_obstacles_nearby_the_plan_is_unchanged(
     solids: tuple[Obstacle, ...],
 ) -> None:
     wanted = plan(0.4)
@@ -184,7 +184,7 @@ def test_no_other_footsteps_change_the_plan_less(seed: int) -> None:
     assert cost(best) > 1e-5
 
 
-def test_who_is_too_near_already_comes_no_nearer() -> None:
+def test_inside_the_clearance_footsteps_come_no_nearer() -> None:
     wanted = plan(0.0)
     start = FRAME.compose(Pose(0.0, 0.5 * GAIT.foot_spacing, 0.0))
     out = FRAME.theta + pi

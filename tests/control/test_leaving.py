@@ -72,7 +72,7 @@ def test_a_step_sways_to_where_a_map_sees_a_wall() -> None:
     assert clearance.now > clearance.least > clearance.now - CELL
 
 
-def test_who_has_room_to_stand_takes_no_such_way() -> None:
+def test_outside_the_margin_no_escape_is_chosen() -> None:
     assert beside(0.021, seen(), out=True) is None
 
 
@@ -90,7 +90,7 @@ def test_who_has_room_to_stand_takes_no_such_way() -> None:
         ),  # where it stands is room enough
     ],
 )
-def test_a_way_out_leads_farther_and_comes_hardly_nearer(
+def test_an_escape_ends_farther_and_hardly_approaches(
     clearance: ManeuverClearance, escapes: bool
 ) -> None:
     assert clearance.escapes(MARGIN, 0.05) is escapes
@@ -98,7 +98,7 @@ def test_a_way_out_leads_farther_and_comes_hardly_nearer(
     assert clearance.escapes(MARGIN, 0.0) is strict
 
 
-def test_of_two_ways_out_the_one_that_comes_least_near_is_taken(
+def test_the_escape_with_the_largest_clearance_is_chosen(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     random = np.random.default_rng(3)
@@ -119,7 +119,7 @@ def test_of_two_ways_out_the_one_that_comes_least_near_is_taken(
     assert told[chosen].least == max(p.least for p in told.values())
 
 
-def test_a_way_out_ends_farther_by_a_little_or_at_the_margin() -> None:
+def test_an_escape_gains_clearance_or_ends_at_the_margin() -> None:
     """Else somebody would shuffle there for ever."""
     for last, escapes in ((0.013, False), (0.0141, True)):
         assert (
@@ -138,7 +138,7 @@ def begun(around: Any) -> Foot | None:
     return None if plan is None else plan.first_foot
 
 
-def test_neither_foot_is_left_out_for_a_loose_way() -> None:
+def test_relaxed_attempts_use_both_feet() -> None:
     """A disc at the right: who swings the right foot first sways off it."""
     ahead = plan_for(GuardDecision(Intent(0.0)))
     around: Any

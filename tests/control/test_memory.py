@@ -35,7 +35,7 @@ def test_before_memory_begins_the_oldest_counts() -> None:
     assert filled(50).at(-1.0) == 0.0
 
 
-def test_two_seconds_are_kept_and_no_more() -> None:
+def test_history_covers_two_seconds() -> None:
     memory = filled(500)
     newest = 499 * TICK
     assert memory.at(newest - 1.9) == pytest.approx(newest - 1.9)

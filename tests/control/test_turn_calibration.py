@@ -50,20 +50,22 @@ def stood() -> TurnCalibration:
 
 @pytest.mark.parametrize("rate", [RATE, -RATE])
 @pytest.mark.parametrize("made", [0.9, 1.0, 1.1])
-def test_the_share_is_that_of_the_turn_made(made: float, rate: float) -> None:
+def test_the_estimated_ratio_matches_the_actual_turn(
+    made: float, rate: float
+) -> None:
     """Around the whole circle, and with a bias as great as the slip."""
     shares = walked(stood(), made, rate=rate)
     assert shares[-1] == pytest.approx(made, abs=0.01)
     assert shares[0] == 1.0
 
 
-def test_what_was_long_ago_is_forgotten() -> None:
+def test_old_turns_are_forgotten() -> None:
     turns = stood()
     walked(turns, 0.9)
     assert walked(turns, 1.05)[-1] == pytest.approx(1.05, abs=0.01)
 
 
-def test_what_is_asked_for_is_made() -> None:
+def test_compensated_headings_yield_the_desired_turn() -> None:
     turns = stood()
     assert turns.compensate(1.2) == 1.2
     walked(turns, 0.9)
@@ -77,7 +79,7 @@ def test_what_is_asked_for_is_made() -> None:
     )  # as by (8), where a turn is not wrapped
 
 
-def test_nothing_is_believed_without_a_bias_a_turn_or_a_reason() -> None:
+def test_the_ratio_needs_a_bias_and_a_turn_and_is_bounded() -> None:
     assert set(walked(TurnCalibration(TICK), 0.9)) == {1.0}
     assert set(walked(stood(), 0.9, rate=0.01)) == {1.0}
     assert walked(stood(), 0.2)[-1] == MIN_RATIO
@@ -104,16 +106,14 @@ def turned(now: float, rate: float) -> Measurement:
     return measure(now)._replace(gyro=np.array([0.0, 0.0, rate + BIAS]))
 
 
-def test_a_reading_that_is_no_number_tells_nothing() -> None:
+def test_nan_readings_are_ignored() -> None:
     turns = stood()
     turns.note(nan, 0.0, stands=False)
     turns.note(nan, 0.0, stands=True)
     assert walked(turns, 0.9)[-1] == pytest.approx(0.9, abs=0.01)
 
 
-def test_a_robot_without_a_gyro_about_the_vertical_turns_as_it_is_told() -> (
-    None
-):
+def test_without_a_vertical_gyro_headings_are_unchanged() -> None:
     turns = TurnCalibration(FAKE_TICK)
     for i in range(round(2.0 * BIAS_TIME / FAKE_TICK)):
         assert turns.ready == (i * FAKE_TICK >= BIAS_TIME)
@@ -123,7 +123,7 @@ def test_a_robot_without_a_gyro_about_the_vertical_turns_as_it_is_told() -> (
     assert turns.share == 1.0 and turns.compensate(0.5) == 0.5
 
 
-def test_who_learns_stands_until_the_bias_of_the_gyro_is_known() -> None:
+def test_a_calibrating_robot_stands_until_the_bias_is_known() -> None:
     run = Run()
     run.scheme.decisions.turns = turns = TurnCalibration(FAKE_TICK)
     run.until(BIAS_TIME - 2 * FAKE_TICK)
@@ -132,7 +132,7 @@ def test_who_learns_stands_until_the_bias_of_the_gyro_is_known() -> None:
     assert run.replans == 1 and turns.ready
 
 
-def test_a_robot_whose_feet_twist_turns_as_it_wants() -> None:
+def test_twisting_feet_are_compensated() -> None:
     wanted = turn_of_a_step(0.9, learns=False)
     assert wanted == turn_of_a_step(1.0, learns=False) > 0.05
     asked = turn_of_a_step(0.9, learns=True)

@@ -89,14 +89,14 @@ def test_the_open_loop_passes_everything_on_unchanged() -> None:
     assert (plan, begun) == ("plan", state) and asked == [state]
 
 
-def test_the_open_loop_knows_nothing_and_holds_nobody_back() -> None:
+def test_the_open_loop_has_no_estimate_and_is_always_ready() -> None:
     loop: Any = OpenLoop()
     assert loop.ready and not loop.has_fallen and loop.adapted == 0
     assert loop.state is loop.solved is loop.tilt is None
     assert loop.torso_heading is None
 
 
-def test_feedback_asks_beforehand_for_what_the_servos_give_way() -> None:
+def test_feedback_adds_the_load_feedforward() -> None:
     """By the share that is set, for the body asked and the ZMP as shifted."""
     gains = SimpleNamespace(load_share=0.5)
     fake = stabiliser(
@@ -191,7 +191,7 @@ def test_settings_open_or_close_the_loop() -> None:
 
 
 @pytest.mark.parametrize("seen", [None, Sighting(0.0, 0.1, 2.0)])
-def test_a_mind_is_put_together_without_a_world(seen: Sighting | None) -> None:
+def test_a_scheme_is_built_without_a_simulation(seen: Sighting | None) -> None:
     wish = Pursuit()
     mind = build_scheme(wish, NAO, GAIT, OPEN_LOOP, tick=0.004, sighting=seen)
     assert mind.decisions.strategy is wish and mind.settings is GAIT
@@ -203,14 +203,14 @@ def test_a_mind_is_put_together_without_a_world(seen: Sighting | None) -> None:
     assert targets is mind.joint_targets
 
 
-def test_a_mind_learns_turns_if_it_is_to() -> None:
+def test_a_scheme_calibrates_turns_if_enabled() -> None:
     for control in (OPEN_LOOP, replace(OPEN_LOOP, learn_turns=True)):
         mind = build_scheme(Pursuit(), NAO, GAIT, control, tick=0.004)
         learns = isinstance(mind.decisions.turns, TurnCalibration)
         assert learns is control.learn_turns
 
 
-def test_a_mind_with_a_perception_sees_with_it() -> None:
+def test_a_scheme_uses_its_perception() -> None:
     around = SimpleNamespace(behind=True)
     eyes: Any = SimpleNamespace(forward=ForwardKinematics(NAO), around=around)
     mind = build_scheme(

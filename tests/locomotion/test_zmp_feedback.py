@@ -66,7 +66,7 @@ def test_the_sole_that_stands_limits_it(swing: Foot) -> None:
         assert made.to_support(*p) == pytest.approx(corner)
 
 
-def test_the_mpc_is_asked_in_the_axes_of_its_plan() -> None:
+def test_the_mpc_is_solved_in_the_plan_frame() -> None:
     fake: Any = FakeMpc()
     rule = MpcFeedback(fake, RULE, TICK)
     made = walking()
@@ -80,7 +80,7 @@ def test_the_mpc_is_asked_in_the_axes_of_its_plan() -> None:
     assert rule.solved is fake.answer
 
 
-def test_the_mpc_is_not_asked_for_what_the_plan_answers() -> None:
+def test_the_mpc_is_skipped_without_a_shift() -> None:
     fake: Any = FakeMpc()
     rule = MpcFeedback(fake, RULE, TICK)
     assert rule.shift(walking(), (0.0, 0.0), (0.0, 0.0)) == (0.0, 0.0)
@@ -94,7 +94,7 @@ def test_the_mpc_is_not_asked_for_what_the_plan_answers() -> None:
     assert rule.solved is None  # an answer is of its tick
 
 
-def test_who_stands_needs_no_mpc() -> None:
+def test_a_standing_robot_uses_the_proportional_rule() -> None:
     fake: Any = FakeMpc()
     rule = MpcFeedback(fake, RULE, TICK)
     rest = resting_step(SUPPORT, Foot.LEFT)

@@ -59,7 +59,7 @@ def test_time_and_miss_are_those_of_a_walk_straight_on(
         assert (away[before] >= clearance - 1e-6).all()
 
 
-def test_who_stands_or_leaves_never_comes() -> None:
+def test_still_or_receding_opponents_never_make_contact() -> None:
     assert Approach(1.0, 0.0, 0.0, 0.0).contact_time(0.7) == inf
     assert Approach(0.3, 0.0, 0.0, 0.0).contact_time(0.7) == inf
     assert Approach(0.3, 0.0, 0.5, 0.0).contact_time(0.7) == inf
@@ -69,7 +69,7 @@ def test_who_stands_or_leaves_never_comes() -> None:
     assert abs(Approach(0.0, 1.0, 1.0, 0.0).origin) == pytest.approx(pi)
 
 
-def test_what_was_seen_a_while_ago_has_moved_on() -> None:
+def test_old_sightings_are_extrapolated() -> None:
     known = Knowledge(1.0, 0.0, 3.0, LIMITS, age=0.5, velocity=(-1.0, 0.2))
     assert Approach.of(known)[:2] == pytest.approx((2.5, 0.1))
     still = Approach.of(Knowledge(1.0, pi / 2, 2.0, LIMITS, age=0.5))
@@ -77,7 +77,9 @@ def test_what_was_seen_a_while_ago_has_moved_on() -> None:
 
 
 @given(st.floats(-pi, pi))
-def test_a_swift_turn_takes_what_it_can_of_an_error(error: float) -> None:
+def test_a_swift_heading_corrects_the_largest_possible_error(
+    error: float,
+) -> None:
     share = LIMITS.gain * LIMITS.stride / LIMITS.speed
     turned = share * swift_heading(error, LIMITS)
     most = share * MAX_HEADING
@@ -114,7 +116,7 @@ def test_evasion_in_time_begins_as_early_for_everybody(speed: float) -> None:
 
 
 @pytest.mark.parametrize("bearing", [0.0, 1.0, -2.5])
-def test_passers_by_trigger_nothing(bearing: float) -> None:
+def test_passing_people_do_not_trigger_evasion(bearing: float) -> None:
     for distance in (1.3, 2.0, 3.0):
         for miss in (1.2, -1.2):
             known = coming(distance, 1.0, bearing, miss)
@@ -160,13 +162,13 @@ def test_the_side_stays_until_standing_is_safe() -> None:
     assert TIMED.decide(coming(2.0), once)[1].safe == 0
 
 
-def test_without_a_velocity_nobody_is_coming() -> None:
+def test_without_a_velocity_the_time_trigger_is_inactive() -> None:
     known = Knowledge(1.0, 0.0, 0.5, LIMITS)
     assert not TIMED.decide(known, TIMED.begin())[0].walks
 
 
 @pytest.mark.parametrize("angle", [0.0, radians(45.0), pi / 2])
-def test_the_angle_is_kept_to_where_the_other_comes_from(
+def test_the_angle_refers_to_the_opponents_direction_of_approach(
     angle: float,
 ) -> None:
     strategy = Evasion(angle=angle, trigger="time")
@@ -178,7 +180,7 @@ def test_the_angle_is_kept_to_where_the_other_comes_from(
 
 
 @pytest.mark.parametrize("speed", [0.1, 1.0])
-def test_the_area_that_is_drawn_is_the_one_that_is_kept(speed: float) -> None:
+def test_the_drawn_area_is_the_safety_area(speed: float) -> None:
     """By time it is what counts as contact, met the earlier the faster."""
     in_space = Evasion(safety_radius=0.9, clearance=0.6)
     assert in_space.area == in_space.begins_at(speed) == 0.9

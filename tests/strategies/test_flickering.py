@@ -73,7 +73,7 @@ def turned(blur: float) -> int:
     return changes
 
 
-def test_a_mind_changes_less_where_a_map_may_be_off() -> None:
+def test_plans_change_less_with_a_map_error() -> None:
     assert turned(CELL) < 0.5 * turned(0.0)
 
 
@@ -101,7 +101,7 @@ def test_a_map_that_is_exact_is_taken_at_its_word(
     assert told[0].gain == pytest.approx(gain)
 
 
-def test_strategies_are_told_how_far_off_a_map_may_be() -> None:
+def test_knowledge_contains_the_map_error() -> None:
     given = KnownRoom(Room(), Pose(0.0, 0.0, 0.0))
     seen = MappedRoom(FloorMap(), unseen_is_free=False)
     for around, blur in ((None, 0.0), (given, 0.0), (seen, CELL)):

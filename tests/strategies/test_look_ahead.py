@@ -66,7 +66,7 @@ def test_with_an_empty_map_and_no_pieces_it_is_the_law(angle: float) -> None:
     np.testing.assert_allclose(tracks[1].evader, tracks[0].evader, atol=1e-12)
 
 
-def test_the_pursuer_is_known_from_where_it_was_seen() -> None:
+def test_the_pursuer_heading_is_estimated_from_sightings() -> None:
     """From two sightings on, while it obeys eqs. (1)-(2)."""
     track = play_steps(Pursuit(), ASIDE, FACING, game=SHORT)
     trace: Trace = ()
@@ -157,7 +157,7 @@ def test_it_knows_the_map_in_its_own_odometry() -> None:
     assert free.heading != pytest.approx(one.heading, abs=0.1)
 
 
-def test_its_turns_stay_within_what_is_asked() -> None:
+def test_turns_stay_within_the_largest_heading() -> None:
     mind = LookAhead(largest_error=0.5)
     room = make_room(RoomRecipe(discs=3), 2)
     assert room.starts is not None
@@ -172,7 +172,7 @@ def test_its_turns_stay_within_what_is_asked() -> None:
     assert np.abs(turns).max() <= law + 1e-9
 
 
-def test_the_optimal_evader_does_what_its_table_says() -> None:
+def test_the_optimal_evader_maximises_its_table() -> None:
     """Even a coarse table: its value is kept, and moving aside loses."""
     unit, cells = 0.5, 24
     bound = tables.pursuit_bound(cells)
@@ -200,7 +200,7 @@ def test_the_optimal_evader_does_what_its_table_says() -> None:
     assert np.mean(aside) < 0.8 * np.mean(kept)
 
 
-def test_a_table_is_solved_once_and_kept() -> None:
+def test_a_table_is_solved_once_and_cached() -> None:
     tables.pursuit_bound.cache_clear()
     one = tables.pursuit_bound(16)
     tables.pursuit_bound.cache_clear()
@@ -272,7 +272,7 @@ def walked_past(spread: float, jump: float) -> Trace:
     return trace
 
 
-def test_what_is_not_sure_counts_as_much_as_it_is() -> None:
+def test_uncertain_sightings_are_weighted_by_variance() -> None:
     """Beside where the other would be by now."""
     exact = walked_past(0.0, 0.2)
     assert (exact[-1].x, exact[-1].y) == pytest.approx((0.91, 0.2))
@@ -289,7 +289,7 @@ def test_what_is_not_sure_counts_as_much_as_it_is() -> None:
     assert trace[-1].x == pytest.approx(1.0 - 0.03 * 8, abs=0.01)
 
 
-def test_nobody_is_taken_to_go_on_faster_than_a_gait_walks() -> None:
+def test_predicted_speed_is_bounded_by_the_gait() -> None:
     trace: Trace = ()
     for n, x in enumerate((1.0, 0.5, 0.4)):
         known = know(0.0, x, Pose(0.0, 0.0, 0.0), 0.4 * n)

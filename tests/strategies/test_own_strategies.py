@@ -166,7 +166,7 @@ def test_a_file_without_strategies_says_so(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("name", "factor"), [("Timid", 0.5), ("timid", 0.25), ("quick", 1.0)]
 )
-def test_a_file_gives_a_class_a_value_or_what_makes_one(
+def test_a_file_may_define_a_class_a_value_or_a_factory(
     file: Path, name: str, factor: float
 ) -> None:
     strategy: Any = load_strategy(f"{file}:{name}")
@@ -196,7 +196,7 @@ def test_a_file_gives_a_class_a_value_or_what_makes_one(
         ),
     ],
 )
-def test_what_is_no_strategy_is_refused_in_one_line(
+def test_an_invalid_strategy_is_refused_in_one_line(
     file: Path, name: str, message: str
 ) -> None:
     with pytest.raises(ConfigurationError, match=message) as caught:
@@ -225,9 +225,7 @@ def test_a_file_that_is_not_there_or_does_not_run_is_named(
     "name", ["", "evade", "own.py", "own.py:", "own.py:a b", "own.txt:Timid"]
 )
 @pytest.mark.parametrize("key", ["evader_strategy", "pursuer_strategy"])
-def test_what_names_no_strategy_is_refused_at_once(
-    key: str, name: str
-) -> None:
+def test_an_invalid_name_is_refused_at_once(key: str, name: str) -> None:
     with pytest.raises(ConfigurationError) as caught:
         DuelSettings(**{key: name})  # type: ignore[arg-type]
     assert str(caught.value) == (
@@ -243,7 +241,7 @@ def test_settings_can_be_read_where_the_file_is_not() -> None:
         Duel(settings)
 
 
-def test_a_configuration_repeats_who_plays(tmp_path: Path) -> None:
+def test_a_configuration_reproduces_the_strategies(tmp_path: Path) -> None:
     settings = DuelSettings(evader_strategy="a.py:B", pursuer_strategy="stand")
     path = tmp_path / "duel.toml"
     path.write_text(dump_configuration(settings), encoding="utf-8")

@@ -29,7 +29,7 @@ START = (Pose(0.0, 0.0, 0.4), Pose(1.2, 0.3, 2.0))
 ASIDE = Evasion(safety_radius=100.0)
 
 
-def test_the_way_of_the_other_is_known_on_a_circle() -> None:
+def test_direction_of_motion_is_exact_on_a_circle() -> None:
     """Its turn of a step is taken to go on: exact for a steady turn."""
     trace: Trace = ()
     assert heading_of_way(trace) is None
@@ -61,7 +61,7 @@ def test_without_a_lead_it_is_the_pursuer_of_the_paper() -> None:
     np.testing.assert_allclose(paths[1], paths[0], atol=1e-9)
 
 
-def test_a_lead_meets_who_walks_across_where_pure_pursuit_trails() -> None:
+def test_lead_pursuit_intercepts_where_pure_pursuit_trails() -> None:
     """Ahead of one that walks straight on, it turns in earlier."""
     walker, way = Walk(0.0), 0.8
     starts = (Pose(0.0, 0.0, way), Pose(0.7, -0.7, way))
@@ -73,7 +73,7 @@ def test_a_lead_meets_who_walks_across_where_pure_pursuit_trails() -> None:
     assert led < pure - 0.1
 
 
-def test_the_optimal_pursuer_catches_who_moves_aside(
+def test_the_optimal_pursuer_captures_an_evader_moving_aside(
     tmp_path: object, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Moving aside keeps the paper's pursuer off for ever, not this one."""
@@ -160,7 +160,7 @@ def test_herding_turns_with_the_room() -> None:
     )
 
 
-def test_on_an_open_floor_nothing_deflects() -> None:
+def test_without_obstacles_there_is_no_deflection() -> None:
     game = StepGame(duration=20.0)
     one, other = (
         play_steps(Pursuit(), evader, START, game=game).evader

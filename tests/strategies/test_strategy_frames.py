@@ -103,7 +103,7 @@ def asked(strategy: Any, frame: Pose, solids: Any = ()) -> list[Intent]:
 
 @pytest.mark.parametrize("solids", [(), SOLIDS], ids=["open", "room"])
 @pytest.mark.parametrize("name", STRATEGIES)
-def test_wherever_odometry_lies_it_decides_the_same(
+def test_decisions_do_not_depend_on_the_odometry_frame(
     name: str, solids: Any
 ) -> None:
     strategy = STRATEGIES[name]
@@ -149,7 +149,7 @@ def test_a_game_in_steps_has_no_preferred_direction(name: str) -> None:
 
 @settings(max_examples=50)
 @given(MOVED, MOVED, st.floats(0.05, 1.5), st.floats(0.0, 0.6))
-def test_what_was_seen_a_while_ago_is_of_that_time(
+def test_an_old_sighting_refers_to_its_own_time(
     own: Pose, other: Pose, apart: float, age: float
 ) -> None:
     """It counts as it would have counted then."""
@@ -171,7 +171,7 @@ def test_what_was_seen_a_while_ago_is_of_that_time(
 
 @settings(max_examples=50)
 @given(MOVED, ANGLE, st.floats(0.5, 2.0), st.floats(0.0, 1.5))
-def test_who_leads_points_ahead_of_who_walks_straight_on(
+def test_lead_pursuit_points_ahead_of_a_straight_walk(
     own: Pose, way: float, distance: float, lead: float
 ) -> None:
     """At a point of its way, as far ahead as a share of the distance."""
@@ -194,7 +194,7 @@ def test_who_leads_points_ahead_of_who_walks_straight_on(
 
 @settings(max_examples=50)
 @given(MOVED, st.floats(-0.8, 0.8), st.floats(0.02, 0.2))
-def test_the_heading_of_who_turns_is_the_tangent_where_it_is(
+def test_the_heading_of_a_turning_opponent_is_the_tangent(
     start: Pose, turn: float, step: float
 ) -> None:
     """On a circle it is half a turn ahead of the chord to there."""
@@ -211,7 +211,7 @@ def test_the_heading_of_who_turns_is_the_tangent_where_it_is(
 
 @settings(max_examples=50)
 @given(MOVED, MOVED, ANGLE, st.floats(0.0, 3.0))
-def test_the_pursuer_went_on_since_it_was_seen(
+def test_the_pursuer_is_predicted_to_the_start_of_the_step(
     begins: Pose, other: Pose, heading: float, age: float
 ) -> None:
     """Half a step, until the body passes its foot, and the age."""
@@ -231,7 +231,7 @@ def test_the_pursuer_went_on_since_it_was_seen(
 
 @settings(max_examples=50)
 @given(METRES, METRES, METRES, METRES, st.floats(0.0, 2.0))
-def test_who_was_seen_a_while_ago_has_walked_on_since(
+def test_an_old_approach_is_extrapolated(
     x: float, y: float, u: float, v: float, age: float
 ) -> None:
     """As who is seen now where the way has led meanwhile."""
@@ -249,7 +249,7 @@ def test_who_was_seen_a_while_ago_has_walked_on_since(
         assert after == pytest.approx(0.5, abs=1e-6)
 
 
-def test_how_fast_somebody_passes_is_not_how_far() -> None:
+def test_the_miss_distance_is_independent_of_the_speed() -> None:
     """Also where the square of the speed is no number but 0."""
     for speed in (1e-203, 1e-160, 1e-3, 1.0):
         assert Approach(0.6, 0.8, -speed, 0.0).miss == pytest.approx(0.8)
@@ -275,7 +275,7 @@ class Noting:
 
 @settings(max_examples=30)
 @given(MOVED, st.floats(-0.3, 0.3), st.floats(-0.3, 0.3))
-def test_a_player_is_told_the_velocity_in_its_own_frame(
+def test_a_player_knows_the_opponents_velocity_in_its_own_frame(
     own: Pose, u: float, v: float
 ) -> None:
     """Of the other on the floor, however the own body moves and turns."""
