@@ -1,4 +1,4 @@
-"""Robots keep clear of what stands around, whatever they want."""
+"""Test the guard against obstacles with arbitrary intents."""
 
 from math import pi
 from typing import Any

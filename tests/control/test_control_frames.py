@@ -1,4 +1,4 @@
-"""Test control by laws: no heading of odometry is special, nor any delay."""
+"""Test control by laws: invariance to the odometry frame and to delays."""
 
 from collections.abc import Sequence
 from math import hypot, pi
@@ -105,7 +105,7 @@ def same_row(one: ReferenceSample, other: ReferenceSample) -> None:
 class Around:
     """Surroundings whose frame is not odometry."""
 
-    blur = 0.01
+    map_error = 0.01
 
     def __init__(self, frame: Pose, room: Pose = HERE) -> None:
         self.frame = frame
@@ -155,7 +155,13 @@ def test_knowledge_has_poses_in_the_room_and_velocities_in_its_frame(
         off = wrap_angle(one.theta - other.theta)
         assert off == pytest.approx(0.0, abs=1e-9)
     assert known.obstacles == plain.obstacles != ()
-    for name in ("distance", "age", "closing_speed", "bearing_rate", "blur"):
+    for name in (
+        "distance",
+        "age",
+        "closing_speed",
+        "bearing_rate",
+        "map_error",
+    ):
         own = getattr(plain, name)
         assert getattr(known, name) == pytest.approx(own, abs=1e-9)
     off = wrap_angle(known.bearing - plain.bearing)

@@ -1,4 +1,4 @@
-"""Footsteps of the MPC keep on the free side of what stands nearby."""
+"""Test the adjustment of footsteps to half planes around obstacles."""
 
 from dataclasses import replace
 from math import cos, pi, sin

@@ -1,4 +1,4 @@
-"""Who stands where a map leaves no room gets out, if it may be wrong."""
+"""Test the escape from within the margin of an inaccurate map."""
 
 from typing import Any
 

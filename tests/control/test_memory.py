@@ -1,4 +1,4 @@
-"""Test what a robot was a moment ago, for sightings that arrive late."""
+"""Test the history of states for late sightings."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""The same steps in more time: calm where there is time, quick where not."""
+"""Test walks at a reduced step rate."""
 
 from dataclasses import replace
 from itertools import pairwise

@@ -1,4 +1,4 @@
-"""Test the control scheme of one robot on a body that is made up."""
+"""Test the control scheme of one robot with a fake body."""
 
 from dataclasses import replace
 from time import process_time

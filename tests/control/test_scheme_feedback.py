@@ -1,4 +1,4 @@
-"""Test how the control scheme asks feedback and perception."""
+"""Test the interaction of the control scheme with feedback and perception."""
 
 from types import SimpleNamespace
 from typing import Any

@@ -1,4 +1,4 @@
-"""Test that a robot's control keeps nothing of what has been."""
+"""Test that the memory of a control scheme is bounded."""
 
 from types import SimpleNamespace
 from typing import Any

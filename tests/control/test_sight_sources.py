@@ -1,4 +1,4 @@
-"""Test how a robot learns where the other is."""
+"""Test the sources of sightings."""
 
 from math import exp
 from typing import Any

@@ -1,4 +1,4 @@
-"""Test how a robot asks its strategy."""
+"""Test the execution of a strategy by a walking robot."""
 
 from collections.abc import Callable
 from math import atan2, hypot, nan, sin

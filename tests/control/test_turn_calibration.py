@@ -1,4 +1,4 @@
-"""Test what a gyro tells of turns that are believed."""
+"""Test the calibration of turns by the gyro."""
 
 from math import nan, pi
 

@@ -1,4 +1,4 @@
-"""Test what a gait does for a robot that is driven by velocities."""
+"""Test the strategy that follows a velocity command."""
 
 from math import pi
 

@@ -1,4 +1,4 @@
-"""Test what a body knows about itself at once."""
+"""Test the fall detection of the body state."""
 
 import pytest
 

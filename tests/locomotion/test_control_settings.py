@@ -1,4 +1,4 @@
-"""Test settings of control: what means nothing is refused by name."""
+"""Test the validation of control settings."""
 
 from dataclasses import asdict, fields
 

@@ -1,4 +1,4 @@
-"""Test the step that is being made, and what it allows."""
+"""Test the step in progress, and the ZMP shifts and landings it allows."""
 
 from dataclasses import replace
 from math import exp, hypot, pi

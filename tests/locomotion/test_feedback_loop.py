@@ -1,4 +1,4 @@
-"""Test what keeps a robot up: nothing that changes anything, or feedback."""
+"""Test balance control: open loop and feedback."""
 
 from dataclasses import replace
 from types import SimpleNamespace

@@ -1,4 +1,4 @@
-"""Test that feedback comes to who needs it, unless somebody says otherwise."""
+"""Test the default of the feedback option."""
 
 from dataclasses import replace
 

@@ -1,4 +1,4 @@
-"""Test the correction of joints that miss their targets."""
+"""Test the correction of joint errors."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""Test what a plan asks of the body at the ticks of the control clock."""
+"""Test the references of a plan at the control ticks."""
 
 from math import pi
 

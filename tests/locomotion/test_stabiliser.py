@@ -1,4 +1,4 @@
-"""Test feedback on top of a plan, with a state that is made up."""
+"""Test the stabiliser with a fake state estimator."""
 
 from dataclasses import replace
 from math import exp

@@ -1,4 +1,4 @@
-"""Test the state of a body from its sensors, with a posture given."""
+"""Test the state estimator with a given posture."""
 
 from math import exp
 from typing import Any

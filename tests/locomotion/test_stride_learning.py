@@ -1,4 +1,4 @@
-"""Test footsteps that fall short, learned from the encoders."""
+"""Test the learning of the footsteps' shortfall."""
 
 from math import pi
 from typing import Any

@@ -1,4 +1,4 @@
-"""Test how a shift of the ZMP brings a shift of the DCM back."""
+"""Test the rules for the ZMP shift."""
 
 from types import SimpleNamespace
 from typing import Any

@@ -1,4 +1,4 @@
-"""Test the largest push that a pendulum can take."""
+"""Test the push bound of the pendulum."""
 
 from dataclasses import replace
 from math import exp, inf, nan, pi

@@ -1,4 +1,4 @@
-"""The largest push against linear programs and random controllers."""
+"""Test the push bound against linear programs and random controllers."""
 
 from dataclasses import replace
 from math import cos, exp, expm1, pi, sin

@@ -1,4 +1,4 @@
-"""Test plans as values: what a plan says about itself."""
+"""Test plans as values."""
 
 from dataclasses import replace
 

@@ -1,4 +1,4 @@
-"""The state that recurs in a walk under way."""
+"""Test the periodic state of a steady walk."""
 
 import numpy as np
 import pytest

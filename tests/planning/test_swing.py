@@ -1,4 +1,4 @@
-"""Test swing-foot trajectories that lift off and touch down at rest."""
+"""Test the swing-foot trajectories."""
 
 from typing import get_args
 

@@ -1,4 +1,4 @@
-"""The CoM of a plan makes room for what a swing leg does to the ZMP."""
+"""Test that the CoM of a plan compensates the swing reaction."""
 
 from dataclasses import replace
 from math import pi

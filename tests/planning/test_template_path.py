@@ -1,4 +1,4 @@
-"""Test where a body is on the path of its template."""
+"""Test the pose of the template unicycle of a walking body."""
 
 from dataclasses import replace
 from math import cos, pi, sin

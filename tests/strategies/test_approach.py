@@ -1,4 +1,4 @@
-"""Who comes, how soon and how near, against walks played out."""
+"""Test closest approach and time to contact against simulated walks."""
 
 from dataclasses import replace
 from math import asin, cos, hypot, inf, pi, radians, sin
@@ -13,8 +13,8 @@ from stepaside.strategies import Evasion, EvasionMemory, Knowledge, Limits
 from stepaside.strategies.approach import (
     MAX_HEADING,
     Approach,
-    clearance_of,
-    swift_heading,
+    correcting_heading,
+    predict_clearance,
 )
 
 FAST = PRESETS["fast"]
@@ -81,24 +81,28 @@ def test_a_swift_heading_corrects_the_largest_possible_error(
     error: float,
 ) -> None:
     share = LIMITS.gain * LIMITS.stride / LIMITS.speed
-    turned = share * swift_heading(error, LIMITS)
+    turned = share * correcting_heading(error, LIMITS)
     most = share * MAX_HEADING
     assert turned == pytest.approx(max(-most, min(most, error)), abs=1e-12)
 
 
 def test_a_side_step_gains_room_and_more_from_farther_away() -> None:
     rooms = [
-        clearance_of(Approach(x, 0.0, -1.0, 0.0), LIMITS, pi / 2, stands=True)
+        predict_clearance(
+            Approach(x, 0.0, -1.0, 0.0), LIMITS, pi / 2, stands=True
+        )
         for x in (1.0, 2.0, 3.0, 4.0)
     ]
     assert rooms == sorted(rooms) and rooms[0] < 0.1 and rooms[-1] > 0.7
     # As long as theory's unicycle, but for whole steps.
     both = [
-        clearance_of(Approach(3.0, 0.0, -1.0, 0.0), LIMITS, a, stands=True)
+        predict_clearance(
+            Approach(3.0, 0.0, -1.0, 0.0), LIMITS, a, stands=True
+        )
         for a in (pi / 2, -pi / 2)
     ]
     assert both[0] == pytest.approx(both[1])
-    moving = clearance_of(
+    moving = predict_clearance(
         Approach(3.0, 0.0, -1.0, 0.0), LIMITS, pi / 2, stands=False
     )
     assert moving > rooms[2]
@@ -133,7 +137,7 @@ def test_it_steps_to_the_side_that_leaves_more_room(
     """The heading turns so that the back points there."""
     _, memory = TIMED.decide(coming(3.0, 1.0, bearing, miss), TIMED.begin())
     room = {
-        side: clearance_of(
+        side: predict_clearance(
             Approach.of(coming(3.0, 1.0, bearing, miss)),
             LIMITS,
             Approach.of(coming(3.0, 1.0, bearing, miss)).origin

@@ -1,4 +1,4 @@
-"""Test evaders that look ahead, alone and in games of steps."""
+"""Test predictive evaders, alone and in step games."""
 
 from dataclasses import replace
 from math import hypot, pi
@@ -26,9 +26,9 @@ from stepaside.strategies import (
     bound_cache as tables,
 )
 from stepaside.strategies.look_ahead import (
-    moved_on,
-    place_both,
-    rules_of,
+    poses_at_sighting,
+    predict_poses,
+    step_rules,
 )
 from stepaside.strategies.opponent_track import (
     PREDICTION_STD,
@@ -76,7 +76,7 @@ def test_the_pursuer_heading_is_estimated_from_sightings() -> None:
         bearing = wrap_angle(float(np.arctan2(y, x)) - evader[2])
         pose = Pose(*evader.tolist())
         trace = note(trace, know(bearing, hypot(x, y), pose, 0.4 * n))
-        found = pursuer_heading(trace, rules_of(NAO))
+        found = pursuer_heading(trace, step_rules(NAO))
         if n:
             assert wrap_angle(found - pursuer[2]) == pytest.approx(0, abs=1e-5)
     assert len(trace) == 3
@@ -315,10 +315,10 @@ def test_a_walker_looks_ahead_from_where_its_step_begins() -> None:
         pose=begins,
         age=0.0,
     )
-    moved = moved_on(
-        place_both(note((), walker), pi), walker, walker.begins or here
+    moved = predict_poses(
+        poses_at_sighting(note((), walker), pi), walker, walker.begins or here
     )
-    still = place_both(note((), there), pi)
+    still = poses_at_sighting(note((), there), pi)
     assert moved == pytest.approx(still)
     one, memory = mind.decide(walker, mind.begin())
     two, other = mind.decide(there, mind.begin())

@@ -1,4 +1,4 @@
-"""Test what an evader that looks ahead keeps of its plan."""
+"""Test the stored plan of a predictive evader."""
 
 from math import pi
 

@@ -1,4 +1,4 @@
-"""Test how strategies are found by name and in files."""
+"""Test the loading of strategies by name and from files."""
 
 import os
 import sys

@@ -1,4 +1,4 @@
-"""Test pursuers beside the paper's, and the evader that is deflected."""
+"""Test the pursuers beside the paper's, and deflected evasion."""
 
 from math import atan2, cos, hypot, inf, pi, sin
 from typing import Any
@@ -22,7 +22,11 @@ from stepaside.strategies import (
     Walk,
     play_steps,
 )
-from stepaside.strategies.opponent_track import Trace, heading_of_way, note
+from stepaside.strategies.opponent_track import (
+    Trace,
+    direction_of_motion,
+    note,
+)
 
 NAO = Limits(0.1, 0.2, 0.04, 0.4)
 START = (Pose(0.0, 0.0, 0.4), Pose(1.2, 0.3, 2.0))
@@ -32,7 +36,7 @@ ASIDE = Evasion(safety_radius=100.0)
 def test_direction_of_motion_is_exact_on_a_circle() -> None:
     """Its turn of a step is taken to go on: exact for a steady turn."""
     trace: Trace = ()
-    assert heading_of_way(trace) is None
+    assert direction_of_motion(trace) is None
     for n in range(5):
         theta = 0.3 + 0.1 * n
         x, y = np.sin(theta), -np.cos(theta)
@@ -49,7 +53,7 @@ def test_direction_of_motion_is_exact_on_a_circle() -> None:
             ),
         )
         if n > 1:
-            assert heading_of_way(trace) == pytest.approx(theta, abs=1e-9)
+            assert direction_of_motion(trace) == pytest.approx(theta, abs=1e-9)
 
 
 def test_without_a_lead_it_is_the_pursuer_of_the_paper() -> None:

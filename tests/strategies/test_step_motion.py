@@ -1,4 +1,4 @@
-"""Test the game in steps: one step, clearance, values, and the search."""
+"""Test the step game: one step, clearance, values, and the search."""
 
 from itertools import product
 from math import atan2, cos, hypot, inf, pi, sin

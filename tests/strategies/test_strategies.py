@@ -1,4 +1,4 @@
-"""Test what players make of what they know (paper, Sec. II)."""
+"""Test decisions of the strategies (paper, Sec. II)."""
 
 from copy import deepcopy
 from dataclasses import FrozenInstanceError, replace

@@ -1,4 +1,4 @@
-"""Test strategies by laws: no frame is special, and times are of instants."""
+"""Test strategies by laws: invariance to frames, and times of sightings."""
 
 from dataclasses import replace
 from math import atan2, cos, hypot, inf, pi, sin
@@ -25,8 +25,12 @@ from stepaside.strategies import (
 )
 from stepaside.strategies.approach import Approach
 from stepaside.strategies.decision_maker import TemplatePlayer
-from stepaside.strategies.look_ahead import moved_on
-from stepaside.strategies.opponent_track import Trace, heading_of_way, note
+from stepaside.strategies.look_ahead import predict_poses
+from stepaside.strategies.opponent_track import (
+    Trace,
+    direction_of_motion,
+    note,
+)
 from stepaside.strategies.search import PlayerPair
 from stepaside.strategies.step_game import StepGame, play_steps
 
@@ -204,7 +208,7 @@ def test_the_heading_of_a_turning_opponent_is_the_tangent(
     for i in range(3):
         trace = note(trace, known(Pose(5.0, 5.0, 0.0), pose, STEP * i))
         last, pose = pose, pose.compose(chord)
-    found = heading_of_way(trace)
+    found = direction_of_motion(trace)
     assert found is not None
     assert wrap_angle(found - last.theta) == pytest.approx(0.0, abs=1e-6)
 
@@ -219,7 +223,7 @@ def test_the_pursuer_is_predicted_to_the_start_of_the_step(
         *(9.0, 9.0, 1.0, 0.0, other.x, other.y, cos(heading), sin(heading))
     )
     knows = known(Pose(9.0, 9.0, 0.0), other, 5.0, age)
-    found = moved_on(both, knows, begins)
+    found = predict_poses(both, knows, begins)
     way = LIMITS.stride * (0.5 + age / STEP)
     ahead = Pose(other.x, other.y, heading).compose(Pose(way, 0.0, 0.0))
     assert (found.px, found.py) == pytest.approx(ahead[:2])

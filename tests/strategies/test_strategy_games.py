@@ -1,4 +1,4 @@
-"""Test unicycles that play any two strategies."""
+"""Test matches of unicycles with any two strategies."""
 
 from dataclasses import replace
 from math import pi, sin

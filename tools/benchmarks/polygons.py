@@ -69,11 +69,11 @@ class Taken:
     Attributes:
         solids: All of it.
         frame: Of odometry.
-        blur: How far off that may be, in [m].
+        map_error: Largest position error of the obstacles, in [m].
     """
 
     frame = HERE
-    blur = CELL
+    map_error = CELL
 
     def __init__(self, solids: ObstacleSet) -> None:
         """Know it."""

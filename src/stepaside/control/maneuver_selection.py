@@ -45,7 +45,9 @@ class ManeuverSelection:
         With a map that may be off, each foot then has a second attempt, with
         relaxed clearance; see :meth:`Guard.choose_escape`.
         """
-        blurred = self.guard is not None and self.guard.surroundings.blur > 0.0
+        blurred = (
+            self.guard is not None and self.guard.surroundings.map_error > 0.0
+        )
         try:
             for self._relaxed in (False, True)[: 1 + blurred]:
                 for _ in Foot:

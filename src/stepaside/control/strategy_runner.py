@@ -179,5 +179,5 @@ class StrategyRunner(DecisionMaker):
             moving=moving,
             obstacles=self._surroundings.solids.shapes,
             spread=sighting.spread,
-            blur=self._surroundings.blur,
+            map_error=self._surroundings.map_error,
         )

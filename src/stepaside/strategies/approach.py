@@ -87,7 +87,7 @@ class Approach(NamedTuple):
         return excess / (nearing + sqrt(root))
 
 
-def swift_heading(error: float, limits: Limits) -> float:
+def correcting_heading(error: float, limits: Limits) -> float:
     """Return the desired heading that corrects an error as fast as possible.
 
     A step turns by a fraction of its desired heading. A larger desired
@@ -98,11 +98,11 @@ def swift_heading(error: float, limits: Limits) -> float:
         limits: Limits of the own gait.
     """
     share = limits.gain * limits.stride / limits.speed
-    asked = wrap_angle(error) / share
-    return min(max(asked, -MAX_HEADING), MAX_HEADING)
+    heading = wrap_angle(error) / share
+    return min(max(heading, -MAX_HEADING), MAX_HEADING)
 
 
-def clearance_of(
+def predict_clearance(
     approach: Approach,
     limits: Limits,
     heading: float,
@@ -128,7 +128,7 @@ def clearance_of(
     for i in range(HORIZON):
         dx, dy = step * u, step * v
         if i > 0 or not stands:
-            turn = share * swift_heading(heading - theta, limits)
+            turn = share * correcting_heading(heading - theta, limits)
             middle = theta + 0.5 * turn
             dx += limits.stride * cos(middle)
             dy += limits.stride * sin(middle)

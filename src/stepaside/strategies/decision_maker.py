@@ -73,7 +73,7 @@ class DecisionMaker:
         moving: bool,
         obstacles: tuple[Obstacle, ...] = (),
         spread: float = 0.0,
-        blur: float = 0.0,
+        map_error: float = 0.0,
     ) -> Knowledge:
         """Add a sighting and return the knowledge for a decision.
 
@@ -88,7 +88,7 @@ class DecisionMaker:
             moving: Whether the player is walking.
             obstacles: Known obstacles.
             spread: Standard deviation of the opponent's position, in [m].
-            blur: Largest position error of the obstacles, in [m].
+            map_error: Largest position error of the obstacles, in [m].
         """
         rates = self._rates.note(time, sight, distance)
         return Knowledge(
@@ -104,7 +104,7 @@ class DecisionMaker:
             obstacles=obstacles,
             velocity=self._velocity_in(pose, time, bearing, distance),
             spread=spread,
-            blur=blur,
+            map_error=map_error,
         )
 
     def preview(self, knowledge: Knowledge) -> tuple[Intent, Any]:

@@ -8,7 +8,7 @@ from ..core.errors import ConfigurationError
 from ..core.ranges import Range, Ranges, check_settings
 from ..planning import Direction
 from ..theory import laws
-from .approach import Approach, clearance_of, swift_heading
+from .approach import Approach, correcting_heading, predict_clearance
 from .knowledge import STAND, Intent, Knowledge
 
 Trigger = Literal["distance", "time"]
@@ -170,7 +170,7 @@ class Evasion:
                 return STAND, EvasionMemory()
         side = memory.side or self._clearer_side(knowledge, approach)
         error = laws.evasion_heading(approach.origin, side, self.angle)
-        heading = swift_heading(error, knowledge.limits)
+        heading = correcting_heading(error, knowledge.limits)
         pace = self._pace(knowledge, approach, error)
         return Intent(heading, pace=pace), EvasionMemory(True, side, safe)
 
@@ -184,7 +184,10 @@ class Evasion:
         while pace < 1.0:
             slower = replace(limits, step_duration=limits.step_duration / pace)
             stands = not knowledge.moving
-            if clearance_of(approach, slower, error, stands=stands) > required:
+            if (
+                predict_clearance(approach, slower, error, stands=stands)
+                > required
+            ):
                 return pace
             pace += PACE_STEP
         return 1.0
@@ -192,7 +195,7 @@ class Evasion:
     def _clearer_side(self, knowledge: Knowledge, approach: Approach) -> int:
         """Return the side with the larger predicted clearance."""
         left, right = (
-            clearance_of(
+            predict_clearance(
                 approach,
                 knowledge.limits,
                 laws.evasion_heading(approach.origin, side, self.angle),

@@ -64,7 +64,7 @@ class Knowledge:
             ``pose``; None if that is ``pose`` itself. A walker decides when a
             foot has landed, and its body passes that foot half a step later.
         spread: Standard deviation of the opponent's position, in [m].
-        blur: Largest position error of the obstacles, in [m].
+        map_error: Largest position error of the obstacles, in [m].
     """
 
     time: float
@@ -80,7 +80,7 @@ class Knowledge:
     velocity: tuple[float, float] | None = None
     begins: Pose | None = None
     spread: float = 0.0
-    blur: float = 0.0
+    map_error: float = 0.0
 
     def __post_init__(self) -> None:
         """Check the bearing.

@@ -31,7 +31,7 @@ from .search.packed_obstacles import clearance_at
 from .search.step_motion import half_turn, step_both
 
 
-def place_both(trace: Trace, heading: float) -> PlayerPair:
+def poses_at_sighting(trace: Trace, heading: float) -> PlayerPair:
     """Return the poses of both players at the last sighting, in odometry.
 
     Args:
@@ -51,7 +51,7 @@ def place_both(trace: Trace, heading: float) -> PlayerPair:
     )
 
 
-def moved_on(
+def predict_poses(
     both: PlayerPair, knowledge: Knowledge, begins: Pose
 ) -> PlayerPair:
     """Predict the poses of both players when the decided step begins.
@@ -213,14 +213,14 @@ class LookAhead:
         from .search.turn_search import look_ahead  # imports Numba
 
         limits = knowledge.limits
-        rules = rules_of(limits, self.lead)
+        rules = step_rules(limits, self.lead)
         trace = note(memory.trace, knowledge)
         near = knowledge.distance < self.safety_radius
         if not (memory.evading or near):
             return STAND, LookAheadMemory(False, trace)
-        both = place_both(trace, pursuer_heading(trace, rules))
+        both = poses_at_sighting(trace, pursuer_heading(trace, rules))
         if knowledge.begins is not None:
-            both = moved_on(both, knowledge, knowledge.begins)
+            both = predict_poses(both, knowledge, knowledge.begins)
         bounded = bool(knowledge.obstacles)
         obstacles = (
             obstacle_set(knowledge.obstacles) if bounded else NO_OBSTACLES
@@ -229,13 +229,13 @@ class LookAhead:
         table = NO_VALUE
         if not bounded and self.cells and self.pieces:
             table = pursuit_table(self.cells, limits.speed / limits.gain)
-        blur = max(knowledge.blur, GAIN)
+        map_error = max(knowledge.map_error, GAIN)
         aims = ManeuverObjective(
             self.enough if bounded else inf,
             self.body_radius + MARGIN,
-            min(PENALTY, MAP_ERROR_COST / blur),
+            min(PENALTY, MAP_ERROR_COST / map_error),
             self.sight,
-            gain=blur,
+            gain=map_error,
             tight=self.tight,
         )
         plan, spot = memory.rest(knowledge.time, limits.step_duration)
@@ -267,7 +267,7 @@ class LookAhead:
         self, limits: Limits, *, valued: bool
     ) -> CandidateManeuvers:
         """Return the candidate maneuvers; fewer with a value table."""
-        share = rules_of(limits).evader_share
+        share = step_rules(limits).evader_share
         return maneuvers_of(
             self.pieces[:TABLE_PIECES] if valued else self.pieces,
             self.turns,
@@ -293,7 +293,7 @@ class LookAhead:
         return then < radius and then < now
 
 
-def rules_of(limits: Limits, lead: float = 0.0) -> StepRules:
+def step_rules(limits: Limits, lead: float = 0.0) -> StepRules:
     """Return the step rules of two identical players with given limits."""
     share = limits.gain * limits.stride / limits.speed
     return StepRules(limits.stride, share, limits.stride, share, lead)

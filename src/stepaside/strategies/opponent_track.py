@@ -53,15 +53,17 @@ def note(trace: Trace, knowledge: Knowledge) -> Trace:
         u, v = _predicted(trace, time, knowledge.limits)
         weight = PREDICTION_STD**2 / (PREDICTION_STD**2 + knowledge.spread**2)
         x, y = u + weight * (x - u), v + weight * (y - v)
-    seen = OpponentSighting(time, x, y, pose.x, pose.y, pose.theta)
+    sighting = OpponentSighting(time, x, y, pose.x, pose.y, pose.theta)
     step = knowledge.limits.step_duration
-    kept = [
-        s for s in trace if 0.0 < seen.time - s.time < 2 * MAX_SIGHTINGS * step
+    recent = [
+        s
+        for s in trace
+        if 0.0 < sighting.time - s.time < 2 * MAX_SIGHTINGS * step
     ]
     # The newest is replaced if it is too close to the one before.
-    if len(kept) > 1 and kept[-1].time - kept[-2].time < SPACING * step:
-        kept.pop()
-    return tuple([*kept, seen][-MAX_SIGHTINGS:])
+    if len(recent) > 1 and recent[-1].time - recent[-2].time < SPACING * step:
+        recent.pop()
+    return tuple([*recent, sighting][-MAX_SIGHTINGS:])
 
 
 def _predicted(
@@ -109,10 +111,12 @@ def pursuer_heading(trace: Trace, rules: StepRules) -> float:
     begin = end = way
     for _ in range(5):
         x, y, c, s = first.x, first.y, cos(begin), sin(begin)
-        for seen in trace[:-1]:
-            own_c, own_s = cos(seen.own_theta), sin(seen.own_theta)
+        for sighting in trace[:-1]:
+            own_c, own_s = cos(sighting.own_theta), sin(sighting.own_theta)
             x, y, c, s = pursue(
-                PlayerPair(seen.own_x, seen.own_y, own_c, own_s, x, y, c, s),
+                PlayerPair(
+                    sighting.own_x, sighting.own_y, own_c, own_s, x, y, c, s
+                ),
                 rules,
             )
         end = atan2(s, c)
@@ -120,7 +124,7 @@ def pursuer_heading(trace: Trace, rules: StepRules) -> float:
     return end
 
 
-def heading_of_way(trace: Trace) -> float | None:
+def direction_of_motion(trace: Trace) -> float | None:
     """Estimate the direction of motion, in [rad]; None while it is unknown.
 
     With a constant turn, the heading after two steps leads the chord of the
@@ -163,7 +167,7 @@ class PathPursuit(ABC):
     ) -> tuple[Intent, Trace]:
         """Head for the opponent until its direction of motion is known."""
         trace = note(memory, knowledge)
-        course = heading_of_way(trace)
+        course = direction_of_motion(trace)
         if course is None:
             return Intent(knowledge.bearing), trace
         return Intent(self.heading(knowledge, trace[-1], course)), trace

@@ -12,7 +12,7 @@ from ..core.poses import wrap_angle
 from ..core.ranges import Range, Ranges, check_settings
 from ..planning import Direction
 from ..theory import laws
-from .approach import swift_heading
+from .approach import correcting_heading
 from .knowledge import Intent, Knowledge, Limits
 
 FREE_STRIDES = 3.0  # straight ahead that allow turning by (2)
@@ -72,7 +72,9 @@ class Pursuit:
                 side = 1 if aside > 0.0 else -1
             if side is not None or self._is_blocked(knowledge):
                 # By (2) it would turn too slowly and walk into the obstacle.
-                return Intent(swift_heading(bearing, knowledge.limits)), side
+                return Intent(
+                    correcting_heading(bearing, knowledge.limits)
+                ), side
         return Intent(self._heading(bearing, knowledge.limits)), side
 
     def _heading(self, bearing: float, limits: Limits) -> float:

@@ -138,11 +138,11 @@ def play_strategies(
             for player, intent in zip(players, intents, strict=True)
         ]
         apart = np.hypot(*(ways[1] - ways[0])[:, :2].T)
-        caught = np.flatnonzero(apart <= capture_distance)
-        captured = caught.size > 0
-        kept = int(caught[0]) + 1 if captured else SAMPLES
-        times.append(step * period + parts[:kept])
+        captures = np.flatnonzero(apart <= capture_distance)
+        captured = captures.size > 0
+        count = int(captures[0]) + 1 if captured else SAMPLES
+        times.append(step * period + parts[:count])
         for track, way in zip(tracks, ways, strict=True):
-            track.append(way[:kept])
+            track.append(way[:count])
     driven, evaded = (np.concatenate(track) for track in tracks)
     return StrategyRun(np.concatenate(times), driven, evaded, captured)

@@ -68,18 +68,18 @@ class ManeuverClearance(NamedTuple):
     last: float
 
     def escapes(
-        self, margin: float, blur: float, gained: float = NEARER
+        self, margin: float, map_error: float, gained: float = NEARER
     ) -> bool:
         """Return whether the maneuver leads out of the margin.
 
         Args:
             margin: Required clearance, in [m].
-            blur: Tolerated loss of clearance on the way, in [m].
+            map_error: Tolerated loss of clearance on the way, in [m].
             gained: Clearance that is gained at least, unless the maneuver
                 ends outside the margin, in [m].
         """
         farther = self.last > min(self.now + gained, margin)
-        near = self.least >= self.now - blur - NEARER
+        near = self.least >= self.now - map_error - NEARER
         return self.now < margin and farther and near
 
 
@@ -157,11 +157,11 @@ class Guard:
             the present one by no more than the error of the map; None if there
             is none.
         """
-        blur = self.surroundings.blur
+        map_error = self.surroundings.map_error
         out = []
         for choice in (*_choices(intent, standing=True), *ESCAPES):
             clearance = self.evaluate(plan_for(choice), support)
-            if clearance.escapes(self.margin, blur, GAINED):
+            if clearance.escapes(self.margin, map_error, GAINED):
                 out.append((clearance.least, choice))
         return max(out, key=itemgetter(0))[1] if out else None
 

@@ -19,10 +19,10 @@ class Surroundings(Protocol):
     Attributes:
         solids: Known obstacles.
         frame: Pose of the own odometry in the frame of the obstacles.
-        blur: Largest position error of the obstacles, in [m].
+        map_error: Largest position error of the obstacles, in [m].
     """
 
-    blur: float
+    map_error: float
 
     @property
     def solids(self) -> ObstacleSet:
@@ -46,7 +46,7 @@ class OpenFloor:
 
     solids = NO_OBSTACLES
     frame = HERE
-    blur = 0.0
+    map_error = 0.0
 
     def note(self, measurement: Measurement, body: BodyReference) -> None:
         """Ignore the measurement."""
@@ -63,10 +63,10 @@ class KnownRoom:
         solids: Obstacles of the room, and the floor that moving obstacles
             cover until a halt begun with the next step has ended.
         frame: Pose of the own odometry in the room.
-        blur: 0: a given room is exact.
+        map_error: 0: a given room is exact.
     """
 
-    blur = 0.0
+    map_error = 0.0
 
     def __init__(self, room: Room, start: Pose) -> None:
         """Begin with the room at time zero.
@@ -98,11 +98,11 @@ class MappedRoom:
         solids: Occupied cells and, if unknown floor counts as occupied,
             unknown cells.
         frame: Odometry itself.
-        blur: Size of a cell of the map, in [m].
+        map_error: Size of a cell of the map, in [m].
     """
 
     frame = HERE
-    blur = CELL
+    map_error = CELL
 
     def __init__(self, floor: FloorMap, *, unseen_is_free: bool) -> None:
         """Begin without obstacles.

@@ -83,7 +83,7 @@ def zmp_box(swing: Foot, gait: GaitSettings, edge: float) -> Box:
     Args:
         swing: Foot that does not support.
         gait: Gait, for the sole and the anchor.
-        edge: Distance kept from the edge of the sole, in [m].
+        edge: Distance from the edge of the sole, in [m].
 
     Returns:
         Lowest and highest (x, y) shift in the support foot's axes, in [m].

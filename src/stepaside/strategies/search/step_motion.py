@@ -2,7 +2,7 @@ r"""Motion of both players in one step of the step game.
 
 In one step a robot advances by the stride along an arc and turns by `u`. The
 pursuer of eqs. (1)-(2) turns by :math:`\kappa` times the bearing of the
-evader, :math:`\kappa = k \Delta / \bar{v}`. The headings are kept as unit
+evader, :math:`\kappa = k \Delta / \bar{v}`. The headings are unit
 vectors to save trigonometric functions.
 """
 
