@@ -64,7 +64,7 @@ class Whim:
         """Nothing to remember."""
 
     def decide(self, known: Knowledge, memory: None) -> tuple[Intent, None]:
-        """Change its mind now and then."""
+        """Return a random intent for a random number of decisions."""
         if known.moving:
             self.left -= 1
         if self.left < 0:

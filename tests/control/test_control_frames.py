@@ -70,7 +70,7 @@ def turned(frame: Pose, vector: Sequence[float]) -> Vector:
 
 
 def body_in(frame: Pose, body: BodyReference) -> BodyReference:
-    """What is asked of a body in a frame, in its parent."""
+    """Express a body reference in the parent of its frame."""
 
     def foot(asked: Any) -> tuple[float, float, float, float]:
         x, y, height, yaw = asked
@@ -119,7 +119,7 @@ class Around:
 
 
 def told(odometry: Pose, room: Pose) -> Knowledge:
-    """What a strategy is told, with odometry and room lying somewhere."""
+    """Return the knowledge for given frames of odometry and room."""
     strategy = FakeStrategy()
     around: Any = Around(room.compose(odometry.inverse()))
     made = StrategyRunner(strategy, GAIT, TICK, around)
@@ -206,7 +206,7 @@ def test_how_clear_a_maneuver_is_depends_on_no_odometry(
 def test_a_measured_pose_aligns_odometry_with_the_body(
     start: Pose, planned: Pose, place: Pose
 ) -> None:
-    """What was planned for the body, seen from the room, is its place."""
+    """The planned pose in odometry maps to the measured pose in the room."""
     around = KnownRoom(Room(None, None, (Disc(9.0, 9.0, 0.2),)), start)
     x, y, yaw = planned
     foot = (x, y, 0.0, yaw)
@@ -224,7 +224,7 @@ def test_a_measured_pose_aligns_odometry_with_the_body(
 def test_maneuver_clearance_is_invariant_to_rotation(
     x: float, y: float, turns: int, support: Pose
 ) -> None:
-    """Step and halt alike; by as much as distances are told along."""
+    """Step and halt alike, for rotations on the grid of directions."""
     planner = ManeuverPlanner(GAIT)
     plan = planner.plan(
         -0.7, Direction.FORWARD, first_foot=Foot.RIGHT, standing=True
@@ -428,7 +428,7 @@ class Noted(OpenLoop):
 
 @pytest.mark.parametrize("late", [0, 3])
 def test_a_sighting_is_of_where_the_body_was_then(late: int) -> None:
-    """Not of where it is asked to be by now: a request takes its time."""
+    """Not to the commanded pose: a command takes effect with a delay."""
     noted = Noted()
     strategy = FakeStrategy(heading=0.6)
     run = Run(strategy, delay=late * TICK, balance=noted)
@@ -448,7 +448,7 @@ def test_a_sighting_is_of_where_the_body_was_then(late: int) -> None:
 
 
 class Paced:
-    """Walks at a pace, until it wants to stand."""
+    """Strategy that walks at a pace until it stands."""
 
     direction, saturated = Direction.BACKWARD, False
 
@@ -466,7 +466,7 @@ class Paced:
 @pytest.mark.parametrize("lost", [False, True])
 @pytest.mark.parametrize("pace", [1.0, 0.75, 0.5])
 def test_a_halt_has_the_pace_of_the_walk(pace: float, lost: bool) -> None:
-    """Whether it wants to stand or lost the other."""
+    """After a decision to stand, and after loss of the opponent."""
     strategy = Paced(pace)
     run = Run(strategy)
     run.until(FIRST + 4.2 * STEP / pace)

@@ -95,7 +95,7 @@ def test_without_obstacles_nearby_the_plan_is_unchanged(
 def test_every_footstep_stays_on_its_side_of_a_wall(
     foot: Foot, bearing: float, angle: float
 ) -> None:
-    """Where the plan would come 4 cm too near; what legs reach is kept."""
+    """Plan that comes 4 cm too near; reach limits hold."""
     wanted = plan(bearing, foot)
     wall = beside(wanted, NEEDS - 0.04, angle)
     assert clear(wanted, wall).min() < NEEDS - 0.03
@@ -204,7 +204,7 @@ def test_inside_the_clearance_footsteps_come_no_nearer() -> None:
 def test_where_no_footsteps_keep_clear_the_plan_is_left_to_the_guard(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """Half planes that contradict each other: nobody stands on both sides."""
+    """Contradictory half planes have no solution."""
     wanted = plan(0.0)
     wall = beside(wanted, NEEDS - 0.03, pi)
     rows, least = HOLDS._half_planes(wanted, FRAME, ObstacleSet(wall))

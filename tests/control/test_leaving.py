@@ -58,7 +58,7 @@ def seen() -> MappedRoom:
 
 
 def test_a_step_sways_to_where_a_map_sees_a_wall() -> None:
-    """Beside a wall that is known to be there nobody does that."""
+    """A given map allows no escape towards a wall."""
     assert beside(0.3, given(), out=False) == GuardDecision(Intent(0.6))
     for around in (given(), seen()):
         assert beside(0.009, around, out=False) is None
@@ -120,7 +120,7 @@ def test_the_escape_with_the_largest_clearance_is_chosen(
 
 
 def test_an_escape_gains_clearance_or_ends_at_the_margin() -> None:
-    """Else somebody would shuffle there for ever."""
+    """Otherwise the robot would shuffle indefinitely."""
     for last, escapes in ((0.013, False), (0.0141, True)):
         assert (
             ManeuverClearance(0.01, 0.0, last).escapes(MARGIN, 0.05, GAINED)
@@ -131,7 +131,7 @@ def test_an_escape_gains_clearance_or_ends_at_the_margin() -> None:
 
 
 def begun(around: Any) -> Foot | None:
-    """The foot with which a robot leads who wants to go to the left."""
+    """Return the first foot of a robot that starts to the left."""
     guard = Guard(around, NAO, PLANNER, margin=MARGIN)
     run = Run(FakeStrategy(heading=0.6), guard=guard)
     plan = run.until(0.1).plan
@@ -139,7 +139,7 @@ def begun(around: Any) -> Foot | None:
 
 
 def test_relaxed_attempts_use_both_feet() -> None:
-    """A disc at the right: who swings the right foot first sways off it."""
+    """A disc on the right: starting with the right foot sways away from it."""
     ahead = plan_for(GuardDecision(Intent(0.0)))
     around: Any
     for around in (given(), seen()):

@@ -101,7 +101,7 @@ def test_line_of_sight_and_heading_are_of_one_instant() -> None:
 
 
 def test_memory_of_the_starting_decision_is_discarded() -> None:
-    """It is asked again for that instant, with the line of sight to come."""
+    """The second decision uses the time and line of sight of the step."""
 
     class Counting(FakeStrategy):
         """Counts how often it decided."""
@@ -190,7 +190,7 @@ def test_a_failing_strategy_raises_a_strategy_error(
     answer: Callable[[], Any], said: str
 ) -> None:
     class Failing(FakeStrategy):
-        """Fails when it is asked."""
+        """Strategy that fails."""
 
         def decide(self, knowledge: Knowledge, memory: Any) -> Any:
             return answer()

@@ -87,7 +87,7 @@ def test_the_ratio_needs_a_bias_and_a_turn_and_is_bounded() -> None:
 
 
 def turn_of_a_step(made: float, *, learns: bool) -> float:
-    """Turn that is asked of the last step of one that walks a circle."""
+    """Return the turn requested for the last step of a walk on a circle."""
     run = Run(FakeStrategy(heading=0.4))
     decisions = run.scheme.decisions
     decisions.turns = TurnCalibration(FAKE_TICK) if learns else None

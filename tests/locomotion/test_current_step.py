@@ -216,7 +216,7 @@ def test_a_landing_shifts_by_the_remaining_error(swing: Foot) -> None:
 
 
 def test_a_plan_beyond_the_reach_is_left_alone_without_need() -> None:
-    """Limits are for what is added, not for the plan."""
+    """Limits apply to the shift, not to the plan."""
     far = step(ahead=0.5, aside=0.3)
     assert shift((1e-4, 1e-4), far) == pytest.approx((0.0, 0.0), abs=1e-9)
 

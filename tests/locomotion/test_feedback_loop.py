@@ -31,7 +31,7 @@ LEFT, RIGHT = Pose(0.0, 0.05, 0.0), Pose(0.0, -0.05, 0.0)
 
 
 class Noting:
-    """Stands for anything; notes what it is asked, and answers by name."""
+    """Mock that records its calls and answers by name."""
 
     def __init__(self) -> None:
         self.asked: list[tuple[Any, ...]] = []
@@ -47,7 +47,7 @@ class Noting:
 
 
 def stabiliser(**changes: Any) -> Any:
-    """A stabiliser that is nothing but what is asked of it."""
+    """Stabiliser that only records its calls."""
     made = Noting()
     values: dict[str, Any] = {
         "state": None,
@@ -97,7 +97,7 @@ def test_the_open_loop_has_no_estimate_and_is_always_ready() -> None:
 
 
 def test_feedback_adds_the_load_feedforward() -> None:
-    """By the share that is set, for the body asked and the ZMP as shifted."""
+    """Scaled by the load fraction, for the commanded body and shifted ZMP."""
     gains = SimpleNamespace(load_share=0.5)
     fake = stabiliser(
         zmp_shift=(0.01, -0.02),

@@ -60,7 +60,7 @@ def test_correction_keeps_to_its_bound(side: float) -> None:
 
 
 def test_a_servo_that_answers_too_late_is_not_mistaken_for_play() -> None:
-    """Measured now is what was asked for a delay and a ramp ago."""
+    """The measured angle is the target of one delay and one ramp before."""
     delay = 0.03
     joints = correction(delay=delay)
     lag = round(delay / TICK) + 2

@@ -237,7 +237,7 @@ def test_the_closed_loop_stays_bounded(tail: str) -> None:
 
 
 def test_a_pushed_walk_reports_the_solver_results() -> None:
-    """The solver is asked at every tick that has a shift."""
+    """The solver runs at every tick with a shift."""
     control = replace(STABILISED, method="mpc")
     walking = WalkGame(
         WalkSettings(

@@ -38,13 +38,13 @@ def walking(swing: Foot = Foot.LEFT) -> CurrentStep:
 
 
 class FakeMpc:
-    """Notes what it is asked, and answers with a given velocity."""
+    """MPC that records its calls and returns a given velocity."""
 
     def __init__(self) -> None:
         self.asked: list[tuple[Any, ...]] = []
 
     def solve(self, plan: Any, passed: float, dcm: Array, zmp: Array) -> Any:
-        """Answer with the same velocity, whatever is asked."""
+        """Return the given velocity."""
         self.asked.append((plan, passed, *dcm.tolist(), *zmp.tolist()))
         self.answer = SimpleNamespace(velocity=(0.5, -0.25))
         return self.answer

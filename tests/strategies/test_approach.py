@@ -27,7 +27,7 @@ SPEEDS = st.floats(-1.5, 1.5)
 def coming(
     distance: float, speed: float = 1.0, bearing: float = 0.0, miss: float = 0
 ) -> Knowledge:
-    """Somebody at a bearing who walks past at a distance to the left."""
+    """Return knowledge of a person who passes at a distance to the left."""
     x, y = distance * cos(bearing), distance * sin(bearing)
     aim = bearing + pi - asin(miss / distance)
     return Knowledge(

@@ -173,7 +173,7 @@ def test_turns_stay_within_the_largest_heading() -> None:
 
 
 def test_the_optimal_evader_maximises_its_table() -> None:
-    """Even a coarse table: its value is kept, and moving aside loses."""
+    """Even a coarse table: its value is reached, moving aside is worse."""
     unit, cells = 0.5, 24
     bound = tables.pursuit_bound(cells)
     assert tables.cache_folder().is_dir()
@@ -261,7 +261,7 @@ def test_a_solid_pursuer_stops_where_it_would_touch() -> None:
 
 
 def walked_past(spread: float, jump: float) -> Trace:
-    """Trace of one who walks along x, whose last sighting jumps aside."""
+    """Return the trace of a walk along x with an outlier at its end."""
     trace: Trace = ()
     for n in range(4):
         y = jump if n == 3 else 0.0

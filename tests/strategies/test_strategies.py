@@ -44,7 +44,7 @@ def known(bearing: float = 0.0, distance: float = 0.5) -> Knowledge:
 
 
 def heading(strategy: Strategy, bearing: float) -> float:
-    """Heading of a player that has just seen another near by."""
+    """Return the heading of a player at its first sighting nearby."""
     return strategy.decide(known(bearing), strategy.begin())[0].heading
 
 

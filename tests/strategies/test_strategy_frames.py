@@ -53,7 +53,7 @@ STRATEGIES: dict[str, Any] = {
 
 
 def moved(solid: Obstacle, frame: Pose) -> Obstacle:
-    """A solid as seen from the parent of a frame."""
+    """Express an obstacle in the parent of a frame."""
     if isinstance(solid, Disc):
         x, y, _ = frame.compose(Pose(solid.x, solid.y, 0.0))
         return Disc(x, y, solid.radius)
@@ -64,7 +64,7 @@ def moved(solid: Obstacle, frame: Pose) -> Obstacle:
 def known(
     own: Pose, other: Pose, time: float, age: float = 0.0, **more: Any
 ) -> Knowledge:
-    """What one knows who stands somewhere and saw the other somewhere."""
+    """Return the knowledge for given poses and sighting."""
     x, y = other.x - own.x, other.y - own.y
     return Knowledge(
         time,
@@ -238,7 +238,7 @@ def test_the_pursuer_is_predicted_to_the_start_of_the_step(
 def test_an_old_approach_is_extrapolated(
     x: float, y: float, u: float, v: float, age: float
 ) -> None:
-    """As who is seen now where the way has led meanwhile."""
+    """It equals a new sighting at the extrapolated position."""
     own = Pose(0.0, 0.0, 0.0)
     velocity = (u, v)
     old = known(own, Pose(x, y, 0.0), 4.0, age, velocity=velocity)
@@ -263,7 +263,7 @@ def test_the_miss_distance_is_independent_of_the_speed() -> None:
 
 
 class Noting:
-    """Remembers what it is told."""
+    """Strategy that records its knowledge."""
 
     direction, saturated = STRATEGIES["evasion"].direction, False
 
