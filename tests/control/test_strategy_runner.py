@@ -115,8 +115,8 @@ def test_memory_of_the_starting_decision_is_discarded() -> None:
 
     made = decisions(Counting())
     far, near = Sighting(0.0, 0.0, 3.0), Sighting(0.0, 0.0, 1.0)
-    assert not made.should_start(0.0, far) and made.memory == 1
-    assert made.should_start(0.0, near) and made.memory == 1
+    assert not made.starts(0.0, far) and made.memory == 1
+    assert made.starts(0.0, near) and made.memory == 1
     made.decide(0.0, near, moving=False)
     assert made.memory == 2
 
@@ -198,7 +198,7 @@ def test_a_failing_strategy_raises_a_strategy_error(
     made, seen = decisions(Failing()), Sighting(0.0, 0.1, 1.0)
     before = made.memory
     with pytest.raises(StrategyError, match=said):
-        made.should_start(0.0, seen)
+        made.starts(0.0, seen)
     with pytest.raises(StrategyError, match=said):
         made.decide(0.0, seen, moving=True)
     assert made.memory == before
@@ -221,8 +221,8 @@ def test_an_unsettled_sighting_does_not_start_a_walk() -> None:
     """A robot under way goes on all the same."""
     made = decisions()
     seen = Sighting(0.0, 0.3, 1.0)
-    assert made.should_start(0.0, seen)
-    assert not made.should_start(0.0, seen._replace(settled=False))
+    assert made.starts(0.0, seen)
+    assert not made.starts(0.0, seen._replace(settled=False))
     intent = made.decide(0.0, seen._replace(settled=False), moving=True)
     assert intent.walks
 

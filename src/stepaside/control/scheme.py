@@ -195,7 +195,7 @@ class ControlScheme:
         sighting = self.sighting
         if not self.balance.ready or now < self._blocked_until:
             return
-        if not self.decisions.should_start(now, sighting, self.senses.turning):
+        if not self.decisions.starts(now, sighting, self.senses.turning):
             return
         x, y, _ = self.reference.com
         for _ in self._maneuvers.start_attempts():

@@ -86,7 +86,7 @@ class StrategyRunner(DecisionMaker):
             rate = float(measurement.gyro[2])
             self.turns.note(rate, heading, stands=stands)
 
-    def should_start(
+    def starts(
         self, now: float, sighting: Sighting | None, turning: float = 0.0
     ) -> bool:
         """Return whether a standing robot starts to walk.
