@@ -1,4 +1,4 @@
-"""Robots keep clear of what stands around, whatever they want."""
+"""Test the guard against obstacles with arbitrary intents."""
 
 from math import pi
 from typing import Any
@@ -64,7 +64,7 @@ class Whim:
         """Nothing to remember."""
 
     def decide(self, known: Knowledge, memory: None) -> tuple[Intent, None]:
-        """Change its mind now and then."""
+        """Return a random intent for a random number of decisions."""
         if known.moving:
             self.left -= 1
         if self.left < 0:
@@ -114,7 +114,7 @@ def clearance(room: Room, corners: Array) -> float:
     )
 
 
-def test_whatever_it_wants_it_touches_nothing() -> None:
+def test_any_intent_keeps_the_robot_clear_of_obstacles() -> None:
     """Foot by foot, tick by tick, through every step and every halt."""
     least, phases = [], set()
     nothing, tick = np.zeros(3), 0.02
@@ -140,7 +140,7 @@ def test_whatever_it_wants_it_touches_nothing() -> None:
     assert min(least) < MARGIN + 0.01
 
 
-def test_between_an_accepted_step_and_rest_nothing_is_touched() -> None:
+def test_an_accepted_step_and_its_halt_keep_clear() -> None:
     """The halt after each accepted step, from the step's own end."""
     random = np.random.default_rng(3)
     room = make_room(RoomRecipe(2.2, 2.2, discs=2, boxes=1), 2)
@@ -179,7 +179,7 @@ def test_between_an_accepted_step_and_rest_nothing_is_touched() -> None:
     assert 5 < sum(answers) < 35
 
 
-def test_who_stands_too_near_may_only_leave() -> None:
+def test_inside_the_margin_only_leaving_is_accepted() -> None:
     room = Room(obstacles=(Box(0.4, 0.0, 0.5, 2.0),))
     planner = ManeuverPlanner(GAIT)
     support = Pose(0.045, -0.05, 0.0)  # its toes are 1 cm from the box
@@ -198,7 +198,7 @@ def test_who_stands_too_near_may_only_leave() -> None:
     assert not accepts(Direction.FORWARD, standing=True)
 
 
-def test_what_cannot_be_walked_is_slowed_then_turned_then_dropped() -> None:
+def test_a_blocked_intent_is_slowed_then_turned_then_refused() -> None:
     """Before a wall a robot turns on the spot; in a box it stands."""
     planner = ManeuverPlanner(GAIT)
 
@@ -231,7 +231,7 @@ def test_what_cannot_be_walked_is_slowed_then_turned_then_dropped() -> None:
 
 
 @pytest.mark.parametrize("wanted", [-0.3, 0.0, 0.1, 0.4])
-def test_who_stands_before_a_pillar_finds_a_step_back(wanted: float) -> None:
+def test_a_robot_before_a_pillar_steps_back(wanted: float) -> None:
     """Where a NAO stood once: it sways too near to it but in a sharp turn."""
     planner, nao = ManeuverPlanner(GAIT), measure_outline(NAO, GAIT)
     room = Room(3.0, 3.0, (Disc(0.0, 0.0, 0.2),))
@@ -283,7 +283,7 @@ def test_a_body_between_two_instants_counts() -> None:
     assert pillar.swept_clearances(away)[0] < 0.0
 
 
-def test_a_place_that_is_measured_corrects_odometry() -> None:
+def test_a_measured_pose_corrects_odometry() -> None:
     """A robot that is where its odometry does not say knows it."""
     around = KnownRoom(Room(), Pose(1.0, 2.0, 0.5))
     body = BodyReference(

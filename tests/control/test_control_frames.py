@@ -1,4 +1,4 @@
-"""Test control by laws: no heading of odometry is special, nor any delay."""
+"""Test control by laws: invariance to the odometry frame and to delays."""
 
 from collections.abc import Sequence
 from math import hypot, pi
@@ -70,7 +70,7 @@ def turned(frame: Pose, vector: Sequence[float]) -> Vector:
 
 
 def body_in(frame: Pose, body: BodyReference) -> BodyReference:
-    """What is asked of a body in a frame, in its parent."""
+    """Express a body reference in the parent of its frame."""
 
     def foot(asked: Any) -> tuple[float, float, float, float]:
         x, y, height, yaw = asked
@@ -105,7 +105,7 @@ def same_row(one: ReferenceSample, other: ReferenceSample) -> None:
 class Around:
     """Surroundings whose frame is not odometry."""
 
-    blur = 0.01
+    map_error = 0.01
 
     def __init__(self, frame: Pose, room: Pose = HERE) -> None:
         self.frame = frame
@@ -119,7 +119,7 @@ class Around:
 
 
 def told(odometry: Pose, room: Pose) -> Knowledge:
-    """What a strategy is told, with odometry and room lying somewhere."""
+    """Return the knowledge for given frames of odometry and room."""
     strategy = FakeStrategy()
     around: Any = Around(room.compose(odometry.inverse()))
     made = StrategyRunner(strategy, GAIT, TICK, around)
@@ -140,7 +140,7 @@ def told(odometry: Pose, room: Pose) -> Knowledge:
 
 @FEW
 @given(MOVED, MOVED)
-def test_a_strategy_is_told_places_in_the_room_and_velocities_in_its_frame(
+def test_knowledge_has_poses_in_the_room_and_velocities_in_its_frame(
     odometry: Pose, room: Pose
 ) -> None:
     """Wherever odometry lies; obstacles and poses are in the same frame."""
@@ -155,7 +155,13 @@ def test_a_strategy_is_told_places_in_the_room_and_velocities_in_its_frame(
         off = wrap_angle(one.theta - other.theta)
         assert off == pytest.approx(0.0, abs=1e-9)
     assert known.obstacles == plain.obstacles != ()
-    for name in ("distance", "age", "closing_speed", "bearing_rate", "blur"):
+    for name in (
+        "distance",
+        "age",
+        "closing_speed",
+        "bearing_rate",
+        "map_error",
+    ):
         own = getattr(plain, name)
         assert getattr(known, name) == pytest.approx(own, abs=1e-9)
     off = wrap_angle(known.bearing - plain.bearing)
@@ -190,17 +196,17 @@ def test_how_clear_a_maneuver_is_depends_on_no_odometry(
         for around in (here, there)
     )
     moved = odometry.compose(support)
-    assert one.passage(plan, support) == pytest.approx(
-        two.passage(plan, moved), abs=1e-9
+    assert one.evaluate(plan, support) == pytest.approx(
+        two.evaluate(plan, moved), abs=1e-9
     )
 
 
 @FEW
 @given(MOVED, MOVED, MOVED)
-def test_a_measured_place_puts_odometry_where_the_body_is(
+def test_a_measured_pose_aligns_odometry_with_the_body(
     start: Pose, planned: Pose, place: Pose
 ) -> None:
-    """What was planned for the body, seen from the room, is its place."""
+    """The planned pose in odometry maps to the measured pose in the room."""
     around = KnownRoom(Room(None, None, (Disc(9.0, 9.0, 0.2),)), start)
     x, y, yaw = planned
     foot = (x, y, 0.0, yaw)
@@ -215,10 +221,10 @@ def test_a_measured_place_puts_odometry_where_the_body_is(
 
 @FEW
 @given(METRES, METRES, st.integers(0, 63), MOVED)
-def test_how_clear_a_maneuver_is_turns_with_all_that_stands_around(
+def test_maneuver_clearance_is_invariant_to_rotation(
     x: float, y: float, turns: int, support: Pose
 ) -> None:
-    """Step and halt alike; by as much as distances are told along."""
+    """Step and halt alike, for rotations on the grid of directions."""
     planner = ManeuverPlanner(GAIT)
     plan = planner.plan(
         -0.7, Direction.FORWARD, first_foot=Foot.RIGHT, standing=True
@@ -228,7 +234,7 @@ def test_how_clear_a_maneuver_is_turns_with_all_that_stands_around(
     for moved in (Pose(0.0, 0.0, 0.0), room):
         around: Any = Around(moved.compose(here), moved)
         guard = Guard(around, OUTLINE, planner, margin=0.02)
-        found.append(guard.passage(plan, support))
+        found.append(guard.evaluate(plan, support))
     assert found[0] == pytest.approx(found[1], abs=1e-9)
 
 
@@ -258,7 +264,7 @@ def test_a_reference_turns_with_the_frame_of_its_plan(
         plain, row = (table.at(time) for table in tables)
         same_row(row, row_in(frame, plain))
     if swings:
-        assert plan.schedule.feels_swing
+        assert plan.schedule.has_swing_reaction
         assert any(hypot(*tables[0].at(t).reaction) > 1e-4 for t in (1.1, 1.2))
 
 
@@ -381,7 +387,9 @@ def test_feedback_turns_with_odometry(frame: Pose, method: str) -> None:
 
 
 @pytest.mark.parametrize("late", [0, 1, 4])
-def test_what_is_told_of_a_body_was_asked_a_delay_ago(late: int) -> None:
+def test_the_estimator_gets_the_delayed_command_in_any_frame(
+    late: int,
+) -> None:
     """Feet, acceleration and swing reaction, all of the same instant."""
     feedback, fake = stabiliser(delay=late * TICK)
     made: FakeEstimator = fake
@@ -420,7 +428,7 @@ class Noted(OpenLoop):
 
 @pytest.mark.parametrize("late", [0, 3])
 def test_a_sighting_is_of_where_the_body_was_then(late: int) -> None:
-    """Not of where it is asked to be by now: a request takes its time."""
+    """Not to the commanded pose: a command takes effect with a delay."""
     noted = Noted()
     strategy = FakeStrategy(heading=0.6)
     run = Run(strategy, delay=late * TICK, balance=noted)
@@ -440,7 +448,7 @@ def test_a_sighting_is_of_where_the_body_was_then(late: int) -> None:
 
 
 class Paced:
-    """Walks at a pace, until it wants to stand."""
+    """Strategy that walks at a pace until it stands."""
 
     direction, saturated = Direction.BACKWARD, False
 
@@ -457,10 +465,8 @@ class Paced:
 
 @pytest.mark.parametrize("lost", [False, True])
 @pytest.mark.parametrize("pace", [1.0, 0.75, 0.5])
-def test_a_robot_halts_at_the_pace_at_which_it_walks(
-    pace: float, lost: bool
-) -> None:
-    """Whether it wants to stand or lost the other."""
+def test_a_halt_has_the_pace_of_the_walk(pace: float, lost: bool) -> None:
+    """After a decision to stand, and after loss of the opponent."""
     strategy = Paced(pace)
     run = Run(strategy)
     run.until(FIRST + 4.2 * STEP / pace)

@@ -1,4 +1,4 @@
-"""Footsteps of the MPC keep on the free side of what stands nearby."""
+"""Test the adjustment of footsteps to half planes around obstacles."""
 
 from dataclasses import replace
 from math import cos, pi, sin
@@ -9,7 +9,7 @@ import pytest
 from stepaside.arena import Box, Disc, Obstacle, ObstacleSet, Room
 from stepaside.control.clearance.footholds import Footholds
 from stepaside.control.clearance.surroundings import HERE, KnownRoom
-from stepaside.control.scheme_builder import ClearanceSetup, guard_of
+from stepaside.control.scheme_builder import ClearanceSetup, build_guard
 from stepaside.core.poses import Array, Pose
 from stepaside.locomotion.zmp.control_settings import (
     ControlSettings,
@@ -82,11 +82,11 @@ def clear(p: ManeuverPlan, solids: tuple[Obstacle, ...]) -> Array:
 
 
 @pytest.mark.parametrize("solids", [(), (Disc(3.0, 0.0, 0.5),)])
-def test_with_nothing_near_it_is_the_plan_itself(
+def test_without_obstacles_nearby_the_plan_is_unchanged(
     solids: tuple[Obstacle, ...],
 ) -> None:
     wanted = plan(0.4)
-    assert HOLDS.kept(wanted, FRAME, ObstacleSet(solids)) is wanted
+    assert HOLDS.adjust(wanted, FRAME, ObstacleSet(solids)) is wanted
 
 
 @pytest.mark.parametrize("foot", Foot)
@@ -95,11 +95,11 @@ def test_with_nothing_near_it_is_the_plan_itself(
 def test_every_footstep_stays_on_its_side_of_a_wall(
     foot: Foot, bearing: float, angle: float
 ) -> None:
-    """Where the plan would come 4 cm too near; what legs reach is kept."""
+    """Plan that comes 4 cm too near; reach limits hold."""
     wanted = plan(bearing, foot)
     wall = beside(wanted, NEEDS - 0.04, angle)
     assert clear(wanted, wall).min() < NEEDS - 0.03
-    kept = HOLDS.kept(wanted, FRAME, ObstacleSet(wall))
+    kept = HOLDS.adjust(wanted, FRAME, ObstacleSet(wall))
     assert kept is not wanted
     assert clear(kept, wall).min() >= NEEDS - 1e-6
     feet = kept.placements
@@ -121,7 +121,7 @@ def test_feet_land_where_legs_reach_and_soles_do_not_touch(
     wall = beside(wanted, NEEDS - 0.04, angle)
     for gap, outward in ((0.028, 1.0), (0.0, 0.003), (0.028, 0.004)):
         tight = replace(REACH, gap=gap, reach_outward=outward)
-        kept = Footholds(PLANNER, tight, NEEDS).kept(
+        kept = Footholds(PLANNER, tight, NEEDS).adjust(
             wanted, FRAME, ObstacleSet(wall)
         )
         aside = [y for _, y in strides(kept)]
@@ -137,7 +137,7 @@ def test_feet_land_where_legs_reach_and_soles_do_not_touch(
 
 def test_the_walk_goes_on_from_the_same_state() -> None:
     wanted = plan(0.3)
-    kept = HOLDS.kept(
+    kept = HOLDS.adjust(
         wanted, FRAME, ObstacleSet(beside(wanted, NEEDS - 0.03, pi))
     )
     for p in (wanted, kept):
@@ -160,10 +160,10 @@ def test_no_other_footsteps_change_the_plan_less(seed: int) -> None:
     out = FRAME.theta + pi + float(random.uniform(-0.6, 0.6))
     reach = 0.15 + NEEDS - 0.02
     disc = Disc(x + reach * cos(out), y + reach * sin(out), 0.15)
-    kept = HOLDS.kept(wanted, FRAME, ObstacleSet((disc,)))
+    kept = HOLDS.adjust(wanted, FRAME, ObstacleSet((disc,)))
     assert kept is not wanted
     assert clear(kept, (disc,)).min() >= NEEDS - 1e-6
-    rows, least = HOLDS._planes(wanted, FRAME, ObstacleSet((disc,)))
+    rows, least = HOLDS._half_planes(wanted, FRAME, ObstacleSet((disc,)))
     reached, low, high = HOLDS._within_reach(wanted)
     target = wanted.placements[2:, :2].ravel()
 
@@ -184,7 +184,7 @@ def test_no_other_footsteps_change_the_plan_less(seed: int) -> None:
     assert cost(best) > 1e-5
 
 
-def test_who_is_too_near_already_comes_no_nearer() -> None:
+def test_inside_the_clearance_footsteps_come_no_nearer() -> None:
     wanted = plan(0.0)
     start = FRAME.compose(Pose(0.0, 0.5 * GAIT.foot_spacing, 0.0))
     out = FRAME.theta + pi
@@ -196,7 +196,7 @@ def test_who_is_too_near_already_comes_no_nearer() -> None:
     assert now == pytest.approx(0.15)
     assert clear(wanted, wall).min() < 0.0
     assert (
-        clear(HOLDS.kept(wanted, FRAME, ObstacleSet(wall)), wall).min()
+        clear(HOLDS.adjust(wanted, FRAME, ObstacleSet(wall)), wall).min()
         >= now - 1e-6
     )
 
@@ -204,13 +204,13 @@ def test_who_is_too_near_already_comes_no_nearer() -> None:
 def test_where_no_footsteps_keep_clear_the_plan_is_left_to_the_guard(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """Half planes that contradict each other: nobody stands on both sides."""
+    """Contradictory half planes have no solution."""
     wanted = plan(0.0)
     wall = beside(wanted, NEEDS - 0.03, pi)
-    rows, least = HOLDS._planes(wanted, FRAME, ObstacleSet(wall))
+    rows, least = HOLDS._half_planes(wanted, FRAME, ObstacleSet(wall))
     both = np.concatenate([rows, -rows]), np.concatenate([least, 0.1 - least])
-    monkeypatch.setattr(Footholds, "_planes", lambda *_: both)
-    assert HOLDS.kept(wanted, FRAME, ObstacleSet(wall)) is wanted
+    monkeypatch.setattr(Footholds, "_half_planes", lambda *_: both)
+    assert HOLDS.adjust(wanted, FRAME, ObstacleSet(wall)) is wanted
 
 
 @pytest.mark.parametrize("method", ["measured", "mpc"])
@@ -219,11 +219,11 @@ def test_only_with_the_mpc_footsteps_are_moved(method: Method) -> None:
     room = Room(3.0, 3.0)
     frame = Pose(-1.5 + NEEDS + 0.06, 0.0, 0.5)
     outline = measure_outline(load_robot("nao"), GAIT)
-    guard = guard_of(
+    guard = build_guard(
         ClearanceSetup(KnownRoom(room, frame), outline, 0.0),
         GAIT,
         ControlSettings(method, True),
     )
     wanted = plan(0.0)
-    fitted = guard.fit(wanted, HERE)
+    fitted = guard.adjust_footsteps(wanted, HERE)
     assert (fitted is wanted) is (method == "measured")

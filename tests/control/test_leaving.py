@@ -1,4 +1,4 @@
-"""Who stands where a map leaves no room gets out, if it may be wrong."""
+"""Test the escape from within the margin of an inaccurate map."""
 
 from typing import Any
 
@@ -42,10 +42,10 @@ def beside(gap: float, around: Any, *, out: bool) -> GuardDecision | None:
     guard = Guard(around, NAO, PLANNER, margin=MARGIN)
     half = float(NAO.trunk[:, 1].max())
     around.solids = ObstacleSet((Box(0.0, half + gap + 0.5, 9.0, 1.0),))
-    passage = guard.passage(plan_for(GuardDecision(Intent(0.0))), SUPPORT)
-    assert passage.now == pytest.approx(gap, abs=1e-9)
+    clearance = guard.evaluate(plan_for(GuardDecision(Intent(0.0))), SUPPORT)
+    assert clearance.now == pytest.approx(gap, abs=1e-9)
     if out:
-        return guard.way_out(Intent(0.6), plan_for, SUPPORT)
+        return guard.choose_escape(Intent(0.6), plan_for, SUPPORT)
     return guard.choose(Intent(0.6), plan_for, SUPPORT, standing=True)
 
 
@@ -58,7 +58,7 @@ def seen() -> MappedRoom:
 
 
 def test_a_step_sways_to_where_a_map_sees_a_wall() -> None:
-    """Beside a wall that is known to be there nobody does that."""
+    """A given map allows no escape towards a wall."""
     assert beside(0.3, given(), out=False) == GuardDecision(Intent(0.6))
     for around in (given(), seen()):
         assert beside(0.009, around, out=False) is None
@@ -67,17 +67,17 @@ def test_a_step_sways_to_where_a_map_sees_a_wall() -> None:
     chosen = beside(0.009, around, out=True)
     assert chosen is not None
     guard = Guard(around, NAO, PLANNER, margin=MARGIN)
-    passage = guard.passage(plan_for(chosen), SUPPORT)
-    assert passage.last > passage.now + GAINED
-    assert passage.now > passage.least > passage.now - CELL
+    clearance = guard.evaluate(plan_for(chosen), SUPPORT)
+    assert clearance.last > clearance.now + GAINED
+    assert clearance.now > clearance.least > clearance.now - CELL
 
 
-def test_who_has_room_to_stand_takes_no_such_way() -> None:
+def test_outside_the_margin_no_escape_is_chosen() -> None:
     assert beside(0.021, seen(), out=True) is None
 
 
 @pytest.mark.parametrize(
-    ("passage", "leaves"),
+    ("clearance", "escapes"),
     [
         (ManeuverClearance(0.01, 0.01, 0.011), True),
         (ManeuverClearance(0.01, -0.039, 0.011), True),
@@ -90,56 +90,56 @@ def test_who_has_room_to_stand_takes_no_such_way() -> None:
         ),  # where it stands is room enough
     ],
 )
-def test_a_way_out_leads_farther_and_comes_hardly_nearer(
-    passage: ManeuverClearance, leaves: bool
+def test_an_escape_ends_farther_and_hardly_approaches(
+    clearance: ManeuverClearance, escapes: bool
 ) -> None:
-    assert passage.leaves(MARGIN, 0.05) is leaves
-    strict = leaves and passage.least >= passage.now
-    assert passage.leaves(MARGIN, 0.0) is strict
+    assert clearance.escapes(MARGIN, 0.05) is escapes
+    strict = escapes and clearance.least >= clearance.now
+    assert clearance.escapes(MARGIN, 0.0) is strict
 
 
-def test_of_two_ways_out_the_one_that_comes_least_near_is_taken(
+def test_the_escape_with_the_largest_clearance_is_chosen(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     random = np.random.default_rng(3)
     told: dict[GuardDecision, ManeuverClearance] = {}
 
-    def passage(_: Guard, plan: Any, support: Pose) -> ManeuverClearance:
+    def clearance(_: Guard, plan: Any, support: Pose) -> ManeuverClearance:
         return told.setdefault(
             plan, ManeuverClearance(0.01, random.uniform(-0.03, 0.0), 0.02)
         )
 
-    monkeypatch.setattr(Guard, "passage", passage)
+    monkeypatch.setattr(Guard, "evaluate", clearance)
     around: Any = seen()
     around.solids = ObstacleSet((Box(0.0, 1.0, 1.0, 1.0),))
     guard = Guard(around, NAO, PLANNER, margin=MARGIN)
     same: Any = lambda choice: choice  # noqa: E731
-    chosen = guard.way_out(Intent(0.6), same, SUPPORT)
+    chosen = guard.choose_escape(Intent(0.6), same, SUPPORT)
     assert chosen is not None and len(told) > 3
     assert told[chosen].least == max(p.least for p in told.values())
 
 
-def test_a_way_out_ends_farther_by_a_little_or_at_the_margin() -> None:
-    """Else somebody would shuffle there for ever."""
-    for last, leaves in ((0.013, False), (0.0141, True)):
+def test_an_escape_gains_clearance_or_ends_at_the_margin() -> None:
+    """Otherwise the robot would shuffle indefinitely."""
+    for last, escapes in ((0.013, False), (0.0141, True)):
         assert (
-            ManeuverClearance(0.01, 0.0, last).leaves(MARGIN, 0.05, GAINED)
-            is leaves
+            ManeuverClearance(0.01, 0.0, last).escapes(MARGIN, 0.05, GAINED)
+            is escapes
         )
-    assert ManeuverClearance(0.018, 0.0, 0.0201).leaves(MARGIN, 0.05, GAINED)
+    assert ManeuverClearance(0.018, 0.0, 0.0201).escapes(MARGIN, 0.05, GAINED)
     assert GAINED == 0.004
 
 
 def begun(around: Any) -> Foot | None:
-    """The foot with which a robot leads who wants to go to the left."""
+    """Return the first foot of a robot that starts to the left."""
     guard = Guard(around, NAO, PLANNER, margin=MARGIN)
     run = Run(FakeStrategy(heading=0.6), guard=guard)
     plan = run.until(0.1).plan
     return None if plan is None else plan.first_foot
 
 
-def test_neither_foot_is_left_out_for_a_loose_way() -> None:
-    """A disc at the right: who swings the right foot first sways off it."""
+def test_relaxed_attempts_use_both_feet() -> None:
+    """A disc on the right: starting with the right foot sways away from it."""
     ahead = plan_for(GuardDecision(Intent(0.0)))
     around: Any
     for around in (given(), seen()):
@@ -147,7 +147,7 @@ def test_neither_foot_is_left_out_for_a_loose_way() -> None:
         while True:
             centre = away * np.cos(-1.83), away * np.sin(-1.83)
             around.solids = ObstacleSet((Disc(*centre, 0.1),))
-            if guard.passage(ahead, SUPPORT).now > 0.012:
+            if guard.evaluate(ahead, SUPPORT).now > 0.012:
                 break
             away += 0.001
         assert begun(around) is Foot.RIGHT

@@ -1,8 +1,8 @@
-"""Test what a robot was a moment ago, for sightings that arrive late."""
+"""Test the history of states for late sightings."""
 
 import pytest
 
-from stepaside.control.state_history import KEPT, StateHistory
+from stepaside.control.state_history import DURATION, StateHistory
 
 TICK = 0.02
 
@@ -35,13 +35,13 @@ def test_before_memory_begins_the_oldest_counts() -> None:
     assert filled(50).at(-1.0) == 0.0
 
 
-def test_two_seconds_are_kept_and_no_more() -> None:
+def test_history_covers_two_seconds() -> None:
     memory = filled(500)
     newest = 499 * TICK
     assert memory.at(newest - 1.9) == pytest.approx(newest - 1.9)
-    oldest = newest - KEPT + TICK
+    oldest = newest - DURATION + TICK
     assert memory.at(0.0) == pytest.approx(oldest)
-    assert KEPT == 2.0
+    assert DURATION == 2.0
 
 
 def test_a_slow_clock_keeps_at_least_one() -> None:

@@ -1,4 +1,4 @@
-"""The same steps in more time: calm where there is time, quick where not."""
+"""Test walks at a reduced step rate."""
 
 from dataclasses import replace
 from itertools import pairwise
@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from made_up_robot import FIRST, GAIT, STEP, FakeStrategy, Run
-from stepaside.control.strategy_runner import QUICKENING, next_pace
+from stepaside.control.strategy_runner import MAX_PACE_CHANGE, next_pace
 from stepaside.core.errors import PlanError
 from stepaside.core.poses import Pose
 from stepaside.games.outcome import Outcome
@@ -70,7 +70,7 @@ def test_a_calm_step_is_the_same_step_in_more_time() -> None:
     assert calm.gait.stride == FAST.stride
 
 
-def test_paces_are_few_and_never_below_half() -> None:
+def test_paces_are_rounded_and_at_least_half() -> None:
     planner = ManeuverPlanner(FAST)
     schedules = {
         planner.schedule(5, standing=False, pace=pace)
@@ -107,14 +107,14 @@ def test_a_change_at_one_stroke_would_take_more_of_the_sole() -> None:
     assert np.hypot(*sudden) > 1.5 * np.hypot(*gentle)
 
 
-def test_a_walk_changes_its_pace_step_by_step() -> None:
-    assert next_pace(1.0, 0.5, standing=False) == 1.0 - QUICKENING
-    assert next_pace(0.5, 1.0, standing=False) == 0.5 + QUICKENING
+def test_pace_changes_gradually_in_a_walk() -> None:
+    assert next_pace(1.0, 0.5, standing=False) == 1.0 - MAX_PACE_CHANGE
+    assert next_pace(0.5, 1.0, standing=False) == 0.5 + MAX_PACE_CHANGE
     assert next_pace(0.6, 0.7, standing=False) == 0.7
     assert next_pace(1.0, 0.5, standing=True) == 0.5
 
 
-def test_a_robot_takes_its_time_as_it_is_asked_to() -> None:
+def test_steps_last_as_the_pace_requests() -> None:
     class Calming(FakeStrategy):
         def decide(
             self, knowledge: Knowledge, memory: tuple[Knowledge, ...]

@@ -1,4 +1,4 @@
-"""Test the control scheme of one robot on a body that is made up."""
+"""Test the control scheme of one robot with a fake body."""
 
 from dataclasses import replace
 from time import process_time
@@ -9,7 +9,7 @@ import pytest
 
 from made_up_robot import FIRST, GAIT, STEP, TICK, FakeStrategy, Run, measure
 from stepaside.control.phase import Phase
-from stepaside.control.scheme import PATIENCE, SETTLING
+from stepaside.control.scheme import RETRY_PERIOD, SETTLING
 from stepaside.control.sight_sources import MeasuredSight
 from stepaside.core.poses import Pose
 from stepaside.perception.measurement import Sighting
@@ -36,7 +36,7 @@ def test_it_stands_midway_until_the_other_is_a_reason() -> None:
     assert run.phase() is Phase.WALKING and run.replans == 1
 
 
-def test_what_was_known_before_anything_is_seen_counts() -> None:
+def test_the_initial_sighting_is_used() -> None:
     run = Run(senses=MeasuredSight(Sighting(0.0, 0.3, 1.0)))
     run.until(TICK, distance=None)
     assert run.phase() is Phase.WALKING
@@ -44,7 +44,7 @@ def test_what_was_known_before_anything_is_seen_counts() -> None:
 
 
 @pytest.mark.parametrize("foot", Foot)
-def test_the_first_foot_lands_first_and_then_the_other(foot: Foot) -> None:
+def test_feet_land_alternately_from_the_first_foot(foot: Foot) -> None:
     run = Run(first_foot=foot)
     run.until(FIRST + 2.5 * STEP)
     times, feet, poses = zip(*run.landings, strict=True)
@@ -138,7 +138,7 @@ def test_the_bearing_counts_from_the_path_where_the_body_is() -> None:
     assert 0.6 < known.pose.x / GAIT.stride < 0.7
 
 
-def test_a_body_that_is_late_is_where_it_was_asked_to_be() -> None:
+def test_a_delayed_body_is_at_its_delayed_reference() -> None:
     """With a delay of a fifth of a step it has walked that much less."""
     walked = []
     for delay in (0.0, 0.2 * STEP):
@@ -149,7 +149,7 @@ def test_a_body_that_is_late_is_where_it_was_asked_to_be() -> None:
     assert 0.2 < walked[0] - walked[1] < 0.3
 
 
-def test_a_late_sighting_counts_for_when_it_was_seen() -> None:
+def test_a_late_sighting_refers_to_its_own_time() -> None:
     run = Run()
     for i in range(100):
         run.legs.torso_heading = 0.01 * i
@@ -204,14 +204,14 @@ def test_it_walks_again_after_a_halt() -> None:
     assert max(step.velocity_jump for step in run.steps) < 1e-12
 
 
-def test_a_sighting_is_kept_until_the_next() -> None:
+def test_a_sighting_is_used_until_the_next() -> None:
     run = Run()
     run.until(TICK)
     run.until(FIRST + 0.1, distance=None)
     assert run.phase() is Phase.WALKING and run.replans == 2
 
 
-def test_steps_are_told_as_they_are_made() -> None:
+def test_steps_are_reported_when_they_begin() -> None:
     run = Run()
     rest = run.scheme.step(0.0)
     assert not rest.walking and rest.swing is Foot.LEFT
@@ -224,7 +224,7 @@ def test_steps_are_told_as_they_are_made() -> None:
     assert made.remaining == pytest.approx(GAIT.single_support - 0.1)
 
 
-def test_a_step_that_begins_tells_its_plan_and_what_it_cost() -> None:
+def test_a_started_step_reports_its_plan_and_planning_time() -> None:
     clock = process_time()
     run = Run(FakeStrategy(heading=0.5))
     plans = []
@@ -240,7 +240,7 @@ def test_a_step_that_begins_tells_its_plan_and_what_it_cost() -> None:
     assert sum(times) < process_time() - clock
 
 
-def test_a_step_is_told_at_the_tick_at_which_it_begins_and_no_other() -> None:
+def test_a_step_is_reported_at_its_first_tick_only() -> None:
     """A halt is a step too; its time of rest begins none."""
     run = Run(FakeStrategy(heading=0.5))
     told, replaced = [], []
@@ -262,7 +262,7 @@ def test_a_step_is_told_at_the_tick_at_which_it_begins_and_no_other() -> None:
     ]
 
 
-def test_the_state_is_what_the_scheme_has() -> None:
+def test_the_state_matches_the_scheme() -> None:
     """A value: what comes after does not change it."""
     run = Run(FakeStrategy(heading=0.5))
     scheme = run.until(FIRST + 0.1)
@@ -287,7 +287,7 @@ def test_the_state_is_what_the_scheme_has() -> None:
 
 @pytest.mark.parametrize("foot", Foot)
 @pytest.mark.parametrize("blocked", [0, 1, 2])
-def test_who_has_no_room_for_one_foot_tries_the_other(
+def test_a_blocked_start_is_retried_with_the_other_foot(
     foot: Foot, blocked: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """And if there is room for neither, both again, but not at once."""
@@ -308,7 +308,7 @@ def test_who_has_no_room_for_one_foot_tries_the_other(
         assert run.landings[0][1] is asked[-1]
         return
     assert run.phase() is Phase.STANDING and not run.steps
-    run.until(PATIENCE)
+    run.until(RETRY_PERIOD)
     assert len(asked) == 2
-    run.until(PATIENCE + 2.0 * TICK)
+    run.until(RETRY_PERIOD + 2.0 * TICK)
     assert asked == 2 * [foot, foot.other]

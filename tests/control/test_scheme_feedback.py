@@ -1,4 +1,4 @@
-"""Test how the control scheme asks feedback and perception."""
+"""Test the interaction of the control scheme with feedback and perception."""
 
 from types import SimpleNamespace
 from typing import Any
@@ -33,7 +33,7 @@ def test_it_waits_until_feedback_is_ready() -> None:
     assert run.phase() is Phase.WALKING
 
 
-def test_feedback_decides_what_is_asked_of_the_legs() -> None:
+def test_feedback_modifies_the_leg_reference() -> None:
     run, feedback = feeding()
     feedback.lift = 0.01
     scheme = run.until(0.1)
@@ -85,7 +85,7 @@ def test_feedback_knows_the_heading() -> None:
     assert run.asked == pytest.approx([0.3])
 
 
-def test_who_has_fallen_lies_still() -> None:
+def test_a_fallen_robot_stops_moving() -> None:
     run, feedback = feeding()
     feedback.state = SimpleNamespace(has_fallen=False)
     scheme = run.until(FIRST)
@@ -149,7 +149,7 @@ def test_eyes_that_look_around_turn_the_body(
     assert run.phase() is Phase.HALTING
 
 
-def test_eyes_are_told_the_tilt_that_feedback_estimates() -> None:
+def test_the_camera_uses_the_tilt_estimated_by_feedback() -> None:
     eyes: Any = FakePerception()
     run, feedback = feeding()
     run.scheme.senses = CameraSight(eyes, tick=TICK)
@@ -158,7 +158,7 @@ def test_eyes_are_told_the_tilt_that_feedback_estimates() -> None:
     assert eyes.tilts == [(0.03, -0.02)] * 2
 
 
-def test_the_state_tells_what_feedback_estimates_and_does() -> None:
+def test_the_state_contains_estimate_and_mpc_result() -> None:
     run, feedback = feeding()
     feedback.state = SimpleNamespace(has_fallen=False)
     feedback.zmp_feedback.solved = answer = object()

@@ -1,4 +1,4 @@
-"""Test that a robot's control keeps nothing of what has been."""
+"""Test that the memory of a control scheme is bounded."""
 
 from types import SimpleNamespace
 from typing import Any
@@ -10,7 +10,7 @@ from made_up_robot import GAIT, STEP, TICK, FakeStrategy, Run, measure
 from made_up_state import FakeEstimator
 from stepaside.control.phase import Phase
 from stepaside.control.sight_sources import CameraSight
-from stepaside.control.state_history import KEPT
+from stepaside.control.state_history import DURATION
 from stepaside.locomotion.zmp.control_settings import (
     ControlSettings,
     MpcSettings,
@@ -104,10 +104,10 @@ def weights(run: Run, rounds: int, times: int = 4) -> list[int]:
 
 def test_four_steps_are_whole_ticks() -> None:
     assert AGAIN * TICK == pytest.approx(4 * STEP, abs=1e-12)
-    assert AGAIN * TICK > KEPT
+    assert AGAIN * TICK > DURATION
 
 
-def test_twenty_thousand_ticks_leave_nothing_behind() -> None:
+def test_memory_is_constant_over_twenty_thousand_ticks() -> None:
     run = dull()
     found = weights(run, rounds=8)
     assert run.ticks > 20_000
@@ -115,14 +115,14 @@ def test_twenty_thousand_ticks_leave_nothing_behind() -> None:
     assert weight([run.scheme, 1.0]) == found[0] + 2
 
 
-def test_eyes_leave_nothing_behind() -> None:
+def test_perception_memory_is_constant() -> None:
     perception: Any = DullPerception()
     found = weights(dull(senses=CameraSight(perception, tick=TICK)), rounds=1)
     assert len(set(found)) == 1
 
 
 @pytest.mark.parametrize("method", ["closed-form", "measured", "mpc"])
-def test_feedback_leaves_nothing_behind(method: Any) -> None:
+def test_feedback_memory_is_constant(method: Any) -> None:
     if method == "mpc":
         pytest.importorskip("daqp")
     estimator: Any = DullEstimator()

@@ -1,4 +1,4 @@
-"""Test how a robot learns where the other is."""
+"""Test the sources of sightings."""
 
 from math import exp
 from typing import Any
@@ -7,7 +7,11 @@ import numpy as np
 import pytest
 
 from made_up_robot import FakePerception, measure
-from stepaside.control.sight_sources import BELIEF, CameraSight, MeasuredSight
+from stepaside.control.sight_sources import (
+    CORRECTION,
+    CameraSight,
+    MeasuredSight,
+)
 from stepaside.core.constants import GRAVITY
 from stepaside.core.poses import Array, Pose
 from stepaside.locomotion.zmp.current_step import CurrentStep, resting_step
@@ -34,7 +38,7 @@ def seeing() -> tuple[CameraSight, FakePerception]:
     return CameraSight(eyes, tick=TICK), eyes
 
 
-def test_a_given_sighting_is_kept_until_the_next() -> None:
+def test_a_measured_sighting_is_used_until_the_next() -> None:
     sight = MeasuredSight()
     found = [
         sight.see(measure(time, distance), resting, None)
@@ -46,7 +50,7 @@ def test_a_given_sighting_is_kept_until_the_next() -> None:
     assert later == Sighting(0.3, 0.5, 2.0)
 
 
-def test_what_was_known_first_counts_until_something_is_seen() -> None:
+def test_the_initial_sighting_is_used_until_the_first_measured_one() -> None:
     known = Sighting(0.0, 0.3, 1.0)
     sight = MeasuredSight(known)
     assert sight.see(measure(0.5, None), resting, None) is known
@@ -61,7 +65,7 @@ def test_given_sightings_leave_the_head_where_it_is() -> None:
     np.testing.assert_array_equal(targets, np.arange(5.0))
 
 
-def test_cameras_turn_the_head_and_say_what_they_see() -> None:
+def test_camera_sight_aims_the_head_and_returns_sightings() -> None:
     sight, eyes = seeing()
     assert sight.see(measure(0.0), resting, None) is None
     eyes.seen = Sighting(0.1, 0.2, 1.0)
@@ -97,16 +101,16 @@ def test_the_tilt_that_balance_knows_serves_the_eyes() -> None:
         assert eyes.tilts[-1] == tilt
 
 
-def test_without_one_gravity_is_believed_at_its_rate() -> None:
+def test_without_an_estimate_the_attitude_filter_follows_gravity() -> None:
     """Upright at first; d(angle)/dt = k (true - angle) for small angles."""
     sight, eyes = seeing()
     for i in range(round(2.0 / TICK)):
         sight.see(leaning(i * TICK, 0.04, -0.03), resting, None)
-    share = 1.0 - exp(-BELIEF * 2.0)
+    share = 1.0 - exp(-CORRECTION * 2.0)
     assert eyes.tilts[0] == pytest.approx((0.0, 0.0), abs=2e-4)
     expected = (0.04 * share, -0.03 * share)
     assert eyes.tilts[-1] == pytest.approx(expected, rel=5e-3)
-    assert BELIEF == 0.5
+    assert CORRECTION == 0.5
 
 
 def test_without_one_the_gyro_is_integrated() -> None:

@@ -1,4 +1,4 @@
-"""Test how a robot asks its strategy."""
+"""Test the execution of a strategy by a walking robot."""
 
 from collections.abc import Callable
 from math import atan2, hypot, nan, sin
@@ -33,7 +33,7 @@ def decisions(strategy: FakeStrategy | None = None) -> StrategyRunner:
     return made
 
 
-def test_it_tells_what_it_knows_in_the_frame_of_its_unicycle() -> None:
+def test_knowledge_is_in_the_frame_of_the_template() -> None:
     made = decisions()
     made.decide(3.0, Sighting(2.5, 0.4, 1.5), moving=True)
     (known,) = made.memory
@@ -62,7 +62,7 @@ def test_a_step_begins_beside_the_foot_that_landed() -> None:
     assert known.spread == 0.07
 
 
-def test_it_tells_how_fast_the_other_comes() -> None:
+def test_knowledge_contains_the_closing_speed() -> None:
     made = decisions()
     for i in range(4):
         seen = Sighting(i * STEP, 0.1 * i, 1.5 - 0.02 * i)
@@ -100,8 +100,8 @@ def test_line_of_sight_and_heading_are_of_one_instant() -> None:
             assert known.pose.theta == template
 
 
-def test_a_robot_that_stands_remembers_but_not_what_made_it_walk() -> None:
-    """It is asked again for that instant, with the line of sight to come."""
+def test_memory_of_the_starting_decision_is_discarded() -> None:
+    """The second decision uses the time and line of sight of the step."""
 
     class Counting(FakeStrategy):
         """Counts how often it decided."""
@@ -121,7 +121,7 @@ def test_a_robot_that_stands_remembers_but_not_what_made_it_walk() -> None:
     assert made.memory == 2
 
 
-def test_a_strategy_of_the_same_kind_goes_on_with_what_is_remembered() -> None:
+def test_a_strategy_of_the_same_class_keeps_the_memory() -> None:
     made = StrategyRunner(Evasion(), GAIT, TICK)
     made.memory = EvasionMemory(True, 1)
     made.adopt(Evasion(angle=1.0))
@@ -145,7 +145,7 @@ def test_an_adopted_strategy_acts_at_the_next_step() -> None:
 
 
 @pytest.mark.parametrize("factor", [1.0, 0.5, 0.2])
-def test_a_robot_strides_by_the_share_of_speed_it_is_asked_for(
+def test_stride_scales_with_the_speed_factor(
     factor: float,
 ) -> None:
     run = Run(FakeStrategy(heading=0.5, speed_factor=factor))
@@ -164,7 +164,7 @@ def test_a_robot_strides_by_the_share_of_speed_it_is_asked_for(
     assert ways[0] == pytest.approx(factor * ways[1])
 
 
-def test_a_speed_of_nothing_brings_it_to_rest() -> None:
+def test_zero_speed_factor_halts() -> None:
     run = Run(FakeStrategy())
     run.until(FIRST - 0.1)
     run.strategy.speed_factor = 0.0
@@ -183,14 +183,14 @@ def test_a_speed_of_nothing_brings_it_to_rest() -> None:
         (lambda: dict[str, int]()["lost"], "KeyError: 'lost'"),
         (lambda: (Intent(nan), None), "PlanError: heading must be finite"),
         (lambda: None, "TypeError: cannot unpack"),
-        (lambda: (0.3, None), "decide gave no Intent, got 0.3"),
+        (lambda: (0.3, None), "decide must return an Intent, got 0.3"),
     ],
 )
-def test_a_strategy_that_gives_no_intent_is_told_from_other_errors(
+def test_a_failing_strategy_raises_a_strategy_error(
     answer: Callable[[], Any], said: str
 ) -> None:
     class Failing(FakeStrategy):
-        """Fails when it is asked."""
+        """Strategy that fails."""
 
         def decide(self, knowledge: Knowledge, memory: Any) -> Any:
             return answer()
@@ -204,7 +204,7 @@ def test_a_strategy_that_gives_no_intent_is_told_from_other_errors(
     assert made.memory == before
 
 
-def test_from_one_person_to_another_nobody_walks() -> None:
+def test_rates_are_reset_for_a_different_person() -> None:
     """The next one's velocity is its own, and unknown at first."""
     made, speeds = decisions(), []
     for i in range(12):
@@ -217,7 +217,7 @@ def test_from_one_person_to_another_nobody_walks() -> None:
     assert speeds[-1] == pytest.approx((0.0, 0.0), abs=1e-9)
 
 
-def test_nobody_begins_to_walk_for_who_is_not_watched_long_enough() -> None:
+def test_an_unsettled_sighting_does_not_start_a_walk() -> None:
     """A robot under way goes on all the same."""
     made = decisions()
     seen = Sighting(0.0, 0.3, 1.0)
@@ -227,7 +227,7 @@ def test_nobody_begins_to_walk_for_who_is_not_watched_long_enough() -> None:
     assert intent.walks
 
 
-def test_a_strategy_is_told_when_the_body_is_under_way() -> None:
+def test_knowledge_tells_whether_the_body_walks() -> None:
     """It stands before its first step, and again after it has halted."""
     run = Run()
     run.until(FIRST + 2.2 * STEP)

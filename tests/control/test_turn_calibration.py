@@ -1,4 +1,4 @@
-"""Test what a gyro tells of turns that are believed."""
+"""Test the calibration of turns by the gyro."""
 
 from math import nan, pi
 
@@ -8,9 +8,9 @@ import pytest
 from made_up_robot import TICK as FAKE_TICK
 from made_up_robot import FakeStrategy, Run, measure
 from stepaside.control.turn_calibration import (
-    LEAST,
-    MOST,
-    RESTED,
+    BIAS_TIME,
+    MAX_RATIO,
+    MIN_RATIO,
     TurnCalibration,
 )
 from stepaside.perception.measurement import Measurement
@@ -50,38 +50,44 @@ def stood() -> TurnCalibration:
 
 @pytest.mark.parametrize("rate", [RATE, -RATE])
 @pytest.mark.parametrize("made", [0.9, 1.0, 1.1])
-def test_the_share_is_that_of_the_turn_made(made: float, rate: float) -> None:
+def test_the_estimated_ratio_matches_the_actual_turn(
+    made: float, rate: float
+) -> None:
     """Around the whole circle, and with a bias as great as the slip."""
     shares = walked(stood(), made, rate=rate)
     assert shares[-1] == pytest.approx(made, abs=0.01)
     assert shares[0] == 1.0
 
 
-def test_what_was_long_ago_is_forgotten() -> None:
+def test_old_turns_are_forgotten() -> None:
     turns = stood()
     walked(turns, 0.9)
     assert walked(turns, 1.05)[-1] == pytest.approx(1.05, abs=0.01)
 
 
-def test_what_is_asked_for_is_made() -> None:
+def test_compensated_headings_yield_the_desired_turn() -> None:
     turns = stood()
-    assert turns.asked(1.2) == 1.2
+    assert turns.compensate(1.2) == 1.2
     walked(turns, 0.9)
     for heading in (-1.6, -0.3, 0.0, 0.8, 1.6):
-        assert turns.share * turns.asked(heading) == pytest.approx(heading)
-    assert turns.asked(-3.1) == -pi and turns.asked(3.1) == pi
-    assert turns.asked(4.0) == 4.0  # as by (8), where a turn is not wrapped
+        assert turns.share * turns.compensate(heading) == pytest.approx(
+            heading
+        )
+    assert turns.compensate(-3.1) == -pi and turns.compensate(3.1) == pi
+    assert (
+        turns.compensate(4.0) == 4.0
+    )  # as by (8), where a turn is not wrapped
 
 
-def test_nothing_is_believed_without_a_bias_a_turn_or_a_reason() -> None:
+def test_the_ratio_needs_a_bias_and_a_turn_and_is_bounded() -> None:
     assert set(walked(TurnCalibration(TICK), 0.9)) == {1.0}
     assert set(walked(stood(), 0.9, rate=0.01)) == {1.0}
-    assert walked(stood(), 0.2)[-1] == LEAST
-    assert walked(stood(), 3.0)[-1] == MOST
+    assert walked(stood(), 0.2)[-1] == MIN_RATIO
+    assert walked(stood(), 3.0)[-1] == MAX_RATIO
 
 
 def turn_of_a_step(made: float, *, learns: bool) -> float:
-    """Turn that is asked of the last step of one that walks a circle."""
+    """Return the turn requested for the last step of a walk on a circle."""
     run = Run(FakeStrategy(heading=0.4))
     decisions = run.scheme.decisions
     decisions.turns = TurnCalibration(FAKE_TICK) if learns else None
@@ -100,35 +106,33 @@ def turned(now: float, rate: float) -> Measurement:
     return measure(now)._replace(gyro=np.array([0.0, 0.0, rate + BIAS]))
 
 
-def test_a_reading_that_is_no_number_tells_nothing() -> None:
+def test_nan_readings_are_ignored() -> None:
     turns = stood()
     turns.note(nan, 0.0, stands=False)
     turns.note(nan, 0.0, stands=True)
     assert walked(turns, 0.9)[-1] == pytest.approx(0.9, abs=0.01)
 
 
-def test_a_robot_without_a_gyro_about_the_vertical_turns_as_it_is_told() -> (
-    None
-):
+def test_without_a_vertical_gyro_headings_are_unchanged() -> None:
     turns = TurnCalibration(FAKE_TICK)
-    for i in range(round(2.0 * RESTED / FAKE_TICK)):
-        assert turns.rested == (i * FAKE_TICK >= RESTED)
+    for i in range(round(2.0 * BIAS_TIME / FAKE_TICK)):
+        assert turns.ready == (i * FAKE_TICK >= BIAS_TIME)
         turns.note(nan, 0.0, stands=True)
     for i in range(1000):
         turns.note(nan, 0.01 * i, stands=False)
-    assert turns.share == 1.0 and turns.asked(0.5) == 0.5
+    assert turns.share == 1.0 and turns.compensate(0.5) == 0.5
 
 
-def test_who_learns_stands_until_the_bias_of_the_gyro_is_known() -> None:
+def test_a_calibrating_robot_stands_until_the_bias_is_known() -> None:
     run = Run()
     run.scheme.decisions.turns = turns = TurnCalibration(FAKE_TICK)
-    run.until(RESTED - 2 * FAKE_TICK)
-    assert run.replans == 0 and not turns.rested
-    run.until(RESTED + 2 * FAKE_TICK)
-    assert run.replans == 1 and turns.rested
+    run.until(BIAS_TIME - 2 * FAKE_TICK)
+    assert run.replans == 0 and not turns.ready
+    run.until(BIAS_TIME + 2 * FAKE_TICK)
+    assert run.replans == 1 and turns.ready
 
 
-def test_a_robot_whose_feet_twist_turns_as_it_wants() -> None:
+def test_twisting_feet_are_compensated() -> None:
     wanted = turn_of_a_step(0.9, learns=False)
     assert wanted == turn_of_a_step(1.0, learns=False) > 0.05
     asked = turn_of_a_step(0.9, learns=True)

@@ -1,4 +1,4 @@
-"""Test what a gait does for a robot that is driven by velocities."""
+"""Test the strategy that follows a velocity command."""
 
 from math import pi
 
@@ -21,7 +21,7 @@ def test_a_gait_is_as_fast_as_one_stride_a_step() -> None:
 
 @pytest.mark.parametrize("forward", [0.05, 0.5, -0.5, -0.01])
 @pytest.mark.parametrize("turn", [0.0, 0.1, -2.0])
-def test_what_is_too_fast_is_walked_slower_on_the_same_path(
+def test_excessive_velocity_is_scaled_on_the_same_path(
     forward: float, turn: float
 ) -> None:
     speed, rate = fastest(GAIT)
@@ -33,7 +33,7 @@ def test_what_is_too_fast_is_walked_slower_on_the_same_path(
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
-def test_half_the_speed_is_half_a_stride_that_turns_as_asked(
+def test_half_the_speed_halves_the_stride_not_the_turn(
     sign: float,
 ) -> None:
     speed, _ = fastest(GAIT)
@@ -45,14 +45,14 @@ def test_half_the_speed_is_half_a_stride_that_turns_as_asked(
     assert GAIT.gain * walk.bearing * PACE == pytest.approx(0.1)
 
 
-def test_turning_in_place_makes_no_way_and_keeps_the_direction() -> None:
+def test_turning_in_place_keeps_position_and_direction() -> None:
     walk = walk_at(0.0, -0.2, GAIT, under_way=BACKWARD)
     assert isinstance(walk, Walk)
     assert walk.direction is BACKWARD and walk.bearing < 0.0
     assert walk.speed_factor == pytest.approx(1e-3)
 
 
-def test_rest_stands_and_reversal_comes_to_rest_first() -> None:
+def test_reversal_halts_first() -> None:
     assert isinstance(walk_at(0.0, 0.0, GAIT, under_way=None), StandStill)
     assert isinstance(walk_at(0.05, 0.0, GAIT, under_way=BACKWARD), StandStill)
     assert isinstance(walk_at(0.05, 0.0, GAIT, under_way=FORWARD), Walk)

@@ -1,4 +1,4 @@
-"""Test feet that tilt against the torso's tilt."""
+"""Test the ankle feedback."""
 
 from typing import Any
 

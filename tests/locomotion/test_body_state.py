@@ -1,4 +1,4 @@
-"""Test what a body knows about itself at once."""
+"""Test the fall detection of the body state."""
 
 import pytest
 
@@ -18,7 +18,7 @@ ZERO = (0.0, 0.0)
         ((-0.69, 0.69), False),
     ],
 )
-def test_forty_degrees_either_way_are_a_fall(
+def test_forty_degrees_of_tilt_are_a_fall(
     tilt: tuple[float, float], fallen: bool
 ) -> None:
     state = BodyState(ZERO, ZERO, ZERO, ZERO, tilt, (0, 0, 0), 0.5, 50.0)

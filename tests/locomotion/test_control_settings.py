@@ -1,4 +1,4 @@
-"""Test settings of control: what means nothing is refused by name."""
+"""Test the validation of control settings."""
 
 from dataclasses import asdict, fields
 
@@ -54,18 +54,18 @@ def test_the_paper_walks_without_feedback() -> None:
 
 @pytest.mark.parametrize("value", [-0.1, float("nan"), float("inf")])
 @pytest.mark.parametrize("name", GAINS)
-def test_a_gain_that_means_nothing_is_refused(name: str, value: float) -> None:
+def test_invalid_gains_are_refused(name: str, value: float) -> None:
     with pytest.raises(ConfigurationError, match=f"{name}.* must"):
         StabiliserSettings(**{name: value})
 
 
 @pytest.mark.parametrize("name", sorted({*GAINS} - {"feedback", "freeze"}))
-def test_a_gain_of_nothing_is_allowed(name: str) -> None:
+def test_zero_gains_are_valid(name: str) -> None:
     assert asdict(StabiliserSettings(**{name: 0.0}))[name] == 0.0
 
 
 @pytest.mark.parametrize("gain", [0.0, 0.9, 1.0])
-def test_a_feedback_that_brings_nothing_back_is_refused(gain: float) -> None:
+def test_a_feedback_gain_of_one_is_refused(gain: float) -> None:
     with pytest.raises(
         ConfigurationError, match=r"feedback must .*\(1, 100\]"
     ):
@@ -73,7 +73,7 @@ def test_a_feedback_that_brings_nothing_back_is_refused(gain: float) -> None:
     assert StabiliserSettings(feedback=1.01).feedback == 1.01
 
 
-def test_a_share_lies_between_none_and_all() -> None:
+def test_fractions_lie_between_0_and_1() -> None:
     for whole in (0.0, 1.0):
         assert StabiliserSettings(freeze=whole).freeze == whole
     with pytest.raises(ConfigurationError, match="freeze"):
@@ -91,12 +91,12 @@ def test_horizons_have_limits(name: str, low: int, high: int) -> None:
             MpcSettings(**{name: value})  # type: ignore[arg-type]
 
 
-def test_an_mpc_that_pulls_at_nothing_is_refused() -> None:
+def test_invalid_mpc_settings_are_refused() -> None:
     with pytest.raises(ConfigurationError, match="mpc.pull"):
         MpcSettings(pull=0.0)
 
 
-def test_what_is_unknown_is_refused_with_what_is_known() -> None:
+def test_unknown_names_are_refused_with_the_known_ones() -> None:
     with pytest.raises(ConfigurationError, match="anticipative, periodic"):
         MpcSettings(tail="curly")  # type: ignore[arg-type]
     with pytest.raises(ConfigurationError, match="closed-form, measured"):

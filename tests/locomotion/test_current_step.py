@@ -1,4 +1,4 @@
-"""Test the step that is being made, and what it allows."""
+"""Test the step in progress, and the ZMP shifts and landings it allows."""
 
 from dataclasses import replace
 from math import exp, hypot, pi
@@ -62,7 +62,9 @@ def test_a_quarter_turn_turns_vectors_by_hand() -> None:
 
 
 @given(VECTORS)
-def test_there_and_back_is_nothing(vector: tuple[float, float]) -> None:
+def test_rotation_to_support_and_back_is_the_identity(
+    vector: tuple[float, float],
+) -> None:
     there = step().to_support(*vector)
     assert step().from_support(*there) == pytest.approx(vector, abs=1e-12)
 
@@ -130,7 +132,7 @@ def test_clipping_finds_the_nearest_point(
 
 
 @given(VECTORS, st.floats(0.0, 0.1))
-def test_beyond_a_radius_is_what_a_dead_zone_leaves(
+def test_beyond_removes_the_dead_zone(
     vector: tuple[float, float], radius: float
 ) -> None:
     x, y = beyond(*vector, radius)
@@ -140,7 +142,7 @@ def test_beyond_a_radius_is_what_a_dead_zone_leaves(
     assert x * vector[0] >= 0.0 and y * vector[1] >= 0.0
 
 
-def test_nothing_beyond_no_radius_is_everything() -> None:
+def test_a_zero_radius_leaves_the_vector_unchanged() -> None:
     assert beyond(0.3, -0.4, 0.0) == (0.3, -0.4)
     assert beyond(0.0, 0.0, 0.0) == (0.0, 0.0)
 
@@ -154,7 +156,7 @@ def shift(
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
-def test_what_the_sole_holds_moves_no_foot(sign: float) -> None:
+def test_an_error_within_the_sole_moves_no_foot(sign: float) -> None:
     """An error up to (1 - exp(-eta T)) of the box."""
     hold = 1.0 - exp(-GAIT.eta * 0.2)
     held = 0.99 * hold
@@ -202,7 +204,7 @@ def test_a_landing_neither_crosses_nor_straddles(swing: Foot) -> None:
 
 
 @pytest.mark.parametrize("swing", Foot)
-def test_a_landing_moves_aside_by_what_is_left(swing: Foot) -> None:
+def test_a_landing_shifts_by_the_remaining_error(swing: Foot) -> None:
     """To either side of the plan, inside its limits."""
     hold = 1.0 - exp(-GAIT.eta * 0.2)
     grow = exp(GAIT.eta * 0.2)
@@ -214,7 +216,7 @@ def test_a_landing_moves_aside_by_what_is_left(swing: Foot) -> None:
 
 
 def test_a_plan_beyond_the_reach_is_left_alone_without_need() -> None:
-    """Limits are for what is added, not for the plan."""
+    """Limits apply to the shift, not to the plan."""
     far = step(ahead=0.5, aside=0.3)
     assert shift((1e-4, 1e-4), far) == pytest.approx((0.0, 0.0), abs=1e-9)
 
@@ -241,7 +243,7 @@ def test_the_swing_foot_takes_up_the_shift_as_it_goes(swing: Foot) -> None:
     assert stood == stands and body.com == BODY.com
 
 
-def test_who_stands_swings_nothing() -> None:
+def test_a_standing_robot_has_no_swing_shift() -> None:
     rest = resting_step(SUPPORT, Foot.LEFT)
     assert shifted_swing(BODY, rest, (0.1, 0.1)) is BODY
     assert shifted_swing(BODY, step(), (0.0, 0.0)) is BODY

@@ -1,4 +1,4 @@
-"""Test what keeps a robot up: nothing that changes anything, or feedback."""
+"""Test balance control: open loop and feedback."""
 
 from dataclasses import replace
 from types import SimpleNamespace
@@ -31,7 +31,7 @@ LEFT, RIGHT = Pose(0.0, 0.05, 0.0), Pose(0.0, -0.05, 0.0)
 
 
 class Noting:
-    """Stands for anything; notes what it is asked, and answers by name."""
+    """Mock that records its calls and answers by name."""
 
     def __init__(self) -> None:
         self.asked: list[tuple[Any, ...]] = []
@@ -47,7 +47,7 @@ class Noting:
 
 
 def stabiliser(**changes: Any) -> Any:
-    """A stabiliser that is nothing but what is asked of it."""
+    """Stabiliser that only records its calls."""
     made = Noting()
     values: dict[str, Any] = {
         "state": None,
@@ -89,15 +89,15 @@ def test_the_open_loop_passes_everything_on_unchanged() -> None:
     assert (plan, begun) == ("plan", state) and asked == [state]
 
 
-def test_the_open_loop_knows_nothing_and_holds_nobody_back() -> None:
+def test_the_open_loop_has_no_estimate_and_is_always_ready() -> None:
     loop: Any = OpenLoop()
     assert loop.ready and not loop.has_fallen and loop.adapted == 0
     assert loop.state is loop.solved is loop.tilt is None
     assert loop.torso_heading is None
 
 
-def test_feedback_asks_beforehand_for_what_the_servos_give_way() -> None:
-    """By the share that is set, for the body asked and the ZMP as shifted."""
+def test_feedback_adds_the_load_feedforward() -> None:
+    """Scaled by the load fraction, for the commanded body and shifted ZMP."""
     gains = SimpleNamespace(load_share=0.5)
     fake = stabiliser(
         zmp_shift=(0.01, -0.02),
@@ -191,7 +191,7 @@ def test_settings_open_or_close_the_loop() -> None:
 
 
 @pytest.mark.parametrize("seen", [None, Sighting(0.0, 0.1, 2.0)])
-def test_a_mind_is_put_together_without_a_world(seen: Sighting | None) -> None:
+def test_a_scheme_is_built_without_a_simulation(seen: Sighting | None) -> None:
     wish = Pursuit()
     mind = build_scheme(wish, NAO, GAIT, OPEN_LOOP, tick=0.004, sighting=seen)
     assert mind.decisions.strategy is wish and mind.settings is GAIT
@@ -203,14 +203,14 @@ def test_a_mind_is_put_together_without_a_world(seen: Sighting | None) -> None:
     assert targets is mind.joint_targets
 
 
-def test_a_mind_learns_turns_if_it_is_to() -> None:
+def test_a_scheme_calibrates_turns_if_enabled() -> None:
     for control in (OPEN_LOOP, replace(OPEN_LOOP, learn_turns=True)):
         mind = build_scheme(Pursuit(), NAO, GAIT, control, tick=0.004)
         learns = isinstance(mind.decisions.turns, TurnCalibration)
         assert learns is control.learn_turns
 
 
-def test_a_mind_with_a_perception_sees_with_it() -> None:
+def test_a_scheme_uses_its_perception() -> None:
     around = SimpleNamespace(behind=True)
     eyes: Any = SimpleNamespace(forward=ForwardKinematics(NAO), around=around)
     mind = build_scheme(

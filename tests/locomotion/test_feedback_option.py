@@ -1,4 +1,4 @@
-"""Test that feedback comes to who needs it, unless somebody says otherwise."""
+"""Test the default of the feedback option."""
 
 from dataclasses import replace
 
@@ -30,11 +30,11 @@ def chosen(control: ControlSettings, *said: str) -> ControlSettings:
 
 
 @pytest.mark.parametrize("name", ["control__feedback", "control__method"])
-def test_what_is_said_holds(name: str) -> None:
+def test_an_explicit_feedback_option_holds(name: str) -> None:
     assert chosen(OPEN_LOOP, name) == OPEN_LOOP
 
 
-def test_whoever_says_nothing_gets_feedback() -> None:
+def test_feedback_is_the_default() -> None:
     assert chosen(OPEN_LOOP) == STABILISED
     mpc = ControlSettings("mpc", feedback=True)
     assert chosen(mpc) == mpc

@@ -1,4 +1,4 @@
-"""Test the correction of joints that miss their targets."""
+"""Test the correction of joint errors."""
 
 from typing import Any
 
@@ -32,7 +32,7 @@ def hold(joints: JointCorrection, missing: Array, ticks: int) -> Array:
     return added
 
 
-def test_what_is_missed_is_asked_for_on_top() -> None:
+def test_joint_errors_are_added_to_the_targets() -> None:
     added = hold(correction(), np.array([0.001, -0.001]), 50)
     assert added[0] > 0.0 > added[1]
     assert added[0] == pytest.approx(-added[1])
@@ -60,7 +60,7 @@ def test_correction_keeps_to_its_bound(side: float) -> None:
 
 
 def test_a_servo_that_answers_too_late_is_not_mistaken_for_play() -> None:
-    """Measured now is what was asked for a delay and a ramp ago."""
+    """The measured angle is the target of one delay and one ramp before."""
     delay = 0.03
     joints = correction(delay=delay)
     lag = round(delay / TICK) + 2
@@ -71,7 +71,7 @@ def test_a_servo_that_answers_too_late_is_not_mistaken_for_play() -> None:
         np.testing.assert_allclose(corrected, targets, atol=1e-15)
 
 
-def test_nothing_is_corrected_before_an_answer_can_be_there() -> None:
+def test_no_correction_before_the_first_delayed_response() -> None:
     joints = correction(delay=0.03)
     lag = round(0.03 / TICK) + 2
     targets = np.array([0.1])

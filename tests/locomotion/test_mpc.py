@@ -131,7 +131,7 @@ def test_on_the_plan_mpc_and_closed_form_are_one(bearing: float) -> None:
         np.testing.assert_allclose(result.velocity, 0.0, atol=1e-9)
 
 
-def test_other_tails_agree_up_to_what_they_assume() -> None:
+def test_tails_agree_up_to_their_assumption() -> None:
     """Two steps ahead a wrong tail still counts by exp(-eta T)."""
     p = plan(0.0)
     off = {}
@@ -207,7 +207,7 @@ def test_mirrored_games_have_mirrored_answers(
         assert two.velocity[1] == pytest.approx(-one.velocity[1], abs=1e-6)
 
 
-def test_answers_do_not_depend_on_what_was_asked_before() -> None:
+def test_results_do_not_depend_on_previous_calls() -> None:
     used, p = solver(), plan(0.4)
     generator = np.random.default_rng(3)
     for dcm in generator.normal(0.0, 0.02, (60, 2)):
@@ -236,8 +236,8 @@ def test_the_closed_loop_stays_bounded(tail: str) -> None:
         assert np.abs(dcm).max() < 0.25 * 0.02
 
 
-def test_a_pushed_walk_reports_what_the_solver_said() -> None:
-    """The solver is asked at every tick that has a shift."""
+def test_a_pushed_walk_reports_the_solver_results() -> None:
+    """The solver runs at every tick with a shift."""
     control = replace(STABILISED, method="mpc")
     walking = WalkGame(
         WalkSettings(
@@ -271,7 +271,7 @@ def test_nonsense_is_refused() -> None:
         ControlSettings("mpc")
 
 
-def test_tails_assume_what_their_names_say() -> None:
+def test_tails_match_their_definitions() -> None:
     """Nothing after the horizon, or its velocities again and again.
 
     Boundedness asks the velocities of the ZMP, weighted by e^(-eta t), for
@@ -288,10 +288,10 @@ def test_tails_assume_what_their_names_say() -> None:
     now = p.sample([passed])
     lead = (now.dcm - now.zmp)[0]
     share = 1.0 - np.exp(-GAIT.eta * span)
-    truncated = mpc._wanted(p, passed, ZERO, ZERO)
+    truncated = mpc._boundedness(p, passed, ZERO, ZERO)
     np.testing.assert_allclose(truncated, lead - inside, atol=1e-6)
-    repeated = solver(tail="periodic")._wanted(p, passed, ZERO, ZERO)
+    repeated = solver(tail="periodic")._boundedness(p, passed, ZERO, ZERO)
     np.testing.assert_allclose(repeated, share * lead - inside, atol=1e-6)
     shift = np.array([0.002, -0.001])
-    moved = mpc._wanted(p, passed, shift, ZERO)
+    moved = mpc._boundedness(p, passed, shift, ZERO)
     np.testing.assert_allclose(moved - truncated, shift, atol=1e-12)

@@ -1,4 +1,4 @@
-"""MPC in every kind of plan: a shift comes back, the ZMP stays inside."""
+"""Test the MPC in every kind of plan: convergence and ZMP constraints."""
 
 from math import exp
 

@@ -1,4 +1,4 @@
-"""Test what a plan asks of the body at the ticks of the control clock."""
+"""Test the references of a plan at the control ticks."""
 
 from math import pi
 
@@ -142,7 +142,7 @@ def test_the_same_timing_is_sampled_once() -> None:
     assert table._sampler(other, 0.001, 10) is not one
 
 
-def test_maps_of_offsets_that_drift_are_not_kept_for_ever() -> None:
+def test_the_sampler_cache_is_bounded() -> None:
     """A day of sums of 0.547 s drifts by a microsecond, in nanoseconds."""
     schedule = ManeuverPlanner(GAIT).schedule(5, standing=False)
     table = ReferenceTable(TICK)

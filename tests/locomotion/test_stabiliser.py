@@ -1,4 +1,4 @@
-"""Test feedback on top of a plan, with a state that is made up."""
+"""Test the stabiliser with a fake state estimator."""
 
 from dataclasses import replace
 from math import exp
@@ -28,7 +28,7 @@ from stepaside.locomotion.zmp.current_step import zmp_box
 from stepaside.planning import Foot
 
 
-def test_a_body_that_does_as_asked_is_asked_as_planned() -> None:
+def test_without_errors_the_plan_is_unchanged() -> None:
     feedback, _ = stabiliser()
     for _ in range(20):
         assert feedback.update(MEASUREMENT, ROW, step()) == BODY
@@ -36,7 +36,7 @@ def test_a_body_that_does_as_asked_is_asked_as_planned() -> None:
     assert feedback.zmp_shift == feedback.step_shift == ZERO
 
 
-def test_who_has_not_stood_still_is_asked_as_planned() -> None:
+def test_before_calibration_the_plan_is_unchanged() -> None:
     feedback, fake = stabiliser()
     fake.ready, fake.off_dcm, fake.tilt = False, (0.05, 0.05), (0.1, 0.1)
     assert not feedback.ready
@@ -61,7 +61,7 @@ def test_small_errors_are_left_to_stiff_joints(angle: float) -> None:
     same(feedback.com_error, 0.01 * way)
 
 
-def test_beyond_the_dead_zone_the_reference_gives_way() -> None:
+def test_beyond_the_dead_zone_the_reference_follows_the_error() -> None:
     """By 5/s of the error, and the pendulum runs on with the ZMP's shift."""
     feedback, fake = stabiliser()
     fake.off_dcm, fake.off_com = (0.025, 0.0), (0.0, -0.0175)
@@ -92,14 +92,14 @@ def test_a_shift_is_brought_back_by_the_zmp() -> None:
     assert np.abs(feedback.com_shift).max() < 1e-4
 
 
-def test_giving_way_is_never_faster_than_the_error() -> None:
+def test_the_reference_never_overshoots_the_error() -> None:
     feedback, fake = stabiliser(gains=replace(GAINS, yielding=1e3))
     fake.off_com = (0.0, 0.0175)
     feedback.update(MEASUREMENT, ROW, step())
     same(feedback.com_shift, (0.0, 0.01 * (1.0 - TICK * ETA)))
 
 
-def test_the_estimator_is_told_what_was_asked() -> None:
+def test_the_estimator_gets_the_commanded_motion() -> None:
     """CoM and ZMP with their shifts, and the acceleration they mean."""
     feedback, fake = stabiliser()
     feedback.com_shift, feedback.zmp_shift = (0.01, -0.02), (0.03, 0.04)
@@ -121,7 +121,7 @@ def test_the_estimator_is_told_what_was_asked() -> None:
 
 
 @pytest.mark.parametrize("late", [0, 2])
-def test_the_estimator_knows_what_the_swing_leg_does(late: int) -> None:
+def test_the_estimator_gets_the_swing_reaction(late: int) -> None:
     """The CoM falls away from a point behind the ZMP, as late as all else."""
     feedback, fake = stabiliser(delay=late * TICK)
     for i in range(4):
@@ -139,7 +139,7 @@ def test_the_estimator_knows_what_the_swing_leg_does(late: int) -> None:
 
 
 @pytest.mark.parametrize("late", [0, 1, 3])
-def test_what_moves_now_was_asked_for_a_delay_ago(late: int) -> None:
+def test_the_estimator_gets_the_delayed_command(late: int) -> None:
     feedback, fake = stabiliser(delay=late * TICK)
     for i in range(8):
         x = COM[0] + 0.1 * i
@@ -169,7 +169,7 @@ def test_feet_tilt_with_the_torso() -> None:
     same(body.left_tilt, (0.05 * part, -0.1 * part))
 
 
-def test_a_lean_that_was_asked_for_tilts_no_foot() -> None:
+def test_a_commanded_lean_tilts_no_foot() -> None:
     meant = BODY.roll(0.1)
     assert abs(meant) > 0.01
     tilts = {}
@@ -183,7 +183,7 @@ def test_a_lean_that_was_asked_for_tilts_no_foot() -> None:
     same(tilts[0.0], (0.3 * meant, 0.0))
 
 
-def test_what_the_sole_cannot_hold_is_stepped_out() -> None:
+def test_an_error_beyond_the_sole_moves_the_landing() -> None:
     """No faster than a swing foot can follow: 1.5 m/s."""
     for sign in (1.0, -1.0):
         feedback, fake = stabiliser()

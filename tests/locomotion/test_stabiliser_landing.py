@@ -1,4 +1,4 @@
-"""Test what feedback hands from one step to the next."""
+"""Test the state that the stabiliser passes to the next step."""
 
 from math import pi
 

@@ -1,4 +1,4 @@
-"""Test the state of a body from its sensors, with a posture given."""
+"""Test the state estimator with a given posture."""
 
 from math import exp
 from typing import Any
@@ -121,15 +121,13 @@ def test_feet_that_disagree_are_weighed() -> None:
         (1.0, 1.0),
     ],
 )
-def test_a_foot_that_hardly_presses_says_nothing(
-    left: float, share: float
-) -> None:
+def test_a_hardly_loaded_foot_is_ignored(left: float, share: float) -> None:
     state = see(estimator(), measured(10.0 * left, 10.0 * (1.0 - left)))
     assert state.left_share == pytest.approx(share)
     assert state.weight == pytest.approx(40.0)
 
 
-def test_in_the_air_the_last_share_counts() -> None:
+def test_in_flight_the_last_load_fraction_is_used() -> None:
     estimate = estimator()
     assert see(estimate, measured(0.1, 0.1)).left_share == 0.5
     see(estimate, measured(7.5, 2.5))
@@ -186,7 +184,7 @@ def test_zmp_is_the_center_of_the_forces() -> None:
         np.testing.assert_allclose(state.zmp, expected)
 
 
-def test_zmp_between_the_feet_is_weighed_by_what_they_bear() -> None:
+def test_the_zmp_is_weighted_by_foot_load() -> None:
     state = see(estimator(), measured(left=[30, 0, 0, 0], right=[0, 10, 0, 0]))
     left = rotation(0.0, 0.0, 0.5)[:2, :2] @ SENSORS[0] + [1.0, 2.0]
     right = SENSORS[5] + [1.0, 1.9]
@@ -230,7 +228,7 @@ def test_without_trust_in_joints_the_pendulum_is_integrated() -> None:
     np.testing.assert_allclose(state.velocity, TICK * pull)
 
 
-def test_off_the_ground_nothing_pulls() -> None:
+def test_without_contact_the_pendulum_has_no_force() -> None:
     """Below ten newtons the ZMP says nothing."""
     for force, moves in ((1.1, False), (1.4, True)):
         estimate = estimator()
@@ -256,7 +254,7 @@ def test_the_observer_has_two_poles_at_its_bandwidth() -> None:
     np.testing.assert_allclose(rest, 0.0, atol=1e-9)
 
 
-def test_acceleration_that_was_asked_for_is_no_tilt() -> None:
+def test_commanded_acceleration_is_not_mistaken_for_tilt() -> None:
     """Asked in odometry, felt in the torso, which is turned by 0.2 rad."""
     estimate = estimator()
     see(estimate, measured(), ticks=260)
@@ -288,7 +286,7 @@ def test_defaults_of_the_filters() -> None:
     assert state.rate[0] == pytest.approx(drift, rel=1e-2)
 
 
-def test_the_posture_is_kept_for_whoever_learns_from_it() -> None:
+def test_the_measured_posture_is_available() -> None:
     estimate = estimator()
     assert estimate.posture is None
     see(estimate, measured())

@@ -1,4 +1,4 @@
-"""Test footsteps that fall short, learned from the encoders."""
+"""Test the learning of the footsteps' shortfall."""
 
 from math import pi
 from typing import Any
@@ -66,7 +66,7 @@ def test_a_step_is_measured_however_the_torso_leans(
 
 
 @pytest.mark.parametrize("swing", Foot)
-def test_a_share_of_what_falls_short_is_aimed_beyond(swing: Foot) -> None:
+def test_a_fraction_of_the_shortfall_is_learned(swing: Foot) -> None:
     planned = Pose(0.04, swing.value * 0.1, 0.05)
     made = Pose(0.035, swing.value * 0.1 + 0.01, 0.02)
     stride = learner()
@@ -90,7 +90,7 @@ def test_aiming_ends_the_shortfall() -> None:
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
-def test_what_is_learned_has_bounds(sign: float) -> None:
+def test_the_learned_correction_is_bounded(sign: float) -> None:
     planned = Pose(0.0, 0.1, 0.0)
     made = Pose(-sign * 0.5, 0.1 - sign * 0.5, -sign * 1.0)
     stride = learner()

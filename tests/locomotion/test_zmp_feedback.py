@@ -1,4 +1,4 @@
-"""Test how a shift of the ZMP brings a shift of the DCM back."""
+"""Test the rules for the ZMP shift."""
 
 from types import SimpleNamespace
 from typing import Any
@@ -38,13 +38,13 @@ def walking(swing: Foot = Foot.LEFT) -> CurrentStep:
 
 
 class FakeMpc:
-    """Notes what it is asked, and answers with a given velocity."""
+    """MPC that records its calls and returns a given velocity."""
 
     def __init__(self) -> None:
         self.asked: list[tuple[Any, ...]] = []
 
     def solve(self, plan: Any, passed: float, dcm: Array, zmp: Array) -> Any:
-        """Answer with the same velocity, whatever is asked."""
+        """Return the given velocity."""
         self.asked.append((plan, passed, *dcm.tolist(), *zmp.tolist()))
         self.answer = SimpleNamespace(velocity=(0.5, -0.25))
         return self.answer
@@ -66,7 +66,7 @@ def test_the_sole_that_stands_limits_it(swing: Foot) -> None:
         assert made.to_support(*p) == pytest.approx(corner)
 
 
-def test_the_mpc_is_asked_in_the_axes_of_its_plan() -> None:
+def test_the_mpc_is_solved_in_the_plan_frame() -> None:
     fake: Any = FakeMpc()
     rule = MpcFeedback(fake, RULE, TICK)
     made = walking()
@@ -80,7 +80,7 @@ def test_the_mpc_is_asked_in_the_axes_of_its_plan() -> None:
     assert rule.solved is fake.answer
 
 
-def test_the_mpc_is_not_asked_for_what_the_plan_answers() -> None:
+def test_the_mpc_is_skipped_without_a_shift() -> None:
     fake: Any = FakeMpc()
     rule = MpcFeedback(fake, RULE, TICK)
     assert rule.shift(walking(), (0.0, 0.0), (0.0, 0.0)) == (0.0, 0.0)
@@ -94,7 +94,7 @@ def test_the_mpc_is_not_asked_for_what_the_plan_answers() -> None:
     assert rule.solved is None  # an answer is of its tick
 
 
-def test_who_stands_needs_no_mpc() -> None:
+def test_a_standing_robot_uses_the_proportional_rule() -> None:
     fake: Any = FakeMpc()
     rule = MpcFeedback(fake, RULE, TICK)
     rest = resting_step(SUPPORT, Foot.LEFT)

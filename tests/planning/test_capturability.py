@@ -1,4 +1,4 @@
-"""Test the largest push that a pendulum can take."""
+"""Test the push bound of the pendulum."""
 
 from dataclasses import replace
 from math import exp, inf, nan, pi
@@ -46,7 +46,7 @@ def walking(
     )
 
 
-def test_outward_bound_is_what_the_sole_alone_holds() -> None:
+def test_the_outward_bound_is_that_of_the_sole() -> None:
     plan = walking()
     dcm = plan.sample([0.0]).dcm[0]
     by_hand = MASS * GAIT.eta * (GAIT.sole.outer + dcm[1])
@@ -85,7 +85,7 @@ def test_bound_in_a_starting_double_support_waits_for_the_lift() -> None:
     assert side > 2.0 * alone
 
 
-def test_crossing_the_feet_is_no_way_out() -> None:
+def test_the_gap_between_the_soles_limits_the_bound() -> None:
     """Ahead and outward a foot would land across, if the gap let it."""
     plan, direction = walking(), -pi / 4.0
     bounds = [
@@ -138,7 +138,7 @@ def test_a_push_that_lasts_is_an_impulse_and_a_factor() -> None:
     assert short == pytest.approx(one, rel=1e-6)
 
 
-def test_a_push_back_does_not_save_who_was_lost_without_it() -> None:
+def test_a_lost_state_has_a_zero_bound_in_the_recovering_direction() -> None:
     """Every smaller push has to be held, too."""
     plan = ManeuverPlanner(GAIT).plan(
         0.0,
@@ -190,7 +190,7 @@ def test_a_push_later_in_the_step_may_be_harder_forward() -> None:
         ({"reach": FootReach(gap=-0.01)}, "reach.gap"),
     ],
 )
-def test_refuses_what_is_no_push(
+def test_an_invalid_push_is_refused(
     change: dict[str, object], match: str
 ) -> None:
     asked: dict[str, object] = {

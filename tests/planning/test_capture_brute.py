@@ -1,4 +1,4 @@
-"""The largest push against linear programs and random controllers."""
+"""Test the push bound against linear programs and random controllers."""
 
 from dataclasses import replace
 from math import cos, exp, expm1, pi, sin
@@ -126,7 +126,7 @@ def reachable(start: Array, heading: Array, corners: Array) -> float:
     ("time", "direction", "reach"),
     [(0.1, 0.3, SHORT), (0.3, 3.0, SHORT), (0.4, -0.3, REACH)],
 )
-def test_two_footsteps_hold_what_linear_programs_say(
+def test_two_footsteps_match_linear_programs(
     time: float, direction: float, reach: FootReach
 ) -> None:
     plan = walking(bearing=0.2)

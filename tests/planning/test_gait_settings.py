@@ -1,4 +1,4 @@
-"""Test the values of a gait and their limits (paper, Sec. IV)."""
+"""Test the settings of a gait and their ranges (paper, Sec. IV)."""
 
 from dataclasses import replace
 

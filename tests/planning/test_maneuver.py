@@ -268,7 +268,7 @@ def test_presets_are_the_two_readings_of_the_text() -> None:
     assert walks.path_interval == pytest.approx(0.4)
 
 
-def test_planning_imports_numpy_and_nothing_else() -> None:
+def test_planning_imports_numpy_and_the_lazy_loader_only() -> None:
     """It must run on the robot, where there is no simulator."""
     code = (
         "import sys; import numpy; before = set(sys.modules);"
@@ -282,13 +282,13 @@ def test_planning_imports_numpy_and_nothing_else() -> None:
         capture_output=True,
         text=True,
     )
-    assert out.stdout.strip() == "['numpy', 'stepaside']"
+    assert out.stdout.strip() == "['lazy_loader', 'numpy', 'stepaside']"
 
 
 @pytest.mark.parametrize("direction", Direction)
 @pytest.mark.parametrize("saturated", [False, True])
 @given(BEARINGS, st.floats(0.05, 1.0))
-def test_a_share_of_the_speed_shortens_the_way_and_turns_as_far(
+def test_a_speed_factor_shortens_strides_and_keeps_turns(
     direction: Direction, saturated: bool, bearing: float, factor: float
 ) -> None:
     """Of the template: the soles stand half a spacing beside it."""
@@ -313,7 +313,7 @@ def test_a_share_of_the_speed_shortens_the_way_and_turns_as_far(
     np.testing.assert_allclose(turn, full, atol=1e-12)
 
 
-def test_the_whole_speed_is_the_plan_as_it_was() -> None:
+def test_speed_factor_one_is_the_default_plan() -> None:
     plain = PLANNER.plan(
         0.7, Direction.BACKWARD, first_foot=Foot.LEFT, standing=True
     )
@@ -329,7 +329,7 @@ def test_the_whole_speed_is_the_plan_as_it_was() -> None:
 
 
 @pytest.mark.parametrize("factor", [-0.5, 0.0, 1.001, 2.0, float("nan")])
-def test_a_share_of_the_speed_that_is_none_is_refused(factor: float) -> None:
+def test_an_invalid_speed_factor_is_refused(factor: float) -> None:
     """Standing still is a halt, which is another plan."""
     with pytest.raises(PlanError, match=f"speed_factor must .*, got {factor}"):
         PLANNER.plan(

@@ -1,4 +1,4 @@
-"""Test that a robot plays where no simulator is installed."""
+"""Test that control runs without a simulator."""
 
 import json
 import subprocess

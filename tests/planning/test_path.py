@@ -58,7 +58,7 @@ def test_arc_has_the_radius_of_the_paper() -> None:
 
 
 @given(ANGLES, st.booleans())
-def test_backward_goes_the_other_way_with_the_same_heading(
+def test_backward_is_the_reflection_with_the_same_heading(
     bearing: float, saturated: bool
 ) -> None:
     times = np.linspace(0.0, 12.0, 9)
@@ -69,7 +69,7 @@ def test_backward_goes_the_other_way_with_the_same_heading(
     np.testing.assert_allclose(back, ahead * [-1.0, -1.0, 1.0], atol=1e-12)
 
 
-def test_the_template_turns_by_8_unless_told_otherwise() -> None:
+def test_the_template_turns_by_8_by_default() -> None:
     path = UnicycleTrajectory(0.5, SPEED, GAIN, Direction.FORWARD)
     assert path.poses([1.0])[0, 2] == pytest.approx(0.5 * GAIN)
 

@@ -1,4 +1,4 @@
-"""Test plans as values: what a plan says about itself."""
+"""Test plans as values."""
 
 from dataclasses import replace
 
@@ -112,7 +112,7 @@ def test_feet_stand_by_their_side() -> None:
         assert up == pytest.approx(GAIT.step_height) and down == 0.0
 
 
-def test_correction_takes_up_what_the_velocity_is_off() -> None:
+def test_the_correction_absorbs_a_velocity_error() -> None:
     """No correction if the velocity is that of (16); else it is linear."""
     plan = walking()
     row = plan.schedule.dcm_start_map

@@ -183,7 +183,7 @@ def test_swing_phase_counts_from_each_lift_off(standing: bool) -> None:
         np.testing.assert_allclose(phase, s, atol=1e-9)
 
 
-def test_before_and_after_the_steps_nothing_swings() -> None:
+def test_both_feet_rest_before_and_after_the_steps() -> None:
     schedule = Schedule(GAIT, 3, standing=True)
     step, phase = schedule.swing_phases(np.array([0.0, 100.0]))
     np.testing.assert_array_equal(step, [0, 2])

@@ -1,4 +1,4 @@
-"""The state that recurs in a walk under way."""
+"""Test the periodic state of a steady walk."""
 
 import numpy as np
 import pytest
@@ -31,7 +31,7 @@ def test_steady_state_recurs(
     np.testing.assert_allclose(walked.inputs, plan.inputs, atol=1e-9)
 
 
-def test_state_of_a_straight_walk_under_way() -> None:
+def test_the_periodic_state_of_a_straight_walk() -> None:
     """Not at rest over the foot, which the bound was once taken from."""
     plan = steady_plan(
         ManeuverPlanner(GAIT), 0.0, Direction.FORWARD, first_foot=Foot.LEFT

@@ -1,4 +1,4 @@
-"""Support over time: every plan's ZMP is under the feet on the floor."""
+"""Test the support polygon over time, and the ZMP of every plan in it."""
 
 from dataclasses import replace
 from typing import Literal

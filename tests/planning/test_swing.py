@@ -1,4 +1,4 @@
-"""Test swing-foot trajectories that lift off and touch down at rest."""
+"""Test the swing-foot trajectories."""
 
 from typing import get_args
 
@@ -46,7 +46,7 @@ def test_progress_mirrors_about_the_middle(
 @pytest.mark.parametrize(
     ("profile", "fastest"), [("minimum-jerk", 15 / 8), ("even", 35 / 24)]
 )
-def test_progress_only_grows_and_is_fastest_half_way(
+def test_progress_increases_and_peaks_half_way(
     profile: SwingProfile, fastest: float
 ) -> None:
     progress = swing_progress(np.linspace(0.0, 1.0, 101), profile)

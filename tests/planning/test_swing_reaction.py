@@ -1,4 +1,4 @@
-"""The CoM of a plan makes room for what a swing leg does to the ZMP."""
+"""Test that the CoM of a plan compensates the swing reaction."""
 
 from dataclasses import replace
 from math import pi
@@ -90,7 +90,7 @@ def test_in_double_support_pivot_and_zmp_are_one() -> None:
     np.testing.assert_allclose(both.pivot, both.zmp, atol=1e-12)
 
 
-def test_a_leg_without_mass_changes_nothing() -> None:
+def test_a_massless_leg_has_no_effect() -> None:
     light = replace(FAST, swing_reaction=0.0)
     plan = some_plan(light, standing=False)
     found = plan.sample([0.1, 0.2])
@@ -102,7 +102,7 @@ def test_a_leg_without_mass_changes_nothing() -> None:
         )
 
 
-def test_the_zmp_stays_in_the_feet_whatever_the_leg_does() -> None:
+def test_the_zmp_stays_in_the_feet_with_a_swing_reaction() -> None:
     """Only the CoM gives way: the ZMP is planned as ever."""
     heavy, light = (
         some_plan(replace(FAST, swing_reaction=c), standing=False)

@@ -1,4 +1,4 @@
-"""Test where a body is on the path of its template."""
+"""Test the pose of the template unicycle of a walking body."""
 
 from dataclasses import replace
 from math import cos, pi, sin
@@ -49,9 +49,7 @@ def test_samples_are_half_a_spacing_beside_their_feet(first: Foot) -> None:
 
 @pytest.mark.parametrize("way", [1.0, -1.0])
 @pytest.mark.parametrize("turn", [0.06, -0.06])
-def test_way_and_heading_are_shared_out_by_the_way_of_the_com(
-    turn: float, way: float
-) -> None:
+def test_position_and_heading_follow_the_com(turn: float, way: float) -> None:
     """The CoM is ahead of the place, whichever way it goes."""
     path = circle(4, turn, 0.04 * way)
     for step in range(3):
@@ -63,7 +61,7 @@ def test_way_and_heading_are_shared_out_by_the_way_of_the_com(
             np.testing.assert_allclose(found, place, atol=1e-4)
 
 
-def test_sway_is_no_way() -> None:
+def test_sway_is_not_progress() -> None:
     path = circle(3, 1e-9, 0.04)
     for side in (-0.03, 0.0, 0.03):
         (found,) = poses_on_path(path, np.array([[0.05, side]]), UNTIMED, LED)

@@ -1,4 +1,4 @@
-"""Who comes, how soon and how near, against walks played out."""
+"""Test closest approach and time to contact against simulated walks."""
 
 from dataclasses import replace
 from math import asin, cos, hypot, inf, pi, radians, sin
@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 from stepaside.planning import PRESETS
 from stepaside.strategies import Evasion, EvasionMemory, Knowledge, Limits
 from stepaside.strategies.approach import (
-    SHARPEST,
+    MAX_HEADING,
     Approach,
-    clearance_of,
-    swift_heading,
+    correcting_heading,
+    predict_clearance,
 )
 
 FAST = PRESETS["fast"]
@@ -27,7 +27,7 @@ SPEEDS = st.floats(-1.5, 1.5)
 def coming(
     distance: float, speed: float = 1.0, bearing: float = 0.0, miss: float = 0
 ) -> Knowledge:
-    """Somebody at a bearing who walks past at a distance to the left."""
+    """Return knowledge of a person who passes at a distance to the left."""
     x, y = distance * cos(bearing), distance * sin(bearing)
     aim = bearing + pi - asin(miss / distance)
     return Knowledge(
@@ -59,7 +59,7 @@ def test_time_and_miss_are_those_of_a_walk_straight_on(
         assert (away[before] >= clearance - 1e-6).all()
 
 
-def test_who_stands_or_leaves_never_comes() -> None:
+def test_still_or_receding_opponents_never_make_contact() -> None:
     assert Approach(1.0, 0.0, 0.0, 0.0).contact_time(0.7) == inf
     assert Approach(0.3, 0.0, 0.0, 0.0).contact_time(0.7) == inf
     assert Approach(0.3, 0.0, 0.5, 0.0).contact_time(0.7) == inf
@@ -69,7 +69,7 @@ def test_who_stands_or_leaves_never_comes() -> None:
     assert abs(Approach(0.0, 1.0, 1.0, 0.0).origin) == pytest.approx(pi)
 
 
-def test_what_was_seen_a_while_ago_has_moved_on() -> None:
+def test_old_sightings_are_extrapolated() -> None:
     known = Knowledge(1.0, 0.0, 3.0, LIMITS, age=0.5, velocity=(-1.0, 0.2))
     assert Approach.of(known)[:2] == pytest.approx((2.5, 0.1))
     still = Approach.of(Knowledge(1.0, pi / 2, 2.0, LIMITS, age=0.5))
@@ -77,26 +77,32 @@ def test_what_was_seen_a_while_ago_has_moved_on() -> None:
 
 
 @given(st.floats(-pi, pi))
-def test_a_swift_turn_takes_what_it_can_of_an_error(error: float) -> None:
+def test_a_swift_heading_corrects_the_largest_possible_error(
+    error: float,
+) -> None:
     share = LIMITS.gain * LIMITS.stride / LIMITS.speed
-    turned = share * swift_heading(error, LIMITS)
-    most = share * SHARPEST
+    turned = share * correcting_heading(error, LIMITS)
+    most = share * MAX_HEADING
     assert turned == pytest.approx(max(-most, min(most, error)), abs=1e-12)
 
 
 def test_a_side_step_gains_room_and_more_from_farther_away() -> None:
     rooms = [
-        clearance_of(Approach(x, 0.0, -1.0, 0.0), LIMITS, pi / 2, stands=True)
+        predict_clearance(
+            Approach(x, 0.0, -1.0, 0.0), LIMITS, pi / 2, stands=True
+        )
         for x in (1.0, 2.0, 3.0, 4.0)
     ]
     assert rooms == sorted(rooms) and rooms[0] < 0.1 and rooms[-1] > 0.7
     # As long as theory's unicycle, but for whole steps.
     both = [
-        clearance_of(Approach(3.0, 0.0, -1.0, 0.0), LIMITS, a, stands=True)
+        predict_clearance(
+            Approach(3.0, 0.0, -1.0, 0.0), LIMITS, a, stands=True
+        )
         for a in (pi / 2, -pi / 2)
     ]
     assert both[0] == pytest.approx(both[1])
-    moving = clearance_of(
+    moving = predict_clearance(
         Approach(3.0, 0.0, -1.0, 0.0), LIMITS, pi / 2, stands=False
     )
     assert moving > rooms[2]
@@ -114,7 +120,7 @@ def test_evasion_in_time_begins_as_early_for_everybody(speed: float) -> None:
 
 
 @pytest.mark.parametrize("bearing", [0.0, 1.0, -2.5])
-def test_passers_by_trigger_nothing(bearing: float) -> None:
+def test_passing_people_do_not_trigger_evasion(bearing: float) -> None:
     for distance in (1.3, 2.0, 3.0):
         for miss in (1.2, -1.2):
             known = coming(distance, 1.0, bearing, miss)
@@ -131,7 +137,7 @@ def test_it_steps_to_the_side_that_leaves_more_room(
     """The heading turns so that the back points there."""
     _, memory = TIMED.decide(coming(3.0, 1.0, bearing, miss), TIMED.begin())
     room = {
-        side: clearance_of(
+        side: predict_clearance(
             Approach.of(coming(3.0, 1.0, bearing, miss)),
             LIMITS,
             Approach.of(coming(3.0, 1.0, bearing, miss)).origin
@@ -160,25 +166,25 @@ def test_the_side_stays_until_standing_is_safe() -> None:
     assert TIMED.decide(coming(2.0), once)[1].safe == 0
 
 
-def test_without_a_velocity_nobody_is_coming() -> None:
+def test_without_a_velocity_the_time_trigger_is_inactive() -> None:
     known = Knowledge(1.0, 0.0, 0.5, LIMITS)
     assert not TIMED.decide(known, TIMED.begin())[0].walks
 
 
 @pytest.mark.parametrize("angle", [0.0, radians(45.0), pi / 2])
-def test_the_angle_is_kept_to_where_the_other_comes_from(
+def test_the_angle_refers_to_the_opponents_direction_of_approach(
     angle: float,
 ) -> None:
     strategy = Evasion(angle=angle, trigger="time")
     intent, memory = strategy.decide(coming(2.0, 1.0, 0.02), strategy.begin())
     share = LIMITS.gain * LIMITS.stride / LIMITS.speed
     wanted = 0.02 + memory.side * angle
-    turned = max(-share * SHARPEST, min(share * SHARPEST, wanted))
+    turned = max(-share * MAX_HEADING, min(share * MAX_HEADING, wanted))
     assert share * intent.heading == pytest.approx(turned, abs=1e-6)
 
 
 @pytest.mark.parametrize("speed", [0.1, 1.0])
-def test_the_area_that_is_drawn_is_the_one_that_is_kept(speed: float) -> None:
+def test_the_drawn_area_is_the_safety_area(speed: float) -> None:
     """By time it is what counts as contact, met the earlier the faster."""
     in_space = Evasion(safety_radius=0.9, clearance=0.6)
     assert in_space.area == in_space.begins_at(speed) == 0.9

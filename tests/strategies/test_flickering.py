@@ -1,4 +1,4 @@
-"""An evader whose map flickers keeps its plan, and dares a little more."""
+"""Test that an evader keeps its plan with an inaccurate, changing map."""
 
 from dataclasses import replace
 from typing import Any
@@ -33,9 +33,9 @@ class Flickering:
 
     saturated = False
 
-    def __init__(self, blur: float) -> None:
+    def __init__(self, map_error: float) -> None:
         self.random = np.random.default_rng(5)
-        self.inner, self.blur = LookAhead(), blur
+        self.inner, self.map_error = LookAhead(), map_error
         self.direction = self.inner.direction
         self.headings: list[float] = []
 
@@ -55,15 +55,17 @@ class Flickering:
                 away = solid.points - middle
                 points = middle + away + off * np.sign(away)
                 shown.append(Polygon(tuple(map(tuple, points.tolist()))))
-        known = replace(known, obstacles=tuple(shown), blur=self.blur)
+        known = replace(
+            known, obstacles=tuple(shown), map_error=self.map_error
+        )
         intent, memory = self.inner.decide(known, memory)
         self.headings.append(intent.heading)
         return intent, memory
 
 
-def turned(blur: float) -> int:
+def turned(map_error: float) -> int:
     """How often an evader turns from one side to the other, in a minute."""
-    evader, changes = Flickering(blur), 0
+    evader, changes = Flickering(map_error), 0
     for seed in (0, 2):
         room = make_room(RoomRecipe(3.0, 3.0, discs=3), seed)
         assert room.starts is not None
@@ -73,16 +75,19 @@ def turned(blur: float) -> int:
     return changes
 
 
-def test_a_mind_changes_less_where_a_map_may_be_off() -> None:
+def test_plans_change_less_with_a_map_error() -> None:
     assert turned(CELL) < 0.5 * turned(0.0)
 
 
 @pytest.mark.parametrize(
-    ("blur", "penalty", "gain"),
+    ("map_error", "penalty", "gain"),
     [(0.0, PENALTY, 1e-6), (0.005, PENALTY, 0.005), (CELL, 10.0, CELL)],
 )
 def test_a_map_that_is_exact_is_taken_at_its_word(
-    monkeypatch: pytest.MonkeyPatch, blur: float, penalty: float, gain: float
+    monkeypatch: pytest.MonkeyPatch,
+    map_error: float,
+    penalty: float,
+    gain: float,
 ) -> None:
     told: list[Any] = []
     looked = search.look_ahead
@@ -94,19 +99,24 @@ def test_a_map_that_is_exact_is_taken_at_its_word(
     monkeypatch.setattr(search, "look_ahead", look)
     strategy = LookAhead()
     known = Knowledge(
-        0.0, 0.1, 0.6, LIMITS, obstacles=(Disc(2.0, 2.0, 0.1),), blur=blur
+        0.0,
+        0.1,
+        0.6,
+        LIMITS,
+        obstacles=(Disc(2.0, 2.0, 0.1),),
+        map_error=map_error,
     )
     strategy.decide(known, strategy.begin())
     assert told[0].penalty == pytest.approx(penalty)
     assert told[0].gain == pytest.approx(gain)
 
 
-def test_strategies_are_told_how_far_off_a_map_may_be() -> None:
+def test_knowledge_contains_the_map_error() -> None:
     given = KnownRoom(Room(), Pose(0.0, 0.0, 0.0))
     seen = MappedRoom(FloorMap(), unseen_is_free=False)
-    for around, blur in ((None, 0.0), (given, 0.0), (seen, CELL)):
+    for around, map_error in ((None, 0.0), (given, 0.0), (seen, CELL)):
         decisions = StrategyRunner(LookAhead(), GAIT, 0.02, around)
         decisions.headings.note(0.0, 0.0)
         decisions.templates.note(0.0, Pose(0.0, 0.0, 0.0))
         told = decisions._knowledge(0.0, Sighting(0.0, 0.0, 1.0), moving=True)
-        assert told.blur == blur
+        assert told.map_error == map_error

@@ -1,4 +1,4 @@
-"""Test evaders that look ahead, alone and in games of steps."""
+"""Test predictive evaders, alone and in step games."""
 
 from dataclasses import replace
 from math import hypot, pi
@@ -26,12 +26,12 @@ from stepaside.strategies import (
     bound_cache as tables,
 )
 from stepaside.strategies.look_ahead import (
-    moved_on,
-    place_both,
-    rules_of,
+    poses_at_sighting,
+    predict_poses,
+    step_rules,
 )
 from stepaside.strategies.opponent_track import (
-    STEPS_OFF,
+    PREDICTION_STD,
     Trace,
     note,
     pursuer_heading,
@@ -66,7 +66,7 @@ def test_with_an_empty_map_and_no_pieces_it_is_the_law(angle: float) -> None:
     np.testing.assert_allclose(tracks[1].evader, tracks[0].evader, atol=1e-12)
 
 
-def test_the_pursuer_is_known_from_where_it_was_seen() -> None:
+def test_the_pursuer_heading_is_estimated_from_sightings() -> None:
     """From two sightings on, while it obeys eqs. (1)-(2)."""
     track = play_steps(Pursuit(), ASIDE, FACING, game=SHORT)
     trace: Trace = ()
@@ -76,7 +76,7 @@ def test_the_pursuer_is_known_from_where_it_was_seen() -> None:
         bearing = wrap_angle(float(np.arctan2(y, x)) - evader[2])
         pose = Pose(*evader.tolist())
         trace = note(trace, know(bearing, hypot(x, y), pose, 0.4 * n))
-        found = pursuer_heading(trace, rules_of(NAO))
+        found = pursuer_heading(trace, step_rules(NAO))
         if n:
             assert wrap_angle(found - pursuer[2]) == pytest.approx(0, abs=1e-5)
     assert len(trace) == 3
@@ -157,7 +157,7 @@ def test_it_knows_the_map_in_its_own_odometry() -> None:
     assert free.heading != pytest.approx(one.heading, abs=0.1)
 
 
-def test_its_turns_stay_within_what_is_asked() -> None:
+def test_turns_stay_within_the_largest_heading() -> None:
     mind = LookAhead(largest_error=0.5)
     room = make_room(RoomRecipe(discs=3), 2)
     assert room.starts is not None
@@ -172,8 +172,8 @@ def test_its_turns_stay_within_what_is_asked() -> None:
     assert np.abs(turns).max() <= law + 1e-9
 
 
-def test_the_optimal_evader_does_what_its_table_says() -> None:
-    """Even a coarse table: its value is kept, and moving aside loses."""
+def test_the_optimal_evader_maximises_its_table() -> None:
+    """Even a coarse table: its value is reached, moving aside is worse."""
     unit, cells = 0.5, 24
     bound = tables.pursuit_bound(cells)
     assert tables.cache_folder().is_dir()
@@ -200,7 +200,7 @@ def test_the_optimal_evader_does_what_its_table_says() -> None:
     assert np.mean(aside) < 0.8 * np.mean(kept)
 
 
-def test_a_table_is_solved_once_and_kept() -> None:
+def test_a_table_is_solved_once_and_cached() -> None:
     tables.pursuit_bound.cache_clear()
     one = tables.pursuit_bound(16)
     tables.pursuit_bound.cache_clear()
@@ -261,7 +261,7 @@ def test_a_solid_pursuer_stops_where_it_would_touch() -> None:
 
 
 def walked_past(spread: float, jump: float) -> Trace:
-    """Trace of one who walks along x, whose last sighting jumps aside."""
+    """Return the trace of a walk along x with an outlier at its end."""
     trace: Trace = ()
     for n in range(4):
         y = jump if n == 3 else 0.0
@@ -272,24 +272,24 @@ def walked_past(spread: float, jump: float) -> Trace:
     return trace
 
 
-def test_what_is_not_sure_counts_as_much_as_it_is() -> None:
+def test_uncertain_sightings_are_weighted_by_variance() -> None:
     """Beside where the other would be by now."""
     exact = walked_past(0.0, 0.2)
     assert (exact[-1].x, exact[-1].y) == pytest.approx((0.91, 0.2))
     steady = walked_past(0.1, 0.0)
     assert steady[-1].y == pytest.approx(0.0, abs=1e-12)
-    half = walked_past(STEPS_OFF, 0.2)
+    half = walked_past(PREDICTION_STD, 0.2)
     assert half[-1].y == pytest.approx(0.1)
     assert walked_past(10.0, 0.2)[-1].y == pytest.approx(0.0, abs=1e-4)
     # Who goes on as before is found there, however vague it is.
     trace = exact[:1]
     for n in range(1, 9):
         known = know(0.0, 1.0 - 0.03 * n, Pose(0.0, 0.0, 0.0), 0.4 * n)
-        trace = note(trace, replace(known, spread=STEPS_OFF))
+        trace = note(trace, replace(known, spread=PREDICTION_STD))
     assert trace[-1].x == pytest.approx(1.0 - 0.03 * 8, abs=0.01)
 
 
-def test_nobody_is_taken_to_go_on_faster_than_a_gait_walks() -> None:
+def test_predicted_speed_is_bounded_by_the_gait() -> None:
     trace: Trace = ()
     for n, x in enumerate((1.0, 0.5, 0.4)):
         known = know(0.0, x, Pose(0.0, 0.0, 0.0), 0.4 * n)
@@ -315,10 +315,10 @@ def test_a_walker_looks_ahead_from_where_its_step_begins() -> None:
         pose=begins,
         age=0.0,
     )
-    moved = moved_on(
-        place_both(note((), walker), pi), walker, walker.begins or here
+    moved = predict_poses(
+        poses_at_sighting(note((), walker), pi), walker, walker.begins or here
     )
-    still = place_both(note((), there), pi)
+    still = poses_at_sighting(note((), there), pi)
     assert moved == pytest.approx(still)
     one, memory = mind.decide(walker, mind.begin())
     two, other = mind.decide(there, mind.begin())

@@ -1,4 +1,4 @@
-"""Test what an evader that looks ahead keeps of its plan."""
+"""Test the stored plan of a predictive evader."""
 
 from math import pi
 
@@ -24,7 +24,7 @@ def seen(distance: float, *solids: Disc, time: float = 0.0) -> Knowledge:
 
 
 @pytest.mark.parametrize("distance", [0.4, 0.6])
-def test_it_keeps_the_pieces_and_not_what_the_law_adds(
+def test_the_stored_plan_excludes_the_steps_of_the_law(
     distance: float,
 ) -> None:
     solid = Disc(0.0, 3.0, 0.2)
@@ -42,7 +42,7 @@ def test_it_keeps_the_turns_on_the_spot_as_well() -> None:
     assert memory.spot > 0 and len(memory.plan) == memory.spot + 2 + 3
 
 
-def test_what_is_left_of_a_plan_is_what_was_not_made() -> None:
+def test_the_rest_of_a_plan_excludes_executed_steps() -> None:
     solid = Disc(-0.5, 0.0, 0.2)
     _, memory = MIND.decide(seen(0.5, solid, time=2.0), MIND.begin())
     assert memory.spot == 2
@@ -51,7 +51,7 @@ def test_what_is_left_of_a_plan_is_what_was_not_made() -> None:
         assert rest == (memory.plan[made:], spot)
 
 
-def test_of_what_is_not_told_nothing_is_known() -> None:
+def test_knowledge_defaults_to_unknown() -> None:
     """A body that says no more stands, alone on an open floor."""
     known = Knowledge(1.0, 0.3, 2.0, NAO)
     assert known.pose == Pose(0.0, 0.0, 0.0) and not known.moving

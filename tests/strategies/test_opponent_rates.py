@@ -13,7 +13,7 @@ from stepaside.strategies.opponent_rates import (
 STEP = 0.5
 
 
-def test_nothing_is_known_of_the_first_sightings() -> None:
+def test_rates_are_unknown_for_the_first_sightings() -> None:
     rates = SightRates(STEP)
     for time in (0.0, 0.0, 0.1, 0.3):
         assert rates.note(time, 0.3, 1.0) == SightRateEstimate(None, None)
@@ -48,22 +48,22 @@ def test_the_sway_of_a_gait_cycle_drops_out() -> None:
     assert worst < 1e-12
 
 
-def test_after_a_gap_nothing_is_known() -> None:
+def test_rates_are_unknown_after_a_gap() -> None:
     rates = SightRates(STEP)
     for time in (0.0, 0.5, 1.0):
         rates.note(time, time, 1.0)
     assert rates.note(9.0, 0.0, 5.0) == SightRateEstimate(None, None)
 
 
-def test_few_sightings_are_kept_for_however_long() -> None:
+def test_the_number_of_stored_sightings_is_bounded() -> None:
     rates = SightRates(STEP)
     for tick in range(5000):
         rates.note(0.004 * tick, 0.0, 1.0)
-    assert len(rates._seen) <= 20
+    assert len(rates._samples) <= 20
 
 
 @pytest.mark.parametrize("every", [0.004, 0.1, STEP])
-def test_somebody_who_walks_straight_on_has_one_velocity(
+def test_a_straight_walk_has_a_constant_velocity(
     every: float,
 ) -> None:
     drift, time = FloorVelocity(STEP), 0.0

@@ -1,4 +1,4 @@
-"""Test how strategies are found by name and in files."""
+"""Test the loading of strategies by name and from files."""
 
 import os
 import sys
@@ -159,14 +159,14 @@ def test_a_file_without_strategies_says_so(tmp_path: Path) -> None:
     """What it imports is none of its own."""
     file = tmp_path / "empty.py"
     file.write_text("from stepaside.strategies import Evasion, Intent\nX = 3")
-    with pytest.raises(ConfigurationError, match="but no strategy at all$"):
+    with pytest.raises(ConfigurationError, match="but no strategy$"):
         load_strategy(f"{file}:Nobody")
 
 
 @pytest.mark.parametrize(
     ("name", "factor"), [("Timid", 0.5), ("timid", 0.25), ("quick", 1.0)]
 )
-def test_a_file_gives_a_class_a_value_or_what_makes_one(
+def test_a_file_may_define_a_class_a_value_or_a_factory(
     file: Path, name: str, factor: float
 ) -> None:
     strategy: Any = load_strategy(f"{file}:{name}")
@@ -178,13 +178,13 @@ def test_a_file_gives_a_class_a_value_or_what_makes_one(
     ("name", "message"),
     [
         ("Mute", r"decide must return \(Intent, memory\), got 0.3"),
-        ("Moody", "the same knowledge and memory must have the same answer"),
-        ("Broken", "must answer, got ZeroDivisionError"),
-        ("Wild", "must answer, got PlanError: speed_factor must lie in"),
+        ("Moody", "the same knowledge and memory must give the same intent"),
+        ("Broken", "must return .*, got ZeroDivisionError"),
+        ("Wild", "must return .*, got PlanError: speed_factor must lie in"),
         ("sideways", "direction must be a Direction, got -1"),
         ("Forgetful", "must have a method begin, got a Forgetful without"),
         ("vague", "saturated must be true or false, got 1"),
-        ("Lost", r"begin\(\) must give a memory, got RuntimeError: no mem"),
+        ("Lost", r"begin\(\) must return a memory, got RuntimeError: no mem"),
         ("picky", r"picky\(\) must make a strategy, got TypeError"),
         ("NUMBER", "must be a strategy, or a class or function.*got 3"),
         ("Nobody", "the file has no Nobody, but .*Timid"),
@@ -196,7 +196,7 @@ def test_a_file_gives_a_class_a_value_or_what_makes_one(
         ),
     ],
 )
-def test_what_is_no_strategy_is_refused_in_one_line(
+def test_an_invalid_strategy_is_refused_in_one_line(
     file: Path, name: str, message: str
 ) -> None:
     with pytest.raises(ConfigurationError, match=message) as caught:
@@ -211,9 +211,9 @@ def test_a_file_that_is_not_there_or_does_not_run_is_named(
     with pytest.raises(ConfigurationError, match="there is no file .*no.py"):
         load_strategy(f"{tmp_path}/no.py:Timid")
     for text, message in (
-        ("1 / 0", "does not run: ZeroDivisionError"),
-        ("def (", "does not run: SyntaxError"),
-        ("raise SystemExit(3)", "does not run: SystemExit: 3"),
+        ("1 / 0", "fails to run: ZeroDivisionError"),
+        ("def (", "fails to run: SyntaxError"),
+        ("raise SystemExit(3)", "fails to run: SystemExit: 3"),
     ):
         path = tmp_path / "bad.py"
         path.write_text(text, encoding="utf-8")
@@ -225,9 +225,7 @@ def test_a_file_that_is_not_there_or_does_not_run_is_named(
     "name", ["", "evade", "own.py", "own.py:", "own.py:a b", "own.txt:Timid"]
 )
 @pytest.mark.parametrize("key", ["evader_strategy", "pursuer_strategy"])
-def test_what_names_no_strategy_is_refused_at_once(
-    key: str, name: str
-) -> None:
+def test_an_invalid_name_is_refused_at_once(key: str, name: str) -> None:
     with pytest.raises(ConfigurationError) as caught:
         DuelSettings(**{key: name})  # type: ignore[arg-type]
     assert str(caught.value) == (
@@ -243,7 +241,7 @@ def test_settings_can_be_read_where_the_file_is_not() -> None:
         Duel(settings)
 
 
-def test_a_configuration_repeats_who_plays(tmp_path: Path) -> None:
+def test_a_configuration_reproduces_the_strategies(tmp_path: Path) -> None:
     settings = DuelSettings(evader_strategy="a.py:B", pursuer_strategy="stand")
     path = tmp_path / "duel.toml"
     path.write_text(dump_configuration(settings), encoding="utf-8")

@@ -1,4 +1,4 @@
-"""Test pursuers beside the paper's, and the evader that is deflected."""
+"""Test the pursuers beside the paper's, and deflected evasion."""
 
 from math import atan2, cos, hypot, inf, pi, sin
 from typing import Any
@@ -22,17 +22,21 @@ from stepaside.strategies import (
     Walk,
     play_steps,
 )
-from stepaside.strategies.opponent_track import Trace, heading_of_way, note
+from stepaside.strategies.opponent_track import (
+    Trace,
+    direction_of_motion,
+    note,
+)
 
 NAO = Limits(0.1, 0.2, 0.04, 0.4)
 START = (Pose(0.0, 0.0, 0.4), Pose(1.2, 0.3, 2.0))
 ASIDE = Evasion(safety_radius=100.0)
 
 
-def test_the_way_of_the_other_is_known_on_a_circle() -> None:
+def test_direction_of_motion_is_exact_on_a_circle() -> None:
     """Its turn of a step is taken to go on: exact for a steady turn."""
     trace: Trace = ()
-    assert heading_of_way(trace) is None
+    assert direction_of_motion(trace) is None
     for n in range(5):
         theta = 0.3 + 0.1 * n
         x, y = np.sin(theta), -np.cos(theta)
@@ -49,7 +53,7 @@ def test_the_way_of_the_other_is_known_on_a_circle() -> None:
             ),
         )
         if n > 1:
-            assert heading_of_way(trace) == pytest.approx(theta, abs=1e-9)
+            assert direction_of_motion(trace) == pytest.approx(theta, abs=1e-9)
 
 
 def test_without_a_lead_it_is_the_pursuer_of_the_paper() -> None:
@@ -61,7 +65,7 @@ def test_without_a_lead_it_is_the_pursuer_of_the_paper() -> None:
     np.testing.assert_allclose(paths[1], paths[0], atol=1e-9)
 
 
-def test_a_lead_meets_who_walks_across_where_pure_pursuit_trails() -> None:
+def test_lead_pursuit_intercepts_where_pure_pursuit_trails() -> None:
     """Ahead of one that walks straight on, it turns in earlier."""
     walker, way = Walk(0.0), 0.8
     starts = (Pose(0.0, 0.0, way), Pose(0.7, -0.7, way))
@@ -73,7 +77,7 @@ def test_a_lead_meets_who_walks_across_where_pure_pursuit_trails() -> None:
     assert led < pure - 0.1
 
 
-def test_the_optimal_pursuer_catches_who_moves_aside(
+def test_the_optimal_pursuer_captures_an_evader_moving_aside(
     tmp_path: object, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Moving aside keeps the paper's pursuer off for ever, not this one."""
@@ -160,7 +164,7 @@ def test_herding_turns_with_the_room() -> None:
     )
 
 
-def test_on_an_open_floor_nothing_deflects() -> None:
+def test_without_obstacles_there_is_no_deflection() -> None:
     game = StepGame(duration=20.0)
     one, other = (
         play_steps(Pursuit(), evader, START, game=game).evader

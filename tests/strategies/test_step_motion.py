@@ -1,4 +1,4 @@
-"""Test the game in steps: one step, clearance, values, and the search."""
+"""Test the step game: one step, clearance, values, and the search."""
 
 from itertools import product
 from math import atan2, cos, hypot, inf, pi, sin
@@ -144,7 +144,7 @@ def brute(
 
 @pytest.mark.parametrize("seed", range(6))
 @pytest.mark.parametrize("valued", [False, True])
-def test_the_search_leaves_nothing_out(
+def test_the_search_matches_brute_force(
     seed: int, valued: bool, bound: Bound
 ) -> None:
     """Its score is the best of all, and the turns it gives have it."""
@@ -186,7 +186,7 @@ def test_a_branch_is_left_at_the_first_step_that_is_no_better() -> None:
     assert (alone.steps, found.steps) == (12, 12 + len(turns) + 2)
 
 
-def test_on_equal_terms_the_plan_is_kept() -> None:
+def test_a_tie_keeps_the_plan() -> None:
     """Far from everything any maneuver is good enough."""
     both = place(Pose(5.0, 0.0, 3.0), Pose(0.0, 0.0, 0.0))
     plan = (0.05, -0.1, 0.07)
@@ -198,7 +198,7 @@ def test_on_equal_terms_the_plan_is_kept() -> None:
     assert found.steps == 5 + 5
 
 
-def test_what_is_too_near_and_out_of_sight_costs() -> None:
+def test_missing_clearance_and_lost_sight_are_penalised() -> None:
     both = place(Pose(0.0, 0.0, 0.0), Pose(1.0, 1.0, 0.0))
     packed = obstacle_set(make_room(RoomRecipe(discs=1), 1).obstacles).packed
     x, y, radius = packed.discs[0]

@@ -1,4 +1,4 @@
-"""Test what players make of what they know (paper, Sec. II)."""
+"""Test decisions of the strategies (paper, Sec. II)."""
 
 from copy import deepcopy
 from dataclasses import FrozenInstanceError, replace
@@ -44,7 +44,7 @@ def known(bearing: float = 0.0, distance: float = 0.5) -> Knowledge:
 
 
 def heading(strategy: Strategy, bearing: float) -> float:
-    """Heading of a player that has just seen another near by."""
+    """Return the heading of a player at its first sighting nearby."""
     return strategy.decide(known(bearing), strategy.begin())[0].heading
 
 
@@ -58,7 +58,7 @@ def test_players_of_the_paper_drive_as_it_says() -> None:
     assert Pursuit(saturated=True).saturated and Evasion(saturated=True)
 
 
-def test_pursuer_heads_for_the_other_wherever_it_is() -> None:
+def test_the_pursuer_heads_for_the_evader_at_any_bearing() -> None:
     assert heading(Pursuit(), 0.4) == 0.4
     assert heading(Pursuit(), -0.4) == -0.4
     for distance in (0.01, 100.0):
@@ -66,7 +66,7 @@ def test_pursuer_heads_for_the_other_wherever_it_is() -> None:
         assert intent == Intent(0.0, 1.0, True)
 
 
-def test_a_walk_heads_where_it_was_told_whatever_is_seen() -> None:
+def test_a_constant_walk_ignores_the_opponent() -> None:
     walk = Walk(-0.3, speed_factor=0.5)
     for bearing in (1.0, -1.0):
         assert walk.decide(known(bearing, 9.0), None)[0] == Intent(-0.3, 0.5)
@@ -75,12 +75,14 @@ def test_a_walk_heads_where_it_was_told_whatever_is_seen() -> None:
         Walk(speed_factor=1.5)
 
 
-def test_who_stands_stands() -> None:
+def test_stand_still_never_walks() -> None:
     assert not StandStill().decide(known(0.0, 0.01), None)[0].walks
 
 
 @pytest.mark.parametrize("turn", [-1.0, -0.4, 0.0, 1.0])
-def test_a_hand_points_a_share_of_its_full_turn(turn: float) -> None:
+def test_teleoperation_heads_for_a_fraction_of_the_full_deflection(
+    turn: float,
+) -> None:
     for bearing in (-1.0, 0.0, 2.0):
         intent, _ = TeleoperatedPursuit(turn, True).decide(
             known(bearing), None
@@ -89,7 +91,7 @@ def test_a_hand_points_a_share_of_its_full_turn(turn: float) -> None:
     assert radians(50.0) == TURN
 
 
-def test_it_walks_while_the_hand_lets_it() -> None:
+def test_teleoperation_walks_while_commanded() -> None:
     assert not TeleoperatedPursuit(1.0).decide(known(), None)[0].walks
     assert (
         TeleoperatedPursuit(1.0, True).decide(known(0.0, 10.0), None)[0].walks
@@ -175,7 +177,7 @@ def test_strategies_are_pure(
 
 @pytest.mark.parametrize("strategy", ALL[:3], ids=repr)
 @given(st.lists(st.tuples(BEARINGS, DISTANCES), min_size=1, max_size=6))
-def test_what_is_seen_in_a_mirror_is_done_in_a_mirror(
+def test_mirrored_knowledge_gives_the_mirrored_intent(
     strategy: Strategy, seen: list[tuple[float, float]]
 ) -> None:
     memory: Any = strategy.begin()

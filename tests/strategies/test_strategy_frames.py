@@ -1,4 +1,4 @@
-"""Test strategies by laws: no frame is special, and times are of instants."""
+"""Test strategies by laws: invariance to frames, and times of sightings."""
 
 from dataclasses import replace
 from math import atan2, cos, hypot, inf, pi, sin
@@ -24,9 +24,13 @@ from stepaside.strategies import (
     Pursuit,
 )
 from stepaside.strategies.approach import Approach
-from stepaside.strategies.decider import TemplatePlayer
-from stepaside.strategies.look_ahead import moved_on
-from stepaside.strategies.opponent_track import Trace, heading_of_way, note
+from stepaside.strategies.decision_maker import TemplatePlayer
+from stepaside.strategies.look_ahead import predict_poses
+from stepaside.strategies.opponent_track import (
+    Trace,
+    direction_of_motion,
+    note,
+)
 from stepaside.strategies.search import PlayerPair
 from stepaside.strategies.step_game import StepGame, play_steps
 
@@ -49,7 +53,7 @@ STRATEGIES: dict[str, Any] = {
 
 
 def moved(solid: Obstacle, frame: Pose) -> Obstacle:
-    """A solid as seen from the parent of a frame."""
+    """Express an obstacle in the parent of a frame."""
     if isinstance(solid, Disc):
         x, y, _ = frame.compose(Pose(solid.x, solid.y, 0.0))
         return Disc(x, y, solid.radius)
@@ -60,7 +64,7 @@ def moved(solid: Obstacle, frame: Pose) -> Obstacle:
 def known(
     own: Pose, other: Pose, time: float, age: float = 0.0, **more: Any
 ) -> Knowledge:
-    """What one knows who stands somewhere and saw the other somewhere."""
+    """Return the knowledge for given poses and sighting."""
     x, y = other.x - own.x, other.y - own.y
     return Knowledge(
         time,
@@ -103,7 +107,7 @@ def asked(strategy: Any, frame: Pose, solids: Any = ()) -> list[Intent]:
 
 @pytest.mark.parametrize("solids", [(), SOLIDS], ids=["open", "room"])
 @pytest.mark.parametrize("name", STRATEGIES)
-def test_wherever_odometry_lies_it_decides_the_same(
+def test_decisions_do_not_depend_on_the_odometry_frame(
     name: str, solids: Any
 ) -> None:
     strategy = STRATEGIES[name]
@@ -149,7 +153,7 @@ def test_a_game_in_steps_has_no_preferred_direction(name: str) -> None:
 
 @settings(max_examples=50)
 @given(MOVED, MOVED, st.floats(0.05, 1.5), st.floats(0.0, 0.6))
-def test_what_was_seen_a_while_ago_is_of_that_time(
+def test_an_old_sighting_refers_to_its_own_time(
     own: Pose, other: Pose, apart: float, age: float
 ) -> None:
     """It counts as it would have counted then."""
@@ -171,7 +175,7 @@ def test_what_was_seen_a_while_ago_is_of_that_time(
 
 @settings(max_examples=50)
 @given(MOVED, ANGLE, st.floats(0.5, 2.0), st.floats(0.0, 1.5))
-def test_who_leads_points_ahead_of_who_walks_straight_on(
+def test_lead_pursuit_points_ahead_of_a_straight_walk(
     own: Pose, way: float, distance: float, lead: float
 ) -> None:
     """At a point of its way, as far ahead as a share of the distance."""
@@ -194,7 +198,7 @@ def test_who_leads_points_ahead_of_who_walks_straight_on(
 
 @settings(max_examples=50)
 @given(MOVED, st.floats(-0.8, 0.8), st.floats(0.02, 0.2))
-def test_the_heading_of_who_turns_is_the_tangent_where_it_is(
+def test_the_heading_of_a_turning_opponent_is_the_tangent(
     start: Pose, turn: float, step: float
 ) -> None:
     """On a circle it is half a turn ahead of the chord to there."""
@@ -204,14 +208,14 @@ def test_the_heading_of_who_turns_is_the_tangent_where_it_is(
     for i in range(3):
         trace = note(trace, known(Pose(5.0, 5.0, 0.0), pose, STEP * i))
         last, pose = pose, pose.compose(chord)
-    found = heading_of_way(trace)
+    found = direction_of_motion(trace)
     assert found is not None
     assert wrap_angle(found - last.theta) == pytest.approx(0.0, abs=1e-6)
 
 
 @settings(max_examples=50)
 @given(MOVED, MOVED, ANGLE, st.floats(0.0, 3.0))
-def test_the_pursuer_went_on_since_it_was_seen(
+def test_the_pursuer_is_predicted_to_the_start_of_the_step(
     begins: Pose, other: Pose, heading: float, age: float
 ) -> None:
     """Half a step, until the body passes its foot, and the age."""
@@ -219,7 +223,7 @@ def test_the_pursuer_went_on_since_it_was_seen(
         *(9.0, 9.0, 1.0, 0.0, other.x, other.y, cos(heading), sin(heading))
     )
     knows = known(Pose(9.0, 9.0, 0.0), other, 5.0, age)
-    found = moved_on(both, knows, begins)
+    found = predict_poses(both, knows, begins)
     way = LIMITS.stride * (0.5 + age / STEP)
     ahead = Pose(other.x, other.y, heading).compose(Pose(way, 0.0, 0.0))
     assert (found.px, found.py) == pytest.approx(ahead[:2])
@@ -231,10 +235,10 @@ def test_the_pursuer_went_on_since_it_was_seen(
 
 @settings(max_examples=50)
 @given(METRES, METRES, METRES, METRES, st.floats(0.0, 2.0))
-def test_who_was_seen_a_while_ago_has_walked_on_since(
+def test_an_old_approach_is_extrapolated(
     x: float, y: float, u: float, v: float, age: float
 ) -> None:
-    """As who is seen now where the way has led meanwhile."""
+    """It equals a new sighting at the extrapolated position."""
     own = Pose(0.0, 0.0, 0.0)
     velocity = (u, v)
     old = known(own, Pose(x, y, 0.0), 4.0, age, velocity=velocity)
@@ -249,7 +253,7 @@ def test_who_was_seen_a_while_ago_has_walked_on_since(
         assert after == pytest.approx(0.5, abs=1e-6)
 
 
-def test_how_fast_somebody_passes_is_not_how_far() -> None:
+def test_the_miss_distance_is_independent_of_the_speed() -> None:
     """Also where the square of the speed is no number but 0."""
     for speed in (1e-203, 1e-160, 1e-3, 1.0):
         assert Approach(0.6, 0.8, -speed, 0.0).miss == pytest.approx(0.8)
@@ -259,7 +263,7 @@ def test_how_fast_somebody_passes_is_not_how_far() -> None:
 
 
 class Noting:
-    """Remembers what it is told."""
+    """Strategy that records its knowledge."""
 
     direction, saturated = STRATEGIES["evasion"].direction, False
 
@@ -275,20 +279,18 @@ class Noting:
 
 @settings(max_examples=30)
 @given(MOVED, st.floats(-0.3, 0.3), st.floats(-0.3, 0.3))
-def test_a_player_is_told_the_velocity_in_its_own_frame(
+def test_a_player_knows_the_opponents_velocity_in_its_own_frame(
     own: Pose, u: float, v: float
 ) -> None:
     """Of the other on the floor, however the own body moves and turns."""
     strategy: Any = Noting()
-    decider = TemplatePlayer(
-        strategy, LIMITS, STEP, SOLIDS, sees_velocity=True
-    )
+    player = TemplatePlayer(strategy, LIMITS, SOLIDS)
     for i in range(6):
         time = STEP * i
         here = own.compose(Pose(-0.03 * i, 0.0, 0.3 * i))
         there = Pose(own.x + 2.0 + u * time, own.y + v * time, 0.0)
         x, y, _ = here.inverse().compose(there)
-        decider.decide(time, here, atan2(y, x), hypot(x, y))
+        player.decide(time, here, atan2(y, x), hypot(x, y))
     first, last = strategy.told[0], strategy.told[-1]
     assert first.velocity is None and last.pose == here
     assert last.obstacles == SOLIDS and last.age == 0.0

@@ -1,4 +1,4 @@
-"""Test unicycles that play any two strategies."""
+"""Test matches of unicycles with any two strategies."""
 
 from dataclasses import replace
 from math import pi, sin
@@ -102,7 +102,7 @@ def test_one_that_stands_is_captured_and_the_game_ends() -> None:
 
 
 @pytest.mark.parametrize("factor", [1.0, 0.5])
-def test_the_way_is_the_share_of_the_speed(factor: float) -> None:
+def test_distance_scales_with_the_speed_factor(factor: float) -> None:
     walk = Walk(0.0, Direction.BACKWARD, speed_factor=factor)
     run = play(evader=walk, duration=2.0)
     way = run.evader[-1] - run.evader[0]

@@ -69,11 +69,11 @@ class Taken:
     Attributes:
         solids: Obstacles.
         frame: Odometry frame.
-        blur: Uncertainty of the frame, in [m].
+        map_error: Largest position error of the obstacles, in [m].
     """
 
     frame = HERE
-    blur = CELL
+    map_error = CELL
 
     def __init__(self, solids: ObstacleSet) -> None:
         """Store the obstacles."""

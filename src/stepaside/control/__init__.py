@@ -1,4 +1,4 @@
-"""Control of one robot (paper, Fig. 4): perceive, plan, move."""
+"""Control of one robot (paper, Fig. 4): perception, planning, motion."""
 
 from ..core.lazy_exports import lazy_exports
 

@@ -1,4 +1,4 @@
-"""What stands between control and a body, simulated or real."""
+"""Interface between control and a body, simulated or real."""
 
 from typing import Protocol
 
@@ -7,10 +7,10 @@ from ..perception.measurement import Measurement
 
 
 class Body(Protocol):
-    """A robot that control can move.
+    """Interface to the joints and sensors of one robot.
 
     Attributes:
-        tick: Time from one control tick to the next, in [s].
+        tick: Control period, in [s].
     """
 
     tick: float
@@ -22,7 +22,7 @@ class Body(Protocol):
         """Send joint targets, in [rad], to the servos. Shape (joints,)."""
 
     def step(self) -> None:
-        """Let time pass until the next control tick."""
+        """Advance to the next control tick."""
 
     def close(self) -> None:
-        """Let go of the body."""
+        """Release the body and its connection."""

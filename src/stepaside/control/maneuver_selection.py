@@ -1,4 +1,4 @@
-"""From what a strategy wants to a plan that the body may walk."""
+"""Planning of the maneuver that an intent and the guard allow."""
 
 from collections.abc import Iterator
 
@@ -21,8 +21,8 @@ class ManeuverSelection:
     """Plans the maneuvers and halts of one robot.
 
     Attributes:
-        planner: Of its gait.
-        guard: What keeps it clear of what stands around, if anything.
+        planner: Maneuver planner of the gait.
+        guard: Guard against obstacles, if any.
     """
 
     def __init__(
@@ -32,26 +32,28 @@ class ManeuverSelection:
 
         Args:
             settings: Gait.
-            balance: What keeps the robot up, and fits plans to its state.
-            guard: What keeps it clear of what stands around, if anything.
+            balance: Balance control, which fits plans to the state.
+            guard: Guard against obstacles, if any.
         """
         self.planner = ManeuverPlanner(settings)
         self.guard, self._balance = guard, balance
-        self._loosely = False
+        self._relaxed = False
 
-    def tries(self) -> Iterator[None]:
-        """What who stands tries one after the other, once with each foot.
+    def start_attempts(self) -> Iterator[None]:
+        """Yield the start attempts of a standing robot: once with each foot.
 
-        Where both fail by a map that may be off, each may try again to get
-        out of too narrow a place; see :meth:`Guard.way_out`.
+        With a map that may be off, each foot then has a second attempt, with
+        relaxed clearance; see :meth:`Guard.choose_escape`.
         """
-        blurred = self.guard is not None and self.guard.surroundings.blur > 0.0
+        blurred = (
+            self.guard is not None and self.guard.surroundings.map_error > 0.0
+        )
         try:
-            for self._loosely in (False, True)[: 1 + blurred]:
+            for self._relaxed in (False, True)[: 1 + blurred]:
                 for _ in Foot:
                     yield
         finally:
-            self._loosely = False
+            self._relaxed = False
 
     def plan(
         self,
@@ -63,50 +65,50 @@ class ManeuverSelection:
         *,
         standing: bool,
     ) -> tuple[ManeuverPlan, CenterState] | None:
-        """Plan what is wanted, or what comes nearest to it.
+        """Plan an intent, or the accepted decision closest to it.
 
         Args:
-            intent: What is wanted.
-            strategy: Who wants it.
+            intent: Requested intent.
+            strategy: Strategy that requested it.
             state: Present CoM in the frame of the support foot.
-            feet: Support foot and swing foot in odometry.
+            feet: Poses of support foot and swing foot in odometry.
             foot: Foot that swings.
             standing: Whether the robot stands.
 
         Returns:
-            The plan and the state that it begins with; None if it had
-            better stand.
+            The plan and the state that it begins with; None if the robot has
+            to stand.
         """
         support = feet[0]
         swing_start = support.inverse().compose(feet[1])
 
         def plan_of(choice: GuardDecision, state: CenterState) -> ManeuverPlan:
-            direction, wanted = strategy.direction, choice.intent
+            direction, request = strategy.direction, choice.intent
             if choice.back:
                 direction = Direction(-direction.value)
             plan = self.planner.plan(
-                wanted.heading,
+                request.heading,
                 direction,
                 first_foot=foot,
                 state=state,
                 swing_start=swing_start,
                 standing=standing,
                 saturated=strategy.saturated,
-                speed_factor=wanted.speed_factor,
-                pace=wanted.pace,
+                speed_factor=request.speed_factor,
+                pace=request.pace,
             )
             if self.guard is None:
                 return plan
-            return self.guard.fit(plan, support)
+            return self.guard.adjust_footsteps(plan, support)
 
         chosen: GuardDecision | None = GuardDecision(intent)
         if self.guard is not None:
-            # Fitting moves no foot, so it can wait until the choice is made.
+            # The fit to the state moves no foot: it can follow the choice.
             def planned(choice: GuardDecision) -> ManeuverPlan:
                 return plan_of(choice, state)
 
-            if self._loosely:
-                chosen = self.guard.way_out(intent, planned, support)
+            if self._relaxed:
+                chosen = self.guard.choose_escape(intent, planned, support)
             else:
                 chosen = self.guard.choose(
                     intent, planned, support, standing=standing

@@ -1,10 +1,10 @@
-"""What a robot is doing."""
+"""Phase of motion of a robot."""
 
 from enum import Enum
 
 
 class Phase(Enum):
-    """What a robot is doing, as it knows itself."""
+    """Phase of motion of a robot, by its own estimate."""
 
     STANDING = "standing"
     WALKING = "walking"

@@ -23,33 +23,33 @@ from .strategy_runner import StrategyRunner
 from .walk_snapshots import StepStarted, WalkState
 
 SETTLING = 1.0  # how long a halted robot takes to come to rest, in [s]
-PATIENCE = 0.2  # until one that cannot move asks again, in [s]
+RETRY_PERIOD = 0.2  # between attempts of a blocked robot, in [s]
 
 
 class ControlScheme:
-    """Perceives the other, plans at the end of each double support, moves.
+    """Control of one robot: sense, plan at the end of each step, move.
 
-    Everything is kept in the robot's own odometry: the frame that lay
-    midway between its feet when it began. What has been is not kept: who
-    wants to know looks after each tick at the step that it began.
+    All poses are in the robot's own odometry: the frame midway between its
+    feet at the start. No history is stored: a recorder reads ``begun`` after
+    each tick.
 
     Attributes:
-        decisions: Its strategy, and what that remembers.
+        decisions: Strategy with its memory.
         settings: Gait.
         kinematics: Joint motion generation.
-        balance: What keeps the robot up.
-        senses: How it learns where the other is.
-        phase: What the robot is doing.
-        sighting: The other, as it was seen last; None if it is lost.
+        balance: Balance control.
+        senses: Source of sightings of the opponent.
+        phase: Phase of motion.
+        sighting: Last sighting of the opponent; None if it is lost.
         plan: Maneuver being walked; None while standing.
         plan_frame: Pose of its frame in odometry.
         plan_started: When it began, in [s].
-        reference: What the body is asked for at this tick, in odometry.
+        reference: Body reference of this tick, in odometry.
         zmp_reference: ZMP reference at this tick in odometry, in [m].
-        left_foot: Pose of the left foot when it last stood, in odometry.
-        right_foot: Pose of the right foot, likewise.
+        left_foot: Last stance pose of the left foot, in odometry.
+        right_foot: Last stance pose of the right foot, likewise.
         begun: Step that began at this tick; None if none did.
-        joint_targets: Of this tick, in [rad]. Shape (joints,).
+        joint_targets: Joint targets of this tick, in [rad]. Shape (joints,).
     """
 
     def __init__(
@@ -68,23 +68,24 @@ class ControlScheme:
         """Take the standing posture.
 
         Args:
-            strategy: From what it knows to what it wants.
+            strategy: Strategy of the player.
             settings: Gait.
-            kinematics: The robot's joint motion generation.
+            kinematics: Joint motion generation of the robot.
             tick: Control period, in [s].
             delay: Time from a request to the motion, in [s].
             first_foot: Foot that makes the first step.
-            balance: What keeps the robot up; the plan alone by default.
-            senses: How it learns where the other is; by the sightings that
-                measurements bring by default.
+            balance: Balance control; none by default, the plan alone.
+            senses: Source of sightings; by default those that
+                measurements bring.
+            guard: Guard against obstacles; none by default.
             guard: What keeps it clear of what stands around; nothing by
                 default.
 
         Raises:
-            ReachError: If the robot cannot stand as the gait asks.
+            ReachError: If the standing posture of the gait is out of reach.
         """
-        around = None if guard is None else guard.surroundings
-        self.decisions = StrategyRunner(strategy, settings, tick, around)
+        surroundings = None if guard is None else guard.surroundings
+        self.decisions = StrategyRunner(strategy, settings, tick, surroundings)
         self.settings = settings
         self.kinematics = kinematics
         self.balance: Balance = OpenLoop() if balance is None else balance
@@ -102,7 +103,7 @@ class ControlScheme:
         self.left_foot = Pose(0.0, half, 0.0)
         self.right_foot = Pose(0.0, -half, 0.0)
         self.begun: StepStarted | None = None
-        self._delay, self._late = delay, delay + tick
+        self._delay, self._latency = delay, delay + tick
         self._maneuvers = ManeuverSelection(settings, self.balance, guard)
         self._first_foot = first_foot
         self._table = ReferenceTable(tick)
@@ -114,34 +115,36 @@ class ControlScheme:
         """Run one control tick.
 
         Args:
-            measurement: What the sensors give.
+            measurement: Measurement of the tick.
 
         Returns:
             Joint targets, in [rad]. Shape (joints,).
 
         Raises:
-            ReachError: If the legs lose the reference.
-            StrategyError: If the strategy gives no intent.
+            ReachError: If the legs cannot follow the reference.
+            StrategyError: If the strategy returns no intent.
         """
         self.begun = None
         if self.phase is Phase.FALLEN:
             return self.joint_targets
         now, balance = measurement.time, self.balance
         measured = balance.torso_heading
-        known = self.kinematics.torso_heading if measured is None else measured
-        self.decisions.feel(measurement, stands=self.plan is None)
-        late = self._delay if measured is None else 0.0
-        self.decisions.headings.note(now + late, known)
+        heading = (
+            self.kinematics.torso_heading if measured is None else measured
+        )
+        self.decisions.calibrate(measurement, stands=self.plan is None)
+        delay = self._delay if measured is None else 0.0
+        self.decisions.headings.note(now + delay, heading)
         self.sighting = self.senses.see(measurement, self.step, balance.tilt)
         if self._maneuvers.guard is not None:
-            around = self._maneuvers.guard.surroundings
-            around.note(measurement, self.reference)
+            surroundings = self._maneuvers.guard.surroundings
+            surroundings.note(measurement, self.reference)
         if self.plan is None:
             self._wait(now)
         elif now >= self._plan_ends - 1e-9:
             self._finish(self.plan)
         sample = self._resting if self.plan is None else self._table.at(now)
-        self.decisions.templates.note(now + self._late, sample.template)
+        self.decisions.templates.note(now + self._latency, sample.template)
         self.zmp_reference = sample.zmp
         self.reference = balance.update(measurement, sample, self.step)
         if balance.has_fallen:
@@ -155,7 +158,7 @@ class ControlScheme:
 
     @property
     def state(self) -> WalkState:
-        """What the robot plans and asks of its body now."""
+        """Plan and references of the current tick."""
         return WalkState(
             phase=self.phase,
             gait=self.settings,
@@ -175,12 +178,12 @@ class ControlScheme:
         )
 
     def lead_with(self, foot: Foot) -> None:
-        """Make the next first step with a foot, if the robot stands."""
+        """Choose the foot of the first step, if the robot stands."""
         if self.plan is None:
             self._first_foot = foot
 
     def _stand(self) -> None:
-        """Rest midway between the feet."""
+        """Come to rest midway between the feet."""
         self.phase, self.plan = Phase.STANDING, None
         self._resting = resting_sample(
             self.left_foot, self.right_foot, self.settings
@@ -188,25 +191,25 @@ class ControlScheme:
         self.reference, self.zmp_reference, *_ = self._resting
 
     def _wait(self, now: float) -> None:
-        """Stand until the other is a reason to move."""
-        seen = self.sighting
+        """Stand until the strategy requests motion."""
+        sighting = self.sighting
         if not self.balance.ready or now < self._blocked_until:
             return
-        if not self.decisions.starts(now, seen, self.senses.turning):
+        if not self.decisions.starts(now, sighting, self.senses.turning):
             return
         x, y, _ = self.reference.com
-        for _ in self._maneuvers.tries():
+        for _ in self._maneuvers.start_attempts():
             support = self._support(self._first_foot)
             rest = support.inverse().compose(Pose(x, y, 0.0))
             state = CenterState(rest[:2], (0.0, 0.0))
-            self._replan(now, support, state, seen, standing=True)
+            self._replan(now, support, state, sighting, standing=True)
             if self.plan is not None or not self._blocked_until > now:
                 return
-            # Who sways to the other side first may have more room there.
+            # Starting with the other foot sways to the other side first.
             self._first_foot = self._first_foot.other
 
     def _finish(self, plan: ManeuverPlan) -> None:
-        """End a step: the foot that landed supports, and a plan follows."""
+        """End a step: the landed foot becomes the support, then replan."""
         landed = self.plan_frame.compose(Pose(*plan.placements[2].tolist()))
         position, velocity = landing_state(plan)
         landed, position, velocity = self.balance.land(
@@ -232,35 +235,41 @@ class ControlScheme:
         started: float,
         support: Pose,
         state: CenterState,
-        seen: Sighting | None,
+        sighting: Sighting | None,
         *,
         standing: bool,
     ) -> None:
-        """Plan from what was seen last, or come to rest (Sec. III-E)."""
-        clock, who = process_time(), self.decisions.strategy
+        """Plan from the last sighting, or come to rest (Sec. III-E)."""
+        clock, strategy = process_time(), self.decisions.strategy
         foot, turning = self._first_foot, self.senses.turning
         intent = self.decisions.decide(
-            started, seen, turning, (support, foot.other), moving=not standing
+            started,
+            sighting,
+            turning,
+            (support, foot.other),
+            moving=not standing,
         )
         feet = support, self._support(foot.other)
-        planned = None
+        selected = None
         if intent.walks:
-            planned = self._maneuvers.plan(
-                intent, who, state, feet, foot, standing=standing
+            selected = self._maneuvers.plan(
+                intent, strategy, state, feet, foot, standing=standing
             )
-        if planned is None:
-            self._blocked_until = started + PATIENCE if intent.walks else 0.0
+        if selected is None:
+            self._blocked_until = (
+                started + RETRY_PERIOD if intent.walks else 0.0
+            )
             if not standing:
                 self._halt(started, support, state)
             return
-        plan, state = planned
+        plan, state = selected
         spent = process_time() - clock
         self.phase = Phase.WALKING
         duration = plan.schedule.first_step_duration
         self._walk(plan, support, started, duration, state, spent)
 
     def _halt(self, started: float, support: Pose, state: CenterState) -> None:
-        """Bring the feet abreast and come to rest."""
+        """Plan the halt that brings the feet abreast."""
         foot = self._first_foot
         plan = self._maneuvers.planner.plan_halt(
             first_foot=foot,
@@ -281,7 +290,7 @@ class ControlScheme:
         state: CenterState,
         spent: float | None,
     ) -> None:
-        """Replace the plan that is walked."""
+        """Replace the current plan."""
         self.plan, self.plan_frame, self.plan_started = plan, frame, started
         self._plan_ends = started + duration
         self._table.load(plan, frame, started, duration)
@@ -295,12 +304,12 @@ class ControlScheme:
         )
 
     def step(self, now: float) -> CurrentStep:
-        """Step being made at a time, in [s]."""
+        """Return the step in progress at a time, in [s]."""
         if self.plan is None:
             foot = self._first_foot
             return resting_step(self._support(foot), foot)
         return step_of(self.plan, self.plan_frame, now - self.plan_started)
 
     def _support(self, swing: Foot) -> Pose:
-        """Foot that stands while another swings, in odometry."""
+        """Return the support foot while the other swings, in odometry."""
         return self.right_foot if swing is Foot.LEFT else self.left_foot

@@ -1,4 +1,4 @@
-"""Putting a mind together: kinematics, balance, senses and scheme."""
+"""Construction of a control scheme from settings."""
 
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -35,16 +35,17 @@ def build_balance(
     kinematics: LegKinematics,
     forward: ForwardKinematics | None = None,
 ) -> Balance:
-    """What keeps a robot up, as its settings ask.
+    """Build the balance control that the settings select.
 
     Args:
-        description: The robot.
-        gait: How it walks.
-        control: How it controls its walk.
+        description: Robot description.
+        description: Robot description.
+        gait: Gait.
+        control: Control settings.
         tick: Control period, in [s].
-        delay: Time from a request to the motion, in [s].
-        kinematics: Its joint motion generation.
-        forward: Kinematics of the measured body, if somebody has it already.
+        delay: Time from a command to the motion, in [s].
+        kinematics: Joint motion generation of the robot.
+        forward: Kinematics of the measured body; built if not given.
     """
     loads = None
     if not control.feedback or control.stabiliser.load_share > 0.0:
@@ -59,7 +60,9 @@ def build_balance(
     )
     return ClosedLoop(
         Stabiliser(
-            *(control, estimator, gait),
+            control,
+            estimator,
+            gait,
             tick=tick,
             delay=delay,
             lean=description.lean,
@@ -69,12 +72,12 @@ def build_balance(
 
 
 class ClearanceSetup(NamedTuple):
-    """What a robot knows of a room, and how clear it keeps.
+    """Known obstacles, body outline and required clearance of one robot.
 
     Attributes:
-        surroundings: What it knows.
-        outline: Of its body.
-        margin: Distance that it keeps, in [m].
+        surroundings: Known obstacles.
+        outline: Outline of the body.
+        margin: Required clearance, in [m].
     """
 
     surroundings: Surroundings
@@ -94,21 +97,21 @@ def build_scheme(
     perception: "Perception | None" = None,
     clearance: ClearanceSetup | None = None,
 ) -> ControlScheme:
-    """Control of one robot, whatever body it will move.
+    """Build the control scheme of one robot, for any body.
 
     Args:
-        strategy: From what it knows to what it wants.
-        description: The robot.
-        gait: How it walks.
-        control: How it controls its walk.
+        strategy: Strategy of the player.
+        description: Robot description.
+        gait: Gait.
+        control: Control settings.
         tick: Control period, in [s].
-        delay: Time from a request to the motion, in [s].
-        sighting: What is known of the other before anything is seen.
-        perception: What turns its images into sightings, if it has eyes.
-        clearance: What it knows of a room, and how clear it keeps.
+        delay: Time from a command to the motion, in [s].
+        sighting: Initial sighting of the opponent, without perception.
+        perception: Perception from images, for a robot with a camera.
+        clearance: Known obstacles and required clearance, if any.
 
     Raises:
-        ReachError: If the robot cannot stand as the gait asks.
+        ReachError: If the standing posture of the gait is out of reach.
     """
     kinematics = LegKinematics(description, tick=tick)
     if perception is not None:
@@ -133,22 +136,22 @@ def build_scheme(
         else CameraSight(perception, tick=tick),
         guard=None
         if clearance is None
-        else guard_of(clearance, gait, control),
+        else build_guard(clearance, gait, control),
     )
     if control.learn_turns:
         scheme.decisions.turns = TurnCalibration(tick)
     return scheme
 
 
-def guard_of(
+def build_guard(
     clearance: ClearanceSetup, gait: GaitSettings, control: ControlSettings
 ) -> Guard:
-    """What keeps a robot clear; with the MPC it also moves footsteps."""
+    """Build the guard; with the MPC it also adjusts footsteps."""
     planner = ManeuverPlanner(gait)
     footholds = None
     if control.method == "mpc":
-        needs = clearance.outline.radius + clearance.margin + sway_of(gait)
-        footholds = Footholds(planner, control.stabiliser, needs)
+        radius = clearance.outline.radius + clearance.margin + sway_of(gait)
+        footholds = Footholds(planner, control.stabiliser, radius)
     return Guard(
         clearance.surroundings,
         clearance.outline,

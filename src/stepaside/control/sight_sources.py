@@ -1,4 +1,4 @@
-"""How a robot learns where the other is."""
+"""Sources of sightings of the opponent: measurements or camera."""
 
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Protocol
@@ -13,20 +13,20 @@ if TYPE_CHECKING:
     from ..perception.perception import Perception
 
 StepAt = Callable[[float], CurrentStep]
-BELIEF = 0.5  # rate at which the accelerometer is believed, in [1/s]
+CORRECTION = 0.5  # of the attitude filter by the accelerometer, in [1/s]
 
 
 class SightSource(Protocol):
-    """What tells a robot of the other, and moves its head.
+    """Source of sightings, which also directs the gaze.
 
     Attributes:
-        turning: How the body is to turn on the spot while it looks around,
-            before anything is said: 1 to the left, -1 to the right, or 0.
+        turning: Turn of the body on the spot that a scan requests before the
+            first sighting: 1 to the left, -1 to the right, or 0.
     """
 
     @property
     def turning(self) -> float:
-        """How the body is to turn on the spot: 1 left, -1 right, or 0."""
+        """Turn on the spot for a scan: 1 left, -1 right, or 0."""
 
     def see(
         self,
@@ -34,30 +34,30 @@ class SightSource(Protocol):
         step: StepAt,
         tilt: tuple[float, float] | None,
     ) -> Sighting | None:
-        """Where the other is, as far as is known; None if lost.
+        """Return the latest sighting of the opponent; None if it is lost.
 
         Args:
-            measurement: What the sensors give at this tick.
-            step: Step being made at a time, in [s].
+            measurement: Measurement of the tick.
+            step: Function from a time, in [s], to the step in progress.
             tilt: Roll and pitch of the torso, in [rad], if balance
                 estimates them.
         """
 
     def aim(self, targets: Array) -> None:
-        """Write where the head turns into joint targets, in [rad]."""
+        """Write the head angles into joint targets, in [rad]."""
 
 
 class MeasuredSight:
-    """Sightings that come with the measurements; the last one counts.
+    """Latest of the sightings that measurements contain.
 
     Attributes:
-        turning: Never.
+        turning: 0: it never scans.
     """
 
     turning = 0.0
 
     def __init__(self, sighting: Sighting | None = None) -> None:
-        """Know what is known before anything is seen."""
+        """Begin with an initial sighting, if any."""
         self._last = sighting
 
     def see(
@@ -66,34 +66,34 @@ class MeasuredSight:
         step: StepAt,
         tilt: tuple[float, float] | None,
     ) -> Sighting | None:
-        """Newest sighting."""
+        """Return the newest sighting."""
         if measurement.sighting is not None:
             self._last = measurement.sighting
         return self._last
 
     def aim(self, targets: Array) -> None:
-        """Leave the head where it is."""
+        """Leave the head as it is."""
 
 
 class CameraSight:
-    """Sightings from images, seen over the foot that stands.
+    """Sightings from images, relative to the support foot.
 
-    Where balance estimates the tilt of the torso, that estimate serves the
-    eyes too; else a filter of the same kind does.
+    The camera pose uses the torso tilt that balance estimates; without an
+    estimate, an attitude filter of its own.
 
     Attributes:
-        perception: What sees and looks.
+        perception: Perception with its gaze.
     """
 
     def __init__(self, perception: "Perception", *, tick: float) -> None:
-        """See with a perception, at a control period in [s]."""
+        """Wrap a perception, at a control period in [s]."""
         self.perception = perception
-        self._attitude = AttitudeFilter(BELIEF, 0.0, calibration=0.0)
+        self._attitude = AttitudeFilter(CORRECTION, 0.0, calibration=0.0)
         self._tick = tick
 
     @property
     def turning(self) -> float:
-        """How the body is to turn while it looks around: 1, -1 or 0."""
+        """Turn on the spot for a scan: 1 left, -1 right, or 0."""
         return self.perception.around.turning
 
     def see(
@@ -102,7 +102,7 @@ class CameraSight:
         step: StepAt,
         tilt: tuple[float, float] | None,
     ) -> Sighting | None:
-        """Where the other is by the images so far."""
+        """Return the sighting by the images so far."""
         if tilt is None:
             own = self._attitude
             gyro, force = measurement.gyro, measurement.accelerometer
@@ -115,5 +115,5 @@ class CameraSight:
         )
 
     def aim(self, targets: Array) -> None:
-        """Turn the head to where the other is, or was."""
+        """Turn the head to the last known position of the opponent."""
         self.perception.aim(targets)

@@ -1,52 +1,50 @@
-"""Asking the strategy of one robot, with what it remembers."""
+"""Execution of the strategy of one robot, with its memory."""
 
 from dataclasses import replace
-from math import cos, pi, sin
-from typing import Any
+from math import pi
 
-from ..core.poses import Pose, wrap_angle
+from ..core.poses import Pose
 from ..perception.measurement import Measurement, Sighting
 from ..planning import Foot, GaitSettings
 from ..planning.template_path import passed_beside
-from ..strategies.foreign_code import ask
+from ..strategies.decision_maker import DecisionMaker
 from ..strategies.knowledge import ON_THE_SPOT, Intent, Knowledge, Limits
-from ..strategies.opponent_rates import FloorVelocity, SightRates
 from ..strategies.strategy import Strategy
 from .clearance.surroundings import OpenFloor, Surroundings
 from .state_history import StateHistory
 from .turn_calibration import TurnCalibration
 
-QUICKENING = 0.25  # most that the pace changes from step to step
+MAX_PACE_CHANGE = 0.25  # from step to step
 
 
 def next_pace(before: float, wanted: float, *, standing: bool) -> float:
-    """Pace of the next step.
+    """Return the pace of the next step, with a bounded change.
 
-    Steps in less time need the CoM less far to the side. What the last step
-    prepared for is made good by the correction of the next plan, which is
-    a ZMP shift, and that has to stay well inside the sole.
+    Shorter steps need less lateral sway of the CoM. The mismatch with the
+    state that the last step prepared is absorbed by the correction of the
+    next plan, a ZMP shift that has to stay well inside the sole.
 
     Args:
         before: Pace of the last step.
-        wanted: Pace that is asked for.
-        standing: Whether the robot stands: then nothing was prepared.
+        wanted: Requested pace.
+        standing: Whether the robot stands; then any pace is possible.
     """
     if standing:
         return wanted
-    return min(max(wanted, before - QUICKENING), before + QUICKENING)
+    return min(max(wanted, before - MAX_PACE_CHANGE), before + MAX_PACE_CHANGE)
 
 
-class StrategyRunner:
-    """The strategy of a robot and its memory, from decision to decision.
+class StrategyRunner(DecisionMaker):
+    """Strategy of a robot with its memory and its history of states.
 
     Attributes:
-        strategy: From what the robot knows to what it wants.
-        memory: What the strategy remembers.
-        pace: Of the last step that was decided, see :class:`Intent`.
-        headings: Past headings of the torso in odometry, in [rad], from
-            which sightings count.
-        templates: Past poses of the unicycle that stands for the body.
-        turns: How much of its turns the body makes; None for all of them.
+        strategy: Strategy of the player.
+        memory: Memory of the strategy.
+        pace: Pace of the last decided step, see :class:`Intent`.
+        headings: Past headings of the torso in odometry, in [rad], to which
+            the bearings of sightings refer.
+        templates: Past poses of the template unicycle in odometry.
+        turns: Calibration of the turning rate; None for none.
     """
 
     def __init__(
@@ -56,164 +54,130 @@ class StrategyRunner:
         tick: float,
         surroundings: Surroundings | None = None,
     ) -> None:
-        """Begin with nobody seen yet.
+        """Begin without a sighting.
 
         Args:
-            strategy: From what the robot knows to what it wants.
-            gait: How it walks.
+            strategy: Strategy of the player.
+            gait: Gait.
             tick: Control period, in [s].
-            surroundings: What the robot knows of what stands around.
+            surroundings: Known obstacles; none by default.
         """
-        self._around = surroundings or OpenFloor()
-        self.strategy = strategy
-        self.memory: Any = strategy.begin()
+        super().__init__(
+            strategy,
+            Limits(gait.speed, gait.gain, gait.stride, gait.step_duration),
+        )
+        self._surroundings = surroundings or OpenFloor()
         self.pace = 1.0
         self.headings: StateHistory[float] = StateHistory(tick)
         self.templates: StateHistory[Pose] = StateHistory(tick)
         self.turns: TurnCalibration | None = None
-        self._step_duration = gait.step_duration
         self._spacing = gait.foot_spacing
-        self._whom = 0
-        self._forget()
-        self._limits = Limits(
-            gait.speed, gait.gain, gait.stride, gait.step_duration
-        )
+        self._track = 0
 
-    def _forget(self) -> None:
-        """Know nothing of how the other moves."""
-        self._rates = SightRates(self._step_duration)
-        self._drift = FloorVelocity(self._step_duration)
-
-    def feel(self, measurement: Measurement, *, stands: bool) -> None:
-        """Take in how the body turns, if that is to be learnt.
+    def calibrate(self, measurement: Measurement, *, stands: bool) -> None:
+        """Update the turn calibration, if there is one.
 
         Args:
-            measurement: What the sensors give.
+            measurement: Measurement of the tick.
             stands: Whether the robot stands still.
         """
         if self.turns is not None:
-            believed = self.templates.at(measurement.time).theta
+            heading = self.templates.at(measurement.time).theta
             rate = float(measurement.gyro[2])
-            self.turns.note(rate, believed, stands=stands)
-
-    def adopt(self, strategy: Strategy) -> None:
-        """Follow another strategy from the next decision on.
-
-        Args:
-            strategy: One of the same kind goes on with what is remembered;
-                another kind begins anew.
-        """
-        if type(strategy) is not type(self.strategy):
-            self.memory = strategy.begin()
-        self.strategy = strategy
+            self.turns.note(rate, heading, stands=stands)
 
     def starts(
-        self, now: float, seen: Sighting | None, turning: float = 0.0
+        self, now: float, sighting: Sighting | None, turning: float = 0.0
     ) -> bool:
-        """Whether a robot that stands is to walk.
+        """Return whether a standing robot starts to walk.
 
-        Who learns how much of a turn it makes stands for a while first.
-
-        A robot that is to walk is asked again for the instant at which the
-        step takes effect, and what it would remember of this time is
-        forgotten.
+        With a turn calibration the robot stands for a while first. If the
+        robot starts, the strategy decides again at the time of the step,
+        and the memory of this decision is discarded.
 
         Args:
             now: Time of the decision, in [s].
-            seen: What was seen last; None for nobody.
-            turning: How it turns while it looks around before it begins:
-                1 to the left, -1 to the right, 0 not at all.
+            sighting: Last sighting; None if there is none.
+            turning: Turn on the spot for a scan: 1 left, -1 right, 0 none.
 
         Raises:
-            StrategyError: If the strategy gives no intent.
+            StrategyError: If the strategy returns no intent.
         """
-        if self.turns is not None and not self.turns.rested:
+        if self.turns is not None and not self.turns.ready:
             return False
-        if seen is None:
+        if sighting is None:
             return turning != 0.0
-        known = self._knowledge(now, seen, moving=False)
-        intent, memory = ask(self.strategy, known, self.memory)
+        known = self._knowledge(now, sighting, moving=False)
+        intent, memory = self.preview(known)
         if not intent.walks:
             self.memory = memory
-        # The first steps of somebody tell little of where the way leads.
-        return intent.walks and seen.settled
+        # A new track does not yet determine the opponent's path.
+        return intent.walks and sighting.settled
 
     def decide(
         self,
         now: float,
-        seen: Sighting | None,
+        sighting: Sighting | None,
         turning: float = 0.0,
         stands: tuple[Pose, Foot] | None = None,
         *,
         moving: bool,
     ) -> Intent:
-        """Ask what the robot wants, and remember it.
+        """Evaluate the strategy and store its memory.
 
         Args:
             now: Time of the decision, in [s].
-            seen: What was seen last; None for who looks around.
-            turning: How that one turns: 1 to the left, -1 to the right.
-            stands: Foot that has just landed, in odometry, and which it
-                is; None for a body that is where its next step begins.
-            moving: Whether it is under way.
+            sighting: Last sighting; None while scanning.
+            turning: Turn on the spot for a scan: 1 left, -1 right.
+            stands: Pose in odometry, and side, of the foot that has just
+                landed; None if the next step begins at the present pose.
+            moving: Whether the robot is walking.
 
         Raises:
-            StrategyError: If the strategy gives no intent.
+            StrategyError: If the strategy returns no intent.
         """
-        if seen is None:
+        if sighting is None:
             return Intent(turning * pi, ON_THE_SPOT)
-        known = self._knowledge(now, seen, moving=moving)
+        known = self._knowledge(now, sighting, moving=moving)
         if moving and stands is not None:
             begins = passed_beside(*stands, self._spacing)
-            there = self._around.frame.compose(begins)
-            known = replace(known, begins=there)
-        intent, self.memory = ask(self.strategy, known, self.memory)
+            begins = self._surroundings.frame.compose(begins)
+            known = replace(known, begins=begins)
+        intent = self.evaluate(known)
         if self.turns is not None:
-            intent = replace(intent, heading=self.turns.asked(intent.heading))
+            intent = replace(
+                intent, heading=self.turns.compensate(intent.heading)
+            )
         self.pace = next_pace(self.pace, intent.pace, standing=not moving)
         if intent.pace != self.pace:
             intent = replace(intent, pace=self.pace)
         return intent
 
     def _knowledge(
-        self, now: float, seen: Sighting, *, moving: bool
+        self, now: float, sighting: Sighting, *, moving: bool
     ) -> Knowledge:
-        """What is known, in the frame of the unicycle that saw.
+        """Build the knowledge, in the template frame at the sighting's time.
 
-        Line of sight and heading are of one instant: the foot that lands
-        stands for a body that is half a step farther than the one that saw,
-        and the torso looks where both feet do.
+        Line of sight and heading refer to the same instant. The landed foot
+        would not do: it corresponds to a body half a step ahead, and the
+        torso has the mean heading of both feet.
         """
-        if seen.who != self._whom:
-            # From one person to another nobody walks.
-            self._whom = seen.who
-            self._forget()
-        template = self.templates.at(seen.time)
-        sight = self.headings.at(seen.time) + seen.bearing
-        rates = self._rates.note(seen.time, sight, seen.distance)
-        place = template.compose(
-            Pose(
-                seen.distance * cos(sight - template.theta),
-                seen.distance * sin(sight - template.theta),
-                0.0,
-            )
-        )
-        drift = self._drift.note(seen.time, place.x, place.y)
-        if drift is not None:
-            turned = Pose(0.0, 0.0, -template.theta)
-            drift = turned.compose(Pose(*drift, 0.0))[:2]
-        return Knowledge(
+        if sighting.who != self._track:
+            # A different person: its motion is unknown.
+            self._track = sighting.who
+            self.reset_rates()
+        template = self.templates.at(sighting.time)
+        sight = self.headings.at(sighting.time) + sighting.bearing
+        return self.observe(
             now,
-            wrap_angle(sight - template.theta),
-            seen.distance,
-            self._limits,
-            rates.bearing_rate,
-            rates.closing_speed,
-            max(0.0, now - seen.time),
-            self._around.frame.compose(template),
-            moving,
-            self._around.solids.shapes,
-            drift,
-            spread=seen.spread,
-            blur=self._around.blur,
+            template,
+            sight,
+            sight - template.theta,
+            sighting.distance,
+            time=sighting.time,
+            frame=self._surroundings.frame,
+            moving=moving,
+            obstacles=self._surroundings.solids.shapes,
+            spread=sighting.spread,
+            map_error=self._surroundings.map_error,
         )

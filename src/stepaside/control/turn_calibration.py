@@ -1,48 +1,50 @@
-"""How much of a turn is made, by the gyro."""
+"""Calibration of the turning rate by the gyro."""
 
 from math import exp, isfinite, pi
 
 from ..core.poses import wrap_angle
 
-FORGETS = 10.0  # time over which turns count, in [s]: some cycles of a gait
-RESTED = 1.0  # standing that tells a bias in spite of noise, in [s]
-ENOUGH = 0.3  # turn that tells something, in [rad]
-LEAST, MOST = 0.8, 1.25  # share of a turn that is believed
+TIME_CONSTANT = 10.0  # of the averages, in [s]: some gait cycles
+BIAS_TIME = 1.0  # of standing to average the gyro bias, in [s]
+MIN_TURN = 0.3  # averaged turn that allows an estimate, in [rad]
+MIN_RATIO, MAX_RATIO = 0.8, 1.25  # plausible turn ratios
 
 
 class TurnCalibration:
-    """Share of the turn that a robot believes to walk which it makes.
+    """Estimator of the ratio of actual turns to turns in odometry.
 
-    Feet twist on the floor, and joints give: what odometry made of the
-    encoders knows nothing of either. A gyro about the vertical does, once
-    its bias is known, which is what it reads while the robot stands.
+    Feet twist on the floor and joints comply, which odometry from encoders
+    does not contain. A gyro about the vertical measures the turn, once its
+    bias is known from standing.
 
     Attributes:
-        share: Turn made for each turn believed; 1 while nothing is known.
+        share: Actual turn per turn in odometry; 1 before the first estimate.
     """
 
     def __init__(self, tick: float) -> None:
-        """Know nothing yet.
+        """Begin without an estimate.
 
         Args:
-            tick: Between two readings, in [s].
+            tick: Period of the readings, in [s].
         """
-        self._tick, self._keeps = tick, exp(-tick / FORGETS)
-        self._stood, self._read, self._blind = 0, 0.0, 0
-        self._made = self._believed = 0.0
+        self._tick, self._decay = tick, exp(-tick / TIME_CONSTANT)
+        self._standing_ticks, self._bias_sum, self._missing_ticks = 0, 0.0, 0
+        self._actual = self._odometric = 0.0
         self._heading: float | None = None
         self.share = 1.0
 
     @property
-    def rested(self) -> bool:
-        """Whether it stood long enough to know the bias of its gyro.
+    def ready(self) -> bool:
+        """Whether the robot has stood long enough to estimate the gyro bias.
 
-        Without a gyro there is none to know.
+        Ticks without a gyro reading count, too.
         """
-        return (self._stood + self._blind) * self._tick >= RESTED
+        return (
+            self._standing_ticks + self._missing_ticks
+        ) * self._tick >= BIAS_TIME
 
-    def asked(self, heading: float) -> float:
-        """What to ask for so that a heading is what is made, in [rad].
+    def compensate(self, heading: float) -> float:
+        """Return the desired heading that yields a heading, in [rad].
 
         The template turns in proportion to the desired heading (eq. (2)).
         """
@@ -50,31 +52,30 @@ class TurnCalibration:
         return min(max(heading / self.share, -most), most)
 
     def note(self, rate: float, heading: float, *, stands: bool) -> None:
-        """Take one reading.
+        """Update with one reading.
 
-        Without a gyro about the vertical nothing is learnt: what is asked
-        for stays as it is.
+        Without a gyro about the vertical the ratio stays as it is.
 
         Args:
-            rate: Of the gyro about the vertical, in [rad/s]; NaN without.
-            heading: As the robot believes it, unwrapped, in [rad].
-            stands: Whether it stands still.
+            rate: Gyro rate about the vertical, in [rad/s]; NaN without one.
+            heading: Heading in odometry, unwrapped, in [rad].
+            stands: Whether the robot stands still.
         """
         if not isfinite(rate):
-            self._blind += stands
+            self._missing_ticks += stands
             return
         last, self._heading = self._heading, heading
         if stands:
-            self._stood += 1
-            self._read += rate
+            self._standing_ticks += 1
+            self._bias_sum += rate
             return
-        if last is None or not self._stood:
+        if last is None or not self._standing_ticks:
             return
-        bias = self._read / self._stood
+        bias = self._bias_sum / self._standing_ticks
         turned = (rate - bias) * self._tick
-        self._made = self._keeps * self._made + turned
+        self._actual = self._decay * self._actual + turned
         step = wrap_angle(heading - last)
-        self._believed = self._keeps * self._believed + step
-        if abs(self._believed) > ENOUGH:
-            share = self._made / self._believed
-            self.share = min(max(share, LEAST), MOST)
+        self._odometric = self._decay * self._odometric + step
+        if abs(self._odometric) > MIN_TURN:
+            ratio = self._actual / self._odometric
+            self.share = min(max(ratio, MIN_RATIO), MAX_RATIO)

@@ -1,19 +1,19 @@
-"""Walking at a velocity: what a gait does for a robot that is driven so."""
+"""Strategy that follows a velocity command within the limits of a gait."""
 
 from math import pi
 
 from ..planning import Direction, GaitSettings
 from ..strategies import StandStill, Strategy, Walk
 
-STILL = 1e-3  # speed [m/s] or turning rate [rad/s] that is rest
-IN_PLACE = 1e-3  # share of a stride of who turns where it stands
+STILL = 1e-3  # speed [m/s] or turning rate [rad/s] that counts as zero
+IN_PLACE = 1e-3  # speed factor of a turn on the spot
 
 
 def fastest(gait: GaitSettings) -> tuple[float, float]:
-    """Greatest speed [m/s] and turning rate [rad/s] of a gait.
+    """Return the greatest speed [m/s] and turning rate [rad/s] of a gait.
 
     A stride takes a whole step, which is longer than the time that the
-    template takes for it; and nobody turns to what is behind him.
+    template takes for it. The largest desired heading is pi.
     """
     pace = gait.path_interval / gait.step_duration
     return gait.speed * pace, gait.gain * pace * pi
@@ -22,14 +22,14 @@ def fastest(gait: GaitSettings) -> tuple[float, float]:
 def accepted(
     forward: float, turn: float, gait: GaitSettings
 ) -> tuple[float, float]:
-    """Velocity that a gait can walk, on the path that was asked for.
+    """Limit a velocity to what a gait can walk, on the same path.
 
-    Speed and turning rate are cut alike, so that the curvature stays.
+    Speed and turning rate are scaled alike, which preserves the curvature.
 
     Args:
         forward: Driving velocity, in [m/s].
         turn: Turning rate, in [rad/s].
-        gait: How the robot walks.
+        gait: Gait of the robot.
     """
     speed, rate = fastest(gait)
     share = 1.0 / max(1.0, abs(forward) / speed, abs(turn) / rate)
@@ -43,14 +43,14 @@ def walk_at(
     *,
     under_way: Direction | None,
 ) -> Strategy:
-    """Strategy of a robot that is driven: strides and turns of its gait.
+    """Return the strategy that walks at a velocity.
 
     Args:
         forward: Driving velocity, in [m/s].
         turn: Turning rate, in [rad/s].
-        gait: How the robot walks.
-        under_way: Where it walks already, if it does: who is to go the
-            other way comes to rest first.
+        gait: Gait of the robot.
+        under_way: Present direction of a walking robot; a reversal halts
+            it first.
     """
     forward, turn = accepted(forward, turn, gait)
     speed, rate = fastest(gait)

@@ -1,4 +1,4 @@
-"""What a walking robot does, as values for whoever looks on."""
+"""State of a walking robot at one tick, as values."""
 
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -14,16 +14,15 @@ from .phase import Phase
 
 
 class StepStarted(NamedTuple):
-    """A step that a robot has begun.
+    """Step that began at a tick.
 
     Attributes:
         plan: Maneuver whose first step it is.
-        started: When it began, in [s]; not always on a tick.
-        landing_time: When its foot shall land, in [s].
+        started: Start time, in [s]; not always on a tick.
+        landing_time: Planned landing time, in [s].
         foot: Foot that lands.
-        landing: Where, in odometry.
-        planning_time: Processor time that planning took, in [s]; None for a
-            step that comes to rest.
+        landing: Planned landing pose, in odometry.
+        planning_time: Processor time of planning, in [s]; None for a halt.
         velocity_jump: Jump of the CoM velocity reference, in [m/s].
     """
 
@@ -38,24 +37,24 @@ class StepStarted(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class WalkState:
-    """What a robot plans and asks of its body at one tick, in odometry.
+    """Plan, references and estimates at one tick, in odometry.
 
     Attributes:
-        phase: What it is doing.
-        gait: How it walks.
-        plan: Maneuver being walked; None while standing.
-        plan_frame: Pose of its frame.
-        plan_started: When it began, in [s].
-        left_foot: Pose of the left foot when it last stood.
-        right_foot: Pose of the right foot, likewise.
-        first_foot: Foot that swings, or will first.
-        reference: What the body is asked for.
+        phase: Phase of motion.
+        gait: Gait.
+        plan: Current maneuver; None while standing.
+        plan_frame: Pose of the plan frame.
+        plan_started: Start time of the plan, in [s].
+        left_foot: Last stance pose of the left foot.
+        right_foot: Last stance pose of the right foot.
+        first_foot: Foot that swings now, or will swing first.
+        reference: Body reference.
         zmp_reference: ZMP reference, in [m].
-        sighting: The other as it was seen last; None if it is lost.
-        torso_heading: Heading of the torso that is asked for, in [rad].
-        estimate: The body's state, if it is estimated.
-        solved: Answer of the MPC at this tick, if it was asked.
-        adapted: Footsteps that feedback moved so far.
+        sighting: Last sighting of the opponent; None if it is lost.
+        torso_heading: Reference heading of the torso, in [rad].
+        estimate: Estimated state of the body, if any.
+        solved: Result of the MPC at this tick, if it ran.
+        adapted: Number of footsteps that feedback has moved so far.
     """
 
     phase: Phase
@@ -75,9 +74,9 @@ class WalkState:
     adapted: int
 
     def step(self, now: float) -> CurrentStep:
-        """Step being made at a time, in [s]."""
+        """Return the step in progress at a time, in [s]."""
         foot = self.first_foot
         if self.plan is None:
-            rests = self.right_foot if foot is Foot.LEFT else self.left_foot
-            return resting_step(rests, foot)
+            support = self.right_foot if foot is Foot.LEFT else self.left_foot
+            return resting_step(support, foot)
         return step_of(self.plan, self.plan_frame, now - self.plan_started)

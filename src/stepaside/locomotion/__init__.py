@@ -1,1 +1,1 @@
-"""Locomotion: from an intended motion of the body to joint targets."""
+"""Locomotion: from an intent to joint targets."""

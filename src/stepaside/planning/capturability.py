@@ -1,24 +1,24 @@
-r"""Largest push after which the linear inverted pendulum can be held.
+r"""Largest push from which the linear inverted pendulum can recover.
 
-An impulse J at the CoM moves the DCM by :math:`J / (m \eta)`. A ZMP whose
-mean, weighted by :math:`e^{-\eta t}`, is p takes the DCM over a time T to
+An impulse J at the CoM shifts the DCM by :math:`J / (m \eta)`. With a ZMP
+whose mean, weighted by :math:`e^{-\eta t}`, is p, the DCM after a time T is
 
 .. math:: \xi(T) = e^{\eta T} \xi(0) - (e^{\eta T} - 1)\, p,
 
-so the DCMs that can be brought into a convex set X by ZMPs out of a convex
-set P are :math:`e^{-\eta T} X \oplus (1 - e^{-\eta T}) P`, again convex.
+so the DCMs that ZMPs in a convex set P can bring into a convex set X are
+:math:`e^{-\eta T} X \oplus (1 - e^{-\eta T}) P`, again convex.
 
-A footstep f out of a convex set F brings a sole B + f beside the sole A that
-stands. The DCMs that the two feet then hold for good are their hull, and the
-union of these hulls over all f is convex, too: it is the hull of A and
-:math:`F \oplus B`, for a mean of a in A and b + f in B + f is one of a and
+A footstep f in a convex set F places a sole B + f beside the stance sole A.
+The DCMs that the two feet can then hold indefinitely are their hull, and
+the union of these hulls over all f is convex, too: it is the hull of A and
+:math:`F \oplus B`, since a mean of a in A and b + f in B + f is one of a and
 a point of :math:`F \oplus B`.
 
-What this bounds is a pendulum: a point mass at a constant height, with flat
-feet of the sole's size, its ZMP anywhere under the feet on the floor and as
-fast as it likes, and footsteps that land when planned, parallel to the foot
-that stands. Whatever turns the body about its CoM, raises it, or lands at
-another time is outside it.
+The bound holds for a pendulum: a point mass at constant height, with flat
+feet of the sole's size, a ZMP anywhere in the support polygon and of any
+speed, and footsteps that land as planned in time, parallel to the stance
+foot. Angular momentum about the CoM, vertical motion and changed step times
+are outside of this model.
 """
 
 from math import cos, exp, expm1, sin
@@ -39,17 +39,17 @@ from .gait_settings import GaitSettings
 from .plan import ManeuverPlan
 from .support_polygon import sole_corners
 
-MOST_STEPS = 20  # more change nothing: each counts by exp(-eta T)
+MAX_STEPS = 20  # more have no effect: each counts by exp(-eta T)
 
 
 class FootReach(NamedTuple):
-    """Where a footstep may land, in the axes of the support foot.
+    """Reachable landings, in the axes of the support foot.
 
     Attributes:
-        forward: Farthest ahead, in [m].
-        backward: Farthest behind, in [m].
-        outward: How much farther to the side than the foot spacing, in [m].
-        gap: Least distance between soles that stand abreast, in [m].
+        forward: Largest distance ahead, in [m].
+        backward: Largest distance behind, in [m].
+        outward: Largest lateral distance beyond the foot spacing, in [m].
+        gap: Least distance between soles abreast, in [m].
     """
 
     forward: float = 0.12
@@ -68,25 +68,25 @@ def push_bound(
     lasts: float = 0.0,
     steps: int = 1,
 ) -> float:
-    r"""Largest push that can be held, and every smaller one too.
+    r"""Return the largest push such that it and all smaller ones are held.
 
-    It is held by the feet on the floor, or by footsteps within reach that
-    land when planned, the first in place of the next that is planned.
+    A push is held by the feet on the floor, or by reachable footsteps that
+    land at the planned times, the first in place of the next planned one.
 
-    A push that lasts is a constant force, and the ZMP is free from its
-    begin: with :math:`h = \eta T` it moves the DCM by the factor
-    :math:`(1 - e^{-h}) / h` less than an impulse at its begin would.
+    A push of finite duration is a constant force, with the ZMP free from
+    its start: with :math:`h = \eta T` it shifts the DCM by the factor
+    :math:`(1 - e^{-h}) / h` less than an impulse at its start.
 
     Args:
-        plan: Plan being walked.
-        time: When the push begins, since the plan began, in [s]; within its
+        plan: Current plan.
+        time: Start of the push since the plan began, in [s]; within its
             first step.
-        direction: Of the push, from the support foot's heading, in [rad].
-        mass: Of the body, in [kg].
-        reach: Where a footstep may land.
-        lasts: How long the push lasts, in [s]; 0 is an impulse.
-        steps: Footsteps that may be made, one by default. After a halt none
-            follow.
+        direction: Direction of the push relative to the support foot's
+            heading, in [rad].
+        mass: Mass of the body, in [kg].
+        reach: Reachable landings.
+        lasts: Duration of the push, in [s]; 0 is an impulse.
+        steps: Number of footsteps, one by default. None follow a halt.
 
     Returns:
         Impulse at the CoM, in [N s]; 0 if the DCM cannot be held at all.
@@ -98,14 +98,14 @@ def push_bound(
     check_bearing(direction, "direction")
     check_within(time, 0.0, plan.schedule.first_step_duration, "time", "s")
     check_not_negative(lasts, "lasts", "s")
-    check_within(steps, 0, MOST_STEPS, "steps", "1")
+    check_within(steps, 0, MAX_STEPS, "steps", "1")
     for name, value in reach._asdict().items():
         check_not_negative(value, f"reach.{name}", "m")
     dcm = plan.sample([time]).dcm[0]
     heading = np.array([cos(direction), sin(direction)])
     eta = plan.schedule.settings.eta
     shift = 0.0
-    # Every smaller push must be held too, whichever region holds it.
+    # Every smaller push must be held too, by any of the regions.
     for enter, leave in sorted(
         ray_interval(dcm, heading, region)
         for region in held_regions(plan, time, reach, steps)
@@ -120,18 +120,18 @@ def push_bound(
 def held_regions(
     plan: ManeuverPlan, time: float, reach: FootReach, steps: int
 ) -> list[Array]:
-    """DCMs that can be held; each region is convex, their union need not be.
+    """Return convex regions of DCMs that can be held.
 
     Args:
-        plan: Plan being walked.
-        time: Since it began, in [s].
-        reach: Where a footstep may land.
-        steps: Footsteps that may be made.
+        plan: Current plan.
+        time: Time since it began, in [s].
+        reach: Reachable landings.
+        steps: Number of footsteps.
 
     Returns:
         Corners of each region in the plan frame, counter-clockwise, in [m]:
-        first of what the feet on the floor hold for good, then of what
-        footsteps hold. Shapes (n, 2).
+        first the region held by the feet on the floor, then that held by
+        footsteps. Their union need not be convex. Shapes (n, 2).
     """
     gait, phases = plan.schedule.settings, plan.support()
     now = max(i for i, phase in enumerate(phases) if phase.start <= time)
@@ -143,7 +143,7 @@ def held_regions(
     x, y, theta = plan.placements[row]
     c, s = cos(theta), sin(theta)
     support = plan.first_foot if row % 2 == 0 else plan.first_foot.other
-    for region in _caught(gait, reach, support, steps):
+    for region in _held_after_landing(gait, reach, support, steps):
         region = region @ np.array([[c, s], [-s, c]]) + (x, y)
         for phase in reversed(phases[now : until + 1]):
             rest = phase.end - max(phase.start, time)
@@ -155,15 +155,15 @@ def held_regions(
 def ray_interval(
     start: Array, heading: Array, polygon: Array
 ) -> tuple[float, float]:
-    """Part of a ray that lies inside a convex polygon.
+    """Intersect a ray with a convex polygon.
 
     Args:
-        start: Where it begins, in [m]. Shape (2,).
+        start: Origin of the ray, in [m]. Shape (2,).
         heading: Unit vector. Shape (2,).
         polygon: Corners, counter-clockwise, in [m]. Shape (n, 2).
 
     Returns:
-        Where it enters and leaves, in [m]; (0, 0) if it misses.
+        Distances of entry and exit, in [m]; (0, 0) if it misses.
     """
     edges = np.roll(polygon, -1, axis=0) - polygon
     outward = np.column_stack([edges[:, 1], -edges[:, 0]])
@@ -177,13 +177,13 @@ def ray_interval(
     return enter, leave
 
 
-def _caught(
+def _held_after_landing(
     gait: GaitSettings, reach: FootReach, support: Foot, steps: int
 ) -> list[Array]:
-    """DCMs at a landing that this footstep and later ones hold.
+    """Return DCMs at a landing that this footstep and later ones hold.
 
     Returns:
-        Corners of convex regions in the axes of the foot that stands.
+        Corners of convex regions in the axes of the stance foot.
     """
     side = support.other.value
     near = 2.0 * gait.sole.inner + reach.gap
@@ -195,11 +195,11 @@ def _caught(
     regions = [convex_hull(np.concatenate([old, _sum(landings, new)]))]
     if steps == 1:
         return regions
-    # Or on: hull of both for a double support, then the new foot alone, then
-    # the next landing. With the weight w of the new foot in the mean ZMP the
-    # region is linear in w, so the union is the hull of its two ends.
+    # Or continue: a double support on both feet, then the new foot alone, then
+    # the next landing. The region is linear in the weight w of the new foot in
+    # the mean ZMP, so the union is the hull of its two ends.
     fade = exp(-gait.eta * gait.double_support)
-    for later in _caught(gait, reach, support.other, steps - 1):
+    for later in _held_after_landing(gait, reach, support.other, steps - 1):
         alone = _before(later, new, gait.eta, gait.single_support)
         stays = _sum(fade * _sum(landings, alone), (1.0 - fade) * old)
         moves = _sum(landings, _sum(fade * alone, (1.0 - fade) * new))
@@ -208,12 +208,12 @@ def _caught(
 
 
 def _before(region: Array, feet: Array, eta: float, duration: float) -> Array:
-    """DCMs that a ZMP under the feet can bring into a region in a time."""
+    """Return the DCMs that a ZMP under the feet brings into a region."""
     fade = exp(-eta * duration)
     return _sum(fade * region, (1.0 - fade) * feet)
 
 
 def _sum(a: Array, b: Array) -> Array:
-    """Minkowski sum of two convex polygons, one of them with an inside."""
+    """Return the Minkowski sum of two polygons, one of positive area."""
     total: Array = (a[:, None] + b[None]).reshape(-1, 2)
     return convex_hull(total)

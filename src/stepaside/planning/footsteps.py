@@ -47,11 +47,11 @@ def place_footsteps(
     foot_spacing: float,
     first_foot: Foot,
 ) -> Array:
-    r"""Land alternate feet beside a trajectory, at a constant stride.
+    r"""Place alternate feet beside a trajectory, at a constant stride.
 
     The plan frame is the frame of the support foot, the one that does not
     land first. The trajectory starts half a spacing beside it, midway to
-    where the other foot stands abreast; sample :math:`i = 1, \dots, n` of
+    the other foot when abreast; sample :math:`i = 1, \dots, n` of
     (9)-(14) is taken at :math:`t_i = i \Delta / \bar{v}` and moved sideways
     by half a spacing.
 

@@ -1,4 +1,4 @@
-"""Settings of a gait and of the maneuvers walked with it (paper, Sec. IV)."""
+"""Settings of a gait and of its maneuvers (paper, Sec. IV)."""
 
 from dataclasses import dataclass, field, replace
 from math import sqrt
@@ -9,14 +9,14 @@ from ..core.errors import PlanError, check_within
 from ..core.ranges import Range, Ranges, check_settings
 from .swing import SwingProfile
 
-# From a thousandth of what a humanoid does to some hundred times it.
-SMALL = "of a foot that somebody stands on"
-WIDE = "beyond, exponentials of a gait leave a computer's numbers"
+# From about a thousandth to a hundred times the values of humanoids.
+SMALL = "size of a foot"
+WIDE = "beyond, exponentials of the gait overflow a double"
 
 
 @dataclass(frozen=True, slots=True)
 class SoleRectangle:
-    """Rectangle that a left sole can press on; the right one mirrors it.
+    """Contact rectangle of the left sole; the right one is its mirror image.
 
     Attributes:
         back: Rear edge in the foot frame, in [m], negative; -10 to -0.001.
@@ -39,17 +39,17 @@ class SoleRectangle:
     }
 
     def __post_init__(self) -> None:
-        """Check that the foot frame lies inside."""
+        """Check that the foot frame lies inside the sole."""
         check_settings(self, PlanError, prefix="sole.")
 
 
 @dataclass(frozen=True, slots=True)
 class GaitSettings:
-    r"""Everything that a maneuver planner has to be told once.
+    r"""Parameters of a gait and of its maneuver planner.
 
-    The defaults are the values of Sec. IV for the NAO, but for the two
-    durations, which only walk when they are exchanged, and for what the
-    paper does not give.
+    The defaults are the values of Sec. IV for the NAO, except for the two
+    durations, which yield a walk only if they are exchanged, and for those
+    that the paper does not give.
 
     Attributes:
         speed: Driving speed :math:`\bar{v}` of the template, in [m/s]; 0.0001
@@ -57,8 +57,8 @@ class GaitSettings:
         gain: Steering gain :math:`k`, in [1/s]; 0.0001 to 100.
         stride: Step size :math:`\Delta` along the trajectory, in [m]; 0.0001
             to 10.
-        outer_stride: Longest way of the outer foot in a step of a turn, in
-            [m], which sharper turns shorten the stride for; None if none do;
+        outer_stride: Longest stride of the outer foot in a turn, in [m], to
+            which sharper turns reduce the stride; None for no reduction;
             0.0001 to 10 or none.
         foot_spacing: Coronal distance between the foot frames, in [m]; 0.001
             to 10.
@@ -67,18 +67,19 @@ class GaitSettings:
         double_support: Duration of double support, in [s]; 0.001 to 100.
         start_support: Duration of the first double support when the robot
             starts from standing, in [s]; 0.001 to 100.
-        com_height: Height :math:`z_{CoM}` over the floor, in [m]; 0.01 to 10.
-        zmp_forward: Sagittal place of the ZMP reference in a foot frame, in
-            [m]; -10 to 10.
-        zmp_profile: ZMP between two feet in double support.
-        swing_profile: Way of the swing foot over time; see
+        com_height: CoM height :math:`z_{CoM}` over the floor, in [m]; 0.01 to
+            10.
+        zmp_forward: Sagittal coordinate of the ZMP reference in a foot frame,
+            in [m]; -10 to 10.
+        zmp_profile: Profile of the ZMP between the feet in double support.
+        swing_profile: Profile of the swing foot's motion; see
             :func:`~stepaside.planning.swing.swing_progress`.
         swing_reaction: Shift of the ZMP by an acceleration of the swing foot,
-            in [s^2]: 0 for legs without mass; see
+            in [s^2]: 0 for massless legs; see
             :class:`~stepaside.planning.schedule.Schedule`; 0 to 0.1.
-        horizon: Footsteps in a replanned maneuver, at least 2: the last one
-            brings the ZMP midway between the feet, where no next plan can
-            begin; 2 to 1000.
+        horizon: Number of footsteps in a replanned maneuver, at least 2: the
+            last one brings the ZMP midway between the feet, where no next
+            plan can begin; 2 to 1000.
         gravity: Gravitational acceleration, in [m/s^2]; 0.01 to 100.
         sole: Shape of the soles.
     """
@@ -107,15 +108,17 @@ class GaitSettings:
         "stride": Range(1e-4, 10.0, "m", WIDE),
         "outer_stride": Range(1e-4, 10.0, "m", WIDE, also=(None,)),
         "foot_spacing": Range(1e-3, 10.0, "m", WIDE),
-        "step_height": Range(0.0, 10.0, "m", "a foot may slide"),
+        "step_height": Range(0.0, 10.0, "m", "0 slides the foot"),
         "single_support": Range(1e-3, 100.0, "s", WIDE),
         "double_support": Range(1e-3, 100.0, "s", WIDE),
         "start_support": Range(1e-3, 100.0, "s", WIDE),
         "com_height": Range(1e-2, 10.0, "m", WIDE),
         "zmp_forward": Range(-10.0, 10.0, "m", "and within the sole"),
-        "swing_reaction": Range(0.0, 0.1, "s^2", "some ten times NAO's"),
+        "swing_reaction": Range(0.0, 0.1, "s^2", "about ten times the NAO's"),
         "horizon": Range(
-            *(2, 1000, "steps"),
+            2,
+            1000,
+            "steps",
             "a plan of one step ends with the ZMP midway between the feet "
             "and the next one begins with it in a foot",
             whole=True,
@@ -124,7 +127,7 @@ class GaitSettings:
     }
 
     def __post_init__(self) -> None:
-        """Refuse values that no plan can satisfy."""
+        """Validate the settings."""
         check_settings(self, PlanError)
         check_within(
             self.zmp_forward,
@@ -164,14 +167,14 @@ class GaitSettings:
         return self.single_support + self.double_support
 
     def at_pace(self, pace: float) -> "GaitSettings":
-        """Same steps in another time.
+        """Return the gait with a reduced step rate.
 
         Args:
-            pace: Share of the step rate, in (0, 1]. A calm step lifts the
-                foot less, too: by as much at no pace as half the height.
+            pace: Fraction of the step rate, in (0, 1]. The step height
+                decreases with it, linearly to half the height at pace 0.
 
         Returns:
-            Gait whose supports last longer; the same one at pace 1.
+            Gait with longer supports; the same gait at pace 1.
         """
         if pace == 1.0:
             return self
@@ -184,13 +187,13 @@ class GaitSettings:
         )
 
     def stride_share(self, turn: float) -> float:
-        """Share of the stride that is walked in a turn.
+        """Return the fraction of the stride that a turn allows.
 
         Args:
-            turn: Of one step, in [rad].
+            turn: Turn of one step, in [rad].
 
         Returns:
-            In (0, 1]; a tenth at least, so that there is a way to go.
+            Fraction in [0.1, 1].
         """
         if self.outer_stride is None:
             return 1.0
@@ -223,10 +226,10 @@ PRESETS: dict[str, GaitSettings] = {
 }
 """Gaits by name; see ``docs/walking.md``.
 
-The fast one walks the circle of the paper's in 1/3.6 of the time, for
-speed and gain are larger by the same factor. A step is planned in 0.32 s of
-both path and gait time. Its swing reaction is that of NAO's legs.
+The gait "fast" walks the same circle as "nao" in 1/3.6 of the time: speed and
+gain are larger by the same factor. Its step takes 0.32 s of both path and gait
+time. Its swing reaction is that of the NAO's legs.
 """
 
 STABILISED = frozenset({"fast"})
-"""Names of gaits that no body walks without feedback."""
+"""Names of gaits that require feedback on every body."""

@@ -20,8 +20,8 @@ from .path import Direction, UnicycleTrajectory
 from .plan import ManeuverPlan
 from .schedule import Schedule
 
-PACES = 8  # steps of the pace, from standing to the gait's own
-CALMEST = 0.5  # least pace of a walk
+PACES = 8  # the pace is rounded to multiples of 1 / PACES
+MIN_PACE = 0.5
 
 
 class CenterState(NamedTuple):
@@ -37,32 +37,31 @@ class CenterState(NamedTuple):
 
 
 class ManeuverPlanner:
-    """Plans maneuvers for one gait, pursuer's and evader's alike.
+    """Maneuver planner for one gait, for pursuer and evader alike.
 
     Attributes:
         settings: Gait.
     """
 
     def __init__(self, settings: GaitSettings) -> None:
-        """Prepare a planner; the maps of each schedule are made once."""
+        """Prepare a planner; the maps of each schedule are computed once."""
         self.settings = settings
         self._schedules: dict[tuple[int, bool, float], Schedule] = {}
 
     def schedule(
         self, count: int, *, standing: bool, pace: float = 1.0
     ) -> Schedule:
-        """Timing of ``count`` footsteps, made at first use.
+        """Return the schedule of ``count`` footsteps, built at first use.
 
         Args:
-            count: Footsteps.
+            count: Number of footsteps.
             standing: Whether the robot starts from standing.
-            pace: Share of the gait's step rate; taken in eighths, of which
-                half of it is the least, so that a handful of schedules
-                serve.
+            pace: Fraction of the gait's step rate; rounded to eighths, and
+                at least 0.5, so that few schedules suffice.
         """
         check_positive(pace, "pace", "1")
         check_within(pace, 0.0, 1.0, "pace", "1")
-        pace = max(CALMEST, round(PACES * pace) / PACES)
+        pace = max(MIN_PACE, round(PACES * pace) / PACES)
         key = (count, standing, pace)
         if key not in self._schedules:
             check_positive(count, "count", "steps")
@@ -92,28 +91,28 @@ class ManeuverPlanner:
                 next support foot, in [rad].
             direction: Forward for the pursuer, backward for the evader.
             first_foot: Foot that lands first; the other one supports.
-            state: Present CoM; may be left out when standing, which means
-                at rest midway between the feet.
+            state: Present CoM; None when standing means at rest midway
+                between the feet.
             swing_start: Pose of the first swing foot in the frame of the
                 support foot; abreast of it by default.
             standing: Whether the robot starts from standing: then the plan
                 begins with a double support, else with a single support.
             saturated: Whether the template turns by (6) instead of (8).
-            speed_factor: Share of the gait's speed and stride, above 0 and
-                up to 1. The steps take as long as ever, so the turning is
-                the same; to stop, plan a halt. A sharp turn can leave less
-                of it; see :meth:`.settings.GaitSettings.stride_share`.
-            pace: Share of the gait's step rate; see :meth:`schedule`. The
-                footsteps are the same, whatever the pace.
-            count: Footsteps; by default the horizon of the settings.
+            speed_factor: Fraction of the gait's speed and stride, in (0, 1].
+                Step durations and turns do not change; to stop, plan a
+                halt. A sharp turn can reduce it further; see
+                :meth:`.GaitSettings.stride_share`.
+            pace: Fraction of the gait's step rate; see :meth:`schedule`. The
+                footsteps do not depend on it.
+            count: Number of footsteps; by default the horizon of the gait.
 
         Returns:
-            The plan; CoM position and velocity at its start are the given
-            ones.
+            The plan, which starts with the given CoM position and velocity.
 
         Raises:
-            PlanError: If the bearing lies outside of one turn either way, the
-                state is not finite or missing, or the speed factor is none.
+            PlanError: If the bearing is not finite or beyond one turn, the
+                state is not finite or missing, or the speed factor or pace
+                is out of range.
         """
         check_bearing(bearing, "bearing")
         check_positive(speed_factor, "speed_factor", "1")
@@ -153,12 +152,12 @@ class ManeuverPlanner:
         plan: ManeuverPlan,
         placements: Array,
     ) -> ManeuverPlan:
-        """The same plan with other footsteps, from the same state.
+        """Return a plan with other footsteps, from the same state.
 
         Args:
             plan: The plan.
-            placements: Of its feet, as the plan has them; those that stand
-                at its start are the same. Shape (count + 2, 3).
+            placements: Placements of the feet, laid out as in the plan; the
+                first two must be the same. Shape (count + 2, 3).
         """
         state = CenterState(_pair(plan.inputs[-1]), _pair(plan.start_velocity))
         inputs = _inputs(plan.schedule, placements, state)
@@ -179,13 +178,13 @@ class ManeuverPlanner:
         swing_start: Pose,
         pace: float = 1.0,
     ) -> ManeuverPlan:
-        """Plan one last step that brings the feet abreast, and stand.
+        """Plan a halt: one last step that brings the feet abreast.
 
         Args:
             first_foot: Foot that lands.
             state: Present CoM in the frame of the support foot.
             swing_start: Pose of the swing foot in that frame.
-            pace: Share of the gait's step rate.
+            pace: Fraction of the gait's step rate.
         """
         schedule = self.schedule(1, standing=False, pace=pace)
         spacing = self.settings.foot_spacing * first_foot.value
@@ -201,7 +200,7 @@ class ManeuverPlanner:
 def _inputs(
     schedule: Schedule, placements: Array, state: CenterState | None
 ) -> Array:
-    """Assemble what the constant maps are applied to."""
+    """Assemble the inputs of the schedule's constant maps."""
     gait = schedule.settings
     n = schedule.count
     inputs = np.zeros((schedule.inputs, 2))
@@ -217,7 +216,7 @@ def _inputs(
     check_finite(x + y, "CoM position", "m")
     check_finite(vx + vy, "CoM velocity", "m/s")
     inputs[n + 1] = (x, y) if schedule.standing else inputs[0]
-    if schedule.feels_swing:
+    if schedule.has_swing_reaction:
         u, v, turned = placements[0].tolist()
         inputs[n + 2] = u + ahead * cos(turned), v + ahead * sin(turned)
     inputs[-1] = x, y
@@ -231,13 +230,13 @@ def _inputs(
 
 
 def _pair(values: Array) -> tuple[float, float]:
-    """Two values as numbers."""
+    """Return the two elements of an array."""
     x, y = values.tolist()
     return x, y
 
 
 def _midway(foot: list[float], ahead: float) -> tuple[float, float]:
-    """Point midway between the anchors of the two feet, in [m]."""
+    """Return the midpoint of the anchors of the two feet, in [m]."""
     x, y, theta = foot
     return (
         0.5 * (x + ahead * cos(theta) + ahead),

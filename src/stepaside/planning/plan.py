@@ -1,4 +1,4 @@
-"""A maneuver that was planned, as a value (paper, Sec. III)."""
+"""Planned maneuver as a value (paper, Sec. III)."""
 
 from dataclasses import dataclass
 from math import inf
@@ -17,11 +17,11 @@ from .schedule import Sampler, Schedule
 from .support_polygon import SupportPhase, support_phases
 from .zmp import least_values
 
-LONGEST = 86400.0  # time of a sample, in [s]: nobody walks on for a day
+MAX_TIME = 86400.0  # of a sample, in [s]
 
 
 class PlanSamples(NamedTuple):
-    """A plan at given times, in the plan frame.
+    """Samples of a plan at given times, in the plan frame.
 
     Attributes:
         times: Times since the plan began, in [s]. Shape (m,).
@@ -29,12 +29,13 @@ class PlanSamples(NamedTuple):
         dcm: Divergent component of motion, in [m]. Shape (m, 2).
         com: Center of mass, in [m]. Shape (m, 2).
         com_velocity: Its velocity, in [m/s]. Shape (m, 2).
-        left_foot: Left foot (x [m], y [m], theta [rad]). Shape (m, 3).
+        left_foot: Pose of the left foot (x [m], y [m], theta [rad]). Shape
+            (m, 3).
         left_height: Height of the left foot, in [m]. Shape (m,).
         right_foot: Right foot, likewise. Shape (m, 3).
         right_height: Height of the right foot, in [m]. Shape (m,).
-        pivot: Point that the CoM falls away from, in [m]; the ZMP, but for
-            what the swing leg takes. Shape (m, 2).
+        pivot: Pivot of the pendulum, in [m]: the ZMP less the reaction of the
+            swing leg. Shape (m, 2).
     """
 
     times: Array
@@ -49,19 +50,19 @@ class PlanSamples(NamedTuple):
     pivot: Array
 
     def __repr__(self) -> str:
-        """Fields in one short line."""
+        """Return the fields in one short line."""
         return brief_repr(self)
 
 
 @dataclass(frozen=True, slots=True)
 class ManeuverPlan:
-    """One maneuver: a value that is replaced, never edited.
+    """Planned maneuver: an immutable value.
 
     The plan frame is the frame of the support foot of the first step.
 
     Attributes:
         schedule: Timing, with its constant maps.
-        bearing: Desired heading that was planned for, in [rad].
+        bearing: Desired heading of the plan, in [rad].
         direction: Whether the robot walks forward or backward.
         first_foot: Foot that lands first.
         placements: Rows (x [m], y [m], theta [rad]): the first swing foot
@@ -69,7 +70,7 @@ class ManeuverPlan:
             Shape (count + 2, 3).
         inputs: Anchors, ZMP at the start, correction, CoM at the start, in
             [m]; see :class:`~stepaside.planning.schedule.Schedule`.
-            Shape (count + 4, 2), one more if the swing leg is felt.
+            Shape (count + 4, 2), one more with a swing reaction.
     """
 
     __repr__ = brief_repr
@@ -88,7 +89,7 @@ class ManeuverPlan:
 
     @property
     def correction(self) -> Array:
-        """Greatest ZMP shift that keeps the CoM continuous. Shape (2,)."""
+        """Amplitude of the initial ZMP correction, in [m]. Shape (2,)."""
         shift: Array = self.inputs[-2]
         return shift
 
@@ -115,24 +116,24 @@ class ManeuverPlan:
         return coefficients
 
     def support(self, duration: float = inf) -> tuple[SupportPhase, ...]:
-        """Feet on the floor over time, as half planes for the ZMP.
+        """Return the support phases, with half planes for the ZMP.
 
         Args:
-            duration: Phases that begin later than this are left out, in [s].
+            duration: Phases that begin later are omitted, in [s].
         """
         return support_phases(
             self.schedule, self.placements, self.first_foot, duration
         )
 
     def margin(self, duration: float = inf) -> float:
-        """Least distance of the ZMP from the edge of the support polygon.
+        """Return the least distance of the ZMP from the polygon's edge.
 
         The distance from each edge is a polynomial in each phase, so its
-        least value is exact, not one of samples.
+        minimum is exact.
 
         Args:
-            duration: Part of the plan to look at from its start, in [s];
-                all of it by default.
+            duration: Duration from the start that is checked, in [s]; all
+                of the plan by default.
 
         Returns:
             Margin, in [m], negative if the ZMP leaves the polygon.
@@ -155,7 +156,7 @@ class ManeuverPlan:
                 sampler of this plan's schedule, which is faster.
 
         Raises:
-            PlanError: If they are no row of numbers from 0 to a day.
+            PlanError: If the times are not numbers from 0 to a day.
         """
         sampler = (
             times
@@ -182,15 +183,15 @@ class ManeuverPlan:
 
 
 def _checked(times: ArrayLike) -> Array:
-    """Times, if they are some that a plan has a value for."""
+    """Check and convert times."""
     try:
         row = np.asarray(times)
     except ValueError:  # rows of several lengths
         row = np.zeros(())
     numbers = row.ndim == 1 and row.size > 0 and row.dtype.kind in "iuf"
-    if not numbers or not np.all((row >= -1e-6) & (row <= LONGEST)):
+    if not numbers or not np.all((row >= -1e-6) & (row <= MAX_TIME)):
         raise PlanError(
-            f"times must be a row of numbers in [0, {LONGEST:g}] [s], got "
+            f"times must be a row of numbers in [0, {MAX_TIME:g}] [s], got "
             f"{shown(times)}"
         )
     return row.astype(np.float64)

@@ -1,9 +1,9 @@
-"""Phases of a maneuver, and the constant maps that come with their timing.
+"""Phases of a maneuver, with the constant linear maps of their timing.
 
-For fixed durations everything that is planned is linear in the same few
-points: the anchors (where the ZMP stands in each foot), the size of the
-correction at the start, and the CoM at the start. So the closed form is
-solved once, for unit inputs, and a plan is a few small products.
+For fixed durations, the planned motion is linear in a few points: the anchors
+(ZMP position in each foot), the amplitude of the initial correction, and the
+initial CoM. So the closed form is solved once for unit inputs, and a plan is
+a few small matrix products.
 """
 
 from dataclasses import dataclass
@@ -27,13 +27,13 @@ class Sampler:
 
     Attributes:
         times: Times since the plan began, in [s]. Shape (m,).
-        pendulum: Map to ZMP, DCM and CoM, one under the other, and to the
-            pivot if that is another point than the ZMP.
+        pendulum: Stacked maps to ZMP, DCM and CoM, and to the pivot if it
+            differs from the ZMP.
             Shape (3 m or 4 m, inputs).
-        feet: Map from placements to the first support foot and then to the
-            foot that swings first. Shape (2 m, placements).
+        feet: Stacked maps from placements to the first support foot and to
+            the first swing foot. Shape (2 m, placements).
         support_height: Height of the first support foot, in [m]. Shape (m,).
-        swing_height: Height of the foot that swings first. Shape (m,).
+        swing_height: Height of the first swing foot, in [m]. Shape (m,).
     """
 
     times: Array
@@ -49,8 +49,8 @@ class Schedule:
     The pieces are: when starting from standing, a double support that takes
     the ZMP from under the CoM to the first support foot; then, for each
     footstep, a single support with the ZMP at rest and a double support
-    that takes it to the foot that landed; the last one takes it midway
-    between the last two feet, where the robot can stand.
+    that takes it to the landed foot; the last one takes it midway between
+    the last two feet, where the robot can stand.
 
     The *inputs* of the maps are, in this order: the ``count + 1`` anchors of
     the support foot and the footsteps, the ZMP at the start (equal to the
@@ -58,7 +58,7 @@ class Schedule:
     the start.
 
     The *correction* is a ZMP shift :math:`\frac{27}{4} a\, s (1 - s)^2` over
-    the first piece (s: fraction of it), which is zero at both ends, so that
+    the first piece (s: its phase), which is zero at both ends, so that
     position, velocity and acceleration of the CoM stay continuous from one
     plan to the next.
 
@@ -77,8 +77,8 @@ class Schedule:
         self.standing = standing
         self.durations = self._durations()
         self.starts = np.concatenate([[0.0], np.cumsum(self.durations)])
-        self.feels_swing = settings.swing_reaction > 0.0
-        self.inputs = count + 4 + self.feels_swing
+        self.has_swing_reaction = settings.swing_reaction > 0.0
+        self.inputs = count + 4 + self.has_swing_reaction
 
     @property
     def duration(self) -> float:
@@ -115,7 +115,7 @@ class Schedule:
     def _join(
         self, w: Array, piece: int, a: dict[int, float], b: dict[int, float]
     ) -> None:
-        """Let a piece run from the point ``a`` to the point ``b``."""
+        """Set a piece to move from point ``a`` to point ``b``."""
         start, change = np.zeros(self.inputs), np.zeros(self.inputs)
         for index, weight in a.items():
             start[index] += weight
@@ -134,20 +134,24 @@ class Schedule:
     def pivot_map(self) -> PiecewisePolynomial:
         """Pivot of unit inputs: coefficients (degree + 1, pieces, inputs)."""
         zmp, gait = self.zmp_map, self.settings
-        if not self.feels_swing:
+        if not self.has_swing_reaction:
             return zmp
         duration = gait.single_support
-        bent = swing_acceleration(gait.swing_profile)
-        powers = np.arange(bent.size)
-        # By the time since lift-off, for a way of 1 m, in [m].
-        bent = gait.swing_reaction * bent / duration ** (powers + 2.0)
-        w = np.zeros((max(DEGREE + 1, bent.size), *zmp.coefficients.shape[1:]))
+        acceleration = swing_acceleration(gait.swing_profile)
+        powers = np.arange(acceleration.size)
+        # Polynomial in the time since lift-off, for a stride of 1 m, in [m].
+        acceleration = (
+            gait.swing_reaction * acceleration / duration ** (powers + 2.0)
+        )
+        w = np.zeros(
+            (max(DEGREE + 1, acceleration.size), *zmp.coefficients.shape[1:])
+        )
         w[: DEGREE + 1] = zmp.coefficients
         first = 1 if self.standing else 0
         for i in range(self.count):
             lifted = i - 1 if i > 0 else self.count + 2
-            w[: bent.size, first + 2 * i, i + 1] -= bent
-            w[: bent.size, first + 2 * i, lifted] += bent
+            w[: acceleration.size, first + 2 * i, i + 1] -= acceleration
+            w[: acceleration.size, first + 2 * i, lifted] += acceleration
         return PiecewisePolynomial(self.durations, w)
 
     @cached_property
@@ -170,14 +174,14 @@ class Schedule:
         return self.sampler([self.first_step_duration])
 
     def swing_phases(self, times: Array) -> tuple[np.ndarray, Array]:
-        """Step that each time belongs to, and how far its swing has come.
+        """Return the step index and swing phase of each time.
 
         Args:
             times: Times since the start, in [s]. Shape (m,).
 
         Returns:
-            Indices of the steps from 0, and phases of single support: below
-            0 before it, above 1 after it. Shapes (m,), (m,).
+            Indices of the steps from 0, and phases of their single support,
+            below 0 before it and above 1 after it. Shapes (m,), (m,).
         """
         s = self.settings
         walked = times - (s.start_support if self.standing else 0.0)
@@ -216,9 +220,9 @@ class Schedule:
         )
 
     def _pendulum(self, times: Array) -> tuple[Array, ...]:
-        """Maps to ZMP, DCM, CoM and, if it is another point, the pivot."""
+        """Return the maps to ZMP, DCM, CoM and, if it differs, the pivot."""
         pivot, dcm, com = self.pendulum_map.sample(times)
-        if not self.feels_swing:
+        if not self.has_swing_reaction:
             return pivot, dcm, com
         index, local = self.zmp_map.locate(times)
         local = np.minimum(local, self.durations[index])

@@ -1,4 +1,4 @@
-"""How a step ends, and the state that recurs in a walk under way."""
+"""Landing state of a step, and the periodic state of a steady walk."""
 
 import numpy as np
 
@@ -8,11 +8,11 @@ from .maneuver import CenterState, ManeuverPlanner
 from .path import Direction
 from .plan import ManeuverPlan
 
-PLACES = 4  # numbers in a state: position and velocity
+STATE_SIZE = 4  # position and velocity
 
 
 def landing_state(plan: ManeuverPlan) -> CenterState:
-    """State at the end of the first step, in the frame of its landing."""
+    """Return the CoM state at the first landing, in that foot's frame."""
     samples = plan.sample(plan.schedule.first_step_sampler)
     back = Pose(*plan.placements[2].tolist()).inverse()
     x, y = samples.com[0].tolist()
@@ -30,20 +30,20 @@ def steady_plan(
     first_foot: Foot,
     saturated: bool = False,
 ) -> ManeuverPlan:
-    """Plan of a walk that has gone on for ever with one bearing.
+    """Return the plan of a steady walk with a constant bearing.
 
-    Planning takes the state at one landing to that at the next, and is
-    affine in it; the state that recurs after two steps is a fixed point.
+    The map from the state at one landing to that at the next is affine; the
+    periodic state is the fixed point of two steps.
 
     Args:
-        planner: Of the gait.
+        planner: Maneuver planner of the gait.
         bearing: Desired heading in the frame of each support foot, in [rad].
         direction: Forward or backward.
         first_foot: Foot that lands first.
         saturated: Whether the template turns by (6) instead of (8).
 
     Returns:
-        The plan; its first step begins in the recurring state.
+        The plan, whose first step begins in the periodic state.
 
     Raises:
         PlanError: If the bearing is not finite.
@@ -68,9 +68,11 @@ def steady_plan(
             state = np.array([*position, *velocity])
         return state
 
-    origin = recur(np.zeros(PLACES))
-    columns = [recur(unit) - origin for unit in np.eye(PLACES)]
-    state = np.linalg.solve(np.eye(PLACES) - np.column_stack(columns), origin)
+    origin = recur(np.zeros(STATE_SIZE))
+    columns = [recur(unit) - origin for unit in np.eye(STATE_SIZE)]
+    state = np.linalg.solve(
+        np.eye(STATE_SIZE) - np.column_stack(columns), origin
+    )
     before = plan_from(state, first_foot.other)
     left_behind = Pose(*before.placements[2].tolist()).inverse()
     return plan_from(state, first_foot, left_behind)

@@ -1,8 +1,8 @@
-"""Where the ZMP can be: under the feet on the floor, over time.
+"""Support polygon over time, the admissible region of the ZMP.
 
-This is the one description of support. It holds for every kind of plan: one
-that starts from standing begins with a double support, and the last double
-support of any plan never ends, for there the robot stands.
+It holds for every kind of plan: one that starts from standing begins with a
+double support, and the last double support of any plan never ends, since the
+robot then stands.
 """
 
 from math import inf
@@ -18,17 +18,17 @@ from .schedule import Schedule
 
 
 class SupportPhase(NamedTuple):
-    """Time over which the same feet are on the floor.
+    """Interval over which the same feet are on the floor.
 
     Attributes:
-        start: When it begins, since the plan began, in [s].
-        end: When it ends, in [s]; infinite for the last one.
+        start: Start time since the plan began, in [s].
+        end: End time, in [s]; infinite for the last phase.
         rows: Rows of the placements whose feet are on the floor; in single
             support there is one.
-        corners: Of the hull of their soles, counter-clockwise, in the plan
+        corners: Corners of the soles' hull, counter-clockwise, in the plan
             frame, in [m]. Shape (n, 2).
         normals: Outward unit normals of its edges. Shape (n, 2).
-        offsets: A ZMP p is under the feet if normals p <= offsets, in [m].
+        offsets: A ZMP p is in the polygon if normals p <= offsets, in [m].
             Shape (n,).
     """
 
@@ -51,18 +51,18 @@ def support_phases(
     first_foot: Foot,
     duration: float = inf,
 ) -> tuple[SupportPhase, ...]:
-    """Feet on the floor over time, phase by phase.
+    """Return the support phases of a plan.
 
-    At the instant between two phases both hold: the foot that lands or
-    leaves is on the floor, but a ZMP that moves on has to be under the one
-    foot of the single support.
+    At the instant between two phases both apply: the foot that lands or
+    lifts off is on the floor, but the ZMP already has to be under the foot
+    of the single support.
 
     Args:
         schedule: Timing of the plan.
         placements: Rows (x [m], y [m], theta [rad]) of the first swing
             foot, the support foot and the footsteps. Shape (count + 2, 3).
         first_foot: Foot that lands first.
-        duration: Phases that begin later than this are left out, in [s].
+        duration: Phases that begin later are omitted, in [s].
 
     Returns:
         Phases in order, without gaps.
@@ -91,17 +91,17 @@ def support_phases(
 
 
 def _step_rows(step: int) -> tuple[tuple[int, ...], tuple[int, ...]]:
-    """Rows on the floor in the single and double support of a step."""
+    """Return the placement rows in single and double support of a step."""
     return (step + 1,), (step + 1, step + 2)
 
 
 def sole_corners(pose: Array, foot: Foot, sole: SoleRectangle) -> Array:
-    """Corners of a sole in the frame of its pose.
+    """Return the corners of a sole in the frame of its pose.
 
     Args:
         pose: Foot frame (x [m], y [m], theta [rad]). Shape (3,).
-        foot: Side.
-        sole: Shape of a left sole.
+        foot: Side of the foot.
+        sole: Shape of the left sole.
 
     Returns:
         Corners, in [m]. Shape (4, 2).

@@ -1,4 +1,4 @@
-"""Swing-foot trajectories that lift off and touch down at rest."""
+"""Swing-foot trajectories with zero velocity at lift-off and touch-down."""
 
 from typing import Literal
 
@@ -15,29 +15,29 @@ _PROGRESS: dict[SwingProfile, tuple[float, ...]] = {
         70.0 / 3.0 * c for c in (0.0, 0.0, 0.0, 1.0, -3.5, 5.4, -4.0, 8.0 / 7)
     ),
 }
-"""Fraction of the way by powers of the phase."""
+"""Coefficients of the progress, by powers of the phase."""
 
 
 def swing_progress(
     phase: ArrayLike, profile: SwingProfile = "minimum-jerk"
 ) -> Array:
-    """Fraction of the way that a swing foot has made.
+    """Return the fraction of the path that a swing foot has covered.
 
     Velocity and acceleration vanish at both ends. The minimum-jerk
-    polynomial is fastest half-way, at 15/8 of the mean; the even one is as
-    flat there as a polynomial of its degree can be, and goes at 35/24 of it.
+    polynomial peaks half-way at 15/8 of the mean velocity; the even one has
+    the flattest velocity of its degree there, 35/24 of the mean.
 
     Args:
-        phase: Fraction of single support that has passed; before 0 the foot
-            stands where it was, after 1 where it lands. Shape (n,).
-        profile: Which of the two.
+        phase: Phase of single support; below 0 the foot is at lift-off,
+            above 1 at touch-down. Shape (n,).
+        profile: Profile of the motion.
 
     Returns:
         Fraction in [0, 1]. Shape (n,).
     """
     s = np.clip(np.asarray(phase, dtype=np.float64), 0.0, 1.0)
     if profile == "even":
-        # From the nearer end: the sum of the powers is 1 but for rounding.
+        # From the nearer end: the coefficients sum to 1 only up to rounding.
         near = np.minimum(s, 1.0 - s)
         part = np.polynomial.polynomial.polyval(near, _PROGRESS[profile])
         even: Array = np.where(s > 0.5, 1.0 - part, part)
@@ -47,7 +47,7 @@ def swing_progress(
 
 
 def swing_acceleration(profile: SwingProfile) -> Array:
-    """Second derivative of the progress, by powers of the phase.
+    """Return the second derivative of the progress, by powers of the phase.
 
     Args:
         profile: See :func:`swing_progress`.
@@ -57,22 +57,22 @@ def swing_acceleration(profile: SwingProfile) -> Array:
     """
     progress = np.array(_PROGRESS[profile], dtype=np.float64)
     powers = np.arange(progress.size)
-    bent: Array = (progress * powers * (powers - 1))[2:]
-    return bent
+    acceleration: Array = (progress * powers * (powers - 1))[2:]
+    return acceleration
 
 
 def swing_height(
     phase: ArrayLike, apex: float, profile: SwingProfile = "minimum-jerk"
 ) -> Array:
-    """Height of a swing foot over the floor, in [m].
+    """Return the height of a swing foot over the floor, in [m].
 
     The apex is reached half-way. Velocity vanishes at lift-off and
     touch-down; so does acceleration with the minimum-jerk profile, while
-    the even one rises more slowly instead.
+    the even one has a lower vertical velocity.
 
     Args:
-        phase: Fraction of single support that has passed. Shape (n,).
-        apex: Greatest height, in [m].
+        phase: Phase of single support. Shape (n,).
+        apex: Largest height, in [m].
         profile: See :func:`swing_progress`.
 
     Returns:

@@ -1,8 +1,8 @@
-"""Where a body is on the path of its template.
+"""Pose of the template unicycle of a walking body.
 
-The place of a robot is midway between its feet: that is where the unicycle
-of (1) and (3) stands. While it walks the place moves on with the CoM, and
-the CoM is ahead of it by as much as the ZMP is ahead of the ankles.
+The reference point of a robot is midway between its feet, where the unicycle
+of (1) and (3) is. While the robot walks, the point advances with the CoM,
+which leads it by as much as the ZMP leads the foot frames.
 """
 
 import numpy as np
@@ -12,16 +12,16 @@ from .footsteps import Foot
 from .gait_settings import GaitSettings
 from .schedule import Schedule
 
-STILL = 1e-6  # samples nearer than this are one, in [m]
-SHORT = 0.18  # way of a step on the spot, at most, over the feet's distance
+STILL = 1e-6  # samples closer than this coincide, in [m]
+SHORT = 0.18  # largest stride of a step on the spot, in foot spacings
 
 
 def passed_beside(foot: Pose, side: Foot, foot_spacing: float) -> Pose:
-    """Pose with which the unicycle passes a foot that stands.
+    """Return the pose with which the unicycle passes a stance foot.
 
     Args:
-        foot: The foot, in any frame.
-        side: Which it is.
+        foot: Pose of the foot, in any frame.
+        side: Side of the foot.
         foot_spacing: Coronal distance between feet, in [m].
     """
     return foot.compose(Pose(0.0, -0.5 * foot_spacing * side.value, 0.0))
@@ -30,14 +30,14 @@ def passed_beside(foot: Pose, side: Foot, foot_spacing: float) -> Pose:
 def path_samples(
     placements: Array, first_foot: Foot, foot_spacing: float
 ) -> Array:
-    """Samples of the path beside which feet stand.
+    """Return samples of the unicycle's path from placements of the feet.
 
-    Each is half a spacing beside its foot, and has its heading.
+    Each is half a spacing beside its foot, with the same heading.
 
     Args:
-        placements: Feet in turn, the first is ``first_foot``'s: rows
+        placements: Alternate feet, beginning with ``first_foot``: rows
             (x [m], y [m], theta [rad]). Shape (n, 3).
-        first_foot: Side of the first.
+        first_foot: Side of the first foot.
         foot_spacing: Coronal distance between feet, in [m].
 
     Returns:
@@ -55,22 +55,23 @@ def path_samples(
 def poses_on_path(
     samples: Array, com: Array, clock: Array, gait: GaitSettings
 ) -> Array:
-    """Poses of the unicycle where the CoM has come to.
+    """Return the poses of the unicycle for given CoM positions.
 
-    A sample belongs to a foot, and the body passes it in the middle of the
-    support by that foot. In between, way and heading are shared out by how
-    far the CoM, less its lead, has come from one sample to the next. Sway
-    is as large as a short way, and no way at all: half a step before and
-    after what the clock says is the most that is believed, and on the spot
-    the clock alone counts.
+    Each sample belongs to a foot, which the body passes in the middle of
+    the support by that foot. In between, position and heading are
+    interpolated by the progress of the CoM, less its lead, from one sample
+    to the next. Since sway can exceed a short stride, the progress is
+    limited to half a step before and after that by time; on the spot the
+    progress by time alone is used.
 
     Args:
-        samples: Of the path, in the order of the steps. Shape (n, 3).
+        samples: Samples of the path, in the order of the steps. Shape
+            (n, 3).
         com: CoM in the same frame, in [m]. Shape (m, 2).
-        clock: Shares of each way by time, from the middle of one support
-            to that of the next; beyond 0 to 1 outside of it. NaN where the
-            clock says nothing. Shape (m, n - 1).
-        gait: Lead of the CoM over the place, and how far apart feet are.
+        clock: Progress between samples by time, from the middle of one
+            support to that of the next, below 0 before and above 1 after
+            it; NaN if undefined. Shape (m, n - 1).
+        gait: Gait, for the lead of the CoM and the foot spacing.
 
     Returns:
         Rows (x [m], y [m], theta [rad]). Shape (m, 3).
@@ -93,17 +94,18 @@ def poses_on_path(
 
 
 def clock_of(schedule: Schedule, times: Array) -> Array:
-    """Shares of the ways between the feet of a plan by time.
+    """Return the progress between the feet of a plan by time.
 
-    Of the first way nothing is said where the robot stands before: its
-    CoM may be anywhere on it.
+    The first one is undefined for a start from standing: the CoM may then
+    be anywhere between the two samples.
 
     Args:
-        schedule: Of the plan.
-        times: Since it began, in [s]. Shape (m,).
+        schedule: Schedule of the plan.
+        times: Times since the plan began, in [s]. Shape (m,).
 
     Returns:
-        As :func:`poses_on_path` takes them. Shape (m, footsteps + 1).
+        Progress, as input of :func:`poses_on_path`. Shape (m, footsteps +
+        1).
     """
     gait = schedule.settings
     begun = schedule.starts[1] if schedule.standing else 0.0

@@ -11,9 +11,9 @@ from ..core.poses import Array
 
 @dataclass(frozen=True, slots=True)
 class PiecewisePolynomial:
-    r"""Polynomials in local time, one after the other, then a constant.
+    r"""Piecewise polynomial in local time, then a constant.
 
-    After the last piece the value stays where that piece ends.
+    After the last piece the value is constant.
 
     Attributes:
         durations: Duration of each piece, in [s]. Shape (n,).
@@ -47,7 +47,7 @@ class PiecewisePolynomial:
         return value
 
     def locate(self, times: ArrayLike) -> tuple[np.ndarray, Array]:
-        """Find the piece of each time, and the time since it began.
+        """Return the piece of each time, and the local time in it.
 
         Args:
             times: Times since the first piece began, in [s]. Shape (m,).
@@ -81,7 +81,7 @@ def evaluate(coefficients: Array, local_times: Array) -> Array:
 
 
 def least_values(coefficients: Array, duration: float) -> Array:
-    """Least value of cubic polynomials over an interval from zero.
+    """Return the least values of cubic polynomials over [0, duration].
 
     Args:
         coefficients: Of the powers 0 to 3. Shape (4, n).
@@ -91,12 +91,12 @@ def least_values(coefficients: Array, duration: float) -> Array:
         Least values, at an end or where the derivative vanishes. Shape (n,).
     """
     _, c1, c2, c3 = coefficients
-    # c1 + 2 c2 s + 3 c3 s^2 = 0 without loss of digits, whatever vanishes.
+    # Roots of c1 + 2 c2 s + 3 c3 s^2 without cancellation, also if any is 0.
     root = np.sqrt(np.maximum(c2 * c2 - 3.0 * c3 * c1, 0.0))
     half = -(c2 + np.copysign(root, c2))
     with np.errstate(divide="ignore", invalid="ignore"):
         turns = np.array([half / (3.0 * c3), c1 / half])
-    # Where nothing turns the candidate is an end: it does no harm.
+    # Without a root the candidate is clipped to an end, which is harmless.
     turns = np.clip(np.nan_to_num(turns), 0.0, duration)
     times = np.vstack([np.zeros_like(c1), np.full_like(c1, duration), turns])
     values = np.polynomial.polynomial.polyval(

@@ -1,4 +1,4 @@
-"""From what a player knows to what it wants (paper, Sec. II)."""
+"""Strategies: from knowledge and memory to an intent (paper, Sec. II)."""
 
 from .constant_walk import StandStill, Walk
 from .deflected_evasion import DeflectedEvasion

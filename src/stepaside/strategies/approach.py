@@ -1,4 +1,4 @@
-"""How near somebody comes who walks straight on, and how soon."""
+"""Closest approach and time to contact of an opponent on a straight path."""
 
 from math import atan2, cos, hypot, inf, pi, sin, sqrt
 from typing import NamedTuple
@@ -6,19 +6,19 @@ from typing import NamedTuple
 from ..core.poses import wrap_angle
 from .knowledge import Knowledge, Limits
 
-STILL = 0.05  # speed below which nobody comes from anywhere, in [m/s]
-SHARPEST = 0.5 * pi  # bearing by which a step turns at most, in [rad]
-LOOKED = 24  # steps that are looked ahead when a side is chosen
+STILL = 0.05  # speed below which the opponent counts as still, in [m/s]
+MAX_HEADING = 0.5 * pi  # desired heading of the sharpest turn, in [rad]
+HORIZON = 24  # steps of the prediction that chooses a side
 
 
 class Approach(NamedTuple):
-    """The other in the own frame.
+    """Motion of the opponent in the own frame.
 
     Attributes:
-        x: Place ahead, in [m].
-        y: Place to the left, in [m].
-        u: Velocity on the floor ahead, in [m/s].
-        v: Velocity on the floor to the left, in [m/s].
+        x: Position ahead, in [m].
+        y: Position to the left, in [m].
+        u: Velocity over the floor, component ahead, in [m/s].
+        v: Velocity over the floor, component to the left, in [m/s].
     """
 
     x: float
@@ -28,10 +28,7 @@ class Approach(NamedTuple):
 
     @classmethod
     def of(cls, knowledge: Knowledge) -> "Approach":
-        """The other as it is known; at rest while nothing else is known.
-
-        What was seen a while ago has moved on since.
-        """
+        """Extrapolate the last sighting; at rest if without velocity."""
         u, v = knowledge.velocity or (0.0, 0.0)
         x = knowledge.distance * cos(knowledge.bearing)
         y = knowledge.distance * sin(knowledge.bearing)
@@ -40,19 +37,19 @@ class Approach(NamedTuple):
 
     @property
     def distance(self) -> float:
-        """To the other, in [m]."""
+        """Distance to the opponent, in [m]."""
         return hypot(self.x, self.y)
 
     @property
     def speed(self) -> float:
-        """Of the other, in [m/s]."""
+        """Speed of the opponent, in [m/s]."""
         return hypot(self.u, self.v)
 
     @property
     def origin(self) -> float:
-        """Direction that the other comes from, in [rad].
+        """Direction from which the opponent approaches, in [rad].
 
-        Of somebody who hardly moves it is the line of sight.
+        It is the line of sight if the opponent hardly moves.
         """
         if self.speed < STILL:
             return atan2(self.y, self.x)
@@ -60,21 +57,22 @@ class Approach(NamedTuple):
 
     @property
     def miss(self) -> float:
-        """Least distance from now on if this robot stays, in [m]."""
+        """Least distance from now on if the own robot stands, in [m]."""
         nearing = -(self.x * self.u + self.y * self.v)
         if nearing <= 0.0:
             return self.distance
         return abs(self.x * self.v - self.y * self.u) / self.speed
 
     def contact_time(self, clearance: float) -> float:
-        """Time until the other is nearer than a clearance, in [s].
+        """Return the time until the opponent is within a clearance, in [s].
 
         Args:
-            clearance: In [m].
+            clearance: Distance that counts as contact, in [m].
 
         Returns:
-            The time if this robot stays; 0 for somebody who is nearer and
-            still coming, infinite for somebody who passes or leaves.
+            The time if the own robot stands; 0 for an opponent within the
+            clearance that still approaches, infinite for one that passes
+            outside of it or recedes.
         """
         nearing = -(self.x * self.u + self.y * self.v)
         if nearing <= 0.0 or self.speed < STILL:
@@ -89,36 +87,35 @@ class Approach(NamedTuple):
         return excess / (nearing + sqrt(root))
 
 
-def swift_heading(error: float, limits: Limits) -> float:
-    """Desired heading that takes an error away as soon as a gait can.
+def correcting_heading(error: float, limits: Limits) -> float:
+    """Return the desired heading that corrects an error as fast as possible.
 
-    A step turns by a share of the bearing that it is planned for: asked for
-    more, it turns by the whole error at once, up to what the sharpest turn
-    is.
+    A step turns by a fraction of its desired heading. A larger desired
+    heading turns by the whole error in one step, up to the sharpest turn.
 
     Args:
-        error: Heading that is missed, in [rad].
-        limits: Of the own gait.
+        error: Heading error, in [rad].
+        limits: Limits of the own gait.
     """
     share = limits.gain * limits.stride / limits.speed
-    asked = wrap_angle(error) / share
-    return min(max(asked, -SHARPEST), SHARPEST)
+    heading = wrap_angle(error) / share
+    return min(max(heading, -MAX_HEADING), MAX_HEADING)
 
 
-def clearance_of(
+def predict_clearance(
     approach: Approach,
     limits: Limits,
     heading: float,
     *,
     stands: bool,
 ) -> float:
-    """Least distance to somebody who walks on while this robot steps aside.
+    """Predict the least distance to an opponent while the robot steps aside.
 
     Args:
-        approach: The other.
-        limits: Of the own gait, which walks backward.
-        heading: Where to turn to, in the own frame, in [rad].
-        stands: Whether the first step has to be begun yet.
+        approach: Motion of the opponent, which keeps its velocity.
+        limits: Limits of the own gait, which walks backward.
+        heading: Target heading in the own frame, in [rad].
+        stands: Whether the robot stands and has to start first.
 
     Returns:
         Least distance from now on, in [m].
@@ -128,10 +125,10 @@ def clearance_of(
     x, y, u, v = approach
     theta = 0.0
     least = approach.distance
-    for i in range(LOOKED):
+    for i in range(HORIZON):
         dx, dy = step * u, step * v
         if i > 0 or not stands:
-            turn = share * swift_heading(heading - theta, limits)
+            turn = share * correcting_heading(heading - theta, limits)
             middle = theta + 0.5 * turn
             dx += limits.stride * cos(middle)
             dy += limits.stride * sin(middle)
@@ -142,7 +139,7 @@ def clearance_of(
 
 
 def _nearest(x: float, y: float, dx: float, dy: float) -> float:
-    """Least distance of a way from the origin, in [m]."""
+    """Return the least distance of a segment from the origin, in [m]."""
     square = dx * dx + dy * dy
     if square == 0.0:
         return hypot(x, y)

@@ -1,4 +1,4 @@
-"""Tables of the bound: solved once, and kept for later."""
+"""Cached value tables of the bound, solved at first use."""
 
 import os
 from collections.abc import Callable
@@ -11,7 +11,7 @@ import numpy as np
 from ..core.errors import PlanError, StepAsideError
 from .search.value_lookup import ValueTable
 
-if TYPE_CHECKING:  # what solves takes Numba with it
+if TYPE_CHECKING:  # the solver imports Numba
     from ..theory.bound import Bound, BoundGame
 
 NEAR, FAR = 0.15, 4.5  # of the game against eqs. (1)-(2), in v/k
@@ -20,59 +20,61 @@ FORMAT = 1
 
 
 def cache_folder() -> Path:
-    """Where tables are kept: the user's cache."""
+    """Return the folder of the tables, in the user's cache."""
     base = os.environ.get("XDG_CACHE_HOME") or "~/.cache"
     return Path(base).expanduser() / "stepaside"
 
 
 def has_pursuit_bound(cells: int) -> bool:
-    """Whether :func:`pursuit_bound` is kept, and need not be solved.
+    """Return whether :func:`pursuit_bound` is cached.
 
     Args:
-        cells: Along each axis.
+        cells: Number of cells along each axis.
     """
     return _file_of("pursuit", cells).is_file()
 
 
 @lru_cache(maxsize=8)
 def pursuit_bound(cells: int) -> "Bound":
-    """Best evader against eqs. (1)-(2), speeds and gains of one.
+    """Load or solve the bound against eqs. (1)-(2), with unit speed and gain.
 
     Args:
-        cells: Along each axis.
+        cells: Number of cells along each axis.
     """
     from ..theory.bound import against_pursuit
 
-    return _kept("pursuit", against_pursuit(1.0, 1.0, 1.0), NEAR, FAR, cells)
+    return _load_or_solve(
+        "pursuit", against_pursuit(1.0, 1.0, 1.0), NEAR, FAR, cells
+    )
 
 
 @lru_cache(maxsize=8)
 def cars_bound(cells: int) -> "Bound":
-    """Both at their best: two identical cars, speed and turn of one."""
+    """Load or solve the bound of two identical cars of unit speed and turn."""
     from ..theory.bound import against_any
 
-    return _kept(
+    return _load_or_solve(
         "cars", against_any(1.0, 1.0, 1.0), CARS_NEAR, CARS_FAR, cells
     )
 
 
 @lru_cache(maxsize=8)
 def pursuit_table(cells: int, unit: float) -> ValueTable:
-    """Table of :func:`pursuit_bound` for compiled loops.
+    """Return the table of :func:`pursuit_bound` for compiled loops.
 
     Args:
-        cells: Along each axis.
-        unit: Speed over gain, in [m].
+        cells: Number of cells along each axis.
+        unit: Length unit, speed over gain, in [m].
     """
     return value_table(pursuit_bound(cells), unit)
 
 
 def value_table(bound: "Bound", unit: float) -> ValueTable:
-    """Table of a bound that was solved in units.
+    """Return the table of a bound in scaled units.
 
     Args:
         bound: The bound.
-        unit: Length of its unit of length, in [m].
+        unit: Its length unit, in [m].
     """
     whole = np.concatenate([bound.values[::-1, :, ::-1], bound.values])
     around = np.pad(whole, ((1, 1), (0, 0), (1, 1)), mode="wrap")
@@ -84,10 +86,10 @@ def value_table(bound: "Bound", unit: float) -> ValueTable:
     )
 
 
-def _kept(
+def _load_or_solve(
     name: str, game: "BoundGame", near: float, far: float, cells: int
 ) -> "Bound":
-    """Table from the cache, or solved and put there if that is possible."""
+    """Load a bound from the cache, or solve it and cache it if possible."""
     from ..theory.bound import Grid, load_bound, solve_bound
 
     grid = Grid.cube(near, far, cells)
@@ -104,12 +106,12 @@ def _kept(
 
 
 def _file_of(name: str, cells: int) -> Path:
-    """File in which a table is kept."""
+    """Return the path of a cached table."""
     return cache_folder() / f"{name}-{cells}-{FORMAT}.npz"
 
 
 def _try(write: Callable[[], object]) -> None:
-    """Write what is only kept to save time; a full disk is no failure."""
+    """Write to the cache; it only saves time, so a full disk is no failure."""
     try:
         write()
     except (OSError, StepAsideError):

@@ -1,4 +1,4 @@
-"""Walk, or stand, whatever the other does."""
+"""Strategies that ignore the opponent: walk or stand."""
 
 from dataclasses import dataclass
 
@@ -8,14 +8,14 @@ from .knowledge import STAND, Intent, Knowledge
 
 @dataclass(frozen=True, slots=True)
 class Walk:
-    """Walk with a bearing that does not depend on anybody.
+    """Walk with a constant desired heading.
 
     Attributes:
-        bearing: Desired heading in the frame of each support foot, [rad].
+        bearing: Desired heading in the frame of each support foot, in [rad].
         direction: Whether the robot walks forward or backward.
         saturated: Whether it turns by (6) instead of (8).
-        speed_factor: Share of the gait's speed, in [0, 1]; 0 stands.
-        pace: Share of its step rate, in (0, 1].
+        speed_factor: Fraction of the gait's speed, in [0, 1]; 0 stands.
+        pace: Fraction of the gait's step rate, in (0, 1].
     """
 
     bearing: float = 0.0
@@ -25,25 +25,25 @@ class Walk:
     pace: float = 1.0
 
     def __post_init__(self) -> None:
-        """Refuse what no robot can do."""
+        """Validate the settings."""
         Intent(self.bearing, self.speed_factor, pace=self.pace)
 
     def begin(self) -> None:
-        """It remembers nothing."""
+        """Return no memory."""
 
     def decide(
         self, knowledge: Knowledge, memory: None
     ) -> tuple[Intent, None]:
-        """Walk on."""
+        """Return the constant intent."""
         return Intent(self.bearing, self.speed_factor, pace=self.pace), None
 
 
 @dataclass(frozen=True, slots=True)
 class StandStill:
-    """Stay where it is: what happens to an evader that does nothing.
+    """Stand still: the baseline of an evader that does nothing.
 
     Attributes:
-        direction: Of a step that is never made.
+        direction: Unused: it never steps.
         saturated: Likewise.
     """
 
@@ -51,10 +51,10 @@ class StandStill:
     saturated: bool = False
 
     def begin(self) -> None:
-        """It remembers nothing."""
+        """Return no memory."""
 
     def decide(
         self, knowledge: Knowledge, memory: None
     ) -> tuple[Intent, None]:
-        """Stand."""
+        """Return the intent to stand."""
         return STAND, None

@@ -1,4 +1,4 @@
-"""Move aside, deflected by what stands around."""
+"""Evasion deflected by obstacles."""
 
 from dataclasses import dataclass, field
 from math import atan2, cos, sin
@@ -10,23 +10,23 @@ from ..planning import Direction
 from .evasion import Evasion, EvasionMemory
 from .knowledge import Intent, Knowledge
 
-NEAREST = 0.01  # to a solid that still counts, in [m]
-SMALL = 1e-4  # way over which a slope is taken, in [m]
-ALWAYS = Evasion(safety_radius=1e6)  # evades from the first sight on
+MIN_GAP = 0.01  # below which the field grows no further, in [m]
+STEP = 1e-4  # of the finite differences, in [m]
+ALWAYS = Evasion(safety_radius=1e6)  # evades from the first sighting on
 
 
 @dataclass(frozen=True, slots=True)
 class DeflectedEvasion:
-    """Walk where the paper's evader would, pushed off by a repulsive field.
+    """The paper's evasion, deflected by a repulsive field.
 
-    Each solid pushes along the way out of it with
-    :math:`s (1 / c - 1 / c_0)`, where c is the distance of the body to it.
+    Each obstacle repels along the gradient of its clearance with strength
+    :math:`s (1 / c - 1 / c_0)`, where c is the clearance of the body.
 
     Attributes:
         evasion: The paper's evader.
-        reach: Distance c_0 from which on nothing pushes, in [m].
-        strength: How hard it pushes, s, in [m].
-        body_radius: Of the own body, in [m].
+        reach: Clearance c_0 from which the field is zero, in [m].
+        strength: Strength s of the field, in [m].
+        body_radius: Radius of the own body, in [m].
     """
 
     evasion: Evasion = field(default_factory=lambda: ALWAYS)
@@ -35,7 +35,7 @@ class DeflectedEvasion:
     body_radius: float = 0.2
 
     def __post_init__(self) -> None:
-        """Refuse what does not push."""
+        """Validate the settings."""
         error = ConfigurationError
         check_positive(self.reach, "reach", "m", error)
         check_positive(self.strength, "strength", "m", error)
@@ -48,32 +48,32 @@ class DeflectedEvasion:
 
     @property
     def saturated(self) -> bool:
-        """It turns as the paper's evader does."""
+        """Whether it turns by (6) instead of (8), as its evader."""
         return self.evasion.saturated
 
     def begin(self) -> EvasionMemory:
-        """Not evading, on no side yet."""
+        """Return the memory of an evader that does not evade yet."""
         return self.evasion.begin()
 
     def decide(
         self, knowledge: Knowledge, memory: EvasionMemory
     ) -> tuple[Intent, EvasionMemory]:
-        """Add what pushes to where the paper's evader would go."""
+        """Add the repulsive field to the direction of the paper's evader."""
         intent, memory = self.evasion.decide(knowledge, memory)
         if not intent.walks or not knowledge.obstacles:
             return intent, memory
         pose = knowledge.pose
         back = pose.theta + intent.heading
         x, y = -cos(back), -sin(back)  # it walks backward
-        places = [(pose.x, pose.y), (pose.x + SMALL, pose.y)]
-        places.append((pose.x, pose.y + SMALL))
-        clearances = obstacle_set(knowledge.obstacles).clearances(places)
+        points = [(pose.x, pose.y), (pose.x + STEP, pose.y)]
+        points.append((pose.x, pose.y + STEP))
+        clearances = obstacle_set(knowledge.obstacles).clearances(points)
         for here, east, north in clearances.T.tolist():
-            gap = max(here - self.body_radius, NEAREST)
+            gap = max(here - self.body_radius, MIN_GAP)
             if gap >= self.reach:
                 continue
             push = self.strength * (1.0 / gap - 1.0 / self.reach)
-            x += push * (east - here) / SMALL
-            y += push * (north - here) / SMALL
+            x += push * (east - here) / STEP
+            y += push * (north - here) / STEP
         heading = wrap_angle(atan2(-y, -x) - pose.theta)
         return Intent(heading), memory

@@ -1,4 +1,4 @@
-"""Walk backward across the line of sight (paper, Sec. II-B)."""
+"""Evasion: walk backward across the line of sight (paper, Sec. II-B)."""
 
 from dataclasses import dataclass, replace
 from math import inf, pi, radians
@@ -8,24 +8,23 @@ from ..core.errors import ConfigurationError
 from ..core.ranges import Range, Ranges, check_settings
 from ..planning import Direction
 from ..theory import laws
-from .approach import Approach, clearance_of, swift_heading
+from .approach import Approach, correcting_heading, predict_clearance
 from .knowledge import STAND, Intent, Knowledge
 
 Trigger = Literal["distance", "time"]
 TRIGGERS: tuple[str, ...] = get_args(Trigger)
-CALMER = 0.125  # from one pace that is tried to the next
-SAFER = 1.25  # times the clearance that lets an evader come to rest
+PACE_STEP = 0.125  # between the paces that are tried
+RELEASE_RATIO = 1.25  # release clearance over trigger clearance
 
 
 class EvasionMemory(NamedTuple):
-    """What an evader remembers.
+    """Memory of an evader.
 
     Attributes:
         evading: Whether it evades.
-        side: On which side, +1 or -1, see :mod:`stepaside.theory.laws`; 0
-        while it
-            does not evade.
-        safe: Decisions in a row in which standing would have been safe.
+        side: Side of evasion, +1 or -1, see :mod:`stepaside.theory.laws`; 0
+            while it does not evade.
+        safe: Number of consecutive decisions in which standing was safe.
     """
 
     evading: bool = False
@@ -35,33 +34,35 @@ class EvasionMemory(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Evasion:
-    """Keep the line of sight at an angle, behind the own back.
+    """The paper's evader: walk backward at an angle to the line of sight.
 
-    The side is chosen when evasion begins, and changes only when the
-    pursuer is clearly seen on the other one.
+    The side is chosen when evasion begins, and changes only when the bearing
+    of the pursuer is clearly on the other side.
 
-    The safety area is one in space, as in the paper, or in time. In time the
-    evader begins when somebody who walks straight on would be near it soon.
-    It walks across the way that the other comes, turns as soon as its gait
-    can, and keeps to the side that leaves more room until standing is safe.
+    The trigger is a distance, as in the paper, or a time to contact. With a
+    time, the evader begins when a pursuer with constant velocity would be
+    near soon. It then walks across the path of the pursuer, turns as fast as
+    its gait can, and keeps the side with the larger clearance until standing
+    is safe.
 
     Attributes:
-        angle: Strategy alpha, between the line of sight and where it walks, in
-            [rad]: pi/2 moves aside, 0 moves back; 0 to 3.14159.
+        angle: Strategy alpha, between the line of sight and the direction of
+            walking, in [rad]: pi/2 moves aside, 0 moves back; 0 to 3.14159.
         saturated: Whether it turns by (6) instead of (4).
         safety_radius: Distance at which it begins, in [m]; 0.001 to 1e+09.
         release_distance: Distance at which it ends, in [m]; 0.001 to 1e+09 or
             inf.
-        side_hysteresis: How far the bearing of the pursuer must be past 0 or
-            past pi for the side to change, in [rad]; from pi/2 on it never
-            does; 0 to 3.14159.
-        trigger: Whether distance or time begins and ends it.
-        contact_time: Time to contact at which it begins, in [s], if by time;
-            half as much again ends it; 0.1 to 60.
-        clearance: Distance that counts as contact then, in [m]; 0.1 to 10.
-        calmest: Least pace then, see :class:`Intent`: it walks as calmly as
-            leaves the other room, and hurries when it has to; 1 always
-            hurries; 0.5 to 1.
+        side_hysteresis: Angle by which the bearing of the pursuer must be past
+            0 or past pi for the side to change, in [rad]; from pi/2 on it
+            never changes; 0 to 3.14159.
+        trigger: Whether distance or time begins and ends evasion.
+        contact_time: Time to contact at which it begins, in [s], with the
+            trigger time; 1.5 times as much ends it; 0.1 to 60.
+        clearance: Distance that counts as contact with the trigger time, in
+            [m]; 0.1 to 10.
+        calmest: Least pace with the trigger time, see :class:`Intent`: the
+            slowest pace that leaves enough clearance is chosen; 1 always walks
+            at full pace; 0.5 to 1.
     """
 
     angle: float = pi / 2
@@ -75,22 +76,26 @@ class Evasion:
     calmest: float = 1.0
 
     ranges: ClassVar[Ranges] = {
-        "angle": Range(0.0, pi, "rad", "the side says which way it is"),
+        "angle": Range(0.0, pi, "rad", "the sign is given by the side"),
         "safety_radius": Range(
-            *(1e-3, 1e9, "m"),
-            "a millimetre is contact; from the start on it always evades",
+            1e-3,
+            1e9,
+            "m",
+            "below a millimetre there is contact; 1e9 m means always",
         ),
         "release_distance": Range(
-            *(1e-3, 1e9, "m"), "and above safety_radius", also=(inf,)
+            1e-3, 1e9, "m", "and above safety_radius", also=(inf,)
         ),
         "side_hysteresis": Range(0.0, pi, "rad", "half a turn"),
-        "contact_time": Range(0.1, 60.0, "s", "a step takes longer than less"),
-        "clearance": Range(0.1, 10.0, "m", "bodies have some width"),
-        "calmest": Range(0.5, 1.0, "1", "calmer, a step takes too long"),
+        "contact_time": Range(
+            0.1, 60.0, "s", "a step takes longer than 0.1 s"
+        ),
+        "clearance": Range(0.1, 10.0, "m", "the bodies have a width"),
+        "calmest": Range(0.5, 1.0, "1", "steps at a lower pace take too long"),
     }
 
     def __post_init__(self) -> None:
-        """Refuse what no evader can do."""
+        """Validate the settings."""
         check_settings(self)
         if not self.release_distance > self.safety_radius:
             raise ConfigurationError(
@@ -106,18 +111,18 @@ class Evasion:
 
     @property
     def area(self) -> float:
-        """Radius of what it keeps free around itself, in [m].
+        """Radius of the area that it keeps free around itself, in [m].
 
-        In time that is what counts as contact: where evasion begins depends
-        on how fast the other comes.
+        With the trigger time this is the clearance: the distance at which
+        evasion begins depends on the speed of the pursuer.
         """
         return self.clearance if self.trigger == "time" else self.safety_radius
 
     def begins_at(self, speed: float) -> float:
-        """Distance at which it begins for who comes straight at it, in [m].
+        """Return the distance at which evasion begins, in [m].
 
         Args:
-            speed: With which the other comes, in [m/s].
+            speed: Speed of a pursuer that approaches head-on, in [m/s].
         """
         ahead = self.contact_time * speed if self.trigger == "time" else 0.0
         return self.area + ahead
@@ -128,13 +133,13 @@ class Evasion:
         return Direction.BACKWARD
 
     def begin(self) -> EvasionMemory:
-        """Not evading, on no side yet."""
+        """Return the memory of an evader that does not evade yet."""
         return EvasionMemory()
 
     def decide(
         self, knowledge: Knowledge, memory: EvasionMemory
     ) -> tuple[Intent, EvasionMemory]:
-        """Stand until the other is near, then keep it at the angle, (5)."""
+        """Stand until the trigger, then walk at the angle of (5)."""
         if self.trigger == "time":
             return self._decide_in_time(knowledge, memory)
         if not laws.is_evading(
@@ -152,41 +157,45 @@ class Evasion:
     def _decide_in_time(
         self, knowledge: Knowledge, memory: EvasionMemory
     ) -> tuple[Intent, EvasionMemory]:
-        """Step out of the way of somebody who would be near soon."""
+        """Decide with the trigger time."""
         approach = Approach.of(knowledge)
         safe = 0
         if not memory.evading:
             if approach.contact_time(self.clearance) >= self.contact_time:
                 return STAND, EvasionMemory()
         else:
-            soon = approach.contact_time(SAFER * self.clearance)
+            soon = approach.contact_time(RELEASE_RATIO * self.clearance)
             safe = memory.safe + 1 if soon > 1.5 * self.contact_time else 0
-            if safe > 1:  # one that sways is safe for a moment
+            if safe > 1:  # sway alone can make a single decision safe
                 return STAND, EvasionMemory()
         side = memory.side or self._clearer_side(knowledge, approach)
         error = laws.evasion_heading(approach.origin, side, self.angle)
-        heading = swift_heading(error, knowledge.limits)
+        heading = correcting_heading(error, knowledge.limits)
         pace = self._pace(knowledge, approach, error)
         return Intent(heading, pace=pace), EvasionMemory(True, side, safe)
 
     def _pace(
         self, knowledge: Knowledge, approach: Approach, error: float
     ) -> float:
-        """Calmest pace that leaves the other its room."""
-        limits, room = knowledge.limits, SAFER * self.clearance
+        """Return the lowest pace that keeps the release clearance."""
+        limits = knowledge.limits
+        required = RELEASE_RATIO * self.clearance
         pace = self.calmest
         while pace < 1.0:
             slower = replace(limits, step_duration=limits.step_duration / pace)
             stands = not knowledge.moving
-            if clearance_of(approach, slower, error, stands=stands) > room:
+            if (
+                predict_clearance(approach, slower, error, stands=stands)
+                > required
+            ):
                 return pace
-            pace += CALMER
+            pace += PACE_STEP
         return 1.0
 
     def _clearer_side(self, knowledge: Knowledge, approach: Approach) -> int:
-        """Side that leaves more room; who changes it loses what it made."""
+        """Return the side with the larger predicted clearance."""
         left, right = (
-            clearance_of(
+            predict_clearance(
                 approach,
                 knowledge.limits,
                 laws.evasion_heading(approach.origin, side, self.angle),

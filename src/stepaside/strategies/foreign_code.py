@@ -1,4 +1,4 @@
-"""Asking a strategy that anybody may have written."""
+"""Evaluation of a strategy that may be user code."""
 
 from typing import Any
 
@@ -6,30 +6,30 @@ from ..core.errors import StrategyError
 from .knowledge import Intent, Knowledge
 from .strategy import Strategy
 
-# Of code that is not ours: sys.exit() in it must not end the program.
+# sys.exit() in user code must not end the program.
 FAILURES = (Exception, SystemExit)
 
 
 def ask(
     strategy: Strategy, knowledge: Knowledge, memory: Any
 ) -> tuple[Intent, Any]:
-    """Return the answer of a strategy.
+    """Evaluate one decision of a strategy.
 
     Args:
-        strategy: Any.
-        knowledge: What the player knows.
-        memory: What it remembers.
+        strategy: Strategy, possibly user code.
+        knowledge: Knowledge of the player.
+        memory: Memory of the player.
 
     Returns:
-        What it wants, and what it remembers from now on.
+        Intent and new memory.
 
     Raises:
-        StrategyError: If it fails, exits, or gives no intent.
+        StrategyError: If it fails, exits, or returns no intent.
     """
     try:
         intent, memory = strategy.decide(knowledge, memory)
     except FAILURES as error:
         raise StrategyError(f"{type(error).__name__}: {error}") from error
     if not isinstance(intent, Intent):
-        raise StrategyError(f"decide gave no Intent, got {intent!r}")
+        raise StrategyError(f"decide must return an Intent, got {intent!r}")
     return intent, memory

@@ -1,4 +1,4 @@
-"""Cut the evader off from the middle of a room."""
+"""Pursuit that cuts the evader off from the centre of a room."""
 
 from dataclasses import dataclass, field, replace
 from math import atan2, cos, hypot, sin
@@ -13,18 +13,19 @@ NEAR = 1e-6  # distance from the centre at which it has no bearing, in [m]
 
 @dataclass(frozen=True, slots=True)
 class HerdingPursuit:
-    """Head half way between the bearings of the evader and of the centre.
+    """Pursuer that heads between the evader and the centre of the room.
 
-    The point it aims at divides the segment from the evader to the centre
-    in the ratio of the pursuer's distances to both. So it stays between the
-    evader and the free floor, and the evader runs out of room at the walls.
+    Its target point divides the segment from the evader to the centre in
+    the ratio of the pursuer's distances to both: its bearing bisects the
+    two. So the pursuer stays between the evader and the free floor, and
+    drives the evader to the walls.
 
     Attributes:
         center: Centre of the room (x, y) in the frame of
             ``Knowledge.pose``, in [m]. The origin of a known room is its
             centre; without a known room the frame is odometry, whose origin
-            is where the pursuer began.
-        pursuit: How it heads for the point.
+            was the initial pose of the pursuer.
+            pursuit: Pursuit of the target point.
     """
 
     center: tuple[float, float] = (0.0, 0.0)
@@ -47,7 +48,7 @@ class HerdingPursuit:
     def decide(
         self, knowledge: Knowledge, memory: int | None
     ) -> tuple[Intent, int | None]:
-        """Aim at the point between the evader and the centre."""
+        """Head for the point between the evader and the centre."""
         x, y, theta = knowledge.pose
         u, v = self.center[0] - x, self.center[1] - y
         inward = hypot(u, v)

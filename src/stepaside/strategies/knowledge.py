@@ -1,4 +1,4 @@
-"""What a player knows when it decides, and what it decides."""
+"""Input and output of a decision: knowledge and intent of a player."""
 
 from dataclasses import dataclass
 
@@ -17,15 +17,15 @@ from ..core.poses import Pose
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """What the own gait can do.
+    """Limits of the own gait.
 
     Attributes:
         speed: Driving speed of the template at speed factor 1, in [m/s] of
             path time.
         gain: Steering gain k, in [1/s] of path time; in (6) the turning
             rate, in [rad/s].
-        stride: Way of one step at speed factor 1, in [m].
-        step_duration: Time from one decision under way to the next, in [s].
+        stride: Length of one step at speed factor 1, in [m].
+        step_duration: Time between decisions while walking, in [s].
     """
 
     speed: float
@@ -36,37 +36,35 @@ class Limits:
 
 @dataclass(frozen=True, slots=True)
 class Knowledge:
-    """What a player knows of the other and of itself.
+    """Knowledge of a player at a decision: the opponent, itself, obstacles.
 
-    The frame is that of the unicycle that stands for the body, where it was
-    when the other was seen: of a walker midway between its feet, along the
-    path that it walks. So the bearing compares a line of sight with a
-    heading of the same instant.
+    The frame is the pose of the template unicycle at the time of the
+    sighting: for a walker midway between its feet, along its path. So the
+    bearing compares a line of sight with a heading of the same instant.
 
     Attributes:
-        time: Now, in [s].
-        bearing: Direction of the other in the frame, in [-pi, pi], in
+        time: Present time, in [s].
+        bearing: Direction of the opponent in the frame, in [-pi, pi], in
             [rad], positive to the left.
-        distance: Horizontal distance to the other when it was seen, in [m].
-        limits: What the own gait can do.
-        bearing_rate: How fast the line of sight turns on the floor, in
-            [rad/s]; None where it is not known yet.
-        closing_speed: How fast the distance shrinks, in [m/s]; None where
-            it is not known yet.
-        age: Time since the other was seen, in [s].
-        pose: The frame in the own odometry, or in the frame of a room that
-            is known.
-        moving: Whether the body is under way.
-        obstacles: What is known to stand around, walls as well, in the
-            frame in which the pose is.
-        velocity: Of the other on the floor, ahead and to the left in the
-            frame, in [m/s]; None where it is not known yet.
-        begins: Where the step begins that is decided, in the frame in which
-            the pose is; None where it begins there. A walker decides when
-            a foot has landed, and its body passes that foot half a step
-            later.
-        spread: Standard deviation of the place of the other, in [m].
-        blur: How far off what is known to stand around may be, in [m].
+        distance: Horizontal distance to the opponent at the sighting, in
+            [m].
+        limits: Limits of the own gait.
+        bearing_rate: Turning rate of the line of sight over the floor, in
+            [rad/s]; None until it is known.
+        closing_speed: Rate at which the distance decreases, in [m/s]; None
+            until it is known.
+        age: Time since the sighting, in [s].
+        pose: Pose of the frame in the own odometry, or in the frame of a
+            known room.
+        moving: Whether the body is walking.
+        obstacles: Known obstacles, walls included, in the frame of ``pose``.
+        velocity: Velocity of the opponent over the floor, components ahead
+            and to the left in the frame, in [m/s]; None until it is known.
+        begins: Pose at which the decided step begins, in the frame of
+            ``pose``; None if that is ``pose`` itself. A walker decides when a
+            foot has landed, and its body passes that foot half a step later.
+        spread: Standard deviation of the opponent's position, in [m].
+        map_error: Largest position error of the obstacles, in [m].
     """
 
     time: float
@@ -82,28 +80,28 @@ class Knowledge:
     velocity: tuple[float, float] | None = None
     begins: Pose | None = None
     spread: float = 0.0
-    blur: float = 0.0
+    map_error: float = 0.0
 
     def __post_init__(self) -> None:
-        """Refuse a bearing that is none.
+        """Check the bearing.
 
         Raises:
-            PlanError: If the bearing lies outside of one turn either way.
+            PlanError: If the bearing is not finite, or beyond one turn.
         """
         check_bearing(self.bearing, "bearing")
 
 
 @dataclass(frozen=True, slots=True)
 class Intent:
-    """What a player wants.
+    """Intent of a player: desired heading and speed.
 
     Attributes:
-        heading: Desired heading in the frame of the knowledge, in [rad]: it
-            sets the turning rate, from the next step on.
-        speed_factor: Share of the gait's speed, in [0, 1]; 0 stops.
+        heading: Desired heading in the frame of the knowledge, in [rad]; it
+            sets the turning rate from the next step on.
+        speed_factor: Fraction of the gait's speed, in [0, 1]; 0 stops.
         moving: Whether to move at all.
-        pace: Share of the gait's step rate, in (0, 1]: the same steps, and
-            turns, in more time. Half of it is the least that is walked.
+        pace: Fraction of the gait's step rate, in (0, 1]: the same steps and
+            turns in more time. Walkers go no slower than 0.5.
     """
 
     heading: float = 0.0
@@ -112,11 +110,11 @@ class Intent:
     pace: float = 1.0
 
     def __post_init__(self) -> None:
-        """Refuse what no body can do.
+        """Validate the intent.
 
         Raises:
-            PlanError: If the heading lies outside of one turn either way, the
-                factor is not in [0, 1], or moving is neither true nor false.
+            PlanError: If the heading is not finite or beyond one turn, a
+                factor is out of its range, or moving is no boolean.
         """
         check_bearing(self.heading, "heading")
         if type(self.moving) is not bool and not isinstance(
@@ -131,11 +129,11 @@ class Intent:
 
     @property
     def walks(self) -> bool:
-        """Whether it asks for any motion."""
+        """Whether it requests any motion."""
         return self.moving and self.speed_factor > 0.0
 
 
-ON_THE_SPOT = 0.05  # share of the speed at which a body but turns
+ON_THE_SPOT = 0.05  # speed factor of a turn on the spot
 
 STAND = Intent(moving=False)
-"""Stay, or come to rest."""
+"""Intent to stand, or to come to rest."""

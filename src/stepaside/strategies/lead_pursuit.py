@@ -1,4 +1,4 @@
-"""Head for where the other will be."""
+"""Lead pursuit: head for a point ahead of the evader."""
 
 from dataclasses import dataclass
 from math import atan2, cos, sin
@@ -11,24 +11,24 @@ from .opponent_track import OpponentSighting, PathPursuit
 
 @dataclass(frozen=True, slots=True)
 class LeadPursuit(PathPursuit):
-    """Point ahead of the other, along the way that it takes.
+    """Pursuer that heads for a point ahead of the evader on its path.
 
     Attributes:
-        lead: How far ahead, as a share of the distance; 0 points at the
-            other, as the paper's pursuer does.
+        lead: Distance of that point from the evader, as a fraction of the
+            distance between the players; 0 is the paper's pursuer.
     """
 
     lead: float = 0.5
 
     def __post_init__(self) -> None:
-        """Refuse to lag behind."""
+        """Validate the lead."""
         check_not_negative(self.lead, "lead", "1", ConfigurationError)
 
     def heading(
-        self, knowledge: Knowledge, seen: OpponentSighting, way: float
+        self, knowledge: Knowledge, sighting: OpponentSighting, course: float
     ) -> float:
-        """Heading for a point ahead of the other."""
+        """Return the bearing of the point ahead of the evader, in [rad]."""
         reach = self.lead * knowledge.distance
-        x = seen.x + reach * cos(way) - seen.own_x
-        y = seen.y + reach * sin(way) - seen.own_y
-        return wrap_angle(atan2(y, x) - seen.own_theta)
+        x = sighting.x + reach * cos(course) - sighting.own_x
+        y = sighting.y + reach * sin(course) - sighting.own_y
+        return wrap_angle(atan2(y, x) - sighting.own_theta)

@@ -1,4 +1,4 @@
-"""Try maneuvers in the mind, and begin the best of them."""
+"""Receding-horizon search over turning sequences."""
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -31,12 +31,12 @@ from .search.packed_obstacles import clearance_at
 from .search.step_motion import half_turn, step_both
 
 
-def place_both(trace: Trace, heading: float) -> PlayerPair:
-    """Where both are, in the own odometry.
+def poses_at_sighting(trace: Trace, heading: float) -> PlayerPair:
+    """Return the poses of both players at the last sighting, in odometry.
 
     Args:
         trace: At least one sighting.
-        heading: Of the pursuer there, in [rad].
+        heading: Heading of the pursuer in odometry, in [rad].
     """
     seen = trace[-1]
     return PlayerPair(
@@ -51,18 +51,18 @@ def place_both(trace: Trace, heading: float) -> PlayerPair:
     )
 
 
-def moved_on(
+def predict_poses(
     both: PlayerPair, knowledge: Knowledge, begins: Pose
 ) -> PlayerPair:
-    """Where both are when the step begins that is decided.
+    """Predict the poses of both players when the decided step begins.
 
-    A body passes the foot that landed half a step after it did, and the
-    pursuer has gone on as long.
+    A body passes the landed foot half a step after its landing; the pursuer
+    walks straight on until then.
 
     Args:
-        both: Where they were when the pursuer was seen.
-        knowledge: Of the own limits, and how long ago that was.
-        begins: Where the step begins, in the own odometry.
+        both: Poses at the sighting.
+        knowledge: Knowledge, for the own limits and the sighting's age.
+        begins: Pose at which the step begins, in the own odometry.
     """
     limits = knowledge.limits
     steps = 0.5 + knowledge.age / limits.step_duration
@@ -80,24 +80,24 @@ def moved_on(
 
 
 ERROR = ConfigurationError
-MARGIN = 0.005  # beyond the clearance that is asked for, in [m]
-PENALTY = 60.0  # of a metre too near: a centimetre is worth 0.6 m
-WORTH = 0.5  # of as much too near as a map may be off, in [m]
-SPOTS = 12  # steps on the spot: half a turn is 12.5 of the sharpest
-LONGEST = 400  # steps of a maneuver
-GAIN = 1e-6  # by which a maneuver must beat the present one, in [m]
-OPEN = 3  # pieces that are enough where a table says what comes after
+MARGIN = 0.005  # in addition to the required clearance, in [m]
+PENALTY = 60.0  # per metre of missing clearance: 1 cm costs 0.6 m
+MAP_ERROR_COST = 0.5  # of missing clearance as large as the map error, [m]
+SPOT_STEPS = 12  # on the spot: 12.5 of the sharpest make half a turn
+MAX_STEPS = 400  # of a maneuver
+GAIN = 1e-6  # of a maneuver over the present one to replace it, in [m]
+TABLE_PIECES = 3  # used if a value table gives the cost-to-go
 
 
 class LookAheadMemory(NamedTuple):
-    """What an evader that looks ahead remembers.
+    """Memory of a predictive evader.
 
     Attributes:
         evading: Whether it evades.
-        trace: Where the pursuer was seen.
-        plan: Turns of steps that it would make, in [rad].
-        planned: When the first of them would be made, in [s].
-        spot: How many of the first would be made on the spot.
+        trace: Sightings of the pursuer.
+        plan: Turns of the planned steps, in [rad].
+        planned: Time of the first of them, in [s].
+        spot: Number of initial steps that turn on the spot.
     """
 
     evading: bool = False
@@ -107,10 +107,10 @@ class LookAheadMemory(NamedTuple):
     spot: int = 0
 
     def rest(self, time: float, step: float) -> tuple[tuple[float, ...], int]:
-        """What is left of the plan, for steps of a duration.
+        """Return the rest of the plan, for a step duration in [s].
 
         Returns:
-            Turns, and how many of the first of them are made on the spot.
+            Turns, and the number of initial steps that turn on the spot.
         """
         made = max(0, round((time - self.planned) / step))
         return self.plan[made:], max(0, self.spot - made)
@@ -118,33 +118,36 @@ class LookAheadMemory(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class LookAhead:
-    """Roll maneuvers out against a model of the pursuer, and take the best.
+    """Predictive evader: execute the first step of the best maneuver.
 
-    A maneuver is a sequence of pieces with a constant turn each, then the
-    paper's law for a while. It is good if the pursuer never comes near,
-    nothing is touched and the pursuer stays in sight. Without pieces, and
-    with nothing on the floor, it is the paper's law. Where a map may be
-    off, what it says changes from step to step: then a plan is kept until
-    another is better by as much, and to come too near costs less.
+    A maneuver is a sequence of pieces with a constant turn each, followed by
+    the paper's law. Rolled out against a model of the pursuer, it is good if
+    the pursuer stays far away and within the field of view, and no obstacle
+    is touched. Without pieces and without obstacles it is the paper's law.
+    An inaccurate map changes from step to step: with a map error a plan is
+    kept until another is better by that error, and missing clearance costs
+    less.
 
     Attributes:
-        pieces: Steps of each piece.
-        turns: How many turns each may have, evenly up to the largest.
-        tail: Steps of the law after them.
+        pieces: Number of steps of each piece.
+        turns: Number of turns tried per piece, evenly spaced up to the
+            largest.
+        tail: Number of steps of the law after the pieces.
         angle: Strategy alpha of the law, in [rad].
-        enough: Distance to the pursuer that is as good as any larger where
-            something stands around, in [m]; on an open floor more is better.
-        body_radius: Least distance of the own centre to solids, in [m].
+        enough: Distance to the pursuer beyond which no more is gained if
+            there are obstacles, in [m]; without obstacles more is better.
+        body_radius: Least distance of the own centre to obstacles, in [m].
         largest_error: Largest desired heading, in [rad]; pi is the most of
             the paper's law.
-        sight: Largest bearing at which the head sees the pursuer, in [rad].
-        lead: How far ahead the pursuer is thought to aim; see
+        sight: Largest bearing at which the pursuer is visible, in [rad].
+        lead: Assumed lead of the pursuer; see
             :class:`~stepaside.strategies.search.StepRules`.
-        safety_radius: Distance at which it begins, in [m].
-        tight: Distance to the pursuer below which it also tries to turn on
-            the spot first, where something stands around, in [m].
-        cells: Of the table that says, on an open floor, what comes after
-            the last piece; 0 for none, but the law.
+        safety_radius: Distance at which evasion begins, in [m].
+        tight: Distance to the pursuer below which maneuvers that begin with
+            a turn on the spot are tried too, with obstacles, in [m].
+        cells: Number of cells along each axis of the value table that gives,
+            without obstacles, the cost-to-go after the last piece; 0 uses
+            the law instead.
     """
 
     pieces: tuple[int, ...] = (2, 4, 8, 12, 16)
@@ -161,16 +164,16 @@ class LookAhead:
     cells: int = 64
 
     def __post_init__(self) -> None:
-        """Refuse what nobody can look ahead by."""
+        """Validate the settings."""
         if len(self.pieces) > DEEPEST - 1 or min(self.pieces, default=1) < 1:
             raise ERROR(
                 f"pieces must be at most {DEEPEST - 1}, of >= 1 steps [1] "
                 f"each, got {self.pieces}"
             )
         steps = sum(self.pieces) + self.tail
-        if self.tail < 0 or not 1 <= steps <= LONGEST:
+        if self.tail < 0 or not 1 <= steps <= MAX_STEPS:
             raise ERROR(
-                f"pieces and tail must have 1 to {LONGEST} steps [1] "
+                f"pieces and tail must have 1 to {MAX_STEPS} steps [1] "
                 f"together, got {steps}"
             )
         check_within(self.turns, 1, 99, "turns", "1", ERROR)
@@ -196,45 +199,47 @@ class LookAhead:
 
     @property
     def saturated(self) -> bool:
-        """It turns by (4)."""
+        """False: it turns by (4)."""
         return False
 
     def begin(self) -> LookAheadMemory:
-        """Not evading, nothing seen."""
+        """Return the memory before the first sighting."""
         return LookAheadMemory()
 
     def decide(
         self, knowledge: Knowledge, memory: LookAheadMemory
     ) -> tuple[Intent, LookAheadMemory]:
-        """Begin the maneuver that keeps the pursuer farthest."""
-        from .search.turn_search import look_ahead  # takes Numba with it
+        """Begin the maneuver with the largest closest approach."""
+        from .search.turn_search import look_ahead  # imports Numba
 
         limits = knowledge.limits
-        rules = rules_of(limits, self.lead)
+        rules = step_rules(limits, self.lead)
         trace = note(memory.trace, knowledge)
         near = knowledge.distance < self.safety_radius
         if not (memory.evading or near):
             return STAND, LookAheadMemory(False, trace)
-        both = place_both(trace, pursuer_heading(trace, rules))
+        both = poses_at_sighting(trace, pursuer_heading(trace, rules))
         if knowledge.begins is not None:
-            both = moved_on(both, knowledge, knowledge.begins)
+            both = predict_poses(both, knowledge, knowledge.begins)
         bounded = bool(knowledge.obstacles)
-        known = obstacle_set(knowledge.obstacles) if bounded else NO_OBSTACLES
-        packed = known.packed
+        obstacles = (
+            obstacle_set(knowledge.obstacles) if bounded else NO_OBSTACLES
+        )
+        packed = obstacles.packed
         table = NO_VALUE
         if not bounded and self.cells and self.pieces:
             table = pursuit_table(self.cells, limits.speed / limits.gain)
-        blur = max(knowledge.blur, GAIN)
+        map_error = max(knowledge.map_error, GAIN)
         aims = ManeuverObjective(
             self.enough if bounded else inf,
             self.body_radius + MARGIN,
-            min(PENALTY, WORTH / blur),
+            min(PENALTY, MAP_ERROR_COST / map_error),
             self.sight,
-            gain=blur,
+            gain=map_error,
             tight=self.tight,
         )
         plan, spot = memory.rest(knowledge.time, limits.step_duration)
-        found = look_ahead(
+        best = look_ahead(
             both,
             plan,
             self._maneuvers(limits, valued=table is not NO_VALUE),
@@ -244,32 +249,32 @@ class LookAhead:
             table,
             planned=spot,
         )
-        turn = float(found.turns[0])
-        wanted = turn / rules.evader_share
-        if found.spot:
-            intent = Intent(wanted, ON_THE_SPOT)
+        turn = float(best.turns[0])
+        heading = turn / rules.evader_share
+        if best.spot:
+            intent = Intent(heading, ON_THE_SPOT)
         elif bounded and self._touches(both, turn, rules, knowledge):
-            # To turn needs no room, and to stand would be to stay.
-            return Intent(wanted, ON_THE_SPOT), LookAheadMemory(True, trace)
+            # A turn on the spot needs no room; standing would block for good.
+            return Intent(heading, ON_THE_SPOT), LookAheadMemory(True, trace)
         else:
-            intent = Intent(wanted)
-        ahead = found.turns[: found.spot + sum(self.pieces)]
+            intent = Intent(heading)
+        ahead = best.turns[: best.spot + sum(self.pieces)]
         return intent, LookAheadMemory(
-            True, trace, tuple(ahead.tolist()), knowledge.time, found.spot
+            True, trace, tuple(ahead.tolist()), knowledge.time, best.spot
         )
 
     def _maneuvers(
         self, limits: Limits, *, valued: bool
     ) -> CandidateManeuvers:
-        """Maneuvers that are tried; fewer where a table is their end."""
-        share = rules_of(limits).evader_share
+        """Return the candidate maneuvers; fewer with a value table."""
+        share = step_rules(limits).evader_share
         return maneuvers_of(
-            self.pieces[:OPEN] if valued else self.pieces,
+            self.pieces[:TABLE_PIECES] if valued else self.pieces,
             self.turns,
             0 if valued else self.tail,
             self.angle,
             share * self.largest_error,
-            0 if valued else SPOTS,
+            0 if valued else SPOT_STEPS,
         )
 
     def _touches(
@@ -279,17 +284,17 @@ class LookAhead:
         rules: StepRules,
         knowledge: Knowledge,
     ) -> bool:
-        """Whether the step would touch something, and standing would not."""
+        """Return whether a step touches an obstacle and standing does not."""
         after = step_both(both, *half_turn(0.5 * turn), rules)
         packed = obstacle_set(knowledge.obstacles).packed
         radius = self.body_radius
-        here = clearance_at(packed, both.ex, both.ey, radius)
-        there = clearance_at(packed, after.ex, after.ey, radius)
-        return there < radius and there < here
+        now = clearance_at(packed, both.ex, both.ey, radius)
+        then = clearance_at(packed, after.ex, after.ey, radius)
+        return then < radius and then < now
 
 
-def rules_of(limits: Limits, lead: float = 0.0) -> StepRules:
-    """Steps of both players, who are alike, from the limits of one."""
+def step_rules(limits: Limits, lead: float = 0.0) -> StepRules:
+    """Return the step rules of two identical players with given limits."""
     share = limits.gain * limits.stride / limits.speed
     return StepRules(limits.stride, share, limits.stride, share, lead)
 
@@ -303,7 +308,7 @@ def maneuvers_of(
     largest: float,
     spots: int,
 ) -> CandidateManeuvers:
-    """Maneuvers whose turns are even, the smallest first."""
+    """Return maneuvers with evenly spaced turns, the smallest first."""
     even = np.linspace(-largest, largest, turns) if turns > 1 else np.zeros(1)
     ordered = np.array(sorted(even.tolist(), key=abs))
     steps = np.array(pieces, dtype=np.int64)

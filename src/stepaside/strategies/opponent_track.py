@@ -1,4 +1,4 @@
-"""Where the other player is and how it walks, from sightings in odometry."""
+"""Position and heading of the opponent, from sightings in odometry."""
 
 from abc import ABC, abstractmethod
 from math import atan2, cos, hypot, sin
@@ -9,21 +9,21 @@ from ..planning import Direction
 from .knowledge import Intent, Knowledge, Limits
 from .search.step_motion import PlayerPair, StepRules, pursue
 
-KEPT = 3  # sightings, a step apart: over two steps no body sways
-APART = 0.75  # of a step between them
-STEPS_OFF = 0.05  # of a step of another from what was thought, in [m]
-MOVED = 0.3  # of a stride: who moves less may look anywhere
+MAX_SIGHTINGS = 3  # a step apart: over two steps the sway cancels
+SPACING = 0.75  # least time between them, in steps
+PREDICTION_STD = 0.05  # of the position predicted a step ahead, in [m]
+MIN_MOTION = 0.3  # per step, in strides, that determines a heading
 
 
 class OpponentSighting(NamedTuple):
-    """One sighting, all in the own odometry.
+    """Positions of both players at one sighting, in the own odometry.
 
     Attributes:
-        time: When, in [s].
-        x: Of the other, in [m].
-        y: Of the other, in [m].
-        own_x: Of the own body, in [m].
-        own_y: Of the own body, in [m].
+        time: Time of the sighting, in [s].
+        x: Position of the opponent, in [m].
+        y: Likewise.
+        own_x: Position of the own body, in [m].
+        own_y: Likewise.
         own_theta: Own heading, in [rad].
     """
 
@@ -36,14 +36,13 @@ class OpponentSighting(NamedTuple):
 
 
 Trace = tuple[OpponentSighting, ...]
-"""The last sightings, the oldest first, the last one always the newest."""
+"""Last sightings, the oldest first; the last one is always the newest."""
 
 
 def note(trace: Trace, knowledge: Knowledge) -> Trace:
-    """Take a sighting in; those that lie close together are thinned out.
+    """Add a sighting; those that are close in time are thinned out.
 
-    One that is not sure counts as much as it is, beside where the other
-    would be by now that goes on as it went.
+    A sighting with a known variance is fused with the predicted position.
     """
     pose = knowledge.pose
     sight = pose.theta + knowledge.bearing
@@ -51,25 +50,31 @@ def note(trace: Trace, knowledge: Knowledge) -> Trace:
     x = pose.x + knowledge.distance * cos(sight)
     y = pose.y + knowledge.distance * sin(sight)
     if trace and knowledge.spread > 0.0:
-        u, v = _gone_on(trace, time, knowledge.limits)
-        trust = STEPS_OFF**2 / (STEPS_OFF**2 + knowledge.spread**2)
-        x, y = u + trust * (x - u), v + trust * (y - v)
-    seen = OpponentSighting(time, x, y, pose.x, pose.y, pose.theta)
+        u, v = _predicted(trace, time, knowledge.limits)
+        weight = PREDICTION_STD**2 / (PREDICTION_STD**2 + knowledge.spread**2)
+        x, y = u + weight * (x - u), v + weight * (y - v)
+    sighting = OpponentSighting(time, x, y, pose.x, pose.y, pose.theta)
     step = knowledge.limits.step_duration
-    kept = [s for s in trace if 0.0 < seen.time - s.time < 2 * KEPT * step]
-    # The newest makes way if it came too soon after the one before.
-    if len(kept) > 1 and kept[-1].time - kept[-2].time < APART * step:
-        kept.pop()
-    return tuple([*kept, seen][-KEPT:])
+    recent = [
+        s
+        for s in trace
+        if 0.0 < sighting.time - s.time < 2 * MAX_SIGHTINGS * step
+    ]
+    # The newest is replaced if it is too close to the one before.
+    if len(recent) > 1 and recent[-1].time - recent[-2].time < SPACING * step:
+        recent.pop()
+    return tuple([*recent, sighting][-MAX_SIGHTINGS:])
 
 
-def _gone_on(trace: Trace, time: float, limits: Limits) -> tuple[float, float]:
-    """Where the other is if it goes on as it went, as fast as the own gait.
+def _predicted(
+    trace: Trace, time: float, limits: Limits
+) -> tuple[float, float]:
+    """Predict the position of the opponent at the speed of the trace.
 
     Args:
         trace: At least one sighting.
-        time: When, in [s].
-        limits: Of the own gait.
+        time: Time of the prediction, in [s].
+        limits: Limits of the own gait, which bound the speed.
     """
     first, last = trace[0], trace[-1]
     passed, ahead = last.time - first.time, max(time - last.time, 0.0)
@@ -83,15 +88,15 @@ def _gone_on(trace: Trace, time: float, limits: Limits) -> tuple[float, float]:
 
 
 def pursuer_heading(trace: Trace, rules: StepRules) -> float:
-    """Heading of a pursuer in odometry, in [rad].
+    """Estimate the heading of a pursuer in odometry, in [rad].
 
-    The pursuer of eqs. (1)-(2) is stepped along the sightings; the heading
-    with which it began is the one that takes it where it was seen. One that
-    has not moved is taken to look here.
+    The pursuer of eqs. (1)-(2) is simulated along the sightings, and its
+    initial heading is fitted to its last position. A pursuer that has not
+    moved is assumed to face the own robot.
 
     Args:
         trace: At least one sighting.
-        rules: What its steps do.
+        rules: Model of its steps.
     """
     last = trace[-1]
     facing = atan2(last.own_y - last.y, last.own_x - last.x)
@@ -100,16 +105,18 @@ def pursuer_heading(trace: Trace, rules: StepRules) -> float:
     first = trace[0]
     dx, dy = last.x - first.x, last.y - first.y
     steps = len(trace) - 1
-    if hypot(dx, dy) < MOVED * steps * rules.pursuer_stride:
+    if hypot(dx, dy) < MIN_MOTION * steps * rules.pursuer_stride:
         return facing
     way = atan2(dy, dx)
     begin = end = way
     for _ in range(5):
         x, y, c, s = first.x, first.y, cos(begin), sin(begin)
-        for seen in trace[:-1]:
-            own_c, own_s = cos(seen.own_theta), sin(seen.own_theta)
+        for sighting in trace[:-1]:
+            own_c, own_s = cos(sighting.own_theta), sin(sighting.own_theta)
             x, y, c, s = pursue(
-                PlayerPair(seen.own_x, seen.own_y, own_c, own_s, x, y, c, s),
+                PlayerPair(
+                    sighting.own_x, sighting.own_y, own_c, own_s, x, y, c, s
+                ),
                 rules,
             )
         end = atan2(s, c)
@@ -117,11 +124,11 @@ def pursuer_heading(trace: Trace, rules: StepRules) -> float:
     return end
 
 
-def heading_of_way(trace: Trace) -> float | None:
-    """Direction in which the other moves, in [rad]; None while unknown.
+def direction_of_motion(trace: Trace) -> float | None:
+    """Estimate the direction of motion, in [rad]; None while it is unknown.
 
-    Its turn goes on as it was: over two steps the heading is ahead of the
-    way by what the way of one turned.
+    With a constant turn, the heading after two steps leads the chord of the
+    last step by half the angle between the two chords.
     """
     if len(trace) < 2:
         return None
@@ -137,7 +144,7 @@ def heading_of_way(trace: Trace) -> float | None:
 
 
 class PathPursuit(ABC):
-    """A pursuer that points at the other until its way is known."""
+    """Base of pursuers that use the opponent's direction of motion."""
 
     __slots__ = ()
 
@@ -148,31 +155,32 @@ class PathPursuit(ABC):
 
     @property
     def saturated(self) -> bool:
-        """It turns by (2), up to what that may ask for."""
+        """False: it turns by (2)."""
         return False
 
     def begin(self) -> Trace:
-        """Nothing seen."""
+        """Return an empty trace."""
         return ()
 
     def decide(
         self, knowledge: Knowledge, memory: Trace
     ) -> tuple[Intent, Trace]:
-        """Point at the other, or where its way tells."""
+        """Head for the opponent until its direction of motion is known."""
         trace = note(memory, knowledge)
-        way = heading_of_way(trace)
-        if way is None:
+        course = direction_of_motion(trace)
+        if course is None:
             return Intent(knowledge.bearing), trace
-        return Intent(self.heading(knowledge, trace[-1], way)), trace
+        return Intent(self.heading(knowledge, trace[-1], course)), trace
 
     @abstractmethod
     def heading(
-        self, knowledge: Knowledge, seen: OpponentSighting, way: float
+        self, knowledge: Knowledge, sighting: OpponentSighting, course: float
     ) -> float:
-        """Heading to ask for, from the own one, in [rad].
+        """Return the desired heading in the own frame, in [rad].
 
         Args:
-            knowledge: What is known.
-            seen: The newest sighting.
-            way: Direction in which the other moves in odometry, in [rad].
+            knowledge: Knowledge of the player.
+            sighting: The newest sighting.
+            course: Direction of motion of the opponent in odometry, in
+                [rad].
         """

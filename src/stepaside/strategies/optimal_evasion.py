@@ -1,30 +1,30 @@
-"""The best that can be done on an open floor, by the tables of the bound."""
+"""Optimal evasion on an open floor, by the value table of the bound."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from ..planning import Direction
 from .knowledge import Intent, Knowledge
 from .look_ahead import LookAhead, LookAheadMemory
 
-TURNS = 15  # that one step may have
+TURNS = 15  # tried per step
 
 
 @dataclass(frozen=True, slots=True)
 class Optimal:
-    """Take the step from which the best closest approach is largest.
+    """Evader that maximises the value of the table after one step.
 
-    The table knows of an open floor: what stands there is not heeded.
+    The table holds for an open floor: obstacles are ignored.
 
     Attributes:
-        cells: Of the table.
-        step: Looks one step ahead.
+        cells: Number of cells along each axis of the table.
+        step: Search over one step.
     """
 
     cells: int = 64
     step: LookAhead = field(init=False)
 
     def __post_init__(self) -> None:
-        """Prepare looking one step ahead."""
+        """Prepare the search over one step."""
         step = LookAhead(pieces=(1,), turns=TURNS, tail=0, cells=self.cells)
         object.__setattr__(self, "step", step)
 
@@ -35,17 +35,15 @@ class Optimal:
 
     @property
     def saturated(self) -> bool:
-        """It turns by (4)."""
+        """False: it turns by (4)."""
         return False
 
     def begin(self) -> LookAheadMemory:
-        """Nothing seen."""
+        """Return the memory before the first sighting."""
         return self.step.begin()
 
     def decide(
         self, knowledge: Knowledge, memory: LookAheadMemory
     ) -> tuple[Intent, LookAheadMemory]:
-        """Step to where the table is highest."""
-        from dataclasses import replace
-
+        """Take the step with the largest value."""
         return self.step.decide(replace(knowledge, obstacles=()), memory)

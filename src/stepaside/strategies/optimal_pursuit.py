@@ -1,4 +1,4 @@
-"""The best pursuer of the game of two identical cars."""
+"""Optimal pursuit in the game of two identical cars."""
 
 from dataclasses import dataclass
 from math import atan2, pi
@@ -12,31 +12,31 @@ from .opponent_track import OpponentSighting, PathPursuit
 
 @dataclass(frozen=True, slots=True)
 class OptimalPursuit(PathPursuit):
-    """Turn as the table says that comes nearest to the best evader.
+    """Pursuer with the smallest closest approach to an optimal evader.
 
-    The evader may turn as fast as the pursuer, and the floor is open.
+    The evader may turn as fast as the pursuer; the floor is open.
 
     Attributes:
-        cells: Of the table.
+        cells: Number of cells along each axis of the table.
     """
 
     cells: int = 64
 
     def __post_init__(self) -> None:
-        """Refuse tables that nobody solves."""
+        """Validate the settings."""
         check_within(self.cells, 16, 200, "cells", "1", ConfigurationError)
 
     def heading(
-        self, knowledge: Knowledge, seen: OpponentSighting, way: float
+        self, knowledge: Knowledge, sighting: OpponentSighting, course: float
     ) -> float:
-        """What turns as fast as the table says, as a share of the fastest."""
+        """Return the heading that yields the turning rate of the table."""
         limits = knowledge.limits
         unit = limits.speed / (pi * limits.gain)  # tightest radius, in [m]
-        sight = atan2(seen.y - seen.own_y, seen.x - seen.own_x)
+        sight = atan2(sighting.y - sighting.own_y, sighting.x - sighting.own_x)
         turn = cars_bound(self.cells).pursuer_turn(
             knowledge.distance / unit,
             knowledge.bearing,
-            # A car: it looks against the way that the evader walks.
-            wrap_angle(sight - way),
+            # The evader is a car that faces against its direction of motion.
+            wrap_angle(sight - course),
         )
         return pi * float(turn)

@@ -1,4 +1,4 @@
-"""Strategies by name, and from files that anybody may write."""
+"""Registry of strategies: by name, and from user files."""
 
 import re
 import sys
@@ -38,12 +38,12 @@ STRATEGIES: Mapping[str, Callable[[Evasion], Strategy]] = {
     "stand": lambda evasion: StandStill(),
     "walk": lambda evasion: Walk(),
 }
-"""Makes a strategy of each name, given how an evader of the paper evades."""
+"""Factory of each named strategy, given the settings of the paper's evader."""
 
-OF_EVASION = ("evasion", "deflected")  # that play by it
+OF_EVASION = ("evasion", "deflected")  # strategies that use them
 _OBJECT = re.compile(r"object [\w.<>]+\(.*\)", re.DOTALL)
 _WITH_GAIN = re.compile(r"pursuit-x(?P<ratio>\d+(?:\.\d*)?)", re.ASCII)
-"""The pursuer of the paper with another gain than its gait's."""
+"""The paper's pursuer with another gain than its gait's."""
 _IN_FILE = re.compile(r"(?P<file>.+\.py):(?P<name>[^:]*)", re.DOTALL)
 
 
@@ -81,16 +81,16 @@ def is_described(name: str) -> bool:
 def check_strategy_name(
     name: str, what: str = "strategy", *, recorded: bool = False
 ) -> None:
-    """Refuse what names no strategy, without opening a file.
+    """Check the name of a strategy, without opening a file.
 
     Args:
         name: One of :data:`STRATEGIES`, pursuit-xRATIO (the pursuer of the
             paper with RATIO times the gain of its gait), or FILE.py:NAME.
-        what: What it is the name of, for the message.
-        recorded: Whether it may be text of :func:`describe_strategy`.
+        what: Name of the setting, for the message.
+        recorded: Whether text of :func:`describe_strategy` is valid, too.
 
     Raises:
-        ConfigurationError: If it is neither.
+        ConfigurationError: If the name is invalid.
     """
     if recorded and is_described(name):
         return
@@ -112,20 +112,20 @@ def check_strategy_name(
 def load_strategy(
     name: str | Strategy, evasion: Evasion | None = None
 ) -> Strategy:
-    """Find a strategy.
+    """Load a strategy by name, or check a strategy object.
 
     Args:
         name: One of :data:`STRATEGIES`, pursuit-xRATIO, or FILE.py:NAME;
-            there NAME is a strategy, or a class or function that makes one
-            when it is called with nothing. The file is run. A strategy
-            itself is returned.
-        evasion: How an evader of the paper evades; by default as there.
+            there NAME is a strategy, or a class or function without
+            required arguments that returns one. The file is executed. A
+            strategy object is returned as it is.
+        evasion: Settings of the paper's evader; its defaults if not given.
 
     Returns:
-        The strategy; one of your own has answered a few questions.
+        The strategy; user code has passed a few trial decisions.
 
     Raises:
-        ConfigurationError: If there is none, or it is no strategy.
+        ConfigurationError: If there is no such strategy, or it is invalid.
     """
     if not isinstance(name, str):
         try_strategy(name, describe_strategy(name))
@@ -142,14 +142,14 @@ def load_strategy(
     found = _IN_FILE.fullmatch(name)
     if found is None:
         return STRATEGIES[name](evasion or Evasion())
-    made = _made(found["file"], found["name"])
+    made = _create(found["file"], found["name"])
     try_strategy(made, name)
     strategy: Strategy = made
     return strategy
 
 
 def absolute_name(name: str) -> str:
-    """Name that means the same in every folder."""
+    """Return the name with an absolute file path."""
     found = _IN_FILE.fullmatch(name)
     if name in STRATEGIES or found is None:
         return name
@@ -158,18 +158,18 @@ def absolute_name(name: str) -> str:
 
 
 def file_of(name: str) -> Path | None:
-    """File that a strategy is in; None for one of :data:`STRATEGIES`."""
+    """Return the file of a strategy; None for one of :data:`STRATEGIES`."""
     found = None if name in STRATEGIES else _IN_FILE.fullmatch(name)
     return None if found is None else Path(found["file"]).expanduser()
 
 
-def _made(path: str, name: str) -> Any:
-    """What a name in a file stands for, made if it has to be."""
+def _create(path: str, name: str) -> Any:
+    """Return the strategy that a name in a file denotes, created if needed."""
     loaded = _load(path, name)
     if not hasattr(loaded, name):
-        there = ", ".join(_strategies_in(loaded)) or "no strategy at all"
+        available = ", ".join(_strategies_in(loaded)) or "no strategy"
         raise ConfigurationError(
-            f"strategy {path}:{name}: the file has no {name}, but {there}"
+            f"strategy {path}:{name}: the file has no {name}, but {available}"
         )
     thing = getattr(loaded, name)
     if not isinstance(thing, type) and hasattr(thing, "decide"):
@@ -188,11 +188,11 @@ def _made(path: str, name: str) -> Any:
         ) from error
 
 
-class _Anew(SourceFileLoader):
-    """Reads a file as it is now, and leaves nothing beside it.
+class _UncachedLoader(SourceFileLoader):
+    """Loader that ignores and writes no bytecode cache.
 
-    What Python keeps of a file that it compiled counts for another that was
-    written in the same second and is as long.
+    Python's cache is stale for a file of the same size that was written in
+    the same second.
     """
 
     def get_code(self, fullname: str) -> CodeType:
@@ -203,19 +203,19 @@ class _Anew(SourceFileLoader):
 
 
 def _load(path: str, name: str) -> ModuleType:
-    """Run the file of a strategy."""
+    """Execute the file of a strategy."""
     file = Path(path).expanduser()
     if not file.is_file():
         raise ConfigurationError(
             f"strategy {path}:{name}: there is no file {path}"
         )
     module = f"stepaside_strategy_{file.stem}"
-    loader = _Anew(module, str(file))
+    loader = _UncachedLoader(module, str(file))
     spec = spec_from_file_location(module, file, loader=loader)
     assert spec is not None and spec.loader is not None
     loaded = module_from_spec(spec)
     before = sys.modules.get(module)
-    sys.modules[module] = loaded  # where dataclasses look for their module
+    sys.modules[module] = loaded  # dataclasses look their module up there
     try:
         spec.loader.exec_module(loaded)
     except FAILURES as error:
@@ -224,16 +224,17 @@ def _load(path: str, name: str) -> ModuleType:
         else:
             sys.modules[module] = before
         raise ConfigurationError(
-            f"strategy {path}:{name}: the file does not run: "
+            f"strategy {path}:{name}: the file fails to run: "
             f"{type(error).__name__}: {error}"
         ) from error
     return loaded
 
 
 def _strategies_in(loaded: ModuleType) -> list[str]:
-    """Names of what may be a strategy of a file's own, not what it imports.
+    """Return the names of possible strategies that a file defines.
 
-    A function may make one; which does is known when it is called.
+    Functions are included: whether one returns a strategy shows only when it
+    is called.
     """
     found = []
     for name, thing in vars(loaded).items():
@@ -249,6 +250,6 @@ def _strategies_in(loaded: ModuleType) -> list[str]:
 
 
 def _brief(thing: Any) -> str:
-    """A thing in one line of moderate length."""
+    """Return the representation of an object in one line of limited length."""
     text = " ".join(repr(thing).split())
     return text if len(text) <= 60 else text[:57] + "..."

@@ -1,4 +1,4 @@
-"""Any two strategies in a room, step by step: the game in steps."""
+"""Step game: two strategies in a room, one footstep per decision."""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -14,14 +14,14 @@ from ..core.constants import CAPTURE_DISTANCE
 from ..core.errors import check_bearing, check_positive, check_within
 from ..core.poses import Array, Pose, wrap_angle
 from ..planning import Direction
-from .decider import TemplatePlayer
+from .decision_maker import TemplatePlayer
 from .knowledge import Intent, Limits
 from .search.packed_obstacles import clearance_at
 from .strategy import Strategy
 
 
 class StepOutcome(StrEnum):
-    """How a game in steps ended."""
+    """Outcome of a step game."""
 
     SURVIVED = "survived"
     CAPTURED = "captured"
@@ -30,23 +30,23 @@ class StepOutcome(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class StepGame:
-    """Rules of the game in steps; times are path times.
+    """Rules of the step game; times are path times.
 
     Attributes:
-        stride: Way of a step, in [m].
+        stride: Length of a step, in [m].
         speed: Speed of the template, in [m/s].
         gain: Steering gain k of both, in [1/s].
-        largest_turn: Of a step, in [rad]; by default that of eq. (2), pi
-            times gain, stride over speed.
+        largest_turn: Largest turn of a step, in [rad]; by default that of eq.
+            (2), pi times gain times stride over speed.
         capture: Capture distance, in [m]: at it or below it the evader is
             captured.
-        body_radius: Least distance of the evader's centre to what stands
-            there, in [m]; nearer it touches it.
-        solid_pursuer: Whether the pursuer stops at what stands there; the
-            trial's walks through it.
-        duration: Of a game, in [s].
-        decisions: How often both decide in a step; more than once, and they
-            are unicycles under feedback.
+        body_radius: Clearance of the evader's centre below which it touches
+            an obstacle, in [m].
+        solid_pursuer: Whether obstacles stop the pursuer; otherwise it walks
+            through them.
+        duration: Duration of a game, in [s].
+        decisions: Decisions per step; with more than one, the players
+            approximate unicycles under feedback.
     """
 
     stride: float = 0.04
@@ -60,7 +60,7 @@ class StepGame:
     decisions: int = 1
 
     def __post_init__(self) -> None:
-        """Refuse what is no game."""
+        """Validate the rules."""
         check_positive(self.stride, "stride", "m")
         check_positive(self.speed, "speed", "m/s")
         check_positive(self.gain, "gain", "1/s")
@@ -91,28 +91,29 @@ class StepGame:
 
     @property
     def limits(self) -> Limits:
-        """What each gait can do."""
+        """Limits of the gait of both players."""
         return Limits(self.speed, self.gain, self.stride, self.period)
 
     @property
     def steps(self) -> int:
-        """Decisions of a game."""
+        """Number of decisions of a game."""
         return max(1, round(self.duration * self.decisions / self.period))
 
 
 class StepTrack(NamedTuple):
-    """A game as it went.
+    """Recorded step game.
 
     Attributes:
-        outcome: How it ended.
+        outcome: Outcome of the game.
         pursuer: Poses (x [m], y [m], theta [rad]), from the start on.
             Shape (n, 3).
         evader: Poses of the evader, likewise.
-        bearings: Of the pursuer, seen by the evader, in [rad]. Shape (n,).
-        clearances: Of the evader's centre, in [m]. Shape (n,).
-        decision: Mean time that the evader took to decide, but for the
-            first time, when code is loaded, in [s].
-        longest_decision: Longest, likewise.
+        bearings: Bearings of the pursuer in the evader's frame, in [rad].
+            Shape (n,).
+        clearances: Clearances of the evader's centre, in [m]. Shape (n,).
+        decision: Mean time of a decision of the evader, without the first
+            one, which loads code, in [s].
+        longest_decision: Longest time of a decision, likewise.
     """
 
     outcome: StepOutcome
@@ -124,7 +125,7 @@ class StepTrack(NamedTuple):
     longest_decision: float
 
     def __repr__(self) -> str:
-        """Fields in one short line."""
+        """Return the fields in one short line."""
         return brief_repr(self)
 
     @property
@@ -136,7 +137,7 @@ class StepTrack(NamedTuple):
 
 
 class _StepPlayer:
-    """One player with its strategy and where it is."""
+    """One player with its strategy and pose."""
 
     def __init__(
         self,
@@ -146,28 +147,28 @@ class _StepPlayer:
         solids: tuple[Obstacle, ...],
     ) -> None:
         self.strategy, self.pose, self.game = strategy, pose, game
-        self._decider = TemplatePlayer(
-            strategy, game.limits, game.period, solids
+        self._player = TemplatePlayer(
+            strategy, game.limits, solids, estimates_velocity=False
         )
 
     def bearing_of(self, other: Pose) -> float:
-        """Direction of the other in the own frame, in [rad]."""
+        """Return the bearing of a pose in the own frame, in [rad]."""
         x, y, theta = self.pose
         return wrap_angle(atan2(other.y - y, other.x - x) - theta)
 
     def decide(self, time: float, other: Pose) -> Intent:
-        """Ask the strategy."""
+        """Evaluate the strategy."""
         x, y, _ = self.pose
         distance = hypot(other.x - x, other.y - y)
         bearing = self.bearing_of(other)
-        return self._decider.decide(time, self.pose, bearing, distance)
+        return self._player.decide(time, self.pose, bearing, distance)
 
     def after(self, intent: Intent) -> Pose:
-        """Pose a step later: the exact arc of the maneuver."""
+        """Return the pose after a decision: the exact arc of the maneuver."""
         if not intent.walks:
             return self.pose
         game = self.game
-        if self.strategy.saturated:  # by the gain as a rate, (6), no farther
+        if self.strategy.saturated:  # rate of (6), up to the bearing
             turn, most = intent.heading, min(game.share, game.turn)
         else:
             turn, most = game.share * intent.heading, game.turn
@@ -197,21 +198,21 @@ def play_steps(
     room: Room = OPEN_FLOOR,
     game: StepGame | None = None,
 ) -> StepTrack:
-    """Let two strategies play in steps; both decide at the same instants.
+    """Play a step game; both players decide at the same instants.
 
     Args:
         pursuer: Strategy of the pursuer.
         evader: Strategy of the evader.
-        starts: Poses of pursuer and evader in the room.
-        room: Where they are; the evader knows all of it, and the pursuer
-            does if it stops at what stands there.
-        game: Rules.
+        starts: Initial poses of pursuer and evader in the room.
+        room: Room; the evader knows all obstacles, and so does a pursuer
+            that they stop.
+        game: Rules of the game.
 
     Raises:
         PlanError: If a value is out of its range.
     """
     game = game or StepGame()
-    # Who walks through walls goes around nothing.
+    # A pursuer that walks through obstacles plans no detours.
     stops = room.solids if game.solid_pursuer else ()
     hunter = _StepPlayer(pursuer, starts[0], game, stops)
     prey = _StepPlayer(evader, starts[1], game, room.solids)

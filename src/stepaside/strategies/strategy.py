@@ -1,4 +1,4 @@
-"""What every strategy is: pure, with its memory as a value."""
+"""Interface of a strategy: a pure function with its memory as a value."""
 
 from typing import Any, Protocol
 
@@ -7,11 +7,11 @@ from .knowledge import Intent, Knowledge
 
 
 class Strategy(Protocol):
-    """A player's way from what it knows to what it wants.
+    """Pure function from knowledge and memory to an intent.
 
-    A strategy never changes. What it has to remember is a value of its own
-    type that it is given and gives back, so that the same knowledge and
-    memory always have the same answer, in whatever body.
+    A strategy has no mutable state. Its memory is a value of its own type
+    that is passed in and returned, so that the same knowledge and memory
+    always give the same decision, on any level of the game.
 
     Attributes:
         direction: Whether the body drives forward (1) or backward (3).
@@ -27,15 +27,15 @@ class Strategy(Protocol):
         """Whether it turns by (6) instead of (8)."""
 
     def begin(self) -> Any:
-        """Memory of a player that has not seen anybody yet."""
+        """Return the memory before the first sighting."""
 
     def decide(self, knowledge: Knowledge, memory: Any) -> tuple[Intent, Any]:
-        """Decide, when standing at every tick and under way at every step.
+        """Decide: at every tick while standing, at every step while walking.
 
         Args:
-            knowledge: What is known now.
-            memory: What the last decision left, or :meth:`begin` gave.
+            knowledge: Knowledge of the player.
+            memory: Memory that the last decision, or :meth:`begin`, returned.
 
         Returns:
-            What the player wants, and what it remembers from now on.
+            Intent and new memory.
         """

@@ -1,4 +1,4 @@
-"""Asking an unknown strategy a few questions before it plays."""
+"""Validation of a strategy by trial decisions."""
 
 from collections.abc import Iterator
 from math import pi
@@ -12,8 +12,8 @@ from .knowledge import Intent, Knowledge, Limits
 LIMITS = Limits(0.1, 0.2, 0.04, 0.547)
 
 
-def questions() -> Iterator[Knowledge]:
-    """What a walker may come to know, from the first sighting on."""
+def trial_knowledge() -> Iterator[Knowledge]:
+    """Yield the knowledge of a walker, from the first sighting on."""
     yield Knowledge(0.0, 0.0, 2.0, LIMITS)
     for i, bearing in enumerate((0.4, -0.4, pi, -pi)):
         time, distance = 0.5 * (i + 1), 1.5 - 0.4 * i
@@ -31,15 +31,16 @@ def questions() -> Iterator[Knowledge]:
 
 
 def try_strategy(candidate: Any, name: str) -> None:
-    """Refuse what does not answer as a strategy does.
+    """Check that an object behaves as a strategy.
 
     Args:
-        candidate: What may be a strategy.
-        name: What it is called, for messages.
+        candidate: Object to check.
+        name: Name of the strategy, for messages.
 
     Raises:
-        ConfigurationError: If it lacks something, fails, answers something
-            else, or answers the same question in two ways.
+        ConfigurationError: If an attribute is missing, a method fails or
+            returns a wrong type, or the same knowledge and memory give
+            different decisions.
     """
 
     def refuse(rule: str, got: object) -> ConfigurationError:
@@ -55,7 +56,7 @@ def try_strategy(candidate: Any, name: str) -> None:
         saturated = getattr(candidate, "saturated", None)
     except FAILURES as error:
         raise refuse(
-            "direction and saturated must be there",
+            "must have direction and saturated",
             f"{type(error).__name__}: {error}",
         ) from error
     if not isinstance(direction, Direction):
@@ -63,34 +64,34 @@ def try_strategy(candidate: Any, name: str) -> None:
     if not isinstance(saturated, bool):
         raise refuse("saturated must be true or false", repr(saturated))
 
-    def asked(knowledge: Knowledge, memory: Any) -> tuple[Intent, Any]:
+    def decide(knowledge: Knowledge, memory: Any) -> tuple[Intent, Any]:
         try:
-            answer = candidate.decide(knowledge, memory)
+            result = candidate.decide(knowledge, memory)
         except FAILURES as error:
             raise refuse(
-                "decide(knowledge, memory) must answer",
+                "decide(knowledge, memory) must return (Intent, memory)",
                 f"{type(error).__name__}: {error}",
             ) from error
         if not (
-            isinstance(answer, tuple)
-            and len(answer) == 2
-            and isinstance(answer[0], Intent)
+            isinstance(result, tuple)
+            and len(result) == 2
+            and isinstance(result[0], Intent)
         ):
-            raise refuse("decide must return (Intent, memory)", repr(answer))
-        return answer
+            raise refuse("decide must return (Intent, memory)", repr(result))
+        return result
 
     try:
         memory = candidate.begin()
     except FAILURES as error:
         raise refuse(
-            "begin() must give a memory", f"{type(error).__name__}: {error}"
+            "begin() must return a memory", f"{type(error).__name__}: {error}"
         ) from error
-    for knowledge in questions():
-        intent, after = asked(knowledge, memory)
-        again, _ = asked(knowledge, memory)
+    for knowledge in trial_knowledge():
+        intent, after = decide(knowledge, memory)
+        again, _ = decide(knowledge, memory)
         if again != intent:
             raise refuse(
-                "the same knowledge and memory must have the same answer",
+                "the same knowledge and memory must give the same intent",
                 f"{intent} and then {again}",
             )
         memory = after

@@ -1,4 +1,4 @@
-"""A pursuer that a hand steers."""
+"""Pursuer under teleoperation."""
 
 from dataclasses import dataclass
 from math import radians
@@ -7,15 +7,16 @@ from ..core.errors import ConfigurationError, check_within
 from ..planning import Direction
 from .knowledge import STAND, Intent, Knowledge
 
-TURN = radians(50.0)  # bearing of a full turn of the hand, in [rad]
+TURN = radians(50.0)  # desired heading at full deflection, in [rad]
 
 
 @dataclass(frozen=True, slots=True)
 class TeleoperatedPursuit:
-    """Heads where a hand points; another hold of the hand is another value.
+    """Pursuer that an operator steers; each command is a new value.
 
     Attributes:
-        turn: From -1, a full turn to the right, to 1, one to the left.
+        turn: Deflection, from -1, fully to the right, to 1, fully to the
+            left.
         going: Whether the robot walks.
         saturated: Whether it turns by (6) instead of (8).
     """
@@ -25,7 +26,7 @@ class TeleoperatedPursuit:
     saturated: bool = False
 
     def __post_init__(self) -> None:
-        """Refuse a turn that no hand can make."""
+        """Validate the deflection."""
         check_within(self.turn, -1.0, 1.0, "turn", "1", ConfigurationError)
 
     @property
@@ -34,10 +35,10 @@ class TeleoperatedPursuit:
         return Direction.FORWARD
 
     def begin(self) -> None:
-        """The hand remembers."""
+        """Return no memory."""
 
     def decide(
         self, knowledge: Knowledge, memory: None
     ) -> tuple[Intent, None]:
-        """Go where the hand points, if it lets the robot go."""
+        """Return the intent of the operator."""
         return Intent(self.turn * TURN) if self.going else STAND, None

@@ -1,4 +1,4 @@
-"""Any two strategies, played by unicycles that decide step by step."""
+"""Unicycle match: two strategies as unicycles that decide periodically."""
 
 from dataclasses import dataclass
 from math import ceil
@@ -10,23 +10,23 @@ from ..core.poses import Array, Pose
 from ..planning.path import UnicycleTrajectory
 from ..theory.unicycle.relative_coordinates import RelativeStart
 from ..theory.unicycle.unicycle_game import Unicycle
-from .decider import TemplatePlayer
+from .decision_maker import TemplatePlayer
 from .knowledge import Intent, Limits
 from .strategy import Strategy
 
-PARTS = 8  # samples of the record between two decisions
+SAMPLES = 8  # recorded between two decisions
 
 
 @dataclass(frozen=True, slots=True)
 class StrategyRun:
-    """A game as it went.
+    """Recorded match of two unicycles.
 
     Attributes:
         times: Times, in [s]. Shape (n,).
         pursuer: Poses (x [m], y [m], theta [rad]). Shape (n, 3).
         evader: Poses of the evader, likewise.
-        captured: Whether the distance fell to the capture distance, with
-            which the game ends.
+        captured: Whether the distance fell to the capture distance, which
+            ends the match.
     """
 
     times: Array
@@ -43,7 +43,7 @@ class StrategyRun:
 
     @property
     def closest_distance(self) -> float:
-        """Least distance, in [m], of the times recorded."""
+        """Least recorded distance, in [m]."""
         return float(self.distances.min())
 
 
@@ -55,16 +55,14 @@ class _UnicyclePlayer:
     ) -> None:
         self.strategy, self.body, self.pose = strategy, body, pose
         limits = Limits(body.speed, body.gain, body.speed * period, period)
-        self._decider = TemplatePlayer(
-            strategy, limits, period, sees_velocity=True
-        )
+        self._player = TemplatePlayer(strategy, limits)
 
     def decide(self, time: float, bearing: float, distance: float) -> Intent:
-        """Ask the strategy."""
-        return self._decider.decide(time, self.pose, bearing, distance)
+        """Evaluate the strategy."""
+        return self._player.decide(time, self.pose, bearing, distance)
 
     def drive(self, intent: Intent, times: Array) -> Array:
-        """Drive as was decided; poses at times since then. Shape (n, 3)."""
+        """Drive along a decision; poses at times since then. Shape (n, 3)."""
         if not intent.walks:
             return np.tile(self.pose, (len(times), 1))
         path = UnicycleTrajectory(
@@ -90,27 +88,26 @@ def play_strategies(
     duration: float,
     capture_distance: float = 1e-6,
 ) -> StrategyRun:
-    r"""Let two unicycles play, each by a strategy.
+    r"""Play a match of two unicycles, each with a strategy.
 
-    Both decide at the same instants, and drive on the trajectory (9)-(14)
-    of the maneuver that they chose until the next: with
-    :math:`\Delta / \bar{v}` as the period, as walkers do, step by step; with
-    a short one as unicycles under feedback. Time is path time. Who stands
-    starts at the next instant.
+    Both decide at the same instants and follow the trajectory (9)-(14) of
+    the chosen maneuver until the next decision: with
+    :math:`\Delta / \bar{v}` as the period, step by step, as walkers do; with
+    a short period as unicycles under feedback. Time is path time. A standing
+    player starts at the next decision.
 
     Args:
         pursuer: Strategy of the pursuer, which starts at the origin.
         evader: Strategy of the evader.
-        start: Where they stand to each other.
-        bodies: Speed and gain of pursuer and evader.
+        start: Initial relative coordinates.
+        bodies: Speeds and gains of pursuer and evader.
         period: Time between two decisions, in [s].
-        duration: Time after which the game ends, in [s]; rounded up to
-            whole periods.
-        capture_distance: Distance at which the game ends, in [m].
+        duration: Time limit, in [s]; rounded up to whole periods.
+        capture_distance: Distance at which the match ends, in [m].
 
     Raises:
-        PlanError: If a value is out of its range, or a strategy asks for
-            what no unicycle can do.
+        PlanError: If a value is out of its range, or a strategy requests an
+            invalid motion.
     """
     for body in bodies:
         check_positive(body.speed, "speed", "m/s")
@@ -123,7 +120,7 @@ def play_strategies(
         _UnicyclePlayer(pursuer, bodies[0], origin, period),
         _UnicyclePlayer(evader, bodies[1], start.evader_pose(origin), period),
     )
-    parts = period * np.arange(1, PARTS + 1) / PARTS
+    parts = period * np.arange(1, SAMPLES + 1) / SAMPLES
     tracks = [[np.array([player.pose])] for player in players]
     times = [np.zeros(1)]
     captured = start.distance <= capture_distance
@@ -141,11 +138,11 @@ def play_strategies(
             for player, intent in zip(players, intents, strict=True)
         ]
         apart = np.hypot(*(ways[1] - ways[0])[:, :2].T)
-        caught = np.flatnonzero(apart <= capture_distance)
-        captured = caught.size > 0
-        kept = int(caught[0]) + 1 if captured else PARTS
-        times.append(step * period + parts[:kept])
+        captures = np.flatnonzero(apart <= capture_distance)
+        captured = captures.size > 0
+        count = int(captures[0]) + 1 if captured else SAMPLES
+        times.append(step * period + parts[:count])
         for track, way in zip(tracks, ways, strict=True):
-            track.append(way[:kept])
+            track.append(way[:count])
     driven, evaded = (np.concatenate(track) for track in tracks)
     return StrategyRun(np.concatenate(times), driven, evaded, captured)

@@ -1,1 +1,1 @@
-"""Keeping clear of what stands around, whatever a strategy wants."""
+"""Obstacle clearance, independent of the strategy."""

@@ -1,18 +1,20 @@
-r"""Footsteps on the free side of what stands nearby.
+r"""Adjustment of footsteps to half planes that keep clear of obstacles.
 
-A second method beside looking ahead, as in the sequel of the paper (De
+An alternative to predictive search, following the sequel of the paper (De
 Simone et al., IROS 2017): orientations are chosen first, and then footsteps
-:math:`p_i` as near to the planned ones :math:`p_i^*` as half planes allow,
+:math:`p_i` as close to the planned ones :math:`p_i^*` as the half planes
+allow,
 
 .. math:: \min_p \sum_i \lVert (p_i - p_{i-1}) - (p_i^* - p_{i-1}^*) \rVert^2,
    \qquad n_{ij} \cdot m_i \ge n_{ij} \cdot q_{ij} + r, \qquad
    R_{i-1}^T (p_i - p_{i-1}) \in K,
 
-one for each footstep i and obstacle j that it might reach. :math:`m_i` lies
-half a foot spacing beside :math:`p_i`, midway between the feet;
-:math:`q_{ij}` is the point of the obstacle next to where the plan has that,
-:math:`n_{ij}` points from it to there, r is what the body needs, or has now
-if that is less, and K is what a leg can reach.
+with one half plane for each footstep i and each obstacle j within range.
+:math:`m_i` lies half a foot spacing beside :math:`p_i`, midway between the
+feet; :math:`q_{ij}` is the obstacle point closest to the planned
+:math:`m_i`, and :math:`n_{ij}` points from it to that planned :math:`m_i`.
+r is the clearance that the body requires, or its present clearance if that
+is smaller, and K is the reachable region of a leg.
 """
 
 import numpy as np
@@ -23,15 +25,15 @@ from ...locomotion.zmp.control_settings import StabiliserSettings
 from ...locomotion.zmp.qp_solver import load_solver
 from ...planning import GaitSettings, ManeuverPlan, ManeuverPlanner
 
-SOLVED = 1  # what the solver answers if there are such footsteps
-NEGLIGIBLE = 1e-9  # lack of clearance that moves no foot, in [m]
+SOLVED = 1  # smallest exit flag of the solver for a solution
+NEGLIGIBLE = 1e-9  # violation that is tolerated, in [m]
 
 
 class Footholds:
-    """Moves the footsteps of plans out of what they may not reach.
+    """Moves the footsteps of plans away from obstacles.
 
     Attributes:
-        radius: What the body needs around the point midway between its
+        radius: Clearance that the body requires around the midpoint of its
             feet, in [m].
     """
 
@@ -41,33 +43,33 @@ class Footholds:
         reach: StabiliserSettings,
         radius: float,
     ) -> None:
-        """Prepare for one gait.
+        """Prepare the adjustment for one gait.
 
         Args:
-            planner: Of the gait.
-            reach: How near to the other foot, and how far out, feet land.
-            radius: What the body needs, in [m].
+            planner: Maneuver planner of the gait.
+            reach: Limits on the landing of a foot beside the other foot.
+            radius: Clearance that the body requires, in [m].
         """
         self._planner, self._reach = planner, reach
         self._solver = load_solver()
         self.radius = radius
 
-    def kept(
+    def adjust(
         self, plan: ManeuverPlan, frame: Pose, solids: ObstacleSet
     ) -> ManeuverPlan:
-        """The plan with footsteps that keep clear, as far as there are any.
+        """Return the plan with footsteps that keep clear, if they exist.
 
         Args:
-            plan: A plan.
-            frame: Pose of its frame.
-            solids: What stands around, in the frame in which that is.
+            plan: Plan whose footsteps are adjusted.
+            frame: Pose of the plan frame in the frame of ``solids``.
+            solids: Obstacles.
 
         Returns:
-            The plan itself where nothing is in its way, and where no
-            footsteps within reach keep clear: whoever walks it has to look.
+            The plan itself if its footsteps keep clear already, and also if
+            no reachable footsteps do: the guard checks the result.
         """
         steps = plan.placements[2:]
-        rows, least = self._planes(plan, frame, solids)
+        rows, least = self._half_planes(plan, frame, solids)
         if (
             not len(least)
             or (rows @ steps[:, :2].ravel() >= least - NEGLIGIBLE).all()
@@ -91,15 +93,15 @@ class Footholds:
         placements[2:, :2] = found.reshape(count, 2)
         return self._planner.placed(plan, placements)
 
-    def _planes(
+    def _half_planes(
         self, plan: ManeuverPlan, frame: Pose, solids: ObstacleSet
     ) -> tuple[Array, Array]:
-        """Half planes, as rows on all footsteps and what they are at least.
+        """Return the half planes as rows and lower bounds on all footsteps.
 
         Returns:
             Shapes (m, 2 count), (m,).
         """
-        beside = _beside(plan)
+        beside = _offsets_to_middle(plan)
         here = 0.5 * (plan.placements[0, :2] + plan.placements[1, :2])
         middles = plan.placements[2:, :2] + beside
         places = frame.transform_points(np.vstack([here, middles]))
@@ -126,10 +128,10 @@ class Footholds:
         return np.array(rows).reshape(-1, 2 * count), np.array(least)
 
     def _within_reach(self, plan: ManeuverPlan) -> tuple[Array, Array, Array]:
-        """What legs reach from one foot to the next.
+        """Return the limits on the displacement from one foot to the next.
 
         Returns:
-            Rows on all footsteps, and what they are at least and at most.
+            Rows on all footsteps, with lower and upper bounds.
             Shapes (2 count, 2 count), (2 count,), (2 count,).
         """
         gait, own = plan.gait, self._reach
@@ -141,7 +143,10 @@ class Footholds:
         out = np.stack([-s * side, c * side], axis=-1)
         rows = np.zeros((2 * count, count, 2))
         low, high = np.zeros(2 * count), np.zeros(2 * count)
-        near, far = _nearest(gait, own), gait.foot_spacing + own.reach_outward
+        near, far = (
+            _least_distance(gait, own),
+            gait.foot_spacing + own.reach_outward,
+        )
         for i in range(count):
             for n, (axis, least, most) in enumerate(
                 ((ahead, -gait.stride, gait.stride), (out, near, far))
@@ -156,13 +161,13 @@ class Footholds:
         return rows.reshape(2 * count, 2 * count), low, high
 
 
-def _nearest(gait: GaitSettings, own: StabiliserSettings) -> float:
-    """Least coronal distance of a landing from the other foot, in [m]."""
+def _least_distance(gait: GaitSettings, own: StabiliserSettings) -> float:
+    """Return the least coronal distance between the feet, in [m]."""
     return 2.0 * gait.sole.inner + own.gap
 
 
-def _beside(plan: ManeuverPlan) -> Array:
-    """From each footstep to midway between the feet, in [m]. (count, 2)."""
+def _offsets_to_middle(plan: ManeuverPlan) -> Array:
+    """Return offsets from footsteps to mid-feet, in [m]. Shape (count, 2)."""
     theta = plan.placements[2:, 2]
     side = plan.first_foot.value * (-1.0) ** np.arange(len(theta))
     half = 0.5 * plan.gait.foot_spacing * side

@@ -1,14 +1,15 @@
-"""Only maneuvers after which a robot can still stop clear of everything.
+"""Guard that admits only maneuvers after which the robot can stop clear.
 
-Standing is safe against what rests. So a maneuver is walked only if its first
-step *and* the halt after it keep clear of all that is known. Else the robot
-halts, which was found to be clear when the step before was accepted: by
-induction a robot that starts clear touches nothing that rests, whatever its
-strategy wants.
+A standing robot cannot hit a static obstacle. So a maneuver is executed only
+if its first step *and* the halt after it keep clear of all known obstacles.
+Otherwise the robot halts; that halt was checked when the previous step was
+accepted. By induction, a robot that starts clear never touches a static
+obstacle, whatever its strategy requests.
 
-A map that was seen may be off by a cell. Who stands by it where no step keeps
-clear, since every step sways, would stand there for ever: once neither foot
-has another way, it takes the one out that comes least near, by a cell at most.
+A map built from observations may be off by one cell. A robot that stands
+within the margin of such a map would be stuck, since every step sways: if
+no maneuver with either foot is accepted, it executes the one that leads out
+of the margin with the least approach, at most one cell.
 """
 
 from collections.abc import Callable, Iterator
@@ -26,26 +27,26 @@ from .footholds import Footholds
 from .surroundings import Surroundings
 from .swept_outline import BodyOutline
 
-SLOWER = (1.0, 0.5, 0.05)  # shares of the wanted speed; the last but turns
-SHARP = 2.0  # heading of a step back where no other is clear, in [rad]
-NEARER = 1e-6  # than this no robot comes that is too near already, in [m]
-GAINED = 0.004  # by a way out that comes nearer meanwhile, in [m]
+SPEED_SCALES = (1.0, 0.5, 0.05)  # tried in turn; the last only turns
+SHARP = 2.0  # heading of a step back if no other is clear, in [rad]
+NEARER = 1e-6  # approach tolerated inside the margin, in [m]
+GAINED = 0.004  # clearance that an escape gains at least, in [m]
 
 
 class GuardDecision(NamedTuple):
-    """What a robot may do instead of what is wanted.
+    """Intent that the guard accepts in place of the requested one.
 
     Attributes:
         intent: Heading and speed.
-        back: Whether it drives the other way: forward where its strategy
-            drives backward.
+        back: Whether the driving direction is reversed: forward if the
+            strategy drives backward.
     """
 
     intent: Intent
     back: bool = False
 
 
-WAYS_OUT = tuple(
+ESCAPES = tuple(
     GuardDecision(Intent(heading), back)
     for heading in (pi, -pi)
     for back in (False, True)
@@ -54,39 +55,40 @@ PlanFor = Callable[[GuardDecision], ManeuverPlan]
 
 
 class ManeuverClearance(NamedTuple):
-    """How clear a maneuver is.
+    """Clearance of the body over the first step of a maneuver and its halt.
 
     Attributes:
-        now: Distance of the body from everything as it stands, in [m].
-        least: Least distance during the first step and the halt, in [m].
-        last: Distance of the body after the halt, in [m].
+        now: Clearance at the start, in [m].
+        least: Least clearance during the first step and the halt, in [m].
+        last: Clearance after the halt, in [m].
     """
 
     now: float
     least: float
     last: float
 
-    def leaves(
-        self, margin: float, blur: float, gained: float = NEARER
+    def escapes(
+        self, margin: float, map_error: float, gained: float = NEARER
     ) -> bool:
-        """Whether it leads out of a place that is too narrow.
+        """Return whether the maneuver leads out of the margin.
 
         Args:
-            margin: Distance from which a place is not too narrow, in [m].
-            blur: How much nearer it may come on the way, in [m].
-            gained: By how much it ends farther, or at the margin, in [m].
+            margin: Required clearance, in [m].
+            map_error: Tolerated loss of clearance on the way, in [m].
+            gained: Clearance that is gained at least, unless the maneuver
+                ends outside the margin, in [m].
         """
         farther = self.last > min(self.now + gained, margin)
-        near = self.least >= self.now - blur - NEARER
+        near = self.least >= self.now - map_error - NEARER
         return self.now < margin and farther and near
 
 
 class Guard:
-    """Keeps a robot clear of what it knows of.
+    """Filter of intents that keeps a robot clear of known obstacles.
 
     Attributes:
-        surroundings: What it knows of.
-        margin: Distance that it keeps, in [m].
+        surroundings: Known obstacles.
+        margin: Required clearance, in [m].
     """
 
     def __init__(
@@ -98,15 +100,15 @@ class Guard:
         margin: float,
         footholds: Footholds | None = None,
     ) -> None:
-        """Guard one robot.
+        """Prepare the guard of one robot.
 
         Args:
-            surroundings: What it knows of.
-            outline: Of its body.
-            planner: Of its gait, for the halts.
-            margin: Distance that it keeps, in [m].
-            footholds: What moves footsteps out of what stands around, with
-                the MPC; nothing by default.
+            surroundings: Known obstacles.
+            outline: Outline of the body.
+            planner: Maneuver planner of the gait, for the halts.
+            margin: Required clearance, in [m].
+            footholds: Adjustment of footsteps, used with the MPC; none by
+                default.
         """
         self._footholds = footholds
         self.surroundings, self.margin = surroundings, margin
@@ -120,80 +122,83 @@ class Guard:
         *,
         standing: bool,
     ) -> GuardDecision | None:
-        """What comes nearest to what is wanted and keeps clear.
+        """Return the accepted decision that is closest to an intent.
 
         Args:
-            intent: What is wanted.
-            plan_for: Plans from a choice.
-            support: Frame of the plans in odometry.
-            standing: Whether the robot stands; then it may also leave a
-                place that is too near to something.
+            intent: Requested intent.
+            plan_for: Function that plans a decision.
+            support: Pose of the support foot, the plan frame, in odometry.
+            standing: Whether the robot stands; it may then also leave a
+                position within the margin.
 
         Returns:
-            The first choice that keeps clear: as wanted, then slower and
-            slower, down to a turn on the spot, then a turn the other way,
-            and from standing a step back, sharply if need be; None if the
-            robot had better stand.
+            The first decision that keeps clear: the intent itself, then lower
+            speeds down to a turn on the spot, then a turn to the other side,
+            and from standing a step in the reversed direction; None if the
+            robot has to stand.
         """
         for choice in _choices(intent, standing=standing):
             if self.accepts(plan_for(choice), support, standing=standing):
                 return choice
         return None
 
-    def way_out(
+    def choose_escape(
         self, intent: Intent, plan_for: PlanFor, support: Pose
     ) -> GuardDecision | None:
-        """How who stands gets out of a place that a map calls too narrow.
+        """Return the decision that leads a standing robot out of the margin.
 
         Args:
-            intent: What is wanted.
-            plan_for: Plans from a choice.
-            support: Frame of the plans in odometry.
+            intent: Requested intent.
+            plan_for: Function that plans a decision.
+            support: Pose of the support foot, the plan frame, in odometry.
 
         Returns:
-            The way out that comes least near to anything, nearer than now by
-            no more than the map may be off; None if there is none.
+            The decision with the largest least clearance, which may fall below
+            the present one by no more than the error of the map; None if there
+            is none.
         """
-        blur = self.surroundings.blur
+        map_error = self.surroundings.map_error
         out = []
-        for choice in (*_choices(intent, standing=True), *WAYS_OUT):
-            passage = self.passage(plan_for(choice), support)
-            if passage.leaves(self.margin, blur, GAINED):
-                out.append((passage.least, choice))
+        for choice in (*_choices(intent, standing=True), *ESCAPES):
+            clearance = self.evaluate(plan_for(choice), support)
+            if clearance.escapes(self.margin, map_error, GAINED):
+                out.append((clearance.least, choice))
         return max(out, key=itemgetter(0))[1] if out else None
 
-    def fit(self, plan: ManeuverPlan, support: Pose) -> ManeuverPlan:
-        """A plan with footsteps that keep clear, if those are to be moved.
+    def adjust_footsteps(
+        self, plan: ManeuverPlan, support: Pose
+    ) -> ManeuverPlan:
+        """Return a plan with adjusted footsteps, if adjustment is enabled.
 
         Args:
             plan: The plan.
-            support: Its frame in odometry.
+            support: Pose of its frame in odometry.
         """
         if self._footholds is None:
             return plan
         frame = self.surroundings.frame.compose(support)
-        return self._footholds.kept(plan, frame, self.surroundings.solids)
+        return self._footholds.adjust(plan, frame, self.surroundings.solids)
 
     def accepts(
         self, plan: ManeuverPlan, support: Pose, *, standing: bool
     ) -> bool:
-        """Whether a maneuver may be walked.
+        """Return whether a maneuver may be executed.
 
         Args:
             plan: The maneuver.
-            support: Its frame in odometry.
-            standing: Whether the robot stands; if it is nearer to something
-                than the margin, it may then move away.
+            support: Pose of its frame in odometry.
+            standing: Whether the robot stands; inside the margin it may then
+                move out of it.
         """
         if not self.surroundings.solids.shapes:
             return True
-        passage = self.passage(plan, support)
-        if passage.least >= self.margin:
+        clearance = self.evaluate(plan, support)
+        if clearance.least >= self.margin:
             return True
-        return standing and passage.leaves(self.margin, 0.0)
+        return standing and clearance.escapes(self.margin, 0.0)
 
-    def passage(self, plan: ManeuverPlan, support: Pose) -> ManeuverClearance:
-        """How clear the first step of a plan and the halt after it are."""
+    def evaluate(self, plan: ManeuverPlan, support: Pose) -> ManeuverClearance:
+        """Return the clearance of the first step of a plan and its halt."""
         frame = self.surroundings.frame.compose(support)
         landed = Pose(*plan.placements[2].tolist())
         halt = self.halt_after(plan)
@@ -209,7 +214,7 @@ class Guard:
         return ManeuverClearance(now, float(clear.min()), last)
 
     def halt_after(self, plan: ManeuverPlan) -> ManeuverPlan:
-        """Halt with which the robot can end the first step of a plan.
+        """Plan the halt after the first step of a plan.
 
         Its frame is that of the foot that lands.
         """
@@ -222,13 +227,13 @@ class Guard:
 
 
 def _choices(intent: Intent, *, standing: bool) -> Iterator[GuardDecision]:
-    """What comes nearest to an intent, the nearest first."""
-    for share in SLOWER:
+    """Yield decisions by their difference from an intent, the least first."""
+    for share in SPEED_SCALES:
         yield GuardDecision(
             Intent(intent.heading, share * intent.speed_factor)
         )
     yield GuardDecision(
-        Intent(-intent.heading, SLOWER[-1] * intent.speed_factor)
+        Intent(-intent.heading, SPEED_SCALES[-1] * intent.speed_factor)
     )
     if standing:
         for heading in (intent.heading, -intent.heading, SHARP, -SHARP):

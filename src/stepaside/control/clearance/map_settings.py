@@ -1,4 +1,4 @@
-"""Settings of what robots know of a room, and how clear they keep."""
+"""Settings of a robot's map of the room, and of its clearance."""
 
 from dataclasses import dataclass
 from typing import ClassVar
@@ -13,14 +13,14 @@ UNSEEN = ("free", "taken")
 
 @dataclass(frozen=True, slots=True)
 class MapSettings:
-    """What robots know of the room around them.
+    """Map of the room that robots use.
 
     Attributes:
-        source: "given" for the room as it is, "seen" for what their depth
-            cameras have seen of it, "none" for nothing.
-        margin: Distance that a body keeps from all that it knows of, in [m]; 0
-            to 1.
-        unseen: Whether floor that nobody has seen is "free" or "taken".
+        source: "given" for the true room, "seen" for a map from the own depth
+            camera, "none" for no map.
+        margin: Clearance that a body keeps from known obstacles, in [m]; 0 to
+            1.
+        unseen: Whether unknown floor counts as "free" or "taken".
     """
 
     source: str = "given"
@@ -28,11 +28,11 @@ class MapSettings:
     unseen: str = "taken"
 
     ranges: ClassVar[Ranges] = {
-        "margin": Range(0.0, 1.0, "m", "with more, no room has a place")
+        "margin": Range(0.0, 1.0, "m", "a larger margin leaves no free floor")
     }
 
     def __post_init__(self) -> None:
-        """Refuse other maps, and margins that no room allows."""
+        """Validate the settings."""
         for name, known in (("source", MAPS), ("unseen", UNSEEN)):
             value = getattr(self, name)
             if value not in known:

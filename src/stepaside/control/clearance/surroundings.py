@@ -1,4 +1,4 @@
-"""What a robot knows of what stands around it."""
+"""Obstacles known to a robot: none, a given room, or a map."""
 
 from typing import Protocol
 
@@ -9,118 +9,118 @@ from ...perception.measurement import Measurement
 from ...robots.body_reference import BodyReference
 
 HERE = Pose(0.0, 0.0, 0.0)
-AHEAD = 2.0  # for which a map tells where things move: two steps, in [s]
-REFRESHED = 0.25  # how often what may have changed is read again, in [s]
+AHEAD = 2.0  # horizon for moving obstacles: two steps, in [s]
+REFRESH_PERIOD = 0.25  # of obstacles that may change, in [s]
 
 
 class Surroundings(Protocol):
-    """What a robot knows of what stands around it.
+    """Obstacles known to a robot.
 
     Attributes:
-        solids: All that it knows of.
-        frame: Pose of the own odometry in the frame in which they are.
-        blur: How far off that may be, in [m].
+        solids: Known obstacles.
+        frame: Pose of the own odometry in the frame of the obstacles.
+        map_error: Largest position error of the obstacles, in [m].
     """
 
-    blur: float
+    map_error: float
 
     @property
     def solids(self) -> ObstacleSet:
-        """All that it knows of."""
+        """Known obstacles."""
 
     @property
     def frame(self) -> Pose:
-        """Pose of the own odometry in the frame in which they are."""
+        """Pose of the own odometry in the frame of the obstacles."""
 
     def note(self, measurement: Measurement, body: BodyReference) -> None:
-        """Learn from what the sensors give at a tick.
+        """Update from the measurement of one tick.
 
         Args:
-            measurement: What the sensors give.
-            body: What was asked of the body for this tick, in odometry.
+            measurement: Measurement of the tick.
+            body: Body reference of the tick, in odometry.
         """
 
 
 class OpenFloor:
-    """Nothing stands around, as far as anybody knows."""
+    """No known obstacles."""
 
     solids = NO_OBSTACLES
     frame = HERE
-    blur = 0.0
+    map_error = 0.0
 
     def note(self, measurement: Measurement, body: BodyReference) -> None:
-        """Learn nothing."""
+        """Ignore the measurement."""
 
 
 class KnownRoom:
-    """A room that is known, and a sensor that tells the place in it.
+    """A given room, with a sensor for the pose in it.
 
-    Odometry that only counts steps drifts: the place that the sensor tells
-    keeps the frame of odometry where it is in the room. The map also tells
-    where boxes are that somebody pushes about, and where they soon will be.
+    Odometry that only counts steps drifts; the measured pose aligns the
+    odometry frame with the room. The room also gives the motion of pushed
+    boxes, now and predicted.
 
     Attributes:
-        solids: All that stands in the room, and the floor that what moves
-            covers until a halt begun with the next step is over.
+        solids: Obstacles of the room, and the floor that moving obstacles
+            cover until a halt begun with the next step has ended.
         frame: Pose of the own odometry in the room.
-        blur: 0, it is exact.
+        map_error: 0: a given room is exact.
     """
 
-    blur = 0.0
+    map_error = 0.0
 
     def __init__(self, room: Room, start: Pose) -> None:
-        """Know a room.
+        """Begin with the room at time zero.
 
         Args:
             room: The room.
-            start: Pose of the own odometry in it at first.
+            start: Initial pose of the own odometry in the room.
         """
         self._room, self._next = room, 0.0
         self.solids = obstacle_set(room.solids_at(0.0, AHEAD))
         self.frame = start
 
     def note(self, measurement: Measurement, body: BodyReference) -> None:
-        """Take the place that is measured for the one that was planned."""
+        """Align odometry with the measured pose; update moving obstacles."""
         if measurement.place is not None:
             x, y, _ = body.com
             planned = Pose(x, y, body.heading)
             self.frame = measurement.place.compose(planned.inverse())
         now = measurement.time
         if self._room.moving and now >= self._next - 1e-9:
-            self._next = now + REFRESHED
+            self._next = now + REFRESH_PERIOD
             self.solids = obstacle_set(self._room.solids_at(now, AHEAD))
 
 
 class MappedRoom:
-    """A room as far as the own depth camera has seen it, in odometry.
+    """Map from the own depth camera, in odometry.
 
     Attributes:
-        solids: All that was seen to stand there, and, if unseen floor
-            counts as taken, that as well.
+        solids: Occupied cells and, if unknown floor counts as occupied,
+            unknown cells.
         frame: Odometry itself.
-        blur: A cell of the map.
+        map_error: Size of a cell of the map, in [m].
     """
 
     frame = HERE
-    blur = CELL
+    map_error = CELL
 
     def __init__(self, floor: FloorMap, *, unseen_is_free: bool) -> None:
-        """Know nothing yet.
+        """Begin without obstacles.
 
         Args:
-            floor: Map that grows.
-            unseen_is_free: Whether unseen floor counts as free.
+            floor: Map that perception updates.
+            unseen_is_free: Whether unknown floor counts as free.
         """
         self._floor, self._unseen_is_free = floor, unseen_is_free
         self.solids = NO_OBSTACLES
         self._read, self._next = 0, 0.0
 
     def note(self, measurement: Measurement, body: BodyReference) -> None:
-        """Read the map again, a few times in each step."""
+        """Read the map again if it has changed, a few times in each step."""
         now, version = measurement.time, self._floor.version
         if now < self._next - 1e-9 or version == self._read:
             return
-        self._read, self._next = version, now + REFRESHED
+        self._read, self._next = version, now + REFRESH_PERIOD
         known = self._floor.taken()
         if not self._unseen_is_free:
             known += self._floor.unseen(body.com[:2])

@@ -1,4 +1,4 @@
-"""What a walking body covers of the floor."""
+"""Floor area that a walking body sweeps."""
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -17,19 +17,21 @@ from ...planning import (
 )
 from ...planning.schedule import Sampler, Schedule
 
-SAMPLES = 8  # of a motion; between two of them it is as good as straight
-SETTLING = 1.0  # after which the CoM of a body that halted rests, in [s]
+SAMPLES = 8  # of a motion; it is nearly straight between two of them
+SETTLING = 1.0  # time until the CoM is at rest after a halt, in [s]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class BodyOutline:
-    """A body seen from above, as corners of what holds its parts.
+    """Top view of a body as convex outlines of its parts.
 
     Attributes:
-        trunk: All but the feet in the posture of walking, about the CoM, in
-            the axes of the heading midway between the feet. Shape (n, 2).
-        left_sole: Left foot, in its foot frame. Shape (m, 2).
-        right_sole: Right foot, likewise. Shape (k, 2).
+        trunk: Corners of all but the feet in the walking posture, relative
+            to the CoM, in the axes of the mean heading of the feet, in [m].
+            Shape (n, 2).
+        left_sole: Corners of the left foot in its foot frame, in [m]. Shape
+            (m, 2).
+        right_sole: Corners of the right foot, likewise. Shape (k, 2).
     """
 
     trunk: Array
@@ -37,7 +39,7 @@ class BodyOutline:
     right_sole: Array
 
     def __post_init__(self) -> None:
-        """Refuse what are no corners."""
+        """Validate the corners."""
         for name in ("trunk", "left_sole", "right_sole"):
             points = np.array(getattr(self, name), dtype=np.float64)
             if points.ndim != 2 or points.shape[1] != 2 or len(points) < 3:
@@ -54,16 +56,15 @@ class BodyOutline:
         return float(np.hypot(self.trunk[:, 0], self.trunk[:, 1]).max())
 
     def along(self, plan: ManeuverPlan, frame: Pose, part: "Part") -> Array:
-        """Corners of the body while it walks a part of a plan.
+        """Return the corners of the body over a part of a plan.
 
         Args:
             plan: The plan.
-            frame: Pose of the frame of the plan.
+            frame: Pose of the plan frame in the frame of the result.
             part: "step" for its first step, "all" for all of it.
 
         Returns:
-            Corners in the frame in which ``frame`` is given, at instants
-            from the first to the last, in [m]. Shape (instants, n + m + k,
+            Corners at successive instants, in [m]. Shape (instants, n + m + k,
             2).
         """
         samples = plan.sample(_sampler(plan.schedule, part))
@@ -82,7 +83,7 @@ class BodyOutline:
 
 
 def sway_of(gait: GaitSettings) -> float:
-    """How far the CoM sways aside of a straight way at most, in [m]."""
+    """Return the lateral sway amplitude on a straight path, in [m]."""
     plan = ManeuverPlanner(gait).plan(
         0.0, Direction.FORWARD, first_foot=Foot.LEFT, standing=True
     )
@@ -96,7 +97,7 @@ Part = Literal["step", "all"]
 
 @lru_cache(maxsize=64)
 def _sampler(schedule: Schedule, part: Part) -> Sampler:
-    """Sampler of a schedule, of which there are a few for each gait."""
+    """Return the sampler of a schedule; a gait has a few schedules."""
     if part == "step":
         last = schedule.first_step_duration
         return schedule.sampler(np.linspace(0.0, last, SAMPLES + 1))
@@ -104,10 +105,10 @@ def _sampler(schedule: Schedule, part: Part) -> Sampler:
     return schedule.sampler(np.append(times, times[-1] + SETTLING))
 
 
-def _placed(corners: Array, places: Array, headings: Array) -> Array:
-    """Corners of a part at some poses. Shape (instants, corners, 2)."""
+def _placed(corners: Array, positions: Array, headings: Array) -> Array:
+    """Return a part's corners at poses. Shape (instants, corners, 2)."""
     c, s = np.cos(headings), np.sin(headings)
     turns = np.array([[c, s], [-s, c]])  # (2, 2, instants)
     turned = np.einsum("ij,jkt->tik", corners, turns)
-    placed: Array = turned + places[:, None, :]
+    placed: Array = turned + positions[:, None, :]
     return placed

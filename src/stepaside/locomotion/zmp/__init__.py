@@ -1,1 +1,1 @@
-"""Feedback that keeps a walking robot up."""
+"""Balance control of ZMP-based walking."""

@@ -1,4 +1,4 @@
-"""How a robot controls its walk."""
+"""Settings of walking control."""
 
 from dataclasses import dataclass, field
 from typing import ClassVar, Literal, get_args
@@ -10,46 +10,45 @@ Method = Literal["closed-form", "measured", "mpc"]
 METHODS: tuple[str, ...] = get_args(Method)
 Tail = Literal["anticipative", "periodic", "truncated"]
 TAILS: tuple[str, ...] = get_args(Tail)
-SIZE = "some hundred feet long"
-TICKS = "faster than a tick is at once"
+SIZE = "about a hundred foot lengths"
+TICKS = "a faster rate acts within one tick"
 
 
 @dataclass(frozen=True, slots=True)
 class StabiliserSettings:
-    """Gains and limits of the feedback.
+    """Gains and limits of the stabiliser.
 
-    They were found by trying pushes of both bodies; see ``docs/walking.md``.
+    They were tuned with pushes on both bodies; see ``docs/walking.md``.
 
     Attributes:
-        dead_zone: Error of the DCM that is left to the stiff joints, in [m]; 0
-            to 10.
-        yielding: Rate at which the reference gives way to an error beyond it,
-            in [1/s]; 0 to 1000.
+        dead_zone: DCM error that is left to the stiff joints, in [m]; 0 to 10.
+        yielding: Rate at which the reference follows an error beyond the dead
+            zone, in [1/s]; 0 to 1000.
         feedback: ZMP shift per DCM shift; above 1 brings the shift back; above
             1 to 100.
-        ankle: Tilt of the standing foot per tilt of the torso; 0 to 10.
-        ankle_rate: Likewise per rate of tilt, in [s]; 0 to 10.
-        ankle_bandwidth: Of the filter of that tilt, in [1/s]; 0 to 10000.
-        edge: Distance that the ZMP keeps from the edge of the sole, in [m]; 0
-            to 10.
+        ankle: Tilt of the stance foot per tilt of the torso; 0 to 10.
+        ankle_rate: Likewise per tilt rate, in [s]; 0 to 10.
+        ankle_bandwidth: Bandwidth of the filter of that tilt, in [1/s]; 0 to
+            10000.
+        edge: Distance of the ZMP from the edge of the sole, in [m]; 0 to 10.
         reach_forward: Farthest footstep ahead of the support foot, in [m]; 0
             to 10.
         reach_backward: Farthest footstep behind it, in [m]; 0 to 10.
-        reach_outward: How much farther than the foot spacing a footstep may be
-            to the side, in [m]; 0 to 10.
-        gap: Least distance between soles that stand abreast, in [m]; 0 to 10.
+        reach_outward: Largest lateral distance of a footstep beyond the foot
+            spacing, in [m]; 0 to 10.
+        gap: Least distance between soles abreast, in [m]; 0 to 10.
         step_speed: Greatest speed at which an adapted footstep moves, [m/s]; 0
             to 100.
-        freeze: Part of the swing after which the footstep stays; 0 to 1.
-        stride_gain: Share of a footstep's shortfall that is learned; 0 to 1.
-        stride_bound: Most of it that is learned, in [m]; 0 to 10.
-        joint_gain: Of the integral of what the joints miss, in [1/s]; 0 to
-            1000.
-        joint_bound: Greatest correction of a joint, in [rad]; 0 to 3.2.
-        joint_leak: Rate at which it is forgotten, in [1/s]; 0 to 1000.
-        load_share: Share of what the servos give way under the load of the
-            plan that is asked of them beforehand, as it is without feedback;
-            0 to 1.
+        freeze: Fraction of the swing after which the footstep is fixed; 0 to
+            1.
+        stride_gain: Learning gain of a footstep's shortfall; 0 to 1.
+        stride_bound: Largest learned shortfall, in [m]; 0 to 10.
+        joint_gain: Gain of the integral of joint errors, in [1/s]; 0 to 1000.
+        joint_bound: Largest correction of a joint, in [rad]; 0 to 3.2.
+        joint_leak: Decay rate of the correction, in [1/s]; 0 to 1000.
+        load_share: Fraction of the servo deflection under load that is added
+            to the targets as feedforward; without feedback all of it is; 0
+            to 1.
     """
 
     dead_zone: float = 0.015
@@ -76,43 +75,45 @@ class StabiliserSettings:
         "dead_zone": Range(0.0, 10.0, "m", SIZE),
         "yielding": Range(0.0, 1000.0, "1/s", TICKS),
         "feedback": Range(
-            *(1.0, 100.0, "1"),
-            "at 1 a shift only stays; a hundredfold is noise",
+            1.0,
+            100.0,
+            "1",
+            "at 1 a shift persists; 100 amplifies noise",
             above=True,
         ),
-        "ankle": Range(0.0, 10.0, "1", "more tilts the foot over"),
-        "ankle_rate": Range(0.0, 10.0, "s", "more tilts the foot over"),
+        "ankle": Range(0.0, 10.0, "1", "a larger gain tips the foot"),
+        "ankle_rate": Range(0.0, 10.0, "s", "a larger gain tips the foot"),
         "ankle_bandwidth": Range(0.0, 10000.0, "1/s", TICKS),
         "edge": Range(0.0, 10.0, "m", SIZE),
         "reach_forward": Range(0.0, 10.0, "m", SIZE),
         "reach_backward": Range(0.0, 10.0, "m", SIZE),
         "reach_outward": Range(0.0, 10.0, "m", SIZE),
         "gap": Range(0.0, 10.0, "m", SIZE),
-        "step_speed": Range(0.0, 100.0, "m/s", "no foot is faster"),
-        "freeze": Range(0.0, 1.0, "1", "a part"),
-        "stride_gain": Range(0.0, 1.0, "1", "a share"),
+        "step_speed": Range(0.0, 100.0, "m/s", "no swing foot is faster"),
+        "freeze": Range(0.0, 1.0, "1", "a fraction"),
+        "stride_gain": Range(0.0, 1.0, "1", "a fraction"),
         "stride_bound": Range(0.0, 10.0, "m", SIZE),
         "joint_gain": Range(0.0, 1000.0, "1/s", TICKS),
-        "joint_bound": Range(0.0, 3.2, "rad", "joints turn no farther"),
+        "joint_bound": Range(0.0, 3.2, "rad", "half a turn of a joint"),
         "joint_leak": Range(0.0, 1000.0, "1/s", TICKS),
-        "load_share": Range(0.0, 1.0, "1", "a share"),
+        "load_share": Range(0.0, 1.0, "1", "a fraction"),
     }
 
     def __post_init__(self) -> None:
-        """Refuse gains that mean nothing."""
+        """Validate the settings."""
         check_settings(self)
 
 
 @dataclass(frozen=True, slots=True)
 class MpcSettings:
-    """Horizon and weights.
+    """Horizon and weights of the MPC.
 
     Attributes:
-        steps: Steps in the horizon; 1 to 10.
-        samples: Samples in a step; 2 to 100.
-        tail: What is assumed beyond the horizon.
-        pull: Weight of the distance from the plan's ZMP against that of the
-            added velocity, in [1/s^2]; 1e-06 to 1e+06.
+        steps: Number of steps in the horizon; 1 to 10.
+        samples: Number of samples per step; 2 to 100.
+        tail: ZMP assumed beyond the horizon.
+        pull: Weight of the distance from the plan's ZMP over that of the added
+            velocity, in [1/s^2]; 1e-06 to 1e+06.
     """
 
     steps: int = 2
@@ -125,19 +126,23 @@ class MpcSettings:
             1,
             10,
             "steps",
-            "what the plan holds; more changes no millimetre",
+            "the steps of a plan; more change less than a millimetre",
             whole=True,
         ),
         "samples": Range(
-            2, 100, "1", "finer than a tick is for nothing", whole=True
+            2,
+            100,
+            "1",
+            "samples shorter than a tick have no effect",
+            whole=True,
         ),
         "pull": Range(
-            1e-6, 1e6, "1/s^2", "beyond, one of the two weights is nothing"
+            1e-6, 1e6, "1/s^2", "beyond, one of the two weights is negligible"
         ),
     }
 
     def __post_init__(self) -> None:
-        """Refuse an empty horizon and an unknown tail."""
+        """Validate the settings."""
         check_settings(self, prefix="mpc.")
         if self.tail not in TAILS:
             raise ConfigurationError(
@@ -148,20 +153,20 @@ class MpcSettings:
 
 @dataclass(frozen=True, slots=True)
 class ControlSettings:
-    """What control does besides planning.
+    """Method and feedback of walking control.
 
     Attributes:
-        method: Where the CoM comes from. "closed-form": each maneuver begins
-            where the last one planned to be, the paper's way; "measured": it
-            begins at the measured state; "mpc": it does, and in between the
-            ZMP is that of the intrinsically stable MPC, and in a room its
-            footsteps keep to the free side of half planes. The last two need
+        method: Source of the CoM motion. "closed-form": each maneuver begins
+            at the state that the last one planned, as in the paper;
+            "measured": it begins at the measured state; "mpc": likewise, with
+            the ZMP of the intrinsically stable MPC in between, and in a room
+            with footsteps on the free side of half planes. The last two need
             feedback.
         feedback: Whether to estimate the state and stabilise the walk.
         stabiliser: Gains of the feedback.
         mpc: Horizon and weights of the MPC.
-        learn_turns: Whether to learn by the gyro how much of a turn is made,
-            and to ask for as much more: feet twist on the floor.
+        learn_turns: Whether to calibrate turns by the gyro, since feet twist
+            on the floor.
     """
 
     method: Method = "closed-form"
@@ -171,7 +176,7 @@ class ControlSettings:
     learn_turns: bool = False
 
     def __post_init__(self) -> None:
-        """Refuse an unknown method, and a measured state without sensors."""
+        """Validate the settings."""
         check_settings(self)
         if self.method not in METHODS:
             raise ConfigurationError(

@@ -1,4 +1,4 @@
-"""The step that is being made, and what it allows."""
+"""Step in progress, and the ZMP shifts and landings that it allows."""
 
 from math import exp, hypot
 from typing import NamedTuple
@@ -13,16 +13,16 @@ Box = tuple[tuple[float, float], tuple[float, float]]
 
 
 class CurrentStep(NamedTuple):
-    """A step that is being made, in odometry.
+    """Step in progress, in odometry.
 
     Attributes:
-        support: Foot that bears the weight.
+        support: Pose of the support foot.
         swing: Foot that swings, or swung last.
-        landing: Where the plan lets it land.
-        remaining: Time until then, in [s]; negative once it stands.
-        progress: Fraction of its way that it has made.
-        walking: Whether there is a step at all.
-        plan: Plan whose first step it is, if there is one.
+        landing: Planned landing pose.
+        remaining: Time until the landing, in [s]; negative after it.
+        progress: Fraction of the swing path that is completed.
+        walking: Whether the robot walks; otherwise it stands.
+        plan: Plan whose first step this is, if any.
         passed: Time since that plan began, in [s].
     """
 
@@ -36,23 +36,23 @@ class CurrentStep(NamedTuple):
     passed: float = 0.0
 
     def to_support(self, x: float, y: float) -> tuple[float, float]:
-        """Turn a vector of odometry into the support foot's axes."""
+        """Rotate a vector from odometry to the support foot's axes."""
         turned = Pose(0.0, 0.0, -self.support.theta).compose(Pose(x, y, 0.0))
         return turned.x, turned.y
 
     def from_support(self, x: float, y: float) -> tuple[float, float]:
-        """Turn a vector of the support foot's axes into odometry."""
+        """Rotate a vector from the support foot's axes to odometry."""
         turned = Pose(0.0, 0.0, self.support.theta).compose(Pose(x, y, 0.0))
         return turned.x, turned.y
 
 
 def resting_step(support: Pose, foot: Foot) -> CurrentStep:
-    """No step at all, over a foot that stands beside ``foot``."""
+    """Return the step of a standing robot; ``foot`` is the other foot."""
     return CurrentStep(support, foot, support, 0.0, 1.0, False)
 
 
 def step_of(plan: ManeuverPlan, frame: Pose, passed: float) -> CurrentStep:
-    """First step of a plan.
+    """Return the first step of a plan.
 
     Args:
         plan: Plan being walked.
@@ -78,12 +78,12 @@ def step_of(plan: ManeuverPlan, frame: Pose, passed: float) -> CurrentStep:
 
 
 def zmp_box(swing: Foot, gait: GaitSettings, edge: float) -> Box:
-    """How far the ZMP can be shifted from its anchor under a foot.
+    """Return the range of ZMP shifts from the anchor under a foot.
 
     Args:
         swing: Foot that does not support.
-        gait: Its sole and anchor.
-        edge: Distance kept from the edge of the sole, in [m].
+        gait: Gait, for the sole and the anchor.
+        edge: Distance from the edge of the sole, in [m].
 
     Returns:
         Lowest and highest (x, y) shift in the support foot's axes, in [m].
@@ -98,7 +98,7 @@ def zmp_box(swing: Foot, gait: GaitSettings, edge: float) -> Box:
 
 
 def clip_to(value: tuple[float, float], box: Box) -> tuple[float, float]:
-    """Nearest point of a box."""
+    """Return the nearest point of a box."""
     low, high = box
     return (
         min(max(value[0], low[0]), high[0]),
@@ -107,7 +107,7 @@ def clip_to(value: tuple[float, float], box: Box) -> tuple[float, float]:
 
 
 def beyond(x: float, y: float, radius: float) -> tuple[float, float]:
-    """Part of a vector beyond a radius."""
+    """Return the part of a vector beyond a radius."""
     length = hypot(x, y)
     if length <= radius:
         return 0.0, 0.0
@@ -122,19 +122,19 @@ def adapted_landing(
     gait: GaitSettings,
     settings: StabiliserSettings,
 ) -> tuple[float, float]:
-    r"""Shift of the landing that takes up what the ZMP cannot hold.
+    r"""Return the shift of the landing for the DCM error beyond the ZMP range.
 
-    An error e of the DCM that a constant ZMP shift p cannot bring to zero
-    by the landing, a time T away, leaves
-    :math:`e^{\eta T} (e - (1 - e^{-\eta T})\, p)`; the foot lands that much
-    farther, inside the reach and without crossing the other.
+    A DCM error e that a constant ZMP shift p cannot bring to zero by the
+    landing, a time T away, leaves
+    :math:`e^{\eta T} (e - (1 - e^{-\eta T})\, p)`; the landing shifts by that
+    much, within reach and without crossing the other foot.
 
     Args:
-        error: Of the DCM against the plan, in the support foot's axes, [m].
-        step: Step being made.
+        error: DCM less the plan's, in the support foot's axes, in [m].
+        step: Step in progress.
         box: Possible ZMP shifts.
         gait: Gait.
-        settings: Reach.
+        settings: Limits of the reach.
 
     Returns:
         Shift of the landing in odometry, in [m].
@@ -159,12 +159,12 @@ def adapted_landing(
 def shifted_swing(
     body: BodyReference, step: CurrentStep, shift: tuple[float, float]
 ) -> BodyReference:
-    """Let the swing foot head for a shifted landing.
+    """Return a reference whose swing foot heads for a shifted landing.
 
     Args:
-        body: What the plan asks for.
-        step: Step being made.
-        shift: Of the landing in odometry, in [m].
+        body: Body reference of the plan.
+        step: Step in progress.
+        shift: Shift of the landing in odometry, in [m].
     """
     if not step.walking or shift == (0.0, 0.0):
         return body

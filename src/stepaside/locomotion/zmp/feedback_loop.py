@@ -1,4 +1,4 @@
-"""What keeps a walking robot up: nothing, or feedback."""
+"""Balance control between plan and joints: open loop or feedback."""
 
 from collections.abc import Callable
 from typing import Protocol
@@ -20,25 +20,25 @@ StepAt = Callable[[float], CurrentStep]
 
 
 class Balance(Protocol):
-    """A part of control between the plan and the joints.
+    """Balance control between the plan and the joints.
 
     Attributes:
-        state: Last estimate of the body's state, if there is one.
-        solved: Answer of a solver at this tick, if it was asked.
-        adapted: Footsteps that were moved so far.
+        state: Last estimate of the body's state, if any.
+        solved: Result of the MPC at this tick, if it ran.
+        adapted: Number of footsteps moved so far.
     """
 
     @property
     def state(self) -> BodyState | None:
-        """Last estimate of the body's state, if there is one."""
+        """Last estimate of the body's state, if any."""
 
     @property
     def solved(self) -> MpcResult | None:
-        """Answer of a solver at this tick, if it was asked."""
+        """Result of the MPC at this tick, if it ran."""
 
     @property
     def adapted(self) -> int:
-        """Footsteps that were moved so far."""
+        """Number of footsteps moved so far."""
 
     @property
     def ready(self) -> bool:
@@ -46,11 +46,11 @@ class Balance(Protocol):
 
     @property
     def has_fallen(self) -> bool:
-        """Whether the robot feels that it falls."""
+        """Whether the estimate detects a fall."""
 
     @property
     def tilt(self) -> Vector | None:
-        """Roll and pitch of the torso, in [rad]; None if nobody knows."""
+        """Roll and pitch of the torso, in [rad]; None without an estimate."""
 
     @property
     def torso_heading(self) -> float | None:
@@ -59,16 +59,16 @@ class Balance(Protocol):
     def update(
         self, measurement: Measurement, sample: ReferenceSample, step: StepAt
     ) -> BodyReference:
-        """What to ask of the body at one tick.
+        """Return the body reference of one tick.
 
         Args:
-            measurement: What the sensors give.
-            sample: What the plan asks for.
-            step: Step being made at a time, in [s].
+            measurement: Measurement of the tick.
+            sample: Reference of the plan.
+            step: Function from a time, in [s], to the step in progress.
         """
 
     def correct(self, measurement: Measurement, targets: Array) -> Array:
-        """Joint targets with what the joints miss, in [rad]."""
+        """Return corrected joint targets, in [rad]."""
 
     def land(
         self,
@@ -77,16 +77,16 @@ class Balance(Protocol):
         velocity: Vector,
         step: CurrentStep,
     ) -> tuple[Pose, Vector, Vector]:
-        """Foot, CoM and its velocity at the end of a step, as believed."""
+        """Return the estimated landing, CoM and velocity after a step."""
 
     def fit(
         self, plan_from: PlanFrom, state: CenterState, support: Pose
     ) -> tuple[ManeuverPlan, CenterState]:
-        """Plan so that the correction stays inside the sole."""
+        """Plan with the correction inside the sole."""
 
 
 class OpenLoop:
-    """The plan as it is: the joints are stiff, and nothing is measured.
+    """Open loop: the plan as it is, on stiff joints.
 
     Attributes:
         state: None.
@@ -107,19 +107,19 @@ class OpenLoop:
     torso_heading: float | None = None
 
     def __init__(self, feedforward: LoadFeedforward | None = None) -> None:
-        """Trust the joints, or know how they give way under load."""
+        """Prepare the open loop, with load feedforward if given."""
         self._feedforward = feedforward
         self._sample: ReferenceSample | None = None
 
     def update(
         self, measurement: Measurement, sample: ReferenceSample, step: StepAt
     ) -> BodyReference:
-        """Pass the reference on."""
+        """Return the reference of the plan."""
         self._sample = sample
         return sample.body
 
     def correct(self, measurement: Measurement, targets: Array) -> Array:
-        """Pass the targets on, with what the servos give way."""
+        """Return the targets with the load feedforward, if any."""
         if self._feedforward is None or self._sample is None:
             return targets
         body, zmp = self._sample.body, self._sample.zmp
@@ -132,13 +132,13 @@ class OpenLoop:
         velocity: Vector,
         step: CurrentStep,
     ) -> tuple[Pose, Vector, Vector]:
-        """Believe that the plan was followed."""
+        """Return the planned state."""
         return landed, position, velocity
 
     def fit(
         self, plan_from: PlanFrom, state: CenterState, support: Pose
     ) -> tuple[ManeuverPlan, CenterState]:
-        """Plan from where the last plan ends."""
+        """Plan from the planned state."""
         return plan_from(state), state
 
 
@@ -146,7 +146,7 @@ class ClosedLoop:
     """Feedback by a stabiliser.
 
     Attributes:
-        stabiliser: What feeds back.
+        stabiliser: The stabiliser.
     """
 
     def __init__(
@@ -154,10 +154,10 @@ class ClosedLoop:
         stabiliser: Stabiliser,
         feedforward: LoadFeedforward | None = None,
     ) -> None:
-        """Close the loop; what the servos give way may be known besides."""
+        """Prepare the closed loop, with load feedforward if given."""
         self.stabiliser = stabiliser
         self._feedforward = feedforward
-        self._asked: tuple[BodyReference, Vector] | None = None
+        self._commanded: tuple[BodyReference, Vector] | None = None
 
     @property
     def state(self) -> BodyState | None:
@@ -166,12 +166,12 @@ class ClosedLoop:
 
     @property
     def solved(self) -> MpcResult | None:
-        """Answer of the MPC at this tick, if it was asked."""
+        """Result of the MPC at this tick, if it ran."""
         return self.stabiliser.zmp_feedback.solved
 
     @property
     def adapted(self) -> int:
-        """Footsteps that were moved so far."""
+        """Number of footsteps moved so far."""
         return self.stabiliser.adapted
 
     @property
@@ -198,21 +198,21 @@ class ClosedLoop:
     def update(
         self, measurement: Measurement, sample: ReferenceSample, step: StepAt
     ) -> BodyReference:
-        """Let the reference give way; see :class:`Stabiliser`."""
-        made = step(measurement.time)
-        body = self.stabiliser.update(measurement, sample, made)
+        """Return the stabilised reference; see :class:`Stabiliser`."""
+        current = step(measurement.time)
+        body = self.stabiliser.update(measurement, sample, current)
         (x, y), (u, v) = sample.zmp, self.stabiliser.zmp_shift
-        self._asked = body, (x + u, y + v)
+        self._commanded = body, (x + u, y + v)
         return body
 
     def correct(self, measurement: Measurement, targets: Array) -> Array:
-        """Ask on top for what the joints miss, and what they will miss."""
+        """Add the joint correction and the load feedforward."""
         angles = measurement.joint_positions
         corrected = self.stabiliser.joints.update(angles, targets)
-        if self._feedforward is None or self._asked is None:
+        if self._feedforward is None or self._commanded is None:
             return corrected
         share = self.stabiliser.settings.stabiliser.load_share
-        return corrected + share * self._feedforward.added(*self._asked)
+        return corrected + share * self._feedforward.added(*self._commanded)
 
     def land(
         self,
@@ -221,11 +221,11 @@ class ClosedLoop:
         velocity: Vector,
         step: CurrentStep,
     ) -> tuple[Pose, Vector, Vector]:
-        """Take the shifts over into the next plan."""
+        """Add the shifts to the state for the next plan."""
         return self.stabiliser.land(landed, position, velocity, step)
 
     def fit(
         self, plan_from: PlanFrom, state: CenterState, support: Pose
     ) -> tuple[ManeuverPlan, CenterState]:
-        """Plan so that the correction stays inside the sole."""
+        """Plan with the correction inside the sole."""
         return self.stabiliser.fit(plan_from, state, support)

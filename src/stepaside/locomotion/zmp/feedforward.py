@@ -1,4 +1,4 @@
-"""What the servos give way under load, added to their targets beforehand."""
+"""Feedforward of servo deflection under the planned load."""
 
 import numpy as np
 
@@ -6,50 +6,51 @@ from ...core.poses import Array
 from ...robots.joint_loads import LegLoads
 from ...robots.leg_kinematics import BodyReference, LegKinematics
 
-BOUND = 0.03  # what is added at most: legs that lose a reference jump, [rad]
+BOUND = 0.03  # of the feedforward, in [rad]: a lost leg reference jumps
 
 
 class LoadFeedforward:
-    r"""Joint targets that are off by as much as the load bends the servos.
+    r"""Joint offsets that compensate the deflection of servos under load.
 
-    A servo of stiffness k that bears a torque :math:`\tau` stands
-    :math:`\tau / k` off its target: a standing leg of NAO's by up to a
-    degree in the hip, which lets the other foot touch the floor early and
-    slide. Servos that feed the speed of their targets forward would do so
-    with what is added, too: by :math:`d / k` times its rate, d being their
-    damping. So added is a :math:`\delta` with
-    :math:`\delta + (d / k)\, \dot\delta = \tau / k`. The torque is that of
-    a tick ahead, by its last change: what is sent acts until the next tick,
-    and the accelerations in it are a tick old.
+    A servo of stiffness k under a torque :math:`\tau` deflects by
+    :math:`\tau / k`: in a stance leg of the NAO by up to a degree at the hip,
+    so that the swing foot touches the floor early and slides. Servos that
+    feed the rate of their targets forward also add :math:`d / k` times the
+    rate of the offset, with damping d. So the offset :math:`\delta` solves
+    :math:`\delta + (d / k)\, \dot\delta = \tau / k`. The torque is
+    extrapolated one tick ahead: a target acts until the next tick, and the
+    accelerations are a tick old.
     """
 
     def __init__(
         self, kinematics: LegKinematics, *, zmp_forward: float, tick: float
     ) -> None:
-        """Know a robot; see :class:`LegLoads`."""
+        """Prepare the feedforward of a robot; see :class:`LegLoads`."""
         self._loads = LegLoads(kinematics, zmp_forward=zmp_forward, tick=tick)
         servos = np.array(kinematics.legs.tree.servos, dtype=np.float64)
         stiffness, damping = servos.reshape(-1, 2).T
         stiff = stiffness > 0.0
-        self._give = np.where(stiff, 1.0 / np.where(stiff, stiffness, 1.0), 0)
-        lead = damping * self._give / tick
-        self._gain, self._kept = 1.0 / (1.0 + lead), lead / (1.0 + lead)
-        self._added = np.zeros(stiffness.size)
-        self._bent: Array | None = None
+        self._compliance = np.where(
+            stiff, 1.0 / np.where(stiff, stiffness, 1.0), 0
+        )
+        lead = damping * self._compliance / tick
+        self._gain, self._memory = 1.0 / (1.0 + lead), lead / (1.0 + lead)
+        self._offset = np.zeros(stiffness.size)
+        self._deflection: Array | None = None
 
     def added(
         self, reference: BodyReference, zmp: tuple[float, float]
     ) -> Array:
-        """What to add at one tick, in [rad]. Shape (joints,).
+        """Return the offsets of one tick, in [rad]. Shape (joints,).
 
         Args:
-            reference: What the present posture was to reach.
-            zmp: ZMP of the plan, in [m].
+            reference: Body reference of the present posture.
+            zmp: ZMP of the plan in odometry, in [m].
         """
-        bent = self._give * self._loads.torques(reference, zmp)
-        last = bent if self._bent is None else self._bent
-        self._bent = bent
-        soon = 2.0 * bent - last
+        deflection = self._compliance * self._loads.torques(reference, zmp)
+        last = deflection if self._deflection is None else self._deflection
+        self._deflection = deflection
+        soon = 2.0 * deflection - last
         soon.clip(-BOUND, BOUND, out=soon)
-        self._added = self._gain * soon + self._kept * self._added
-        return self._added
+        self._offset = self._gain * soon + self._memory * self._offset
+        return self._offset

@@ -1,4 +1,4 @@
-"""Joint angles that the servos leave off, by backlash or by load."""
+"""Correction of ankle tilts and of steady joint errors."""
 
 from collections import deque
 
@@ -12,29 +12,34 @@ Tilt = tuple[float, float]
 
 
 class Ankles:
-    """Tilts the feet that bear weight, which turns the body over them."""
+    """Ankle feedback: tilts the loaded feet to rotate the body upright."""
 
     def __init__(self, gains: StabiliserSettings, tick: float) -> None:
-        """Begin with level feet, for a clock with a given tick, in [s]."""
+        """Begin with level feet, for a control period in [s]."""
         self._gains, self._tick = gains, tick
-        self._meant = 0.0
+        self._reference_roll = 0.0
         self._blend = min(1.0, gains.ankle_bandwidth * tick)
         self._tilts = (0.0, 0.0, 0.0, 0.0)
 
-    def tilts(self, state: BodyState, meant: float = 0.0) -> tuple[Tilt, Tilt]:
-        """Tilts to ask for at one tick.
+    def tilts(
+        self, state: BodyState, reference_roll: float = 0.0
+    ) -> tuple[Tilt, Tilt]:
+        """Return the foot tilts of one tick.
 
         Args:
-            state: Of the body.
-            meant: Roll of the torso that was asked for, in [rad].
+            state: Estimated state of the body.
+            reference_roll: Reference roll of the torso, in [rad].
 
         Returns:
             Roll and pitch of the left foot and of the right one, in [rad].
         """
         gains, blend = self._gains, self._blend
-        tilt = state.tilt[0] - meant
-        rate = state.rate[0] - (meant - self._meant) / self._tick
-        self._meant = meant
+        tilt = state.tilt[0] - reference_roll
+        rate = (
+            state.rate[0]
+            - (reference_roll - self._reference_roll) / self._tick
+        )
+        self._reference_roll = reference_roll
         roll = gains.ankle * tilt + gains.ankle_rate * rate
         pitch = gains.ankle * state.tilt[1] + gains.ankle_rate * state.rate[1]
         left = min(1.0, 2.0 * state.left_share)
@@ -50,11 +55,11 @@ class Ankles:
 
 
 class JointCorrection:
-    """Integrates what the joints miss of their targets, within a bound.
+    """Bounded, leaky integral of the joint errors.
 
-    A joint with backlash rests on one side of it until its load turns round,
-    and a servo gives way to a load; both leave an angle that lasts long
-    enough to be measured and asked for on top.
+    A joint with backlash rests on one side until its load reverses, and a
+    servo deflects under load; both errors last long enough to be measured
+    and added to the targets.
     """
 
     def __init__(
@@ -66,35 +71,35 @@ class JointCorrection:
         tick: float,
         delay: float,
     ) -> None:
-        """Begin with nothing to correct.
+        """Begin without a correction.
 
         Args:
-            gain: Of the integral, in [1/s].
-            bound: Greatest correction, in [rad].
-            leak: Rate at which it is forgotten, in [1/s].
+            gain: Gain of the integral, in [1/s].
+            bound: Largest correction, in [rad].
+            leak: Decay rate of the correction, in [1/s].
             tick: Control period, in [s].
-            delay: Time from a request to the motion, in [s].
+            delay: Time from a command to the motion, in [s].
         """
         self._gain, self._bound = gain * tick, bound
         self._keep = 1.0 - leak * tick
-        # The servo ramps to a target in one tick more.
-        self._wanted: deque[Array] = deque(maxlen=round(delay / tick) + 2)
+        # The servo ramps to a target over one more tick.
+        self._targets: deque[Array] = deque(maxlen=round(delay / tick) + 2)
         self._correction: Array | float = 0.0
 
     def update(self, measured: Array, targets: Array) -> Array:
-        """Correct the targets of one tick.
+        """Return the corrected targets of one tick.
 
         Args:
-            measured: Encoders, in [rad]. Shape (joints,).
-            targets: What is wanted, in [rad]. Shape (joints,).
+            measured: Measured joint positions, in [rad]. Shape (joints,).
+            targets: Joint targets, in [rad]. Shape (joints,).
         """
-        if len(self._wanted) == self._wanted.maxlen:
-            missed = self._wanted[0] - measured
+        if len(self._targets) == self._targets.maxlen:
+            error = self._targets[0] - measured
             self._correction = np.clip(
-                self._keep * self._correction + self._gain * missed,
+                self._keep * self._correction + self._gain * error,
                 -self._bound,
                 self._bound,
             )
-        self._wanted.append(targets)
+        self._targets.append(targets)
         corrected: Array = targets + self._correction
         return corrected

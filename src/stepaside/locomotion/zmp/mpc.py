@@ -2,20 +2,20 @@ r"""Intrinsically stable MPC on top of a plan (Scianca et al., 2016).
 
 The ZMP velocity is the decision, constant over N samples of length
 :math:`\delta`; here it is the velocity w that is added to the plan's, so that
-w = 0 is the closed form itself. With d the DCM and z the ZMP, both less the
-plan's, the motion stays bounded exactly if
+w = 0 is the closed form itself. With the DCM d and the ZMP z, both less the
+plan's, the motion is bounded if and only if
 
 .. math:: \sum_i \kappa_i w_i + \mathrm{tail} = d_0 - z_0, \qquad
    \kappa_i = e^{-i \eta \delta} \frac{1 - e^{-\eta \delta}}{\eta},
 
-where the tail is what is assumed beyond the horizon: the plan's own ZMP
-(anticipative: 0), a ZMP that rests (truncated), or one whose velocity repeats
-(periodic). The ZMP has to stay under the feet on the floor
-(:mod:`stepaside.planning.support_polygon`), at the end of each sample and
-whenever a
-foot lands or leaves. Between these instants the added ZMP runs straight, and
-so does the plan's, but for its correction (27 a / T^2 in curvature, at most
-0.06 of its amplitude a between two samples) and for the cubic profile.
+where the tail is the ZMP assumed beyond the horizon: the plan's own ZMP
+(anticipative: 0), a constant ZMP (truncated), or one whose velocity repeats
+(periodic). The ZMP has to stay in the support polygon
+(:mod:`stepaside.planning.support_polygon`) at the end of each sample and
+whenever a foot lands or lifts off. Between these instants the added ZMP is
+linear in time, and so is the plan's, except for its correction (27 a / T^2
+in curvature, at most 0.06 of its amplitude a between two samples) and for
+the cubic profile.
 """
 
 from math import hypot
@@ -30,16 +30,16 @@ from ...planning.zmp import evaluate
 from .control_settings import MpcSettings
 from .qp_solver import load_solver
 
-EQUALITY = 5  # sense of a constraint in the solver
-INFEASIBLE = -1  # what it answers; others below 1 mean that it gave up
-PRECISION = 1e-6  # an excess below this is none, in [m]
-# Weight of a boundedness that cannot be met against the cost of moving the
-# ZMP: so large that the excess is the least there is to a micrometre.
+EQUALITY = 5  # flag of an equality constraint in the solver
+INFEASIBLE = -1  # exit flag; other values below 1 mean no convergence
+PRECISION = 1e-6  # an excess below this counts as zero, in [m]
+# Weight of the violated boundedness over the cost of the ZMP motion: so large
+# that the excess is minimal to within a micrometre.
 SLACK = 1e11
 
 
-class _Feet(NamedTuple):
-    """Support of one plan, each phase with the same number of half planes."""
+class _Support(NamedTuple):
+    """Support phases of a plan, padded to the same number of half planes."""
 
     plan: ManeuverPlan
     starts: Array
@@ -50,15 +50,16 @@ class _Feet(NamedTuple):
 
 
 class MpcResult(NamedTuple):
-    """Answer of the MPC at one tick, in the plan frame.
+    """Result of the MPC at one tick, in the plan frame.
 
     Attributes:
         velocity: ZMP velocity to add to the plan's now, in [m/s].
-        feasible: Whether a bounded motion exists with the ZMP in the feet.
-        excess: DCM that no ZMP in the feet can hold, in [m]; zero if
-            feasible. The velocity is then the best that can be done.
-        iterations: Of the solver.
-        time: That the answer took, in [s].
+        feasible: Whether a bounded motion exists with the ZMP in the
+            support polygon.
+        excess: DCM that no ZMP in the support polygon can hold, in [m];
+            zero if feasible. The velocity then minimises it.
+        iterations: Iterations of the solver.
+        time: Computation time, in [s].
     """
 
     velocity: tuple[float, float]
@@ -69,7 +70,7 @@ class MpcResult(NamedTuple):
 
 
 class IntrinsicallyStableMpc:
-    """Solver for the plans of one gait.
+    """Intrinsically stable MPC for the plans of one gait.
 
     Attributes:
         settings: Horizon and weights.
@@ -84,7 +85,7 @@ class IntrinsicallyStableMpc:
         Args:
             gait: Gait.
             settings: Horizon and weights.
-            edge: Distance that the ZMP keeps from the edge of the sole, [m].
+            edge: Distance of the ZMP from the edge of the sole, in [m].
 
         Raises:
             ConfigurationError: If the solver is not installed.
@@ -107,12 +108,12 @@ class IntrinsicallyStableMpc:
         self._soft_cost = np.zeros((2 * n + 2, 2 * n + 2))
         self._soft_cost[: 2 * n, : 2 * n] = self._cost
         self._soft_cost[-2:, -2:] = SLACK * np.eye(2)
-        self._feet: _Feet | None = None
+        self._support: _Support | None = None
 
     def solve(
         self, plan: ManeuverPlan, passed: float, dcm: Array, zmp: Array
     ) -> MpcResult:
-        """Answer at one tick.
+        """Solve at one tick.
 
         Args:
             plan: Plan being walked.
@@ -122,25 +123,27 @@ class IntrinsicallyStableMpc:
         """
         began = perf_counter()
         rows, high, soon = self._constraints(plan, passed, zmp)
-        wanted = self._wanted(plan, passed, dcm, zmp)
+        bounded = self._boundedness(plan, passed, dcm, zmp)
         gradient = np.concatenate([self._drift * zmp[0], self._drift * zmp[1]])
-        w, flag, info = self._program(self._cost, gradient, rows, high, wanted)
+        w, flag, info = self._program(
+            self._cost, gradient, rows, high, bounded
+        )
         excess, feasible = (0.0, 0.0), flag > 0
         if not feasible:
-            gave_up = flag != INFEASIBLE
+            unconverged = flag != INFEASIBLE
             w, flag, info = self._program(
-                self._soft_cost, gradient, rows, high, wanted
+                self._soft_cost, gradient, rows, high, bounded
             )
-            if flag <= 0:  # the ZMP itself is where no foot is
+            if flag <= 0:  # the ZMP itself is outside of the feet
                 w, flag, info = self._program(
                     self._soft_cost,
                     gradient,
                     rows,
                     np.maximum(high, soon),
-                    wanted,
+                    bounded,
                 )
             excess = float(w[-2]), float(w[-1])
-            if gave_up and hypot(*excess) < PRECISION:
+            if unconverged and hypot(*excess) < PRECISION:
                 excess, feasible = (0.0, 0.0), True
         return MpcResult(
             (float(w[0]), float(w[self._kappa.size])),
@@ -153,37 +156,37 @@ class IntrinsicallyStableMpc:
     def _constraints(
         self, plan: ManeuverPlan, passed: float, zmp: Array
     ) -> tuple[Array, Array, Array]:
-        """Half planes that keep the ZMP under the feet.
+        """Return the half planes that keep the ZMP in the support polygon.
 
         Returns:
-            Rows and bounds on the velocities, and what the bounds of the
-            first sample have to be for a ZMP that heads straight back to
-            the plan's. Shapes (m, 2 n), (m,), (m,).
+            Rows and bounds on the velocities, and relaxed bounds that
+            admit a ZMP on its way straight back to the plan's during the
+            first sample. Shapes (m, 2 n), (m,), (m,).
         """
-        feet = self._feet
-        if feet is None or feet.plan is not plan:
-            feet = self._feet = _feet(plan)
+        support = self._support
+        if support is None or support.plan is not plan:
+            support = self._support = _support(plan)
         delta, span = self.interval, float(self._ends[-1])
         ends = passed + self._ends
-        changes = feet.starts[1:]
+        changes = support.starts[1:]
         inside = (changes > passed) & (changes < passed + span)
-        # When a foot lands or leaves, the phase of the one foot decides.
+        # When a foot lands or lifts off, single support is the constraint.
         after = np.nonzero(inside)[0] + 1
         times = np.concatenate([ends, changes[inside]])
-        last = np.searchsorted(feet.starts, ends, side="right") - 1
-        phase = np.concatenate([last, after - ~feet.single[after]])
+        last = np.searchsorted(support.starts, ends, side="right") - 1
+        phase = np.concatenate([last, after - ~support.single[after]])
         ahead = times - passed
         shares = np.clip(
             ahead[:, None] - self._ends + delta, 0.0, delta
         )  # time of each sample before each instant
-        normals, offsets = feet.normals[phase], feet.offsets[phase]
+        normals, offsets = support.normals[phase], support.offsets[phase]
         rows = (normals[..., None] * shares[:, None, None, :]).reshape(
             -1, 2 * self._kappa.size
         )
         schedule = plan.schedule
         piece, local = schedule.zmp_map.locate(times)
         local = np.minimum(local, schedule.durations[piece])
-        planned = evaluate(feet.zmp[:, piece], local)
+        planned = evaluate(support.zmp[:, piece], local)
         room = offsets - self._edge - (normals @ planned[..., None])[..., 0]
         held = (normals @ zmp).ravel()
         room = room.ravel()
@@ -194,23 +197,23 @@ class IntrinsicallyStableMpc:
         soon = np.where(back == 0.0, high, back - held)
         return rows[keep], high[keep], soon[keep]
 
-    def _wanted(
+    def _boundedness(
         self, plan: ManeuverPlan, passed: float, dcm: Array, zmp: Array
     ) -> Array:
-        """Right side of the boundedness. Shape (2,)."""
-        wanted: Array = dcm - zmp
+        """Return the right side of the boundedness condition. Shape (2,)."""
+        bounded: Array = dcm - zmp
         if self.settings.tail == "anticipative":
-            return wanted
+            return bounded
         span = float(self._ends[-1])
         samples = plan.sample([passed, passed + span])
         lead = samples.dcm - samples.zmp
         if self.settings.tail == "truncated":
-            wanted = wanted + self._end * lead[1]
-            return wanted
-        # Velocities that repeat: the horizon's sum over 1 - end.
+            bounded = bounded + self._end * lead[1]
+            return bounded
+        # A repeating velocity: the horizon's sum divided by 1 - end.
         inside = lead[0] - self._end * lead[1]
-        wanted = (1.0 - self._end) * (wanted + lead[0]) - inside
-        return wanted
+        bounded = (1.0 - self._end) * (bounded + lead[0]) - inside
+        return bounded
 
     def _program(
         self,
@@ -218,9 +221,9 @@ class IntrinsicallyStableMpc:
         gradient: Array,
         rows: Array,
         high: Array,
-        wanted: Array,
+        bounded: Array,
     ) -> tuple[Array, int, Any]:
-        """Solve for the velocities, and for the excess if the cost has it."""
+        """Solve for the velocities, and for the excess if it has a cost."""
         count, extra = high.size, cost.shape[0] - gradient.size
         matrix = np.zeros((count + 2, cost.shape[0]))
         matrix[:count, : gradient.size] = rows
@@ -233,15 +236,15 @@ class IntrinsicallyStableMpc:
             cost,
             np.concatenate([gradient, np.zeros(extra)]),
             matrix,
-            np.concatenate([high, wanted]),
-            np.concatenate([np.full(count, -np.inf), wanted]),
+            np.concatenate([high, bounded]),
+            np.concatenate([np.full(count, -np.inf), bounded]),
             sense,
         )
         return w, int(flag), info
 
 
-def _feet(plan: ManeuverPlan) -> _Feet:
-    """Half planes of a plan; what a phase lacks of them is infinite."""
+def _support(plan: ManeuverPlan) -> _Support:
+    """Return the half planes of a plan; padding has infinite offsets."""
     phases = plan.support()
     most = max(phase.offsets.size for phase in phases)
     normals = np.zeros((len(phases), most, 2))
@@ -249,7 +252,7 @@ def _feet(plan: ManeuverPlan) -> _Feet:
     for i, phase in enumerate(phases):
         normals[i, : phase.offsets.size] = phase.normals
         offsets[i, : phase.offsets.size] = phase.offsets
-    return _Feet(
+    return _Support(
         plan,
         np.array([phase.start for phase in phases]),
         np.array([phase.single for phase in phases]),

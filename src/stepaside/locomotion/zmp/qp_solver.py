@@ -1,4 +1,4 @@
-"""The solver of quadratic programs, which is optional."""
+"""Optional solver of quadratic programs."""
 
 from functools import cache
 from typing import Any
@@ -8,7 +8,7 @@ from ...core.errors import ConfigurationError
 
 @cache
 def load_solver() -> Any:
-    """The solver of quadratic programs.
+    """Import the solver of quadratic programs.
 
     Raises:
         ConfigurationError: If it is not installed.

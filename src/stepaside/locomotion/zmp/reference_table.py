@@ -1,4 +1,4 @@
-"""What a plan asks of the body at the ticks of the control clock."""
+"""References of a plan at the control ticks."""
 
 from math import ceil, cos, sin
 from typing import NamedTuple
@@ -11,19 +11,19 @@ from ...planning.schedule import Sampler, Schedule
 from ...planning.template_path import clock_of, path_samples, poses_on_path
 from ...robots.leg_kinematics import BodyReference
 
-CACHED = 256  # samplers kept; rational durations need a handful
+CACHED = 256  # samplers; rational durations need only a few
 
 
 class ReferenceSample(NamedTuple):
-    """What a plan asks for at one tick, in odometry.
+    """References of a plan at one tick, in odometry.
 
     Attributes:
         body: CoM and feet.
         zmp: ZMP reference, in [m].
         dcm: DCM reference, in [m].
-        template: Pose of the unicycle that stands for the body.
-        reaction: What the swing leg shifts the ZMP by, in [m]: the CoM
-            falls away from a point that is so far behind the ZMP.
+        template: Pose of the template unicycle.
+        reaction: Shift of the ZMP by the swing leg, in [m]: the pivot of
+            the pendulum is the ZMP less this shift.
     """
 
     body: BodyReference
@@ -36,7 +36,7 @@ class ReferenceSample(NamedTuple):
 def standing_reference(
     left_foot: Pose, right_foot: Pose, settings: GaitSettings
 ) -> BodyReference:
-    """CoM midway between the anchors of two feet that stand."""
+    """Return the reference with the CoM midway between the feet's anchors."""
     x, y = _anchor(left_foot, settings)
     u, v = _anchor(right_foot, settings)
     com = (0.5 * (x + u), 0.5 * (y + v), settings.com_height)
@@ -48,7 +48,7 @@ def standing_reference(
 def resting_sample(
     left_foot: Pose, right_foot: Pose, settings: GaitSettings
 ) -> ReferenceSample:
-    """What is asked of a body that stands, midway between its feet."""
+    """Return the references of a standing body, midway between its feet."""
     body = standing_reference(left_foot, right_foot, settings)
     rest = body.com[:2]
     apart = wrap_angle(left_foot.theta - right_foot.theta)
@@ -66,14 +66,14 @@ def _anchor(foot: Pose, settings: GaitSettings) -> tuple[float, float]:
 
 
 class ReferenceTable:
-    """Body references at every tick of the plan being walked.
+    """References at every tick of the current plan.
 
-    Plans begin when a step ends, which need not be on a tick: the table
-    samples the plan where the ticks are, so that gait time stays exact.
+    Plans begin when a step ends, which need not be on a tick: the plan is
+    sampled at the ticks, so that gait time is exact.
     """
 
     def __init__(self, tick: float) -> None:
-        """Begin empty, for a clock with a given tick, in [s]."""
+        """Begin empty, for a control period in [s]."""
         self._tick = tick
         self._first = 0
         self._rows: list[ReferenceSample] = []
@@ -91,8 +91,8 @@ class ReferenceTable:
         Args:
             plan: Plan to walk.
             plan_frame: Pose of its frame in odometry.
-            started: When it began, in [s].
-            duration: How long it is to be walked, in [s].
+            started: Start time of the plan, in [s].
+            duration: Duration of the part, in [s].
         """
         tick = self._tick
         self._first = ceil((started - 1e-9) / tick)
@@ -121,9 +121,9 @@ class ReferenceTable:
         points = points @ turn
         points += plan_frame[:2]
         reaction = [(0.0, 0.0)] * count
-        if plan.schedule.feels_swing:
+        if plan.schedule.has_swing_reaction:
             reaction = ((samples.zmp - samples.pivot) @ turn).tolist()
-        com, left, right, zmp, dcm, place = points.reshape(
+        com, left, right, zmp, dcm, position = points.reshape(
             6, count, 2
         ).tolist()
         theta = plan_frame.theta
@@ -141,14 +141,14 @@ class ReferenceTable:
                 ),
                 (zmp[i][0], zmp[i][1]),
                 (dcm[i][0], dcm[i][1]),
-                Pose(place[i][0], place[i][1], heading[i]),
+                Pose(position[i][0], position[i][1], heading[i]),
                 (reaction[i][0], reaction[i][1]),
             )
             for i in range(count)
         ]
 
     def at(self, now: float) -> ReferenceSample:
-        """What is asked for at a tick; after the last one, the last."""
+        """Return the references at a tick; after the last one, the last."""
         index = round(now / self._tick) - self._first
         return self._rows[min(index, len(self._rows) - 1)]
 

@@ -1,16 +1,17 @@
-r"""Feedback on top of a plan: ZMP, ankles and the next footstep.
+r"""Stabiliser of a plan: ZMP shift, ankle tilt and footstep adjustment.
 
-The joints are stiff, so small errors are theirs. Beyond a dead zone the
-reference gives way: it carries a shift of CoM and DCM from the plan that
-grows towards the measured error and that a shift of the ZMP, as far as the
-sole allows, brings back. The linear inverted pendulum moves both,
+Small errors are left to the stiff joints. Beyond a dead zone the reference
+follows the error: it carries a shift of CoM and DCM from the plan that
+grows towards the measured error, and that a shift of the ZMP, as far as the
+sole allows, brings back to zero. Both follow the linear inverted pendulum,
 
 .. math:: \dot{\delta\xi} = \eta (\delta\xi - \delta p), \qquad
    \dot{\delta x} = \eta (\delta\xi - \delta x).
 
-What the sole cannot hold, the next footstep takes up. At the end of the step
-the next plan begins at the shifted state; with the measured method, at the
-measured one, as far as the correction of that plan stays in the sole.
+The landing of the swing foot shifts for the error that the sole cannot hold.
+At the end of the step the next plan begins at the shifted state; with the
+method "measured" at the measured state, as far as the correction of that
+plan stays in the sole.
 """
 
 from collections import deque
@@ -42,12 +43,12 @@ ZERO = (0.0, 0.0)
 
 
 class StabiliserTargets(NamedTuple):
-    """What was asked of the body at one tick, in odometry.
+    """Commanded motion of the body at one tick, in odometry.
 
     Attributes:
         body: CoM and feet.
         dcm: DCM, in [m].
-        acceleration: Of the CoM, in [m/s^2].
+        acceleration: Acceleration of the CoM, in [m/s^2].
         reaction: Shift of the ZMP by the swing leg, in [m].
     """
 
@@ -58,22 +59,22 @@ class StabiliserTargets(NamedTuple):
 
 
 class Stabiliser:
-    """Feedback of one robot.
+    """Feedback controller of one walking robot.
 
     Attributes:
         settings: Method and gains.
-        estimator: State from sensors.
+        estimator: State estimator.
         state: Last estimate; None before the first.
-        error: DCM less what was asked of it, beyond the dead zone, in [m].
+        error: DCM less its command, beyond the dead zone, in [m].
         com_error: Likewise for the CoM.
         com_shift: CoM reference less the plan's, in [m].
         dcm_shift: Likewise for the DCM.
         zmp_shift: Likewise for the ZMP.
         step_shift: Landing of the swing foot less the plan's, in [m].
         adapted: Number of footsteps that were moved.
-        joints: Correction of the joint targets.
-        zmp_feedback: How the ZMP brings the shifts back.
-        stride: What the feet fall short by.
+        joints: Correction of joint errors.
+        zmp_feedback: Rule for the ZMP shift.
+        stride: Learning of the footsteps' shortfall.
     """
 
     def __init__(
@@ -86,14 +87,14 @@ class Stabiliser:
         delay: float = 0.0,
         lean: float = 0.0,
     ) -> None:
-        """Prepare feedback.
+        """Prepare the stabiliser.
 
         Args:
             settings: Method and gains.
             estimator: State from sensors.
             gait: Gait.
             tick: Control period, in [s].
-            delay: Time from a request to the motion, in [s].
+            delay: Time from a command to the motion, in [s].
             lean: See :meth:`BodyReference.roll`, in [rad].
         """
         self.settings, self.estimator = settings, estimator
@@ -126,7 +127,7 @@ class Stabiliser:
 
     @property
     def ready(self) -> bool:
-        """Whether the robot may walk: it has stood still long enough."""
+        """Whether the robot has stood still long enough to start walking."""
         return self.estimator.ready
 
     def update(
@@ -135,12 +136,9 @@ class Stabiliser:
         """Run one control tick.
 
         Args:
-            measurement: What the sensors give.
-            row: What the plan asks for.
-            step: Step being made.
-
-        Returns:
-            What to ask of the body instead.
+            measurement: Measurement of the tick.
+            row: References of the plan.
+            step: Step in progress.
         """
         self._observe(measurement, row, step)
         if not self.ready:
@@ -150,8 +148,10 @@ class Stabiliser:
         body = self.stride.aimed(body, step)
         x, y, z = row.body.com
         assert self.state is not None
-        asked = self._asked[0].body
-        left, right = self._ankles.tilts(self.state, asked.roll(self._lean))
+        commanded = self._asked[0].body
+        left, right = self._ankles.tilts(
+            self.state, commanded.roll(self._lean)
+        )
         return body._replace(
             com=(x + self.com_shift[0], y + self.com_shift[1], z),
             left_tilt=left,
@@ -161,7 +161,7 @@ class Stabiliser:
     def _observe(
         self, measurement: Measurement, row: ReferenceSample, step: CurrentStep
     ) -> None:
-        """Estimate the state and compare it with what was asked."""
+        """Estimate the state and its errors from the delayed command."""
         x, y, z = row.body.com
         x, y = x + self.com_shift[0], y + self.com_shift[1]
         square = self._gait.eta**2
@@ -182,23 +182,28 @@ class Stabiliser:
                 row.reaction,
             )
         )
-        asked = self._asked[0]
+        commanded = self._asked[0]
         state = self.estimator.update(
-            measurement, asked.body, asked.acceleration, asked.reaction
+            measurement,
+            commanded.body,
+            commanded.acceleration,
+            commanded.reaction,
         )
         self.state = state
         dead = self.settings.stabiliser.dead_zone
         self.error = beyond(
-            state.dcm[0] - asked.dcm[0], state.dcm[1] - asked.dcm[1], dead
+            state.dcm[0] - commanded.dcm[0],
+            state.dcm[1] - commanded.dcm[1],
+            dead,
         )
         self.com_error = beyond(
-            state.com[0] - asked.body.com[0],
-            state.com[1] - asked.body.com[1],
+            state.com[0] - commanded.body.com[0],
+            state.com[1] - commanded.body.com[1],
             0.5 * dead,
         )
 
     def _react(self, step: CurrentStep) -> None:
-        """Let the shifts give way, and bring them back."""
+        """Let the shifts follow the errors, and bring them back."""
         gains, tick, eta = self.settings.stabiliser, self._tick, self._gait.eta
         rate = min(1.0, gains.yielding * tick)
         dx = self.dcm_shift[0] + rate * self.error[0]
@@ -221,7 +226,7 @@ class Stabiliser:
                 self._adapt(step.to_support(ex, ey), step)
 
     def _adapt(self, error: Vector, step: CurrentStep) -> None:
-        """Move the landing, no faster than a swing foot can follow."""
+        """Shift the landing at a bounded rate, which the foot can follow."""
         gains = self.settings.stabiliser
         box = zmp_box(step.swing, self._gait, gains.edge)
         goal = adapted_landing(error, step, box, self._gait, gains)
@@ -239,16 +244,16 @@ class Stabiliser:
         velocity: Vector,
         step: CurrentStep,
     ) -> tuple[Pose, Vector, Vector]:
-        """Take the shifts over into the state that the next plan begins with.
+        """Add the shifts to the state with which the next plan begins.
 
         Args:
-            landed: Foot that landed, as planned, in odometry.
-            position: CoM as planned in its frame, in [m].
-            velocity: Its velocity, in [m/s].
+            landed: Planned pose of the landed foot in odometry.
+            position: Planned CoM in its frame, in [m].
+            velocity: Planned CoM velocity, in [m/s].
             step: Step that ends.
 
         Returns:
-            The same, as it is to be believed now.
+            Estimates of the same three quantities.
         """
         eta = self._gait.eta
         u, v = self.step_shift
@@ -277,14 +282,14 @@ class Stabiliser:
         state: CenterState,
         support: Pose,
     ) -> tuple[ManeuverPlan, CenterState]:
-        """Plan so that the correction stays inside the sole.
+        """Plan with the correction inside the sole.
 
-        What the correction cannot take of the DCM stays a shift.
+        The remaining DCM error becomes a shift.
 
         Args:
-            plan_from: Plans from a state of the CoM.
-            state: Where to begin, in the frame of the support foot.
-            support: That frame in odometry.
+            plan_from: Function that plans from a CoM state.
+            state: Initial state in the frame of the support foot.
+            support: Pose of that frame in odometry.
         """
         plan = plan_from(state)
         edge = self.settings.stabiliser.edge

@@ -1,4 +1,4 @@
-"""State of the body from encoders, IMU and foot forces alone."""
+"""Estimation of the body's state from encoders, IMU and foot forces."""
 
 from math import atan2, cos, exp, sin
 from typing import NamedTuple
@@ -12,12 +12,12 @@ from ...perception.measurement import Measurement
 from ...robots.forward_kinematics import ForwardKinematics, MeasuredPosture
 from ...robots.leg_kinematics import BodyReference
 
-STANDS, TOUCHES = 0.2, 0.02  # share of the weight that the feet bear then
-FALLEN = 0.7  # tilt of the torso at which a robot knows that it falls, [rad]
+STANDS, TOUCHES = 0.2, 0.02  # least fractions of the weight on the feet
+FALLEN = 0.7  # tilt of the torso that counts as a fall, in [rad]
 
 
 class BodyState(NamedTuple):
-    """What the body does, in odometry.
+    """Estimated state of the body, in odometry.
 
     Attributes:
         com: CoM (x, y), in [m].
@@ -26,7 +26,7 @@ class BodyState(NamedTuple):
         zmp: Center of the foot forces, in [m].
         tilt: Roll and pitch of the torso, in [rad].
         rate: Angular velocity in the torso frame, in [rad/s].
-        left_share: Share of the weight on the left foot, in [0, 1].
+        left_share: Fraction of the weight on the left foot, in [0, 1].
         weight: Sum of the foot forces, in [N].
     """
 
@@ -41,17 +41,17 @@ class BodyState(NamedTuple):
 
     @property
     def has_fallen(self) -> bool:
-        """Whether the torso leans too far to come back."""
+        """Whether the torso tilts beyond recovery."""
         return max(map(abs, self.tilt)) > FALLEN
 
 
 class StateEstimator:
-    """Estimates the state of one robot.
+    """State estimator of one robot.
 
-    The torso's tilt comes from the IMU; where the CoM is follows from the
-    tilt and the measured joints over the feet that bear weight, which
-    stand where odometry has them. A constant-gain observer of the linear
-    inverted pendulum, driven by the measured ZMP, adds the velocity.
+    The torso tilt comes from the IMU. The CoM follows from the tilt and
+    the measured joints relative to the loaded feet, whose poses are those
+    of odometry. A constant-gain observer of the linear inverted pendulum,
+    driven by the measured ZMP, adds the velocity.
     """
 
     def __init__(
@@ -68,14 +68,14 @@ class StateEstimator:
         """Prepare an estimator.
 
         Args:
-            kinematics: Of the robot.
-            force_sensors: Places of the foot sensors in the foot frames,
+            kinematics: Forward kinematics of the robot.
+            force_sensors: Positions of the force sensors in the foot frames,
                 left then right, in [m]. Shape (8, 2).
             eta: Rate of the pendulum, in [1/s].
             tick: Control period, in [s].
-            bandwidth: Of the observer, in [rad/s].
-            correction: See :class:`AttitudeFilter`, in [1/s].
-            bias_correction: Likewise, in [1/s^2].
+            bandwidth: Bandwidth of the observer, in [rad/s].
+            correction: Gain of the :class:`AttitudeFilter`, in [1/s].
+            bias_correction: Gain of its bias, in [1/s^2].
         """
         self._kinematics = kinematics
         self._sensors = force_sensors
@@ -94,7 +94,7 @@ class StateEstimator:
 
     @property
     def ready(self) -> bool:
-        """Whether the robot has stood still for long enough."""
+        """Whether the robot has stood still long enough."""
         return self._attitude.ready
 
     @property
@@ -117,13 +117,13 @@ class StateEstimator:
         """Estimate the state at one tick.
 
         Args:
-            measurement: What the sensors give.
-            feet: What was asked of the feet when the motion now measured
-                was requested, in odometry.
-            acceleration: What was asked of the CoM then, in [m/s^2]. The
+            measurement: Measurement of the tick.
+            feet: Body reference of the command that the measured motion
+                executes, in odometry; its feet are used.
+            acceleration: CoM acceleration of that command, in [m/s^2]. The
                 estimated one would not do: through the lever of the CoM a
                 wrong tilt explains its own acceleration.
-            reaction: Shift of the ZMP by the swing leg then, in [m].
+            reaction: ZMP shift by the swing leg of that command, in [m].
         """
         attitude, eta = self._attitude, self._eta
         c, s = cos(self._heading), sin(self._heading)
@@ -137,9 +137,9 @@ class StateEstimator:
         weight = self._weigh(measurement.foot_forces)
         posture = self._kinematics.posture(measurement.joint_positions)
         self.posture = posture
-        seen, zmp = self._place(posture, measurement.foot_forces, feet)
+        measured, zmp = self._locate(posture, measurement.foot_forces, feet)
         com = self._observe(
-            seen, zmp - reaction, stands=weight >= STANDS * self._weight
+            measured, zmp - reaction, stands=weight >= STANDS * self._weight
         )
         cx, cy = com.tolist()
         vx, vy = self._velocity.tolist()
@@ -156,36 +156,36 @@ class StateEstimator:
         )
 
     def _weigh(self, forces: Array) -> float:
-        """Force on both feet, in [N]; notes the left one's share of it."""
+        """Return the force on both feet, in [N]; update the left fraction."""
         left, right = float(forces[:4].sum()), float(forces[4:].sum())
         weight = left + right
         if weight > TOUCHES * self._weight:
             share = left / weight
-            # A foot that hardly presses says nothing.
+            # The fraction of a hardly loaded foot is noise.
             self._share = 0.0 if share < 0.02 else min(share, 1.0)
             if share > 0.98:
                 self._share = 1.0
         return weight
 
-    def _place(
+    def _locate(
         self, posture: MeasuredPosture, forces: Array, feet: BodyReference
     ) -> tuple[Array, Array]:
-        """CoM and ZMP in odometry [m] by the feet, each as it presses."""
+        """Return CoM and ZMP in odometry, in [m], weighted by foot load."""
         share = self._share
         level = _level(self._attitude.roll, self._attitude.pitch)
         com, zmp = np.zeros(2), np.zeros(2)
-        for side, pressed in ((0, share), (1, 1.0 - share)):
-            if pressed == 0.0:
+        for side, load in ((0, share), (1, 1.0 - share)):
+            if load == 0.0:
                 continue
             x, y, _, yaw = feet.left_foot if side == 0 else feet.right_foot
             frame = level @ posture.frames[side]
             turn = yaw - atan2(frame[1, 0], frame[0, 0])
-            if pressed >= 0.5:
+            if load >= 0.5:
                 self._heading = turn
             c, s = cos(turn), sin(turn)
             lever = level @ (posture.com - posture.feet[side])
-            com[0] += pressed * (x + c * lever[0] - s * lever[1])
-            com[1] += pressed * (y + s * lever[0] + c * lever[1])
+            com[0] += load * (x + c * lever[0] - s * lever[1])
+            com[1] += load * (y + s * lever[0] + c * lever[1])
             press = forces[4 * side : 4 * side + 4]
             total = float(press.sum())
             if total > 0.0:
@@ -193,32 +193,34 @@ class StateEstimator:
                     press @ self._sensors[4 * side : 4 * side + 4] / total
                 ).tolist()
                 c, s = cos(yaw), sin(yaw)
-                zmp[0] += pressed * (x + c * u - s * v)
-                zmp[1] += pressed * (y + s * u + c * v)
+                zmp[0] += load * (x + c * u - s * v)
+                zmp[1] += load * (y + s * u + c * v)
         return com, zmp
 
-    def _observe(self, seen: Array, pushed: Array, *, stands: bool) -> Array:
-        """CoM of the observer [m] once it has seen one.
+    def _observe(
+        self, measured: Array, pivot: Array, *, stands: bool
+    ) -> Array:
+        """Update the observer and return its CoM, in [m]. Shape (2,).
 
         Args:
-            seen: CoM by the joints, in [m]. Shape (2,).
-            pushed: Where the floor pushes the pendulum from, in [m].
-            stands: Whether the floor bears the robot at all.
+            measured: CoM by the joints, in [m]. Shape (2,).
+            pivot: Pivot of the pendulum, in [m]. Shape (2,).
+            stands: Whether the floor supports the robot.
         """
         tick, eta = self._tick, self._eta
-        before = seen if self._com is None else self._com
-        pull = eta * eta * (before - pushed) if stands else np.zeros(2)
+        before = measured if self._com is None else self._com
+        pull = eta * eta * (before - pivot) if stands else np.zeros(2)
         predicted = before + tick * self._velocity
         predicted += 0.5 * tick * tick * pull
         self._velocity = self._velocity + tick * pull
-        off = seen - predicted
-        self._com = predicted + self._position_gain * off
-        self._velocity = self._velocity + self._velocity_gain * off
+        error = measured - predicted
+        self._com = predicted + self._position_gain * error
+        self._velocity = self._velocity + self._velocity_gain * error
         return self._com
 
 
 def _level(roll: float, pitch: float) -> Array:
-    """Rotation from the torso to a level frame with its heading."""
+    """Return the rotation from the torso to a level frame of its heading."""
     cr, sr, cp, sp = cos(roll), sin(roll), cos(pitch), sin(pitch)
     return np.array(
         [

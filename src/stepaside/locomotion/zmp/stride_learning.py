@@ -1,4 +1,4 @@
-"""Footsteps that fall short, learned from the encoders."""
+"""Learning of the footsteps' shortfall from the encoders."""
 
 from math import atan2
 
@@ -11,14 +11,14 @@ from ...robots.forward_kinematics import MeasuredPosture
 from ...robots.leg_kinematics import BodyReference
 from .current_step import CurrentStep
 
-TURNED = 0.08  # most that is learned of a turn, in [rad]
+MAX_TURN = 0.08  # of the learned correction, in [rad]
 
 
 def measured_step(posture: MeasuredPosture, swing: Foot) -> Array:
-    """Pose of the foot that swung in the frame of the other one.
+    """Return the pose of the swing foot in the frame of the other foot.
 
     Args:
-        posture: Feet by the measured joints.
+        posture: Measured posture.
         swing: Foot that swung.
 
     Returns:
@@ -32,36 +32,36 @@ def measured_step(posture: MeasuredPosture, swing: Foot) -> Array:
 
 
 class StrideLearning:
-    """Aims a swing foot beyond its landing by what it fell short before.
+    """Correction of the swing foot's target by its previous shortfall.
 
-    Joints with backlash and delay leave a foot a few percent short of where it
-    was sent, always to the same side; at the end of a step the encoders know
-    by how much. The aim fades in with the swing and out again in the double
-    support, where the foot stands and the joints only strain.
+    With backlash and delay a foot lands a few percent short of its target,
+    always to the same side; at the end of a step the encoders show by how
+    much. The correction fades in with the swing and out again in the double
+    support, where the stance foot cannot move and the joints only strain.
 
     Attributes:
-        aim: Of each foot beyond its landing, in the support foot's frame:
-            rows (x [m], y [m], theta [rad]).
+        aim: Correction of each foot's landing, in the support foot's
+            frame: rows (x [m], y [m], theta [rad]).
     """
 
     def __init__(self, gait: GaitSettings, gain: float, bound: float) -> None:
-        """Begin with no aim.
+        """Begin without a correction.
 
         Args:
             gait: Gait.
-            gain: Share that is learned from a step.
-            bound: Most that is learned of a way, in [m].
+            gain: Learning gain per step.
+            bound: Largest correction of the position, in [m].
         """
         self._gait, self._gain = gait, gain
-        self._bounds = np.array([bound, bound, TURNED])
+        self._bounds = np.array([bound, bound, MAX_TURN])
         self.aim = {Foot.LEFT: np.zeros(3), Foot.RIGHT: np.zeros(3)}
 
     def learn(self, posture: MeasuredPosture, step: CurrentStep) -> None:
-        """Learn from a step at its end.
+        """Update from a step at its end.
 
         Args:
-            posture: Feet by the measured joints.
-            step: The step.
+            posture: Measured posture.
+            step: Step that ends.
         """
         planned = np.array(step.support.inverse().compose(step.landing))
         short = planned - measured_step(posture, step.swing)
@@ -70,7 +70,7 @@ class StrideLearning:
         self.aim[step.swing] = np.clip(aim, -self._bounds, self._bounds)
 
     def aimed(self, body: BodyReference, step: CurrentStep) -> BodyReference:
-        """Let the swing foot of a reference head beyond its landing."""
+        """Return a reference with the corrected target of the swing foot."""
         if not step.walking:
             return body
         share = step.progress

@@ -1,4 +1,4 @@
-"""How a shift of the ZMP brings a shift of the DCM back."""
+"""Rules for the ZMP shift that regulates the DCM shift."""
 
 from typing import Protocol
 
@@ -13,40 +13,40 @@ Vector = tuple[float, float]
 
 
 class ZmpFeedback(Protocol):
-    """A rule for the shift of the ZMP.
+    """Rule for the ZMP shift.
 
     Attributes:
-        solved: Answer of a solver at the last tick, if it was asked.
+        solved: Result of the MPC at the last tick, if it ran.
     """
 
     solved: MpcResult | None
 
     def shift(self, step: CurrentStep, dcm: Vector, zmp: Vector) -> Vector:
-        """Shift of the ZMP at the next tick.
+        """Return the ZMP shift at the next tick, in odometry, in [m].
 
         Args:
-            step: Step being made.
-            dcm: Shift of the DCM in odometry, in [m].
-            zmp: Shift of the ZMP now, likewise.
+            step: Step in progress.
+            dcm: DCM shift in odometry, in [m].
+            zmp: Present ZMP shift in odometry, in [m].
         """
 
 
 class ProportionalFeedback:
-    """A multiple of the DCM's shift, as far as the sole allows.
+    """Proportional rule: a multiple of the DCM shift, clipped to the sole.
 
     Attributes:
-        solved: None: it has no solver.
+        solved: None.
     """
 
     def __init__(
         self, gait: GaitSettings, *, gain: float, edge: float
     ) -> None:
-        """Take the gain, above 1, and the distance from the edge, in [m]."""
+        """Take a gain above 1 and the distance from the edge, in [m]."""
         self.solved: MpcResult | None = None
         self._gait, self._gain, self._edge = gait, gain, edge
 
     def shift(self, step: CurrentStep, dcm: Vector, zmp: Vector) -> Vector:
-        """Shift of the ZMP; see :class:`ZmpFeedback`."""
+        """Return the ZMP shift; see :class:`ZmpFeedback`."""
         box = zmp_box(step.swing, self._gait, self._edge)
         u, v = step.to_support(*dcm)
         return step.from_support(
@@ -55,10 +55,10 @@ class ProportionalFeedback:
 
 
 class MpcFeedback:
-    """The ZMP of the intrinsically stable MPC.
+    """Rule by the intrinsically stable MPC.
 
     Attributes:
-        solved: Answer of the solver at the last tick, if it was asked.
+        solved: Result of the MPC at the last tick, if it ran.
     """
 
     def __init__(
@@ -67,32 +67,32 @@ class MpcFeedback:
         standing: ProportionalFeedback,
         tick: float,
     ) -> None:
-        """Ask an MPC while walking, and another rule while standing."""
+        """Use an MPC while walking, and another rule while standing."""
         self.solved: MpcResult | None = None
         self._mpc, self._standing, self._tick = mpc, standing, tick
 
     def shift(self, step: CurrentStep, dcm: Vector, zmp: Vector) -> Vector:
-        """Shift of the ZMP; see :class:`ZmpFeedback`."""
+        """Return the ZMP shift; see :class:`ZmpFeedback`."""
         self.solved = None
         if step.plan is None:
             return self._standing.shift(step, dcm, zmp)
         if dcm == zmp == (0.0, 0.0):
-            return zmp  # the plan itself is the answer
-        answer = self._mpc.solve(
+            return zmp  # the plan itself is optimal
+        result = self._mpc.solve(
             step.plan,
             step.passed,
             np.array(step.to_support(*dcm)),
             np.array(step.to_support(*zmp)),
         )
-        self.solved = answer
-        vx, vy = step.from_support(*answer.velocity)
+        self.solved = result
+        vx, vy = step.from_support(*result.velocity)
         return zmp[0] + self._tick * vx, zmp[1] + self._tick * vy
 
 
 def zmp_feedback(
     settings: ControlSettings, gait: GaitSettings, tick: float
 ) -> ZmpFeedback:
-    """Rule that a method asks for.
+    """Return the rule of a method.
 
     Args:
         settings: Method and gains.

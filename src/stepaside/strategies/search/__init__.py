@@ -1,4 +1,4 @@
-"""The game in steps: what one step does, and looking many steps ahead."""
+"""Step-game model and search: one step, and rollouts of many."""
 
 from .candidate_maneuvers import (
     BestManeuver,

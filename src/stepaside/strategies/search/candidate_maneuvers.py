@@ -1,26 +1,26 @@
-"""Which maneuvers are tried, and what makes one good."""
+"""Candidate maneuvers of the search, and the objective that ranks them."""
 
 from math import inf, pi
 from typing import Any, NamedTuple
 
-DEEPEST = 8  # pieces of a maneuver
+DEEPEST = 8  # most pieces of a maneuver, plus one
 
 
 class CandidateManeuvers(NamedTuple):
-    """Which maneuvers are tried.
+    """Set of maneuvers that the search tries.
 
     Attributes:
-        pieces: Steps of each piece, the first first. Shape (n,).
-        turns: Turns of a step that each may have, in [rad], those that are
-            preferred first. Shape (m,).
-        horizon: Steps of a whole maneuver, law included, but for those
+        pieces: Number of steps of each piece, in order. Shape (n,).
+        turns: Turns per step that are tried in each piece, in [rad], the
+            preferred ones first. Shape (m,).
+        horizon: Number of steps of a maneuver, law included, without those
             on the spot.
         angle: Strategy alpha of the law, in [rad].
-        spots: Most steps that turn on the spot, by the largest turn, before
-            the first piece; every second number up to it is tried.
-        still: Share of its stride that a step on the spot makes.
-        most: Steps that are rolled out, after which no other maneuver is
-            begun: what bounds the time of a decision.
+        spots: Largest number of steps that turn on the spot, by the largest
+            turn, before the first piece; every second number is tried.
+        still: Fraction of the stride that a step on the spot makes.
+        most: Number of rolled-out steps after which no further maneuver is
+            begun, which bounds the time of a decision.
     """
 
     pieces: Any
@@ -33,16 +33,16 @@ class CandidateManeuvers(NamedTuple):
 
 
 class ManeuverObjective(NamedTuple):
-    """What makes a maneuver good.
+    """Objective of the search.
 
     Attributes:
-        enough: Distance to the pursuer that is as good as any larger, [m].
-        clearance: Least distance of the own centre to solids, in [m].
-        penalty: What a metre less than that costs, in [m].
-        sight: Largest bearing at which the pursuer is still seen, in [rad].
-        blindness: What a radian beyond that costs, in [m].
-        gain: By how much a maneuver must beat the present one, in [m].
-        tight: Score below which turning on the spot is tried as well, [m].
+        enough: Distance to the pursuer beyond which no more is gained, [m].
+        clearance: Required clearance of the own centre, in [m].
+        penalty: Cost of missing clearance, in [m] per [m].
+        sight: Largest bearing at which the pursuer is visible, in [rad].
+        blindness: Cost of a bearing beyond that, in [m] per [rad].
+        gain: Improvement over the present maneuver that replaces it, in [m].
+        tight: Score below which turns on the spot are tried as well, [m].
     """
 
     enough: float = inf
@@ -55,14 +55,14 @@ class ManeuverObjective(NamedTuple):
 
 
 class BestManeuver(NamedTuple):
-    """The best maneuver.
+    """Result of the search.
 
     Attributes:
-        score: In [m].
-        turns: Turn of each step to come, in [rad], the law's included.
-            Shape (horizon + spot,).
-        steps: Steps that were rolled out to find it.
-        spot: How many of the first turns are made on the spot.
+        score: Score of the maneuver, in [m].
+        turns: Turn of each of its steps, in [rad], those of the law
+            included. Shape (horizon + spot,).
+        steps: Number of steps that the search rolled out.
+        spot: Number of initial steps that turn on the spot.
     """
 
     score: float

@@ -1,4 +1,4 @@
-"""Rolling one maneuver out, and how good it is."""
+"""Rollout of one maneuver, with its score."""
 
 from math import atan2, pi
 from pathlib import Path
@@ -29,12 +29,12 @@ def judge(
     aims: ManeuverObjective,
     packed: PackedObstacles,
 ) -> float:
-    """Score after one more step, given that before it."""
+    """Return the score after one more step, given the score before it."""
     dx, dy = both.px - both.ex, both.py - both.ey
-    worth = min((dx * dx + dy * dy) ** 0.5, aims.enough)
-    if worth < score:
-        score = worth
-    lacks = aims.clearance - clearance_at(
+    reward = min((dx * dx + dy * dy) ** 0.5, aims.enough)
+    if reward < score:
+        score = reward
+    missing = aims.clearance - clearance_at(
         packed, both.ex, both.ey, aims.clearance
     )
     if aims.sight < pi:
@@ -42,9 +42,9 @@ def judge(
             atan2(both.ec * dy - both.es * dx, both.ec * dx + both.es * dy)
         )
         if psi > aims.sight:
-            score = min(score, worth - aims.blindness * (psi - aims.sight))
-    if lacks > 0.0:
-        score = min(score, worth - aims.penalty * lacks)
+            score = min(score, reward - aims.blindness * (psi - aims.sight))
+    if missing > 0.0:
+        score = min(score, reward - aims.penalty * missing)
     return score
 
 
@@ -52,7 +52,7 @@ def judge(
 def law_turn(
     both: PlayerPair, side: float, angle: float, share: float
 ) -> float:
-    """Turn of a step by eqs. (4)-(5), in [rad]."""
+    """Return the turn of a step by eqs. (4)-(5), in [rad]."""
     dx, dy = both.px - both.ex, both.py - both.ey
     psi = atan2(both.ec * dy - both.es * dx, both.ec * dx + both.es * dy)
     heading = psi + side * angle
@@ -79,25 +79,25 @@ def follow(
     packed: PackedObstacles,
     table: ValueTable,
 ) -> tuple[float, int]:
-    """Roll a maneuver out that is given as turns, then the law.
+    """Roll out a maneuver: given turns, then the law.
 
     Args:
-        both: Where both are.
+        both: Initial state of both players.
         score: Score so far.
-        turns: Turn of each step; those of the law are written behind.
-        count: How many are given.
-        spot: How many of the first are made on the spot.
-        still: Of such a step.
-        horizon: How many there are in the end.
-        best: Score at which it is given up.
+        turns: Turn of each step; those of the law are appended in place.
+        count: Number of given turns.
+        spot: Number of initial steps on the spot.
+        still: Rules of a step on the spot.
+        horizon: Total number of steps.
+        best: Score at or below which the rollout is aborted.
         angle: Strategy alpha of the law, in [rad].
-        rules: Of a step.
-        aims: What is good.
-        packed: What stands there.
-        table: What comes after the horizon.
+        rules: Rules of a step.
+        aims: Objective.
+        packed: Obstacles.
+        table: Value table after the horizon.
 
     Returns:
-        Score, and steps that were made.
+        Score, and number of steps rolled out.
     """
     side = 0.0
     for n in range(horizon):

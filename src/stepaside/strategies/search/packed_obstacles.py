@@ -1,4 +1,4 @@
-"""Distance from obstacles in compiled loops."""
+"""Clearance from obstacles in compiled loops."""
 
 from math import inf, sqrt
 
@@ -10,13 +10,13 @@ from ...theory.unicycle.compilation import inlined
 def clearance_at(
     packed: PackedObstacles, x: float, y: float, enough: float
 ) -> float:
-    """Distance of a point to the nearest solid, as far as it matters.
+    """Return the clearance of a point, up to a limit.
 
     Args:
-        packed: What stands there.
-        x: Of the point, in [m].
-        y: Of the point, in [m].
-        enough: Distance from which on nothing matters, in [m].
+        packed: Obstacles.
+        x: Coordinate of the point, in [m].
+        y: Coordinate of the point, in [m].
+        enough: Largest distance of interest, in [m].
 
     Returns:
         Signed distance, negative inside, at most ``enough``, in [m].

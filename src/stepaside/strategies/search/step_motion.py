@@ -1,9 +1,9 @@
-r"""One step of both players (theory of the game in steps).
+r"""Motion of both players in one step of the step game.
 
 In one step a robot advances by the stride along an arc and turns by `u`. The
 pursuer of eqs. (1)-(2) turns by :math:`\kappa` times the bearing of the
-evader, :math:`\kappa = k \Delta / \bar{v}`. The headings are kept as unit
-vectors: no sine is worked out twice.
+evader, :math:`\kappa = k \Delta / \bar{v}`. The headings are unit
+vectors to save trigonometric functions.
 """
 
 from math import atan2
@@ -13,17 +13,17 @@ from ...theory.unicycle.compilation import inlined
 
 
 class PlayerPair(NamedTuple):
-    """Where both players are, in one frame.
+    """Poses of both players in one frame.
 
     Attributes:
-        ex: Of the evader, in [m].
-        ey: Of the evader, in [m].
-        ec: Cosine of its heading.
-        es: Sine of its heading.
-        px: Of the pursuer, in [m].
-        py: Of the pursuer, in [m].
-        pc: Cosine of its heading.
-        ps: Sine of its heading.
+        ex: Position of the evader, in [m].
+        ey: Likewise.
+        ec: Cosine of the evader's heading.
+        es: Sine of the evader's heading.
+        px: Position of the pursuer, in [m].
+        py: Likewise.
+        pc: Cosine of the pursuer's heading.
+        ps: Sine of the pursuer's heading.
     """
 
     ex: float
@@ -37,15 +37,15 @@ class PlayerPair(NamedTuple):
 
 
 class StepRules(NamedTuple):
-    """What a step of each player does.
+    """Parameters of a step of each player.
 
     Attributes:
-        evader_stride: Way of a step of the evader, in [m].
-        evader_share: Its turn of a step per desired heading, kappa.
-        pursuer_stride: Way of a step of the pursuer, in [m].
-        pursuer_share: Its turn of a step per bearing, kappa.
-        lead: How far ahead of the evader the pursuer aims, as a share of
-            the distance; 0 for the paper's.
+        evader_stride: Step length of the evader, in [m].
+        evader_share: Turn of its step per desired heading, kappa.
+        pursuer_stride: Step length of the pursuer, in [m].
+        pursuer_share: Turn of its step per bearing, kappa.
+        lead: Lead of the pursuer's target point ahead of the evader, as a
+            fraction of the distance; 0 for the paper's pursuer.
     """
 
     evader_stride: float
@@ -57,9 +57,9 @@ class StepRules(NamedTuple):
 
 @inlined
 def half_turn(half: float) -> tuple[float, float, float]:
-    """Cosine, sine and sine over angle of half a turn of a step.
+    """Return cosine, sine and sinc of half the turn of a step.
 
-    By series, to 1e-9 up to 0.4 rad.
+    Power series, accurate to 1e-9 up to 0.4 rad.
     """
     z = half * half
     ratio = 1.0 - z * (1.0 / 6.0 - z * (1.0 / 120.0 - z * (1.0 / 5040.0)))
@@ -73,7 +73,7 @@ def half_turn(half: float) -> tuple[float, float, float]:
 def pursue(
     both: PlayerPair, rules: StepRules
 ) -> tuple[float, float, float, float]:
-    """Where the pursuer is a step later, and its heading as a unit vector."""
+    """Return the pursuer's position and heading vector after a step."""
     dx, dy = both.ex - both.px, both.ey - both.py
     if rules.lead != 0.0:
         reach = rules.lead * (dx * dx + dy * dy) ** 0.5
@@ -96,14 +96,14 @@ def pursue(
 def step_both(
     both: PlayerPair, c: float, s: float, ratio: float, rules: StepRules
 ) -> PlayerPair:
-    """One step of both.
+    """Advance both players by one step.
 
     Args:
-        both: Where they are.
+        both: Poses of both players.
         c: Cosine of half the evader's turn; see :func:`half_turn`.
         s: Its sine.
-        ratio: Its sine over the angle.
-        rules: Of both.
+        ratio: Its sinc.
+        rules: Parameters of the steps.
     """
     mc, ms = both.ec * c - both.es * s, both.es * c + both.ec * s
     way = rules.evader_stride * ratio

@@ -1,12 +1,12 @@
-"""Looking ahead: sequences of turns, tried against a model of the pursuer.
+"""Branch-and-bound search over turning sequences, with a pursuer model.
 
-A maneuver is a sequence of pieces with a constant turn each, and after them
+A maneuver is a sequence of pieces with a constant turn each, followed by
 the law of Sec. II-B until the horizon. Its score is the least distance to
-the pursuer on the way, at most what is enough, less a penalty for coming
-too near to what stands on the floor and for losing sight of the pursuer.
-A score only falls along a maneuver: so the search goes down the tree of
-pieces, and leaves a branch as soon as it is no better than the best so far.
-Where no sequence is good, it also tries to turn on the spot first.
+the pursuer, limited to ``enough``, less penalties for missing clearance and
+for losing sight of the pursuer. The score never increases along a maneuver:
+so the search descends the tree of pieces and prunes a branch as soon as it
+is no better than the best maneuver so far. If no sequence is good, it also
+tries sequences that begin with a turn on the spot.
 """
 
 from math import inf
@@ -42,42 +42,42 @@ def descend(
     chosen: Any,
     work: Any,
 ) -> tuple[float, int]:
-    """Go down the tree of pieces.
+    """Descend the tree of pieces.
 
     Args:
-        both: Where both are at its root.
-        start: Score there.
-        first: Steps before the root, whose turns stand in ``work``.
-        made: Steps that were rolled out before.
+        both: State of both players at the root.
+        start: Score at the root.
+        first: Number of steps before the root; their turns are in ``work``.
+        made: Number of steps rolled out before.
         best: Best score so far.
-        maneuvers: Which are tried.
-        rules: Of a step.
-        aims: What is good.
-        packed: What stands there.
-        table: What comes after the horizon.
-        chosen: Where the turns are written of one that is better. Shape
+        maneuvers: Candidate maneuvers.
+        rules: Rules of a step.
+        aims: Objective.
+        packed: Obstacles.
+        table: Value table after the horizon.
+        chosen: Output: turns of the best maneuver, if better. Shape
             (horizon + spots,).
-        work: Memory of the same shape.
+        work: Scratch array of the same shape.
 
     Returns:
-        Best score now, and the steps that were rolled out by now.
+        Best score, and total number of steps rolled out.
     """
     pieces, turns = maneuvers.pieces, maneuvers.turns
     last, level = len(pieces) - 1, 0
     index = np.zeros(DEEPEST, dtype=np.int64)
     begins = np.zeros(DEEPEST, dtype=np.int64)
     scores = np.zeros(DEEPEST)
-    places = np.zeros((DEEPEST, 8))
+    states = np.zeros((DEEPEST, 8))
     scores[0], begins[0] = start, first
     for i in range(8):
-        places[0, i] = both[i]
+        states[0, i] = both[i]
     while level >= 0 and made < maneuvers.most:
         if index[level] == len(turns):
             level -= 1
             continue
         u = turns[index[level]]
         index[level] += 1
-        p = places[level]
+        p = states[level]
         here = PlayerPair(p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7])
         score, at = scores[level], begins[level]
         c, s, ratio = half_turn(0.5 * u)
@@ -95,7 +95,7 @@ def descend(
             level += 1
             index[level], begins[level], scores[level] = 0, at, score
             for i in range(8):
-                places[level, i] = here[i]
+                states[level, i] = here[i]
             continue
         score, more = follow(
             here,
@@ -137,21 +137,21 @@ def search(
     """Find the best maneuver; see :func:`look_ahead`.
 
     Args:
-        both: Where both are.
-        plan: Turns of the steps that were planned before. Shape (n,).
-        planned: How many of them were to be made on the spot.
-        maneuvers: Which are tried.
-        rules: Of a step.
-        aims: What is good.
-        packed: What stands there.
-        table: What comes after the horizon.
-        chosen: Where the best one's turns are written. Shape (horizon +
+        both: State of both players.
+        plan: Turns of the previously planned steps. Shape (n,).
+        planned: Number of initial planned steps on the spot.
+        maneuvers: Candidate maneuvers.
+        rules: Rules of a step.
+        aims: Objective.
+        packed: Obstacles.
+        table: Value table after the horizon.
+        chosen: Output: turns of the best maneuver. Shape (horizon +
             spots,).
-        work: Memory of the same shape.
+        work: Scratch array of the same shape.
 
     Returns:
-        Its score, the steps that were rolled out, and how many of the first
-        are made on the spot.
+        Its score, the number of steps rolled out, and the number of initial
+        steps on the spot.
     """
     horizon, angle = maneuvers.horizon, maneuvers.angle
     start, spot = aims.enough, 0
@@ -180,7 +180,7 @@ def search(
     if len(plan) > 0:
         for n in range(len(plan)):
             work[n] = plan[n]
-        # On equal terms the plan is kept.
+        # A tie keeps the plan.
         score, more = follow(
             both,
             start,
@@ -266,19 +266,19 @@ def look_ahead(
     """Find the best maneuver.
 
     The law alone is tried first, then the rest of the plan, and then every
-    sequence of pieces; one that is no better than those before it is not
-    taken. Where the best is worse than tight, sequences that begin with a
-    turn on the spot are tried, too. Without pieces it is the law.
+    sequence of pieces; a maneuver is chosen only if it improves on those
+    before it. If the best score is below ``tight``, sequences that begin
+    with a turn on the spot are tried, too. Without pieces it is the law.
 
     Args:
-        both: Where both are.
-        plan: Turns of the steps that were planned before and not made, [rad].
-        maneuvers: Which are tried.
-        rules: Of a step.
-        aims: What is good.
-        packed: What stands there.
-        table: What comes after the horizon.
-        planned: How many of the planned steps were to be made on the spot.
+        both: State of both players.
+        plan: Turns of the previously planned steps to come, in [rad].
+        maneuvers: Candidate maneuvers.
+        rules: Rules of a step.
+        aims: Objective.
+        packed: Obstacles.
+        table: Value table after the horizon.
+        planned: Number of initial planned steps on the spot.
     """
     horizon = maneuvers.horizon
     chosen = np.zeros(horizon + maneuvers.spots)

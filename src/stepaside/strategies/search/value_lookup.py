@@ -1,4 +1,4 @@
-"""The bound's table at a point, for compiled loops."""
+"""Interpolation of the bound's value table in compiled loops."""
 
 from math import atan2, hypot, pi, tau
 from typing import Any, NamedTuple
@@ -10,15 +10,14 @@ from .step_motion import PlayerPair
 
 
 class ValueTable(NamedTuple):
-    """Best least distance on an open floor, from every relative state.
+    """Optimal closest approach on an open floor, by relative state.
 
     Attributes:
-        values: Values, in units of length. Shape (a, r, psi), all around,
-            with one node more on both sides of each bearing; empty for
-            none.
-        near: Least distance of its nodes, in units.
-        step: Spacing of the distances, in units.
-        unit: Length of the unit, in [m].
+        values: Values, in length units. Shape (a, r, psi), with one more
+            node on both sides of each periodic axis; empty for no table.
+        near: Least distance of its nodes, in length units.
+        step: Spacing of the distances, in length units.
+        unit: Length unit, in [m].
     """
 
     values: Any
@@ -28,12 +27,12 @@ class ValueTable(NamedTuple):
 
 
 NO_VALUE = ValueTable(np.zeros((0, 0, 0), dtype=np.float32), 0.0, 1.0, 1.0)
-"""Nothing is known of what comes after the horizon."""
+"""No value table after the horizon."""
 
 
 @inlined
 def value_at(table: ValueTable, both: PlayerPair) -> float:
-    """Best least distance from where both are, in [m], by a table."""
+    """Return the optimal closest approach from a state, in [m]."""
     values = table.values
     dx, dy = both.ex - both.px, both.ey - both.py
     distance = hypot(dx, dy)

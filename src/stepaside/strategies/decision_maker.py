@@ -1,0 +1,199 @@
+"""Execution of a strategy: its memory, and the knowledge it decides from."""
+
+from math import cos, sin
+from typing import Any
+
+from ..arena import Obstacle
+from ..core.errors import StrategyError
+from ..core.poses import Pose, wrap_angle
+from .foreign_code import ask
+from .knowledge import Intent, Knowledge, Limits
+from .opponent_rates import FloorVelocity, SightRates
+from .strategy import Strategy
+
+ORIGIN = Pose(0.0, 0.0, 0.0)
+
+
+class DecisionMaker:
+    """Strategy of one player with its memory and rate estimates.
+
+    Attributes:
+        strategy: Strategy of the player.
+        memory: Memory of the strategy.
+    """
+
+    def __init__(
+        self,
+        strategy: Strategy,
+        limits: Limits,
+        *,
+        estimates_velocity: bool = True,
+    ) -> None:
+        """Begin without a sighting.
+
+        Args:
+            strategy: Strategy of the player.
+            limits: Limits of its gait.
+            estimates_velocity: Whether its knowledge contains the velocity
+                of the opponent.
+        """
+        self.strategy = strategy
+        self.memory: Any = strategy.begin()
+        self._limits = limits
+        self._estimates_velocity = estimates_velocity
+        self.reset_rates()
+
+    def reset_rates(self) -> None:
+        """Forget the motion of the opponent."""
+        period = self._limits.step_duration
+        self._rates = SightRates(period)
+        self._velocity = FloorVelocity(period)
+
+    def adopt(self, strategy: Strategy) -> None:
+        """Replace the strategy from the next decision on.
+
+        Args:
+            strategy: New strategy. One of the same class continues with the
+                present memory; another class begins anew.
+        """
+        if type(strategy) is not type(self.strategy):
+            self.memory = strategy.begin()
+        self.strategy = strategy
+
+    def observe(
+        self,
+        now: float,
+        pose: Pose,
+        sight: float,
+        bearing: float,
+        distance: float,
+        *,
+        time: float,
+        frame: Pose = ORIGIN,
+        moving: bool,
+        obstacles: tuple[Obstacle, ...] = (),
+        spread: float = 0.0,
+        map_error: float = 0.0,
+    ) -> Knowledge:
+        """Add a sighting and return the knowledge for a decision.
+
+        Args:
+            now: Time of the decision, in [s].
+            pose: Pose of the template at the sighting, in odometry.
+            sight: Direction of the line of sight in odometry, in [rad].
+            bearing: That direction relative to the pose, in [rad].
+            distance: Distance to the opponent, in [m].
+            time: Time of the sighting, in [s].
+            frame: Pose of odometry in the frame of the obstacles.
+            moving: Whether the player is walking.
+            obstacles: Known obstacles.
+            spread: Standard deviation of the opponent's position, in [m].
+            map_error: Largest position error of the obstacles, in [m].
+        """
+        rates = self._rates.note(time, sight, distance)
+        return Knowledge(
+            time=now,
+            bearing=wrap_angle(bearing),
+            distance=distance,
+            limits=self._limits,
+            bearing_rate=rates.bearing_rate,
+            closing_speed=rates.closing_speed,
+            age=max(0.0, now - time),
+            pose=frame.compose(pose),
+            moving=moving,
+            obstacles=obstacles,
+            velocity=self._velocity_in(pose, time, bearing, distance),
+            spread=spread,
+            map_error=map_error,
+        )
+
+    def preview(self, knowledge: Knowledge) -> tuple[Intent, Any]:
+        """Return the decision and its memory, without storing the memory.
+
+        Raises:
+            StrategyError: If the strategy returns no intent.
+        """
+        return ask(self.strategy, knowledge, self.memory)
+
+    def evaluate(self, knowledge: Knowledge) -> Intent:
+        """Decide and store the memory.
+
+        Raises:
+            StrategyError: If the strategy returns no intent.
+        """
+        intent, self.memory = self.preview(knowledge)
+        return intent
+
+    def _velocity_in(
+        self, pose: Pose, time: float, bearing: float, distance: float
+    ) -> tuple[float, float] | None:
+        """Return the opponent's velocity in the axes of a pose, in [m/s]."""
+        if not self._estimates_velocity:
+            return None
+        position = pose.compose(
+            Pose(distance * cos(bearing), distance * sin(bearing), 0.0)
+        )
+        velocity = self._velocity.note(time, position.x, position.y)
+        if velocity is None:
+            return None
+        to_pose = Pose(0.0, 0.0, -pose.theta)
+        vx, vy, _ = to_pose.compose(Pose(*velocity, 0.0))
+        return vx, vy
+
+
+class TemplatePlayer(DecisionMaker):
+    """Player of a template game: exact sightings, without latency."""
+
+    def __init__(
+        self,
+        strategy: Strategy,
+        limits: Limits,
+        obstacles: tuple[Obstacle, ...] = (),
+        *,
+        estimates_velocity: bool = True,
+    ) -> None:
+        """Begin standing, without a sighting.
+
+        Args:
+            strategy: Strategy of the player.
+            limits: Limits of its gait.
+            obstacles: Known obstacles.
+            estimates_velocity: Whether its knowledge contains the velocity
+                of the opponent.
+        """
+        super().__init__(
+            strategy, limits, estimates_velocity=estimates_velocity
+        )
+        self._obstacles, self._moving = obstacles, False
+
+    def decide(
+        self, time: float, pose: Pose, bearing: float, distance: float
+    ) -> Intent:
+        """Decide and store the memory.
+
+        Args:
+            time: Present time, in [s].
+            pose: Own pose.
+            bearing: Bearing of the opponent, in [rad].
+            distance: Distance to the opponent, in [m].
+
+        Raises:
+            StrategyError: If the strategy returns no intent.
+        """
+        knowledge = self.observe(
+            time,
+            pose,
+            pose.theta + bearing,
+            bearing,
+            distance,
+            time=time,
+            moving=self._moving,
+            obstacles=self._obstacles,
+        )
+        try:
+            intent = self.evaluate(knowledge)
+        except StrategyError as error:
+            name = type(self.strategy).__name__
+            raise StrategyError(f"strategy {name}: {error}") from error
+        self._moving = intent.walks
+        return intent
