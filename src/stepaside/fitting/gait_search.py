@@ -9,7 +9,7 @@ first, until its first fall or until it cannot beat the best one.
 import json
 from collections.abc import Callable, Iterable
 from concurrent.futures import Executor, as_completed
-from dataclasses import replace
+from dataclasses import asdict, replace
 from hashlib import sha256
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -202,7 +202,7 @@ def _stamp_of(description: RobotDescription) -> str:
     plain = replace(description, folder=Path(), name="", game={})
     inputs = (
         digest_of(description),
-        plain,
+        asdict(plain),  # in full: the text of a description is abridged
         code_version(MODULES),
         library_versions(),
     )
