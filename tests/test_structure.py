@@ -4,6 +4,7 @@ import ast
 import subprocess
 import sys
 from collections import Counter
+from graphlib import TopologicalSorter
 from importlib import import_module
 from pathlib import Path
 
@@ -64,6 +65,24 @@ def test_imports_point_down(file: Path) -> None:
         assert LAYERS.index(other) < LAYERS.index(package), (
             f"{file} imports {other}"
         )
+
+
+def imported_modules(file: Path) -> set[Path]:
+    """Modules that a module imports, also for type checking or lazily."""
+    found = set()
+    for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.ImportFrom) and node.level:
+            names = (node.module or "").split(".") if node.module else []
+            target = file.parents[node.level - 1].joinpath(*names)
+            found.add(target.with_suffix(".py"))
+            found.update(target / f"{alias.name}.py" for alias in node.names)
+    return found
+
+
+def test_modules_import_each_other_without_circles() -> None:
+    modules = {file for file in MODULES if file.stem != "__init__"}
+    graph = {file: imported_modules(file) & modules for file in modules}
+    assert len(list(TopologicalSorter(graph).static_order())) == len(modules)
 
 
 def test_a_class_name_is_defined_once() -> None:

@@ -136,8 +136,7 @@ def robot_with(folder: Path, limbs: dict[str, tuple[float, int, str]]) -> Path:
                 "right_arm": (-0.2, 4, "0 1 0"),
                 "head": (0.0, 2, "0 0 1"),
             },
-            "chain of joints on the left ends in 'left_arm_3' and is not a "
-            "leg",
+            "joints on the left ends in 'left_arm_3' and is not a leg",
         ),
         (
             {"eye": (0.02, 1, "0 0 1"), "other_eye": (-0.02, 1, "0 0 1")},

@@ -202,7 +202,7 @@ def _stamp_of(description: RobotDescription) -> str:
     plain = replace(description, folder=Path(), name="", game={})
     inputs = (
         digest_of(description),
-        asdict(plain),
+        asdict(plain),  # in full: the text of a description is abridged
         code_version(MODULES),
         library_versions(),
     )
