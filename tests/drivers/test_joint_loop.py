@@ -147,7 +147,7 @@ def test_a_robot_that_was_lifted_stands_and_walks_anew_by_the_button() -> None:
     script = [*TO_READY, *PRESS, *40 * [lifted], *5 * [FINE], *PRESS, FINE]
     game = Game(script)
     tick = game.play(142)
-    assert tick.state is RobotState.READY and "in the air" in tick.reason
+    assert tick.state is RobotState.READY and "are lifted" in tick.reason
     assert game.play(5).state is RobotState.READY
     assert len(game.minds) == 2
     game.play(3)
@@ -169,7 +169,7 @@ def test_control_that_gives_up_lets_the_robot_go_limp(kind: str) -> None:
         game.minds[0].phase = Phase.FALLEN
     tick = game.play(1)
     assert tick.state is RobotState.LIMP
-    said = {"footing": "too short", "strategy": "'x'", "falling": "falls"}
+    said = {"footing": "too short", "strategy": "'x'", "falling": "a fall"}
     assert said[kind] in tick.reason
 
 
@@ -249,4 +249,4 @@ def test_the_line_says_each_change_and_on_terminals_five_times_a_second(
     assert said.count("\n") == (5 if stream.isatty() else 4)
     wanted = (8, 14) if stream.isatty() else (4, 4)
     assert wanted[0] <= said.count(" s  ") <= wanted[1]
-    assert "sees nobody" in said
+    assert "opponent not detected" in said

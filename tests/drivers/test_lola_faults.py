@@ -187,7 +187,7 @@ def test_a_world_that_is_frozen_ends_control(tmp_path: Path) -> None:
         body = open_lola(address, JOINTS, STANCE)
         body.read()
         world.send_signal(signal.SIGSTOP)
-        with pytest.raises(SessionLost, match="no good frame for"):
+        with pytest.raises(SessionLost, match="no valid frame for"):
             while True:
                 body.read()
                 body.write(STANCE)

@@ -270,7 +270,9 @@ def test_sockets_are_taken_away_and_leftovers_replaced(
     with socket.socket(socket.AF_UNIX) as left:
         left.bind(address.path)  # as a killed world leaves it
     server = LolaServer(address, MadeUpRobot(), JOINTS)
-    with pytest.raises(ConfigurationError, match="somebody listens there"):
+    with pytest.raises(
+        ConfigurationError, match="another program listens there"
+    ):
         LolaServer(address, MadeUpRobot(), JOINTS)
     server.close()
     assert not Path(address.path).exists()

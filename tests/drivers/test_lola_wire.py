@@ -171,7 +171,7 @@ def test_garbage_in_lights_is_cut_but_garbage_in_targets_is_refused() -> None:
         ({"Sonar": [1.0, 0.0]}, "Sonar must hold bool values, got float"),
         ({"Torque": [1.0]}, "unknown key 'Torque'"),
         ({"Chest": ["red"] * 3}, "Chest must hold numbers, got str"),
-        ({"Position": [1e39] + [0] * 24}, "no MessagePack|finite"),
+        ({"Position": [1e39] + [0] * 24}, "cannot decode MessagePack|finite"),
     ],
 )
 def test_an_answer_with_a_fault_is_refused_by_name(
@@ -199,7 +199,7 @@ def test_a_sensor_frame_of_another_length_is_refused(
 
 def test_faults_that_keep_the_length_are_refused_too() -> None:
     twice = SENSOR_VECTOR.replace(b"\xa5Touch", b"\xa5Sonar")
-    with pytest.raises(WireError, match="key Sonar stands twice"):
+    with pytest.raises(WireError, match="key Sonar must occur once"):
         unpack_sensors(twice)
     spoilt = SENSOR_VECTOR.replace(b"\xa3FSR", b"\xa3FRS")
     with pytest.raises(WireError, match="unknown key 'FRS'"):

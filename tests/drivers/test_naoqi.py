@@ -16,10 +16,8 @@ from stepaside.core.errors import ConfigurationError  # noqa: E402
 from stepaside.core.poses import Pose  # noqa: E402
 from stepaside.drivers.guardian_process import SessionLost  # noqa: E402
 from stepaside.drivers.naoqi.joint_chains import CHAINS  # noqa: E402
-from stepaside.drivers.naoqi.memory_service import (  # noqa: E402
-    SILENCE as SILENCE_HEARD,
-)
-from stepaside.drivers.naoqi.memory_service import (  # noqa: E402
+from stepaside.drivers.naoqi.memory_service import (  # noqa: E402  # noqa: E402
+    NO_ECHO,
     SONARS,
     ALMemory,
     ALSonar,
@@ -30,7 +28,7 @@ from stepaside.drivers.naoqi.naoqi_server import SILENCE, NaoqiServer  # noqa: E
 from stepaside.drivers.naoqi.naoqi_url import parse_url  # noqa: E402
 from stepaside.drivers.naoqi.qi_session import connect, listen  # noqa: E402
 from stepaside.drivers.naoqi.service_state import WalkServiceState  # noqa: E402
-from stepaside.drivers.naoqi.velocity_mover import REPEATED, STUCK  # noqa: E402
+from stepaside.drivers.naoqi.velocity_mover import REPEAT, TIMEOUT  # noqa: E402
 from stepaside.drivers.velocity.template_controller import TemplateController  # noqa: E402
 from stepaside.drivers.velocity.velocity_body import (
     REST,
@@ -233,11 +231,11 @@ def test_sonars_are_heard_while_somebody_listens(scene: Scene) -> None:
     )
     memory, sonar = ALMemory(scene.server.robot), ALSonar(scene.server.robot)
     keys = list(SONARS.values())
-    assert memory.getListData(keys) == [SILENCE_HEARD, SILENCE_HEARD]
+    assert memory.getListData(keys) == [NO_ECHO, NO_ECHO]
     sonar.subscribe("me")
-    assert memory.getListData(keys) == [0.42, SILENCE_HEARD]
+    assert memory.getListData(keys) == [0.42, NO_ECHO]
     sonar.unsubscribe("me")
-    assert memory.getListData(keys) == [SILENCE_HEARD, SILENCE_HEARD]
+    assert memory.getListData(keys) == [NO_ECHO, NO_ECHO]
 
 
 @pytest.mark.parametrize(
@@ -443,10 +441,12 @@ def test_a_world_that_freezes_is_silence_and_then_takes_no_command(
         now[0] += 1.0
         assert body.listen(0.02) is None
         body.command(VelocityCommand(0.05, 0.0))
-        now[0] += 0.9 * STUCK
+        now[0] += 0.9 * TIMEOUT
         body.command(VelocityCommand(0.06, 0.0))
-        now[0] += 0.2 * STUCK
-        with pytest.raises(SessionLost, match="takes no command"):
+        now[0] += 0.2 * TIMEOUT
+        with pytest.raises(
+            SessionLost, match="did not answer move within 1 s"
+        ):
             body.command(VelocityCommand(0.06, 0.0))
     now[0] += 1.0
     assert heard(body).hindrance == ""  # it goes on
@@ -468,7 +468,7 @@ def test_what_a_second_client_asks_holds_until_the_first_asks_again(
     assert scene.round() == REST
     body.command(asked)
     assert scene.round() == REST
-    now[0] += REPEATED
+    now[0] += REPEAT
 
     def asked_again() -> bool:  # the first may not be known to have arrived
         body.command(asked)

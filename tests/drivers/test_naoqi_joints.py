@@ -284,7 +284,7 @@ def test_a_world_that_freezes_ends_the_session_and_the_robot_is_limp() -> None:
         scene.server.speak()
         scene.body.read()
         scene.body.write(STANCE)
-    with pytest.raises(SessionLost, match="no good frame for"):
+    with pytest.raises(SessionLost, match="no valid frame for"):
         scene.body.read()
     assert scene.body.state is RobotState.LIMP
     until(lambda: scene.server.robot.stiffness.max() == 0.0)

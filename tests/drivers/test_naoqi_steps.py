@@ -11,7 +11,7 @@ pytest.importorskip("qi")
 
 from stepaside.core.poses import Pose  # noqa: E402
 from stepaside.drivers.guardian_process import SessionLost  # noqa: E402
-from stepaside.drivers.naoqi.footstep_mover import REFUSALS, FootstepMover
+from stepaside.drivers.naoqi.footstep_mover import MAX_REFUSALS, FootstepMover
 from stepaside.drivers.naoqi.motion_services import ALMotion  # noqa: E402
 from stepaside.drivers.naoqi.naoqi_body import NaoqiBody  # noqa: E402
 from stepaside.drivers.naoqi.naoqi_server import SILENCE, NaoqiServer
@@ -94,9 +94,9 @@ def test_footsteps_that_are_refused_are_planned_anew_and_then_given_up() -> (
 ):
     alone = Alone()
     alone.robot.awake = False
-    with pytest.raises(SessionLost, match="takes no footsteps"):
+    with pytest.raises(SessionLost, match="refused 5 footstep commands"):
         alone.ask(AHEAD, 100)
-    assert len(alone.motion.called("setFootSteps")) == REFUSALS
+    assert len(alone.motion.called("setFootSteps")) == MAX_REFUSALS
     alone = Alone()
     alone.robot.awake = False
     alone.ask(AHEAD)
@@ -123,13 +123,18 @@ def test_footsteps_that_cannot_be_read_end_the_session(
         ([], [], [], "as many legs"),
         (["LLeg"], [[0.04, 0.1, 0.0]], [0.6, 1.2], "as many legs"),
         (["LArm"], [[0.04, 0.1, 0.0]], [0.6], "LLeg or RLeg"),
-        (["LLeg", "LLeg"], 2 * [[0.04, 0.1, 0.0]], [0.6, 1.2], "take turns"),
+        (
+            ["LLeg", "LLeg"],
+            2 * [[0.04, 0.1, 0.0]],
+            [0.6, 1.2],
+            "feet must alternate",
+        ),
         (["LLeg"], [[0.04, nan, 0.0]], [0.6], "finite"),
         (["LLeg"], [[inf, 0.1, 0.0]], [0.6], "finite"),
         (["LLeg"], [[0.04, 0.1]], [0.6], "unpack"),
-        (["LLeg"], [[0.04, 0.1, 0.0]], [nan], "times must rise"),
-        (["LLeg", "RLeg"], LEFT[1], [0.6, 0.6], "times must rise"),
-        (["LLeg"], [[0.04, 0.14, 0.0]], [0.6], "no way aside"),
+        (["LLeg"], [[0.04, 0.1, 0.0]], [nan], "times must increase"),
+        (["LLeg", "RLeg"], LEFT[1], [0.6, 0.6], "times must increase"),
+        (["LLeg"], [[0.04, 0.14, 0.0]], [0.6], "lateral displacement"),
         (["LLeg"], [[0.1, 0.1, 0.0]], [0.6], "at most 0.08 m"),
         (["LLeg"], [[0.0, 0.1, 0.6]], [0.6], "at most 0.08 m and 0.524"),
     ],
@@ -151,7 +156,7 @@ def test_footsteps_follow_those_told_or_the_one_being_made() -> None:
     service.setFootSteps(*LEFT, False)
     assert len(alone.robot.steps) == 4
     alone.begin()
-    with pytest.raises(ValueError, match="take turns"):
+    with pytest.raises(ValueError, match="feet must alternate"):
         service.setFootSteps(*LEFT, True)
     service.setFootSteps("RLeg", [[0.04, -0.1, 0.0]], 0.6, True)
     _, certain, later = service.getFootSteps()

@@ -91,7 +91,7 @@ def test_what_was_wanted_is_not_what_was_asked_for(tmp_path: Path) -> None:
         log.note(
             VelocityTick(
                 DrivingState.WALKING,
-                "sees the other",
+                "opponent detected",
                 0.1 * i,
                 Pose(1.0 + i, 2.0, 0.3),
                 None,
@@ -155,7 +155,7 @@ def test_what_is_said_of_a_walk_is_of_its_walking_alone(
         log.note(
             VelocityTick(
                 DrivingState.WALKING if walking else DrivingState.STANDING,
-                "sees the other",
+                "opponent detected",
                 now,
                 Pose(radius * np.sin(angle), -radius * np.cos(angle), angle),
                 Sighting(now, 0.3, 1.5 if walking else 0.9) if seen else None,

@@ -157,7 +157,7 @@ def test_rows_keep_their_columns(tmp_path: Path) -> None:
         read_rows(tmp_path)
     rows = RowWriter(tmp_path)
     rows.add({"a": 1.0})
-    with pytest.raises(ValueError, match="a row has {'a': 1}"):
+    with pytest.raises(ValueError, match="must be {'a': 1}"):
         rows.add({"b": 1.0})
     rows.close()
     assert read_rows(tmp_path)["a"].tolist() == [1.0]

@@ -179,9 +179,9 @@ def test_halting_matters_only_to_a_robot_that_stops() -> None:
 @pytest.mark.parametrize("state", MOVING)
 def test_what_fails_goes_limp_and_says_why(state: RobotState) -> None:
     machine = at(state)
-    machine.fail("no good frame for 0.1 s", 0.0)
+    machine.fail("no valid frame for 0.1 s", 0.0)
     assert machine.state is RobotState.LIMP
-    assert machine.reason == "no good frame for 0.1 s"
+    assert machine.reason == "no valid frame for 0.1 s"
 
 
 def test_rest_stops_who_walks_and_lowers_who_stands() -> None:
@@ -213,8 +213,8 @@ TO_REST: dict[str, tuple[dict[str, Any], str]] = {
     "current": ({"current": 1.1}, "current"),
 }
 TO_STAND: dict[str, tuple[dict[str, Any], str]] = {
-    "lifted": ({"load": 0.0}, "in the air"),
-    "nearly_lifted": ({"load": 0.45}, "in the air"),
+    "lifted": ({"load": 0.0}, "are lifted"),
+    "nearly_lifted": ({"load": 0.45}, "are lifted"),
     "bumper": ({"bumper": True}, "bumper"),
     "dead": ({"force": (0.0, 0.0, 0.0)}, "accelerometer"),
     "upside_down": ({"force": (0.0, 0.0, -9.81)}, "accelerometer"),

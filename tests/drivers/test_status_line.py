@@ -41,15 +41,15 @@ def lines(*ticks: Shown) -> list[str]:
 
 def test_each_changed_reason_is_one_line() -> None:
     said = lines(
-        Shown(State.WAITING, "has not been heard yet"),
-        Shown(State.WAITING, "has not been heard yet"),
-        Shown(State.WAITING, "sees nobody"),
-        Shown(State.WAITING, "sees nobody"),
-        Shown(State.WALKING, "sees the other"),
-        Shown(State.WAITING, "sees nobody"),
+        Shown(State.WAITING, "no odometry received yet"),
+        Shown(State.WAITING, "no odometry received yet"),
+        Shown(State.WAITING, "opponent not detected"),
+        Shown(State.WAITING, "opponent not detected"),
+        Shown(State.WALKING, "opponent detected"),
+        Shown(State.WAITING, "opponent not detected"),
     )
-    reasons = ["has not been heard yet", "sees nobody"]
-    reasons += ["sees the other", "sees nobody"]
+    reasons = ["no odometry received yet", "opponent not detected"]
+    reasons += ["opponent detected", "opponent not detected"]
     assert len(said) == len(reasons)
     for line, reason in zip(said, reasons, strict=True):
         assert f"({reason})" in line
@@ -60,7 +60,7 @@ def test_a_reason_that_counts_is_one_line() -> None:
     ages = (0.55, 0.6, 9.95, 10.0, 123.4)
     said = lines(
         *(
-            Shown(State.WAITING, f"the other was seen {age:.1f} s ago")
+            Shown(State.WAITING, f"the sighting is {age:.1f} s old")
             for age in ages
         ),
         *(
@@ -69,5 +69,5 @@ def test_a_reason_that_counts_is_one_line() -> None:
         ),
     )
     assert len(said) == 2
-    assert "was seen 0.6 s ago" in said[0] or "0.5 s ago" in said[0]
+    assert "is 0.6 s old" in said[0] or "0.5 s old" in said[0]
     assert "no odometry for 0.55 s" in said[1]

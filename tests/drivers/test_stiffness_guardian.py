@@ -41,9 +41,9 @@ def control_that(ends: str) -> tuple[int, socket.socket]:
     if pid == 0:
         far.close()
         guardian = StiffnessGuardian(partial(let_go, near))
-        guardian.tell(TARGETS, STIFF)
+        guardian.update(TARGETS, STIFF)
         if ends == "limp":
-            guardian.tell(TARGETS, np.zeros(25))
+            guardian.update(TARGETS, np.zeros(25))
             os._exit(0)
         if ends == "well":
             guardian.dismiss()

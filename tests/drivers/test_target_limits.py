@@ -9,13 +9,13 @@ from stepaside.drivers.joint.frames import ActuatorFrame, pack_actuators
 from stepaside.drivers.joint.joint_map import HIGH, LOW, NAMES, SPEED, JointMap
 from stepaside.drivers.joint.motion_states import (
     CROUCH,
-    SLOWLY,
+    POSTURE_SPEED,
     JointMotionState,
 )
 from stepaside.drivers.joint.safety import RobotState
 from stepaside.drivers.joint.target_limits import (
     HOT,
-    LEAST,
+    MIN_STIFFNESS,
     WARM,
     StiffnessRamp,
     TargetLimiter,
@@ -66,8 +66,10 @@ def test_a_cool_joint_has_all_its_torque_and_a_hot_one_half() -> None:
         return float(hot[0])
 
     assert share(20.0) == share(WARM) == 1.0
-    assert share(HOT) == share(HOT + 50.0) == LEAST
-    assert share(0.5 * (WARM + HOT)) == pytest.approx(0.5 * (1.0 + LEAST))
+    assert share(HOT) == share(HOT + 50.0) == MIN_STIFFNESS
+    assert share(0.5 * (WARM + HOT)) == pytest.approx(
+        0.5 * (1.0 + MIN_STIFFNESS)
+    )
     assert share(20.0, status=3) == 0.0
 
 
@@ -75,7 +77,7 @@ def test_only_the_hot_joint_is_cut() -> None:
     temperature = np.full(25, 30.0)
     temperature[KNEE] = HOT
     cut = derated(ONES, temperature, (0,) * 25)
-    assert cut[KNEE] == LEAST and cut.sum() == 24.0 + LEAST
+    assert cut[KNEE] == MIN_STIFFNESS and cut.sum() == 24.0 + MIN_STIFFNESS
 
 
 def test_stiffness_takes_a_second_to_grow_and_half_of_one_to_fade() -> None:
@@ -109,7 +111,7 @@ def test_a_posture_is_reached_slowly_from_where_the_robot_is() -> None:
         targets, stiffness = motion.move(
             RobotState.REACHING, sensor_frame(position=position), STANCE
         )
-        assert np.all(np.abs(targets - last) <= SLOWLY * TICK + 1e-12)
+        assert np.all(np.abs(targets - last) <= POSTURE_SPEED * TICK + 1e-12)
         last = position = targets
         if motion.reached(RobotState.REACHING, position):
             break

@@ -18,18 +18,18 @@ TIGHT = VelocityLimits(0.2, 0.1, 0.5, 0.4, 2.0)
 def test_what_is_cut_stays_on_its_path_and_within_the_limits(
     forward: float, turn: float
 ) -> None:
-    within = TIGHT.within(VelocityCommand(forward, turn))
-    assert within.forward * turn == pytest.approx(within.turn * forward)
-    assert -0.1 - 1e-12 <= within.forward <= 0.2 + 1e-12
-    assert abs(within.turn) <= 0.5 + 1e-12
-    assert within.forward * forward > 0.0
+    scaled = TIGHT.scale(VelocityCommand(forward, turn))
+    assert scaled.forward * turn == pytest.approx(scaled.turn * forward)
+    assert -0.1 - 1e-12 <= scaled.forward <= 0.2 + 1e-12
+    assert abs(scaled.turn) <= 0.5 + 1e-12
+    assert scaled.forward * forward > 0.0
     fits = -0.1 <= forward <= 0.2 and abs(turn) <= 0.5
-    assert (within == VelocityCommand(forward, turn)) == fits
+    assert (scaled == VelocityCommand(forward, turn)) == fits
 
 
 def test_without_limits_nothing_is_cut() -> None:
     wanted = VelocityCommand(3.0, -7.0)
-    assert VelocityLimits().within(wanted) == wanted
+    assert VelocityLimits().scale(wanted) == wanted
 
 
 def test_the_ramp_climbs_at_its_accelerations_and_arrives() -> None:
@@ -78,8 +78,8 @@ def test_whatever_is_wanted_no_change_is_faster_than_the_ramp(
         assert abs(now.turn - before.turn) <= 2.0 * passed + 1e-12
         assert -0.1 - 1e-12 <= now.forward <= 0.2 + 1e-12
         assert abs(now.turn) <= 0.5 + 1e-12
-        goal = TIGHT.within(wanted)
+        goal = TIGHT.scale(wanted)
         # It goes towards its goal with each part, and never beyond.
         for own, old, aim in zip(now, before, goal, strict=True):
             assert min(old, aim) - 1e-12 <= own <= max(old, aim) + 1e-12
-    assert ramp.velocity == pytest.approx(TIGHT.within(last))
+    assert ramp.velocity == pytest.approx(TIGHT.scale(last))

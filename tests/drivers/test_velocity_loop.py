@@ -12,7 +12,7 @@ from stepaside.core.poses import Pose
 from stepaside.drivers.guardian_process import SessionLost
 from stepaside.drivers.play_log import PlayLog
 from stepaside.drivers.row_file import read_rows
-from stepaside.drivers.status_line import words_of
+from stepaside.drivers.status_line import status_text
 from stepaside.drivers.velocity.template_controller import TemplateController
 from stepaside.drivers.velocity.velocity_body import (
     REST,
@@ -208,6 +208,6 @@ def test_the_log_is_on_disk_as_it_goes(tmp_path: Path) -> None:
 
 def test_the_line_says_what_is_asked_for_and_where_the_other_is() -> None:
     tick = played(FakeWalker(REPORTS), 20)[-1]
-    said = words_of(tick)
+    said = status_text(tick)
     assert "walking" in said and "+0.100 m/s, +0.080 rad/s" in said
-    assert "other at 1.00 m, +23 deg" in said
+    assert "opponent at 1.00 m, +23 deg" in said

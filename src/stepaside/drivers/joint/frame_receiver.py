@@ -1,4 +1,4 @@
-"""The newest good frame of a robot, or word that the session is lost."""
+"""Receiver of sensor frames, which detects silence and invalid frames."""
 
 import logging
 from collections.abc import Callable
@@ -16,12 +16,12 @@ log = logging.getLogger(__name__)
 
 
 class FrameReceiver:
-    """Reads frames, drops bad ones, notices silence and lies.
+    """Receiver of the newest valid sensor frame.
 
     Attributes:
-        count: Number of the newest good frame, from 0.
-        refused: Frames that were none.
-        lock_step: Whether the robot's world waits for our answers.
+        count: Number of the newest valid frame, from 0.
+        refused: Number of invalid frames.
+        lock_step: Whether the robot is simulated and waits for answers.
     """
 
     def __init__(
@@ -31,33 +31,33 @@ class FrameReceiver:
         clock: Callable[[], float],
         read: Callable[[Any], SensorFrame] = unpack_sensors,
     ) -> None:
-        """Listen.
+        """Start before the first frame.
 
         Args:
-            link: What carries the frames.
-            silence: Time without a good frame after which the session is
+            link: Link that carries the frames.
+            silence: Time without a valid frame after which the session is
                 lost, in [s].
             clock: Time of this computer, in [s].
-            read: Makes a frame of what the link carries.
+            read: Function that decodes what the link carries.
         """
         self._read = read
         self._link, self._silence, self._clock = link, silence, clock
         self._frames: FrameClock | None = None
-        self._heard = clock()  # when the last good frame came
+        self._heard = clock()  # time of the last valid frame
         self._passed = 0  # frames since then
         self.count = -1
         self.refused = 0
         self.lock_step = False
 
     def listen(self) -> tuple[SensorFrame, float]:
-        """Wait for the next good frame; older ones that queue are skipped.
+        """Wait for the newest valid frame; older queued ones are skipped.
 
         Returns:
-            The frame, and how long none was read before it, in [s].
+            The frame, and the time since the previous one, in [s].
 
         Raises:
-            SessionLost: If there is silence, the other side has closed, or
-                frames come out of order or from the future.
+            SessionLost: After silence, at the end of the connection, or if
+                frames are out of order or ahead of the clock.
         """
         patient = self._frames is None or self.lock_step
         limit = PATIENCE if patient else self._silence
@@ -67,7 +67,7 @@ class FrameReceiver:
             received = self._link.receive() if ready else []
             self._passed += len(received)
             now = self._clock()
-            frame = self._good(received[-1]) if received else None
+            frame = self._decoded(received[-1]) if received else None
             if frame is not None:
                 gap, self._heard = now - self._heard, now
                 self._number(frame, now)
@@ -75,10 +75,10 @@ class FrameReceiver:
             if now >= deadline:
                 refused = f", {self.refused} refused" if self.refused else ""
                 raise SessionLost(
-                    f"no good frame for {now - self._heard:.3f} s{refused}"
+                    f"no valid frame for {now - self._heard:.3f} s{refused}"
                 )
 
-    def _good(self, data: Any) -> SensorFrame | None:
+    def _decoded(self, data: Any) -> SensorFrame | None:
         try:
             return self._read(data)
         except WireError as error:
@@ -95,7 +95,7 @@ class FrameReceiver:
                 counted=body in (LOCK_STEP, REAL_TIME),
                 paced=not self.lock_step,
             )
-            self._passed = 1  # what came before the first counts for nothing
+            self._passed = 1  # frames before the first valid one don't count
         number = frame.battery[COUNTER]
         try:
             self.count = self._frames.note(now, number, self._passed)

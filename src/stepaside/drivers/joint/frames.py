@@ -1,4 +1,4 @@
-"""Sensor and actuator frames of LoLA as values."""
+"""Sensor and actuator frames of LoLA."""
 
 from collections.abc import Callable, Mapping
 from types import MappingProxyType
@@ -23,25 +23,26 @@ NO_LIGHTS: Mapping[str, tuple[float, ...]] = MappingProxyType({})
 
 
 class SensorFrame(NamedTuple):
-    """What the robot says every 12 ms, in its own conventions.
+    """Sensor frame of one tick of 12 ms, in LoLA's conventions.
 
     Attributes:
         position: Joint angles, in [rad]. Shape (25,).
-        stiffness: Shares of the full torque. Shape (25,).
-        current: In [A]. Shape (25,).
-        temperature: Of the motors, in [degC]. Shape (25,).
-        status: 0 normal, 1 hot and weakened, 2 by more than 30 %, 3
-            critical and without stiffness; of each motor.
+        stiffness: Stiffness, from 0 to 1. Shape (25,).
+        current: Motor currents, in [A]. Shape (25,).
+        temperature: Motor temperatures, in [degC]. Shape (25,).
+        status: Status of each motor: 0 normal, 1 hot with reduced
+            stiffness, 2 reduced by more than 30 %, 3 critical without
+            stiffness.
         accelerometer: Minus the specific force, in [m/s^2]. Shape (3,).
         gyroscope: Angular velocity, in [rad/s]. Shape (3,).
         angles: Roll and pitch of the torso, in [rad].
-        fsr: Pressing forces as masses, in [kg]; left front-left,
-            front-right, rear-left, rear-right, then right. Shape (8,).
-        sonar: Distances left and right, in [m].
+        fsr: Foot forces as masses, in [kg]; left front-left, front-right,
+            rear-left, rear-right, then right. Shape (8,).
+        sonar: Distances of the left and right sonar, in [m].
         touch: The 14 buttons, 1 where pressed; the chest's is the first.
-        battery: Charge from 0 to 1, then values whose order sources
-            dispute.
-        robot_config: Number and version of the body, then of the head.
+        battery: Charge from 0 to 1, then values whose order differs
+            between published sources.
+        robot_config: Serial number and version of body, then of head.
     """
 
     position: Array
@@ -60,13 +61,13 @@ class SensorFrame(NamedTuple):
 
 
 class ActuatorFrame(NamedTuple):
-    """What a client asks of the robot; what is None is left as it is.
+    """Command of a client; None leaves a value unchanged.
 
     Attributes:
         position: Joint targets, in [rad]. Shape (25,).
-        stiffness: Shares of the full torque, from 0 to 1. Shape (25,).
+        stiffness: Stiffness, from 0 to 1. Shape (25,).
         lights: Brightness of lights, from 0 to 1, by key.
-        sonar: Whether the left and the right sonar sound.
+        sonar: Whether the left and the right sonar are on.
     """
 
     position: Array | None = None
@@ -76,11 +77,11 @@ class ActuatorFrame(NamedTuple):
 
 
 def pack_sensors(frame: SensorFrame) -> bytes:
-    """Bytes of a sensor frame: always 896.
+    """Encode a sensor frame, which always has 896 bytes.
 
     Raises:
-        WireError: If a value has the wrong length, is not finite, or the
-            texts make another length.
+        WireError: If a value has the wrong length or is not finite, or the
+            texts have the wrong length.
     """
     values = {
         field.key: value.tolist() if isinstance(value, np.ndarray) else value
@@ -96,10 +97,10 @@ def pack_sensors(frame: SensorFrame) -> bytes:
 
 
 def unpack_sensors(data: bytes) -> SensorFrame:
-    """Read a sensor frame.
+    """Decode a sensor frame.
 
     Raises:
-        WireError: If the bytes are anything else.
+        WireError: If the bytes are not a valid sensor frame.
     """
     if len(data) != SENSOR_BYTES:
         raise WireError(
@@ -131,7 +132,7 @@ def unpack_sensors(data: bytes) -> SensorFrame:
 
 
 def pack_actuators(frame: ActuatorFrame) -> bytes:
-    """Bytes of an actuator frame: 786 if it has every key.
+    """Encode an actuator frame, which has 786 bytes with all keys.
 
     Raises:
         WireError: If a value has the wrong length or is not finite, or a
@@ -144,7 +145,10 @@ def pack_actuators(frame: ActuatorFrame) -> bytes:
         values["Stiffness"] = frame.stiffness.tolist()
     for key, light in frame.lights.items():
         if key not in LIGHTS:
-            raise WireError(f"there is no light {key!r:.40}")
+            raise WireError(
+                f"light must be one of {', '.join(sorted(LIGHTS))}, got "
+                f"{key!r:.40}"
+            )
         values[key] = light
     if frame.sonar is not None:
         values["Sonar"] = frame.sonar
@@ -152,7 +156,7 @@ def pack_actuators(frame: ActuatorFrame) -> bytes:
 
 
 def unpack_actuators(data: bytes) -> ActuatorFrame:
-    """Read an actuator frame; see :func:`take_actuators`."""
+    """Decode an actuator frame; see :func:`take_actuators`."""
     if len(data) > LONGEST_ANSWER:
         raise WireError(
             f"an actuator frame has at most {LONGEST_ANSWER} bytes, "
@@ -162,13 +166,13 @@ def unpack_actuators(data: bytes) -> ActuatorFrame:
 
 
 def take_actuators(decoded: object) -> ActuatorFrame:
-    """Turn a decoded object into an actuator frame.
+    """Convert a decoded object to an actuator frame.
 
-    Stiffness and lights outside their range are cut to it: what peers
-    leave unset is garbage there.
+    Stiffness and lights are clipped to their range, as some peers send
+    uninitialised memory.
 
     Raises:
-        WireError: If it is anything else.
+        WireError: If it is not a valid actuator frame.
     """
     values = check_map(decoded, ACTUATOR_FIELDS, partial=True)
     position, stiffness = values.get("Position"), values.get("Stiffness")
@@ -186,11 +190,11 @@ def take_actuators(decoded: object) -> ActuatorFrame:
 
 
 class Codec(NamedTuple):
-    """Between frames and what a line carries.
+    """Conversion between frames and what a link carries.
 
     Attributes:
-        read: A sensor frame of what arrived; WireError if it is none.
-        write: What is sent for an actuator frame.
+        read: Function that decodes a sensor frame, or raises WireError.
+        write: Function that encodes an actuator frame.
     """
 
     read: Callable[[Any], SensorFrame]

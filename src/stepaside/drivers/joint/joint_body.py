@@ -1,4 +1,4 @@
-"""A robot that speaks LoLA, behind the interface that control moves."""
+"""Body of a robot that is driven by its joints over a link."""
 
 import logging
 from collections.abc import Callable, Sequence
@@ -28,17 +28,17 @@ log = logging.getLogger(__name__)
 
 
 class JointBody:
-    """One robot at the other end of a LoLA session.
+    """Robot behind the interface read, write, step, close.
 
-    Joint targets of control reach the joints only while the state says so;
-    otherwise the body moves by itself, slowly, or not at all. Between two
-    calls of :meth:`read` nothing is sent: a control that hangs lets the
-    robot's own watchdog act.
+    The joint targets of control are followed only in the states that allow
+    it; otherwise the joints move slowly to a posture, or are limp. Nothing
+    is sent between two calls of :meth:`read`, so that the robot's own
+    watchdog acts if control hangs.
 
     Attributes:
         tick: Time from one frame to the next, in [s].
-        frame: Newest good frame; None before the first.
-        sighting: Newest sighting that came with it, if any did.
+        frame: Newest valid frame; None before the first.
+        sighting: Newest sighting of the ideal line of sight, if any.
     """
 
     tick = TICK
@@ -58,24 +58,25 @@ class JointBody:
         clock: Callable[[], float] = monotonic,
         pause: Callable[[float], None] = sleep,
     ) -> None:
-        """Take over a session.
+        """Start a session; the robot is limp.
 
         Args:
-            link: What carries its frames; closed with the body.
+            link: Link that carries the frames; closed with the body.
             joint_names: Actuated joints, in the order of joint targets.
             stance: Posture in which control begins, in [rad].
                 Shape (joints,).
-            sight: Ideal line of sight, where a simulated robot offers one.
-            eyes: Its cameras, if it is played with those.
-            guardian: Who lets go of the robot if this process cannot.
-            safety: Limits of what is safe.
-            dry_run: Command nothing but lights.
-            codec: Between frames and what the link carries.
+            sight: Ideal line of sight of a simulated robot, if used.
+            eyes: Cameras, if used.
+            guardian: Guardian that releases the robot if this process
+                fails.
+            safety: Limits of safe operation.
+            dry_run: Whether to command nothing but lights.
+            codec: Conversion between frames and what the link carries.
             clock: Time of this computer, in [s].
-            pause: Lets time pass, in [s].
+            pause: Function that sleeps for a time in [s].
 
         Raises:
-            ModelError: If LoLA has no motor for one of the joints.
+            ModelError: If the robot has no motor for one of the joints.
         """
         settings = safety or SafetySettings()
         self._link, self._sight, self._guardian = link, sight, guardian
@@ -98,17 +99,17 @@ class JointBody:
 
     @property
     def state(self) -> RobotState:
-        """What the robot is doing."""
+        """State of the robot."""
         return self._state
 
     @property
     def reason(self) -> str:
-        """Why it does that, in words."""
+        """Reason for the state, as a message."""
         return self._safety.reason
 
     @property
     def refused(self) -> int:
-        """Frames that were none, so far."""
+        """Number of invalid frames so far."""
         return self._hearing.refused
 
     def read(self) -> Measurement:
@@ -117,8 +118,8 @@ class JointBody:
         Time is zero at the frame with which walking begins.
 
         Raises:
-            SessionLost: If there is none in time, or none that can be true;
-                the robot has been told to let go then.
+            SessionLost: If there is no valid frame in time; the robot has
+                been commanded to go limp then.
         """
         try:
             frame, gap = self._hearing.listen()
@@ -126,7 +127,7 @@ class JointBody:
             self._lose(str(error))
             raise
         if self._hearing.lock_step and self._guardian is not None:
-            self._guardian.dismiss()  # time may stand still in such a world
+            self._guardian.dismiss()  # simulated time may stand still
             self._guardian = None
         count = self._hearing.count
         if self.frame is not None and gap > self._silence:
@@ -136,9 +137,9 @@ class JointBody:
                 )
                 self._motion.weaken(float(frame.stiffness[LEGS].max()))
         self.frame = frame
-        walked = self._state.moves_by_control
-        self._change(self._safety.frame(self._seen(frame)))
-        if self._state is RobotState.WALKING and not walked:
+        was_walking = self._state.moves_by_control
+        self._change(self._safety.frame(self._safety_inputs(frame)))
+        if self._state is RobotState.WALKING and not was_walking:
             self._start = count
         if self._sight is not None:
             self.sighting = self._sight.newest(count, self._start)
@@ -150,19 +151,19 @@ class JointBody:
         return measured._replace(percepts=(*images, *measured.percepts))
 
     def write(self, joint_targets: Array) -> None:
-        """Answer the frame that was read last.
+        """Answer the newest frame.
 
         Args:
-            joint_targets: What control wants, in [rad]; followed only while
-                the state lets it. Shape (joints,).
+            joint_targets: Joint targets of control, in [rad]; followed only
+                in the states that allow it. Shape (joints,).
 
         Raises:
-            SessionLost: If the robot takes no frame.
+            SessionLost: If the command cannot be sent.
         """
         if self.frame is None:
             return
         if not np.all(np.isfinite(joint_targets)):
-            self.fail("control asked for what is no number")
+            self.fail("joint targets of control contain NaN or inf")
         targets, stiffness = self._motion.move(
             self._state, self.frame, joint_targets
         )
@@ -172,7 +173,7 @@ class JointBody:
             charge=self.frame.battery[0],
         )
         if self._guardian is not None:
-            self._guardian.tell(targets, stiffness)
+            self._guardian.update(targets, stiffness)
         if self._dry_run:
             self._send(ActuatorFrame(lights=lights))
         elif self._motion.is_limp:
@@ -184,40 +185,40 @@ class JointBody:
         """Do nothing: the next read waits for the robot's next frame."""
 
     def halted(self) -> None:
-        """Note that control has brought a robot that stops to rest."""
+        """Report that control has stopped the robot."""
         self._safety.halted(self._time)
         self._change(self._safety.state)
 
     def rest(self, reason: str) -> None:
-        """Stop and rest."""
+        """Stop, crouch and go limp."""
         self._safety.rest(reason, self._time)
         self._change(self._safety.state)
 
     def fail(self, reason: str) -> None:
-        """Go limp, for a reason that control knows."""
+        """Go limp, for a reason of control."""
         self._safety.fail(reason, self._time)
         self._change(self._safety.state)
 
     def close(self) -> None:
-        """Let the stiffness fade, whatever the robot was doing, and go."""
+        """Ramp the stiffness down, in any state, and disconnect."""
         try:
             self._fade()
         finally:
             if self._guardian is not None:
                 self._guardian.dismiss()
-            for beside in (self._sight, self._eyes):
-                if beside is not None:
-                    beside.close()
+            for sensor in (self._sight, self._eyes):
+                if sensor is not None:
+                    sensor.close()
             self._link.close()
 
     @property
     def _time(self) -> float:
-        """When the newest frame was, in [s]: some worlds wait for us."""
+        """Time of the newest frame, in [s], by the count of frames."""
         return self._hearing.count * TICK
 
-    def _seen(self, frame: SensorFrame) -> SafetyInputs:
+    def _safety_inputs(self, frame: SensorFrame) -> SafetyInputs:
         state = self._state
-        return self._vitals.seen(
+        return self._vitals.update(
             frame,
             self._time,
             walks=state.moves_by_control,
@@ -238,22 +239,22 @@ class JointBody:
             raise
 
     def _lose(self, reason: str) -> None:
-        """Let go of a robot that cannot be trusted or heard."""
+        """Release a robot whose connection has failed."""
         self.fail(reason)
         self._fade()
 
     def _fade(self) -> None:
-        """Send falling stiffness, as far as it can be sent."""
+        """Ramp the stiffness down, as far as commands can be sent."""
         if self._dry_run or self.frame is None:
             return
         while not self._motion.is_limp:
             targets, stiffness = self._motion.fade()
             if self._guardian is not None:
-                self._guardian.tell(targets, stiffness)
+                self._guardian.update(targets, stiffness)
             lights = lights_for(RobotState.LIMP, sees=False, charge=0.0)
             try:
-                told = ActuatorFrame(targets, stiffness, lights)
-                self._link.send(self._codec.write(told))
+                command = ActuatorFrame(targets, stiffness, lights)
+                self._link.send(self._codec.write(command))
             except SessionLost:
                 return
             self._pause(TICK)

@@ -1,4 +1,4 @@
-"""The joints of a robot that speaks LoLA: order, ranges, speeds."""
+"""Motors of NAO in LoLA's order, and the map from described joints."""
 
 from collections.abc import Sequence
 from math import inf
@@ -11,12 +11,12 @@ from ...core.poses import Array
 
 
 class LolaJoint(NamedTuple):
-    """One of the 25 motors, in the order of every LoLA frame.
+    """One of the 25 motors.
 
     Attributes:
         name: Its name. LHipYawPitch turns both hips: its motor is shared.
-        low: Least angle, in [rad]; closed, for a hand, in [1].
-        high: Greatest angle, in [rad]; open, for a hand, in [1].
+        low: Minimum angle, in [rad]; closed, for a hand, in [1].
+        high: Maximum angle, in [rad]; open, for a hand, in [1].
         speed: No-load speed through the gear, in [rad/s].
         torque: Stall torque through an ideal gear, in [N m].
     """

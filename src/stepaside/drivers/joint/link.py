@@ -1,4 +1,4 @@
-"""A connected socket that carries frames of a fixed size to us."""
+"""Links that carry frames between a client and a robot."""
 
 import select
 import socket
@@ -7,35 +7,35 @@ from typing import Any, Protocol
 from ..guardian_process import SessionLost
 from ..lola.lola_address import LolaAddress
 
-CONNECTING = 5.0  # longest time to connect, in [s]
-LONGEST_QUEUE = 1 << 20  # bytes of unread frames before it is hopeless
+CONNECT_TIMEOUT = 5.0  # in [s]
+MAX_QUEUE = 1 << 20  # unread frames after which the session ends, in bytes
 
 
 class FrameLink(Protocol):
-    """What carries frames between a client and a robot."""
+    """Connection that carries frames between a client and a robot."""
 
     def wait(self, timeout: float) -> bool:
-        """Wait, in [s], until something arrived; whether it has."""
+        """Wait up to ``timeout``, in [s]; return whether data arrived."""
 
     def receive(self) -> list[Any]:
-        """Whole frames that have arrived, oldest first, without waiting."""
+        """Return complete frames, oldest first, without waiting."""
 
     def send(self, data: Any) -> None:
-        """Send one frame, at once and whole."""
+        """Send one complete frame without waiting."""
 
     def close(self) -> None:
-        """Let go of the other side."""
+        """Disconnect."""
 
 
 class SocketLink:
-    """Frames of one size over a stream socket."""
+    """Link of frames of a fixed size over a stream socket."""
 
     def __init__(self, connected: socket.socket, frame_bytes: int) -> None:
-        """Take over a connected socket.
+        """Use a connected socket.
 
         Args:
-            connected: The socket; it is closed with the link.
-            frame_bytes: Size of every frame that arrives.
+            connected: Socket; closed with the link.
+            frame_bytes: Size of each received frame, in bytes.
         """
         connected.setblocking(False)
         self._socket = connected
@@ -44,31 +44,35 @@ class SocketLink:
         self._ended = False
 
     def wait(self, timeout: float) -> bool:
-        """Wait, in [s], until something arrived; whether it has."""
+        """Wait up to ``timeout``, in [s]; return whether data arrived."""
         ready, _, _ = select.select([self._socket], [], [], max(timeout, 0.0))
         return bool(ready)
 
     def receive(self) -> list[bytes]:
-        """Whole frames that have arrived, oldest first, without waiting.
+        """Return complete frames, oldest first, without waiting.
 
         Raises:
-            SessionLost: If the other side has closed or the queue is
-                beyond all measure.
+            SessionLost: If the robot has closed the connection, or too many
+                frames are queued.
         """
         buffer = self._buffer
-        while len(buffer) <= LONGEST_QUEUE:
+        while len(buffer) <= MAX_QUEUE:
             try:
                 part = self._socket.recv(1 << 16)
             except (BlockingIOError, InterruptedError):
                 break
             except OSError as error:
-                raise SessionLost(f"the robot is gone: {error}") from error
+                raise SessionLost(
+                    f"the connection to the robot failed: {error}"
+                ) from error
             if not part:
                 self._ended = True
                 break
             buffer += part
         else:
-            raise SessionLost("the robot sends more than can be read")
+            raise SessionLost(
+                f"more than {MAX_QUEUE} bytes from the robot are unread"
+            )
         whole = len(buffer) - len(buffer) % self._size
         if self._ended and not whole:
             raise SessionLost(
@@ -83,17 +87,19 @@ class SocketLink:
         return frames
 
     def send(self, data: bytes) -> None:
-        """Send one frame, at once and whole.
+        """Send one complete frame without waiting.
 
         Raises:
-            SessionLost: If the other side is gone or does not read.
+            SessionLost: If the robot has disconnected or does not read.
         """
         try:
             sent = self._socket.send(data)
-        except OSError as error:  # it is full, too, when nobody reads
-            raise SessionLost(f"the robot takes no frame: {error}") from error
+        except OSError as error:  # including a full buffer
+            raise SessionLost(f"cannot send to the robot: {error}") from error
         if sent != len(data):
-            raise SessionLost("the robot took a frame in part")
+            raise SessionLost(
+                f"the robot read {sent} of {len(data)} bytes of a frame"
+            )
 
     @property
     def socket(self) -> socket.socket:
@@ -106,17 +112,17 @@ class SocketLink:
 
 
 def connect(
-    address: LolaAddress, frame_bytes: int, timeout: float = CONNECTING
+    address: LolaAddress, frame_bytes: int, timeout: float = CONNECT_TIMEOUT
 ) -> SocketLink:
     """Connect to a robot.
 
     Args:
-        address: Where it listens.
-        frame_bytes: Size of its frames.
-        timeout: Longest time that it may take, in [s].
+        address: Address of the robot.
+        frame_bytes: Size of the robot's frames, in bytes.
+        timeout: Timeout of the connection, in [s].
 
     Raises:
-        SessionLost: If nobody listens there.
+        SessionLost: If no robot listens there.
     """
     opened = address.open()
     opened.settimeout(timeout)

@@ -1,4 +1,4 @@
-"""Sensor frames as the safety conditions need them."""
+"""Monitor that derives the safety inputs from sensor frames."""
 
 import numpy as np
 
@@ -8,17 +8,17 @@ from .frames import SensorFrame
 from .joint_map import LEGS, STALL_CURRENT
 from .safety_conditions import SafetyInputs
 
-MOVED = 0.05  # of a leg's joint, in [rad]: a walk does that in 0.1 s
+MIN_TRAVEL = 0.05  # of a leg's joint, in [rad]: that of 0.1 s of a walk
 
 
 class Vitals:
-    """What frames say of the robot's condition, from frame to frame."""
+    """Monitor of sensor frames, with memory of the accelerometer."""
 
     def __init__(self, look_ahead: float) -> None:
-        """Begin before the first frame.
+        """Start before the first frame.
 
         Args:
-            look_ahead: How far ahead the tilt is looked at, in [s].
+            look_ahead: Time over which the tilt is predicted, in [s].
         """
         self._look_ahead = look_ahead
         self._read: Array | None = None
@@ -26,18 +26,18 @@ class Vitals:
         self._legs: Array = np.zeros(0)
         self._travel = 0.0
 
-    def seen(
+    def update(
         self, frame: SensorFrame, now: float, *, walks: bool, reached: bool
     ) -> SafetyInputs:
-        """Return what the safety conditions need to know of a frame.
+        """Return the safety inputs of a frame.
 
         Args:
-            frame: The newest good one.
+            frame: Newest valid frame.
             now: Time of the frame, in [s].
             walks: Whether control moves the robot. Only then must the
-                accelerometer change: a slow motion may stay below one digit
-                of a coarse one.
-            reached: Whether a slow motion is where it ends.
+                accelerometer's reading change: a slow motion may stay below
+                the resolution of a coarse sensor.
+            reached: Whether a slow motion to a posture is complete.
         """
         leans = zip(frame.angles, frame.gyroscope.tolist(), strict=False)
         x, y, z = (-frame.accelerometer).tolist()
@@ -61,11 +61,11 @@ class Vitals:
         return 0.0
 
     def _frozen(self, frame: SensorFrame, now: float) -> float:
-        """Time since the accelerometer changed, if the legs moved since."""
+        """Return the time of a constant reading, if the legs have moved."""
         legs = frame.position[LEGS]
         if self._read is None or np.any(frame.accelerometer != self._read):
             self._read, self._since = frame.accelerometer, now
             self._legs, self._travel = legs, 0.0
         away = float(np.abs(legs - self._legs).max())
         self._travel = max(self._travel, away)
-        return now - self._since if self._travel > MOVED else 0.0
+        return now - self._since if self._travel > MIN_TRAVEL else 0.0

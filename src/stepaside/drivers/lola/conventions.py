@@ -1,4 +1,4 @@
-"""From LoLA's conventions to ours, and back."""
+"""Conversion between LoLA's conventions and those of control."""
 
 import numpy as np
 
@@ -8,14 +8,14 @@ from ...perception.measurement import Measurement, Sighting
 from ..joint.frames import SensorFrame
 from ..joint.joint_map import JOINT_COUNT, JointMap
 
-CHEST_BUTTON = 0  # in the order of Touch
-FOOT_BUMPERS = (4, 5, 9, 10)  # likewise: left and right of either foot
-NEWTONS_PER_KILOGRAM = 9.81  # foot sensors weigh
+CHEST_BUTTON = 0  # index in Touch
+FOOT_BUMPERS = (4, 5, 9, 10)  # likewise: left and right of each foot
+NEWTONS_PER_KILOGRAM = 9.81  # foot sensors read in kilograms
 SONARS = ("left", "right")
-HEARD = (0.0, 2.55)  # echoes beyond this mean that all was silent, in [m]
+ECHO_RANGE = (0.0, 2.55)  # open interval of distances with an echo, in [m]
 ROOM_TEMPERATURE = 25.0  # in [degC]
-# How a simulated robot says what it is, where a real one has its number.
-# Its fourth battery value counts frames, modulo 2^16.
+# Serial numbers by which a simulated robot identifies itself. The fourth
+# value of its battery is the number of the frame, modulo 2^16.
 REAL_TIME = "stepaside-realtime-0"
 LOCK_STEP = "stepaside-lockstep-0"
 COUNTER = 3
@@ -28,21 +28,21 @@ def measurement_of(
     time: float,
     sighting: Sighting | None = None,
 ) -> Measurement:
-    """What a sensor frame says, in the conventions of control.
+    """Convert a sensor frame to a measurement.
 
     LoLA's accelerometer is minus the specific force on every axis: an
-    upright robot reads z near -9.8. Its foot sensors weigh in [kg].
+    upright robot reads z near -9.8 m/s^2. Its foot sensors are in [kg].
 
     Args:
-        frame: The frame.
-        joints: Order of the description's joints.
+        frame: Sensor frame.
+        joints: Map to the order of the description's joints.
         time: Time of the frame, in [s].
-        sighting: Newest sighting of the other robot, if there is any.
+        sighting: Newest sighting of the opponent, if there is one.
     """
-    near, far = HEARD
+    near, far = ECHO_RANGE
     echoes: tuple[Percept, ...] = tuple(
-        SonarEcho(time, name, heard if near < heard < far else None)
-        for name, heard in zip(SONARS, frame.sonar, strict=True)
+        SonarEcho(time, name, echo if near < echo < far else None)
+        for name, echo in zip(SONARS, frame.sonar, strict=True)
     )
     return Measurement(
         time,
@@ -65,22 +65,22 @@ def sensor_frame_of(
     chest_pressed: bool,
     lock_step: bool,
 ) -> SensorFrame:
-    """What a simulated robot says in LoLA's conventions.
+    """Convert a measurement of a simulated robot to a sensor frame.
 
     Args:
-        measurement: What its sensors give.
-        joints: Order of the description's joints.
+        measurement: Measurement at this tick.
+        joints: Map to the order of the description's joints.
         angles: Roll and pitch of the torso, in [rad].
-        stiffness: Of its motors. Shape (25,).
+        stiffness: Stiffness of the motors. Shape (25,).
         count: Number of the frame.
-        chest_pressed: Whether somebody presses the chest button.
-        lock_step: Whether its world waits for answers.
+        chest_pressed: Whether the chest button is pressed.
+        lock_step: Whether the simulation waits for answers.
     """
     nothing = np.zeros(JOINT_COUNT)
-    heard = dict.fromkeys(SONARS, HEARD[1])
+    echoes = dict.fromkeys(SONARS, ECHO_RANGE[1])
     for percept in measurement.percepts:
         if isinstance(percept, SonarEcho) and percept.distance is not None:
-            heard[percept.sonar] = percept.distance
+            echoes[percept.sonar] = percept.distance
     touch = [0.0] * 14
     touch[CHEST_BUTTON] = float(chest_pressed)
     body = LOCK_STEP if lock_step else REAL_TIME
@@ -94,7 +94,7 @@ def sensor_frame_of(
         measurement.gyro,
         angles,
         measurement.foot_forces / NEWTONS_PER_KILOGRAM,
-        (heard["left"], heard["right"]),
+        (echoes["left"], echoes["right"]),
         tuple(touch),
         (1.0, 0.0, 0.0, float(count % COUNTER_RANGE)),
         (body, "6.0.0", body, "6.0.0"),
