@@ -7,15 +7,14 @@ import numpy as np
 
 from stepaside.core.poses import Array
 from stepaside.drivers.guardian_process import SessionLost
-from stepaside.drivers.joint.frame_clock import TICK
-from stepaside.drivers.joint.frames import (
+from stepaside.drivers.lola.conventions import LOCK_STEP, REAL_TIME
+from stepaside.drivers.lola.lola_frames import (
     ActuatorFrame,
     SensorFrame,
     pack_sensors,
     unpack_actuators,
 )
-from stepaside.drivers.joint.joint_map import NAMES
-from stepaside.drivers.lola.conventions import LOCK_STEP, REAL_TIME
+from stepaside.drivers.lola.nao_joints import NAMES, TICK
 from stepaside.perception.measurement import Measurement, Sighting
 
 JOINTS = NAMES[:23]  # a description without hands, in LoLA's order

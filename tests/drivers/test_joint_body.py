@@ -16,12 +16,12 @@ from lola_fakes import (
     sensor_frame,
 )
 from stepaside.drivers.guardian_process import SessionLost
-from stepaside.drivers.joint.frame_clock import TICK
-from stepaside.drivers.joint.frames import pack_sensors
 from stepaside.drivers.joint.joint_body import JointBody
-from stepaside.drivers.joint.joint_map import LEGS, NAMES
 from stepaside.drivers.joint.safety import RobotState
+from stepaside.drivers.lola.conventions import CODEC
 from stepaside.drivers.lola.lights import COLOURS
+from stepaside.drivers.lola.lola_frames import pack_sensors
+from stepaside.drivers.lola.nao_joints import LEGS, NAMES, NAO_MOTORS, TICK
 from stepaside.drivers.lola.sight_channel import SightChannel
 from stepaside.drivers.lola.sight_message import SightMessage, pack_sight
 from stepaside.perception.measurement import Sighting
@@ -37,7 +37,14 @@ def body_of(
     clock = Clock()
     link = FakeLink(clock, script)
     body = JointBody(
-        link, JOINTS, STANCE, clock=clock, pause=clock.pause, **changes
+        link,
+        JOINTS,
+        STANCE,
+        NAO_MOTORS,
+        CODEC,
+        clock=clock,
+        pause=clock.pause,
+        **changes,
     )
     return body, link, clock
 

@@ -16,10 +16,12 @@ from stepaside.control.strategy_runner import StrategyRunner
 from stepaside.control.walk_snapshots import WalkState
 from stepaside.core.errors import ConfigurationError, ReachError, StrategyError
 from stepaside.core.poses import Pose
-from stepaside.drivers.joint.frames import pack_sensors
 from stepaside.drivers.joint.joint_body import JointBody
 from stepaside.drivers.joint.joint_loop import JointLoop
 from stepaside.drivers.joint.safety import RobotState
+from stepaside.drivers.lola.conventions import CODEC
+from stepaside.drivers.lola.lola_frames import pack_sensors
+from stepaside.drivers.lola.nao_joints import NAO_MOTORS
 from stepaside.drivers.play_log import PlayLog
 from stepaside.drivers.row_file import read_rows
 from stepaside.drivers.status_line import StatusLine
@@ -99,6 +101,8 @@ class Game:
                 self.link,
                 names,
                 scheme.joint_targets,
+                NAO_MOTORS,
+                CODEC,
                 clock=clock,
                 pause=clock.pause,
                 **changes,

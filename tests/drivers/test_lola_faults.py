@@ -22,18 +22,20 @@ from lola_fakes import (
     sensor_frame,
 )
 from stepaside.drivers.guardian_process import SessionLost
-from stepaside.drivers.joint.frames import (
+from stepaside.drivers.joint.joint_body import JointBody
+from stepaside.drivers.joint.safety import RobotState
+from stepaside.drivers.lola.conventions import CODEC
+from stepaside.drivers.lola.lola_address import LolaAddress
+from stepaside.drivers.lola.lola_connection import open_lola
+from stepaside.drivers.lola.lola_frames import (
     ActuatorFrame,
     pack_actuators,
     pack_sensors,
 )
-from stepaside.drivers.joint.joint_body import JointBody
-from stepaside.drivers.joint.link import SocketLink
-from stepaside.drivers.joint.safety import RobotState
-from stepaside.drivers.joint.served_joints import FADING, SILENT
-from stepaside.drivers.lola.lola_address import LolaAddress
-from stepaside.drivers.lola.lola_connection import open_lola
 from stepaside.drivers.lola.lola_server import LolaServer
+from stepaside.drivers.lola.nao_joints import NAO_MOTORS
+from stepaside.drivers.lola.served_joints import FADING, SILENT
+from stepaside.drivers.lola.socket_link import SocketLink
 from stepaside.drivers.lola.wire import SENSOR_BYTES
 
 FRAME = pack_sensors(sensor_frame())
@@ -50,12 +52,12 @@ TO_LIMP = SILENT + round(FADING / 0.012) + 1  # ticks
 CONTROL = f"""
 import sys
 import numpy as np
-from stepaside.drivers.lola.address import Address
-from stepaside.drivers.lola.joints import NAMES
-from stepaside.drivers.session import SessionLost
-from stepaside.drivers.lola.opening import open_lola
+from stepaside.drivers.lola.lola_address import LolaAddress
+from stepaside.drivers.lola.nao_joints import NAMES
+from stepaside.drivers.guardian_process import SessionLost
+from stepaside.drivers.lola.lola_connection import open_lola
 stance = np.array({STANCE.tolist()})
-body = open_lola(Address(sys.argv[1]), NAMES[:23], stance)
+body = open_lola(LolaAddress(sys.argv[1]), NAMES[:23], stance)
 try:
     while True:
         body.read()
@@ -68,9 +70,9 @@ body.close()
 WORLD = """
 import sys, time
 from lola_fakes import JOINTS, MadeUpRobot
-from stepaside.drivers.lola.address import Address
-from stepaside.drivers.lola.server import LolaServer
-server = LolaServer(Address(sys.argv[1]), MadeUpRobot(), JOINTS)
+from stepaside.drivers.lola.lola_address import LolaAddress
+from stepaside.drivers.lola.lola_server import LolaServer
+server = LolaServer(LolaAddress(sys.argv[1]), MadeUpRobot(), JOINTS)
 print("ready", flush=True)
 while True:
     server.speak()
@@ -200,6 +202,8 @@ def body_on(near: socket.socket) -> JointBody:
         SocketLink(near, SENSOR_BYTES),
         JOINTS,
         STANCE,
+        NAO_MOTORS,
+        CODEC,
         clock=clock,
         pause=clock.pause,
     )
@@ -257,7 +261,9 @@ def test_ten_thousand_garbage_frames_from_a_robot_are_passed_over() -> None:
     )
     clock = Clock()
     link = FakeLink(clock, script)
-    body = JointBody(link, JOINTS, STANCE, clock=clock, pause=clock.pause)
+    body = JointBody(
+        link, JOINTS, STANCE, NAO_MOTORS, CODEC, clock=clock, pause=clock.pause
+    )
     for _ in range(10_000):
         time = body.read().time
         body.write(STANCE)

@@ -10,18 +10,18 @@ import pytest
 from lola_fakes import JOINTS, STANCE, MadeUpRobot
 from stepaside.core.errors import ConfigurationError
 from stepaside.drivers.guardian_process import SessionLost
-from stepaside.drivers.joint.frame_clock import TICK
-from stepaside.drivers.joint.frames import (
+from stepaside.drivers.lola.conventions import REAL_TIME
+from stepaside.drivers.lola.lola_address import LolaAddress, parse_address
+from stepaside.drivers.lola.lola_frames import (
     ActuatorFrame,
     pack_actuators,
     unpack_sensors,
 )
-from stepaside.drivers.joint.link import SocketLink, connect
-from stepaside.drivers.joint.served_joints import FADING, SETTLED, SILENT
-from stepaside.drivers.lola.conventions import REAL_TIME
-from stepaside.drivers.lola.lola_address import LolaAddress, parse_address
 from stepaside.drivers.lola.lola_server import LolaServer
+from stepaside.drivers.lola.nao_joints import TICK
+from stepaside.drivers.lola.served_joints import FADING, SETTLED, SILENT
 from stepaside.drivers.lola.sight_message import MESSAGE, unpack_sight
+from stepaside.drivers.lola.socket_link import SocketLink, connect
 from stepaside.drivers.lola.wire import SENSOR_BYTES
 from stepaside.perception.measurement import Sighting
 

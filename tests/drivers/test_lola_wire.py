@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lola_fakes import sensor_frame
-from stepaside.drivers.joint.frames import (
+from stepaside.drivers.lola.lola_frames import (
     ActuatorFrame,
     pack_actuators,
     pack_sensors,

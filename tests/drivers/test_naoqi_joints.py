@@ -16,14 +16,16 @@ pytest.importorskip("qi")
 pytest.importorskip("msgpack")
 
 from stepaside.drivers.guardian_process import SessionLost  # noqa: E402
-from stepaside.drivers.joint.frame_clock import TICK  # noqa: E402
 from stepaside.drivers.joint.joint_body import JointBody  # noqa: E402
 from stepaside.drivers.joint.joint_loop import JointLoop, JointTick  # noqa: E402
-from stepaside.drivers.joint.joint_map import NAMES  # noqa: E402
 from stepaside.drivers.joint.safety import RobotState  # noqa: E402
 from stepaside.drivers.lola.conventions import (  # noqa: E402
     COUNTER,
     LOCK_STEP,
+)
+from stepaside.drivers.lola.nao_joints import (
+    NAMES,  # noqa: E402
+    TICK,  # noqa: E402
 )
 from stepaside.drivers.lola.wire import WireError  # noqa: E402
 from stepaside.drivers.naoqi.joint_chains import CHAINS  # noqa: E402
@@ -403,12 +405,12 @@ def test_a_chain_is_its_joints_and_no_others() -> None:
 CONTROL = """
 import sys
 import numpy as np
-from stepaside.drivers.lola.handling import Handling
-from stepaside.drivers.lola.conditions import SafetySettings
-from stepaside.drivers.naoqi.joints import open_joints
+from stepaside.drivers.joint.session_options import SessionOptions
+from stepaside.drivers.joint.safety_conditions import SafetySettings
+from stepaside.drivers.naoqi.joint_connection import open_joints
 names = sys.argv[2].split(",")
 stance = np.array([float(v) for v in sys.argv[3].split(",")])
-patient = Handling(guarded=True, safety=SafetySettings(silence=5.0))
+patient = SessionOptions(guarded=True, safety=SafetySettings(silence=5.0))
 body = open_joints(sys.argv[1], names, stance, patient)
 while True:
     body.read()

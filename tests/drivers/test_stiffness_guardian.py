@@ -8,11 +8,9 @@ from functools import partial
 import numpy as np
 import pytest
 
-from stepaside.drivers.joint.frames import ActuatorFrame
-from stepaside.drivers.joint.stiffness_guardian import (
-    StiffnessGuardian,
-    let_go,
-)
+from stepaside.drivers.joint.stiffness_guardian import StiffnessGuardian
+from stepaside.drivers.lola.lola_connection import let_go
+from stepaside.drivers.lola.lola_frames import ActuatorFrame
 from stepaside.drivers.lola.lola_server import ActuatorFrameReader
 
 TARGETS = np.linspace(-0.2, 0.2, 25)

@@ -1,14 +1,11 @@
-"""Test what joints may be asked for, and what the lights say."""
+"""Test limits of joint targets and stiffness, and the lights."""
 
 import numpy as np
 import pytest
 
 from lola_fakes import JOINTS, STANCE, sensor_frame
-from stepaside.drivers.joint.frame_clock import TICK
-from stepaside.drivers.joint.frames import ActuatorFrame, pack_actuators
-from stepaside.drivers.joint.joint_map import HIGH, LOW, NAMES, SPEED, JointMap
+from stepaside.drivers.joint.joint_map import JointMap
 from stepaside.drivers.joint.motion_states import (
-    CROUCH,
     POSTURE_SPEED,
     JointMotionState,
 )
@@ -21,7 +18,18 @@ from stepaside.drivers.joint.target_limits import (
     TargetLimiter,
     derated,
 )
+from stepaside.drivers.lola.conventions import joint_frame_of
 from stepaside.drivers.lola.lights import COLOURS, lights_for
+from stepaside.drivers.lola.lola_frames import ActuatorFrame, pack_actuators
+from stepaside.drivers.lola.nao_joints import (
+    CROUCH,
+    HIGH,
+    LOW,
+    NAMES,
+    NAO_MOTORS,
+    SPEED,
+    TICK,
+)
 
 ONES = np.ones(25)
 KNEE = NAMES.index("LKneePitch")
@@ -31,12 +39,12 @@ def test_targets_within_reach_are_not_touched() -> None:
     middle = 0.5 * (LOW + HIGH)
     wanted = middle + np.minimum(0.9 * SPEED * TICK, 0.1)
     np.testing.assert_allclose(
-        TargetLimiter(middle, TICK).toward(wanted), wanted
+        TargetLimiter(middle, NAO_MOTORS).toward(wanted), wanted
     )
 
 
 def test_no_target_moves_faster_than_its_motor() -> None:
-    limiter = TargetLimiter(np.zeros(25), TICK)
+    limiter = TargetLimiter(np.zeros(25), NAO_MOTORS)
     got = limiter.toward(np.full(25, 100.0))
     limit = np.minimum(SPEED * TICK, HIGH - 0.01)
     np.testing.assert_allclose(got, limit)
@@ -46,7 +54,7 @@ def test_no_target_moves_faster_than_its_motor() -> None:
 
 @pytest.mark.parametrize("end", [-1e9, 1e9])
 def test_no_target_leaves_its_range(end: float) -> None:
-    limiter = TargetLimiter(np.zeros(25), TICK)
+    limiter = TargetLimiter(np.zeros(25), NAO_MOTORS)
     for _ in range(500):
         got = limiter.toward(np.full(25, end))
     np.testing.assert_allclose(got, LOW + 0.01 if end < 0 else HIGH - 0.01)
@@ -56,7 +64,7 @@ def test_what_is_no_number_is_not_followed() -> None:
     middle = 0.5 * (LOW + HIGH)
     wanted = np.full(25, np.nan)
     wanted[0] = np.inf
-    got = TargetLimiter(middle, TICK).toward(wanted)
+    got = TargetLimiter(middle, NAO_MOTORS).toward(wanted)
     np.testing.assert_array_equal(got, middle)
 
 
@@ -93,11 +101,11 @@ def motion_at(
     state: RobotState, ticks: int, start: np.ndarray
 ) -> JointMotionState:
     """A motion of a robot that follows its targets."""
-    motion = JointMotionState(JointMap(JOINTS), STANCE)
+    motion = JointMotionState(JointMap(JOINTS, NAO_MOTORS), STANCE, NAO_MOTORS)
     position = start
     for _ in range(ticks):
         frame = sensor_frame(position=position)
-        position, _ = motion.move(state, frame, STANCE)
+        position, _ = motion.move(state, joint_frame_of(frame), STANCE)
         motion.measured = position  # type: ignore[attr-defined]
     return motion
 
@@ -105,11 +113,13 @@ def motion_at(
 def test_a_posture_is_reached_slowly_from_where_the_robot_is() -> None:
     start = np.zeros(25)
     start[KNEE] = 1.5
-    motion = JointMotionState(JointMap(JOINTS), STANCE)
+    motion = JointMotionState(JointMap(JOINTS, NAO_MOTORS), STANCE, NAO_MOTORS)
     last, position = start, start
     for _ in range(400):
         targets, stiffness = motion.move(
-            RobotState.REACHING, sensor_frame(position=position), STANCE
+            RobotState.REACHING,
+            joint_frame_of(sensor_frame(position=position)),
+            STANCE,
         )
         assert np.all(np.abs(targets - last) <= POSTURE_SPEED * TICK + 1e-12)
         last = position = targets
@@ -140,11 +150,11 @@ def test_rest_is_a_crouch_over_the_feet() -> None:
 
 
 def test_a_limp_robot_holds_nothing_and_starts_from_where_it_lies() -> None:
-    motion = JointMotionState(JointMap(JOINTS), STANCE)
+    motion = JointMotionState(JointMap(JOINTS, NAO_MOTORS), STANCE, NAO_MOTORS)
     lying = np.full(25, 0.3)
-    motion.move(RobotState.LIMP, sensor_frame(), STANCE)
+    motion.move(RobotState.LIMP, joint_frame_of(sensor_frame()), STANCE)
     targets, stiffness = motion.move(
-        RobotState.LIMP, sensor_frame(position=lying), STANCE
+        RobotState.LIMP, joint_frame_of(sensor_frame(position=lying)), STANCE
     )
     assert stiffness.tolist() == [0.0] * 25 and motion.is_limp
     np.testing.assert_array_equal(targets, lying)

@@ -5,7 +5,7 @@ from contextlib import ExitStack
 from typing import Any, NamedTuple
 
 from ..core.errors import ConfigurationError
-from ..drivers.joint.frame_clock import TICK
+from ..drivers.lola.nao_joints import TICK
 from .duel import Duel
 from .duel_end import ended_duel
 from .duel_run import DuelRun

@@ -6,9 +6,8 @@ frames, which reveals missing and repeated ones.
 """
 
 from ...core.errors import StepAsideError
-from ..lola.conventions import COUNTER_RANGE
 
-TICK = 0.012  # from one frame to the next, in [s]
+COUNTER_RANGE = 1 << 16  # frames are numbered modulo this
 LEAD = 0.1  # time by which frames may run ahead of the clock, in [s]
 MISSING = 8  # frames that may be missing between two: 0.1 s
 DRIFT = 0.02  # relative difference of two clocks' rates at most
@@ -25,15 +24,18 @@ class FrameClock:
         count: Number of the newest frame, from 0; -1 before the first.
     """
 
-    def __init__(self, *, counted: bool = False, paced: bool = True) -> None:
+    def __init__(
+        self, tick: float, *, counted: bool = False, paced: bool = True
+    ) -> None:
         """Start before the first frame.
 
         Args:
+            tick: Time from one frame to the next, in [s].
             counted: Whether the frames carry their number.
             paced: Whether the frames come in real time.
         """
         self.count = -1
-        self._counted, self._paced = counted, paced
+        self._tick, self._counted, self._paced = tick, counted, paced
         self._lead = 0.0
         self._arrived: float | None = None
         self._number: int | None = None
@@ -83,7 +85,7 @@ class FrameClock:
         """Compare the frames' time with that of the clock."""
         if self._arrived is not None:
             elapsed = arrived - self._arrived
-            lead = self._lead + passed * TICK - (1.0 + DRIFT) * elapsed
+            lead = self._lead + passed * self._tick - (1.0 + DRIFT) * elapsed
             self._lead = max(0.0, lead)
         self._arrived = arrived
         if self._lead > LEAD:

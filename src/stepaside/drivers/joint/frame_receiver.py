@@ -5,10 +5,8 @@ from collections.abc import Callable
 from typing import Any
 
 from ..guardian_process import SessionLost
-from ..lola.conventions import COUNTER, LOCK_STEP, REAL_TIME
-from ..lola.wire import WireError
 from .frame_clock import FrameClock, FrameOrderError
-from .frames import SensorFrame, unpack_sensors
+from .frames import FrameError, JointFrame
 from .link import FrameLink
 
 PATIENCE = 10.0  # longest wait for the first frame or in lock step, in [s]
@@ -29,7 +27,8 @@ class FrameReceiver:
         link: FrameLink,
         silence: float,
         clock: Callable[[], float],
-        read: Callable[[Any], SensorFrame] = unpack_sensors,
+        read: Callable[[Any], JointFrame],
+        tick: float,
     ) -> None:
         """Start before the first frame.
 
@@ -39,8 +38,9 @@ class FrameReceiver:
                 lost, in [s].
             clock: Time of this computer, in [s].
             read: Function that decodes what the link carries.
+            tick: Time from one frame to the next, in [s].
         """
-        self._read = read
+        self._read, self._tick = read, tick
         self._link, self._silence, self._clock = link, silence, clock
         self._frames: FrameClock | None = None
         self._heard = clock()  # time of the last valid frame
@@ -49,7 +49,7 @@ class FrameReceiver:
         self.refused = 0
         self.lock_step = False
 
-    def listen(self) -> tuple[SensorFrame, float]:
+    def listen(self) -> tuple[JointFrame, float]:
         """Wait for the newest valid frame; older queued ones are skipped.
 
         Returns:
@@ -78,27 +78,26 @@ class FrameReceiver:
                     f"no valid frame for {now - self._heard:.3f} s{refused}"
                 )
 
-    def _decoded(self, data: Any) -> SensorFrame | None:
+    def _decoded(self, data: Any) -> JointFrame | None:
         try:
             return self._read(data)
-        except WireError as error:
+        except FrameError as error:
             self.refused += 1
             if self.refused.bit_count() == 1:  # 1, 2, 4, 8...
                 log.warning("frame refused (%d): %s", self.refused, error)
             return None
 
-    def _number(self, frame: SensorFrame, now: float) -> None:
+    def _number(self, frame: JointFrame, now: float) -> None:
         if self._frames is None:
-            body = frame.robot_config[0]
-            self.lock_step = body == LOCK_STEP
+            self.lock_step = frame.lock_step
             self._frames = FrameClock(
-                counted=body in (LOCK_STEP, REAL_TIME),
+                self._tick,
+                counted=frame.counted,
                 paced=not self.lock_step,
             )
             self._passed = 1  # frames before the first valid one don't count
-        number = frame.battery[COUNTER]
         try:
-            self.count = self._frames.note(now, number, self._passed)
+            self.count = self._frames.note(now, frame.number, self._passed)
         except FrameOrderError as error:
             raise SessionLost(str(error)) from error
         self._passed = 0

@@ -3,6 +3,7 @@
 import logging
 from collections.abc import Callable, Sequence
 from time import monotonic, sleep
+from typing import Protocol
 
 import numpy as np
 
@@ -10,13 +11,9 @@ from ...core.poses import Array
 from ...perception.measurement import Measurement, Sighting
 from ..cameras.image_source import ImageSource
 from ..guardian_process import SessionLost
-from ..lola.conventions import measurement_of
-from ..lola.lights import lights_for
-from ..lola.sight_channel import SightSubscription
-from .frame_clock import TICK
 from .frame_receiver import FrameReceiver
-from .frames import ON_THE_WIRE, ActuatorFrame, Codec, SensorFrame
-from .joint_map import LEGS, JointMap
+from .frames import Codec, JointCommand, JointFrame, measurement_of
+from .joint_map import JointMap, MotorTable
 from .link import FrameLink
 from .motion_states import JointMotionState
 from .safety import RobotState, Safety
@@ -25,6 +22,21 @@ from .stiffness_guardian import StiffnessGuardian
 from .vitals import Vitals
 
 log = logging.getLogger(__name__)
+
+
+class SightSubscription(Protocol):
+    """Source of the ideal line of sight of a simulated robot."""
+
+    def newest(self, frame: int, start: int) -> Sighting | None:
+        """Return the newest sighting of a frame or an earlier one.
+
+        Args:
+            frame: Number of the newest sensor frame.
+            start: Number of the frame at which time is zero.
+        """
+
+    def close(self) -> None:
+        """Disconnect."""
 
 
 class JointBody:
@@ -41,20 +53,19 @@ class JointBody:
         sighting: Newest sighting of the ideal line of sight, if any.
     """
 
-    tick = TICK
-
     def __init__(
         self,
         link: FrameLink,
         joint_names: Sequence[str],
         stance: Array,
+        motors: MotorTable,
+        codec: Codec,
         *,
         sight: SightSubscription | None = None,
         eyes: ImageSource | None = None,
         guardian: StiffnessGuardian | None = None,
         safety: SafetySettings | None = None,
         dry_run: bool = False,
-        codec: Codec = ON_THE_WIRE,
         clock: Callable[[], float] = monotonic,
         pause: Callable[[float], None] = sleep,
     ) -> None:
@@ -65,13 +76,14 @@ class JointBody:
             joint_names: Actuated joints, in the order of joint targets.
             stance: Posture in which control begins, in [rad].
                 Shape (joints,).
+            motors: Motors of the robot, in the order of its frames.
+            codec: Conversion between frames and what the link carries.
             sight: Ideal line of sight of a simulated robot, if used.
             eyes: Cameras, if used.
             guardian: Guardian that releases the robot if this process
                 fails.
             safety: Limits of safe operation.
             dry_run: Whether to command nothing but lights.
-            codec: Conversion between frames and what the link carries.
             clock: Time of this computer, in [s].
             pause: Function that sleeps for a time in [s].
 
@@ -80,21 +92,22 @@ class JointBody:
         """
         settings = safety or SafetySettings()
         self._link, self._sight, self._guardian = link, sight, guardian
-        self._eyes = eyes
-        self._joints = JointMap(joint_names)
-        self._motion = JointMotionState(self._joints, stance)
-        self._vitals = Vitals(settings.look_ahead)
+        self._eyes, self._motors = eyes, motors
+        self.tick = motors.tick
+        self._joints = JointMap(joint_names, motors)
+        self._motion = JointMotionState(self._joints, stance, motors)
+        self._vitals = Vitals(settings.look_ahead, motors)
         self._silence = settings.silence
         self._safety = Safety(settings)
         self._hearing = FrameReceiver(
-            link, settings.silence, clock, codec.read
+            link, settings.silence, clock, codec.read, motors.tick
         )
         self._codec = codec
         self._dry_run = dry_run
         self._clock, self._pause = clock, pause
         self._start = 0
         self._state = RobotState.LIMP
-        self.frame: SensorFrame | None = None
+        self.frame: JointFrame | None = None
         self.sighting: Sighting | None = None
 
     @property
@@ -135,7 +148,9 @@ class JointBody:
                 self._safety.fail(
                     f"no frame was read for {gap:.2f} s", self._time
                 )
-                self._motion.weaken(float(frame.stiffness[LEGS].max()))
+                self._motion.weaken(
+                    float(frame.stiffness[self._motors.legs].max())
+                )
         self.frame = frame
         was_walking = self._state.moves_by_control
         self._change(self._safety.frame(self._safety_inputs(frame)))
@@ -143,11 +158,11 @@ class JointBody:
             self._start = count
         if self._sight is not None:
             self.sighting = self._sight.newest(count, self._start)
-        time = (count - self._start) * TICK
+        time = (count - self._start) * self.tick
         measured = measurement_of(frame, self._joints, time, self.sighting)
         if self._eyes is None:
             return measured
-        images = self._eyes.percepts(count, time, TICK)
+        images = self._eyes.percepts(count, time, self.tick)
         return measured._replace(percepts=(*images, *measured.percepts))
 
     def write(self, joint_targets: Array) -> None:
@@ -167,19 +182,18 @@ class JointBody:
         targets, stiffness = self._motion.move(
             self._state, self.frame, joint_targets
         )
-        lights = lights_for(
-            self._state,
-            sees=self.sighting is not None,
-            charge=self.frame.battery[0],
-        )
         if self._guardian is not None:
             self._guardian.update(targets, stiffness)
-        if self._dry_run:
-            self._send(ActuatorFrame(lights=lights))
-        elif self._motion.is_limp:
-            self._send(ActuatorFrame(None, stiffness, lights))
-        else:
-            self._send(ActuatorFrame(targets, stiffness, lights))
+        is_limp = self._motion.is_limp
+        self._send(
+            JointCommand(
+                None if self._dry_run or is_limp else targets,
+                None if self._dry_run else stiffness,
+                self._state,
+                self.sighting is not None,
+                self.frame.charge,
+            )
+        )
 
     def step(self) -> None:
         """Do nothing: the next read waits for the robot's next frame."""
@@ -214,9 +228,9 @@ class JointBody:
     @property
     def _time(self) -> float:
         """Time of the newest frame, in [s], by the count of frames."""
-        return self._hearing.count * TICK
+        return self._hearing.count * self.tick
 
-    def _safety_inputs(self, frame: SensorFrame) -> SafetyInputs:
+    def _safety_inputs(self, frame: JointFrame) -> SafetyInputs:
         state = self._state
         return self._vitals.update(
             frame,
@@ -231,9 +245,9 @@ class JointBody:
             log.info("%s: %s", state.value, self._safety.reason)
         self._state = state
 
-    def _send(self, frame: ActuatorFrame) -> None:
+    def _send(self, command: JointCommand) -> None:
         try:
-            self._link.send(self._codec.write(frame))
+            self._link.send(self._codec.write(command))
         except SessionLost as error:
             self._lose(str(error))
             raise
@@ -251,10 +265,11 @@ class JointBody:
             targets, stiffness = self._motion.fade()
             if self._guardian is not None:
                 self._guardian.update(targets, stiffness)
-            lights = lights_for(RobotState.LIMP, sees=False, charge=0.0)
             try:
-                command = ActuatorFrame(targets, stiffness, lights)
+                command = JointCommand(
+                    targets, stiffness, RobotState.LIMP, False, 0.0
+                )
                 self._link.send(self._codec.write(command))
             except SessionLost:
                 return
-            self._pause(TICK)
+            self._pause(self.tick)

@@ -5,19 +5,12 @@ and uses the socket of control, or its own connection, to ramp the stiffness
 down. The robot itself need not supervise its client.
 """
 
-import socket
 from collections.abc import Callable
-from contextlib import suppress
-from time import sleep
 
 import numpy as np
 
 from ...core.poses import Array
 from ..guardian_process import Guardian
-from ..lola.lights import lights_for
-from .frame_clock import TICK
-from .frames import ActuatorFrame, pack_actuators
-from .safety import RobotState
 
 SILENCE = 0.3  # time without control before the guardian acts, in [s]
 FADING = 0.5  # from full stiffness to none, in [s]
@@ -55,25 +48,3 @@ class StiffnessGuardian:
             self._guardian.hold(values.tobytes())
         else:
             self._guardian.leave()
-
-
-def let_go(robot: socket.socket, targets: Array, stiffness: Array) -> None:
-    """Ramp the stiffness down over LoLA, as far as frames can be sent."""
-    robot.setblocking(False)
-    count = round(FADING / TICK)
-    for left in range(count - 1, -1, -1):
-        frame = ActuatorFrame(
-            targets,
-            stiffness * (left / count),
-            lights_for(RobotState.LIMP, sees=False, charge=0.0),
-        )
-        with suppress(BlockingIOError):
-            while robot.recv(1 << 16):
-                pass  # discard sensor frames, so that the robot can send
-        try:
-            robot.send(pack_actuators(frame))
-        except BlockingIOError:
-            pass
-        except OSError:
-            return
-        sleep(TICK)

@@ -3,9 +3,10 @@
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...core.poses import Array
-from .joint_map import HIGH, LEGS, LOW, SPEED
+from .joint_map import MotorTable
 
 MARGIN = 0.01  # distance from the ends of each range, in [rad]
 WARM, HOT = 70.0, 85.0  # range of the reduction, in [degC]; an assumption
@@ -16,18 +17,18 @@ class TargetLimiter:
     """Limiter of joint targets to range and speed.
 
     Attributes:
-        target: Newest targets, in [rad]. Shape (25,).
+        target: Newest targets, in [rad]. Shape (motors,).
     """
 
-    def __init__(self, start: Array, tick: float) -> None:
+    def __init__(self, start: Array, motors: MotorTable) -> None:
         """Start at measured angles, so that no joint jumps.
 
         Args:
-            start: Measured angles, in [rad]. Shape (25,).
-            tick: Time from one target to the next, in [s].
+            start: Measured angles, in [rad]. Shape (motors,).
+            motors: Motors, with their ranges and speeds.
         """
         self.target = np.array(start, dtype=np.float64)
-        self._tick = tick
+        self._motors = motors
 
     def toward(self, wanted: Array, speed: float | None = None) -> Array:
         """Move the targets toward wanted ones within the speed limits.
@@ -40,14 +41,16 @@ class TargetLimiter:
                 that of each motor by default.
 
         Returns:
-            New targets, in [rad]. Shape (25,).
+            New targets, in [rad]. Shape (motors,).
         """
         goal = np.where(np.isfinite(wanted), wanted, self.target)
-        goal = np.clip(goal, LOW + MARGIN, HIGH - MARGIN)
-        reach = SPEED if speed is None else np.minimum(SPEED, speed)
-        step = np.clip(
-            goal - self.target, -reach * self._tick, reach * self._tick
+        motors = self._motors
+        goal = np.clip(goal, motors.low + MARGIN, motors.high - MARGIN)
+        limit = (
+            motors.speed if speed is None else np.minimum(motors.speed, speed)
         )
+        reach = limit * motors.tick
+        step = np.clip(goal - self.target, -reach, reach)
         self.target = self.target + step
         return self.target
 
@@ -58,12 +61,12 @@ def derated(
     """Reduce the stiffness of hot joints.
 
     Args:
-        stiffness: Wanted stiffness, from 0 to 1. Shape (25,).
-        temperature: Motor temperatures, in [degC]. Shape (25,).
+        stiffness: Wanted stiffness, from 0 to 1. Shape (motors,).
+        temperature: Motor temperatures, in [degC]. Shape (motors,).
         status: Status of the motors, 3 if critical.
 
     Returns:
-        Reduced stiffness. Shape (25,).
+        Reduced stiffness. Shape (motors,).
     """
     cut = (temperature - WARM) / (HOT - WARM) * (1.0 - MIN_STIFFNESS)
     factor = np.clip(1.0 - cut, MIN_STIFFNESS, 1.0)
@@ -96,8 +99,10 @@ class StiffnessRamp:
         return self.share
 
 
-def legs_reached(targets: Array, goal: Array, measured: Array) -> bool:
+def legs_reached(
+    targets: Array, goal: Array, measured: Array, legs: NDArray[np.intp]
+) -> bool:
     """Return whether targets and leg joints have reached a posture."""
     arrived = bool(np.all(np.abs(targets - goal) < 2.0 * MARGIN))
-    off = np.abs(measured[LEGS] - goal[LEGS])
+    off = np.abs(measured[legs] - goal[legs])
     return arrived and bool(np.all(off < 0.2))

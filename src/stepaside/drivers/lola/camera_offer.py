@@ -6,7 +6,7 @@ import socket
 from ...perception.images import ColourImage, DepthImage
 from ...perception.measurement import Measurement
 from ..cameras.image_wire import ImageMessage, pack_image
-from ..joint.listener import ClientListener
+from .listener import ClientListener
 from .lola_address import LolaAddress
 
 SEND_BUFFER = 1 << 22  # of the socket, in bytes

@@ -3,10 +3,19 @@
 import numpy as np
 
 from ...core.poses import Array
-from ...perception.images import Percept, SonarEcho
-from ...perception.measurement import Measurement, Sighting
-from ..joint.frames import SensorFrame
-from ..joint.joint_map import JOINT_COUNT, JointMap
+from ...perception.images import SonarEcho
+from ...perception.measurement import Measurement
+from ..joint.frame_clock import COUNTER_RANGE
+from ..joint.frames import Codec, JointCommand, JointFrame
+from ..joint.joint_map import JointMap
+from .lights import lights_for
+from .lola_frames import (
+    ActuatorFrame,
+    SensorFrame,
+    pack_actuators,
+    unpack_sensors,
+)
+from .nao_joints import JOINT_COUNT
 
 CHEST_BUTTON = 0  # index in Touch
 FOOT_BUMPERS = (4, 5, 9, 10)  # likewise: left and right of each foot
@@ -19,39 +28,37 @@ ROOM_TEMPERATURE = 25.0  # in [degC]
 REAL_TIME = "stepaside-realtime-0"
 LOCK_STEP = "stepaside-lockstep-0"
 COUNTER = 3
-COUNTER_RANGE = 1 << 16
 
 
-def measurement_of(
-    frame: SensorFrame,
-    joints: JointMap,
-    time: float,
-    sighting: Sighting | None = None,
-) -> Measurement:
-    """Convert a sensor frame to a measurement.
+def joint_frame_of(frame: SensorFrame) -> JointFrame:
+    """Convert a sensor frame to the conventions of control.
 
     LoLA's accelerometer is minus the specific force on every axis: an
     upright robot reads z near -9.8 m/s^2. Its foot sensors are in [kg].
-
-    Args:
-        frame: Sensor frame.
-        joints: Map to the order of the description's joints.
-        time: Time of the frame, in [s].
-        sighting: Newest sighting of the opponent, if there is one.
     """
     near, far = ECHO_RANGE
-    echoes: tuple[Percept, ...] = tuple(
-        SonarEcho(time, name, echo if near < echo < far else None)
-        for name, echo in zip(SONARS, frame.sonar, strict=True)
-    )
-    return Measurement(
-        time,
-        joints.from_lola(frame.position),
-        frame.gyroscope,
-        -frame.accelerometer,
-        NEWTONS_PER_KILOGRAM * frame.fsr,
-        sighting,
-        echoes,
+    serial = frame.robot_config[0]
+    return JointFrame(
+        position=frame.position,
+        stiffness=frame.stiffness,
+        current=frame.current,
+        temperature=frame.temperature,
+        status=frame.status,
+        accelerometer=-frame.accelerometer,
+        gyroscope=frame.gyroscope,
+        angles=frame.angles,
+        foot_forces=NEWTONS_PER_KILOGRAM * frame.fsr,
+        load=float(frame.fsr.sum()),
+        echoes={
+            name: echo if near < echo < far else None
+            for name, echo in zip(SONARS, frame.sonar, strict=True)
+        },
+        chest_pressed=frame.touch[CHEST_BUTTON] > 0.5,
+        bumper_pressed=any(frame.touch[at] > 0.5 for at in FOOT_BUMPERS),
+        charge=frame.battery[0],
+        number=frame.battery[COUNTER],
+        counted=serial in (LOCK_STEP, REAL_TIME),
+        lock_step=serial == LOCK_STEP,
     )
 
 
@@ -85,7 +92,7 @@ def sensor_frame_of(
     touch[CHEST_BUTTON] = float(chest_pressed)
     body = LOCK_STEP if lock_step else REAL_TIME
     return SensorFrame(
-        joints.to_lola(measurement.joint_positions, nothing),
+        joints.to_motors(measurement.joint_positions, nothing),
         stiffness,
         nothing,
         np.full(JOINT_COUNT, ROOM_TEMPERATURE),
@@ -99,3 +106,17 @@ def sensor_frame_of(
         (1.0, 0.0, 0.0, float(count % COUNTER_RANGE)),
         (body, "6.0.0", body, "6.0.0"),
     )
+
+
+def actuator_frame_of(command: JointCommand) -> ActuatorFrame:
+    """Convert a command to an actuator frame, with lights for the state."""
+    lights = lights_for(
+        command.state, sees=command.has_sighting, charge=command.charge
+    )
+    return ActuatorFrame(command.position, command.stiffness, lights)
+
+
+CODEC = Codec(
+    lambda data: joint_frame_of(unpack_sensors(data)),
+    lambda command: pack_actuators(actuator_frame_of(command)),
+)

@@ -1,19 +1,26 @@
 """Connection to a robot on LoLA."""
 
 import logging
+import socket
 from collections.abc import Sequence
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from functools import partial
+from time import sleep
 
 from ...core.poses import Array
 from ..guardian_process import SessionLost, open_within
 from ..joint.joint_body import JointBody
-from ..joint.link import SocketLink, connect
+from ..joint.safety import RobotState
 from ..joint.session_options import PLAIN, SessionOptions
-from ..joint.stiffness_guardian import StiffnessGuardian, let_go
+from ..joint.stiffness_guardian import FADING, StiffnessGuardian
+from .conventions import CODEC
+from .lights import lights_for
 from .lola_address import LolaAddress
+from .lola_frames import ActuatorFrame, pack_actuators
+from .nao_joints import NAO_MOTORS, TICK
 from .sight_channel import SightChannel
 from .sight_message import MESSAGE
+from .socket_link import SocketLink, connect
 from .wire import SENSOR_BYTES
 
 log = logging.getLogger(__name__)
@@ -56,6 +63,8 @@ def open_lola(
             link,
             joint_names,
             stance,
+            NAO_MOTORS,
+            CODEC,
             sight=sight,
             eyes=how.eyes(),
             guardian=guardian,
@@ -90,3 +99,25 @@ def _ideal_sight(address: LolaAddress) -> SightChannel | None:
         return SightChannel(connect(address.sight, MESSAGE.size))
     except SessionLost:
         return None
+
+
+def let_go(robot: socket.socket, targets: Array, stiffness: Array) -> None:
+    """Ramp the stiffness down over LoLA, as far as frames can be sent."""
+    robot.setblocking(False)
+    count = round(FADING / TICK)
+    for left in range(count - 1, -1, -1):
+        frame = ActuatorFrame(
+            targets,
+            stiffness * (left / count),
+            lights_for(RobotState.LIMP, sees=False, charge=0.0),
+        )
+        with suppress(BlockingIOError):
+            while robot.recv(1 << 16):
+                pass  # discard sensor frames, so that the robot can send
+        try:
+            robot.send(pack_actuators(frame))
+        except BlockingIOError:
+            pass
+        except OSError:
+            return
+        sleep(TICK)

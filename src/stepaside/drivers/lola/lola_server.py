@@ -7,11 +7,11 @@ from typing import Any
 import msgpack
 
 from ...core.poses import Array
-from ..joint.frames import ActuatorFrame, pack_sensors, take_actuators
-from ..joint.listener import ClientListener
-from ..joint.served_joints import ServedJointRobot, ServedJoints
 from .camera_offer import CameraOffer
+from .listener import ClientListener
 from .lola_address import LolaAddress
+from .lola_frames import ActuatorFrame, pack_sensors, take_actuators
+from .served_joints import ServedJointRobot, ServedJoints
 from .sight_offer import SightOffer
 from .wire import LIMITS, LONGEST_ANSWER, WireError
 

@@ -2,31 +2,15 @@
 
 import logging
 from collections import deque
-from typing import Protocol
 
 from ...perception.measurement import Sighting
 from ..guardian_process import SessionLost
-from ..joint.frame_clock import TICK
 from ..joint.link import FrameLink
+from .nao_joints import TICK
 from .sight_message import SightError, SightMessage, unpack_sight
 
 AHEAD = 8  # frames by which a sighting may come before its frame: 0.1 s
 log = logging.getLogger(__name__)
-
-
-class SightSubscription(Protocol):
-    """Source of the ideal line of sight of a simulated robot."""
-
-    def newest(self, frame: int, start: int) -> Sighting | None:
-        """Return the newest sighting of a frame or an earlier one.
-
-        Args:
-            frame: Number of the newest sensor frame.
-            start: Number of the frame at which time is zero.
-        """
-
-    def close(self) -> None:
-        """Disconnect."""
 
 
 class SightChannel:

@@ -1,7 +1,7 @@
 """Server of the ideal line of sight of a simulated robot."""
 
 from ...perception.measurement import Measurement, Sighting
-from ..joint.listener import ClientListener
+from .listener import ClientListener
 from .lola_address import LolaAddress
 from .sight_message import SightMessage, pack_sight
 

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import msgpack
 
-from ...core.errors import StepAsideError
+from ..joint.frames import FrameError
 
 SENSOR_BYTES = 896  # of every sensor frame
 ACTUATOR_BYTES = 786  # of an actuator frame with all keys
@@ -19,7 +19,7 @@ MAX_FLOAT = 3.4028234e38  # largest number in single precision
 MAX_TEXT = 31  # longest text with a one-byte header, in characters
 
 
-class WireError(StepAsideError, ValueError):
+class WireError(FrameError):
     """Bytes that are not a valid frame, or values that cannot be encoded."""
 
 

@@ -11,6 +11,7 @@ from ..guardian_process import open_within
 from ..joint.joint_body import JointBody
 from ..joint.session_options import PLAIN, SessionOptions
 from ..joint.stiffness_guardian import StiffnessGuardian
+from ..lola.nao_joints import NAO_MOTORS
 
 if TYPE_CHECKING:
     from .joint_transport import JointTransport
@@ -53,12 +54,13 @@ def open_joints(
             link,
             joint_names,
             stance,
+            NAO_MOTORS,
+            CODEC,
             sight=sight,
             eyes=eyes,
             guardian=guardian,
             safety=how.safety,
             dry_run=how.dry_run,
-            codec=CODEC,
         )
         stack.pop_all()  # the body closes them from now on
         return body

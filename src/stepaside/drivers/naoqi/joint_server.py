@@ -4,9 +4,9 @@ import logging
 from collections.abc import Sequence
 
 from ...perception.measurement import Measurement
-from ..joint.frame_clock import TICK
-from ..joint.served_joints import ServedJointRobot, ServedJoints
-from ..lola.conventions import COUNTER_RANGE
+from ..joint.frame_clock import COUNTER_RANGE
+from ..lola.nao_joints import TICK
+from ..lola.served_joints import ServedJointRobot, ServedJoints
 from .joint_services import (
     JointMemoryService,
     JointMotionService,

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from ...core.poses import Array
-from ..joint.frames import ActuatorFrame
-from ..joint.joint_map import JOINT_COUNT, NAMES
+from ..lola.lola_frames import ActuatorFrame
+from ..lola.nao_joints import JOINT_COUNT, NAMES
 from .joint_chains import joints_of, shares_of, values_of
 
 SHARED = "RHipYawPitch"  # driven by the motor of LHipYawPitch

@@ -16,11 +16,12 @@ import numpy as np
 from ...core.poses import Array
 from ...perception.measurement import Sighting
 from ..guardian_process import SessionLost
-from ..joint.frame_clock import TICK
-from ..joint.frames import ActuatorFrame, Codec, SensorFrame
-from ..joint.joint_map import JOINT_COUNT, NAMES
+from ..joint.frame_clock import COUNTER_RANGE
+from ..joint.frames import Codec, JointCommand
 from ..joint.stiffness_guardian import FADING
-from ..lola.conventions import COUNTER_RANGE
+from ..lola.conventions import joint_frame_of
+from ..lola.lola_frames import SensorFrame
+from ..lola.nao_joints import JOINT_COUNT, NAMES, TICK
 from .naoqi_url import IDEAL_SIGHT
 from .qi_session import answer_of, ask, connect
 from .sensor_keys import (
@@ -66,7 +67,10 @@ def read_frame_values(reading: MemoryReading) -> SensorFrame:
     return frame_of(values, number, lock_step=lock_step)
 
 
-CODEC = Codec(read_frame_values, lambda frame: frame)
+CODEC = Codec(
+    lambda reading: joint_frame_of(read_frame_values(reading)),
+    lambda command: command,
+)
 
 
 class JointTransport:
@@ -150,7 +154,7 @@ class JointTransport:
         reading, self._reading = self._reading, None
         return [] if reading is None else [reading]
 
-    def send(self, frame: ActuatorFrame) -> None:
+    def send(self, command: JointCommand) -> None:
         """Command joints and stiffness, without waiting for the answer.
 
         Lights are not commanded.
@@ -159,16 +163,16 @@ class JointTransport:
             SessionLost: If the robot refuses a command or does not answer.
         """
         self._check()
-        limp = frame.position is None
-        if frame.stiffness is not None:
-            same = np.array_equal(frame.stiffness, self._stiffness)
+        limp = command.position is None
+        if command.stiffness is not None:
+            same = np.array_equal(command.stiffness, self._stiffness)
             # A simulated robot takes it for the answer of a limp client.
             if not same or (limp and self.simulated):
-                self._stiffness = frame.stiffness.copy()
-                values = frame.stiffness.tolist()
+                self._stiffness = command.stiffness.copy()
+                values = command.stiffness.tolist()
                 self._call("setStiffnesses", list(NAMES), values)
-        if frame.position is not None:
-            values = frame.position.tolist()
+        if command.position is not None:
+            values = command.position.tolist()
             self._call("setAngles", list(NAMES), values, FULL_SPEED)
 
     def close(self) -> None:

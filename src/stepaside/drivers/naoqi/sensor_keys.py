@@ -10,8 +10,6 @@ from typing import Any
 
 import numpy as np
 
-from ..joint.frames import SensorFrame
-from ..joint.joint_map import NAMES
 from ..lola.conventions import (
     CHEST_BUTTON,
     COUNTER,
@@ -19,6 +17,8 @@ from ..lola.conventions import (
     LOCK_STEP,
     REAL_TIME,
 )
+from ..lola.lola_frames import SensorFrame
+from ..lola.nao_joints import NAMES
 from ..lola.wire import WireError
 
 DEVICES = "Device/SubDeviceList"

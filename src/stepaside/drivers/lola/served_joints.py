@@ -8,10 +8,10 @@ import numpy as np
 from ...core.poses import Array
 from ...perception.attitude import AttitudeFilter
 from ...perception.measurement import Measurement
-from ..lola.conventions import sensor_frame_of
-from .frame_clock import TICK
-from .frames import ActuatorFrame, SensorFrame
-from .joint_map import JOINT_COUNT, LEGS, JointMap
+from ..joint.joint_map import JointMap
+from .conventions import sensor_frame_of
+from .lola_frames import ActuatorFrame, SensorFrame
+from .nao_joints import JOINT_COUNT, LEGS, NAO_MOTORS, TICK
 
 SILENT = 8  # ticks without a command before stiffness decays: 0.1 s
 ATTITUDE_GAIN = 0.5  # of the accelerometer in the attitude, in [1/s]
@@ -53,7 +53,7 @@ class ServedJoints:
         Raises:
             ModelError: If LoLA has no motor for one of the joints.
         """
-        self._robot, self._joints = robot, JointMap(joint_names)
+        self._robot, self._joints = robot, JointMap(joint_names, NAO_MOTORS)
         self._attitude = AttitudeFilter(ATTITUDE_GAIN, 0.0, calibration=0.0)
         self._silent = 0
         self._unchanged = 0
@@ -75,7 +75,7 @@ class ServedJoints:
         own, seen = self._attitude, self.measurement
         own.update(seen.gyro, seen.accelerometer, (0.0, 0.0), TICK)
         if not self._has_targets:
-            self.targets = self._joints.to_lola(
+            self.targets = self._joints.to_motors(
                 seen.joint_positions, np.zeros(JOINT_COUNT)
             )
         return seen
@@ -118,5 +118,5 @@ class ServedJoints:
         stays = np.array_equal(stiffness, self.stiffness)
         self._unchanged = self._unchanged + 1 if stays else 0
         self.stiffness = stiffness
-        pick = self._joints.from_lola
+        pick = self._joints.from_motors
         self._robot.command(pick(self.targets), pick(self.stiffness))

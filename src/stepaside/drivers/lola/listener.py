@@ -9,7 +9,7 @@ from contextlib import suppress
 from tempfile import TemporaryDirectory
 
 from ...core.errors import ConfigurationError
-from ..lola.lola_address import EARLY, LolaAddress
+from .lola_address import EARLY, LolaAddress
 
 log = logging.getLogger(__name__)
 
