@@ -1,4 +1,4 @@
-"""Test footsteps that a robot is told, along the template's path."""
+"""Test footstep commands along the template's path."""
 
 from math import cos, sin
 
@@ -41,7 +41,7 @@ def test_footsteps_are_those_of_the_papers_maneuver(
 
 @pytest.mark.parametrize("foot", FEET)
 @pytest.mark.parametrize(("stride", "turn"), [(0.01, 1.0), (0.3, 0.02)])
-def test_what_is_too_much_is_cut_on_its_path(
+def test_steps_beyond_the_limits_are_shortened_along_the_path(
     foot: Foot, stride: float, turn: float
 ) -> None:
     """The circle keeps its radius: length over turn stays."""
@@ -93,7 +93,7 @@ def test_a_stride_is_the_arc_beside_which_the_foot_lands(
     )
 
 
-def test_who_turns_in_place_makes_no_way() -> None:
+def test_turning_in_place_has_no_displacement() -> None:
     steps = plan_footsteps(
         VelocityCommand(0.0, 0.2),
         GAIT,

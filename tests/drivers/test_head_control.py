@@ -1,4 +1,4 @@
-"""Test robots that walk by themselves and see the other by their camera."""
+"""Test players that detect the opponent by their robot's camera."""
 
 from math import atan2, hypot
 from typing import Any
@@ -97,7 +97,7 @@ class NoWire:
         """Nothing to let go of."""
 
 
-def test_they_find_each_other_and_walk() -> None:
+def test_players_with_cameras_detect_each_other_and_walk() -> None:
     duel = Duel(SETTINGS, recorded=False)
     wires, players = {}, []
     plays: dict[str, Strategy] = {"pursuer": Pursuit(), "evader": Evasion()}

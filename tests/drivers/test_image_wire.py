@@ -1,4 +1,4 @@
-"""Test images on their way from a simulated robot to who plays it."""
+"""Test the wire format and channel of images."""
 
 import struct
 from pathlib import Path
@@ -67,7 +67,7 @@ def test_images_come_back_however_the_stream_is_cut(step: int) -> None:
         (8, -1.0),
     ],
 )
-def test_what_is_no_image_is_refused(field: int, value: object) -> None:
+def test_an_invalid_image_is_refused(field: int, value: object) -> None:
     head = list(HEADER.unpack_from(BYTES))
     head[field] = value
     with pytest.raises(ImageError):
@@ -92,7 +92,7 @@ def test_images_come_with_the_frame_that_they_belong_to(
     channel.close()
 
 
-def test_who_does_not_read_misses_images_and_the_world_goes_on(
+def test_images_are_dropped_for_a_client_that_does_not_read(
     tmp_path: Path,
 ) -> None:
     offer = CameraOffer(LolaAddress(str(tmp_path / "c")))
@@ -120,7 +120,7 @@ def test_a_channel_that_brings_garbage_is_silent(tmp_path: Path) -> None:
     offer.close()
 
 
-def test_a_robot_without_cameras_offers_none(tmp_path: Path) -> None:
+def test_a_robot_without_cameras_offers_no_images(tmp_path: Path) -> None:
     place = LolaAddress(str(tmp_path / "r"))
     server = LolaServer(place, MadeUpRobot(), JOINTS)
     assert place.cameras is not None
@@ -134,6 +134,6 @@ def test_a_robot_without_cameras_offers_none(tmp_path: Path) -> None:
 
 
 def measured(time: float, *percepts: ColourImage) -> Measurement:
-    """What sensors give, with images."""
+    """Return a measurement with images."""
     sensors = MadeUpRobot().sensors()
     return sensors._replace(time=time, percepts=percepts)

@@ -18,7 +18,7 @@ from lola_fakes import (
 from stepaside.drivers.guardian_process import SessionLost
 from stepaside.drivers.joint.joint_body import JointBody
 from stepaside.drivers.joint.safety import RobotState
-from stepaside.drivers.lola.conventions import CODEC
+from stepaside.drivers.lola.conventions import CODEC, joint_frame_of
 from stepaside.drivers.lola.lights import COLOURS
 from stepaside.drivers.lola.lola_frames import pack_sensors
 from stepaside.drivers.lola.nao_joints import LEGS, NAMES, NAO_MOTORS, TICK
@@ -135,7 +135,7 @@ def test_a_few_bad_frames_are_passed_over() -> None:
 
 
 def state_of(body: JointBody) -> RobotState:
-    """What it does by now."""
+    """Return the state now."""
     return body.state
 
 
@@ -265,7 +265,7 @@ def test_a_control_that_was_away_finds_its_robot_limp() -> None:
     weak = sensor_frame(stiffness=np.full(25, 0.4))
     clock.now += 1.0
     link.queue = 83 * [pack_sensors(weak)]
-    body.frame = weak
+    body.frame = joint_frame_of(weak)
     play(body, 1)
     assert body.state is RobotState.LIMP
     assert "no frame was read for 1.0" in body.reason
@@ -282,7 +282,7 @@ def test_a_queue_that_was_left_is_read_to_its_newest_frame() -> None:
     assert body.state is RobotState.WALKING
 
 
-def test_control_that_asks_for_what_is_no_number_is_cut_off() -> None:
+def test_targets_with_nan_make_the_robot_limp() -> None:
     body, link, _ = walking(2 * [FINE])
     play(body, 1, np.full(23, np.nan))
     assert body.state is RobotState.LIMP and "NaN or inf" in body.reason
@@ -324,7 +324,7 @@ def test_a_dry_run_commands_nothing_but_lights() -> None:
         assert answer.sonar is None and answer.lights
 
 
-def test_who_leaves_leaves_the_robot_limp() -> None:
+def test_closing_the_session_leaves_the_robot_limp() -> None:
     body, link, _ = walking()
     body.close()
     assert link.closed
@@ -332,7 +332,7 @@ def test_who_leaves_leaves_the_robot_limp() -> None:
     assert stiffness is not None and stiffness.max() == 0.0
 
 
-def test_a_broken_link_ends_the_session_and_is_still_let_go() -> None:
+def test_a_broken_link_ends_the_session_and_is_closed() -> None:
     body, link, _ = walking(5 * [FINE])
     link.broken = True
     lost(body, link, "broken")

@@ -1,4 +1,4 @@
-"""Test one player at one robot, with control that is made up."""
+"""Test the joint loop with a fake control scheme."""
 
 import errno
 import io
@@ -88,7 +88,7 @@ class FakeMind:
 
 
 class Game:
-    """A player with a made-up robot and minds that can be looked into."""
+    """Joint loop with a fake robot and fake control schemes."""
 
     def __init__(self, script: list[Any], **changes: Any) -> None:
         self.minds: list[FakeMind] = []
@@ -121,7 +121,7 @@ class Game:
         return tick
 
 
-def test_control_thinks_only_while_it_may_move_the_robot() -> None:
+def test_control_runs_only_in_states_that_follow_it() -> None:
     game = Game([*TO_READY, *PRESS, *5 * [FINE]])
     game.play(101)
     (mind,) = game.minds
@@ -130,9 +130,7 @@ def test_control_thinks_only_while_it_may_move_the_robot() -> None:
     np.testing.assert_allclose(mind.times, 0.012 * np.arange(6))
 
 
-def test_the_button_lets_control_stop_and_the_next_walk_has_a_new_mind() -> (
-    None
-):
+def test_the_button_stops_the_walk_and_the_next_has_a_new_scheme() -> None:
     game = Game([*TO_READY, *PRESS, *3 * [FINE], *PRESS, *3 * [FINE]])
     assert game.play(105).phase is Phase.WALKING
     game.play(2)  # pressed and let go: control is told, and walks on
@@ -222,7 +220,7 @@ class Terminal(io.StringIO):
 
 
 class HungUp(Terminal):
-    """A terminal whose line was cut."""
+    """Terminal that has hung up."""
 
     def write(self, text: str) -> int:
         """Fail as the system does."""

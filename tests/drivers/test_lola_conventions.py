@@ -1,4 +1,4 @@
-"""Test what LoLA's numbers mean: joints, axes, units, frames' times."""
+"""Test conventions of LoLA: joints, axes, units, numbers of frames."""
 
 from math import atan2, hypot
 
@@ -93,7 +93,7 @@ def test_feet_weigh_in_kilograms_and_push_in_newtons() -> None:
     assert forces.sum() == pytest.approx(8 * 0.65 * 9.81)
 
 
-def test_echoes_are_told_apart_and_silence_is_no_distance() -> None:
+def test_echoes_are_named_and_no_echo_is_none() -> None:
     measured = measurement_of(
         joint_frame_of(sensor_frame(sonar=(0.4, 2.55))), MAP, 1.0
     )

@@ -1,4 +1,4 @@
-"""Test what breaks: cut sockets, garbage, killed and frozen processes."""
+"""Test faults: cut sockets, garbage, killed and frozen processes."""
 
 import gc
 import os
@@ -101,7 +101,7 @@ def process(code: str, *words: str) -> Iterator["subprocess.Popen[str]"]:
 
 
 def open_files() -> int:
-    """Those of this test, and not what earlier ones have left behind."""
+    """Count only sockets that this test has opened."""
     gc.collect()
     return len(os.listdir("/proc/self/fd"))
 
@@ -119,7 +119,7 @@ def serving(
 
 
 def tick(server: LolaServer, timeout: float) -> None:
-    """One tick, which waits for an answer as long as it is told."""
+    """Run one tick, with a timeout for the answer."""
     import select
 
     server.speak()
@@ -209,7 +209,7 @@ def body_on(near: socket.socket) -> JointBody:
     )
 
 
-def test_a_session_cut_at_any_byte_of_a_frame_ends_with_a_word() -> None:
+def test_a_session_cut_at_any_byte_of_a_frame_ends_with_a_reason() -> None:
     before = open_files()
     for length in range(SENSOR_BYTES + 1):
         near, far = socket.socketpair()

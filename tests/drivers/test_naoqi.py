@@ -78,7 +78,7 @@ def scene() -> Iterator[Scene]:
 
 @pytest.fixture
 def body(scene: Scene) -> Iterator[NaoqiBody]:
-    """One that stands: what is asked of one that rises is forgotten."""
+    """Wait until the robot stands: commands are ignored before."""
     body = NaoqiBody(scene.server.url)
     heard(body)
     yield body
@@ -137,7 +137,7 @@ def test_shares_of_the_top_speed_are_those_of_the_gait(scene: Scene) -> None:
     session.close()
 
 
-def test_what_robots_are_asked_by_name_is_answered(scene: Scene) -> None:
+def test_named_services_answer(scene: Scene) -> None:
     session = connect(scene.server.url)
     motion, memory = session.service("ALMotion"), session.service("ALMemory")
     assert motion.getBodyNames("Body") == ["LKneePitch", "RKneePitch"]
@@ -224,7 +224,7 @@ def test_names_and_values_that_do_not_fit_are_refused(
     assert motion.robotIsWakeUp()
 
 
-def test_sonars_are_heard_while_somebody_listens(scene: Scene) -> None:
+def test_sonar_echoes_need_a_subscriber(scene: Scene) -> None:
     state = scene.walker.state()
     scene.server.robot.state = state._replace(
         echoes={"left": 0.42, "right": None}
@@ -265,7 +265,7 @@ def test_a_robot_that_sleeps_does_not_walk(scene: Scene) -> None:
 @pytest.mark.parametrize(
     ("name", "said"), [("fallen", "has fallen"), ("pressed", "chest button")]
 )
-def test_what_the_robot_feels_hinders_it(
+def test_falls_and_the_button_are_hindrances(
     scene: Scene, body: NaoqiBody, name: str, said: str
 ) -> None:
     setattr(scene.server.robot, name, True)
@@ -282,7 +282,7 @@ def test_the_chest_button_holds_the_robot_until_it_is_pressed_again(
     assert said == ["", *4 * ["chest button"], ""]
 
 
-def test_a_robot_that_fell_stays_down_until_its_button_is_let_go(
+def test_a_fallen_robot_lies_still_until_its_button_is_released(
     scene: Scene, body: NaoqiBody
 ) -> None:
     robot = scene.server.robot
@@ -345,7 +345,7 @@ def test_a_robot_that_could_not_stand_up_tries_again_by_the_button() -> None:
 
 
 @pytest.mark.parametrize("slow", [0.06, 0.1])
-def test_a_robot_that_answers_slowly_is_heard_and_walks(slow: float) -> None:
+def test_a_robot_that_answers_slowly_still_walks(slow: float) -> None:
     """The answer to a call that took longer than one look is not lost."""
 
     class Slow(ALMotion):
@@ -362,7 +362,7 @@ def test_a_robot_that_answers_slowly_is_heard_and_walks(slow: float) -> None:
 
 
 def drive_and_hear(url: str, robot: WalkServiceState) -> None:
-    """Let control drive a robot that sees somebody, and see that it walks."""
+    """Check that control walks a robot with a sighting."""
     walker = MadeUpWalker()
     body = NaoqiBody(url)
     player = VelocityLoop(
@@ -393,7 +393,7 @@ class Refusing(ALMotion):
         raise RuntimeError("ALMotion::move\n\tmotors are hot:\n\tLHipRoll")
 
 
-def test_the_whole_reason_of_a_refused_call_is_told() -> None:
+def test_the_reason_of_a_refused_call_is_complete() -> None:
     motion = Refusing(None, VelocityCommand(0.07, 0.4), GaitSettings())  # type: ignore[arg-type]
     with offering(ALMotion=motion) as (url, _):
         body = NaoqiBody(url)
@@ -408,9 +408,7 @@ def test_the_whole_reason_of_a_refused_call_is_told() -> None:
         body.close()
 
 
-def test_a_robot_that_nobody_asks_anything_rests(
-    scene: Scene, body: NaoqiBody
-) -> None:
+def test_a_robot_without_calls_stops(scene: Scene, body: NaoqiBody) -> None:
     def asked() -> bool:
         body.command(VelocityCommand(0.05, 0.1))
         return bool(scene.round() == VelocityCommand(0.05, 0.1))
@@ -453,10 +451,10 @@ def test_a_world_that_freezes_is_silence_and_then_takes_no_command(
     body.close()
 
 
-def test_what_a_second_client_asks_holds_until_the_first_asks_again(
+def test_the_newest_command_of_two_clients_applies(
     scene: Scene,
 ) -> None:
-    """NAOqi refuses nobody; the last word counts, and rest is one."""
+    """NAOqi refuses no client; the newest command applies, even rest."""
     now = [100.0]
     body = NaoqiBody(scene.server.url, clock=lambda: now[0])
     asked = VelocityCommand(0.05, 0.1)
@@ -480,7 +478,7 @@ def test_what_a_second_client_asks_holds_until_the_first_asks_again(
     body.close()
 
 
-def test_a_dry_run_wakes_nobody_and_commands_nothing(scene: Scene) -> None:
+def test_a_dry_run_does_not_wake_or_command_the_robot(scene: Scene) -> None:
     body = NaoqiBody(scene.server.url, dry_run=True)
     body.command(VelocityCommand(0.05, 0.1))
     heard(body)
@@ -552,6 +550,6 @@ def test_urls_are_read(text: str, url: str) -> None:
 @pytest.mark.parametrize(
     "text", ["naoqi:", "naoqi:tcp://", "http://a:1", "a:0", "a:70000", "a b"]
 )
-def test_what_is_no_url_is_refused(text: str) -> None:
+def test_an_invalid_url_is_refused(text: str) -> None:
     with pytest.raises(ConfigurationError, match="naoqi:tcp://HOST:PORT"):
         parse_url(text)

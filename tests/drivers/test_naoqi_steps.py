@@ -62,7 +62,7 @@ class Alone:
         self.robot.state = self.walker.state()
 
 
-def test_footsteps_are_told_once_until_a_step_begins() -> None:
+def test_footsteps_are_sent_once_until_a_step_begins() -> None:
     alone = Alone()
     alone.ask(AHEAD, 10)
     (told,) = alone.motion.called("setFootSteps")
@@ -78,7 +78,7 @@ def test_footsteps_are_told_once_until_a_step_begins() -> None:
     assert len(alone.robot.steps) == 3
 
 
-def test_rest_stops_at_once_whatever_has_been_told() -> None:
+def test_zero_velocity_stops_at_once_with_pending_footsteps() -> None:
     alone = Alone()
     alone.ask(AHEAD)
     alone.ask(REST, 1)
@@ -139,7 +139,7 @@ def test_footsteps_that_cannot_be_read_end_the_session(
         (["LLeg"], [[0.0, 0.1, 0.6]], [0.6], "at most 0.08 m and 0.524"),
     ],
 )
-def test_footsteps_that_cannot_be_walked_are_refused_whole(
+def test_infeasible_footsteps_are_refused_together(
     legs: Any, steps: Any, times: Any, said: str
 ) -> None:
     alone = Alone()
@@ -149,7 +149,7 @@ def test_footsteps_that_cannot_be_walked_are_refused_whole(
     assert [step.foot for step, _ in alone.robot.steps] == list(Foot)
 
 
-def test_footsteps_follow_those_told_or_the_one_being_made() -> None:
+def test_footsteps_must_follow_the_pending_or_current_step() -> None:
     alone = Alone()
     service = alone.service
     service.setFootSteps(*LEFT, True)
@@ -191,7 +191,7 @@ def server() -> Iterator[NaoqiServer]:
     served.close()
 
 
-def test_footsteps_arrive_over_the_wire_and_end_with_who_told_them(
+def test_footsteps_end_with_their_client(
     server: NaoqiServer,
 ) -> None:
     def by_steps(motion: Any, clock: Any) -> FootstepMover:
@@ -216,7 +216,7 @@ def test_footsteps_arrive_over_the_wire_and_end_with_who_told_them(
 
 @pytest.fixture(scope="module")
 def walked() -> tuple[VelocityWalker, list[VelocityCommand]]:
-    """A robot that was told four footsteps, in one process."""
+    """Return a robot with four pending footsteps."""
     settings = DuelSettings(
         seed=7,
         start=StartSettings(2.0, 0.2, 0.1),
@@ -251,7 +251,7 @@ def walked() -> tuple[VelocityWalker, list[VelocityCommand]]:
     return walker, asked
 
 
-def test_a_robot_steps_as_it_is_told_and_rests_after_the_last_step(
+def test_a_robot_walks_its_footsteps_and_stands_after_the_last(
     walked: tuple[VelocityWalker, list[VelocityCommand]],
 ) -> None:
     """On the spot first, then ahead, then back on an arc, after a rest."""

@@ -20,7 +20,7 @@ TICK = 0.012
 
 
 def refused(capsys: pytest.CaptureFixture[str], *words: str) -> str:
-    """What is said to words that are refused."""
+    """Return the message for invalid arguments."""
     with pytest.raises(SystemExit) as left:
         main(list(words))
     assert left.value.code == 2
@@ -47,7 +47,7 @@ def refused(capsys: pytest.CaptureFixture[str], *words: str) -> str:
         ("serve --naoqi evader=127.0.0.1:0", "naoqi:tcp://HOST:PORT"),
     ],
 )
-def test_what_cannot_be_is_said_in_one_line(
+def test_errors_are_reported_in_one_line(
     words: str, said: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     pytest.importorskip("cyclonedds")
@@ -83,7 +83,7 @@ LOCALHOST = "ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST"
         "play --role evader --robot ros2:/alone --dry-run",
     ],
 )
-def test_topics_that_stay_here_say_what_ros_needs(words: str) -> None:
+def test_local_topics_name_the_setting_that_ros_needs(words: str) -> None:
     pytest.importorskip("cyclonedds")
     process = subprocess.Popen(
         [sys.executable, "-c", PLAY, *words.split(), "--domain", "73"],
@@ -100,7 +100,7 @@ def test_topics_that_stay_here_say_what_ros_needs(words: str) -> None:
 
 
 @pytest.mark.parametrize("way", ["velocity", "footsteps"])
-def test_play_that_is_killed_is_outlived_by_who_stops_its_robot(
+def test_the_guardian_stops_the_robot_when_play_is_killed(
     way: str, tmp_path: Path
 ) -> None:
     """The guardian calls in a session of its own; the log can be read."""

@@ -1,4 +1,4 @@
-"""Test that commands are written as those who take them want them."""
+"""Test that commands have the type that subscribers take."""
 
 import os
 from collections.abc import Iterator
@@ -126,7 +126,7 @@ def test_a_robot_is_commanded_in_the_type_that_it_takes(
 
 
 def test_a_stamp_is_of_the_robots_clock_and_frame(body: Ros2Body) -> None:
-    """Robots refuse commands whose stamp is old, by their own clock."""
+    """Robots reject commands whose stamp is old by their clock."""
     robot = Robot(TwistStamped)
     header = taken_by(robot, body, TwistStamped).header
     assert header.frame_id == "nao/base_link"
@@ -134,8 +134,8 @@ def test_a_stamp_is_of_the_robots_clock_and_frame(body: Ros2Body) -> None:
     robot.close()
 
 
-def test_who_takes_both_gets_both(body: Ros2Body) -> None:
-    """One may be the robot, the other may only look on."""
+def test_a_subscriber_of_both_types_receives_both(body: Ros2Body) -> None:
+    """Two subscribers of different types both receive commands."""
     robot = Robot(Twist, TwistStamped)
     stamped = taken_by(robot, body, TwistStamped)
     assert stamped.twist == taken_by(robot, body, Twist)

@@ -1,4 +1,4 @@
-"""Test topics whose world, or whose control, is frozen or killed."""
+"""Test topics when simulation or control freezes or is killed."""
 
 import os
 import signal

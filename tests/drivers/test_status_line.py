@@ -1,4 +1,4 @@
-"""Test the line that says what a robot does, where it is no terminal."""
+"""Test the status line on a stream that is not a terminal."""
 
 import io
 from enum import Enum
@@ -9,14 +9,14 @@ from stepaside.perception.measurement import Sighting
 
 
 class State(Enum):
-    """What a made-up robot does."""
+    """State of a fake robot."""
 
     WAITING = "waiting"
     WALKING = "walking"
 
 
 class Shown(NamedTuple):
-    """A made-up tick."""
+    """Fake tick."""
 
     state: State
     reason: str
@@ -30,7 +30,7 @@ class Shown(NamedTuple):
 
 
 def lines(*ticks: Shown) -> list[str]:
-    """What is left behind where stderr is no terminal."""
+    """Return the lines on a stream that is not a terminal."""
     stream = io.StringIO()
     line = StatusLine(stream, clock=lambda: 0.0)
     for tick in ticks:
@@ -56,7 +56,7 @@ def test_each_changed_reason_is_one_line() -> None:
 
 
 def test_a_reason_that_counts_is_one_line() -> None:
-    """Every tick says another number, and all mean the same."""
+    """Reasons that differ only in their numbers are one line."""
     ages = (0.55, 0.6, 9.95, 10.0, 123.4)
     said = lines(
         *(

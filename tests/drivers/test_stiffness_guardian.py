@@ -1,4 +1,4 @@
-"""Test who lets go of the robot when control cannot any more."""
+"""Test the guardian of a robot driven by its joints."""
 
 import os
 import signal
@@ -18,7 +18,7 @@ STIFF = np.full(25, 0.8)
 
 
 def answers_until_limp(robot: socket.socket) -> list[ActuatorFrame]:
-    """What a robot is told, until it is told to be limp or left."""
+    """Collect commands until the robot is limp or the link ends."""
     robot.settimeout(30.0)
     reader, answers = ActuatorFrameReader(), []
     while True:

@@ -60,7 +60,7 @@ def test_no_target_leaves_its_range(end: float) -> None:
     np.testing.assert_allclose(got, LOW + 0.01 if end < 0 else HIGH - 0.01)
 
 
-def test_what_is_no_number_is_not_followed() -> None:
+def test_targets_that_are_not_finite_are_ignored() -> None:
     middle = 0.5 * (LOW + HIGH)
     wanted = np.full(25, np.nan)
     wanted[0] = np.inf

@@ -1,4 +1,4 @@
-"""Test one player at a robot that walks by itself, which is made up."""
+"""Test the velocity loop with a fake robot."""
 
 import json
 from math import hypot, pi
@@ -66,7 +66,7 @@ def played(robot: FakeWalker, ticks: int) -> list[VelocityTick]:
         (Evasion(safety_radius=0.5), REST),
     ],
 )
-def test_a_mind_wants_what_the_template_does(
+def test_the_controller_commands_the_templates_velocity(
     strategy: Strategy, wanted: VelocityCommand
 ) -> None:
     mind = TemplateController(strategy, GAIT)
@@ -74,14 +74,14 @@ def test_a_mind_wants_what_the_template_does(
     assert mind.moving == (wanted != REST)
 
 
-def test_a_mind_without_a_sighting_rests() -> None:
+def test_without_a_sighting_the_command_is_zero() -> None:
     mind = TemplateController(Pursuit(), GAIT)
     mind.decide(REPORTS[0])
     assert mind.decide(report(0.1, sighting=None)) == REST and not mind.moving
 
 
 def test_two_templates_end_on_the_circle_of_theory() -> None:
-    """Driven by what their reports say, without any robot between."""
+    """Drive a simulated robot directly, without a protocol."""
     poses = [Pose(0.0, 0.0, 0.3), Pose(1.0, 0.0, pi)]
     minds = [TemplateController(s, GAIT) for s in (Pursuit(), Evasion())]
     for i in range(3000):
@@ -188,7 +188,7 @@ def test_a_dry_run_asks_for_nothing() -> None:
 
 
 def test_the_log_is_on_disk_as_it_goes(tmp_path: Path) -> None:
-    """What a process that is killed leaves behind can be read."""
+    """The record of a killed process can be read."""
     log = PlayLog(tmp_path / "log", {"role": "pursuer"})
     playing = playing_of(FakeWalker([*REPORTS[:20], *40 * [None]]))
     for _ in range(60):
@@ -206,7 +206,7 @@ def test_the_log_is_on_disk_as_it_goes(tmp_path: Path) -> None:
     assert words["role"] == "pursuer"
 
 
-def test_the_line_says_what_is_asked_for_and_where_the_other_is() -> None:
+def test_the_status_has_the_command_and_the_opponent() -> None:
     tick = played(FakeWalker(REPORTS), 20)[-1]
     said = status_text(tick)
     assert "walking" in said and "+0.100 m/s, +0.080 rad/s" in said
