@@ -70,7 +70,7 @@ class FakeWalker:
         """Nothing to let go of."""
 
 
-class MadeUpWalker:
+class SimulatedUnicycle:
     """Simulated unicycle for servers."""
 
     def __init__(self) -> None:

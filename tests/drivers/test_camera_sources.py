@@ -18,7 +18,7 @@ from stepaside.drivers.guardian_process import SessionLost  # noqa: E402
 from stepaside.perception.camera_model import CameraModel  # noqa: E402
 from stepaside.perception.images import ColourImage  # noqa: E402
 
-from velocity_fakes import MadeUpWalker  # isort: skip  # noqa: E402
+from velocity_fakes import SimulatedUnicycle  # isort: skip  # noqa: E402
 
 MODEL = CameraModel(320, 240, 272.0, 272.0)
 TAG = f"stepaside-images-{os.getpid()}"
@@ -183,7 +183,7 @@ def test_images_of_topics_are_checked() -> None:
     assert unpacked(CompressedImage(head, "jpeg", [])) is None
 
 
-class Seer(MadeUpWalker):
+class Seer(SimulatedUnicycle):
     """A made-up walker with a camera."""
 
     def __init__(self) -> None:

@@ -129,9 +129,9 @@ def test_the_head_of_a_robot_on_naoqi_turns_and_nothing_else() -> None:
     from stepaside.drivers.naoqi.naoqi_body import NaoqiBody
     from stepaside.drivers.naoqi.naoqi_server import NaoqiServer
     from stepaside.drivers.naoqi.qi_session import ask, connect
-    from velocity_fakes import MadeUpWalker, until
+    from velocity_fakes import SimulatedUnicycle, until
 
-    walker = MadeUpWalker()
+    walker = SimulatedUnicycle()
     names = ["HeadYaw", "HeadPitch"]
     place = "tcp://127.0.0.1:0"
     server = NaoqiServer(

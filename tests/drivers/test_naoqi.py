@@ -42,7 +42,7 @@ from stepaside.planning import GaitSettings  # noqa: E402
 from stepaside.strategies import Pursuit  # noqa: E402
 
 from naoqi_fakes import heard  # isort: skip  # noqa: E402
-from velocity_fakes import MadeUpWalker, until  # isort: skip  # noqa: E402
+from velocity_fakes import SimulatedUnicycle, until  # isort: skip  # noqa: E402
 
 TICK = 0.012
 SILENT = round(SILENCE / TICK) + 2  # ticks
@@ -52,7 +52,7 @@ class Scene:
     """A served robot and its world."""
 
     def __init__(self) -> None:
-        self.walker = MadeUpWalker()
+        self.walker = SimulatedUnicycle()
         self.server = NaoqiServer(
             "tcp://127.0.0.1:0",
             self.walker,
@@ -159,7 +159,7 @@ class Chained:
     def __init__(self) -> None:
         names = [*CHAINS["Head"], *CHAINS["LLeg"], *CHAINS["RLeg"]]
         angles = [0.01 * i for i in range(len(names))]
-        state = MadeUpWalker().state()._replace(joints=angles)
+        state = SimulatedUnicycle().state()._replace(joints=angles)
         self.robot = WalkServiceState(state, names)
         self.motion = ALMotion(
             self.robot, VelocityCommand(0.07, 0.4), GaitSettings()
@@ -206,13 +206,13 @@ def test_chains_are_known_by_name() -> None:
     ("method", "values", "said"),
     [
         ("setStiffnesses", ("Tail", 0.0), "no joint 'Tail'"),
-        ("setStiffnesses", ("Head", [0.0, 1.0, 1.0]), "each of 2 joints"),
+        ("setStiffnesses", ("Head", [0.0, 1.0, 1.0]), "2 joints need one"),
         ("setStiffnesses", ("Head", 1.5), "must lie in"),
         ("getBodyNames", ("Tail",), "chains Head"),
         ("getAngles", ("Tail", True), "no joint"),
         ("setAngles", ("LLeg", 0.1, 0.2), "only HeadYaw and HeadPitch"),
         ("setAngles", ("Head", nan, 0.2), "finite"),
-        ("setAngles", (["HeadYaw"], [0.1, 0.2], 0.2), "each of 1 joints"),
+        ("setAngles", (["HeadYaw"], [0.1, 0.2], 0.2), "1 joints need one"),
     ],
 )
 def test_names_and_values_that_do_not_fit_are_refused(
@@ -302,7 +302,7 @@ def test_a_fallen_robot_lies_still_until_its_button_is_released(
 @contextmanager
 def offering(**services: object) -> Iterator[tuple[str, WalkServiceState]]:
     """Services of a robot, some of them other than ours."""
-    robot = WalkServiceState(MadeUpWalker().state(), ["a", "b"])
+    robot = WalkServiceState(SimulatedUnicycle().state(), ["a", "b"])
     for service in services.values():
         service._robot = robot  # type: ignore[attr-defined]
     ours = {
@@ -363,7 +363,7 @@ def test_a_robot_that_answers_slowly_still_walks(slow: float) -> None:
 
 def drive_and_hear(url: str, robot: WalkServiceState) -> None:
     """Check that control walks a robot with a sighting."""
-    walker = MadeUpWalker()
+    walker = SimulatedUnicycle()
     body = NaoqiBody(url)
     player = VelocityLoop(
         body,
@@ -498,12 +498,12 @@ def test_a_guardian_can_stop_the_robot_by_itself(
 
 COMMANDER = """
 import sys
-from stepaside.drivers.naoqi.body import NaoqiBody
-from stepaside.drivers.velocity.body import Velocity
+from stepaside.drivers.naoqi.naoqi_body import NaoqiBody
+from stepaside.drivers.velocity.velocity_body import VelocityCommand
 body = NaoqiBody(sys.argv[1])
 while True:
     body.listen(0.1)
-    body.command(Velocity(0.03, -0.1))
+    body.command(VelocityCommand(0.03, -0.1))
 """
 
 

@@ -346,7 +346,11 @@ def test_the_last_of_two_clients_has_the_joint(scene: Scene) -> None:
     [
         ("setAngles", ("LKneePitch", nan, 1.0), "finite"),
         ("setAngles", ("LKneePitch", 0.1, 0.0), "fraction"),
-        ("setAngles", (["LKneePitch", "HeadYaw"], [1, 2, 3], 1.0), "a value"),
+        (
+            "setAngles",
+            (["LKneePitch", "HeadYaw"], [1, 2, 3], 1.0),
+            "joints need",
+        ),
         ("setAngles", ("LKnee", 0.1, 1.0), "no joint 'LKnee'"),
         ("setStiffnesses", ("Body", 1.5), "stiffness must lie"),
         ("setStiffnesses", ("Body", nan), "stiffness must lie"),

@@ -78,7 +78,7 @@ def test_play_waits_for_a_robot_that_is_not_there_yet(
     player = Thread(target=play)
     player.start()
     until = monotonic() + 60.0
-    while "waits up to 60 s" not in caplog.text and monotonic() < until:
+    while "retrying for up to 60 s" not in caplog.text and monotonic() < until:
         sleep(0.05)
     assert f"no robot listens at {place}" in caplog.text
     server = LolaServer(
@@ -94,7 +94,7 @@ def test_play_waits_for_a_robot_that_is_not_there_yet(
     finally:
         server.close()
         player.join(30.0)
-    assert ("by the ideal line of sight" in caplog.text) == sight
+    assert ("uses the ideal line of sight" in caplog.text) == sight
 
 
 def test_play_waits_no_longer_than_its_timeout(

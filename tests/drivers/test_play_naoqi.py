@@ -29,7 +29,7 @@ from stepaside.games.run_archive import load_run  # noqa: E402
 from stepaside.perception.measurement import Sighting  # noqa: E402
 
 from lola_fakes import JOINTS, STANCE, MadeUpRobot  # isort: skip  # noqa: E402
-from velocity_fakes import MadeUpWalker, until  # isort: skip  # noqa: E402
+from velocity_fakes import SimulatedUnicycle, until  # isort: skip  # noqa: E402
 
 ANYWHERE = "tcp://127.0.0.1:0"
 TICK = 0.012
@@ -63,7 +63,7 @@ class Walks:
     """Serve a robot with walking control and a sighting."""
 
     def __init__(self) -> None:
-        self.walker = MadeUpWalker()
+        self.walker = SimulatedUnicycle()
         self.server = NaoqiServer(
             ANYWHERE, self.walker, ["a", "b"], VelocityCommand(1, 1), tick=TICK
         )

@@ -13,7 +13,7 @@ from stepaside.core.errors import ConfigurationError
 from stepaside.drivers.row_file import RowWriter, read_rows
 from stepaside.perception.measurement import Sighting
 
-from velocity_fakes import MadeUpWalker  # isort: skip
+from velocity_fakes import SimulatedUnicycle  # isort: skip
 
 PLAY = "from stepaside.cli.main import main; main()"
 TICK = 0.012
@@ -108,7 +108,7 @@ def test_the_guardian_stops_the_robot_when_play_is_killed(
     from stepaside.drivers.naoqi.naoqi_server import NaoqiServer
     from stepaside.drivers.velocity.velocity_body import REST, VelocityCommand
 
-    walker = MadeUpWalker()
+    walker = SimulatedUnicycle()
     url = "tcp://127.0.0.1:0"
     server = NaoqiServer(
         url, walker, ["a", "b"], VelocityCommand(1, 1), tick=TICK

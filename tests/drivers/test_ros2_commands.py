@@ -40,7 +40,7 @@ from stepaside.drivers.velocity.watchdog import WatchSettings  # noqa: E402
 from stepaside.planning import GaitSettings  # noqa: E402
 from stepaside.strategies import Pursuit  # noqa: E402
 
-from velocity_fakes import MadeUpWalker, until  # isort: skip  # noqa: E402
+from velocity_fakes import SimulatedUnicycle, until  # isort: skip  # noqa: E402
 
 TAG = f"stepaside-commands-{os.getpid()}"
 TOPIC = dds_topic("/nao", "cmd_vel")
@@ -226,7 +226,7 @@ def test_rest_in_place_of_control_is_written_as_it_is_taken() -> None:
 @pytest.mark.parametrize("kind", [Twist, TwistStamped])
 def test_a_served_robot_follows_either_type(kind: type[Any]) -> None:
     dds, other = DdsParticipant(0, tag=TAG), DdsParticipant(0, tag=TAG)
-    walker = MadeUpWalker()
+    walker = SimulatedUnicycle()
     clock = WorldClock(dds)
     server = Ros2Server(dds, "/nao", walker, ["a"], clock, tick=0.012)
     writers = [other.writer(TOPIC, kind)]
@@ -257,7 +257,7 @@ def test_a_served_robot_goes_from_one_type_to_the_other() -> None:
     """One type at a time: the second commander waits for the first."""
     dds, other = DdsParticipant(0, tag=TAG), DdsParticipant(0, tag=TAG)
     server = Ros2Server(
-        dds, "/nao", MadeUpWalker(), ["a"], WorldClock(dds), tick=0.012
+        dds, "/nao", SimulatedUnicycle(), ["a"], WorldClock(dds), tick=0.012
     )
     writers = [other.writer(TOPIC, Twist)]
 

@@ -37,12 +37,12 @@ WORLD = f"""
 import sys
 sys.path.insert(0, {HERE!r})
 from time import sleep
-from stepaside.drivers.ros2.domain import Dds
-from stepaside.drivers.ros2.server import Ros2Server, WorldClock
-from stepaside.sensing.measurement import Sighting
-from velocity_fakes import MadeUpWalker
-dds = Dds(0, tag={TAG!r})
-walker = MadeUpWalker()
+from stepaside.drivers.ros2.dds_domain import DdsParticipant
+from stepaside.drivers.ros2.ros2_server import Ros2Server, WorldClock
+from stepaside.perception.measurement import Sighting
+from velocity_fakes import SimulatedUnicycle
+dds = DdsParticipant(0, tag={TAG!r})
+walker = SimulatedUnicycle()
 clock = WorldClock(dds)
 server = Ros2Server(dds, "/nao", walker, ["a", "b"], clock, tick=0.012)
 while True:
@@ -139,12 +139,12 @@ def test_control_that_freezes_leaves_a_robot_at_rest() -> None:
 
 CONTROL = f"""
 from time import sleep
-from stepaside.drivers.ros2.body import Ros2Body
-from stepaside.drivers.ros2.domain import Dds
-from stepaside.drivers.velocity.body import Velocity
-body = Ros2Body(Dds(0, tag={TAG!r}), "/nao")
+from stepaside.drivers.ros2.ros2_body import Ros2Body
+from stepaside.drivers.ros2.dds_domain import DdsParticipant
+from stepaside.drivers.velocity.velocity_body import VelocityCommand
+body = Ros2Body(DdsParticipant(0, tag={TAG!r}), "/nao")
 while True:
-    body.command(Velocity(0.04, 0.0))
+    body.command(VelocityCommand(0.04, 0.0))
     sleep(0.01)
 """
 
@@ -154,9 +154,9 @@ class Scene:
 
     def __init__(self) -> None:
         from stepaside.drivers.ros2.ros2_server import Ros2Server, WorldClock
-        from velocity_fakes import MadeUpWalker
+        from velocity_fakes import SimulatedUnicycle
 
-        self.dds, walker = DdsParticipant(0, tag=TAG), MadeUpWalker()
+        self.dds, walker = DdsParticipant(0, tag=TAG), SimulatedUnicycle()
         clock, names = WorldClock(self.dds), ["a", "b"]
         self.server = Ros2Server(
             self.dds, "/nao", walker, names, clock, tick=0.012

@@ -42,7 +42,7 @@ from stepaside.drivers.ros2.topics import (  # noqa: E402
 from stepaside.drivers.velocity.velocity_body import REST, VelocityCommand  # noqa: E402
 from stepaside.perception.measurement import Sighting  # noqa: E402
 
-from velocity_fakes import MadeUpWalker, until  # isort: skip  # noqa: E402
+from velocity_fakes import SimulatedUnicycle, until  # isort: skip  # noqa: E402
 
 TAG = f"stepaside-test-{os.getpid()}"
 TICK = 0.012
@@ -53,7 +53,7 @@ class Scene:
 
     def __init__(self, *, lock_step: bool = False) -> None:
         self.dds = DdsParticipant(0, tag=TAG)
-        self.walker = MadeUpWalker()
+        self.walker = SimulatedUnicycle()
         self.clock = WorldClock(self.dds)
         self.server = Ros2Server(
             self.dds,
@@ -329,13 +329,13 @@ def test_a_guardian_commands_nothing_until_it_acts() -> None:
 COMMANDER = f"""
 import sys
 from time import sleep
-from stepaside.drivers.ros2.address import parse_namespace  # noqa: E402
-from stepaside.drivers.ros2.body import Ros2Body
-from stepaside.drivers.ros2.domain import Dds
-from stepaside.drivers.velocity.body import Velocity
-body = Ros2Body(Dds(0, tag={TAG!r}), "/nao")
+from stepaside.drivers.ros2.namespaces import parse_namespace  # noqa: E402
+from stepaside.drivers.ros2.ros2_body import Ros2Body
+from stepaside.drivers.ros2.dds_domain import DdsParticipant
+from stepaside.drivers.velocity.velocity_body import VelocityCommand
+body = Ros2Body(DdsParticipant(0, tag={TAG!r}), "/nao")
 while True:
-    body.command(Velocity(0.03, -0.1))
+    body.command(VelocityCommand(0.03, -0.1))
     sleep(0.01)
 """
 

@@ -21,7 +21,7 @@ from velocity_fakes import FakeWalker  # isort: skip
 CONTROL = """
 import sys, time
 from pathlib import Path
-from stepaside.drivers.velocity.guardian import guardian_of
+from stepaside.drivers.velocity.velocity_guardian import guardian_of
 guardian = guardian_of(lambda: Path(sys.argv[1]).touch)
 tell = guardian.hold if sys.argv[2] == "moves" else guardian.leave
 for _ in range(10):
@@ -82,8 +82,8 @@ def test_a_robot_that_moves_is_stopped_when_control_is_gone(
 JOINING = """
 import sys, time
 from pathlib import Path
-from stepaside.drivers.session import SessionLost
-from stepaside.drivers.velocity.guardian import guardian_of
+from stepaside.drivers.guardian_process import SessionLost
+from stepaside.drivers.velocity.velocity_guardian import guardian_of
 folder = Path(sys.argv[1])
 def join():
     late = (folder / "tried").exists()

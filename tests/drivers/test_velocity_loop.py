@@ -143,7 +143,7 @@ def test_a_robot_that_falls_silent_is_asked_to_rest_and_goes_on_later() -> (
 def test_a_robot_that_stays_silent_ends_the_session() -> None:
     robot = FakeWalker(REPORTS[:20])
     playing = playing_of(robot)
-    with pytest.raises(SessionLost, match="not been heard for 10 s"):
+    with pytest.raises(SessionLost, match="no report from the robot for 10 s"):
         for _ in range(400):
             playing.tick()
     assert robot.asked[-1] == REST
