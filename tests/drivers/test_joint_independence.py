@@ -109,6 +109,11 @@ def body_on(link: MotorLink) -> JointBody:
     )
 
 
+def state_of(body: JointBody) -> RobotState:
+    """Return the state now: type checkers assume that it does not change."""
+    return body.state
+
+
 def play(body: JointBody, ticks: int, targets: np.ndarray) -> None:
     for _ in range(ticks):
         body.read()
@@ -119,14 +124,14 @@ def test_a_robot_with_other_joints_takes_its_stance_and_walks() -> None:
     link = MotorLink()
     body = body_on(link)
     play(body, 150, STANCE)
-    assert body.state is RobotState.READY
+    assert state_of(body) is RobotState.READY
     np.testing.assert_allclose(link.position, [-0.2, 0.6, 0.0], atol=0.02)
     for pressed in (True, False):
         link.chest_pressed = pressed
         play(body, 1, STANCE)
     wanted = np.array([0.8, 5.0])  # the hip's limit is 1 rad
     play(body, 60, wanted)
-    assert body.state.moves_by_control
+    assert state_of(body) is RobotState.WALKING
     assert 0.9 < link.position[0] < 1.0
     assert link.position[1] == pytest.approx(0.8)
     np.testing.assert_allclose(
@@ -135,7 +140,7 @@ def test_a_robot_with_other_joints_takes_its_stance_and_walks() -> None:
     body.rest("test")
     body.halted()
     play(body, 200, STANCE)
-    assert body.state is RobotState.LIMP
+    assert state_of(body) is RobotState.LIMP
     assert link.position[1] == pytest.approx(1.5)
     assert not link.stiffness.any()
 
