@@ -1,4 +1,4 @@
-"""A robot that speaks LoLA, made up, and time that passes when asked."""
+"""Fake robot on LoLA, and a clock that is advanced by hand."""
 
 from collections.abc import Callable, Iterable
 from typing import Any
@@ -7,15 +7,14 @@ import numpy as np
 
 from stepaside.core.poses import Array
 from stepaside.drivers.guardian_process import SessionLost
-from stepaside.drivers.joint.frame_clock import TICK
-from stepaside.drivers.joint.frames import (
+from stepaside.drivers.lola.conventions import LOCK_STEP, REAL_TIME
+from stepaside.drivers.lola.lola_frames import (
     ActuatorFrame,
     SensorFrame,
     pack_sensors,
     unpack_actuators,
 )
-from stepaside.drivers.joint.joint_map import NAMES
-from stepaside.drivers.lola.conventions import LOCK_STEP, REAL_TIME
+from stepaside.drivers.lola.nao_joints import NAMES, TICK
 from stepaside.perception.measurement import Measurement, Sighting
 
 JOINTS = NAMES[:23]  # a description without hands, in LoLA's order
@@ -27,7 +26,7 @@ REAL_ROBOT = "P0000073A00000000012"
 
 
 def sensor_frame(**changes: Any) -> SensorFrame:
-    """Frame of a robot that stands and is well."""
+    """Return the frame of a robot that stands without any fault."""
     nothing = np.zeros(25)
     position = nothing.copy()
     position[:23] = STANCE
@@ -50,12 +49,12 @@ def sensor_frame(**changes: Any) -> SensorFrame:
 
 
 def pressed(**changes: Any) -> SensorFrame:
-    """The same while somebody presses the chest button."""
+    """Return the same frame with the chest button pressed."""
     return sensor_frame(touch=(1.0,) + (0.0,) * 13, **changes)
 
 
 def counted(number: int, *, lock_step: bool = False) -> SensorFrame:
-    """Frame of a simulated robot, which counts."""
+    """Return a frame of a simulated robot, with its number."""
     body = LOCK_STEP if lock_step else REAL_TIME
     return sensor_frame(
         battery=(1.0, 0.0, 0.0, float(number)),
@@ -64,7 +63,7 @@ def counted(number: int, *, lock_step: bool = False) -> SensorFrame:
 
 
 class Clock:
-    """A clock that is set by hand."""
+    """Clock that is advanced by hand."""
 
     def __init__(self) -> None:
         self.now = 1000.0
@@ -79,10 +78,10 @@ class Clock:
 
 
 class FakeLink:
-    """A link on which frames come every 12 ms, or whatever is told.
+    """Link with a script of the bytes that arrive at each tick of 12 ms.
 
-    Its script gives, for each tick, the bytes that arrive: none is a tick
-    of silence. A robot that follows moves to its targets at once.
+    None is a tick of silence. A robot that follows moves to its targets at
+    once.
     """
 
     def __init__(self, clock: Clock, script: Iterable[Any] = ()) -> None:

@@ -34,14 +34,14 @@ class Answer:
         return self._failure
 
     def value(self, patience: int = 0) -> Any:
-        """What was answered."""
+        """Return the answer."""
         if self._failure:
             raise RuntimeError(self._failure)
         return self._value
 
 
 class Direct:
-    """A service whose methods are called as those of a session's are."""
+    """Service whose methods are called like those of a session."""
 
     def __init__(self, service: object) -> None:
         self._service = service

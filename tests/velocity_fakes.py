@@ -1,4 +1,4 @@
-"""Robots that walk by themselves, made up."""
+"""Fake robots that follow velocity commands."""
 
 from collections.abc import Callable, Iterable, Mapping
 from math import cos, sin
@@ -23,7 +23,7 @@ AHEAD = Sighting(0.0, 0.4, 1.0)
 
 
 def until(done: Callable[[], Any]) -> Any:
-    """Wait for what comes over the wire."""
+    """Wait for a message."""
     end = monotonic() + LONGEST
     while monotonic() < end:
         answer = done()
@@ -34,13 +34,13 @@ def until(done: Callable[[], Any]) -> Any:
 
 
 def report(time: float, **changes: object) -> VelocityReport:
-    """Report of a robot that stands and sees somebody now."""
+    """Return the report of a standing robot with a new sighting."""
     seen = AHEAD._replace(time=time)
     return VelocityReport(time, Pose(0.0, 0.0, 0.0), seen)._replace(**changes)  # type: ignore[arg-type]
 
 
 class FakeWalker:
-    """A robot whose reports are scripted; None is silence.
+    """Robot with scripted reports; None is silence.
 
     Each look of its player takes the time of one report.
     """
@@ -56,12 +56,12 @@ class FakeWalker:
         return self.now
 
     def listen(self, patience: float) -> VelocityReport | None:
-        """What the script says."""
+        """Return the next report of the script."""
         self.now += PERIOD
         return next(self.script, None)
 
     def command(self, velocity: VelocityCommand) -> None:
-        """Note what is asked for."""
+        """Store the command."""
         if self.breaks:
             raise SessionLost("broken")
         self.asked.append(velocity)
@@ -70,8 +70,8 @@ class FakeWalker:
         """Nothing to let go of."""
 
 
-class MadeUpWalker:
-    """A unicycle to be served, which does as it is told."""
+class SimulatedUnicycle:
+    """Simulated unicycle for servers."""
 
     def __init__(self) -> None:
         self.time = 0.0
@@ -92,7 +92,7 @@ class MadeUpWalker:
         self.leads.append(foot)
 
     def state(self) -> WalkerState:
-        """What it says of itself."""
+        """Return the state now."""
         return WalkerState(
             self.time,
             self.pose,

@@ -18,7 +18,7 @@ from stepaside.drivers.guardian_process import SessionLost  # noqa: E402
 from stepaside.perception.camera_model import CameraModel  # noqa: E402
 from stepaside.perception.images import ColourImage  # noqa: E402
 
-from velocity_fakes import MadeUpWalker  # isort: skip  # noqa: E402
+from velocity_fakes import SimulatedUnicycle  # isort: skip  # noqa: E402
 
 MODEL = CameraModel(320, 240, 272.0, 272.0)
 TAG = f"stepaside-images-{os.getpid()}"
@@ -27,7 +27,7 @@ HALVES[:, :80, 0] = HALVES[:, 80:, 2] = 200
 
 
 def until(done: Callable[[], Any]) -> Any:
-    """Wait for what another thread or process brings."""
+    """Wait for a result of another thread or process."""
     end = monotonic() + 20.0
     while monotonic() < end:
         answer = done()
@@ -70,7 +70,7 @@ def test_a_camera_that_is_not_there_is_said(tmp_path: Path) -> None:
         open_v4l2(str(tmp_path / "text"), MODEL, latency=0.0)
 
 
-def test_only_the_newest_image_counts_and_none_that_is_old() -> None:
+def test_only_the_newest_recent_image_is_returned() -> None:
     clock, images = [100.0], iter([HALVES, HALVES + 1, None])
     gone: list[bool] = []
     camera = LiveCamera(
@@ -97,7 +97,7 @@ def test_scaled_optics_see_as_far() -> None:
     assert scaled(MODEL, 320, 240) is MODEL
 
 
-def test_a_robot_on_naoqi_shows_what_its_camera_sees() -> None:
+def test_a_naoqi_robot_offers_its_camera_images() -> None:
     pytest.importorskip("qi")
     from stepaside.drivers.naoqi.naoqi_server import NaoqiServer
     from stepaside.drivers.naoqi.video_client import open_video
@@ -126,7 +126,7 @@ def test_a_robot_on_naoqi_shows_what_its_camera_sees() -> None:
 
 
 @pytest.mark.parametrize("squeezed", [False, True])
-def test_a_robot_on_topics_shows_what_its_camera_sees(squeezed: bool) -> None:
+def test_a_ros2_robot_publishes_its_camera_images(squeezed: bool) -> None:
     pytest.importorskip("cyclonedds")
     from stepaside.drivers.ros2.dds_domain import DdsParticipant
     from stepaside.drivers.ros2.image_messages import TopicCamera
@@ -183,7 +183,7 @@ def test_images_of_topics_are_checked() -> None:
     assert unpacked(CompressedImage(head, "jpeg", [])) is None
 
 
-class Seer(MadeUpWalker):
+class Seer(SimulatedUnicycle):
     """A made-up walker with a camera."""
 
     def __init__(self) -> None:

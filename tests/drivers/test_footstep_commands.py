@@ -1,4 +1,4 @@
-"""Test footsteps that a robot is told, along the template's path."""
+"""Test footstep commands along the template's path."""
 
 from math import cos, sin
 
@@ -8,8 +8,8 @@ from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Pose
 from stepaside.drivers.velocity.footstep_commands import (
     StepLimits,
+    path_segment_of,
     plan_footsteps,
-    stride_of,
 )
 from stepaside.drivers.velocity.velocity_body import VelocityCommand
 from stepaside.planning import Direction, Foot, GaitSettings, ManeuverPlanner
@@ -41,7 +41,7 @@ def test_footsteps_are_those_of_the_papers_maneuver(
 
 @pytest.mark.parametrize("foot", FEET)
 @pytest.mark.parametrize(("stride", "turn"), [(0.01, 1.0), (0.3, 0.02)])
-def test_what_is_too_much_is_cut_on_its_path(
+def test_steps_beyond_the_limits_are_shortened_along_the_path(
     foot: Foot, stride: float, turn: float
 ) -> None:
     """The circle keeps its radius: length over turn stays."""
@@ -49,7 +49,7 @@ def test_what_is_too_much_is_cut_on_its_path(
     limits = StepLimits(stride=stride, turn=turn)
     steps = plan_footsteps(velocity, GAIT, limits, first_foot=foot, count=3)
     for step in steps:
-        length, turned, aside = stride_of(
+        length, turned, aside = path_segment_of(
             step.pose, step.foot, GAIT.foot_spacing
         )
         assert length / turned == pytest.approx(-0.1 / 0.15)
@@ -85,13 +85,15 @@ def test_a_stride_is_the_arc_beside_which_the_foot_lands(
     radius, half = 0.05 / turn, 0.05 * foot.value
     end = Pose(radius * sin(turn), radius * (1.0 - cos(turn)), turn)
     landed = Pose(0.0, half, 0.0).compose(end).compose(Pose(0.0, half, 0.0))
-    stride = stride_of(landed, foot, 0.1)
+    stride = path_segment_of(landed, foot, 0.1)
     assert stride == pytest.approx((0.05, turn, 0.0), abs=1e-9)
     beside = landed.compose(Pose(0.0, 0.03, 0.0))
-    assert stride_of(beside, foot, 0.1).aside == pytest.approx(0.03, rel=0.1)
+    assert path_segment_of(beside, foot, 0.1).lateral == pytest.approx(
+        0.03, rel=0.1
+    )
 
 
-def test_who_turns_in_place_makes_no_way() -> None:
+def test_turning_in_place_has_no_displacement() -> None:
     steps = plan_footsteps(
         VelocityCommand(0.0, 0.2),
         GAIT,
@@ -99,7 +101,9 @@ def test_who_turns_in_place_makes_no_way() -> None:
         first_foot=FEET[0],
         count=2,
     )
-    length, turn, _ = stride_of(steps[0].pose, FEET[0], GAIT.foot_spacing)
+    length, turn, _ = path_segment_of(
+        steps[0].pose, FEET[0], GAIT.foot_spacing
+    )
     assert length == pytest.approx(0.0, abs=1e-6)
     assert turn == pytest.approx(0.08)
 

@@ -1,4 +1,4 @@
-"""Test robots that walk by themselves and see the other by their camera."""
+"""Test players that detect the opponent by their robot's camera."""
 
 from math import atan2, hypot
 from typing import Any
@@ -97,7 +97,7 @@ class NoWire:
         """Nothing to let go of."""
 
 
-def test_they_find_each_other_and_walk() -> None:
+def test_players_with_cameras_detect_each_other_and_walk() -> None:
     duel = Duel(SETTINGS, recorded=False)
     wires, players = {}, []
     plays: dict[str, Strategy] = {"pursuer": Pursuit(), "evader": Evasion()}
@@ -129,9 +129,9 @@ def test_the_head_of_a_robot_on_naoqi_turns_and_nothing_else() -> None:
     from stepaside.drivers.naoqi.naoqi_body import NaoqiBody
     from stepaside.drivers.naoqi.naoqi_server import NaoqiServer
     from stepaside.drivers.naoqi.qi_session import ask, connect
-    from velocity_fakes import MadeUpWalker, until
+    from velocity_fakes import SimulatedUnicycle, until
 
-    walker = MadeUpWalker()
+    walker = SimulatedUnicycle()
     names = ["HeadYaw", "HeadPitch"]
     place = "tcp://127.0.0.1:0"
     server = NaoqiServer(

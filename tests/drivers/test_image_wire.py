@@ -1,4 +1,4 @@
-"""Test images on their way from a simulated robot to who plays it."""
+"""Test the wire format and channel of images."""
 
 import struct
 from pathlib import Path
@@ -8,7 +8,7 @@ import pytest
 
 from lola_fakes import JOINTS, MadeUpRobot
 from stepaside.drivers.cameras.image_wire import (
-    HEAD,
+    HEADER,
     ImageError,
     ImageMessage,
     ImageReader,
@@ -35,7 +35,7 @@ def test_a_message_has_the_bytes_that_are_written_down() -> None:
     head = struct.pack(
         "<4sIdHHdddd", b"RGB8", 7, 0.048, 12, 8, 10.0, 11.0, 0.0, 0.0
     )
-    assert BYTES == head + PIXELS.tobytes() and HEAD.size == 52
+    assert BYTES == head + PIXELS.tobytes() and HEADER.size == 52
 
 
 @pytest.mark.parametrize("step", [1, 50, 1000])
@@ -67,11 +67,11 @@ def test_images_come_back_however_the_stream_is_cut(step: int) -> None:
         (8, -1.0),
     ],
 )
-def test_what_is_no_image_is_refused(field: int, value: object) -> None:
-    head = list(HEAD.unpack_from(BYTES))
+def test_an_invalid_image_is_refused(field: int, value: object) -> None:
+    head = list(HEADER.unpack_from(BYTES))
     head[field] = value
     with pytest.raises(ImageError):
-        ImageReader().feed(HEAD.pack(*head) + BYTES[HEAD.size :])
+        ImageReader().feed(HEADER.pack(*head) + BYTES[HEADER.size :])
 
 
 def test_images_come_with_the_frame_that_they_belong_to(
@@ -80,8 +80,8 @@ def test_images_come_with_the_frame_that_they_belong_to(
     offer = CameraOffer(LolaAddress(str(tmp_path / "c")))
     channel = CameraChannel(LolaAddress(str(tmp_path / "c")))
     seen = measured(1.0, ColourImage(0.952, MODEL, PIXELS))
-    offer.tell(seen, 40)
-    offer.tell(seen, 41)  # the same tick again: nothing new
+    offer.send(seen, 40)
+    offer.send(seen, 41)  # the same tick again: nothing new
     assert channel.percepts(39, 0.5, 0.012) == []
     (image,) = channel.percepts(41, 0.524, 0.012)
     # It arrived with frame 40, a tick ago, and was 48 ms old then.
@@ -92,7 +92,7 @@ def test_images_come_with_the_frame_that_they_belong_to(
     channel.close()
 
 
-def test_who_does_not_read_misses_images_and_the_world_goes_on(
+def test_images_are_dropped_for_a_client_that_does_not_read(
     tmp_path: Path,
 ) -> None:
     offer = CameraOffer(LolaAddress(str(tmp_path / "c")))
@@ -101,18 +101,18 @@ def test_who_does_not_read_misses_images_and_the_world_goes_on(
     pixels = np.zeros((480, 640, 3), np.uint8)
     for tick in range(20):
         shown = ColourImage(0.0, large, pixels)
-        offer.tell(measured(0.012 * tick, shown), tick)
+        offer.send(measured(0.012 * tick, shown), tick)
     assert offer.missed > 0
     assert len(channel.percepts(20, 0.0, 0.012)) < 20
     channel.close()
-    offer.tell(measured(1.0, COLOUR), 21)
+    offer.send(measured(1.0, COLOUR), 21)
     offer.close()
 
 
 def test_a_channel_that_brings_garbage_is_silent(tmp_path: Path) -> None:
     offer = CameraOffer(LolaAddress(str(tmp_path / "c")))
     channel = CameraChannel(LolaAddress(str(tmp_path / "c")))
-    offer.tell(measured(0.0), 0)
+    offer.send(measured(0.0), 0)
     offer._send(b"x" * 200)
     assert channel.percepts(0, 0.0, 0.012) == []
     assert channel.percepts(1, 0.0, 0.012) == []
@@ -120,7 +120,7 @@ def test_a_channel_that_brings_garbage_is_silent(tmp_path: Path) -> None:
     offer.close()
 
 
-def test_a_robot_without_cameras_offers_none(tmp_path: Path) -> None:
+def test_a_robot_without_cameras_offers_no_images(tmp_path: Path) -> None:
     place = LolaAddress(str(tmp_path / "r"))
     server = LolaServer(place, MadeUpRobot(), JOINTS)
     assert place.cameras is not None
@@ -134,6 +134,6 @@ def test_a_robot_without_cameras_offers_none(tmp_path: Path) -> None:
 
 
 def measured(time: float, *percepts: ColourImage) -> Measurement:
-    """What sensors give, with images."""
+    """Return a measurement with images."""
     sensors = MadeUpRobot().sensors()
     return sensors._replace(time=time, percepts=percepts)

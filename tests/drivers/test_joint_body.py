@@ -16,12 +16,12 @@ from lola_fakes import (
     sensor_frame,
 )
 from stepaside.drivers.guardian_process import SessionLost
-from stepaside.drivers.joint.frame_clock import TICK
-from stepaside.drivers.joint.frames import pack_sensors
 from stepaside.drivers.joint.joint_body import JointBody
-from stepaside.drivers.joint.joint_map import LEGS, NAMES
 from stepaside.drivers.joint.safety import RobotState
+from stepaside.drivers.lola.conventions import CODEC, joint_frame_of
 from stepaside.drivers.lola.lights import COLOURS
+from stepaside.drivers.lola.lola_frames import pack_sensors
+from stepaside.drivers.lola.nao_joints import LEGS, NAMES, NAO_MOTORS, TICK
 from stepaside.drivers.lola.sight_channel import SightChannel
 from stepaside.drivers.lola.sight_message import SightMessage, pack_sight
 from stepaside.perception.measurement import Sighting
@@ -37,7 +37,14 @@ def body_of(
     clock = Clock()
     link = FakeLink(clock, script)
     body = JointBody(
-        link, JOINTS, STANCE, clock=clock, pause=clock.pause, **changes
+        link,
+        JOINTS,
+        STANCE,
+        NAO_MOTORS,
+        CODEC,
+        clock=clock,
+        pause=clock.pause,
+        **changes,
     )
     return body, link, clock
 
@@ -128,7 +135,7 @@ def test_a_few_bad_frames_are_passed_over() -> None:
 
 
 def state_of(body: JointBody) -> RobotState:
-    """What it does by now."""
+    """Return the state now."""
     return body.state
 
 
@@ -148,13 +155,13 @@ def lost(body: JointBody, link: FakeLink, said: str) -> None:
 def test_silence_for_100_ms_ends_the_session() -> None:
     body, link, clock = walking()
     began = clock.now
-    lost(body, link, "no good frame for 0.100 s")
+    lost(body, link, "no valid frame for 0.100 s")
     assert clock.now - began == pytest.approx(0.1 + 0.5, abs=0.03)
 
 
 def test_endless_garbage_ends_the_session_as_silence_does() -> None:
     body, link, clock = walking(10_000 * [b"\xff" * 896])
-    lost(body, link, "no good frame for 0.1.*refused")
+    lost(body, link, "no valid frame for 0.1.*refused")
 
 
 @pytest.mark.parametrize(
@@ -199,7 +206,7 @@ def drawing(joint: str, current: float) -> list[Any]:
 @pytest.mark.parametrize(
     ("frames", "word"),
     [
-        (60 * [sensor_frame(fsr=np.zeros(8))], "in the air"),
+        (60 * [sensor_frame(fsr=np.zeros(8))], "are lifted"),
         (60 * [sensor_frame(battery=(0.02, 0.0, 0.0, 36.0))], "2 %"),
         (60 * [sensor_frame(current=np.full(25, 6.0))], "current"),
         (drawing("RKneePitch", 3.5), "current"),
@@ -213,7 +220,7 @@ def drawing(joint: str, current: float) -> list[Any]:
             60 * [sensor_frame(accelerometer=np.array([0.0, 0.0, 9.81]))],
             "accelerometer reads a tilt of 180 deg",
         ),
-        (moved(60), "accelerometer does not change"),
+        (moved(60), "accelerometer reading is constant"),
     ],
 )
 def test_a_walk_ends_when_a_sensor_says_that_it_must(
@@ -258,7 +265,7 @@ def test_a_control_that_was_away_finds_its_robot_limp() -> None:
     weak = sensor_frame(stiffness=np.full(25, 0.4))
     clock.now += 1.0
     link.queue = 83 * [pack_sensors(weak)]
-    body.frame = weak
+    body.frame = joint_frame_of(weak)
     play(body, 1)
     assert body.state is RobotState.LIMP
     assert "no frame was read for 1.0" in body.reason
@@ -275,10 +282,10 @@ def test_a_queue_that_was_left_is_read_to_its_newest_frame() -> None:
     assert body.state is RobotState.WALKING
 
 
-def test_control_that_asks_for_what_is_no_number_is_cut_off() -> None:
+def test_targets_with_nan_make_the_robot_limp() -> None:
     body, link, _ = walking(2 * [FINE])
     play(body, 1, np.full(23, np.nan))
-    assert body.state is RobotState.LIMP and "no number" in body.reason
+    assert body.state is RobotState.LIMP and "NaN or inf" in body.reason
     assert link.sent[-1].position is not None
     assert np.all(np.isfinite(link.sent[-1].position))
 
@@ -317,7 +324,7 @@ def test_a_dry_run_commands_nothing_but_lights() -> None:
         assert answer.sonar is None and answer.lights
 
 
-def test_who_leaves_leaves_the_robot_limp() -> None:
+def test_closing_the_session_leaves_the_robot_limp() -> None:
     body, link, _ = walking()
     body.close()
     assert link.closed
@@ -325,7 +332,7 @@ def test_who_leaves_leaves_the_robot_limp() -> None:
     assert stiffness is not None and stiffness.max() == 0.0
 
 
-def test_a_broken_link_ends_the_session_and_is_still_let_go() -> None:
+def test_a_broken_link_ends_the_session_and_is_closed() -> None:
     body, link, _ = walking(5 * [FINE])
     link.broken = True
     lost(body, link, "broken")

@@ -1,4 +1,4 @@
-"""Test one player at one robot, with control that is made up."""
+"""Test the joint loop with a fake control scheme."""
 
 import errno
 import io
@@ -16,10 +16,12 @@ from stepaside.control.strategy_runner import StrategyRunner
 from stepaside.control.walk_snapshots import WalkState
 from stepaside.core.errors import ConfigurationError, ReachError, StrategyError
 from stepaside.core.poses import Pose
-from stepaside.drivers.joint.frames import pack_sensors
 from stepaside.drivers.joint.joint_body import JointBody
 from stepaside.drivers.joint.joint_loop import JointLoop
 from stepaside.drivers.joint.safety import RobotState
+from stepaside.drivers.lola.conventions import CODEC
+from stepaside.drivers.lola.lola_frames import pack_sensors
+from stepaside.drivers.lola.nao_joints import NAO_MOTORS
 from stepaside.drivers.play_log import PlayLog
 from stepaside.drivers.row_file import read_rows
 from stepaside.drivers.status_line import StatusLine
@@ -86,7 +88,7 @@ class FakeMind:
 
 
 class Game:
-    """A player with a made-up robot and minds that can be looked into."""
+    """Joint loop with a fake robot and fake control schemes."""
 
     def __init__(self, script: list[Any], **changes: Any) -> None:
         self.minds: list[FakeMind] = []
@@ -99,6 +101,8 @@ class Game:
                 self.link,
                 names,
                 scheme.joint_targets,
+                NAO_MOTORS,
+                CODEC,
                 clock=clock,
                 pause=clock.pause,
                 **changes,
@@ -117,7 +121,7 @@ class Game:
         return tick
 
 
-def test_control_thinks_only_while_it_may_move_the_robot() -> None:
+def test_control_runs_only_in_states_that_follow_it() -> None:
     game = Game([*TO_READY, *PRESS, *5 * [FINE]])
     game.play(101)
     (mind,) = game.minds
@@ -126,9 +130,7 @@ def test_control_thinks_only_while_it_may_move_the_robot() -> None:
     np.testing.assert_allclose(mind.times, 0.012 * np.arange(6))
 
 
-def test_the_button_lets_control_stop_and_the_next_walk_has_a_new_mind() -> (
-    None
-):
+def test_the_button_stops_the_walk_and_the_next_has_a_new_scheme() -> None:
     game = Game([*TO_READY, *PRESS, *3 * [FINE], *PRESS, *3 * [FINE]])
     assert game.play(105).phase is Phase.WALKING
     game.play(2)  # pressed and let go: control is told, and walks on
@@ -147,7 +149,7 @@ def test_a_robot_that_was_lifted_stands_and_walks_anew_by_the_button() -> None:
     script = [*TO_READY, *PRESS, *40 * [lifted], *5 * [FINE], *PRESS, FINE]
     game = Game(script)
     tick = game.play(142)
-    assert tick.state is RobotState.READY and "in the air" in tick.reason
+    assert tick.state is RobotState.READY and "are lifted" in tick.reason
     assert game.play(5).state is RobotState.READY
     assert len(game.minds) == 2
     game.play(3)
@@ -169,7 +171,7 @@ def test_control_that_gives_up_lets_the_robot_go_limp(kind: str) -> None:
         game.minds[0].phase = Phase.FALLEN
     tick = game.play(1)
     assert tick.state is RobotState.LIMP
-    said = {"footing": "too short", "strategy": "'x'", "falling": "falls"}
+    said = {"footing": "too short", "strategy": "'x'", "falling": "a fall"}
     assert said[kind] in tick.reason
 
 
@@ -218,7 +220,7 @@ class Terminal(io.StringIO):
 
 
 class HungUp(Terminal):
-    """A terminal whose line was cut."""
+    """Terminal that has hung up."""
 
     def write(self, text: str) -> int:
         """Fail as the system does."""
@@ -249,4 +251,4 @@ def test_the_line_says_each_change_and_on_terminals_five_times_a_second(
     assert said.count("\n") == (5 if stream.isatty() else 4)
     wanted = (8, 14) if stream.isatty() else (4, 4)
     assert wanted[0] <= said.count(" s  ") <= wanted[1]
-    assert "sees nobody" in said
+    assert "opponent not detected" in said

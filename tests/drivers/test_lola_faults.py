@@ -1,4 +1,4 @@
-"""Test what breaks: cut sockets, garbage, killed and frozen processes."""
+"""Test faults: cut sockets, garbage, killed and frozen processes."""
 
 import gc
 import os
@@ -22,18 +22,20 @@ from lola_fakes import (
     sensor_frame,
 )
 from stepaside.drivers.guardian_process import SessionLost
-from stepaside.drivers.joint.frames import (
+from stepaside.drivers.joint.joint_body import JointBody
+from stepaside.drivers.joint.safety import RobotState
+from stepaside.drivers.lola.conventions import CODEC
+from stepaside.drivers.lola.lola_address import LolaAddress
+from stepaside.drivers.lola.lola_connection import open_lola
+from stepaside.drivers.lola.lola_frames import (
     ActuatorFrame,
     pack_actuators,
     pack_sensors,
 )
-from stepaside.drivers.joint.joint_body import JointBody
-from stepaside.drivers.joint.link import SocketLink
-from stepaside.drivers.joint.safety import RobotState
-from stepaside.drivers.joint.served_joints import FADING, SILENT
-from stepaside.drivers.lola.lola_address import LolaAddress
-from stepaside.drivers.lola.lola_connection import open_lola
 from stepaside.drivers.lola.lola_server import LolaServer
+from stepaside.drivers.lola.nao_joints import NAO_MOTORS
+from stepaside.drivers.lola.served_joints import FADING, SILENT
+from stepaside.drivers.lola.socket_link import SocketLink
 from stepaside.drivers.lola.wire import SENSOR_BYTES
 
 FRAME = pack_sensors(sensor_frame())
@@ -51,7 +53,7 @@ CONTROL = f"""
 import sys
 import numpy as np
 from stepaside.drivers.lola.lola_address import LolaAddress
-from stepaside.drivers.joint.joint_map import NAMES
+from stepaside.drivers.lola.nao_joints import NAMES
 from stepaside.drivers.guardian_process import SessionLost
 from stepaside.drivers.lola.lola_connection import open_lola
 stance = np.array({STANCE.tolist()})
@@ -99,7 +101,7 @@ def process(code: str, *words: str) -> Iterator["subprocess.Popen[str]"]:
 
 
 def open_files() -> int:
-    """Those of this test, and not what earlier ones have left behind."""
+    """Count only sockets that this test has opened."""
     gc.collect()
     return len(os.listdir("/proc/self/fd"))
 
@@ -117,7 +119,7 @@ def serving(
 
 
 def tick(server: LolaServer, timeout: float) -> None:
-    """One tick, which waits for an answer as long as it is told."""
+    """Run one tick, with a timeout for the answer."""
     import select
 
     server.speak()
@@ -187,7 +189,7 @@ def test_a_world_that_is_frozen_ends_control(tmp_path: Path) -> None:
         body = open_lola(address, JOINTS, STANCE)
         body.read()
         world.send_signal(signal.SIGSTOP)
-        with pytest.raises(SessionLost, match="no good frame for"):
+        with pytest.raises(SessionLost, match="no valid frame for"):
             while True:
                 body.read()
                 body.write(STANCE)
@@ -200,12 +202,14 @@ def body_on(near: socket.socket) -> JointBody:
         SocketLink(near, SENSOR_BYTES),
         JOINTS,
         STANCE,
+        NAO_MOTORS,
+        CODEC,
         clock=clock,
         pause=clock.pause,
     )
 
 
-def test_a_session_cut_at_any_byte_of_a_frame_ends_with_a_word() -> None:
+def test_a_session_cut_at_any_byte_of_a_frame_ends_with_a_reason() -> None:
     before = open_files()
     for length in range(SENSOR_BYTES + 1):
         near, far = socket.socketpair()
@@ -257,7 +261,9 @@ def test_ten_thousand_garbage_frames_from_a_robot_are_passed_over() -> None:
     )
     clock = Clock()
     link = FakeLink(clock, script)
-    body = JointBody(link, JOINTS, STANCE, clock=clock, pause=clock.pause)
+    body = JointBody(
+        link, JOINTS, STANCE, NAO_MOTORS, CODEC, clock=clock, pause=clock.pause
+    )
     for _ in range(10_000):
         time = body.read().time
         body.write(STANCE)

@@ -10,18 +10,18 @@ import pytest
 from lola_fakes import JOINTS, STANCE, MadeUpRobot
 from stepaside.core.errors import ConfigurationError
 from stepaside.drivers.guardian_process import SessionLost
-from stepaside.drivers.joint.frame_clock import TICK
-from stepaside.drivers.joint.frames import (
+from stepaside.drivers.lola.conventions import REAL_TIME
+from stepaside.drivers.lola.lola_address import LolaAddress, parse_address
+from stepaside.drivers.lola.lola_frames import (
     ActuatorFrame,
     pack_actuators,
     unpack_sensors,
 )
-from stepaside.drivers.joint.link import SocketLink, connect
-from stepaside.drivers.joint.served_joints import FADING, SETTLED, SILENT
-from stepaside.drivers.lola.conventions import REAL_TIME
-from stepaside.drivers.lola.lola_address import LolaAddress, parse_address
 from stepaside.drivers.lola.lola_server import LolaServer
+from stepaside.drivers.lola.nao_joints import TICK
+from stepaside.drivers.lola.served_joints import FADING, SETTLED, SILENT
 from stepaside.drivers.lola.sight_message import MESSAGE, unpack_sight
+from stepaside.drivers.lola.socket_link import SocketLink, connect
 from stepaside.drivers.lola.wire import SENSOR_BYTES
 from stepaside.perception.measurement import Sighting
 
@@ -84,7 +84,7 @@ def test_an_answer_moves_the_robot_in_the_same_tick(
     link.close()
 
 
-def test_nobody_is_waited_for_but_a_client_that_has_not_answered(
+def test_the_server_waits_only_for_an_unanswered_frame(
     served: tuple[LolaServer, MadeUpRobot], address: LolaAddress
 ) -> None:
     server, _ = served
@@ -132,7 +132,7 @@ def test_stiffness_decays_without_answers_and_not_before_100_ms(
     link.close()
 
 
-def test_who_holds_the_legs_half_stiff_is_ready_when_that_stays_so(
+def test_constant_partial_stiffness_counts_as_ready(
     served: tuple[LolaServer, MadeUpRobot], address: LolaAddress
 ) -> None:
     """Others' code walks at a half; ours is ready at full stiffness only."""
@@ -155,7 +155,7 @@ def test_who_holds_the_legs_half_stiff_is_ready_when_that_stays_so(
     link.close()
 
 
-def test_lights_alone_keep_nobody_stiff(
+def test_lights_alone_do_not_keep_the_robot_stiff(
     served: tuple[LolaServer, MadeUpRobot], address: LolaAddress
 ) -> None:
     server, robot = served
@@ -185,7 +185,7 @@ def test_a_second_client_is_refused_and_the_first_goes_on(
     second.close()
 
 
-def test_who_comes_after_one_has_left_is_counted_from_zero(
+def test_frames_of_the_next_client_are_numbered_from_zero(
     served: tuple[LolaServer, MadeUpRobot], address: LolaAddress
 ) -> None:
     server, _ = served
@@ -270,7 +270,9 @@ def test_sockets_are_taken_away_and_leftovers_replaced(
     with socket.socket(socket.AF_UNIX) as left:
         left.bind(address.path)  # as a killed world leaves it
     server = LolaServer(address, MadeUpRobot(), JOINTS)
-    with pytest.raises(ConfigurationError, match="somebody listens there"):
+    with pytest.raises(
+        ConfigurationError, match="another program listens there"
+    ):
         LolaServer(address, MadeUpRobot(), JOINTS)
     server.close()
     assert not Path(address.path).exists()
@@ -288,7 +290,7 @@ def test_a_file_is_not_taken_for_a_socket(address: LolaAddress) -> None:
     "suffix", ["", ".new", ".ideal-sight", ".ideal-sight.new", ".cameras"]
 )
 @pytest.mark.parametrize("kind", ["file", "link", "lost link", "datagrams"])
-def test_nothing_of_others_is_removed_or_replaced(
+def test_files_of_others_are_not_removed_or_replaced(
     address: LolaAddress, suffix: str, kind: str
 ) -> None:
     """Whether the server starts or not, and wherever something lies."""
@@ -330,7 +332,9 @@ def test_a_socket_may_have_any_name_in_a_long_folder(
     server.close()
 
 
-def test_nobody_at_home_is_said_at_once(address: LolaAddress) -> None:
+def test_connecting_without_a_robot_fails_at_once(
+    address: LolaAddress,
+) -> None:
     with pytest.raises(SessionLost, match="no robot listens at .*r.sock"):
         call(address)
 
@@ -356,7 +360,7 @@ def test_an_address_is_a_path_or_a_port(
     "text",
     ["lola::5", "lola:host:", "lola:host:x", "h:0", "h:65536", "x" * 99],
 )
-def test_an_address_that_is_none_is_refused(text: str) -> None:
+def test_an_invalid_address_is_refused(text: str) -> None:
     with pytest.raises(ConfigurationError):
         parse_address(text)
 

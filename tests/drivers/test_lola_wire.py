@@ -1,4 +1,4 @@
-"""Test LoLA's bytes: fixed vectors, and everything that is no frame."""
+"""Test LoLA's wire format: fixed vectors and invalid frames."""
 
 import struct
 from typing import Any
@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lola_fakes import sensor_frame
-from stepaside.drivers.joint.frames import (
+from stepaside.drivers.lola.lola_frames import (
     ActuatorFrame,
     pack_actuators,
     pack_sensors,
@@ -110,7 +110,7 @@ def test_an_actuator_frame_is_these_786_bytes() -> None:
     assert pack_actuators(VECTOR_ANSWER) == ACTUATOR_VECTOR
 
 
-def test_what_is_read_is_what_was_written() -> None:
+def test_reading_returns_what_was_written() -> None:
     for got, sent in zip(
         unpack_sensors(SENSOR_VECTOR), VECTOR_FRAME, strict=True
     ):
@@ -171,7 +171,7 @@ def test_garbage_in_lights_is_cut_but_garbage_in_targets_is_refused() -> None:
         ({"Sonar": [1.0, 0.0]}, "Sonar must hold bool values, got float"),
         ({"Torque": [1.0]}, "unknown key 'Torque'"),
         ({"Chest": ["red"] * 3}, "Chest must hold numbers, got str"),
-        ({"Position": [1e39] + [0] * 24}, "no MessagePack|finite"),
+        ({"Position": [1e39] + [0] * 24}, "cannot decode MessagePack|finite"),
     ],
 )
 def test_an_answer_with_a_fault_is_refused_by_name(
@@ -199,7 +199,7 @@ def test_a_sensor_frame_of_another_length_is_refused(
 
 def test_faults_that_keep_the_length_are_refused_too() -> None:
     twice = SENSOR_VECTOR.replace(b"\xa5Touch", b"\xa5Sonar")
-    with pytest.raises(WireError, match="key Sonar stands twice"):
+    with pytest.raises(WireError, match="key Sonar must occur once"):
         unpack_sensors(twice)
     spoilt = SENSOR_VECTOR.replace(b"\xa3FSR", b"\xa3FRS")
     with pytest.raises(WireError, match="unknown key 'FRS'"):
@@ -210,14 +210,14 @@ def test_faults_that_keep_the_length_are_refused_too() -> None:
 
 
 @pytest.mark.parametrize("key", VECTOR_FRAME._fields[:4])
-def test_no_frame_is_written_with_a_number_that_is_none(key: str) -> None:
+def test_values_that_are_not_finite_are_not_encoded(key: str) -> None:
     changes: dict[str, Any] = {key: one(float("nan"))}
     broken = VECTOR_FRAME._replace(**changes)
     with pytest.raises(WireError, match="must be finite"):
         pack_sensors(broken)
 
 
-def test_texts_that_make_another_length_are_not_sent() -> None:
+def test_texts_of_the_wrong_length_are_not_encoded() -> None:
     broken = VECTOR_FRAME._replace(robot_config=("NAO", "6", "NAO", "6"))
     with pytest.raises(WireError, match="must have 896 bytes, got 854"):
         pack_sensors(broken)
@@ -310,6 +310,6 @@ def test_an_answer_that_never_ends_is_given_up() -> None:
             assert reader.feed(entry) == []
 
 
-def test_single_precision_is_what_goes_over_the_wire() -> None:
+def test_floats_are_sent_in_single_precision() -> None:
     third = unpack_sensors(pack_sensors(sensor_frame(angles=(1 / 3, 0.0))))
     assert third.angles[0] == struct.unpack("f", struct.pack("f", 1 / 3))[0]

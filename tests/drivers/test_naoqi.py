@@ -16,10 +16,8 @@ from stepaside.core.errors import ConfigurationError  # noqa: E402
 from stepaside.core.poses import Pose  # noqa: E402
 from stepaside.drivers.guardian_process import SessionLost  # noqa: E402
 from stepaside.drivers.naoqi.joint_chains import CHAINS  # noqa: E402
-from stepaside.drivers.naoqi.memory_service import (  # noqa: E402
-    SILENCE as SILENCE_HEARD,
-)
-from stepaside.drivers.naoqi.memory_service import (  # noqa: E402
+from stepaside.drivers.naoqi.memory_service import (  # noqa: E402  # noqa: E402
+    NO_ECHO,
     SONARS,
     ALMemory,
     ALSonar,
@@ -30,7 +28,7 @@ from stepaside.drivers.naoqi.naoqi_server import SILENCE, NaoqiServer  # noqa: E
 from stepaside.drivers.naoqi.naoqi_url import parse_url  # noqa: E402
 from stepaside.drivers.naoqi.qi_session import connect, listen  # noqa: E402
 from stepaside.drivers.naoqi.service_state import WalkServiceState  # noqa: E402
-from stepaside.drivers.naoqi.velocity_mover import REPEATED, STUCK  # noqa: E402
+from stepaside.drivers.naoqi.velocity_mover import REPEAT, TIMEOUT  # noqa: E402
 from stepaside.drivers.velocity.template_controller import TemplateController  # noqa: E402
 from stepaside.drivers.velocity.velocity_body import (
     REST,
@@ -44,7 +42,7 @@ from stepaside.planning import GaitSettings  # noqa: E402
 from stepaside.strategies import Pursuit  # noqa: E402
 
 from naoqi_fakes import heard  # isort: skip  # noqa: E402
-from velocity_fakes import MadeUpWalker, until  # isort: skip  # noqa: E402
+from velocity_fakes import SimulatedUnicycle, until  # isort: skip  # noqa: E402
 
 TICK = 0.012
 SILENT = round(SILENCE / TICK) + 2  # ticks
@@ -54,7 +52,7 @@ class Scene:
     """A served robot and its world."""
 
     def __init__(self) -> None:
-        self.walker = MadeUpWalker()
+        self.walker = SimulatedUnicycle()
         self.server = NaoqiServer(
             "tcp://127.0.0.1:0",
             self.walker,
@@ -80,7 +78,7 @@ def scene() -> Iterator[Scene]:
 
 @pytest.fixture
 def body(scene: Scene) -> Iterator[NaoqiBody]:
-    """One that stands: what is asked of one that rises is forgotten."""
+    """Wait until the robot stands: commands are ignored before."""
     body = NaoqiBody(scene.server.url)
     heard(body)
     yield body
@@ -139,7 +137,7 @@ def test_shares_of_the_top_speed_are_those_of_the_gait(scene: Scene) -> None:
     session.close()
 
 
-def test_what_robots_are_asked_by_name_is_answered(scene: Scene) -> None:
+def test_named_services_answer(scene: Scene) -> None:
     session = connect(scene.server.url)
     motion, memory = session.service("ALMotion"), session.service("ALMemory")
     assert motion.getBodyNames("Body") == ["LKneePitch", "RKneePitch"]
@@ -161,7 +159,7 @@ class Chained:
     def __init__(self) -> None:
         names = [*CHAINS["Head"], *CHAINS["LLeg"], *CHAINS["RLeg"]]
         angles = [0.01 * i for i in range(len(names))]
-        state = MadeUpWalker().state()._replace(joints=angles)
+        state = SimulatedUnicycle().state()._replace(joints=angles)
         self.robot = WalkServiceState(state, names)
         self.motion = ALMotion(
             self.robot, VelocityCommand(0.07, 0.4), GaitSettings()
@@ -208,13 +206,13 @@ def test_chains_are_known_by_name() -> None:
     ("method", "values", "said"),
     [
         ("setStiffnesses", ("Tail", 0.0), "no joint 'Tail'"),
-        ("setStiffnesses", ("Head", [0.0, 1.0, 1.0]), "each of 2 joints"),
+        ("setStiffnesses", ("Head", [0.0, 1.0, 1.0]), "2 joints need one"),
         ("setStiffnesses", ("Head", 1.5), "must lie in"),
         ("getBodyNames", ("Tail",), "chains Head"),
         ("getAngles", ("Tail", True), "no joint"),
         ("setAngles", ("LLeg", 0.1, 0.2), "only HeadYaw and HeadPitch"),
         ("setAngles", ("Head", nan, 0.2), "finite"),
-        ("setAngles", (["HeadYaw"], [0.1, 0.2], 0.2), "each of 1 joints"),
+        ("setAngles", (["HeadYaw"], [0.1, 0.2], 0.2), "1 joints need one"),
     ],
 )
 def test_names_and_values_that_do_not_fit_are_refused(
@@ -226,18 +224,18 @@ def test_names_and_values_that_do_not_fit_are_refused(
     assert motion.robotIsWakeUp()
 
 
-def test_sonars_are_heard_while_somebody_listens(scene: Scene) -> None:
+def test_sonar_echoes_need_a_subscriber(scene: Scene) -> None:
     state = scene.walker.state()
     scene.server.robot.state = state._replace(
         echoes={"left": 0.42, "right": None}
     )
     memory, sonar = ALMemory(scene.server.robot), ALSonar(scene.server.robot)
     keys = list(SONARS.values())
-    assert memory.getListData(keys) == [SILENCE_HEARD, SILENCE_HEARD]
+    assert memory.getListData(keys) == [NO_ECHO, NO_ECHO]
     sonar.subscribe("me")
-    assert memory.getListData(keys) == [0.42, SILENCE_HEARD]
+    assert memory.getListData(keys) == [0.42, NO_ECHO]
     sonar.unsubscribe("me")
-    assert memory.getListData(keys) == [SILENCE_HEARD, SILENCE_HEARD]
+    assert memory.getListData(keys) == [NO_ECHO, NO_ECHO]
 
 
 @pytest.mark.parametrize(
@@ -267,7 +265,7 @@ def test_a_robot_that_sleeps_does_not_walk(scene: Scene) -> None:
 @pytest.mark.parametrize(
     ("name", "said"), [("fallen", "has fallen"), ("pressed", "chest button")]
 )
-def test_what_the_robot_feels_hinders_it(
+def test_falls_and_the_button_are_hindrances(
     scene: Scene, body: NaoqiBody, name: str, said: str
 ) -> None:
     setattr(scene.server.robot, name, True)
@@ -284,7 +282,7 @@ def test_the_chest_button_holds_the_robot_until_it_is_pressed_again(
     assert said == ["", *4 * ["chest button"], ""]
 
 
-def test_a_robot_that_fell_stays_down_until_its_button_is_let_go(
+def test_a_fallen_robot_lies_still_until_its_button_is_released(
     scene: Scene, body: NaoqiBody
 ) -> None:
     robot = scene.server.robot
@@ -304,7 +302,7 @@ def test_a_robot_that_fell_stays_down_until_its_button_is_let_go(
 @contextmanager
 def offering(**services: object) -> Iterator[tuple[str, WalkServiceState]]:
     """Services of a robot, some of them other than ours."""
-    robot = WalkServiceState(MadeUpWalker().state(), ["a", "b"])
+    robot = WalkServiceState(SimulatedUnicycle().state(), ["a", "b"])
     for service in services.values():
         service._robot = robot  # type: ignore[attr-defined]
     ours = {
@@ -347,7 +345,7 @@ def test_a_robot_that_could_not_stand_up_tries_again_by_the_button() -> None:
 
 
 @pytest.mark.parametrize("slow", [0.06, 0.1])
-def test_a_robot_that_answers_slowly_is_heard_and_walks(slow: float) -> None:
+def test_a_robot_that_answers_slowly_still_walks(slow: float) -> None:
     """The answer to a call that took longer than one look is not lost."""
 
     class Slow(ALMotion):
@@ -364,8 +362,8 @@ def test_a_robot_that_answers_slowly_is_heard_and_walks(slow: float) -> None:
 
 
 def drive_and_hear(url: str, robot: WalkServiceState) -> None:
-    """Let control drive a robot that sees somebody, and see that it walks."""
-    walker = MadeUpWalker()
+    """Check that control walks a robot with a sighting."""
+    walker = SimulatedUnicycle()
     body = NaoqiBody(url)
     player = VelocityLoop(
         body,
@@ -395,7 +393,7 @@ class Refusing(ALMotion):
         raise RuntimeError("ALMotion::move\n\tmotors are hot:\n\tLHipRoll")
 
 
-def test_the_whole_reason_of_a_refused_call_is_told() -> None:
+def test_the_reason_of_a_refused_call_is_complete() -> None:
     motion = Refusing(None, VelocityCommand(0.07, 0.4), GaitSettings())  # type: ignore[arg-type]
     with offering(ALMotion=motion) as (url, _):
         body = NaoqiBody(url)
@@ -410,9 +408,7 @@ def test_the_whole_reason_of_a_refused_call_is_told() -> None:
         body.close()
 
 
-def test_a_robot_that_nobody_asks_anything_rests(
-    scene: Scene, body: NaoqiBody
-) -> None:
+def test_a_robot_without_calls_stops(scene: Scene, body: NaoqiBody) -> None:
     def asked() -> bool:
         body.command(VelocityCommand(0.05, 0.1))
         return bool(scene.round() == VelocityCommand(0.05, 0.1))
@@ -443,20 +439,22 @@ def test_a_world_that_freezes_is_silence_and_then_takes_no_command(
         now[0] += 1.0
         assert body.listen(0.02) is None
         body.command(VelocityCommand(0.05, 0.0))
-        now[0] += 0.9 * STUCK
+        now[0] += 0.9 * TIMEOUT
         body.command(VelocityCommand(0.06, 0.0))
-        now[0] += 0.2 * STUCK
-        with pytest.raises(SessionLost, match="takes no command"):
+        now[0] += 0.2 * TIMEOUT
+        with pytest.raises(
+            SessionLost, match="did not answer move within 1 s"
+        ):
             body.command(VelocityCommand(0.06, 0.0))
     now[0] += 1.0
     assert heard(body).hindrance == ""  # it goes on
     body.close()
 
 
-def test_what_a_second_client_asks_holds_until_the_first_asks_again(
+def test_the_newest_command_of_two_clients_applies(
     scene: Scene,
 ) -> None:
-    """NAOqi refuses nobody; the last word counts, and rest is one."""
+    """NAOqi refuses no client; the newest command applies, even rest."""
     now = [100.0]
     body = NaoqiBody(scene.server.url, clock=lambda: now[0])
     asked = VelocityCommand(0.05, 0.1)
@@ -468,7 +466,7 @@ def test_what_a_second_client_asks_holds_until_the_first_asks_again(
     assert scene.round() == REST
     body.command(asked)
     assert scene.round() == REST
-    now[0] += REPEATED
+    now[0] += REPEAT
 
     def asked_again() -> bool:  # the first may not be known to have arrived
         body.command(asked)
@@ -480,7 +478,7 @@ def test_what_a_second_client_asks_holds_until_the_first_asks_again(
     body.close()
 
 
-def test_a_dry_run_wakes_nobody_and_commands_nothing(scene: Scene) -> None:
+def test_a_dry_run_does_not_wake_or_command_the_robot(scene: Scene) -> None:
     body = NaoqiBody(scene.server.url, dry_run=True)
     body.command(VelocityCommand(0.05, 0.1))
     heard(body)
@@ -552,6 +550,6 @@ def test_urls_are_read(text: str, url: str) -> None:
 @pytest.mark.parametrize(
     "text", ["naoqi:", "naoqi:tcp://", "http://a:1", "a:0", "a:70000", "a b"]
 )
-def test_what_is_no_url_is_refused(text: str) -> None:
+def test_an_invalid_url_is_refused(text: str) -> None:
     with pytest.raises(ConfigurationError, match="naoqi:tcp://HOST:PORT"):
         parse_url(text)

@@ -16,14 +16,16 @@ pytest.importorskip("qi")
 pytest.importorskip("msgpack")
 
 from stepaside.drivers.guardian_process import SessionLost  # noqa: E402
-from stepaside.drivers.joint.frame_clock import TICK  # noqa: E402
 from stepaside.drivers.joint.joint_body import JointBody  # noqa: E402
 from stepaside.drivers.joint.joint_loop import JointLoop, JointTick  # noqa: E402
-from stepaside.drivers.joint.joint_map import NAMES  # noqa: E402
 from stepaside.drivers.joint.safety import RobotState  # noqa: E402
 from stepaside.drivers.lola.conventions import (  # noqa: E402
     COUNTER,
     LOCK_STEP,
+)
+from stepaside.drivers.lola.nao_joints import (
+    NAMES,  # noqa: E402
+    TICK,  # noqa: E402
 )
 from stepaside.drivers.lola.wire import WireError  # noqa: E402
 from stepaside.drivers.naoqi.joint_chains import CHAINS  # noqa: E402
@@ -69,12 +71,12 @@ ANYWHERE = "tcp://127.0.0.1:0"
 
 
 def told_of(frame: Any) -> list[Any]:
-    """What ALMemory answers for a frame."""
+    """Return the values of ALMemory for a frame."""
     values = values_of(frame)
     return [values[key] for key in KEYS]
 
 
-def test_what_a_frame_says_is_told_by_key_and_read_again() -> None:
+def test_a_frame_survives_the_keys_of_almemory() -> None:
     frame = pressed(
         stiffness=np.linspace(0.0, 1.0, 25),
         temperature=np.linspace(20.0, 70.0, 25),
@@ -114,7 +116,9 @@ def test_the_names_are_those_of_naoqi() -> None:
 
 @pytest.mark.parametrize("value", [None, nan, "x", [1.0]])
 @pytest.mark.parametrize("key", ["LKneePitch/Position", "AngleX", "LFoot/FSR"])
-def test_what_is_no_number_is_no_frame(key: str, value: object) -> None:
+def test_values_that_are_not_finite_are_not_a_frame(
+    key: str, value: object
+) -> None:
     told = told_of(sensor_frame())
     at = next(i for i, k in enumerate(KEYS) if key in k)
     told[at] = value
@@ -124,7 +128,7 @@ def test_what_is_no_number_is_no_frame(key: str, value: object) -> None:
         frame_of(told[:-1], 0, lock_step=False)
 
 
-def test_what_some_robots_lack_is_not_needed() -> None:
+def test_values_that_some_robots_lack_are_optional() -> None:
     told = told_of(sensor_frame())
     for at, key in enumerate(KEYS):
         absent = ("Hand/", "Wrist", "Status", "US", "Bumper", "Battery")
@@ -185,7 +189,7 @@ def test_robots_with_the_older_inertial_unit_are_read() -> None:
 
 
 class Scene:
-    """A served robot in lock step, and who plays it, in one thread."""
+    """Served robot and player in lock step, in one thread."""
 
     def __init__(self, *, lock_step: bool = True) -> None:
         self.robot = MadeUpRobot()
@@ -226,8 +230,8 @@ def scene() -> Iterator[Scene]:
     scene.server.close()
 
 
-def test_what_control_asks_is_what_the_joints_get(scene: Scene) -> None:
-    """Through limits that do not bind, to what rounding leaves."""
+def test_joint_commands_reach_the_joints(scene: Scene) -> None:
+    """The limits are inactive; equality holds to rounding."""
     scene.robot.angles = STANCE + 0.03
     scene.walk()
     generator = np.random.default_rng(5)
@@ -238,7 +242,7 @@ def test_what_control_asks_is_what_the_joints_get(scene: Scene) -> None:
         assert scene.robot.stiffness.min() == 1.0
 
 
-def test_what_the_sensors_give_is_what_control_reads(scene: Scene) -> None:
+def test_measurements_reach_control(scene: Scene) -> None:
     scene.robot.sighting = Sighting(-0.25, 0.5, 0.9)
     scene.ticks(1)
     scene.server.speak()
@@ -254,9 +258,7 @@ def test_what_the_sensors_give_is_what_control_reads(scene: Scene) -> None:
 
 
 @pytest.mark.parametrize("bearing", [radians(-238.0), 3.2, nan])
-def test_a_bearing_that_is_none_is_not_steered_by(
-    scene: Scene, bearing: float
-) -> None:
+def test_an_invalid_bearing_is_dropped(scene: Scene, bearing: float) -> None:
     scene.robot.sighting = Sighting(0.0, bearing, 0.9)
     scene.ticks(1)
     scene.server.speak()
@@ -272,7 +274,7 @@ def test_a_robot_is_limp_first_and_stiffens_slowly(scene: Scene) -> None:
     assert np.diff(shares).min() >= 0.0 and np.diff(shares).max() < 0.013
 
 
-def test_who_leaves_lets_the_stiffness_fade(scene: Scene) -> None:
+def test_closing_the_session_ramps_the_stiffness_down(scene: Scene) -> None:
     scene.ticks(12)
     scene.body.close()
     assert scene.server.robot.stiffness.max() == 0.0
@@ -284,7 +286,7 @@ def test_a_world_that_freezes_ends_the_session_and_the_robot_is_limp() -> None:
         scene.server.speak()
         scene.body.read()
         scene.body.write(STANCE)
-    with pytest.raises(SessionLost, match="no good frame for"):
+    with pytest.raises(SessionLost, match="no valid frame for"):
         scene.body.read()
     assert scene.body.state is RobotState.LIMP
     until(lambda: scene.server.robot.stiffness.max() == 0.0)
@@ -315,7 +317,7 @@ def test_values_that_are_no_numbers_are_refused_and_then_silence(
     assert scene.body.state is RobotState.LIMP
 
 
-def test_a_client_that_falls_silent_leaves_a_robot_whose_stiffness_decays(
+def test_stiffness_decays_when_the_client_falls_silent(
     scene: Scene,
 ) -> None:
     scene.ticks(12)
@@ -327,7 +329,7 @@ def test_a_client_that_falls_silent_leaves_a_robot_whose_stiffness_decays(
 
 
 def test_the_last_of_two_clients_has_the_joint(scene: Scene) -> None:
-    """NAOqi refuses nobody: limits and stiffness hold for the sum of them."""
+    """NAOqi refuses no client: limits hold for all commands together."""
     scene.ticks(12)
     other = JointTransport(scene.server.url)
     other._motion.setAngles("HeadYaw", 0.5, 1.0)
@@ -344,13 +346,17 @@ def test_the_last_of_two_clients_has_the_joint(scene: Scene) -> None:
     [
         ("setAngles", ("LKneePitch", nan, 1.0), "finite"),
         ("setAngles", ("LKneePitch", 0.1, 0.0), "fraction"),
-        ("setAngles", (["LKneePitch", "HeadYaw"], [1, 2, 3], 1.0), "a value"),
+        (
+            "setAngles",
+            (["LKneePitch", "HeadYaw"], [1, 2, 3], 1.0),
+            "joints need",
+        ),
         ("setAngles", ("LKnee", 0.1, 1.0), "no joint 'LKnee'"),
         ("setStiffnesses", ("Body", 1.5), "stiffness must lie"),
         ("setStiffnesses", ("Body", nan), "stiffness must lie"),
     ],
 )
-def test_what_no_joint_can_do_is_refused(
+def test_invalid_joint_commands_are_refused(
     method: str, values: tuple[Any, ...], said: str
 ) -> None:
     robot = JointServiceState()
@@ -378,7 +384,7 @@ def test_joints_are_found_by_name() -> None:
     assert JointMemoryService(robot).getData("a") == 1.0
 
 
-def test_a_chain_is_its_joints_and_no_others() -> None:
+def test_a_chain_has_exactly_its_joints() -> None:
     robot = JointServiceState()
     motion = JointMotionService(robot)
     motion.wakeUp()
@@ -416,9 +422,7 @@ while True:
 """
 
 
-def test_a_control_that_is_killed_is_outlived_by_who_lets_the_joints_go() -> (
-    None
-):
+def test_the_guardian_releases_the_joints_when_control_is_killed() -> None:
     """Whatever the robot does by itself: its own decay is not at work."""
     robot = MadeUpRobot()
     server = NaoqiJointServer(ANYWHERE, robot, JOINTS)

@@ -1,4 +1,4 @@
-"""Test ``serve`` and ``play`` as words on a command line."""
+"""Test the commands ``serve`` and ``play`` on the command line."""
 
 import json
 from pathlib import Path
@@ -16,7 +16,7 @@ from stepaside.drivers.lola.lola_server import LolaServer
 
 
 def refused(capsys: pytest.CaptureFixture[str], *words: str) -> str:
-    """What is said to words that are refused."""
+    """Return the message for invalid arguments."""
     with pytest.raises(SystemExit) as left:
         main(list(words))
     assert left.value.code == 2
@@ -45,7 +45,7 @@ def test_a_robot_that_is_no_address_is_refused(
 @pytest.mark.parametrize(
     "lola", [["referee=R"], ["evader"], ["evader=E", "evader=F"]]
 )
-def test_a_player_that_is_none_is_not_served(
+def test_an_invalid_player_is_not_served(
     lola: list[str], capsys: pytest.CaptureFixture[str]
 ) -> None:
     words = [word for entry in lola for word in ("--lola", entry)]
@@ -78,7 +78,7 @@ def test_play_waits_for_a_robot_that_is_not_there_yet(
     player = Thread(target=play)
     player.start()
     until = monotonic() + 60.0
-    while "waits up to 60 s" not in caplog.text and monotonic() < until:
+    while "retrying for up to 60 s" not in caplog.text and monotonic() < until:
         sleep(0.05)
     assert f"no robot listens at {place}" in caplog.text
     server = LolaServer(
@@ -94,10 +94,10 @@ def test_play_waits_for_a_robot_that_is_not_there_yet(
     finally:
         server.close()
         player.join(30.0)
-    assert ("by the ideal line of sight" in caplog.text) == sight
+    assert ("uses the ideal line of sight" in caplog.text) == sight
 
 
-def test_play_waits_no_longer_than_it_is_told(
+def test_play_waits_no_longer_than_its_timeout(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     words = ["play", "--role", "evader", "--robot", f"lola:{tmp_path}/none"]
@@ -109,7 +109,7 @@ def test_play_waits_no_longer_than_it_is_told(
     assert "no robot listens at" in capsys.readouterr().err
 
 
-def test_a_dry_run_looks_on_and_writes_down_what_it_saw(
+def test_a_dry_run_records_without_commands(
     tmp_path: Path,
 ) -> None:
     place, log = tmp_path / "e", tmp_path / "log"

@@ -1,4 +1,4 @@
-"""Test that a record holds what was measured, each under its own name."""
+"""Test that each column of a record has its own values."""
 
 from pathlib import Path
 
@@ -38,8 +38,8 @@ def measured(time: float, seed: int) -> Measurement:
     )
 
 
-def test_every_column_is_what_its_name_says(tmp_path: Path) -> None:
-    """Gyro and accelerometer, what was measured and what was asked for."""
+def test_every_column_has_its_values(tmp_path: Path) -> None:
+    """Sensors do not swap, and measured is not commanded."""
     run, log = Run(), PlayLog(tmp_path / "play", {})
     ticks = []
     for i, time in enumerate((FIRST - 0.2, FIRST + 0.1, FIRST + STEP + 0.1)):
@@ -85,13 +85,15 @@ def test_every_column_is_what_its_name_says(tmp_path: Path) -> None:
         ]
 
 
-def test_what_was_wanted_is_not_what_was_asked_for(tmp_path: Path) -> None:
+def test_wanted_and_commanded_velocity_are_separate_columns(
+    tmp_path: Path,
+) -> None:
     log = PlayLog(tmp_path / "play", {})
     for i in range(3):
         log.note(
             VelocityTick(
                 DrivingState.WALKING,
-                "sees the other",
+                "opponent detected",
                 0.1 * i,
                 Pose(1.0 + i, 2.0, 0.3),
                 None,
@@ -110,7 +112,7 @@ def test_what_was_wanted_is_not_what_was_asked_for(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("late", [0.0, 0.2, 0.5])
 @pytest.mark.parametrize("began", [0.0, 40.0])
-def test_who_stands_still_is_seen_where_it_stands(
+def test_a_standing_player_is_recorded_where_it_stands(
     late: float, began: float
 ) -> None:
     """However late, by a robot that walks and turns, on its own clock."""
@@ -142,7 +144,7 @@ def test_who_stands_still_is_seen_where_it_stands(
     np.testing.assert_array_equal(table[:, 1:3], found[:, 2:])
 
 
-def test_what_is_said_of_a_walk_is_of_its_walking_alone(
+def test_the_summary_covers_only_the_walk(
     tmp_path: Path,
 ) -> None:
     """Way and circle in metres, shares of the time that it walked."""
@@ -155,7 +157,7 @@ def test_what_is_said_of_a_walk_is_of_its_walking_alone(
         log.note(
             VelocityTick(
                 DrivingState.WALKING if walking else DrivingState.STANDING,
-                "sees the other",
+                "opponent detected",
                 now,
                 Pose(radius * np.sin(angle), -radius * np.cos(angle), angle),
                 Sighting(now, 0.3, 1.5 if walking else 0.9) if seen else None,

@@ -29,7 +29,7 @@ from stepaside.games.run_archive import load_run  # noqa: E402
 from stepaside.perception.measurement import Sighting  # noqa: E402
 
 from lola_fakes import JOINTS, STANCE, MadeUpRobot  # isort: skip  # noqa: E402
-from velocity_fakes import MadeUpWalker, until  # isort: skip  # noqa: E402
+from velocity_fakes import SimulatedUnicycle, until  # isort: skip  # noqa: E402
 
 ANYWHERE = "tcp://127.0.0.1:0"
 TICK = 0.012
@@ -38,7 +38,7 @@ PLAY = "from stepaside.cli.main import main; main()"
 
 
 class Joints:
-    """A robot whose joints are moved, in lock step."""
+    """Serve a robot driven by its joints, in lock step."""
 
     def __init__(self) -> None:
         self.robot = MadeUpRobot()
@@ -60,10 +60,10 @@ class Joints:
 
 
 class Walks:
-    """A robot that walks by itself, and sees somebody."""
+    """Serve a robot with walking control and a sighting."""
 
     def __init__(self) -> None:
-        self.walker = MadeUpWalker()
+        self.walker = SimulatedUnicycle()
         self.server = NaoqiServer(
             ANYWHERE, self.walker, ["a", "b"], VelocityCommand(1, 1), tick=TICK
         )
@@ -81,7 +81,7 @@ class Walks:
 
 @contextmanager
 def offered(scene: Joints | Walks) -> Iterator[list[str]]:
-    """Words of who plays there."""
+    """Return the arguments of ``play`` for this robot."""
     url = f"naoqi:{scene.server.url}"
     try:
         yield ["play", "--role", "pursuer", "--robot", url]
@@ -107,9 +107,7 @@ def played(words: list[str], scene: Joints | Walks) -> None:
 
 
 @pytest.mark.parametrize("by", ["joints", "footsteps"])
-def test_what_was_played_lies_in_a_run_folder_that_replays(
-    by: str, tmp_path: Path
-) -> None:
+def test_a_played_run_folder_replays(by: str, tmp_path: Path) -> None:
     scene = Joints() if by == "joints" else Walks()
     folder = tmp_path / "record"
     with offered(scene) as words:
@@ -142,7 +140,7 @@ def test_what_was_played_lies_in_a_run_folder_that_replays(
 def look_on(
     scene: Joints | Walks, words: list[str], folder: Path, ticks: int
 ) -> Thread:
-    """Play without commanding anything, which forks nobody, for a while."""
+    """Run a dry run for a while, which forks no guardian."""
 
     def play() -> None:
         with pytest.raises(SystemExit):
@@ -172,7 +170,7 @@ def test_a_dry_run_by_joints_moves_nothing_and_is_kept(tmp_path: Path) -> None:
     assert run.settings.dry_run
 
 
-def test_a_dry_run_by_footsteps_wakes_nobody_and_is_kept(
+def test_a_dry_run_by_footsteps_is_recorded_without_commands(
     tmp_path: Path,
 ) -> None:
     scene, folder = Walks(), tmp_path / "record"

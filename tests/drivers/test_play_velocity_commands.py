@@ -13,14 +13,14 @@ from stepaside.core.errors import ConfigurationError
 from stepaside.drivers.row_file import RowWriter, read_rows
 from stepaside.perception.measurement import Sighting
 
-from velocity_fakes import MadeUpWalker  # isort: skip
+from velocity_fakes import SimulatedUnicycle  # isort: skip
 
 PLAY = "from stepaside.cli.main import main; main()"
 TICK = 0.012
 
 
 def refused(capsys: pytest.CaptureFixture[str], *words: str) -> str:
-    """What is said to words that are refused."""
+    """Return the message for invalid arguments."""
     with pytest.raises(SystemExit) as left:
         main(list(words))
     assert left.value.code == 2
@@ -53,7 +53,7 @@ def refused(capsys: pytest.CaptureFixture[str], *words: str) -> str:
         ("serve --naoqi evader=127.0.0.1:0", "naoqi:tcp://HOST:PORT"),
     ],
 )
-def test_what_cannot_be_is_said_in_one_line(
+def test_errors_are_reported_in_one_line(
     words: str, said: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     pytest.importorskip("cyclonedds")
@@ -89,7 +89,7 @@ LOCALHOST = "ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST"
         "play --role evader --robot ros2:/alone --dry-run",
     ],
 )
-def test_topics_that_stay_here_say_what_ros_needs(words: str) -> None:
+def test_local_topics_name_the_setting_that_ros_needs(words: str) -> None:
     pytest.importorskip("cyclonedds")
     process = subprocess.Popen(
         [sys.executable, "-c", PLAY, *words.split(), "--domain", "73"],
@@ -106,7 +106,7 @@ def test_topics_that_stay_here_say_what_ros_needs(words: str) -> None:
 
 
 @pytest.mark.parametrize("way", ["velocity", "footsteps"])
-def test_play_that_is_killed_is_outlived_by_who_stops_its_robot(
+def test_the_guardian_stops_the_robot_when_play_is_killed(
     way: str, tmp_path: Path
 ) -> None:
     """The guardian calls in a session of its own; the log can be read."""
@@ -114,7 +114,7 @@ def test_play_that_is_killed_is_outlived_by_who_stops_its_robot(
     from stepaside.drivers.naoqi.naoqi_server import NaoqiServer
     from stepaside.drivers.velocity.velocity_body import REST, VelocityCommand
 
-    walker = MadeUpWalker()
+    walker = SimulatedUnicycle()
     url = "tcp://127.0.0.1:0"
     server = NaoqiServer(
         url, walker, ["a", "b"], VelocityCommand(1, 1), tick=TICK
@@ -145,9 +145,9 @@ def test_play_that_is_killed_is_outlived_by_who_stops_its_robot(
         walked = monotonic()
         while monotonic() < walked + 1.0:  # the log reaches the disk
             tick()
+        assert tick()  # before the kill: the guardian may react at once
         process.kill()
         process.wait(20.0)
-        assert tick()
         wait(moves=False)
     finally:
         process.kill()
@@ -163,7 +163,7 @@ def test_rows_keep_their_columns(tmp_path: Path) -> None:
         read_rows(tmp_path)
     rows = RowWriter(tmp_path)
     rows.add({"a": 1.0})
-    with pytest.raises(ValueError, match="a row has {'a': 1}"):
+    with pytest.raises(ValueError, match="must be {'a': 1}"):
         rows.add({"b": 1.0})
     rows.close()
     assert read_rows(tmp_path)["a"].tolist() == [1.0]

@@ -1,4 +1,4 @@
-"""Test that commands are written as those who take them want them."""
+"""Test that commands have the type that subscribers take."""
 
 import os
 from collections.abc import Iterator
@@ -40,7 +40,7 @@ from stepaside.drivers.velocity.watchdog import WatchSettings  # noqa: E402
 from stepaside.planning import GaitSettings  # noqa: E402
 from stepaside.strategies import Pursuit  # noqa: E402
 
-from velocity_fakes import MadeUpWalker, until  # isort: skip  # noqa: E402
+from velocity_fakes import SimulatedUnicycle, until  # isort: skip  # noqa: E402
 
 TAG = f"stepaside-commands-{os.getpid()}"
 TOPIC = dds_topic("/nao", "cmd_vel")
@@ -126,7 +126,7 @@ def test_a_robot_is_commanded_in_the_type_that_it_takes(
 
 
 def test_a_stamp_is_of_the_robots_clock_and_frame(body: Ros2Body) -> None:
-    """Robots refuse commands whose stamp is old, by their own clock."""
+    """Robots reject commands whose stamp is old by their clock."""
     robot = Robot(TwistStamped)
     header = taken_by(robot, body, TwistStamped).header
     assert header.frame_id == "nao/base_link"
@@ -134,8 +134,8 @@ def test_a_stamp_is_of_the_robots_clock_and_frame(body: Ros2Body) -> None:
     robot.close()
 
 
-def test_who_takes_both_gets_both(body: Ros2Body) -> None:
-    """One may be the robot, the other may only look on."""
+def test_a_subscriber_of_both_types_receives_both(body: Ros2Body) -> None:
+    """Two subscribers of different types both receive commands."""
     robot = Robot(Twist, TwistStamped)
     stamped = taken_by(robot, body, TwistStamped)
     assert stamped.twist == taken_by(robot, body, Twist)
@@ -226,7 +226,7 @@ def test_rest_in_place_of_control_is_written_as_it_is_taken() -> None:
 @pytest.mark.parametrize("kind", [Twist, TwistStamped])
 def test_a_served_robot_follows_either_type(kind: type[Any]) -> None:
     dds, other = DdsParticipant(0, tag=TAG), DdsParticipant(0, tag=TAG)
-    walker = MadeUpWalker()
+    walker = SimulatedUnicycle()
     clock = WorldClock(dds)
     server = Ros2Server(dds, "/nao", walker, ["a"], clock, tick=0.012)
     writers = [other.writer(TOPIC, kind)]
@@ -257,7 +257,7 @@ def test_a_served_robot_goes_from_one_type_to_the_other() -> None:
     """One type at a time: the second commander waits for the first."""
     dds, other = DdsParticipant(0, tag=TAG), DdsParticipant(0, tag=TAG)
     server = Ros2Server(
-        dds, "/nao", MadeUpWalker(), ["a"], WorldClock(dds), tick=0.012
+        dds, "/nao", SimulatedUnicycle(), ["a"], WorldClock(dds), tick=0.012
     )
     writers = [other.writer(TOPIC, Twist)]
 

@@ -1,4 +1,4 @@
-"""Test what CycloneDDS is told, so that ROS 2 and we hear each other."""
+"""Test the configuration of CycloneDDS for ROS 2's Fast DDS."""
 
 import os
 from collections.abc import Callable
@@ -19,7 +19,7 @@ FILE = "file:///etc/cyclonedds.xml"
 
 @pytest.fixture
 def told(monkeypatch: pytest.MonkeyPatch) -> Callable[..., str]:
-    """What CycloneDDS is told when a participant is made."""
+    """Return the configuration at the creation of a participant."""
 
     def tell(before: str | None = None, **changes: Any) -> str:
         seen: list[str] = []
@@ -40,7 +40,7 @@ def told(monkeypatch: pytest.MonkeyPatch) -> Callable[..., str]:
 
 
 def last_ignored(told: str) -> str | None:
-    """Vendors whose type information is ignored, by the last word on it."""
+    """Return the vendors whose type information is ignored."""
     config = ElementTree.fromstring(told[told.rindex("<CycloneDDS>") :])
     return config.findtext("Domain/Compatibility/IgnoreTypeInformation")
 
@@ -50,7 +50,7 @@ def last_ignored(told: str) -> str | None:
 def test_type_information_of_fast_dds_is_ignored_always(
     told: Callable[..., str], before: str | None, beyond: bool
 ) -> None:
-    """Fast DDS 3 sends what CycloneDDS takes for invalid, and nothing came."""
+    """CycloneDDS takes type information of Fast DDS 3 for invalid."""
     assert last_ignored(told(before, beyond=beyond)) == FAST_DDS
 
 

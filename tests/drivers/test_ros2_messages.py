@@ -72,14 +72,14 @@ def leaves(message: Any) -> Iterator[Any]:
 
 
 @pytest.mark.parametrize("name", SAMPLES)
-def test_the_other_reader_reads_what_we_write(name: str) -> None:
+def test_rosbags_reads_what_we_write(name: str) -> None:
     ours = SAMPLES[name]
     theirs = STORE.deserialize_cdr(ours.serialize(), name)
     assert list(leaves(theirs)) == list(leaves(ours))
 
 
 @pytest.mark.parametrize("name", SAMPLES)
-def test_we_read_what_the_other_writes(name: str) -> None:
+def test_we_read_what_rosbags_writes(name: str) -> None:
     ours = SAMPLES[name]
     theirs = STORE.deserialize_cdr(ours.serialize(), name)
     written = bytes(STORE.serialize_cdr(theirs, name))

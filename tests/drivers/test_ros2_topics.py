@@ -42,18 +42,18 @@ from stepaside.drivers.ros2.topics import (  # noqa: E402
 from stepaside.drivers.velocity.velocity_body import REST, VelocityCommand  # noqa: E402
 from stepaside.perception.measurement import Sighting  # noqa: E402
 
-from velocity_fakes import MadeUpWalker, until  # isort: skip  # noqa: E402
+from velocity_fakes import SimulatedUnicycle, until  # isort: skip  # noqa: E402
 
 TAG = f"stepaside-test-{os.getpid()}"
 TICK = 0.012
 
 
 class Scene:
-    """A served robot, and who listens to it."""
+    """Served robot and its client."""
 
     def __init__(self, *, lock_step: bool = False) -> None:
         self.dds = DdsParticipant(0, tag=TAG)
-        self.walker = MadeUpWalker()
+        self.walker = SimulatedUnicycle()
         self.clock = WorldClock(self.dds)
         self.server = Ros2Server(
             self.dds,
@@ -123,7 +123,7 @@ def test_velocities_arrive_and_odometry_comes_back(
     assert report.sighting is None and report.hindrance == ""
 
 
-def test_the_ideal_sight_is_what_the_robot_saw(
+def test_the_ideal_sight_has_the_robots_sighting(
     scene: Scene, body: Ros2Body
 ) -> None:
     met(scene, body, REST)
@@ -142,7 +142,7 @@ def test_the_ideal_sight_is_what_the_robot_saw(
 
 @pytest.mark.parametrize("kind", ["point", "pose"])
 @pytest.mark.parametrize("frame", ["nao/base_link", "nao/odom"])
-def test_others_may_say_where_the_other_is_in_either_frame(
+def test_the_opponent_may_be_given_in_either_frame(
     scene: Scene, body: Ros2Body, kind: str, frame: str
 ) -> None:
     dds = DdsParticipant(0, tag=TAG)
@@ -174,7 +174,7 @@ def test_others_may_say_where_the_other_is_in_either_frame(
     dds.close()
 
 
-def test_everybody_is_told_time_frames_and_joints(scene: Scene) -> None:
+def test_time_frames_and_joints_are_published(scene: Scene) -> None:
     dds = DdsParticipant(0, tag=TAG)
     readers = {
         kind: dds.reader(dds_topic(space, name), kind)
@@ -213,7 +213,7 @@ def test_a_commander_that_falls_silent_leaves_a_robot_at_rest(
     assert moving[5] == VelocityCommand(0.05, 0.1) and moving[-1] == REST
 
 
-def test_who_leaves_asks_for_rest_first(scene: Scene) -> None:
+def test_closing_commands_zero_velocity_first(scene: Scene) -> None:
     body = Ros2Body(DdsParticipant(0, tag=TAG), "/nao")
     met(scene, body, VelocityCommand(0.05, 0.1))
     body.close()
@@ -272,8 +272,8 @@ def test_in_lock_step_each_report_waits_for_its_answer() -> None:
     scene.close()
 
 
-def test_a_report_that_was_lost_in_lock_step_is_told_again() -> None:
-    """Readers take what comes: on a busy machine something may not."""
+def test_a_report_lost_in_lock_step_is_repeated() -> None:
+    """Readers are best-effort: a busy machine may lose a report."""
     scene = Scene(lock_step=True)
     dds = DdsParticipant(0, tag=TAG)
     writer = dds.writer(dds_topic("/nao", "cmd_vel"), Twist)
@@ -309,7 +309,7 @@ def test_in_place_of_control_rest_is_written_for_a_while() -> None:
     dds.close()
 
 
-def test_who_joined_in_advance_commands_nobody_until_rest_is_asked() -> None:
+def test_a_guardian_commands_nothing_until_it_acts() -> None:
     body = Ros2Body(DdsParticipant(0, tag=TAG), "/nao")
     reader_of = DdsParticipant(0, tag=TAG)
     reader = reader_of.reader(dds_topic("/nao", "cmd_vel"), Twist)
@@ -329,7 +329,7 @@ def test_who_joined_in_advance_commands_nobody_until_rest_is_asked() -> None:
 COMMANDER = f"""
 import sys
 from time import sleep
-from stepaside.drivers.ros2.address import parse_namespace  # noqa: E402
+from stepaside.drivers.ros2.namespaces import parse_namespace  # noqa: E402
 from stepaside.drivers.ros2.ros2_body import Ros2Body
 from stepaside.drivers.ros2.dds_domain import DdsParticipant
 from stepaside.drivers.velocity.velocity_body import VelocityCommand
@@ -376,13 +376,13 @@ def test_namespaces_are_read(text: str, namespace: str) -> None:
 
 
 @pytest.mark.parametrize("text", ["ros2:/na o", "/3", "//a", "/a//b", "ä"])
-def test_what_no_topic_could_be_called_is_refused(text: str) -> None:
+def test_an_invalid_namespace_is_refused(text: str) -> None:
     with pytest.raises(ConfigurationError, match="namespace must be"):
         parse_namespace(text)
 
 
-def test_who_leaves_a_domain_is_gone_whatever_is_held() -> None:
-    """Else its configuration is that of all who come later here."""
+def test_a_closed_participant_leaves_while_readers_are_held() -> None:
+    """Otherwise later participants would use its configuration."""
     from cyclonedds.core import DDSException
 
     from stepaside.drivers.ros2.messages import ClockMessage, Time

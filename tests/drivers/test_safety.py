@@ -1,4 +1,4 @@
-"""Test what a robot may do: each state, each way out, each reason."""
+"""Test the safety state machine: states, transitions, reasons."""
 
 from typing import Any
 
@@ -57,7 +57,7 @@ def test_every_state_can_be_reached(state: RobotState) -> None:
     assert at(state).state is state
 
 
-def test_nothing_moves_on_what_the_first_frames_say() -> None:
+def test_the_first_frames_cause_no_motion() -> None:
     machine = Safety(SETTINGS)
     for _ in range(SETTINGS.warm_up - 1):
         assert machine.frame(seen(reached=True)) is RobotState.LIMP
@@ -69,7 +69,7 @@ def test_only_walking_and_stopping_are_moved_by_control() -> None:
     assert movers == {RobotState.WALKING, RobotState.STOPPING}
 
 
-def test_the_button_acts_when_it_is_let_go_and_only_once() -> None:
+def test_the_button_acts_once_when_released() -> None:
     machine = at(RobotState.READY)
     for _ in range(5):
         assert machine.frame(seen(chest_pressed=True)) is RobotState.READY
@@ -177,14 +177,16 @@ def test_halting_matters_only_to_a_robot_that_stops() -> None:
 
 
 @pytest.mark.parametrize("state", MOVING)
-def test_what_fails_goes_limp_and_says_why(state: RobotState) -> None:
+def test_a_failure_makes_the_robot_limp_with_a_reason(
+    state: RobotState,
+) -> None:
     machine = at(state)
-    machine.fail("no good frame for 0.1 s", 0.0)
+    machine.fail("no valid frame for 0.1 s", 0.0)
     assert machine.state is RobotState.LIMP
-    assert machine.reason == "no good frame for 0.1 s"
+    assert machine.reason == "no valid frame for 0.1 s"
 
 
-def test_rest_stops_who_walks_and_lowers_who_stands() -> None:
+def test_rest_stops_a_walking_and_lowers_a_standing_robot() -> None:
     for state, after in (
         (RobotState.WALKING, RobotState.STOPPING),
         (RobotState.READY, RobotState.RESTING),
@@ -199,7 +201,7 @@ def test_rest_stops_who_walks_and_lowers_who_stands() -> None:
 def lasting(
     machine: Safety, duration: float, begin: float = 1.0, **changes: Any
 ) -> RobotState:
-    """What frames of that duration, 12 ms apart, lead to."""
+    """Return the state after frames over a duration, 12 ms apart."""
     count = round(duration / 0.012)
     for i in range(count + 1):
         state = machine.frame(seen(begin + 0.012 * i, **changes))
@@ -213,8 +215,8 @@ TO_REST: dict[str, tuple[dict[str, Any], str]] = {
     "current": ({"current": 1.1}, "current"),
 }
 TO_STAND: dict[str, tuple[dict[str, Any], str]] = {
-    "lifted": ({"load": 0.0}, "in the air"),
-    "nearly_lifted": ({"load": 0.45}, "in the air"),
+    "lifted": ({"load": 0.0}, "are lifted"),
+    "nearly_lifted": ({"load": 0.45}, "are lifted"),
     "bumper": ({"bumper": True}, "bumper"),
     "dead": ({"force": (0.0, 0.0, 0.0)}, "accelerometer"),
     "upside_down": ({"force": (0.0, 0.0, -9.81)}, "accelerometer"),
@@ -287,7 +289,7 @@ def test_every_third_frame_alone_is_no_reason_to_stop(name: str) -> None:
         )
 
 
-def test_what_a_walk_reads_is_no_reason_to_stop() -> None:
+def test_readings_of_a_walk_meet_no_condition() -> None:
     machine = at(RobotState.WALKING)
     for i in range(400):
         lands = i % 40 == 0

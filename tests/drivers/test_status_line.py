@@ -1,4 +1,4 @@
-"""Test the line that says what a robot does, where it is no terminal."""
+"""Test the status line on a stream that is not a terminal."""
 
 import io
 from enum import Enum
@@ -9,14 +9,14 @@ from stepaside.perception.measurement import Sighting
 
 
 class State(Enum):
-    """What a made-up robot does."""
+    """State of a fake robot."""
 
     WAITING = "waiting"
     WALKING = "walking"
 
 
 class Shown(NamedTuple):
-    """A made-up tick."""
+    """Fake tick."""
 
     state: State
     reason: str
@@ -30,7 +30,7 @@ class Shown(NamedTuple):
 
 
 def lines(*ticks: Shown) -> list[str]:
-    """What is left behind where stderr is no terminal."""
+    """Return the lines on a stream that is not a terminal."""
     stream = io.StringIO()
     line = StatusLine(stream, clock=lambda: 0.0)
     for tick in ticks:
@@ -41,26 +41,26 @@ def lines(*ticks: Shown) -> list[str]:
 
 def test_each_changed_reason_is_one_line() -> None:
     said = lines(
-        Shown(State.WAITING, "has not been heard yet"),
-        Shown(State.WAITING, "has not been heard yet"),
-        Shown(State.WAITING, "sees nobody"),
-        Shown(State.WAITING, "sees nobody"),
-        Shown(State.WALKING, "sees the other"),
-        Shown(State.WAITING, "sees nobody"),
+        Shown(State.WAITING, "no odometry received yet"),
+        Shown(State.WAITING, "no odometry received yet"),
+        Shown(State.WAITING, "opponent not detected"),
+        Shown(State.WAITING, "opponent not detected"),
+        Shown(State.WALKING, "opponent detected"),
+        Shown(State.WAITING, "opponent not detected"),
     )
-    reasons = ["has not been heard yet", "sees nobody"]
-    reasons += ["sees the other", "sees nobody"]
+    reasons = ["no odometry received yet", "opponent not detected"]
+    reasons += ["opponent detected", "opponent not detected"]
     assert len(said) == len(reasons)
     for line, reason in zip(said, reasons, strict=True):
         assert f"({reason})" in line
 
 
 def test_a_reason_that_counts_is_one_line() -> None:
-    """Every tick says another number, and all mean the same."""
+    """Reasons that differ only in their numbers are one line."""
     ages = (0.55, 0.6, 9.95, 10.0, 123.4)
     said = lines(
         *(
-            Shown(State.WAITING, f"the other was seen {age:.1f} s ago")
+            Shown(State.WAITING, f"the sighting is {age:.1f} s old")
             for age in ages
         ),
         *(
@@ -69,5 +69,5 @@ def test_a_reason_that_counts_is_one_line() -> None:
         ),
     )
     assert len(said) == 2
-    assert "was seen 0.6 s ago" in said[0] or "0.5 s ago" in said[0]
+    assert "is 0.6 s old" in said[0] or "0.5 s old" in said[0]
     assert "no odometry for 0.55 s" in said[1]

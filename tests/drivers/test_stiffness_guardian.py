@@ -1,4 +1,4 @@
-"""Test who lets go of the robot when control cannot any more."""
+"""Test the guardian of a robot driven by its joints."""
 
 import os
 import signal
@@ -8,11 +8,9 @@ from functools import partial
 import numpy as np
 import pytest
 
-from stepaside.drivers.joint.frames import ActuatorFrame
-from stepaside.drivers.joint.stiffness_guardian import (
-    StiffnessGuardian,
-    let_go,
-)
+from stepaside.drivers.joint.stiffness_guardian import StiffnessGuardian
+from stepaside.drivers.lola.lola_connection import let_go
+from stepaside.drivers.lola.lola_frames import ActuatorFrame
 from stepaside.drivers.lola.lola_server import ActuatorFrameReader
 
 TARGETS = np.linspace(-0.2, 0.2, 25)
@@ -20,7 +18,7 @@ STIFF = np.full(25, 0.8)
 
 
 def answers_until_limp(robot: socket.socket) -> list[ActuatorFrame]:
-    """What a robot is told, until it is told to be limp or left."""
+    """Collect commands until the robot is limp or the link ends."""
     robot.settimeout(30.0)
     reader, answers = ActuatorFrameReader(), []
     while True:
@@ -41,9 +39,9 @@ def control_that(ends: str) -> tuple[int, socket.socket]:
     if pid == 0:
         far.close()
         guardian = StiffnessGuardian(partial(let_go, near))
-        guardian.tell(TARGETS, STIFF)
+        guardian.update(TARGETS, STIFF)
         if ends == "limp":
-            guardian.tell(TARGETS, np.zeros(25))
+            guardian.update(TARGETS, np.zeros(25))
             os._exit(0)
         if ends == "well":
             guardian.dismiss()

@@ -1,27 +1,35 @@
-"""Test what joints may be asked for, and what the lights say."""
+"""Test limits of joint targets and stiffness, and the lights."""
 
 import numpy as np
 import pytest
 
 from lola_fakes import JOINTS, STANCE, sensor_frame
-from stepaside.drivers.joint.frame_clock import TICK
-from stepaside.drivers.joint.frames import ActuatorFrame, pack_actuators
-from stepaside.drivers.joint.joint_map import HIGH, LOW, NAMES, SPEED, JointMap
+from stepaside.drivers.joint.joint_map import JointMap
 from stepaside.drivers.joint.motion_states import (
-    CROUCH,
-    SLOWLY,
+    POSTURE_SPEED,
     JointMotionState,
 )
 from stepaside.drivers.joint.safety import RobotState
 from stepaside.drivers.joint.target_limits import (
     HOT,
-    LEAST,
+    MIN_STIFFNESS,
     WARM,
     StiffnessRamp,
     TargetLimiter,
     derated,
 )
+from stepaside.drivers.lola.conventions import joint_frame_of
 from stepaside.drivers.lola.lights import COLOURS, lights_for
+from stepaside.drivers.lola.lola_frames import ActuatorFrame, pack_actuators
+from stepaside.drivers.lola.nao_joints import (
+    CROUCH,
+    HIGH,
+    LOW,
+    NAMES,
+    NAO_MOTORS,
+    SPEED,
+    TICK,
+)
 
 ONES = np.ones(25)
 KNEE = NAMES.index("LKneePitch")
@@ -31,12 +39,12 @@ def test_targets_within_reach_are_not_touched() -> None:
     middle = 0.5 * (LOW + HIGH)
     wanted = middle + np.minimum(0.9 * SPEED * TICK, 0.1)
     np.testing.assert_allclose(
-        TargetLimiter(middle, TICK).toward(wanted), wanted
+        TargetLimiter(middle, NAO_MOTORS).toward(wanted), wanted
     )
 
 
 def test_no_target_moves_faster_than_its_motor() -> None:
-    limiter = TargetLimiter(np.zeros(25), TICK)
+    limiter = TargetLimiter(np.zeros(25), NAO_MOTORS)
     got = limiter.toward(np.full(25, 100.0))
     limit = np.minimum(SPEED * TICK, HIGH - 0.01)
     np.testing.assert_allclose(got, limit)
@@ -46,17 +54,17 @@ def test_no_target_moves_faster_than_its_motor() -> None:
 
 @pytest.mark.parametrize("end", [-1e9, 1e9])
 def test_no_target_leaves_its_range(end: float) -> None:
-    limiter = TargetLimiter(np.zeros(25), TICK)
+    limiter = TargetLimiter(np.zeros(25), NAO_MOTORS)
     for _ in range(500):
         got = limiter.toward(np.full(25, end))
     np.testing.assert_allclose(got, LOW + 0.01 if end < 0 else HIGH - 0.01)
 
 
-def test_what_is_no_number_is_not_followed() -> None:
+def test_targets_that_are_not_finite_are_ignored() -> None:
     middle = 0.5 * (LOW + HIGH)
     wanted = np.full(25, np.nan)
     wanted[0] = np.inf
-    got = TargetLimiter(middle, TICK).toward(wanted)
+    got = TargetLimiter(middle, NAO_MOTORS).toward(wanted)
     np.testing.assert_array_equal(got, middle)
 
 
@@ -66,8 +74,10 @@ def test_a_cool_joint_has_all_its_torque_and_a_hot_one_half() -> None:
         return float(hot[0])
 
     assert share(20.0) == share(WARM) == 1.0
-    assert share(HOT) == share(HOT + 50.0) == LEAST
-    assert share(0.5 * (WARM + HOT)) == pytest.approx(0.5 * (1.0 + LEAST))
+    assert share(HOT) == share(HOT + 50.0) == MIN_STIFFNESS
+    assert share(0.5 * (WARM + HOT)) == pytest.approx(
+        0.5 * (1.0 + MIN_STIFFNESS)
+    )
     assert share(20.0, status=3) == 0.0
 
 
@@ -75,7 +85,7 @@ def test_only_the_hot_joint_is_cut() -> None:
     temperature = np.full(25, 30.0)
     temperature[KNEE] = HOT
     cut = derated(ONES, temperature, (0,) * 25)
-    assert cut[KNEE] == LEAST and cut.sum() == 24.0 + LEAST
+    assert cut[KNEE] == MIN_STIFFNESS and cut.sum() == 24.0 + MIN_STIFFNESS
 
 
 def test_stiffness_takes_a_second_to_grow_and_half_of_one_to_fade() -> None:
@@ -91,11 +101,11 @@ def motion_at(
     state: RobotState, ticks: int, start: np.ndarray
 ) -> JointMotionState:
     """A motion of a robot that follows its targets."""
-    motion = JointMotionState(JointMap(JOINTS), STANCE)
+    motion = JointMotionState(JointMap(JOINTS, NAO_MOTORS), STANCE, NAO_MOTORS)
     position = start
     for _ in range(ticks):
         frame = sensor_frame(position=position)
-        position, _ = motion.move(state, frame, STANCE)
+        position, _ = motion.move(state, joint_frame_of(frame), STANCE)
         motion.measured = position  # type: ignore[attr-defined]
     return motion
 
@@ -103,13 +113,15 @@ def motion_at(
 def test_a_posture_is_reached_slowly_from_where_the_robot_is() -> None:
     start = np.zeros(25)
     start[KNEE] = 1.5
-    motion = JointMotionState(JointMap(JOINTS), STANCE)
+    motion = JointMotionState(JointMap(JOINTS, NAO_MOTORS), STANCE, NAO_MOTORS)
     last, position = start, start
     for _ in range(400):
         targets, stiffness = motion.move(
-            RobotState.REACHING, sensor_frame(position=position), STANCE
+            RobotState.REACHING,
+            joint_frame_of(sensor_frame(position=position)),
+            STANCE,
         )
-        assert np.all(np.abs(targets - last) <= SLOWLY * TICK + 1e-12)
+        assert np.all(np.abs(targets - last) <= POSTURE_SPEED * TICK + 1e-12)
         last = position = targets
         if motion.reached(RobotState.REACHING, position):
             break
@@ -138,11 +150,11 @@ def test_rest_is_a_crouch_over_the_feet() -> None:
 
 
 def test_a_limp_robot_holds_nothing_and_starts_from_where_it_lies() -> None:
-    motion = JointMotionState(JointMap(JOINTS), STANCE)
+    motion = JointMotionState(JointMap(JOINTS, NAO_MOTORS), STANCE, NAO_MOTORS)
     lying = np.full(25, 0.3)
-    motion.move(RobotState.LIMP, sensor_frame(), STANCE)
+    motion.move(RobotState.LIMP, joint_frame_of(sensor_frame()), STANCE)
     targets, stiffness = motion.move(
-        RobotState.LIMP, sensor_frame(position=lying), STANCE
+        RobotState.LIMP, joint_frame_of(sensor_frame(position=lying)), STANCE
     )
     assert stiffness.tolist() == [0.0] * 25 and motion.is_limp
     np.testing.assert_array_equal(targets, lying)

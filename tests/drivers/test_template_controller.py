@@ -1,4 +1,4 @@
-"""Test what a template mind makes of a robot's reports, by their times."""
+"""Test the template controller, and the timing of its reports."""
 
 from math import atan2, hypot, pi
 from typing import Any
@@ -33,7 +33,7 @@ def way(time: float, start: Pose, rate: float) -> Pose:
 def test_an_old_sighting_is_of_where_the_robot_was_then(
     heading: float, rate: float, late: int, saturated: bool
 ) -> None:
-    """Whoever stands still is where it stands, however late it is seen."""
+    """Latency does not move an opponent that stands still."""
     strategy = FakeStrategy(
         heading=0.4, direction=Direction.BACKWARD, saturated=saturated
     )
@@ -51,7 +51,7 @@ def test_an_old_sighting_is_of_where_the_robot_was_then(
 
 
 class Noting(FakeStrategy):
-    """Tells whoever looks on what it was told."""
+    """Strategy that exposes its knowledge."""
 
     def decide(self, knowledge: Any, memory: Any) -> Any:
         """Note it."""
@@ -81,7 +81,7 @@ def test_it_knows_since_when_and_from_where(
 
 
 class Remembering:
-    """Perception that is told where the robot was, and sees nobody."""
+    """Perception that records poses and has no detection."""
 
     gaze = (0.0, 0.0)
 

@@ -130,7 +130,7 @@ def test_a_guardian_joins_before_it_is_needed_or_tries_again(
         process.stdin.close()
 
 
-def test_a_guarded_robot_is_asked_as_any_other(tmp_path: Path) -> None:
+def test_a_guarded_robot_receives_the_same_commands(tmp_path: Path) -> None:
     robot = FakeWalker([])
     guardian = guardian_of(lambda: (tmp_path / "rest").touch)
     body = GuardedBody(robot, guardian)

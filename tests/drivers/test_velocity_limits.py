@@ -1,4 +1,4 @@
-"""Test what a robot accepts: limits that keep the path, and the ramp."""
+"""Test velocity limits, which keep the path, and the ramp."""
 
 from math import inf, nan
 
@@ -15,21 +15,21 @@ TIGHT = VelocityLimits(0.2, 0.1, 0.5, 0.4, 2.0)
 
 @pytest.mark.parametrize("forward", [0.3, -0.3, 0.15, -0.05])
 @pytest.mark.parametrize("turn", [0.0, 0.9, -0.2])
-def test_what_is_cut_stays_on_its_path_and_within_the_limits(
+def test_scaled_velocities_keep_the_path_and_the_limits(
     forward: float, turn: float
 ) -> None:
-    within = TIGHT.within(VelocityCommand(forward, turn))
-    assert within.forward * turn == pytest.approx(within.turn * forward)
-    assert -0.1 - 1e-12 <= within.forward <= 0.2 + 1e-12
-    assert abs(within.turn) <= 0.5 + 1e-12
-    assert within.forward * forward > 0.0
+    scaled = TIGHT.scale(VelocityCommand(forward, turn))
+    assert scaled.forward * turn == pytest.approx(scaled.turn * forward)
+    assert -0.1 - 1e-12 <= scaled.forward <= 0.2 + 1e-12
+    assert abs(scaled.turn) <= 0.5 + 1e-12
+    assert scaled.forward * forward > 0.0
     fits = -0.1 <= forward <= 0.2 and abs(turn) <= 0.5
-    assert (within == VelocityCommand(forward, turn)) == fits
+    assert (scaled == VelocityCommand(forward, turn)) == fits
 
 
 def test_without_limits_nothing_is_cut() -> None:
     wanted = VelocityCommand(3.0, -7.0)
-    assert VelocityLimits().within(wanted) == wanted
+    assert VelocityLimits().scale(wanted) == wanted
 
 
 def test_the_ramp_climbs_at_its_accelerations_and_arrives() -> None:
@@ -42,7 +42,7 @@ def test_the_ramp_climbs_at_its_accelerations_and_arrives() -> None:
 
 
 @pytest.mark.parametrize("bad", [nan, inf, -inf])
-def test_what_is_no_number_is_rest_at_once(bad: float) -> None:
+def test_a_velocity_that_is_not_finite_stops_at_once(bad: float) -> None:
     ramp = Ramp(TIGHT)
     ramp.toward(VelocityCommand(0.2, 0.3), 1.0)
     assert ramp.toward(VelocityCommand(0.1, bad), 0.1) == REST
@@ -70,7 +70,7 @@ WANTED = st.builds(VelocityCommand, SPEED, SPEED)
 def test_whatever_is_wanted_no_change_is_faster_than_the_ramp(
     wishes: list[tuple[VelocityCommand, float]], last: VelocityCommand
 ) -> None:
-    """And what is asked for in the end is the path that was wanted."""
+    """The ramp ends at the scaled command."""
     ramp = Ramp(TIGHT)
     for wanted, passed in [*wishes, *[(last, 0.3)] * 8]:
         before, now = ramp.velocity, ramp.toward(wanted, passed)
@@ -78,8 +78,8 @@ def test_whatever_is_wanted_no_change_is_faster_than_the_ramp(
         assert abs(now.turn - before.turn) <= 2.0 * passed + 1e-12
         assert -0.1 - 1e-12 <= now.forward <= 0.2 + 1e-12
         assert abs(now.turn) <= 0.5 + 1e-12
-        goal = TIGHT.within(wanted)
+        goal = TIGHT.scale(wanted)
         # It goes towards its goal with each part, and never beyond.
         for own, old, aim in zip(now, before, goal, strict=True):
             assert min(old, aim) - 1e-12 <= own <= max(old, aim) + 1e-12
-    assert ramp.velocity == pytest.approx(TIGHT.within(last))
+    assert ramp.velocity == pytest.approx(TIGHT.scale(last))

@@ -1,4 +1,4 @@
-"""Test one player at a robot that walks by itself, which is made up."""
+"""Test the velocity loop with a fake robot."""
 
 import json
 from math import hypot, pi
@@ -12,7 +12,7 @@ from stepaside.core.poses import Pose
 from stepaside.drivers.guardian_process import SessionLost
 from stepaside.drivers.play_log import PlayLog
 from stepaside.drivers.row_file import read_rows
-from stepaside.drivers.status_line import words_of
+from stepaside.drivers.status_line import status_text
 from stepaside.drivers.velocity.template_controller import TemplateController
 from stepaside.drivers.velocity.velocity_body import (
     REST,
@@ -66,7 +66,7 @@ def played(robot: FakeWalker, ticks: int) -> list[VelocityTick]:
         (Evasion(safety_radius=0.5), REST),
     ],
 )
-def test_a_mind_wants_what_the_template_does(
+def test_the_controller_commands_the_templates_velocity(
     strategy: Strategy, wanted: VelocityCommand
 ) -> None:
     mind = TemplateController(strategy, GAIT)
@@ -74,14 +74,14 @@ def test_a_mind_wants_what_the_template_does(
     assert mind.moving == (wanted != REST)
 
 
-def test_a_mind_without_a_sighting_rests() -> None:
+def test_without_a_sighting_the_command_is_zero() -> None:
     mind = TemplateController(Pursuit(), GAIT)
     mind.decide(REPORTS[0])
     assert mind.decide(report(0.1, sighting=None)) == REST and not mind.moving
 
 
 def test_two_templates_end_on_the_circle_of_theory() -> None:
-    """Driven by what their reports say, without any robot between."""
+    """Drive a simulated robot directly, without a protocol."""
     poses = [Pose(0.0, 0.0, 0.3), Pose(1.0, 0.0, pi)]
     minds = [TemplateController(s, GAIT) for s in (Pursuit(), Evasion())]
     for i in range(3000):
@@ -143,7 +143,7 @@ def test_a_robot_that_falls_silent_is_asked_to_rest_and_goes_on_later() -> (
 def test_a_robot_that_stays_silent_ends_the_session() -> None:
     robot = FakeWalker(REPORTS[:20])
     playing = playing_of(robot)
-    with pytest.raises(SessionLost, match="not been heard for 10 s"):
+    with pytest.raises(SessionLost, match="no report from the robot for 10 s"):
         for _ in range(400):
             playing.tick()
     assert robot.asked[-1] == REST
@@ -188,7 +188,7 @@ def test_a_dry_run_asks_for_nothing() -> None:
 
 
 def test_the_log_is_on_disk_as_it_goes(tmp_path: Path) -> None:
-    """What a process that is killed leaves behind can be read."""
+    """The record of a killed process can be read."""
     log = PlayLog(tmp_path / "log", {"role": "pursuer"})
     playing = playing_of(FakeWalker([*REPORTS[:20], *40 * [None]]))
     for _ in range(60):
@@ -206,8 +206,8 @@ def test_the_log_is_on_disk_as_it_goes(tmp_path: Path) -> None:
     assert words["role"] == "pursuer"
 
 
-def test_the_line_says_what_is_asked_for_and_where_the_other_is() -> None:
+def test_the_status_has_the_command_and_the_opponent() -> None:
     tick = played(FakeWalker(REPORTS), 20)[-1]
-    said = words_of(tick)
+    said = status_text(tick)
     assert "walking" in said and "+0.100 m/s, +0.080 rad/s" in said
-    assert "other at 1.00 m, +23 deg" in said
+    assert "opponent at 1.00 m, +23 deg" in said

@@ -19,31 +19,31 @@ def settled(**changes: object) -> Watchdog:
     """A watchdog that has heard enough, the last time at 0.2 s."""
     dog = Watchdog(WatchSettings(**changes))  # type: ignore[arg-type]
     for i in range(5):
-        said = dog.look(report(STAMP + 0.05 * i), 0.05 * i)
+        said = dog.check(report(STAMP + 0.05 * i), 0.05 * i)
     assert said == ""
     return dog
 
 
 def test_a_robot_moves_only_after_some_good_reports() -> None:
     dog = Watchdog(WatchSettings(warm_up=3))
-    assert dog.look(None, 0.0) == "has not been heard yet"
-    said = [dog.look(report(STAMP + 0.05 * i), 0.05 * i) for i in range(4)]
-    assert said == 2 * ["has only just been heard"] + 2 * [""]
+    assert dog.check(None, 0.0) == "no odometry received yet"
+    said = [dog.check(report(STAMP + 0.05 * i), 0.05 * i) for i in range(4)]
+    assert said == 2 * ["waiting for more odometry"] + 2 * [""]
 
 
 def test_silence_is_borne_up_to_the_limit_and_then_warms_up_anew() -> None:
     dog = settled()
-    assert dog.look(None, 0.44) == ""
-    assert "no odometry for 0.26 s" in dog.look(None, 0.46)
+    assert dog.check(None, 0.44) == ""
+    assert "no odometry for 0.26 s" in dog.check(None, 0.46)
     assert dog.silent == pytest.approx(0.26)
-    assert "only just" in dog.look(report(STAMP + 0.3), 0.5)
+    assert "waiting for more" in dog.check(report(STAMP + 0.3), 0.5)
 
 
 def test_simulated_time_may_stand_still() -> None:
     dog = settled(paced=False)
-    assert dog.look(None, 9.0) == ""
+    assert dog.check(None, 9.0) == ""
     assert dog.silent == pytest.approx(8.8)
-    assert dog.look(report(STAMP + 60.0), 9.01) == ""
+    assert dog.check(report(STAMP + 60.0), 9.01) == ""
 
 
 @pytest.mark.parametrize("bad", [nan, inf])
@@ -55,45 +55,45 @@ def test_odometry_that_is_no_number_stops_the_robot(
     values = {"time": STAMP + 0.25, "x": 0.0, "theta": 0.0} | {place: bad}
     pose = Pose(values["x"], 0.0, values["theta"])
     sick = VelocityReport(values["time"], pose, Sighting(STAMP, 0.0, 1.0))
-    assert "no number" in dog.look(sick, 0.25)
-    assert "only just" in dog.look(report(STAMP + 0.3), 0.3)
+    assert "NaN or inf" in dog.check(sick, 0.25)
+    assert "waiting for more" in dog.check(report(STAMP + 0.3), 0.3)
 
 
 def test_time_that_goes_back_stops_the_robot() -> None:
     dog = settled()
-    assert "went back in time by 0.100 s" in dog.look(
+    assert "went back in time by 0.100 s" in dog.check(
         report(STAMP + 0.1), 0.25
     )
 
 
 def test_stamps_that_outrun_the_clock_come_from_the_future() -> None:
     dog = settled()
-    assert dog.look(report(STAMP + 0.34), 0.25) == ""  # 90 ms ahead
-    assert "ahead of the clock" in dog.look(report(STAMP + 0.41), 0.3)
+    assert dog.check(report(STAMP + 0.34), 0.25) == ""  # 90 ms ahead
+    assert "ahead of the clock" in dog.check(report(STAMP + 0.41), 0.3)
 
 
 def test_a_lead_is_made_up_for_by_waiting() -> None:
     dog = settled()
-    assert dog.look(report(STAMP + 0.34), 0.25) == ""
-    assert dog.look(report(STAMP + 0.40), 0.40) == ""
-    assert dog.look(report(STAMP + 0.55), 0.46) == ""
+    assert dog.check(report(STAMP + 0.34), 0.25) == ""
+    assert dog.check(report(STAMP + 0.40), 0.40) == ""
+    assert dog.check(report(STAMP + 0.55), 0.46) == ""
 
 
 @pytest.mark.parametrize(
     ("seen", "said"),
     [
-        (None, "sees nobody"),
-        (Sighting(STAMP + 0.25, nan, 1.0), "no number"),
-        (Sighting(STAMP + 0.25, 0.0, inf), "no number"),
-        (Sighting(nan, 0.0, 1.0), "no number"),
+        (None, "opponent not detected"),
+        (Sighting(STAMP + 0.25, nan, 1.0), "must be finite"),
+        (Sighting(STAMP + 0.25, 0.0, inf), "must be finite"),
+        (Sighting(nan, 0.0, 1.0), "must be finite"),
         (Sighting(STAMP + 0.25, radians(-238.0), 1.0), "got -238 deg"),
         (Sighting(STAMP + 0.25, 3.15, 1.0), "bearing of the sighting must"),
         (Sighting(STAMP + 0.25, pi, 1.0), ""),
         (Sighting(STAMP + 0.25, -pi, 1.0), ""),
         (Sighting(STAMP + 0.25, 0.0, -1.0), "distance of the sighting must"),
         (Sighting(STAMP + 0.25, 0.0, 2e3), "got 2000 m"),
-        (Sighting(STAMP + 0.4, 0.0, 1.0), "from the future, by 0.15 s"),
-        (Sighting(STAMP - 0.36, 0.0, 1.0), "was seen 0.6 s ago"),
+        (Sighting(STAMP + 0.4, 0.0, 1.0), "0.15 s in the future"),
+        (Sighting(STAMP - 0.36, 0.0, 1.0), "is 0.6 s old"),
         (Sighting(STAMP - 0.2, 0.0, 1.0), ""),
     ],
 )
@@ -101,14 +101,14 @@ def test_only_a_fresh_true_sighting_is_one_to_act_upon(
     seen: Sighting | None, said: str
 ) -> None:
     dog = settled()
-    told = dog.look(report(STAMP + 0.25, sighting=seen), 0.25)
+    told = dog.check(report(STAMP + 0.25, sighting=seen), 0.25)
     assert (said in told) if said else not told
 
 
-def test_what_hinders_the_robot_is_passed_on() -> None:
+def test_hindrances_of_the_robot_are_returned() -> None:
     dog = settled()
     sick = report(STAMP + 0.25, hindrance="another commands")
-    assert dog.look(sick, 0.25) == "another commands"
+    assert dog.check(sick, 0.25) == "another commands"
 
 
 @pytest.mark.parametrize(

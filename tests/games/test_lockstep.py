@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from stepaside.core.errors import ConfigurationError
-from stepaside.drivers.joint.frame_clock import TICK
+from stepaside.drivers.lola.nao_joints import TICK
 from stepaside.games.lockstep import PRESSED_TICKS, READY_TICKS, Lockstep
 
 from lola_fakes import Clock  # isort: skip

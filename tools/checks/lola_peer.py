@@ -148,10 +148,10 @@ def play_against(listen: str, chest: Path) -> dict[str, Any]:
     """Stand up, be pressed, move the head by control, rest."""
     import numpy as np
 
-    from stepaside.drivers.joint.joint_map import HIGH, LOW, NAMES
     from stepaside.drivers.joint.safety import RobotState
     from stepaside.drivers.lola.lola_address import parse_address
     from stepaside.drivers.lola.lola_connection import open_lola
+    from stepaside.drivers.lola.nao_joints import HIGH, LOW, NAMES
 
     stance = np.clip(np.zeros(23), LOW[:23] + 0.02, HIGH[:23] - 0.02)
     body = open_lola(parse_address(listen), NAMES[:23], stance)

@@ -16,9 +16,9 @@ from .mention import Index
 from .places import optional_keywords
 from .score import (
     CAP,
+    PACKAGES,
     REASONS,
     RESULTS,
-    PACKAGES,
     SAMPLE,
     head,
     read_reasons,

@@ -36,8 +36,8 @@ def open_joints(
     settings: "DuelSettings", options: dict[str, Any]
 ) -> "JointLoop":
     """Connect to a robot for joint control."""
-    from ..drivers.joint.joint_body import JointBody
     from ..drivers.joint.joint_loop import JointLoop
+    from ..drivers.lola.nao_joints import NAO_MOTORS
     from ..drivers.scheme_factory import mind_maker
     from ..robots.description import load_robot
     from .feedback_default import with_feedback
@@ -56,7 +56,7 @@ def open_joints(
         load_robot(options["description"]),
         settings.gait,
         settings.control,
-        tick=JointBody.tick,
+        tick=NAO_MOTORS.tick,
         delay_ticks=options["delay_ticks"],
         sees_as=role if sees else None,
     )

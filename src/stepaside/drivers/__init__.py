@@ -1,1 +1,1 @@
-"""What drives robots that are not simulated here, by their own languages."""
+"""Drivers for real and remote robots, one package per protocol."""

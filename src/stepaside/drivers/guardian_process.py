@@ -1,9 +1,10 @@
-"""A second process that lets go of the robot if control dies or freezes.
+"""Guardian process: makes the robot safe if the control process fails.
 
-It is forked before control loads anything that speaks to the robot or starts
-threads, and hears from control at every tick whether the robot may be left
-to itself. Silence while it may not means that control is dead or frozen: the
-guardian ends it, so that two never speak at once, and lets go by itself.
+The guardian is forked before control loads a robot library or starts
+threads. At every tick control reports whether the robot is safe without it.
+Silence while it is not safe means that control has died or frozen: the
+guardian kills it, so that only one process commands the robot, and then
+releases the robot itself.
 """
 
 import logging
@@ -21,43 +22,47 @@ from ..core.errors import StepAsideError
 log = logging.getLogger(__name__)
 
 Opened = TypeVar("Opened")
-PAUSE = 0.1  # between two tries to connect, in [s]
+PAUSE = 0.1  # between two attempts to connect, in [s]
 
 
 class SessionLost(StepAsideError, ConnectionError):
-    """The robot cannot be heard or reached any more."""
+    """The connection to the robot failed or its data cannot be trusted."""
 
 
 def open_within(open_robot: Callable[[], Opened], patience: float) -> Opened:
-    """Connect to a robot that may not be there yet.
+    """Connect to a robot, retrying until a timeout.
 
     Args:
-        open_robot: Connects, or raises SessionLost.
-        patience: How long to try again, in [s]; 0 tries once.
+        open_robot: Function that connects, or raises SessionLost.
+        patience: Timeout, in [s]; 0 tries once.
+
+    Returns:
+        Result of ``open_robot``.
 
     Raises:
-        SessionLost: If the last try fails.
+        SessionLost: If the last attempt fails.
     """
-    until, said = monotonic() + patience, False
+    deadline = monotonic() + patience
+    is_logged = False
     while True:
         try:
             return open_robot()
         except SessionLost as error:
-            if monotonic() >= until:
+            if monotonic() >= deadline:
                 raise
-            if not said:
-                log.info("%s; waits up to %g s for it", error, patience)
-                said = True
+            if not is_logged:
+                log.info("%s; retrying for up to %g s", error, patience)
+                is_logged = True
             sleep(PAUSE)
 
 
-GOODBYE, SAFE, HELD = b"\x00", b"\x01", b"\x02"  # first byte of a word
-LONGEST = 4096  # of a word, in bytes
-ENDINGS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+DISMISS, SAFE, UNSAFE = b"\x00", b"\x01", b"\x02"  # first byte of a message
+MAX_MESSAGE = 4096  # size of a message, in bytes
+TERMINATION_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
 class Guardian:
-    """Control's end of the line to the guardian."""
+    """Handle of the control process on its guardian."""
 
     def __init__(
         self,
@@ -66,13 +71,15 @@ class Guardian:
         *,
         prepare: Callable[[], None] | None = None,
     ) -> None:
-        """Fork the guardian, which watches until it hears goodbye.
+        """Fork the guardian, which watches until it is dismissed.
 
         Args:
-            let_go: Lets go of the robot, given the last that was told of
-                it. It is called in the other process.
-            silence: Of control before the guardian acts, in [s].
-            prepare: Called there at once, so that letting go is quick.
+            let_go: Function that releases the robot, given the data of the
+                last call of :meth:`hold`. Called in the guardian process.
+            silence: Time without a message from control after which the
+                guardian acts, in [s].
+            prepare: Function called once when the guardian process starts,
+                so that ``let_go`` needs less time.
         """
         near, far = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         parent = os.getpid()
@@ -81,71 +88,74 @@ class Guardian:
             code = 1
             try:
                 near.close()
-                for ending in ENDINGS:  # control's, and it will hear of it
-                    signal.signal(ending, signal.SIG_IGN)
+                # Control handles these, and dismisses the guardian.
+                for number in TERMINATION_SIGNALS:
+                    signal.signal(number, signal.SIG_IGN)
                 if prepare is not None:
                     prepare()
-                word = _watch(far, parent, silence)
-                if word is not None:
-                    let_go(word)
+                data = _watch(far, parent, silence)
+                if data is not None:
+                    let_go(data)
                 code = 0
             finally:
                 os._exit(code)
         far.close()
         near.setblocking(False)
-        self._line: socket.socket | None = near
+        self._socket: socket.socket | None = near
 
-    def hold(self, word: bytes = b"") -> None:
-        """Say that the robot must be let go of if control ends now.
+    def hold(self, data: bytes = b"") -> None:
+        """Report that the robot must be released if control ends now.
 
         Args:
-            word: What the guardian needs to know for that.
+            data: Argument of ``let_go`` in that case.
         """
-        self._send(HELD + word)
+        self._send(UNSAFE + data)
 
     def leave(self) -> None:
-        """Say that the robot may be left for as long as control likes."""
+        """Report that the robot is safe without control, until ``hold``."""
         self._send(SAFE)
 
     def dismiss(self) -> None:
-        """Say goodbye to a guardian that is not needed any more."""
-        if self._line is None:
+        """End the guardian process; the robot is not released."""
+        if self._socket is None:
             return
-        self._line.setblocking(True)
-        self._send(GOODBYE)
-        self._line.close()
-        self._line = None
+        self._socket.setblocking(True)
+        self._send(DISMISS)
+        self._socket.close()
+        self._socket = None
         with suppress(ChildProcessError):
             os.waitpid(self._pid, 0)
 
-    def _send(self, word: bytes) -> None:
-        if self._line is not None:
-            with suppress(OSError):  # a full line: it has words enough
-                self._line.send(word)
+    def _send(self, message: bytes) -> None:
+        if self._socket is not None:
+            with suppress(OSError):  # full: enough messages are queued
+                self._socket.send(message)
 
 
-def _watch(line: socket.socket, control: int, silence: float) -> bytes | None:
-    """Wait for goodbye, or for silence while the robot is held.
+def _watch(
+    messages: socket.socket, control: int, silence: float
+) -> bytes | None:
+    """Wait for dismissal, or for silence while the robot is not safe.
 
     Args:
-        line: Where control says what there is to say.
-        control: Number of its process, which is ended if it froze.
-        silence: After which control counts as frozen, in [s].
+        messages: Socket that receives the messages of control.
+        control: Process number of control, which is killed if it froze.
+        silence: Time after which control counts as frozen, in [s].
 
     Returns:
-        The last word about a robot that must be let go of.
+        Data of the last ``hold`` if the robot must be released, else None.
     """
     held: bytes | None = None
     while True:
-        patience = None if held is None else silence
-        ready, _, _ = select.select([line], [], [], patience)
-        word = line.recv(LONGEST) if ready else b""
-        kind = word[:1]
-        if kind == GOODBYE or (ready and not word and held is None):
+        timeout = None if held is None else silence
+        ready, _, _ = select.select([messages], [], [], timeout)
+        message = messages.recv(MAX_MESSAGE) if ready else b""
+        kind = message[:1]
+        if kind == DISMISS or (ready and not message and held is None):
             return None
-        if not word:
+        if not message:
             break
-        held = word[1:] if kind == HELD else None
+        held = message[1:] if kind == UNSAFE else None
     if os.getppid() == control:
         os.kill(control, signal.SIGKILL)
     return held

@@ -1,4 +1,4 @@
-"""What a player noted while it played, on disk as it goes."""
+"""Log of a player of ``stepaside play``, written to disk during the run."""
 
 import json
 from collections.abc import Mapping
@@ -16,7 +16,7 @@ from .joint.safety import RobotState
 from .row_file import RowWriter
 from .velocity.velocity_loop import DrivingState, VelocityTick
 
-WORDS = "play.json"
+METADATA = "play.json"
 STATES: dict[type[Enum], list[Enum]] = {
     kind: list(kind) for kind in (RobotState, DrivingState)
 }
@@ -26,24 +26,29 @@ NO_STEP = np.full(6, np.nan)
 
 
 class PlayLog:
-    """Keeps every tick, as rows (:mod:`stepaside.drivers.row_file`).
+    """Recorder of every tick as a row (:mod:`stepaside.drivers.row_file`).
 
-    Every tick has ``times_s``, ``sighting`` (time, bearing, distance; NaN
-    without one) and ``state``. One that moves joints has
-    ``joint_positions``, ``targets``, ``gyro``, ``accelerometer``,
-    ``foot_forces`` and ``phase``, and of what control believes, in the
-    odometry of ``mind``: ``support`` (x, y, heading of the foot that stands,
-    then 1 left or -1 right), ``com_reference``, ``zmp_reference`` and
-    ``begun``, the step that began (time of landing, 1 left or -1 right, x,
-    y, heading, processor time of planning; NaN without one). One that gives
-    velocities has ``pose``, its odometry, ``wanted``, what the template
-    would do, and ``velocity``, what was asked for (forward [m/s], turn
-    [rad/s]). States and phases are numbers into the lists of ``play.json``,
-    which also says what changed when, and why.
+    Each row has the columns ``times_s``, ``sighting`` (time [s], bearing
+    [rad], distance [m]; NaN without a sighting) and ``state``.
+
+    A tick of :class:`JointTick` adds ``joint_positions``, ``targets``,
+    ``gyro``, ``accelerometer``, ``foot_forces`` and ``phase``, and in the
+    odometry frame of the controller numbered ``mind``: ``support`` (x, y,
+    heading of the stance foot, then 1 for left or -1 for right),
+    ``com_reference``, ``zmp_reference`` and ``begun``, the step that began
+    at this tick (landing time, 1 left or -1 right, x, y, heading, processor
+    time of planning; NaN if none began).
+
+    A tick of :class:`VelocityTick` adds ``pose`` (odometry), ``wanted``
+    (velocity of the template) and ``velocity`` (command: forward [m/s],
+    turn [rad/s]).
+
+    ``state`` and ``phase`` are indices into the lists of ``play.json``,
+    which also lists each change of state with its time and reason.
 
     Attributes:
-        folder: Where it lies.
-        count: Ticks kept so far.
+        folder: Folder of the log.
+        count: Number of recorded ticks.
     """
 
     def __init__(
@@ -52,15 +57,15 @@ class PlayLog:
         about: Mapping[str, object],
         beside: Mapping[str, str] | None = None,
     ) -> None:
-        """Try the folder, which is made when there is something to keep.
+        """Check the folder, which is created with the first tick.
 
         Args:
-            folder: Must not exist yet, or be empty.
-            about: What to write down in ``play.json``.
-            beside: Texts of further files, by name.
+            folder: Folder that does not exist yet, or is empty.
+            about: Entries of ``play.json``.
+            beside: Contents of further files, by name.
 
         Raises:
-            ConfigurationError: If it cannot be written.
+            ConfigurationError: If the folder cannot be written.
         """
         check_folder(folder, "record", new=True)
         self._rows: RowWriter | None = None
@@ -71,18 +76,22 @@ class PlayLog:
 
     @property
     def count(self) -> int:
-        """Ticks kept so far."""
+        """Number of recorded ticks."""
         return 0 if self._rows is None else self._rows.count
 
     def note(self, tick: JointTick | VelocityTick) -> None:
-        """Keep a tick."""
-        seen, state = tick.sighting, tick.state
+        """Record a tick."""
+        sighting, state = tick.sighting, tick.state
         row: dict[str, Array | float] = {
             "times_s": tick.time,
-            "sighting": UNSEEN if seen is None else np.array(seen[:3]),
+            "sighting": UNSEEN if sighting is None else np.array(sighting[:3]),
             "state": float(STATES[type(state)].index(state)),
         }
-        row |= _moved(tick) if isinstance(tick, JointTick) else _driven(tick)
+        row |= (
+            _joint_columns(tick)
+            if isinstance(tick, JointTick)
+            else _velocity_columns(tick)
+        )
         rows = self._rows = self._rows or self._begin()
         rows.add(row)
         if state is not self._state:
@@ -95,7 +104,7 @@ class PlayLog:
                     "reason": tick.reason,
                 }
             )
-            self._write_words(self.folder)
+            self._write_metadata(self.folder)
 
     def _begin(self) -> RowWriter:
         rows = RowWriter(self.folder)
@@ -107,45 +116,45 @@ class PlayLog:
             (folder / name).write_text(text, encoding="utf-8")
 
     def copy_to(self, folder: Path) -> None:
-        """Keep it in another folder, since this one cannot be written.
+        """Copy the log to another folder when its own cannot be written.
 
         Args:
-            folder: Does not exist yet.
+            folder: Folder that does not exist yet.
 
         Raises:
-            OSError: If that cannot be written either.
+            OSError: If that folder cannot be written either.
         """
         if self._rows is not None:
             folder.mkdir(parents=True)
             self._rows.copy_to(folder)
             self._write_beside(folder)
-            self._write_words(folder)
+            self._write_metadata(folder)
 
     def close(self) -> None:
-        """Write what is left; nothing if there is nothing.
+        """Flush and close the files; write nothing if there was no tick.
 
         Raises:
-            OSError: If the system does not let it be written.
+            OSError: If the files cannot be written.
         """
         if self._rows is not None:
             self._rows.close()
-            self._write_words(self.folder)
+            self._write_metadata(self.folder)
 
-    def _write_words(self, folder: Path) -> None:
+    def _write_metadata(self, folder: Path) -> None:
         kind = type(self._state) if self._state is not None else RobotState
-        words = self._about | {
+        metadata = self._about | {
             "states": [state.value for state in STATES[kind]],
             "phases": [phase.value for phase in PHASES],
             "changes": self._changes,
         }
-        text = json.dumps(words, indent=1, allow_nan=False)
-        folder.stat()  # where it is gone, it is not made anew without its rows
-        with writing(folder / WORDS) as draft:
+        text = json.dumps(metadata, indent=1, allow_nan=False)
+        folder.stat()  # a removed folder must not return without its rows
+        with writing(folder / METADATA) as draft:
             draft.write_text(text + "\n", encoding="utf-8")
 
 
-def _moved(tick: JointTick) -> dict[str, Array | float]:
-    """What is known of a robot whose joints are moved."""
+def _joint_columns(tick: JointTick) -> dict[str, Array | float]:
+    """Return the columns of a robot driven by its joints."""
     m = tick.measurement
     return {
         "joint_positions": m.joint_positions,
@@ -163,20 +172,20 @@ def _moved(tick: JointTick) -> dict[str, Array | float]:
 
 
 def _support(walk: WalkState, now: float) -> Array:
-    """Foot that stands, where control believes it."""
-    made = walk.step(now)
-    return np.array([*made.support, -float(made.swing.value)])
+    """Return the pose of the stance foot in odometry, and its side."""
+    step = walk.step(now)
+    return np.array([*step.support, -float(step.swing.value)])
 
 
 def _begun(step: StepStarted) -> Array:
-    """Step that began."""
+    """Return the entries of the column ``begun``."""
     spent = np.nan if step.planning_time is None else step.planning_time
     side = float(step.foot.value)
     return np.array([step.landing_time, side, *step.landing, spent])
 
 
-def _driven(tick: VelocityTick) -> dict[str, Array | float]:
-    """What is known of a robot that walks by itself."""
+def _velocity_columns(tick: VelocityTick) -> dict[str, Array | float]:
+    """Return the columns of a robot driven by velocity commands."""
     return {
         "pose": np.array(tick.pose),
         "wanted": np.array(tick.wanted),

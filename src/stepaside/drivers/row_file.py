@@ -1,4 +1,4 @@
-"""Rows of numbers on disk, written as they come."""
+"""Files of numeric rows, written while they are produced."""
 
 import json
 import os
@@ -13,28 +13,28 @@ import numpy as np
 from ..core.errors import ConfigurationError
 from ..core.poses import Array
 
-FLUSHED = 10  # rows between two times that they reach the disk
+FLUSH_INTERVAL = 10  # rows between two flushes to disk
 HEADER, ROWS = "columns.json", "rows.f64"
 
 
 class RowWriter:
-    """Appends rows, so that what is written survives whatever happens.
+    """Append-only writer of rows; a crash loses at most the last ten.
 
-    ``columns.json`` names the columns and says how many numbers each has;
-    ``rows.f64`` holds the rows, little-endian doubles one after the other.
+    ``columns.json`` maps each column's name to its width; ``rows.f64``
+    holds the rows as consecutive little-endian doubles.
 
     Attributes:
-        count: Rows so far.
+        count: Number of rows written.
     """
 
     def __init__(self, folder: Path) -> None:
-        """Begin.
+        """Create the files.
 
         Args:
-            folder: Must not exist yet, or be empty.
+            folder: Folder that does not exist yet, or is empty.
 
         Raises:
-            ConfigurationError: If it cannot be written.
+            ConfigurationError: If the folder cannot be written.
         """
         try:
             folder.mkdir(parents=True, exist_ok=True)
@@ -50,13 +50,13 @@ class RowWriter:
         self.count = 0
 
     def add(self, row: Mapping[str, Array | float]) -> None:
-        """Append a row; the first one says which columns there are.
+        """Append a row; the first row defines the columns.
 
         Args:
             row: A number or an array of shape (width,) for each column.
 
         Raises:
-            ValueError: If its columns are not those of the first row.
+            ValueError: If the columns differ from those of the first row.
         """
         parts = {name: np.atleast_1d(value) for name, value in row.items()}
         columns = {name: part.size for name, part in parts.items()}
@@ -65,24 +65,26 @@ class RowWriter:
             text = json.dumps(columns)
             (self._folder / HEADER).write_text(text + "\n", encoding="utf-8")
         if columns != self._columns:
-            raise ValueError(f"a row has {self._columns}, got {columns}")
+            raise ValueError(
+                f"columns of a row must be {self._columns}, got {columns}"
+            )
         data = np.concatenate(list(parts.values())).astype("<f8")
         self._file.write(data.tobytes())
         self.count += 1
-        if self.count % FLUSHED == 0:
+        if self.count % FLUSH_INTERVAL == 0:
             self._file.flush()
 
     def copy_to(self, folder: Path) -> None:
-        """Write what there is into another folder, too.
+        """Copy all rows to another folder, and close the original.
 
-        What has a name no more, for somebody removed the folder, can still
-        be read here until it is closed.
+        Works even if the original folder was removed: the open file can
+        still be read.
 
         Args:
-            folder: It exists.
+            folder: Existing folder.
 
         Raises:
-            OSError: If it cannot be written.
+            OSError: If the folder cannot be written.
         """
         with (
             os.fdopen(os.dup(self._file.fileno()), "rb") as read,
@@ -92,15 +94,15 @@ class RowWriter:
             copyfileobj(read, out)
         text = json.dumps(self._columns)
         (folder / HEADER).write_text(text + "\n", encoding="utf-8")
-        with suppress(OSError):  # the last rows may have no room anywhere
+        with suppress(OSError):  # the original's disk may be full
             self._file.close()
 
     def close(self) -> None:
-        """Write what is left.
+        """Flush and close the file.
 
         Raises:
-            OSError: If it cannot be written, or nobody could find it there;
-                it can be copied then.
+            OSError: If the rows cannot be written, or the file has been
+                removed; :meth:`copy_to` still works then.
         """
         self._file.flush()
         (self._folder / ROWS).stat()
@@ -108,16 +110,16 @@ class RowWriter:
 
 
 def read_rows(folder: Path) -> dict[str, Array]:
-    """Columns of rows, as far as they were written.
+    """Read the complete rows of a folder.
 
     Args:
-        folder: Where they lie.
+        folder: Folder written by :class:`RowWriter`.
 
     Returns:
-        Arrays by name of the column. Shapes (rows,) or (rows, width).
+        Arrays by column name. Shapes (rows,) or (rows, width).
 
     Raises:
-        ConfigurationError: If there are none.
+        ConfigurationError: If the files are missing or invalid.
     """
     try:
         text = (folder / HEADER).read_text(encoding="utf-8")
@@ -129,11 +131,14 @@ def read_rows(folder: Path) -> dict[str, Array]:
 
 
 def columns_in(data: bytes, columns: Mapping[str, int]) -> dict[str, Array]:
-    """Columns of rows that were read; what is no whole row is left out.
+    """Split row data into columns; an incomplete last row is dropped.
 
     Args:
-        data: Rows.
-        columns: How many numbers each column has, in their order.
+        data: Contents of ``rows.f64``.
+        columns: Width of each column, in order.
+
+    Returns:
+        Arrays by column name. Shapes (rows,) or (rows, width).
     """
     width = sum(columns.values())
     whole = len(data) // (8 * width) * 8 * width

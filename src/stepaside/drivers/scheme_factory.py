@@ -1,4 +1,4 @@
-"""A player's mind, as it is on board of a robot."""
+"""Control schemes and perception for a player on board a robot."""
 
 from collections.abc import Callable
 from typing import TYPE_CHECKING
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from ..perception.perception import Perception
     from ..perception.planar_perception import PlanarPerception
 
-REQUEST_TO_MOTION = 3  # ticks, as three teams measured on NAO
+REQUEST_TO_MOTION = 3  # ticks from command to motion, measured on NAO
 
 
 def mind_maker(
@@ -27,20 +27,20 @@ def mind_maker(
     delay_ticks: int = REQUEST_TO_MOTION,
     sees_as: str | None = None,
 ) -> Callable[[Strategy], ControlScheme]:
-    """What makes a new mind for every walk.
+    """Return a factory of control schemes, one for each walk.
 
     Args:
-        description: The robot.
-        gait: How it walks.
-        control: How it controls its walk.
+        description: Description of the robot.
+        gait: Gait settings.
+        control: Control settings.
         tick: Control period, in [s].
-        delay_ticks: Ticks from a request to the motion.
-        sees_as: Role of who sees with cameras; None if sightings come with
-            the measurements.
+        delay_ticks: Ticks from a joint command to the motion.
+        sees_as: Role of the player if it uses cameras; None if sightings
+            come with the measurements.
 
     Raises:
-        ConfigurationError: If it is to see and OpenCV is not there.
-        ModelError: If it is to see and has no head.
+        ConfigurationError: If cameras are used without OpenCV installed.
+        ModelError: If cameras are used and the robot has no head.
     """
     perceive = None if sees_as is None else perception_of(sees_as)
 
@@ -63,13 +63,13 @@ def mind_maker(
 def perception_of(
     role: str,
 ) -> "Callable[[RobotDescription, float], Perception]":
-    """What makes the perception of a role, at a control period in [s].
+    """Return a factory of perception from description and period [s].
 
     Args:
-        role: Who looks.
+        role: Role of the player; its opponent's colours are looked for.
 
     Raises:
-        ConfigurationError: If OpenCV is not there.
+        ConfigurationError: If OpenCV is not installed.
     """
     _one_thread()
     from ..perception.colour_detector import LOOKS
@@ -86,15 +86,15 @@ def perception_of(
 def level_perception(
     role: str, description: RobotDescription, tick: float
 ) -> "PlanarPerception":
-    """Perception of a role at a robot that walks by itself.
+    """Build the perception of a robot that has its own walking control.
 
     Args:
-        role: Who looks.
-        description: The robot.
+        role: Role of the player; its opponent's colours are looked for.
+        description: Description of the robot.
         tick: Time between two reports, in [s].
 
     Raises:
-        ConfigurationError: If OpenCV is not there.
+        ConfigurationError: If OpenCV is not installed.
         ModelError: If the robot has no head.
     """
     _one_thread()
@@ -107,7 +107,7 @@ def level_perception(
 
 
 def _one_thread() -> None:
-    """Let OpenCV take one core, which sees and walks."""
+    """Restrict OpenCV to one thread, as walking needs the other cores."""
     try:
         import cv2
     except ImportError as error:

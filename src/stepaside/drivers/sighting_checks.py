@@ -1,31 +1,34 @@
-"""What a sighting that comes from outside may say."""
+"""Validation of sightings that are received from other programs."""
 
 from math import degrees, isfinite, pi
 
-FARTHEST = 1e3  # distance beyond which there is nobody to see, in [m]
+MAX_DISTANCE = 1e3  # far beyond the range of any sensor used, in [m]
 ROUNDING = 1e-6  # of a bearing in single precision, in [rad]
 
 
-def fault_of(bearing: float, distance: float) -> str:
-    """Return what is wrong with a sighting; empty if nothing is.
+def sighting_fault(bearing: float, distance: float) -> str:
+    """Return the reason why a sighting is invalid; empty if it is valid.
 
-    An angle out of its range is not wrapped: whoever sends one may mean
-    degrees, or another zero.
+    A bearing out of range is not wrapped: the sender may use degrees, or
+    another zero direction.
 
     Args:
-        bearing: As it was sent, in [rad].
-        distance: Likewise, in [m].
+        bearing: Received bearing, in [rad].
+        distance: Received distance, in [m].
     """
     if not (isfinite(bearing) and isfinite(distance)):
-        return "the sighting holds what is no number"
+        return (
+            "bearing and distance of the sighting must be finite, got "
+            f"{bearing} rad and {distance} m"
+        )
     if abs(bearing) > pi + ROUNDING:
         return (
             "the bearing of the sighting must lie in [-180, 180] deg, got "
             f"{degrees(bearing):.0f} deg ({bearing:.3f} rad)"
         )
-    if not 0.0 <= distance <= FARTHEST:
+    if not 0.0 <= distance <= MAX_DISTANCE:
         return (
-            f"the distance of the sighting must lie in [0, {FARTHEST:g}] m, "
-            f"got {distance:g} m"
+            "the distance of the sighting must lie in "
+            f"[0, {MAX_DISTANCE:g}] m, got {distance:g} m"
         )
     return ""

@@ -1,4 +1,4 @@
-"""One line on the terminal that says what the robot does."""
+"""Status line of the robot on the terminal."""
 
 import re
 from collections.abc import Callable
@@ -10,72 +10,73 @@ from typing import Protocol, TextIO
 
 from ..perception.measurement import Sighting
 
-PERIOD = 0.2  # between two looks of the line, in [s]
+PERIOD = 0.2  # between two updates of the line, in [s]
 _NUMBER = re.compile(r"[-+]?\d+(\.\d+)?")
 
 
 class TickStatus(Protocol):
-    """What a tick says of itself."""
+    """Attributes of a tick that the status line shows."""
 
     @property
     def state(self) -> Enum:
-        """What the robot is doing."""
+        """State of the robot."""
 
     @property
     def reason(self) -> str:
-        """Why, in words."""
+        """Reason for the state, as a message."""
 
     @property
     def time(self) -> float:
-        """When, in [s]."""
+        """Time of the tick, in [s]."""
 
     @property
     def words(self) -> str:
-        """All of it, in a few words."""
+        """State, reason and command as a short text."""
 
     @property
     def sighting(self) -> Sighting | None:
-        """The other, as far as is known."""
+        """Newest sighting of the opponent; None without one."""
 
 
-def words_of(tick: TickStatus) -> str:
-    """What one tick was, in one line."""
-    seen = tick.sighting
-    other = "sees nobody"
-    if seen is not None:
-        other = (
-            f"other at {seen.distance:.2f} m, {degrees(seen.bearing):+.0f} deg"
+def status_text(tick: TickStatus) -> str:
+    """Return one line about a tick."""
+    sighting = tick.sighting
+    opponent = "opponent not detected"
+    if sighting is not None:
+        opponent = (
+            f"opponent at {sighting.distance:.2f} m, "
+            f"{degrees(sighting.bearing):+.0f} deg"
         )
-    return f"{tick.time:7.1f} s  {tick.words}, {other}"
+    return f"{tick.time:7.1f} s  {tick.words}, {opponent}"
 
 
 class StatusLine:
-    """Keeps a line up to date, and leaves one behind at each change.
+    """Line that is overwritten periodically, and kept at each change.
 
-    A change is another state, or another reason for it; a reason whose
-    numbers alone differ ("no odometry for 0.31 s") is the same.
+    A change is a new state or a new reason; reasons that differ only in
+    their numbers ("no odometry for 0.31 s") count as the same.
     """
 
     def __init__(
         self, stream: TextIO, clock: Callable[[], float] = monotonic
     ) -> None:
-        """Write to a stream; only changes if it is no terminal."""
+        """Write to a stream; if it is not a terminal, write changes only."""
         self._stream, self._clock = stream, clock
         self._is_terminal = stream.isatty()
-        self._said = -PERIOD
+        self._written = -PERIOD
         self._last: tuple[Enum, str] | None = None
 
     def note(self, tick: TickStatus) -> None:
-        """Say what a tick was, if it is time to."""
+        """Show a tick, if the status changed or an update is due."""
         now = self._clock()
         kind = tick.state, _NUMBER.sub("", tick.reason)
         changed = kind != self._last
         if not changed and not self._is_terminal:
             return
-        if not changed and now - self._said < PERIOD:
+        if not changed and now - self._written < PERIOD:
             return
-        self._last, self._said = kind, now
-        text = words_of(tick)
+        self._last, self._written = kind, now
+        text = status_text(tick)
         if self._is_terminal:
             text = f"\r{text:<79.120}" + ("\n" if changed else "")
         else:
@@ -88,7 +89,7 @@ class StatusLine:
             self._write("\n")
 
     def _write(self, text: str) -> None:
-        """Write what can be written: a terminal that hung up ends no walk."""
+        """Write, ignoring errors: a closed terminal must not end the walk."""
         with suppress(OSError):
             self._stream.write(text)
             self._stream.flush()

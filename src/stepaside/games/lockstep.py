@@ -8,7 +8,7 @@ from typing import Protocol
 import numpy as np
 
 from ..core.errors import ConfigurationError
-from ..drivers.joint.frame_clock import TICK
+from ..drivers.lola.nao_joints import TICK
 from .match import Match
 from .outcome import Outcome
 

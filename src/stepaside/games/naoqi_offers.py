@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 from ..control.velocity_walk import fastest
 from ..core.errors import ConfigurationError
-from ..drivers.joint.frame_clock import TICK
+from ..drivers.lola.nao_joints import TICK
 from ..drivers.naoqi.joint_server import NaoqiJointServer
 from ..drivers.naoqi.naoqi_server import NaoqiServer
 from ..drivers.velocity.velocity_body import VelocityCommand

@@ -1,6 +1,6 @@
 """Simulated robots offered on ROS 2 topics."""
 
-from ..drivers.joint.frame_clock import TICK
+from ..drivers.lola.nao_joints import TICK
 from ..drivers.ros2.dds_domain import DdsParticipant
 from ..drivers.ros2.ros2_server import Ros2Server, WorldClock
 from .robot_offers import OfferedPlayer

@@ -5,7 +5,7 @@ from contextlib import ExitStack
 from typing import Any, NamedTuple
 
 from ..core.errors import ConfigurationError
-from ..drivers.joint.frame_clock import TICK
+from ..drivers.lola.nao_joints import TICK
 from .duel import Duel, make_duel_run
 from .duel_run import DuelRun
 from .duel_settings import DuelSettings

@@ -1,1 +1,1 @@
-"""Where the images of a robot that is played come from."""
+"""Cameras of real and remote robots."""

@@ -1,4 +1,4 @@
-"""What a camera of a robot is to whoever plays it."""
+"""Interface of image sources, and a live camera read by a thread."""
 
 import logging
 from collections.abc import Callable
@@ -9,33 +9,33 @@ from typing import NamedTuple, Protocol
 from ...perception.camera_model import CameraModel
 from ...perception.images import ColourImage, Percept, Pixels
 
-JOINING = 2.0  # longest time that letting go takes, in [s]
-STALE = 1.0  # age at which an image says nothing any more, in [s]
+JOIN_TIMEOUT = 2.0  # for the camera's thread to end, in [s]
+MAX_AGE = 1.0  # age at which an image is discarded, in [s]
 log = logging.getLogger(__name__)
 
 
 class ImageSource(Protocol):
-    """Cameras of a robot."""
+    """One or more cameras of a robot."""
 
     def percepts(self, frame: int, now: float, tick: float) -> list[Percept]:
-        """What has arrived since the last call, oldest first.
+        """Return the images since the last call, oldest first.
 
         Args:
             frame: Number of the robot's newest sensor frame.
-            now: Its time, in [s].
+            now: Time of that frame, in [s].
             tick: Time from one frame to the next, in [s].
         """
 
     def close(self) -> None:
-        """Stop looking."""
+        """Release the cameras."""
 
 
 class CameraFrame(NamedTuple):
-    """An image as it came from a camera.
+    """Image with its time of arrival.
 
     Attributes:
         pixels: Red, green and blue. Shape (height, width, 3).
-        at: When it came, on this computer's clock, in [s].
+        at: Time of arrival on this computer's clock, in [s].
     """
 
     pixels: Pixels
@@ -43,13 +43,12 @@ class CameraFrame(NamedTuple):
 
 
 class LiveCamera:
-    """A camera that is waited for by a thread of its own.
+    """Camera read by its own thread; only the newest image is used.
 
-    Only the newest image counts: who is slow misses some. Its exposure is
-    taken to have been some time before it came.
+    The exposure is assumed a constant latency before the arrival.
 
     Attributes:
-        model: Optics; scaled to the size of the images that come.
+        model: Optics, which are scaled to the size of each image.
     """
 
     def __init__(
@@ -62,63 +61,61 @@ class LiveCamera:
         latency: float,
         clock: Callable[[], float] = monotonic,
     ) -> None:
-        """Begin to look.
+        """Start the thread.
 
         Args:
-            name: Of the camera, for messages.
-            grab: Waits for an image; None where there will be no more.
-            let_go: Closes the camera; called by the thread that grabs.
+            name: Name of the camera, for messages.
+            grab: Function that waits for an image; None at the end.
+            let_go: Function that closes the camera, called by the thread.
             model: Optics.
-            latency: From exposure to the image in hand, in [s].
+            latency: Time from exposure to arrival, in [s].
             clock: Time of this computer, in [s].
         """
         self._name, self._grab, self._let_go = name, grab, let_go
         self.model, self._latency, self._clock = model, latency, clock
         self._newest: CameraFrame | None = None
         self._ended = Event()
-        self._thread = Thread(target=self._look, name=name, daemon=True)
+        self._thread = Thread(target=self._grab_all, name=name, daemon=True)
         self._thread.start()
 
     def percepts(self, frame: int, now: float, tick: float) -> list[Percept]:
-        """The newest image, if it is new."""
+        """Return the newest image, if there is a new one."""
         newest, self._newest = self._newest, None
         if newest is None:
             return []
         age = self._clock() - newest.at + self._latency
-        if age > STALE:
+        if age > MAX_AGE:
             return []
         height, width = newest.pixels.shape[:2]
         model = scaled(self.model, width, height)
         return [ColourImage(now - age, model, newest.pixels)]
 
     def close(self) -> None:
-        """Stop looking, and wait until the camera is let go."""
+        """Stop the thread, which closes the camera."""
         self._ended.set()
-        self._thread.join(JOINING)
+        self._thread.join(JOIN_TIMEOUT)
 
-    def _look(self) -> None:
+    def _grab_all(self) -> None:
         try:
             while not self._ended.is_set():
                 pixels = self._grab()
                 if pixels is None:
-                    log.warning(
-                        "camera %s gives no image any more", self._name
-                    )
+                    log.warning("camera %s sends no more images", self._name)
                     return
                 self._newest = CameraFrame(pixels, self._clock())
-        except Exception as error:  # whatever a camera's library raises
-            log.warning("camera %s is lost: %s", self._name, error)
+        except Exception as error:  # any error of the camera's library
+            log.warning("camera %s failed: %s", self._name, error)
         finally:
             self._let_go()
 
 
 def scaled(model: CameraModel, width: int, height: int) -> CameraModel:
-    """The same optics with another number of pixels.
+    """Return the same optics for another image size.
 
     Args:
         model: Optics.
-        width: Columns.
-        height: Rows.
+        width: Columns, in [px].
+        height: Rows, in [px].
     """
     if (model.width, model.height) == (width, height):
         return model

@@ -1,11 +1,11 @@
-"""Images on their way from a simulated robot to who plays it.
+"""Wire format of images from a simulated robot.
 
-A message has a head of 52 bytes, little-endian, and the pixels after it.
-The head: four letters that say what follows (``RGB8``: rows of red, green
-and blue, one byte each; ``DPTH``: rows of depths in [m], float32, 0 where
-nothing came back), the number of the sensor frame with which it arrived
-(uint32), its age then in [s] (float64), columns and rows (uint16 each), the
-focal lengths across and down in pixels, and the nearest and the farthest
+A message is a little-endian header of 52 bytes followed by the pixels. The
+header holds four letters for the format (``RGB8``: rows of red, green and
+blue, one byte each; ``DPTH``: rows of depths in [m], float32, 0 without an
+echo), the number of the sensor frame with which the image arrived (uint32),
+its age then in [s] (float64), columns and rows (uint16 each), the
+horizontal and vertical focal lengths in [px], and the minimum and maximum
 depth in [m] (float64 each; 0 for colours).
 """
 
@@ -19,25 +19,25 @@ from ...core.errors import StepAsideError
 from ...perception.camera_model import CameraModel
 from ...perception.images import ColourImage, DepthImage
 
-HEAD = struct.Struct("<4sIdHHdddd")
+HEADER = struct.Struct("<4sIdHHdddd")
 COLOUR, DEPTH = b"RGB8", b"DPTH"
-PIXEL = {COLOUR: 3, DEPTH: 4}  # bytes of one
-OLDEST = 10.0  # age beyond which an image says nothing, in [s]
-SIZES = (8, 4096)  # columns or rows that an image can have
-MOST = 1 << 23  # bytes of one image
+PIXEL_BYTES = {COLOUR: 3, DEPTH: 4}
+MAX_AGE = 10.0  # age of an image that is accepted, in [s]
+SIZES = (8, 4096)  # range of columns and rows, in [px]
+MAX_BYTES = 1 << 23  # size of one image
 
 
 class ImageError(StepAsideError, ValueError):
-    """Bytes that are no image."""
+    """Bytes that are not a valid image message."""
 
 
 class ImageMessage(NamedTuple):
-    """One image on its way.
+    """Image with the sensor frame that it belongs to.
 
     Attributes:
         frame: Number of the sensor frame with which it arrived.
-        age: How long before that frame it was taken, in [s].
-        image: The image; its time is not known here, and zero.
+        age: Time from exposure to that frame, in [s].
+        image: The image; its time is unknown here, and zero.
     """
 
     frame: int
@@ -46,7 +46,7 @@ class ImageMessage(NamedTuple):
 
 
 def pack_image(message: ImageMessage) -> bytes:
-    """Bytes of a message."""
+    """Encode a message."""
     frame, age, image = message
     camera = image.camera
     near = far = 0.0
@@ -55,66 +55,86 @@ def pack_image(message: ImageMessage) -> bytes:
     else:
         letters, data = DEPTH, image.depths.astype("<f4").tobytes()
         near, far = image.near, image.far
-    size = camera.width, camera.height
-    focal = camera.focal_x, camera.focal_y
-    return HEAD.pack(letters, frame, age, *size, *focal, near, far) + data
+    header = HEADER.pack(
+        letters,
+        frame,
+        age,
+        camera.width,
+        camera.height,
+        camera.focal_x,
+        camera.focal_y,
+        near,
+        far,
+    )
+    return header + data
 
 
 class ImageReader:
-    """Finds images in a stream of bytes."""
+    """Incremental decoder of a stream of image messages."""
 
     def __init__(self) -> None:
-        """Begin with nothing."""
+        """Start with an empty buffer."""
         self._buffer = bytearray()
 
     def feed(self, data: bytes) -> list[ImageMessage]:
-        """Take bytes, and give the images that are whole.
+        """Add received bytes, and return the images that are complete.
 
         Args:
-            data: What has arrived.
+            data: Received bytes.
 
         Raises:
-            ImageError: If the stream is none; it is not to be read on.
+            ImageError: If the stream is invalid; it cannot be continued.
         """
         self._buffer += data
-        found: list[ImageMessage] = []
-        while len(self._buffer) >= HEAD.size:
-            head = HEAD.unpack_from(self._buffer)
-            size = HEAD.size + _size_of(head)
+        messages: list[ImageMessage] = []
+        while len(self._buffer) >= HEADER.size:
+            header = HEADER.unpack_from(self._buffer)
+            size = HEADER.size + _payload_size(header)
             if len(self._buffer) < size:
                 break
-            found.append(_image(head, bytes(self._buffer[HEAD.size : size])))
+            payload = bytes(self._buffer[HEADER.size : size])
+            messages.append(_message(header, payload))
             del self._buffer[:size]
-        return found
+        return messages
 
 
-def _size_of(
-    head: tuple[bytes, int, float, int, int, *tuple[float, ...]],
+def _payload_size(
+    header: tuple[bytes, int, float, int, int, *tuple[float, ...]],
 ) -> int:
-    """Bytes that follow a head, which must be one."""
-    letters, _, age, width, height, *numbers = head
+    """Check a header, and return the number of bytes that follow it."""
+    letters, _, age, width, height, *numbers = header
     low, high = SIZES
-    if letters not in PIXEL:
+    if letters not in PIXEL_BYTES:
         raise ImageError(f"an image must begin with {COLOUR!r} or {DEPTH!r}")
     if not (low <= width <= high and low <= height <= high):
-        raise ImageError(f"no image has {width} by {height} pixels")
+        raise ImageError(
+            f"width and height must lie in [{low}, {high}] px, got {width} "
+            f"and {height} px"
+        )
     if not all(isfinite(value) for value in (age, *numbers)):
-        raise ImageError("what an image says of itself must be finite")
+        raise ImageError("numbers of an image's header must be finite")
     focal_x, focal_y, near, far = numbers
-    if not (0.0 <= age <= OLDEST and min(focal_x, focal_y) > 1.0):
-        raise ImageError(f"no image has age {age} and focal length {focal_x}")
+    if not (0.0 <= age <= MAX_AGE and min(focal_x, focal_y) > 1.0):
+        raise ImageError(
+            f"age must lie in [0, {MAX_AGE:g}] s and focal lengths exceed "
+            f"1 px, got {age} s and {focal_x}, {focal_y} px"
+        )
     if not 0.0 <= near <= far:
-        raise ImageError(f"no depth lies from {near} to {far} m")
-    size = width * height * PIXEL[letters]
-    if size > MOST:
-        raise ImageError(f"an image must have at most {MOST} bytes")
+        raise ImageError(
+            f"depths must satisfy 0 <= near <= far, got {near} and {far} m"
+        )
+    size = width * height * PIXEL_BYTES[letters]
+    if size > MAX_BYTES:
+        raise ImageError(
+            f"an image must have at most {MAX_BYTES} bytes, got {size}"
+        )
     return size
 
 
-def _image(
-    head: tuple[bytes, int, float, int, int, *tuple[float, ...]], data: bytes
+def _message(
+    header: tuple[bytes, int, float, int, int, *tuple[float, ...]], data: bytes
 ) -> ImageMessage:
-    letters, frame, age, width, height, *numbers = head
+    letters, frame, age, width, height, *numbers = header
     focal_x, focal_y, near, far = numbers
     camera = CameraModel(width, height, focal_x, focal_y)
     if letters == COLOUR:

@@ -1,4 +1,4 @@
-"""Cameras of Video4Linux, and films in place of one, through OpenCV."""
+"""Video4Linux cameras, or video files in their place, through OpenCV."""
 
 from pathlib import Path
 
@@ -20,39 +20,39 @@ except ImportError as error:
 DEVICE = "/dev/video"
 
 
-def open_v4l2(place: str, model: CameraModel, *, latency: float) -> LiveCamera:
-    """Open a camera of this computer, at the size of a model.
+def open_v4l2(path: str, model: CameraModel, *, latency: float) -> LiveCamera:
+    """Open a camera of this computer.
 
-    A device is told to keep one image, so that none is old; what it gives
-    may have another size, and the model is scaled to it.
+    The device's buffer is set to one image, so that images are current. If
+    the device delivers another size than requested, the optics are scaled.
 
     Args:
-        place: Device like ``/dev/video0``, or a film, whose images come as
-            fast as they are read.
-        model: Optics and size.
-        latency: From exposure to the image in hand, in [s].
+        path: Device like ``/dev/video0``, or a video file, which is read
+            without pause.
+        model: Optics and requested size.
+        latency: Time from exposure to arrival, in [s].
 
     Raises:
         SessionLost: If there is no camera.
     """
-    is_device = place.startswith(DEVICE)
-    if not Path(place).exists():
-        raise SessionLost(f"no camera at {place}")
+    is_device = path.startswith(DEVICE)
+    if not Path(path).exists():
+        raise SessionLost(f"no camera at {path}")
     backend = cv2.CAP_V4L2 if is_device else cv2.CAP_ANY
-    device = cv2.VideoCapture(place, backend)
+    device = cv2.VideoCapture(path, backend)
     if not device.isOpened():
         device.release()
-        raise SessionLost(f"{place} cannot be opened as a camera")
+        raise SessionLost(f"{path} cannot be opened as a camera")
     if is_device:
         device.set(cv2.CAP_PROP_FRAME_WIDTH, model.width)
         device.set(cv2.CAP_PROP_FRAME_HEIGHT, model.height)
         device.set(cv2.CAP_PROP_BUFFERSIZE, 1)
 
     def grab() -> Pixels | None:
-        there, image = device.read()
-        if not there:
+        is_read, image = device.read()
+        if not is_read:
             return None
         pixels = cv2.cvtColor(image, cv2.COLOR_BGR2RGB)
         return np.asarray(pixels, dtype=np.uint8)
 
-    return LiveCamera(place, grab, device.release, model, latency=latency)
+    return LiveCamera(path, grab, device.release, model, latency=latency)

@@ -1,1 +1,1 @@
-"""Robots that are driven by their joints, whatever protocol they speak."""
+"""Control of robots by their joints, independent of the protocol."""

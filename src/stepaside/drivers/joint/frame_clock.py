@@ -1,58 +1,59 @@
-"""Which tick a frame belongs to, and whether it can be true.
+"""Numbering of sensor frames, with checks of their order and rate.
 
-LoLA's frames carry no time. Their number is their time, 12 ms each; the
-clock of this computer says whether so many can have passed. Simulated
-robots count their frames in a battery value, which shows frames that are
-missing or come twice.
+Frames carry no time: one frame is one tick. The clock of this computer
+bounds how many frames can have passed. Simulated robots number their
+frames, which reveals missing and repeated ones.
 """
 
 from ...core.errors import StepAsideError
-from ..lola.conventions import COUNTER_RANGE
 
-TICK = 0.012  # from one frame to the next, in [s]
-LEAD = 0.1  # how far frames may run ahead of the clock, in [s]
+COUNTER_RANGE = 1 << 16  # frames are numbered modulo this
+LEAD = 0.1  # time by which frames may run ahead of the clock, in [s]
 MISSING = 8  # frames that may be missing between two: 0.1 s
-DRIFT = 0.02  # by which two clocks may differ, relatively
+DRIFT = 0.02  # relative difference of two clocks' rates at most
 
 
 class FrameOrderError(StepAsideError, ValueError):
-    """A frame that comes from the future, or out of order."""
+    """Frame that is out of order, or ahead of the clock."""
 
 
 class FrameClock:
-    """Counts frames.
+    """Counter of sensor frames.
 
     Attributes:
         count: Number of the newest frame, from 0; -1 before the first.
     """
 
-    def __init__(self, *, counted: bool = False, paced: bool = True) -> None:
-        """Begin before the first frame.
+    def __init__(
+        self, tick: float, *, counted: bool = False, paced: bool = True
+    ) -> None:
+        """Start before the first frame.
 
         Args:
-            counted: Whether the frames carry their own number.
-            paced: Whether they come in real time.
+            tick: Time from one frame to the next, in [s].
+            counted: Whether the frames carry their number.
+            paced: Whether the frames come in real time.
         """
         self.count = -1
-        self._counted, self._paced = counted, paced
+        self._tick, self._counted, self._paced = tick, counted, paced
         self._lead = 0.0
         self._arrived: float | None = None
         self._number: int | None = None
 
     def note(self, arrived: float, number: float, passed: int = 1) -> int:
-        """Number a frame.
+        """Count a frame.
 
         Args:
-            arrived: When it came, in [s].
-            number: Where simulated robots count their frames.
-            passed: Frames that came since the last one, this included.
+            arrived: Time of arrival, in [s].
+            number: Number that the frame carries, if frames are counted.
+            passed: Frames since the last call, including this one.
 
         Returns:
-            Its number, from 0 for the first.
+            Number of the frame, from 0 for the first.
 
         Raises:
-            FrameOrderError: If frames run ahead of the clock or their
-                numbers do not follow each other.
+            FrameOrderError: If frames run ahead of the clock, or their
+                numbers are not in order.
         """
         passed = self._check_number(number, passed)
         if self._paced:
@@ -61,11 +62,14 @@ class FrameClock:
         return self.count
 
     def _check_number(self, number: float, passed: int) -> int:
-        """Frames that have passed by their own count, if they have one."""
+        """Return the frames passed, by the frames' numbers if counted."""
         if not self._counted:
             return passed
         if not 0 <= number < COUNTER_RANGE or number != int(number):
-            raise FrameOrderError(f"frame number {number} is none")
+            raise FrameOrderError(
+                "a frame's number must be a whole number in "
+                f"[0, {COUNTER_RANGE - 1}], got {number}"
+            )
         last = self._number
         if last is not None:
             by_number = (int(number) - last) % COUNTER_RANGE
@@ -80,8 +84,8 @@ class FrameClock:
     def _check_lead(self, arrived: float, passed: int) -> None:
         """Compare the frames' time with that of the clock."""
         if self._arrived is not None:
-            gone = arrived - self._arrived
-            lead = self._lead + passed * TICK - (1.0 + DRIFT) * gone
+            elapsed = arrived - self._arrived
+            lead = self._lead + passed * self._tick - (1.0 + DRIFT) * elapsed
             self._lead = max(0.0, lead)
         self._arrived = arrived
         if self._lead > LEAD:

@@ -1,47 +1,46 @@
-"""Sensor and actuator frames of LoLA as values."""
+"""Frames that a driver exchanges with the joint control of any robot."""
 
 from collections.abc import Callable, Mapping
-from types import MappingProxyType
 from typing import Any, NamedTuple
 
-import numpy as np
-
+from ...core.errors import StepAsideError
 from ...core.poses import Array
-from ..lola.wire import (
-    ACTUATOR_FIELDS,
-    LIGHTS,
-    LONGEST_ANSWER,
-    SENSOR_BYTES,
-    SENSOR_FIELDS,
-    WireError,
-    check_map,
-    decode,
-    encode,
-)
-
-NO_LIGHTS: Mapping[str, tuple[float, ...]] = MappingProxyType({})
+from ...perception.images import Percept, SonarEcho
+from ...perception.measurement import Measurement, Sighting
+from .joint_map import JointMap
+from .safety import RobotState
 
 
-class SensorFrame(NamedTuple):
-    """What the robot says every 12 ms, in its own conventions.
+class FrameError(StepAsideError, ValueError):
+    """Data that are not a valid sensor frame."""
+
+
+class JointFrame(NamedTuple):
+    """Sensor frame of one tick, in the conventions of control.
 
     Attributes:
-        position: Joint angles, in [rad]. Shape (25,).
-        stiffness: Shares of the full torque. Shape (25,).
-        current: In [A]. Shape (25,).
-        temperature: Of the motors, in [degC]. Shape (25,).
-        status: 0 normal, 1 hot and weakened, 2 by more than 30 %, 3
-            critical and without stiffness; of each motor.
-        accelerometer: Minus the specific force, in [m/s^2]. Shape (3,).
-        gyroscope: Angular velocity, in [rad/s]. Shape (3,).
+        position: Joint angles, in [rad]. Shape (motors,).
+        stiffness: Stiffness, from 0 to 1. Shape (motors,).
+        current: Motor currents, in [A]. Shape (motors,).
+        temperature: Motor temperatures, in [degC]. Shape (motors,).
+        status: Status of each motor: 0 normal, 1 hot with reduced
+            stiffness, 2 reduced by more than 30 %, 3 critical without
+            stiffness.
+        accelerometer: Specific force in the torso frame, in [m/s^2].
+            Shape (3,).
+        gyroscope: Angular velocity in the torso frame, in [rad/s].
+            Shape (3,).
         angles: Roll and pitch of the torso, in [rad].
-        fsr: Pressing forces as masses, in [kg]; left front-left,
-            front-right, rear-left, rear-right, then right. Shape (8,).
-        sonar: Distances left and right, in [m].
-        touch: The 14 buttons, 1 where pressed; the chest's is the first.
-        battery: Charge from 0 to 1, then values whose order sources
-            dispute.
-        robot_config: Number and version of the body, then of the head.
+        foot_forces: Forces on the foot sensors, in [N]. Shape (sensors,).
+        load: Sum of all foot sensors, in [kg].
+        echoes: Distances of the sonars, in [m], by name; None without an
+            echo.
+        chest_pressed: Whether the chest button is pressed.
+        bumper_pressed: Whether a foot bumper is pressed.
+        charge: Charge of the battery, from 0 to 1.
+        number: Number of the frame, modulo ``COUNTER_RANGE``, if counted.
+        counted: Whether the robot numbers its frames.
+        lock_step: Whether the robot is simulated and waits for answers.
     """
 
     position: Array
@@ -52,150 +51,71 @@ class SensorFrame(NamedTuple):
     accelerometer: Array
     gyroscope: Array
     angles: tuple[float, float]
-    fsr: Array
-    sonar: tuple[float, float]
-    touch: tuple[float, ...]
-    battery: tuple[float, float, float, float]
-    robot_config: tuple[str, str, str, str]
+    foot_forces: Array
+    load: float
+    echoes: Mapping[str, float | None]
+    chest_pressed: bool
+    bumper_pressed: bool
+    charge: float
+    number: float
+    counted: bool
+    lock_step: bool
 
 
-class ActuatorFrame(NamedTuple):
-    """What a client asks of the robot; what is None is left as it is.
+class JointCommand(NamedTuple):
+    """Command of one tick; None leaves a value unchanged.
 
     Attributes:
-        position: Joint targets, in [rad]. Shape (25,).
-        stiffness: Shares of the full torque, from 0 to 1. Shape (25,).
-        lights: Brightness of lights, from 0 to 1, by key.
-        sonar: Whether the left and the right sonar sound.
+        position: Joint targets, in [rad]. Shape (motors,).
+        stiffness: Stiffness, from 0 to 1. Shape (motors,).
+        state: State of the robot, for its display.
+        has_sighting: Whether there is a sighting of the opponent, likewise.
+        charge: Charge of the battery, from 0 to 1, likewise.
     """
 
-    position: Array | None = None
-    stiffness: Array | None = None
-    lights: Mapping[str, tuple[float, ...]] = NO_LIGHTS
-    sonar: tuple[bool, bool] | None = None
-
-
-def pack_sensors(frame: SensorFrame) -> bytes:
-    """Bytes of a sensor frame: always 896.
-
-    Raises:
-        WireError: If a value has the wrong length, is not finite, or the
-            texts make another length.
-    """
-    values = {
-        field.key: value.tolist() if isinstance(value, np.ndarray) else value
-        for field, value in zip(SENSOR_FIELDS, frame, strict=True)
-    }
-    data = encode(values, SENSOR_FIELDS)
-    if len(data) != SENSOR_BYTES:
-        raise WireError(
-            f"a sensor frame must have {SENSOR_BYTES} bytes, got {len(data)}; "
-            "RobotConfig must have 20, 5, 20 and 5 characters"
-        )
-    return data
-
-
-def unpack_sensors(data: bytes) -> SensorFrame:
-    """Read a sensor frame.
-
-    Raises:
-        WireError: If the bytes are anything else.
-    """
-    if len(data) != SENSOR_BYTES:
-        raise WireError(
-            f"a sensor frame must have {SENSOR_BYTES} bytes, got {len(data)}"
-        )
-    values = check_map(decode(data), SENSOR_FIELDS)
-    position, stiffness, current, temperature = (
-        np.array(values[field.key]) for field in SENSOR_FIELDS[:4]
-    )
-    roll, pitch = values["Angles"]
-    left, right = values["Sonar"]
-    charge, second, third, fourth = values["Battery"]
-    body, body_version, head, head_version = values["RobotConfig"]
-    return SensorFrame(
-        position,
-        stiffness,
-        current,
-        temperature,
-        tuple(values["Status"]),
-        np.array(values["Accelerometer"]),
-        np.array(values["Gyroscope"]),
-        (roll, pitch),
-        np.array(values["FSR"]),
-        (left, right),
-        tuple(values["Touch"]),
-        (charge, second, third, fourth),
-        (body, body_version, head, head_version),
-    )
-
-
-def pack_actuators(frame: ActuatorFrame) -> bytes:
-    """Bytes of an actuator frame: 786 if it has every key.
-
-    Raises:
-        WireError: If a value has the wrong length or is not finite, or a
-            light is unknown.
-    """
-    values: dict[str, object] = {}
-    if frame.position is not None:
-        values["Position"] = frame.position.tolist()
-    if frame.stiffness is not None:
-        values["Stiffness"] = frame.stiffness.tolist()
-    for key, light in frame.lights.items():
-        if key not in LIGHTS:
-            raise WireError(f"there is no light {key!r:.40}")
-        values[key] = light
-    if frame.sonar is not None:
-        values["Sonar"] = frame.sonar
-    return encode(values, ACTUATOR_FIELDS)
-
-
-def unpack_actuators(data: bytes) -> ActuatorFrame:
-    """Read an actuator frame; see :func:`take_actuators`."""
-    if len(data) > LONGEST_ANSWER:
-        raise WireError(
-            f"an actuator frame has at most {LONGEST_ANSWER} bytes, "
-            f"got {len(data)}"
-        )
-    return take_actuators(decode(data))
-
-
-def take_actuators(decoded: object) -> ActuatorFrame:
-    """Turn a decoded object into an actuator frame.
-
-    Stiffness and lights outside their range are cut to it: what peers
-    leave unset is garbage there.
-
-    Raises:
-        WireError: If it is anything else.
-    """
-    values = check_map(decoded, ACTUATOR_FIELDS, partial=True)
-    position, stiffness = values.get("Position"), values.get("Stiffness")
-    sonar = values.get("Sonar")
-    return ActuatorFrame(
-        None if position is None else np.array(position),
-        None if stiffness is None else np.clip(stiffness, 0.0, 1.0),
-        {
-            key: tuple(min(max(entry, 0.0), 1.0) for entry in entries)
-            for key, entries in values.items()
-            if key in LIGHTS
-        },
-        None if sonar is None else (sonar[0], sonar[1]),
-    )
+    position: Array | None
+    stiffness: Array | None
+    state: RobotState
+    has_sighting: bool
+    charge: float
 
 
 class Codec(NamedTuple):
-    """Between frames and what a line carries.
+    """Conversion between frames and what a link carries.
 
     Attributes:
-        read: A sensor frame of what arrived; WireError if it is none.
-        write: What is sent for an actuator frame.
+        read: Function that decodes a sensor frame, or raises FrameError.
+        write: Function that encodes a command.
     """
 
-    read: Callable[[Any], SensorFrame]
-    write: Callable[[ActuatorFrame], Any]
+    read: Callable[[Any], JointFrame]
+    write: Callable[[JointCommand], Any]
 
 
-ON_THE_WIRE = Codec(unpack_sensors, pack_actuators)
-AS_THEY_ARE = Codec(lambda frame: frame, lambda frame: frame)
+def measurement_of(
+    frame: JointFrame,
+    joints: JointMap,
+    time: float,
+    sighting: Sighting | None = None,
+) -> Measurement:
+    """Convert a sensor frame to a measurement.
+
+    Args:
+        frame: Sensor frame.
+        joints: Map to the order of the description's joints.
+        time: Time of the frame, in [s].
+        sighting: Newest sighting of the opponent, if there is one.
+    """
+    echoes: tuple[Percept, ...] = tuple(
+        SonarEcho(time, name, distance)
+        for name, distance in frame.echoes.items()
+    )
+    return Measurement(
+        time,
+        joints.from_motors(frame.position),
+        frame.gyroscope,
+        frame.accelerometer,
+        frame.foot_forces,
+        sighting,
+        echoes,
+    )

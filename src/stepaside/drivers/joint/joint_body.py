@@ -1,8 +1,9 @@
-"""A robot that speaks LoLA, behind the interface that control moves."""
+"""Body of a robot that is driven by its joints over a link."""
 
 import logging
 from collections.abc import Callable, Sequence
 from time import monotonic, sleep
+from typing import Protocol
 
 import numpy as np
 
@@ -10,13 +11,9 @@ from ...core.poses import Array
 from ...perception.measurement import Measurement, Sighting
 from ..cameras.image_source import ImageSource
 from ..guardian_process import SessionLost
-from ..lola.conventions import measurement_of
-from ..lola.lights import lights_for
-from ..lola.sight_channel import SightSubscription
-from .frame_clock import TICK
 from .frame_receiver import FrameReceiver
-from .frames import ON_THE_WIRE, ActuatorFrame, Codec, SensorFrame
-from .joint_map import LEGS, JointMap
+from .frames import Codec, JointCommand, JointFrame, measurement_of
+from .joint_map import JointMap, MotorTable
 from .link import FrameLink
 from .motion_states import JointMotionState
 from .safety import RobotState, Safety
@@ -27,88 +24,105 @@ from .vitals import Vitals
 log = logging.getLogger(__name__)
 
 
-class JointBody:
-    """One robot at the other end of a LoLA session.
+class SightSubscription(Protocol):
+    """Source of the ideal line of sight of a simulated robot."""
 
-    Joint targets of control reach the joints only while the state says so;
-    otherwise the body moves by itself, slowly, or not at all. Between two
-    calls of :meth:`read` nothing is sent: a control that hangs lets the
-    robot's own watchdog act.
+    def newest(self, frame: int, start: int) -> Sighting | None:
+        """Return the newest sighting of a frame or an earlier one.
+
+        Args:
+            frame: Number of the newest sensor frame.
+            start: Number of the frame at which time is zero.
+        """
+
+    def close(self) -> None:
+        """Disconnect."""
+
+
+class JointBody:
+    """Robot behind the interface read, write, step, close.
+
+    The joint targets of control are followed only in the states that allow
+    it; otherwise the joints move slowly to a posture, or are limp. Nothing
+    is sent between two calls of :meth:`read`, so that the robot's own
+    watchdog acts if control hangs.
 
     Attributes:
         tick: Time from one frame to the next, in [s].
-        frame: Newest good frame; None before the first.
-        sighting: Newest sighting that came with it, if any did.
+        frame: Newest valid frame; None before the first.
+        sighting: Newest sighting of the ideal line of sight, if any.
     """
-
-    tick = TICK
 
     def __init__(
         self,
         link: FrameLink,
         joint_names: Sequence[str],
         stance: Array,
+        motors: MotorTable,
+        codec: Codec,
         *,
         sight: SightSubscription | None = None,
         eyes: ImageSource | None = None,
         guardian: StiffnessGuardian | None = None,
         safety: SafetySettings | None = None,
         dry_run: bool = False,
-        codec: Codec = ON_THE_WIRE,
         clock: Callable[[], float] = monotonic,
         pause: Callable[[float], None] = sleep,
     ) -> None:
-        """Take over a session.
+        """Start a session; the robot is limp.
 
         Args:
-            link: What carries its frames; closed with the body.
+            link: Link that carries the frames; closed with the body.
             joint_names: Actuated joints, in the order of joint targets.
             stance: Posture in which control begins, in [rad].
                 Shape (joints,).
-            sight: Ideal line of sight, where a simulated robot offers one.
-            eyes: Its cameras, if it is played with those.
-            guardian: Who lets go of the robot if this process cannot.
-            safety: Limits of what is safe.
-            dry_run: Command nothing but lights.
-            codec: Between frames and what the link carries.
+            motors: Motors of the robot, in the order of its frames.
+            codec: Conversion between frames and what the link carries.
+            sight: Ideal line of sight of a simulated robot, if used.
+            eyes: Cameras, if used.
+            guardian: Guardian that releases the robot if this process
+                fails.
+            safety: Limits of safe operation.
+            dry_run: Whether to command nothing but lights.
             clock: Time of this computer, in [s].
-            pause: Lets time pass, in [s].
+            pause: Function that sleeps for a time in [s].
 
         Raises:
-            ModelError: If LoLA has no motor for one of the joints.
+            ModelError: If the robot has no motor for one of the joints.
         """
         settings = safety or SafetySettings()
         self._link, self._sight, self._guardian = link, sight, guardian
-        self._eyes = eyes
-        self._joints = JointMap(joint_names)
-        self._motion = JointMotionState(self._joints, stance)
-        self._vitals = Vitals(settings.look_ahead)
+        self._eyes, self._motors = eyes, motors
+        self.tick = motors.tick
+        self._joints = JointMap(joint_names, motors)
+        self._motion = JointMotionState(self._joints, stance, motors)
+        self._vitals = Vitals(settings.look_ahead, motors)
         self._silence = settings.silence
         self._safety = Safety(settings)
         self._hearing = FrameReceiver(
-            link, settings.silence, clock, codec.read
+            link, settings.silence, clock, codec.read, motors.tick
         )
         self._codec = codec
         self._dry_run = dry_run
         self._clock, self._pause = clock, pause
         self._start = 0
         self._state = RobotState.LIMP
-        self.frame: SensorFrame | None = None
+        self.frame: JointFrame | None = None
         self.sighting: Sighting | None = None
 
     @property
     def state(self) -> RobotState:
-        """What the robot is doing."""
+        """State of the robot."""
         return self._state
 
     @property
     def reason(self) -> str:
-        """Why it does that, in words."""
+        """Reason for the state, as a message."""
         return self._safety.reason
 
     @property
     def refused(self) -> int:
-        """Frames that were none, so far."""
+        """Number of invalid frames so far."""
         return self._hearing.refused
 
     def read(self) -> Measurement:
@@ -117,8 +131,8 @@ class JointBody:
         Time is zero at the frame with which walking begins.
 
         Raises:
-            SessionLost: If there is none in time, or none that can be true;
-                the robot has been told to let go then.
+            SessionLost: If there is no valid frame in time; the robot has
+                been commanded to go limp then.
         """
         try:
             frame, gap = self._hearing.listen()
@@ -126,7 +140,7 @@ class JointBody:
             self._lose(str(error))
             raise
         if self._hearing.lock_step and self._guardian is not None:
-            self._guardian.dismiss()  # time may stand still in such a world
+            self._guardian.dismiss()  # simulated time may stand still
             self._guardian = None
         count = self._hearing.count
         if self.frame is not None and gap > self._silence:
@@ -134,90 +148,91 @@ class JointBody:
                 self._safety.fail(
                     f"no frame was read for {gap:.2f} s", self._time
                 )
-                self._motion.weaken(float(frame.stiffness[LEGS].max()))
+                self._motion.weaken(
+                    float(frame.stiffness[self._motors.legs].max())
+                )
         self.frame = frame
-        walked = self._state.moves_by_control
-        self._change(self._safety.frame(self._seen(frame)))
-        if self._state is RobotState.WALKING and not walked:
+        was_walking = self._state.moves_by_control
+        self._change(self._safety.frame(self._safety_inputs(frame)))
+        if self._state is RobotState.WALKING and not was_walking:
             self._start = count
         if self._sight is not None:
             self.sighting = self._sight.newest(count, self._start)
-        time = (count - self._start) * TICK
+        time = (count - self._start) * self.tick
         measured = measurement_of(frame, self._joints, time, self.sighting)
         if self._eyes is None:
             return measured
-        images = self._eyes.percepts(count, time, TICK)
+        images = self._eyes.percepts(count, time, self.tick)
         return measured._replace(percepts=(*images, *measured.percepts))
 
     def write(self, joint_targets: Array) -> None:
-        """Answer the frame that was read last.
+        """Answer the newest frame.
 
         Args:
-            joint_targets: What control wants, in [rad]; followed only while
-                the state lets it. Shape (joints,).
+            joint_targets: Joint targets of control, in [rad]; followed only
+                in the states that allow it. Shape (joints,).
 
         Raises:
-            SessionLost: If the robot takes no frame.
+            SessionLost: If the command cannot be sent.
         """
         if self.frame is None:
             return
         if not np.all(np.isfinite(joint_targets)):
-            self.fail("control asked for what is no number")
+            self.fail("joint targets of control contain NaN or inf")
         targets, stiffness = self._motion.move(
             self._state, self.frame, joint_targets
         )
-        lights = lights_for(
-            self._state,
-            sees=self.sighting is not None,
-            charge=self.frame.battery[0],
-        )
         if self._guardian is not None:
-            self._guardian.tell(targets, stiffness)
-        if self._dry_run:
-            self._send(ActuatorFrame(lights=lights))
-        elif self._motion.is_limp:
-            self._send(ActuatorFrame(None, stiffness, lights))
-        else:
-            self._send(ActuatorFrame(targets, stiffness, lights))
+            self._guardian.update(targets, stiffness)
+        is_limp = self._motion.is_limp
+        self._send(
+            JointCommand(
+                None if self._dry_run or is_limp else targets,
+                None if self._dry_run else stiffness,
+                self._state,
+                self.sighting is not None,
+                self.frame.charge,
+            )
+        )
 
     def step(self) -> None:
         """Do nothing: the next read waits for the robot's next frame."""
 
     def halted(self) -> None:
-        """Note that control has brought a robot that stops to rest."""
+        """Report that control has stopped the robot."""
         self._safety.halted(self._time)
         self._change(self._safety.state)
 
     def rest(self, reason: str) -> None:
-        """Stop and rest."""
+        """Stop, crouch and go limp."""
         self._safety.rest(reason, self._time)
         self._change(self._safety.state)
 
     def fail(self, reason: str) -> None:
-        """Go limp, for a reason that control knows."""
+        """Go limp, for a reason of control."""
         self._safety.fail(reason, self._time)
         self._change(self._safety.state)
 
     def close(self) -> None:
-        """Let the stiffness fade, whatever the robot was doing, and go."""
+        """Ramp the stiffness down, in any state, and disconnect."""
         try:
             self._fade()
         finally:
             if self._guardian is not None:
                 self._guardian.dismiss()
-            for beside in (self._sight, self._eyes):
-                if beside is not None:
-                    beside.close()
+            for sensor in (self._sight, self._eyes):
+                if sensor is not None:
+                    sensor.close()
             self._link.close()
 
     @property
     def _time(self) -> float:
-        """When the newest frame was, in [s]: some worlds wait for us."""
-        return self._hearing.count * TICK
+        """Time of the newest frame, in [s], by the count of frames."""
+        return self._hearing.count * self.tick
 
-    def _seen(self, frame: SensorFrame) -> SafetyInputs:
+    def _safety_inputs(self, frame: JointFrame) -> SafetyInputs:
         state = self._state
-        return self._vitals.seen(
+        return self._vitals.update(
             frame,
             self._time,
             walks=state.moves_by_control,
@@ -230,30 +245,31 @@ class JointBody:
             log.info("%s: %s", state.value, self._safety.reason)
         self._state = state
 
-    def _send(self, frame: ActuatorFrame) -> None:
+    def _send(self, command: JointCommand) -> None:
         try:
-            self._link.send(self._codec.write(frame))
+            self._link.send(self._codec.write(command))
         except SessionLost as error:
             self._lose(str(error))
             raise
 
     def _lose(self, reason: str) -> None:
-        """Let go of a robot that cannot be trusted or heard."""
+        """Release a robot whose connection has failed."""
         self.fail(reason)
         self._fade()
 
     def _fade(self) -> None:
-        """Send falling stiffness, as far as it can be sent."""
+        """Ramp the stiffness down, as far as commands can be sent."""
         if self._dry_run or self.frame is None:
             return
         while not self._motion.is_limp:
             targets, stiffness = self._motion.fade()
             if self._guardian is not None:
-                self._guardian.tell(targets, stiffness)
-            lights = lights_for(RobotState.LIMP, sees=False, charge=0.0)
+                self._guardian.update(targets, stiffness)
             try:
-                told = ActuatorFrame(targets, stiffness, lights)
-                self._link.send(self._codec.write(told))
+                command = JointCommand(
+                    targets, stiffness, RobotState.LIMP, False, 0.0
+                )
+                self._link.send(self._codec.write(command))
             except SessionLost:
                 return
-            self._pause(TICK)
+            self._pause(self.tick)

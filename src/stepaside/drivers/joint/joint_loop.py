@@ -1,4 +1,4 @@
-"""One player at one robot: control in a process of its own."""
+"""Control loop of a player whose robot is driven by its joints."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -18,18 +18,18 @@ MakeScheme = Callable[[Strategy], ControlScheme]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class JointTick:
-    """What one tick was, for whoever looks on.
+    """Result of one tick, for logs and the status line.
 
     Attributes:
-        state: What the robot may do.
-        reason: Why, in words.
-        phase: What control is doing.
-        measurement: What the sensors gave.
-        targets: What control wanted, in [rad]. Shape (joints,).
-        sighting: The other, as far as is known.
-        refused: Frames that were none, so far.
-        mind: Number of the mind that thinks; each has its own odometry.
-        walk: What control plans and asks, in the odometry of that mind.
+        state: State of the robot.
+        reason: Reason for the state, as a message.
+        phase: Phase of control.
+        measurement: Measurement of the tick.
+        targets: Joint targets of control, in [rad]. Shape (joints,).
+        sighting: Newest sighting of the opponent; None without one.
+        refused: Number of invalid frames so far.
+        mind: Number of the control scheme; each has its own odometry.
+        walk: State of the walk, in the odometry of that scheme.
         begun: Step that began at this tick; None if none did.
     """
 
@@ -46,12 +46,12 @@ class JointTick:
 
     @property
     def time(self) -> float:
-        """When it was, in [s]."""
+        """Time of the measurement, in [s]."""
         return self.measurement.time
 
     @property
     def words(self) -> str:
-        """What it was, in a few words."""
+        """State, reason and phase as a short text."""
         text = f"{self.state.value} ({self.reason}), {self.phase.value}"
         if self.refused:
             text += f", {self.refused} frames refused"
@@ -59,17 +59,17 @@ class JointTick:
 
 
 class TickObserver(Protocol):
-    """Whoever looks on: a status line, a log."""
+    """Receiver of ticks, such as a status line or a log."""
 
     def note(self, tick: JointTick) -> None:
-        """Look at one tick."""
+        """Process one tick."""
 
 
 class JointLoop:
-    """Moves a robot by control while it may, tick by tick.
+    """Loop of measurement, control and joint command.
 
-    A mind walks once: after it has come to rest, or was cut off, a new one
-    begins where the robot stands then.
+    Each walk has its own control scheme: after a walk has ended or was cut
+    off, a new scheme starts from the robot's posture.
     """
 
     def __init__(
@@ -80,43 +80,47 @@ class JointLoop:
         *,
         dry_run: bool = False,
     ) -> None:
-        """Think first, connect then: thinking takes longer than a frame.
+        """Build the control scheme, then connect.
+
+        In this order, as building takes longer than the time in which the
+        first frame must be answered.
 
         Args:
-            open_body: Connects to the robot that a scheme will move.
-            strategy: From what it knows to what it wants; every walk begins
-                with nothing remembered.
-            make_scheme: Its control for a strategy.
-            dry_run: Whether control runs without moving anything.
+            open_body: Function that connects to the robot of a scheme.
+            strategy: Function from knowledge to intent; its memory is
+                cleared before each walk.
+            make_scheme: Factory of control schemes.
+            dry_run: Whether control runs without any joint command.
         """
         self._strategy, self._make_scheme = strategy, make_scheme
         self._scheme: ControlScheme
-        self._minds = 0
-        self._think_anew()
+        self._schemes = 0
+        self._renew_scheme()
         self._dry_run = dry_run
         self.body = open_body(self._scheme)
 
     def tick(self) -> JointTick:
-        """Read, decide, answer.
+        """Read a measurement, decide, and command the joints.
 
         Raises:
-            SessionLost: If the robot is gone; it was let go of.
+            SessionLost: If the connection failed; the robot was released.
         """
         body = self.body
         measurement = body.read()
         state = body.state
-        thinks = state.moves_by_control
+        is_controlled = state.moves_by_control
         if self._dry_run:
-            thinks = state in (
+            is_controlled = state in (
                 RobotState.REACHING,
                 RobotState.READY,
                 RobotState.WALKING,
             )
-        if self._used and not thinks and state is not RobotState.RESTING:
-            self._think_anew()
+        is_resting = state is RobotState.RESTING
+        if self._used and not is_controlled and not is_resting:
+            self._renew_scheme()
         targets = self._scheme.joint_targets
-        if thinks:
-            targets = self._think(measurement, state)
+        if is_controlled:
+            targets = self._update(measurement, state)
         body.write(targets)
         body.step()
         scheme = self._scheme
@@ -126,19 +130,19 @@ class JointLoop:
             scheme.phase,
             measurement,
             targets,
-            scheme.sighting if thinks else body.sighting,
+            scheme.sighting if is_controlled else body.sighting,
             body.refused,
-            self._minds,
+            self._schemes,
             scheme.state,
-            scheme.begun if thinks else None,
+            scheme.begun if is_controlled else None,
         )
 
-    def _think(self, measurement: Measurement, state: RobotState) -> Array:
-        """Let control decide, and see that it still can."""
+    def _update(self, measurement: Measurement, state: RobotState) -> Array:
+        """Update control, and release the robot if that fails."""
         self._used = True
         scheme, body = self._scheme, self.body
         if state is RobotState.STOPPING:
-            scheme.decisions.adopt(StandStill())  # comes to rest
+            scheme.decisions.adopt(StandStill())  # ends the walk
             if scheme.phase is Phase.STANDING:
                 body.halted()
         try:
@@ -150,10 +154,10 @@ class JointLoop:
             body.fail(f"the strategy failed: {error}")
             return scheme.joint_targets
         if scheme.phase is Phase.FALLEN:
-            body.fail("control feels that it falls")
+            body.fail("control detected a fall")
         return targets
 
-    def _think_anew(self) -> None:
+    def _renew_scheme(self) -> None:
         self._scheme = self._make_scheme(self._strategy)
-        self._minds += 1
+        self._schemes += 1
         self._used = False

@@ -1,121 +1,124 @@
-"""The joints of a robot that speaks LoLA: order, ranges, speeds."""
+"""Motors of a robot as values, and the map from described joints."""
 
-from collections.abc import Sequence
-from math import inf
-from typing import NamedTuple
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...core.errors import ModelError
 from ...core.poses import Array
+from ...robots.description import RobotDescription
 
 
-class LolaJoint(NamedTuple):
-    """One of the 25 motors, in the order of every LoLA frame.
+@dataclass(frozen=True, slots=True, eq=False)
+class MotorTable:
+    """Motors of a robot, in the order of its frames.
 
     Attributes:
-        name: Its name. LHipYawPitch turns both hips: its motor is shared.
-        low: Least angle, in [rad]; closed, for a hand, in [1].
-        high: Greatest angle, in [rad]; open, for a hand, in [1].
-        speed: No-load speed through the gear, in [rad/s].
-        torque: Stall torque through an ideal gear, in [N m].
+        names: Names of the motors' joints.
+        low: Minimum angles, in [rad]. Shape (motors,).
+        high: Maximum angles, in [rad]. Shape (motors,).
+        speed: Maximum speeds, in [rad/s]. Shape (motors,).
+        stall_current: Stall currents, in [A]; inf where unknown.
+            Shape (motors,).
+        legs: Indices of the motors that carry the robot. Shape (legs,).
+        crouch: Angles from which the robot can go limp, in [rad], by
+            joint; other joints keep their targets.
+        tick: Time from one frame to the next, in [s].
     """
 
-    name: str
-    low: float
-    high: float
-    speed: float
-    torque: float
+    names: tuple[str, ...]
+    low: Array
+    high: Array
+    speed: Array
+    stall_current: Array
+    legs: NDArray[np.intp]
+    crouch: Mapping[str, float]
+    tick: float
+
+    @property
+    def count(self) -> int:
+        """Number of motors."""
+        return len(self.names)
 
 
-# Facts that vendor and teams published; docs/nao.md names the sources.
-LOLA_JOINTS = (
-    LolaJoint("HeadYaw", -2.08567, 2.08567, 7.457, 2.149),
-    LolaJoint("HeadPitch", -0.671952, 0.514872, 6.469, 2.477),
-    LolaJoint("LShoulderPitch", -2.08567, 2.08567, 7.944, 3.366),
-    LolaJoint("LShoulderRoll", -0.314159, 1.32645, 6.469, 2.477),
-    LolaJoint("LElbowYaw", -2.08567, 2.08567, 7.457, 2.149),
-    LolaJoint("LElbowRoll", -1.54462, -0.0349066, 6.469, 2.477),
-    LolaJoint("LWristYaw", -1.82387, 1.82387, 17.381, 0.476),
-    LolaJoint("LHipYawPitch", -1.14529, 0.740718, 4.526, 13.085),
-    LolaJoint("LHipRoll", -0.379435, 0.79046, 4.526, 13.085),
-    LolaJoint("LHipPitch", -1.53589, 0.48398, 6.963, 8.505),
-    LolaJoint("LKneePitch", -0.0923279, 2.11255, 6.963, 8.505),
-    LolaJoint("LAnklePitch", -1.18944, 0.922581, 6.963, 8.505),
-    LolaJoint("LAnkleRoll", -0.397761, 0.768992, 4.526, 13.085),
-    LolaJoint("RHipRoll", -0.79046, 0.379435, 4.526, 13.085),
-    LolaJoint("RHipPitch", -1.53589, 0.48398, 6.963, 8.505),
-    LolaJoint("RKneePitch", -0.0923279, 2.11255, 6.963, 8.505),
-    LolaJoint("RAnklePitch", -1.1863, 0.932006, 6.963, 8.505),
-    LolaJoint("RAnkleRoll", -0.768992, 0.397761, 4.526, 13.085),
-    LolaJoint("RShoulderPitch", -2.08567, 2.08567, 7.944, 3.366),
-    LolaJoint("RShoulderRoll", -1.32645, 0.314159, 6.469, 2.477),
-    LolaJoint("RElbowYaw", -2.08567, 2.08567, 7.457, 2.149),
-    LolaJoint("RElbowRoll", 0.0349066, 1.54462, 6.469, 2.477),
-    LolaJoint("RWristYaw", -1.82387, 1.82387, 17.381, 0.476),
-    LolaJoint("LHand", 0.0, 1.0, inf, inf),
-    LolaJoint("RHand", 0.0, 1.0, inf, inf),
-)
-JOINT_COUNT = len(LOLA_JOINTS)
-LEGS = slice(7, 18)  # joints that bear the robot, in this order
-NAMES = tuple(joint.name for joint in LOLA_JOINTS)
-LOW = np.array([joint.low for joint in LOLA_JOINTS])
-HIGH = np.array([joint.high for joint in LOLA_JOINTS])
-SPEED = np.array([joint.speed for joint in LOLA_JOINTS])
-# The battery has six cells of 3.6 V, 4.2 V when they are full. A direct
-# current motor that turns at its no-load speed by that voltage stalls at
-# torque times speed over voltage: 3.2 A in the legs. That the data sheet's
-# speeds are those at 21.6 V is an assumption.
-NOMINAL_VOLTAGE, HIGHEST_VOLTAGE = 21.6, 25.2  # in [V]
-STALL_CURRENT = (
-    np.array([joint.torque * joint.speed for joint in LOLA_JOINTS])
-    * HIGHEST_VOLTAGE
-    / NOMINAL_VOLTAGE**2
-)  # in [A]
+def motors_of(
+    description: RobotDescription,
+    *,
+    tick: float,
+    crouch: Mapping[str, float],
+) -> MotorTable:
+    """Return the motors of a described robot, one for each joint.
+
+    Ranges are the description's working limits, and unlimited for joints
+    without one. Stall currents are not described, hence infinite.
+
+    Args:
+        description: Description of the robot.
+        tick: Time from one frame to the next, in [s].
+        crouch: Angles from which the robot can go limp, in [rad], by
+            joint; those of its natural stance if it has no lower one.
+    """
+    names = tuple(description.speed_limits)
+    free = (-np.inf, np.inf)
+    ranges = [description.working_limits.get(name, free) for name in names]
+    return MotorTable(
+        names,
+        low=np.array([low for low, _ in ranges]),
+        high=np.array([high for _, high in ranges]),
+        speed=np.array(list(description.speed_limits.values())),
+        stall_current=np.full(len(names), np.inf),
+        # Legs may share a motor: such a joint has no speed limit.
+        legs=np.array(
+            [names.index(leg) for leg in description.legs if leg in names]
+        ),
+        crouch=crouch,
+        tick=tick,
+    )
 
 
 class JointMap:
-    """Between the joints of a description and those of LoLA.
+    """Map between the joints of a description and the motors of a robot.
 
-    Axes and signs are the same: both follow the vendor's. Only the order
-    differs, and that a description has no hands.
+    Axes and signs must be the same; order and number may differ.
     """
 
-    def __init__(self, names: Sequence[str]) -> None:
-        """Find each joint among LoLA's.
+    def __init__(self, names: Sequence[str], motors: MotorTable) -> None:
+        """Find the motor of each joint.
 
         Args:
             names: Actuated joints, in the order of the joint targets.
+            motors: Motors of the robot.
 
         Raises:
-            ModelError: If LoLA has no motor of that name, or one is named
-                twice.
+            ModelError: If a joint has no motor, or is named twice.
         """
         for name in names:
-            if name not in NAMES:
+            if name not in motors.names:
                 raise ModelError(
-                    f"joint {name!r} has no motor in LoLA; there are "
-                    f"{', '.join(NAMES)}"
+                    f"joint {name!r} has no motor; there are "
+                    f"{', '.join(motors.names)}"
                 )
         if len(set(names)) != len(names):
             raise ModelError(f"joints must differ, got {', '.join(names)}")
-        self._at = np.array([NAMES.index(name) for name in names])
+        self._indices = np.array([motors.names.index(name) for name in names])
 
-    def from_lola(self, values: Array) -> Array:
-        """Pick a description's joints from LoLA's. (25,) to (joints,)."""
-        picked: Array = values[self._at]
+    def from_motors(self, values: Array) -> Array:
+        """Pick the description's joints. (motors,) to (joints,)."""
+        picked: Array = values[self._indices]
         return picked
 
-    def to_lola(self, values: Array, others: Array) -> Array:
-        """Spread a description's joints over LoLA's.
+    def to_motors(self, values: Array, others: Array) -> Array:
+        """Spread values of the description's joints over all motors.
 
         Args:
-            values: One for each joint of the description. Shape (joints,).
-            others: What joints get that the description lacks. Shape (25,).
+            values: Value of each described joint. Shape (joints,).
+            others: Values of motors without such a joint. Shape (motors,).
 
         Returns:
-            One for each motor of LoLA. Shape (25,).
+            Value of each motor. Shape (motors,).
         """
         spread = np.array(others, dtype=np.float64)
-        spread[self._at] = values
+        spread[self._indices] = values
         return spread

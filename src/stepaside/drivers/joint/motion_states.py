@@ -3,104 +3,104 @@
 import numpy as np
 
 from ...core.poses import Array
-from .frame_clock import TICK
-from .frames import SensorFrame
-from .joint_map import NAMES, JointMap
+from .frames import JointFrame
+from .joint_map import JointMap, MotorTable
 from .safety import RobotState
 from .target_limits import StiffnessRamp, TargetLimiter, derated, legs_reached
 
-SLOWLY = 0.5  # speed of every joint on the way to a posture, in [rad/s]
-# Thighs and shanks folded over the feet: the robot can go limp from here.
-CROUCH = {
-    "HipYawPitch": 0.0,
-    "HipRoll": 0.0,
-    "HipPitch": -0.92,
-    "KneePitch": 2.1,
-    "AnklePitch": -1.18,
-    "AnkleRoll": 0.0,
-}
+POSTURE_SPEED = 0.5  # of each joint in motions to a posture, in [rad/s]
 
 
 class JointMotionState:
-    """Moves slowly to stance or crouch, or as control says, or not at all.
+    """Generator of joint targets and stiffness for the robot's state.
 
     Attributes:
-        targets: What was last asked for, in [rad]. Shape (25,).
+        targets: Newest joint targets, in [rad]. Shape (motors,).
     """
 
-    def __init__(self, joints: JointMap, stance: Array) -> None:
-        """Know both postures.
+    def __init__(
+        self, joints: JointMap, stance: Array, motors: MotorTable
+    ) -> None:
+        """Start limp.
 
         Args:
-            joints: Order of the description's joints.
+            joints: Map to the order of the description's joints.
             stance: Posture in which control begins, in [rad].
                 Shape (joints,).
+            motors: Motors of the robot.
         """
-        self._joints = joints
+        self._joints, self._motors = joints, motors
         self._stance_targets = stance
         self._limiter: TargetLimiter | None = None
-        self._ramp = StiffnessRamp(TICK)
-        self.targets: Array = np.zeros(len(NAMES))
+        self._ramp = StiffnessRamp(motors.tick)
+        self.targets: Array = np.zeros(motors.count)
 
     def reached(self, state: RobotState, measured: Array) -> bool:
-        """Whether a slow motion has arrived where it leads.
+        """Return whether the slow motion to a posture is complete.
 
         Args:
-            state: Reaching or resting; in others nothing is reached.
-            measured: Joint angles, in [rad]. Shape (25,).
+            state: State of the robot; there is such a motion only in
+                reaching and resting.
+            measured: Joint angles, in [rad]. Shape (motors,).
         """
         if state not in (RobotState.REACHING, RobotState.RESTING):
             return False
         if state is RobotState.REACHING and self._ramp.share < 1.0:
             return False
-        return legs_reached(self.targets, self._goal(state), measured)
+        return legs_reached(
+            self.targets, self._goal(state), measured, self._motors.legs
+        )
 
     def weaken(self, share: float) -> None:
-        """Never be stiffer than the robot says that it is."""
+        """Limit the stiffness to a value that the robot reports."""
         self._ramp.share = min(self._ramp.share, share)
 
     def move(
-        self, state: RobotState, frame: SensorFrame, wanted: Array
+        self, state: RobotState, frame: JointFrame, wanted: Array
     ) -> tuple[Array, Array]:
-        """Targets and stiffness of one tick.
+        """Return targets and stiffness of one tick.
 
         Args:
-            state: What the robot may do.
-            frame: What it says now.
-            wanted: What control wants, in [rad]. Shape (joints,).
+            state: State of the robot.
+            frame: Newest sensor frame.
+            wanted: Joint targets of control, in [rad]. Shape (joints,).
 
         Returns:
-            Targets, in [rad], and stiffness. Shapes (25,).
+            Targets, in [rad], and stiffness. Shapes (motors,).
         """
         limiter = self._limiter
         if limiter is None or (
             state is RobotState.LIMP and self._ramp.share == 0
         ):
-            # Stiffness grows from where the joints are.
-            limiter = self._limiter = TargetLimiter(frame.position, TICK)
+            # Stiffness rises at the measured angles, so that nothing jumps.
+            limiter = self._limiter = TargetLimiter(
+                frame.position, self._motors
+            )
             self.targets = limiter.target
         if state.moves_by_control:
-            goal = self._joints.to_lola(wanted, self.targets)
+            goal = self._joints.to_motors(wanted, self.targets)
             self.targets = limiter.toward(goal)
         elif state is not RobotState.LIMP:
-            self.targets = limiter.toward(self._goal(state), SLOWLY)
+            self.targets = limiter.toward(self._goal(state), POSTURE_SPEED)
         share = self._ramp.toward(0.0 if state is RobotState.LIMP else 1.0)
-        stiffness = np.full(len(NAMES), share)
+        stiffness = np.full(self._motors.count, share)
         stiffness = derated(stiffness, frame.temperature, frame.status)
         return self.targets, stiffness
 
     def fade(self) -> tuple[Array, Array]:
-        """Targets held, stiffness less by one tick. Shapes (25,)."""
-        return self.targets, np.full(len(NAMES), self._ramp.toward(0.0))
+        """Return held targets, and stiffness lower by one tick."""
+        return self.targets, np.full(
+            self._motors.count, self._ramp.toward(0.0)
+        )
 
     @property
     def is_limp(self) -> bool:
-        """Whether all stiffness has gone."""
+        """Whether the stiffness is zero."""
         return self._ramp.share == 0.0
 
     def _goal(self, state: RobotState) -> Array:
-        goal = self._joints.to_lola(self._stance_targets, self.targets)
+        goal = self._joints.to_motors(self._stance_targets, self.targets)
         if state is RobotState.RESTING:
-            for at, name in enumerate(NAMES):
-                goal[at] = CROUCH.get(name[1:], goal[at])
+            for at, name in enumerate(self._motors.names):
+                goal[at] = self._motors.crouch.get(name, goal[at])
         return goal

@@ -1,4 +1,4 @@
-"""What a robot may do now: a state machine without clock or socket."""
+"""State machine of safe operation, without a clock or connection."""
 
 from enum import Enum
 
@@ -11,74 +11,74 @@ from .safety_conditions import (
 
 
 class RobotState(Enum):
-    """What the robot is doing."""
+    """State of a robot that is driven by its joints."""
 
     LIMP = "limp"  # no stiffness
-    REACHING = "reaching"  # slowly from where it is to the stance
-    READY = "ready"  # stands, waits for the chest button
-    WALKING = "walking"  # control moves it
-    STOPPING = "stopping"  # control brings its feet together
-    RESTING = "resting"  # slowly down to a crouch, then limp
+    REACHING = "reaching"  # moves slowly from any posture to the stance
+    READY = "ready"  # stands and waits for the chest button
+    WALKING = "walking"  # follows control
+    STOPPING = "stopping"  # follows control, which brings the feet together
+    RESTING = "resting"  # moves slowly to a crouch, then goes limp
 
     @property
     def moves_by_control(self) -> bool:
-        """Whether the targets of control reach the joints."""
+        """Whether the joint targets of control are followed."""
         return self in (RobotState.WALKING, RobotState.STOPPING)
 
 
 class Safety:
-    """Decides, frame by frame, what the robot may do, and says why.
+    """State machine that is updated by each frame.
 
-    The chest button acts when it is let go: it starts a robot that is
-    ready, stops one that walks, and wakes one that lies limp. What ends a
-    walk without it stands in the table of :mod:`.conditions`.
+    The chest button acts when it is released: it starts a robot that is
+    ready, stops one that walks, and wakes one that is limp. The conditions
+    that end a walk without it are in :mod:`.safety_conditions`.
 
     Attributes:
-        state: What the robot is doing.
-        reason: Why, in words.
+        state: State of the robot.
+        reason: Reason for the state, as a message.
     """
 
     def __init__(self, settings: SafetySettings) -> None:
-        """Begin limp, before the first frame."""
+        """Start limp, before the first frame."""
         self._settings = settings
         self._watch = ConditionWatch(settings)
         self._afterwards = RobotState.RESTING
         self.state = RobotState.LIMP
-        self.reason = "no frame has come yet"
+        self.reason = "no frame received yet"
         self._frames = 0
         self._pressed = False
         self._since = 0.0
 
-    def frame(self, seen: SafetyInputs) -> RobotState:
-        """Take what one good frame says.
+    def frame(self, inputs: SafetyInputs) -> RobotState:
+        """Update the state by one valid frame.
 
         Args:
-            seen: What it says.
+            inputs: Safety-relevant values of the frame.
 
         Returns:
-            What the robot may do until the next.
+            State until the next frame.
         """
-        released = self._pressed and not seen.chest_pressed
-        self._pressed = seen.chest_pressed
+        released = self._pressed and not inputs.chest_pressed
+        self._pressed = inputs.chest_pressed
         self._frames += 1
         warm = self._settings.warm_up
         if self._frames < warm:
             return self.state
-        due = self._watch.look(seen)
+        due = self._watch.check(inputs)
         if due is not None and due[0] > SafetyReaction.STAND:
-            self._endangered(*due, seen)
+            self._endangered(*due, inputs)
         elif self._frames == warm:
-            self._enter(RobotState.REACHING, "connected", seen.time)
+            self._enter(RobotState.REACHING, "connected", inputs.time)
         elif due is not None and self.state is RobotState.WALKING:
-            self._stop(RobotState.READY, due[1], seen.time)
+            self._stop(RobotState.READY, due[1], inputs.time)
         elif released:
-            self._button(seen.time, due[1] if due else "")
+            self._button(inputs.time, due[1] if due else "")
         else:
-            self._go_on(seen)
+            self._go_on(inputs)
         return self.state
 
     def halted(self, time: float) -> None:
-        """Note that control has brought the robot to rest."""
+        """Report that control has stopped the robot."""
         if self.state is not RobotState.STOPPING:
             return
         if self._afterwards is RobotState.READY:
@@ -87,12 +87,12 @@ class Safety:
             self._enter(RobotState.RESTING, f"stopped: {self.reason}", time)
 
     def fail(self, reason: str, time: float) -> None:
-        """Go limp for a reason that no frame says: it cannot be trusted."""
+        """Go limp for a reason outside the frames, such as a lost link."""
         if self.state is not RobotState.LIMP:
             self._enter(RobotState.LIMP, reason, time)
 
     def rest(self, reason: str, time: float) -> None:
-        """Stop and rest, as someone asks for."""
+        """Stop and rest on request."""
         if self.state is RobotState.WALKING:
             self._stop(RobotState.RESTING, reason, time)
         elif self.state is RobotState.STOPPING:
@@ -108,9 +108,9 @@ class Safety:
         self._enter(RobotState.STOPPING, why, time)
 
     def _endangered(
-        self, reaction: SafetyReaction, why: str, seen: SafetyInputs
+        self, reaction: SafetyReaction, why: str, inputs: SafetyInputs
     ) -> None:
-        state, time = self.state, seen.time
+        state, time = self.state, inputs.time
         if reaction is SafetyReaction.LIMP and state is not RobotState.LIMP:
             self._enter(RobotState.LIMP, why, time)
         elif state is RobotState.LIMP:
@@ -122,10 +122,10 @@ class Safety:
         else:
             if self._afterwards is not RobotState.RESTING:
                 self._afterwards, self.reason = RobotState.RESTING, why
-            self._go_on(seen)
+            self._go_on(inputs)
 
     def _button(self, time: float, hindrance: str) -> None:
-        """Follow the chest button, unless a robot that stands must stay."""
+        """Follow the chest button, unless a hindrance forbids to walk."""
         after = {
             RobotState.LIMP: RobotState.REACHING,
             RobotState.REACHING: RobotState.RESTING,
@@ -141,17 +141,17 @@ class Safety:
         elif after is not self.state:
             self._enter(after, "chest button", time)
 
-    def _go_on(self, seen: SafetyInputs) -> None:
+    def _go_on(self, inputs: SafetyInputs) -> None:
         state = self.state
-        if seen.reached and state is RobotState.REACHING:
-            self._enter(RobotState.READY, "stands", seen.time)
-        elif seen.reached and state is RobotState.RESTING:
-            self._enter(RobotState.LIMP, "rests", seen.time)
+        if inputs.reached and state is RobotState.REACHING:
+            self._enter(RobotState.READY, "stands", inputs.time)
+        elif inputs.reached and state is RobotState.RESTING:
+            self._enter(RobotState.LIMP, "rests", inputs.time)
         else:
-            self._overdue(seen.time)
+            self._check_duration(inputs.time)
 
-    def _overdue(self, time: float) -> None:
-        """End what takes too long."""
+    def _check_duration(self, time: float) -> None:
+        """Leave a state that takes too long."""
         passed, limits = time - self._since, self._settings
         if self.state is RobotState.STOPPING and passed > limits.longest_stop:
             self._enter(

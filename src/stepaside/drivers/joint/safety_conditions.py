@@ -1,4 +1,4 @@
-"""Conditions under which a robot whose joints are moved must not walk on."""
+"""Conditions that end a walk of a robot driven by its joints."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -10,38 +10,37 @@ from ...core.constants import GRAVITY
 from ...core.errors import ConfigurationError, check_positive, check_within
 
 UPRIGHT = (0.0, 0.0, GRAVITY)
-# Both limits leave room for the landings of a walk. The range of NAO's
+# Both limits tolerate the landings of a walk. The range of NAO's
 # accelerometer is 2 g on each axis, so that it never reads more than 3.5 g.
-LEAST_FORCE, MOST_FORCE = 0.3 * GRAVITY, 3.5 * GRAVITY
-LEANS = 1.0  # of the specific force from upright, in [rad]
-FROZEN = 0.2  # without a change of a digit while the legs move, in [s]
+MIN_FORCE, MAX_FORCE = 0.3 * GRAVITY, 3.5 * GRAVITY
+MAX_LEAN = 1.0  # angle of the specific force from upright, in [rad]
+FROZEN = 0.2  # constant reading while the legs move, in [s]
 
 
 class SafetyReaction(IntEnum):
-    """Response of the robot to a condition; the greatest one counts."""
+    """Response of the robot to a condition; the largest one applies."""
 
-    STAND = 1  # a walk is stopped, and none begins while that lasts
-    REST = 2  # a walk is stopped, the robot crouches and goes limp
-    LIMP = 3  # the stiffness fades at once
+    STAND = 1  # end a walk; begin none while the condition lasts
+    REST = 2  # end a walk, crouch and go limp
+    LIMP = 3  # ramp the stiffness down at once
 
 
 class SafetyInputs(NamedTuple):
-    """What the machine needs to know of one good frame.
+    """Safety-relevant values of one valid frame.
 
     Attributes:
-        time: Of the frame, by the robot's count of them, in [s].
-        chest_pressed: Whether the chest button is down.
-        tilt: Largest tilt of the torso, now or soon, in [rad].
+        time: Time of the frame, by the count of frames, in [s].
+        chest_pressed: Whether the chest button is pressed.
+        tilt: Largest tilt of the torso, present or predicted, in [rad].
         status: Worst status of a leg's motor.
-        temperature: Of the hottest motor of the legs, in [degC].
-        reached: Whether targets and joints are where the slow motion ends.
+        temperature: Temperature of the hottest leg motor, in [degC].
+        reached: Whether a slow motion to a posture is complete.
         load: Sum of all foot sensors, in [kg].
         bumper: Whether a foot bumper is pressed.
-        charge: Of the battery, from 0 to 1.
-        current: Largest motor current, as a share of the current at which
-            that motor stalls.
+        charge: Charge of the battery, from 0 to 1.
+        current: Largest ratio of a motor's current to its stall current.
         force: Specific force by the accelerometer, in [m/s^2].
-        frozen: Time for which the accelerometer has not changed by a digit
+        frozen: Time for which the accelerometer's reading has been constant
             while the legs moved, in [s].
     """
 
@@ -61,25 +60,25 @@ class SafetyInputs(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class SafetySettings:
-    """Limits of what is safe.
+    """Limits of safe operation.
 
     Attributes:
-        silence: Without a good frame for this long the session is lost,
+        silence: Time without a valid frame after which the session is lost,
             in [s].
-        warm_up: Good frames before anything is believed.
-        fall: Tilt of the torso from which it is falling, in [rad].
-        look_ahead: How far ahead the tilt is looked at, in [s].
-        hottest: Temperature at which the robot rests, in [degC]; an
-            assumption, the robot's own status comes on top.
-        longest_reach: Time in which it must reach a posture, in [s].
-        longest_stop: Time in which control must bring it to rest, in [s].
+        warm_up: Number of valid frames before the first reaction.
+        fall: Tilt of the torso that counts as a fall, in [rad].
+        look_ahead: Time over which the tilt is predicted, in [s].
+        hottest: Motor temperature at which the robot rests, in [degC]; an
+            assumption, in addition to the robot's own status.
+        longest_reach: Time limit of a motion to a posture, in [s].
+        longest_stop: Time limit for control to stop the robot, in [s].
         lowest_charge: Charge of the battery at which the robot rests, from
             0 to 1. The vendor says that a walking robot may be empty 30 s
             after its own warning; stopping and crouching take up to 19 s.
             A tenth of a charge that lasts an hour or more is six minutes.
-        least_load: Sum of all foot sensors at which both feet are in the
-            air, in [kg]; a tenth of the robot's weight, and above the
-            40 g that one sensor does not notice.
+        least_load: Sum of all foot sensors below which both feet count as
+            lifted, in [kg]; a tenth of the robot's weight, and above the
+            40 g threshold of one sensor.
     """
 
     silence: float = 0.1
@@ -93,7 +92,7 @@ class SafetySettings:
     least_load: float = 0.5
 
     def __post_init__(self) -> None:
-        """Refuse limits that limit nothing."""
+        """Validate the limits."""
         error = ConfigurationError
         check_within(self.silence, 0.012, 60.0, "silence", "s", error)
         check_within(self.warm_up, 1, 1000, "warm_up", "frames", error)
@@ -108,13 +107,14 @@ class SafetySettings:
 
 
 class SafetyCondition(NamedTuple):
-    """One row of the table of conditions.
+    """Condition and reaction.
 
     Attributes:
-        reason: Return why the robot must not go on; empty if it may.
+        reason: Function that returns why the robot must not continue; empty
+            if it may.
         reaction: Response of the robot.
         lasting: Time for which the condition must hold without a break, in
-            [s]. Landings are shorter, and so is a single bad reading.
+            [s]; longer than a landing, or a single bad reading.
     """
 
     reason: Callable[[SafetyInputs, SafetySettings], str]
@@ -122,61 +122,66 @@ class SafetyCondition(NamedTuple):
     lasting: float = 0.0
 
 
-def _falls(seen: SafetyInputs, limits: SafetySettings) -> str:
-    if seen.tilt <= limits.fall:
+def _falls(inputs: SafetyInputs, limits: SafetySettings) -> str:
+    if inputs.tilt <= limits.fall:
         return ""
-    return f"torso tilts by {seen.tilt:.2f} rad: it falls"
+    return f"torso tilts by {inputs.tilt:.2f} rad: the robot falls"
 
 
-def _is_critical(seen: SafetyInputs, limits: SafetySettings) -> str:
-    if seen.status < 3:
+def _is_critical(inputs: SafetyInputs, limits: SafetySettings) -> str:
+    if inputs.status < 3:
         return ""
     return "a motor of the legs reports critical heat"
 
 
-def _is_hot(seen: SafetyInputs, limits: SafetySettings) -> str:
-    if seen.status == 2:
+def _is_hot(inputs: SafetyInputs, limits: SafetySettings) -> str:
+    if inputs.status == 2:
         return "a motor of the legs reports heat"
-    if seen.temperature > limits.hottest:
-        return f"a motor of the legs has {seen.temperature:.0f} degC"
+    if inputs.temperature > limits.hottest:
+        return f"a motor of the legs has {inputs.temperature:.0f} degC"
     return ""
 
 
-def _is_overloaded(seen: SafetyInputs, limits: SafetySettings) -> str:
-    if seen.current <= 1.0:
+def _is_overloaded(inputs: SafetyInputs, limits: SafetySettings) -> str:
+    if inputs.current <= 1.0:
         return ""
-    return f"a motor draws {seen.current:.1f} times its stall current"
+    return f"a motor draws {inputs.current:.1f} times its stall current"
 
 
-def _has_bad_accelerometer(seen: SafetyInputs, limits: SafetySettings) -> str:
-    x, y, z = seen.force
+def _has_bad_accelerometer(
+    inputs: SafetyInputs, limits: SafetySettings
+) -> str:
+    x, y, z = inputs.force
     size = hypot(x, y, z)
-    if size < LEAST_FORCE or size > MOST_FORCE:
-        return f"accelerometer reads {size:.1f} m/s^2 in all: it is broken"
-    if (leans := atan2(hypot(x, y), z)) > LEANS:
+    if size < MIN_FORCE or size > MAX_FORCE:
         return (
-            f"accelerometer reads a tilt of {degrees(leans):.0f} deg, which "
-            "the torso has not"
+            f"accelerometer reads {size:.1f} m/s^2, outside "
+            f"[{MIN_FORCE:.1f}, {MAX_FORCE:.1f}] m/s^2"
         )
-    if seen.frozen > FROZEN:
-        return "accelerometer does not change while the legs move: it is dead"
+    if (lean := atan2(hypot(x, y), z)) > MAX_LEAN:
+        return (
+            f"accelerometer reads a tilt of {degrees(lean):.0f} deg, which "
+            "the torso does not have"
+        )
+    if inputs.frozen > FROZEN:
+        return "accelerometer reading is constant while the legs move"
     return ""
 
 
-def _is_empty(seen: SafetyInputs, limits: SafetySettings) -> str:
-    if seen.charge >= limits.lowest_charge:
+def _is_empty(inputs: SafetyInputs, limits: SafetySettings) -> str:
+    if inputs.charge >= limits.lowest_charge:
         return ""
-    return f"battery is at {100.0 * seen.charge:.0f} %"
+    return f"battery is at {100.0 * inputs.charge:.0f} %"
 
 
-def _is_lifted(seen: SafetyInputs, limits: SafetySettings) -> str:
-    if seen.load >= limits.least_load:
+def _is_lifted(inputs: SafetyInputs, limits: SafetySettings) -> str:
+    if inputs.load >= limits.least_load:
         return ""
-    return f"both feet are in the air: they bear {seen.load:.1f} kg"
+    return f"both feet are lifted: their load is {inputs.load:.1f} kg"
 
 
-def _touches(seen: SafetyInputs, limits: SafetySettings) -> str:
-    return "a foot bumper is pressed" if seen.bumper else ""
+def _touches(inputs: SafetyInputs, limits: SafetySettings) -> str:
+    return "a foot bumper is pressed" if inputs.bumper else ""
 
 
 CONDITIONS = (
@@ -192,25 +197,28 @@ CONDITIONS = (
 
 
 class ConditionWatch:
-    """Goes through the table of conditions, frame by frame."""
+    """Evaluation of all conditions, frame by frame."""
 
     def __init__(self, settings: SafetySettings) -> None:
-        """Begin with no condition met."""
+        """Start with no condition met."""
         self._settings = settings
         self._since: dict[int, float] = {}
 
-    def look(self, seen: SafetyInputs) -> tuple[SafetyReaction, str] | None:
-        """Return the worst reaction that is due, and its reason, if any.
+    def check(self, inputs: SafetyInputs) -> tuple[SafetyReaction, str] | None:
+        """Return the strongest reaction that is due, with its reason.
 
         Args:
-            seen: What the newest frame says.
+            inputs: Values of the newest frame.
         """
         due: tuple[SafetyReaction, str] | None = None
         for row, (reason, reaction, lasting) in enumerate(CONDITIONS):
-            why = reason(seen, self._settings)
+            why = reason(inputs, self._settings)
             if not why:
                 self._since.pop(row, None)
-            elif seen.time - self._since.setdefault(row, seen.time) >= lasting:
+            elif (
+                inputs.time - self._since.setdefault(row, inputs.time)
+                >= lasting
+            ):
                 if due is None or reaction > due[0]:
                     due = reaction, why
         return due

@@ -1,4 +1,4 @@
-"""How a robot whose joints are moved is handled, whatever it speaks."""
+"""Options of a session with a robot that is driven by its joints."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -9,17 +9,17 @@ from .safety_conditions import SafetySettings
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SessionOptions:
-    """What is asked of a session with a robot, beside where it is.
+    """Options of a session.
 
     Attributes:
-        safety: Limits of what is safe.
-        dry_run: Command nothing but lights.
-        guarded: Whether a second process lets go of the robot if this one
-            dies or freezes. Forks: not for a process with threads.
-        open_eyes: Opens its cameras, if it is played with those instead of
-            with an ideal line of sight. They may start threads. Raises
-            SessionLost if there is no camera.
-        patience: How long to wait for the robot to be there, in [s].
+        safety: Limits of safe operation.
+        dry_run: Whether to command nothing but lights.
+        guarded: Whether a second process releases the robot if this one
+            dies or freezes. Forks, so this process must have no threads.
+        open_eyes: Function that opens the cameras, which replace the ideal
+            line of sight. May start threads. Raises SessionLost if there is
+            no camera.
+        patience: Timeout of the connection, in [s].
     """
 
     safety: SafetySettings = field(default_factory=SafetySettings)
@@ -30,11 +30,11 @@ class SessionOptions:
 
     @property
     def guards(self) -> bool:
-        """Whether there is something to guard, and somebody shall."""
+        """Whether a guardian is needed: not if nothing is commanded."""
         return self.guarded and not self.dry_run
 
     def eyes(self) -> ImageSource | None:
-        """Open its cameras, if it is played with those."""
+        """Open the cameras, if they are used."""
         return None if self.open_eyes is None else self.open_eyes()
 
 

@@ -1,53 +1,56 @@
-"""What joints may be asked for: range, rate, and torque when hot."""
+"""Limits of joint targets and stiffness: range, speed, temperature."""
 
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...core.poses import Array
-from .joint_map import HIGH, LEGS, LOW, SPEED
+from .joint_map import MotorTable
 
-MARGIN = 0.01  # kept from the ends of each range, in [rad]
-WARM, HOT = 70.0, 85.0  # torque is cut between these, in [degC]; assumed
-LEAST = 0.5  # share of the torque that a hot joint keeps
+MARGIN = 0.01  # distance from the ends of each range, in [rad]
+WARM, HOT = 70.0, 85.0  # range of the reduction, in [degC]; an assumption
+MIN_STIFFNESS = 0.5  # fraction of the stiffness that a hot joint keeps
 
 
 class TargetLimiter:
-    """Keeps joint targets within range, and changes within speed.
+    """Limiter of joint targets to range and speed.
 
     Attributes:
-        target: What was last asked for, in [rad]. Shape (25,).
+        target: Newest targets, in [rad]. Shape (motors,).
     """
 
-    def __init__(self, start: Array, tick: float) -> None:
-        """Begin at measured angles, so that nothing leaps.
+    def __init__(self, start: Array, motors: MotorTable) -> None:
+        """Start at measured angles, so that no joint jumps.
 
         Args:
-            start: Measured angles, in [rad]. Shape (25,).
-            tick: Time from one target to the next, in [s].
+            start: Measured angles, in [rad]. Shape (motors,).
+            motors: Motors, with their ranges and speeds.
         """
         self.target = np.array(start, dtype=np.float64)
-        self._tick = tick
+        self._motors = motors
 
     def toward(self, wanted: Array, speed: float | None = None) -> Array:
-        """Move the targets toward what is wanted, no faster than allowed.
+        """Move the targets toward wanted ones within the speed limits.
 
-        A joint that was found outside its range comes back into it.
+        A joint that was measured outside its range returns into it.
 
         Args:
-            wanted: Targets, in [rad]; what is not finite is not followed.
-            speed: Limit of every joint, in [rad/s]; that of each motor by
-                default.
+            wanted: Wanted targets, in [rad]; NaN and inf are ignored.
+            speed: Additional speed limit of all joints, in [rad/s]; only
+                that of each motor by default.
 
         Returns:
-            New targets, in [rad]. Shape (25,).
+            New targets, in [rad]. Shape (motors,).
         """
         goal = np.where(np.isfinite(wanted), wanted, self.target)
-        goal = np.clip(goal, LOW + MARGIN, HIGH - MARGIN)
-        reach = SPEED if speed is None else np.minimum(SPEED, speed)
-        step = np.clip(
-            goal - self.target, -reach * self._tick, reach * self._tick
+        motors = self._motors
+        goal = np.clip(goal, motors.low + MARGIN, motors.high - MARGIN)
+        limit = (
+            motors.speed if speed is None else np.minimum(motors.speed, speed)
         )
+        reach = limit * motors.tick
+        step = np.clip(goal - self.target, -reach, reach)
         self.target = self.target + step
         return self.target
 
@@ -55,31 +58,31 @@ class TargetLimiter:
 def derated(
     stiffness: Array, temperature: Array, status: Sequence[int]
 ) -> Array:
-    """Cut the stiffness of hot joints.
+    """Reduce the stiffness of hot joints.
 
     Args:
-        stiffness: Wanted shares of the torque. Shape (25,).
-        temperature: Of the motors, in [degC]. Shape (25,).
-        status: Of the motors, as LoLA reports it.
+        stiffness: Wanted stiffness, from 0 to 1. Shape (motors,).
+        temperature: Motor temperatures, in [degC]. Shape (motors,).
+        status: Status of the motors, 3 if critical.
 
     Returns:
-        Shares that spare the motors. Shape (25,).
+        Reduced stiffness. Shape (motors,).
     """
-    cut = (temperature - WARM) / (HOT - WARM) * (1.0 - LEAST)
-    share = np.clip(1.0 - cut, LEAST, 1.0)
-    share[np.array(status) >= 3] = 0.0
-    return stiffness * share
+    cut = (temperature - WARM) / (HOT - WARM) * (1.0 - MIN_STIFFNESS)
+    factor = np.clip(1.0 - cut, MIN_STIFFNESS, 1.0)
+    factor[np.array(status) >= 3] = 0.0
+    return stiffness * factor
 
 
 class StiffnessRamp:
-    """Stiffness that grows and fades instead of snapping.
+    """Rate limiter of stiffness.
 
     Attributes:
-        share: Share of the full torque now, from 0 to 1.
+        share: Stiffness now, from 0 to 1.
     """
 
     def __init__(self, tick: float, rise: float = 1.0, fall: float = 0.5):
-        """Begin limp.
+        """Start limp.
 
         Args:
             tick: Time from one value to the next, in [s].
@@ -90,14 +93,16 @@ class StiffnessRamp:
         self._up, self._down = tick / rise, tick / fall
 
     def toward(self, wanted: float) -> float:
-        """Move toward a share, and return where it is now."""
+        """Move toward a stiffness, and return the present one."""
         change = min(max(wanted - self.share, -self._down), self._up)
         self.share = min(max(self.share + change, 0.0), 1.0)
         return self.share
 
 
-def legs_reached(targets: Array, goal: Array, measured: Array) -> bool:
-    """Whether a slow motion has arrived, targets first, then the legs."""
+def legs_reached(
+    targets: Array, goal: Array, measured: Array, legs: NDArray[np.intp]
+) -> bool:
+    """Return whether targets and leg joints have reached a posture."""
     arrived = bool(np.all(np.abs(targets - goal) < 2.0 * MARGIN))
-    off = np.abs(measured[LEGS] - goal[LEGS])
+    off = np.abs(measured[legs] - goal[legs])
     return arrived and bool(np.all(off < 0.2))

@@ -1,1 +1,1 @@
-"""LoLA: the language of NAO V6, frames of joints every 12 ms."""
+"""Driver and server for LoLA, NAO V6's protocol of joint frames at 12 ms."""

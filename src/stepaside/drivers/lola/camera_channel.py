@@ -1,4 +1,4 @@
-"""The client's end of a simulated robot's cameras."""
+"""Client of a simulated robot's image channel."""
 
 import logging
 from collections import deque
@@ -10,25 +10,25 @@ from ..guardian_process import SessionLost
 from .lola_address import LolaAddress
 
 AHEAD = 8  # frames by which an image may come before its frame
-CONNECTING = 5.0  # longest time to connect, in [s]
+CONNECT_TIMEOUT = 5.0  # in [s]
 log = logging.getLogger(__name__)
 
 
 class CameraChannel:
-    """Hands over each image with the frame that it belongs to.
+    """Image source that returns each image with its sensor frame.
 
-    A channel that breaks, or brings what is no image, is silent from then
-    on, and the log says so.
+    After a broken connection or an invalid message the channel logs a
+    warning and returns no more images.
     """
 
     def __init__(self, address: LolaAddress) -> None:
         """Connect.
 
         Raises:
-            SessionLost: If nobody offers images there.
+            SessionLost: If the address does not offer images.
         """
         opened = address.open()
-        opened.settimeout(CONNECTING)
+        opened.settimeout(CONNECT_TIMEOUT)
         try:
             opened.connect(address.target)
         except OSError as error:
@@ -40,16 +40,20 @@ class CameraChannel:
         self._early: deque[ImageMessage] = deque()
 
     def percepts(self, frame: int, now: float, tick: float) -> list[Percept]:
-        """Images that belong to a frame or to one before it.
+        """Return the images that belong to a frame or an earlier one.
 
         Args:
             frame: Number of the newest sensor frame.
-            now: Its time, in [s].
+            now: Time of that frame, in [s].
             tick: Time from one frame to the next, in [s].
         """
         for message in self._receive():
             if message.frame > frame + AHEAD:
-                log.warning("image from the future dropped at %d", frame)
+                log.warning(
+                    "image of frame %d dropped at frame %d",
+                    message.frame,
+                    frame,
+                )
                 continue
             self._early.append(message)
         found: list[Percept] = []
@@ -60,7 +64,7 @@ class CameraChannel:
         return found
 
     def close(self) -> None:
-        """Stop looking."""
+        """Disconnect."""
         if self._is_open:
             self._is_open = False
             self._socket.close()
@@ -76,6 +80,6 @@ class CameraChannel:
             except (BlockingIOError, InterruptedError):
                 break
             except (OSError, ImageError) as error:
-                log.warning("cameras lost: %s", error)
+                log.warning("cameras disconnected: %s", error)
                 self.close()
         return found

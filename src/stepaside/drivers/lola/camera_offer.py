@@ -1,4 +1,4 @@
-"""The server's end of a simulated robot's cameras."""
+"""Server of a simulated robot's image channel."""
 
 import logging
 import socket
@@ -6,20 +6,20 @@ import socket
 from ...perception.images import ColourImage, DepthImage
 from ...perception.measurement import Measurement
 from ..cameras.image_wire import ImageMessage, pack_image
-from ..joint.listener import ClientListener
+from .listener import ClientListener
 from .lola_address import LolaAddress
 
-ROOM = 1 << 22  # bytes that the system is asked to hold for a client
+SEND_BUFFER = 1 << 22  # of the socket, in bytes
 log = logging.getLogger(__name__)
 
 
 class CameraOffer:
-    """Shows whoever looks what the cameras of a robot see.
+    """Server that sends the images of a robot to one client.
 
-    Who reads too slowly misses images, and the game goes on.
+    Images are dropped for a client that reads too slowly.
 
     Attributes:
-        missed: Images that were dropped.
+        missed: Number of images that were dropped.
     """
 
     def __init__(self, address: LolaAddress) -> None:
@@ -29,58 +29,58 @@ class CameraOffer:
             ConfigurationError: If the address cannot be listened on.
         """
         self._listener = ClientListener(address)
-        self._left = b""
-        self._told: Measurement | None = None
+        self._unsent = b""
+        self._sent: Measurement | None = None
         self.missed = 0
 
-    def tell(self, measurement: Measurement, frame: int) -> None:
-        """Send the images that have arrived at a tick, each once.
+    def send(self, measurement: Measurement, frame: int) -> None:
+        """Send the images of a tick, each once.
 
         Args:
-            measurement: What the robot's sensors give.
+            measurement: Measurement of the robot at this tick.
             frame: Number of the sensor frame that will follow.
         """
         listener = self._listener
         if listener.accept():
-            self._left, self._told = b"", None
+            self._unsent, self._sent = b"", None
             assert listener.client is not None
             listener.client.setsockopt(
-                socket.SOL_SOCKET, socket.SO_SNDBUF, ROOM
+                socket.SOL_SOCKET, socket.SO_SNDBUF, SEND_BUFFER
             )
         self._send(b"")
-        if measurement is self._told or listener.client is None:
+        if measurement is self._sent or listener.client is None:
             return
-        self._told = measurement
+        self._sent = measurement
         for percept in measurement.percepts:
             if not isinstance(percept, ColourImage | DepthImage):
                 continue
             age = max(measurement.time - percept.time, 0.0)
-            if self._left:
+            if self._unsent:
                 self.missed += 1
                 continue
             self._send(pack_image(ImageMessage(frame, age, percept)))
 
-    def forget(self) -> None:
-        """Tell everything anew, as frames are numbered anew."""
-        self._told = None
+    def restart(self) -> None:
+        """Send the newest images again, as frame numbers start anew."""
+        self._sent = None
 
     def close(self) -> None:
-        """Stop showing."""
+        """Stop the server."""
         if self.missed:
             log.warning("%d images were not read in time", self.missed)
         self._listener.close()
 
     def _send(self, data: bytes) -> None:
-        """Send what is left and what is new, as far as it is taken."""
+        """Send queued and new data, as far as the client reads it."""
         listener = self._listener
-        self._left += data
-        while self._left and listener.client is not None:
+        self._unsent += data
+        while self._unsent and listener.client is not None:
             try:
-                sent = listener.client.send(self._left)
+                sent = listener.client.send(self._unsent)
             except (BlockingIOError, InterruptedError):
                 return
             except OSError as error:
                 listener.drop(error)
-                self._left = b""
+                self._unsent = b""
                 return
-            self._left = self._left[sent:]
+            self._unsent = self._unsent[sent:]

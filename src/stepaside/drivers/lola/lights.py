@@ -1,4 +1,4 @@
-"""Lights that say what the robot is doing."""
+"""Lights of NAO as a display of the robot's state."""
 
 from collections.abc import Mapping
 
@@ -20,13 +20,16 @@ EYE_LEDS, EAR_LEDS, SKULL_LEDS = 8, 10, 12
 def lights_for(
     state: RobotState, *, sees: bool, charge: float
 ) -> dict[str, tuple[float, ...]]:
-    """Brightness of every light, by LoLA's keys.
+    """Return the brightness of every light, by LoLA's keys.
 
     Args:
-        state: Shown by the chest: red limp, orange reaching, green ready,
-            blue walking, violet stopping, yellow resting.
-        sees: Whether the other robot is known: white eyes, else dark ones.
-        charge: Of the battery, from 0 to 1: as many lights of the ears.
+        state: State of the robot, shown by the chest: red limp, orange
+            reaching, green ready, blue walking, violet stopping, yellow
+            resting.
+        sees: Whether there is a sighting of the opponent: white eyes, else
+            dark.
+        charge: Charge of the battery, from 0 to 1, shown as a bar by the
+            ears.
     """
     eye = (1.0 if sees else 0.0,) * (3 * EYE_LEDS)
     lit = round(min(max(charge, 0.0), 1.0) * EAR_LEDS)

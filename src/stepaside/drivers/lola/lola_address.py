@@ -1,4 +1,4 @@
-"""Where a robot listens: a Unix path or a TCP port."""
+"""Addresses of robots on LoLA: a Unix path, or a host and TCP port."""
 
 import socket
 from dataclasses import dataclass
@@ -6,16 +6,16 @@ from dataclasses import dataclass
 from ...core.errors import ConfigurationError
 
 SCHEME = "lola:"
-ON_THE_ROBOT = "/tmp/robocup"  # where every NAO V6 listens
-SIGHT_SUFFIX = ".ideal-sight"  # where a simulated robot offers the truth
-CAMERAS_SUFFIX = ".cameras"  # where it shows what its cameras see
-EARLY = "s"  # in a folder of its own, of a socket that does not listen yet
-LONGEST_PATH = 107 - len(SIGHT_SUFFIX) - len("/.12345678/s")  # in bytes
+DEFAULT_PATH = "/tmp/robocup"  # socket of every NAO V6
+SIGHT_SUFFIX = ".ideal-sight"  # of a simulated robot's ground truth channel
+CAMERAS_SUFFIX = ".cameras"  # of a simulated robot's image channel
+EARLY = "s"  # temporary name of a socket before it listens
+MAX_PATH = 107 - len(SIGHT_SUFFIX) - len("/.12345678/s")  # in bytes
 
 
 @dataclass(frozen=True, slots=True)
 class LolaAddress:
-    """A Unix path, or a host and a TCP port.
+    """Unix path, or host and TCP port.
 
     Attributes:
         path: Path of the socket; empty for TCP.
@@ -32,16 +32,16 @@ class LolaAddress:
 
     @property
     def sight(self) -> "LolaAddress | None":
-        """Where the ideal line of sight is offered; Unix paths only."""
+        """Address of the ideal line of sight; None for TCP."""
         return LolaAddress(self.path + SIGHT_SUFFIX) if self.path else None
 
     @property
     def cameras(self) -> "LolaAddress | None":
-        """Where a simulated robot's images are offered; Unix paths only."""
+        """Address of a simulated robot's images; None for TCP."""
         return LolaAddress(self.path + CAMERAS_SUFFIX) if self.path else None
 
     def open(self) -> socket.socket:
-        """A socket of the right kind, not yet connected or bound."""
+        """Create a socket of the address's family, not connected or bound."""
         family = socket.AF_UNIX if self.path else socket.AF_INET
         opened = socket.socket(family, socket.SOCK_STREAM)
         if not self.path:
@@ -50,27 +50,28 @@ class LolaAddress:
 
     @property
     def target(self) -> str | tuple[str, int]:
-        """What connect and bind take."""
+        """Argument of the socket's methods ``connect`` and ``bind``."""
         return self.path or (self.host, self.port)
 
 
 def parse_address(text: str) -> LolaAddress:
-    """Read ``PATH`` or ``HOST:PORT``, with or without ``lola:`` before it.
+    """Parse ``PATH`` or ``HOST:PORT``, with or without the prefix ``lola:``.
 
-    Nothing but ``lola:`` means the path of the robot itself. What holds no
-    slash and ends in a colon and a number is a host and a port.
+    ``lola:`` alone is the path of a real robot. A text with a colon and
+    without a slash is a host and port.
 
     Raises:
         ConfigurationError: If it is neither.
     """
-    place = text.removeprefix(SCHEME) or ON_THE_ROBOT
-    host, colon, port = place.rpartition(":")
-    if not colon or "/" in place:
-        if len(place.encode()) > LONGEST_PATH:
+    location = text.removeprefix(SCHEME) or DEFAULT_PATH
+    host, colon, port = location.rpartition(":")
+    if not colon or "/" in location:
+        if len(location.encode()) > MAX_PATH:
             raise ConfigurationError(
-                f"path of a socket must be shorter, got {place!r}"
+                f"path of a socket must have at most {MAX_PATH} bytes, got "
+                f"{location!r}"
             )
-        return LolaAddress(path=place)
+        return LolaAddress(path=location)
     if not host or not port.isascii() or not port.isdigit():
         raise ConfigurationError(
             f"robot must be lola:PATH or lola:HOST:PORT, got {text!r}"

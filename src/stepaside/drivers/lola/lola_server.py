@@ -1,4 +1,4 @@
-"""The robot's side of LoLA, for a robot that is simulated."""
+"""Server of LoLA for a simulated robot."""
 
 import logging
 from collections.abc import Sequence
@@ -7,48 +7,51 @@ from typing import Any
 import msgpack
 
 from ...core.poses import Array
-from ..joint.frames import ActuatorFrame, pack_sensors, take_actuators
-from ..joint.listener import ClientListener
-from ..joint.served_joints import ServedJointRobot, ServedJoints
 from .camera_offer import CameraOffer
+from .listener import ClientListener
 from .lola_address import LolaAddress
+from .lola_frames import ActuatorFrame, pack_sensors, take_actuators
+from .served_joints import ServedJointRobot, ServedJoints
 from .sight_offer import SightOffer
 from .wire import LIMITS, LONGEST_ANSWER, WireError
 
 
 class ActuatorFrameReader:
-    """Cuts a client's stream into frames.
+    """Incremental decoder of a client's actuator frames.
 
-    Answers have no fixed length: some peers write whole numbers as
-    integers. A stream that held anything but answers cannot be read on.
+    The frames have no fixed length: some clients write whole numbers as
+    integers. An invalid stream cannot be continued.
     """
 
     def __init__(self) -> None:
-        """Begin with an empty stream."""
+        """Start with an empty buffer."""
         self._unpacker: Any = msgpack.Unpacker(
             max_buffer_size=16 * LONGEST_ANSWER, **LIMITS
         )
         self._pending = 0
 
     def feed(self, data: bytes) -> list[ActuatorFrame]:
-        """Take bytes, give the frames that they complete.
+        """Add received bytes, and return the frames that are complete.
 
         Raises:
-            WireError: If the stream holds anything else.
+            WireError: If the stream is not one of actuator frames.
         """
         frames = []
         try:
             self._unpacker.feed(data)
             decoded = list(self._unpacker)
-        except Exception as error:  # whatever foreign bytes make it raise
+        except Exception as error:  # msgpack raises many kinds of errors
             name = type(error).__name__
-            raise WireError(f"no answer: {name} {error}".strip()) from error
+            raise WireError(
+                f"cannot decode an actuator frame: {name} {error}".strip()
+            ) from error
         for answer in decoded:
             frames.append(take_actuators(answer))
         self._pending = len(data) + (0 if frames else self._pending)
         if self._pending > 2 * LONGEST_ANSWER and not frames:
             raise WireError(
-                f"no answer ends within {2 * LONGEST_ANSWER} bytes"
+                "an actuator frame must end within "
+                f"{2 * LONGEST_ANSWER} bytes, got {self._pending}"
             )
         return frames
 
@@ -57,10 +60,11 @@ log = logging.getLogger(__name__)
 
 
 class LolaServer:
-    """Speaks LoLA for one robot: a frame out, an answer in, every tick.
+    """LoLA interface of one simulated robot.
 
-    A tick is :meth:`speak`, then :meth:`hear` until the answer is there or
-    time is up, then :meth:`act`. Nothing here waits or looks at a clock.
+    A tick is :meth:`speak`, which sends a sensor frame, then :meth:`hear`
+    until the answer has arrived or time is up, then :meth:`act`. No method
+    waits or reads a clock.
 
     Attributes:
         count: Number of the last frame sent in this session; -1 before.
@@ -80,12 +84,12 @@ class LolaServer:
         """Listen for a client.
 
         Args:
-            address: Where.
-            robot: Whom to speak for.
+            address: Address to listen on.
+            robot: The simulated robot.
             joint_names: Its joints, in the order of its measurements.
-            lock_step: Whether its world waits for answers.
-            ideal_sight: Whether the true line of sight is offered beside.
-            cameras: Whether what its cameras see is offered beside.
+            lock_step: Whether the simulation waits for answers.
+            ideal_sight: Whether the true line of sight is offered.
+            cameras: Whether the images of its cameras are offered.
 
         Raises:
             ConfigurationError: If the address cannot be listened on.
@@ -93,16 +97,16 @@ class LolaServer:
         """
         self._joints = ServedJoints(robot, joint_names)
         self._lock_step = lock_step
-        # First, so that who finds the robot finds what is beside it.
-        self._beside: list[SightOffer | CameraOffer] = []
+        # First, so that a client that finds the robot finds them, too.
+        self._channels: list[SightOffer | CameraOffer] = []
         try:
             if ideal_sight and address.sight is not None:
-                self._beside.append(SightOffer(address.sight))
+                self._channels.append(SightOffer(address.sight))
             if cameras and address.cameras is not None:
-                self._beside.append(CameraOffer(address.cameras))
+                self._channels.append(CameraOffer(address.cameras))
             self._listener = ClientListener(address)
         except BaseException:
-            self._close_beside()
+            self._close_channels()
             raise
         self._reader = ActuatorFrameReader()
         self._chest_pressed = False
@@ -111,53 +115,53 @@ class LolaServer:
 
     @property
     def share(self) -> float:
-        """What is left of the commanded stiffness without answers."""
+        """Fraction of the commanded stiffness, which decays in silence."""
         return self._joints.share
 
     @property
     def stiffness(self) -> Array:
-        """Of the motors now. Shape (25,)."""
+        """Stiffness of the motors now. Shape (25,)."""
         return self._joints.stiffness
 
     @property
     def connected(self) -> bool:
-        """Whether a client is there."""
+        """Whether a client is connected."""
         return self._listener.client is not None
 
     @property
     def ready(self) -> bool:
-        """Whether a client is there and holds the robot stiff."""
+        """Whether a client is connected and holds the robot stiff."""
         return self.connected and self._joints.stiff
 
     @property
     def refused(self) -> int:
-        """Clients that came while there was one."""
+        """Number of clients refused because one was connected."""
         return self._listener.refused
 
     def fileno(self) -> int:
-        """Descriptor to wait on for answers; -1 without a client."""
+        """Return the descriptor to wait on; -1 without a client."""
         client = self._listener.client
         return -1 if client is None else client.fileno()
 
     def press(self, pressed: bool) -> None:
-        """Press the chest button, or let it go."""
+        """Press the chest button, or release it."""
         self._chest_pressed = pressed
 
     def speak(self) -> None:
-        """Take a client that has come, and send it a frame."""
-        self.hear()  # what comes too late is no answer to the next frame
+        """Accept a waiting client, and send a frame."""
+        self.hear()  # a late answer must not count for the next frame
         if self._listener.accept():
             self._reader, self.count = ActuatorFrameReader(), -1
-            for offer in self._beside:
-                offer.forget()
+            for channel in self._channels:
+                channel.restart()
             log.info("%s: client connected", self._listener.address)
         measurement = self._joints.sense()
         self.answered = False
         if not self.connected:
             return
         self.count += 1
-        for offer in self._beside:
-            offer.tell(measurement, self.count)
+        for channel in self._channels:
+            channel.send(measurement, self.count)
         frame = self._joints.frame(
             self.count,
             chest_pressed=self._chest_pressed,
@@ -166,7 +170,11 @@ class LolaServer:
         self._try(pack_sensors(frame))
 
     def hear(self) -> bool:
-        """Take answers that have come; whether nobody is waited for."""
+        """Take answers that have arrived.
+
+        Returns:
+            Whether the last frame was answered, or no client is connected.
+        """
         try:
             data = self._listener.receive(LONGEST_ANSWER)
             frames = self._reader.feed(data) if data else []
@@ -179,21 +187,21 @@ class LolaServer:
         return self.answered or not self.connected
 
     def act(self) -> None:
-        """Let the robot do what was asked, as stiff as it may be."""
+        """Apply the newest commands for one tick."""
         self._joints.act()
 
     def drop(self, why: str) -> None:
-        """Let go of a client, and say why; another may come."""
+        """Disconnect the client, and log why; another may connect."""
         self._listener.drop(why)
 
     def close(self) -> None:
-        """Let go of the client."""
+        """Disconnect the client and stop the server."""
         self._listener.close()
-        self._close_beside()
+        self._close_channels()
 
-    def _close_beside(self) -> None:
-        for offer in self._beside:
-            offer.close()
+    def _close_channels(self) -> None:
+        for channel in self._channels:
+            channel.close()
 
     def _try(self, data: bytes) -> None:
         try:

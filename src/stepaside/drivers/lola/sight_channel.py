@@ -1,49 +1,34 @@
-"""The client's end of the ideal line of sight."""
+"""Client of the ideal line of sight of a simulated robot."""
 
 import logging
 from collections import deque
-from typing import Protocol
 
 from ...perception.measurement import Sighting
 from ..guardian_process import SessionLost
-from ..joint.frame_clock import TICK
 from ..joint.link import FrameLink
+from .nao_joints import TICK
 from .sight_message import SightError, SightMessage, unpack_sight
 
 AHEAD = 8  # frames by which a sighting may come before its frame: 0.1 s
 log = logging.getLogger(__name__)
 
 
-class SightSubscription(Protocol):
-    """Where a simulated robot tells its ideal line of sight."""
-
-    def newest(self, frame: int, start: int) -> Sighting | None:
-        """Newest sighting that belongs to a frame or to one before it.
-
-        Args:
-            frame: Number of the newest sensor frame.
-            start: Number of the frame at which time is zero.
-        """
-
-    def close(self) -> None:
-        """Stop listening."""
-
-
 class SightChannel:
-    """Hands over each sighting with the frame that it belongs to."""
+    """Reader that returns each sighting with its sensor frame."""
 
     def __init__(self, link: FrameLink) -> None:
-        """Listen on a link of messages."""
+        """Read from a link of messages."""
         self._link: FrameLink | None = link
         self._early: deque[SightMessage] = deque()
         self._newest: SightMessage | None = None
         self._last = -1
 
     def newest(self, frame: int, start: int) -> Sighting | None:
-        """Newest sighting that belongs to a frame or to one before it.
+        """Return the newest sighting of a frame or an earlier one.
 
-        What comes from the future, out of order or as garbage is dropped,
-        and the log says so. A channel that breaks is silent from then on.
+        Invalid messages, and those of later frames or out of order, are
+        dropped with a warning. After a broken connection no new sighting is
+        returned.
 
         Args:
             frame: Number of the newest sensor frame.
@@ -68,11 +53,11 @@ class SightChannel:
             self._newest = self._early.popleft()
         if self._newest is None:
             return None
-        seen, age, bearing, distance = self._newest
-        return Sighting((seen - start) * TICK - age, bearing, distance)
+        number, age, bearing, distance = self._newest
+        return Sighting((number - start) * TICK - age, bearing, distance)
 
     def close(self) -> None:
-        """Stop listening."""
+        """Disconnect."""
         if self._link is not None:
             self._link.close()
             self._link = None
@@ -83,6 +68,6 @@ class SightChannel:
         try:
             return self._link.receive()
         except SessionLost as error:
-            log.warning("line of sight lost: %s", error)
+            log.warning("ideal line of sight disconnected: %s", error)
             self.close()
             return []

@@ -1,34 +1,34 @@
-"""The ideal line of sight beside a simulated robot's socket.
+"""Wire format of the ideal line of sight of a simulated robot.
 
-One message of 32 bytes for each new sighting, little-endian: the letters
+One little-endian message of 32 bytes for each new sighting: the letters
 ``SGHT``, the number of the sensor frame with which it arrived (uint32), its
-age in [s], the bearing in [rad] and the distance in [m] (float64 each). It
-is the simulator's truth, and its channel is named for what it is.
+age in [s], the bearing in [rad] and the distance in [m] (float64 each).
 """
 
 import struct
 from typing import NamedTuple
 
 from ...core.errors import StepAsideError
-from ..sighting_checks import fault_of
+from ..sighting_checks import sighting_fault
 
 MESSAGE = struct.Struct("<4sIddd")
 LETTERS = b"SGHT"
-OLDEST = 10.0  # age beyond which a sighting says nothing, in [s]
+MAX_AGE = 10.0  # age of a sighting that is accepted, in [s]
 
 
 class SightError(StepAsideError, ValueError):
-    """Bytes that are no sighting."""
+    """Bytes that are not a valid sighting."""
 
 
 class SightMessage(NamedTuple):
-    """One sighting on its way.
+    """Sighting with the sensor frame that it belongs to.
 
     Attributes:
         frame: Number of the sensor frame with which it arrived.
-        age: How long before that frame it was taken, in [s].
-        bearing: Direction of the other from the torso's heading, in [rad].
-        distance: To the other, in [m].
+        age: Time from the sighting to that frame, in [s].
+        bearing: Direction of the opponent from the torso's heading, in
+            [rad].
+        distance: Distance of the opponent, in [m].
     """
 
     frame: int
@@ -38,15 +38,15 @@ class SightMessage(NamedTuple):
 
 
 def pack_sight(message: SightMessage) -> bytes:
-    """Bytes of a message."""
+    """Encode a message."""
     return MESSAGE.pack(LETTERS, *message)
 
 
 def unpack_sight(data: bytes) -> SightMessage:
-    """Read a message.
+    """Decode a message.
 
     Raises:
-        SightError: If the bytes are anything else, or say what cannot be.
+        SightError: If length, letters or values are invalid.
     """
     if len(data) != MESSAGE.size:
         raise SightError(
@@ -55,11 +55,11 @@ def unpack_sight(data: bytes) -> SightMessage:
     letters, frame, age, bearing, distance = MESSAGE.unpack(data)
     if letters != LETTERS:
         raise SightError(f"a sighting must begin with {LETTERS!r}")
-    if not 0.0 <= age <= OLDEST:
+    if not 0.0 <= age <= MAX_AGE:
         raise SightError(
-            f"the age of the sighting must lie in [0, {OLDEST:g}] s, "
+            f"the age of the sighting must lie in [0, {MAX_AGE:g}] s, "
             f"got {age:g} s"
         )
-    if fault := fault_of(bearing, distance):
+    if fault := sighting_fault(bearing, distance):
         raise SightError(fault)
     return SightMessage(frame, age, bearing, distance)

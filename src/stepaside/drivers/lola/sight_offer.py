@@ -1,13 +1,13 @@
-"""The server's end of the ideal line of sight."""
+"""Server of the ideal line of sight of a simulated robot."""
 
 from ...perception.measurement import Measurement, Sighting
-from ..joint.listener import ClientListener
+from .listener import ClientListener
 from .lola_address import LolaAddress
 from .sight_message import SightMessage, pack_sight
 
 
 class SightOffer:
-    """Tells whoever listens where the other robot is."""
+    """Server that sends the opponent's ideal sightings to one client."""
 
     def __init__(self, address: LolaAddress) -> None:
         """Listen.
@@ -16,33 +16,37 @@ class SightOffer:
             ConfigurationError: If the address cannot be listened on.
         """
         self._listener = ClientListener(address)
-        self._told: Sighting | None = None
+        self._sent: Sighting | None = None
 
-    def tell(self, measurement: Measurement, frame: int) -> None:
-        """Send a sighting that is new, or new to a client.
+    def send(self, measurement: Measurement, frame: int) -> None:
+        """Send the sighting, if it is new or the client is.
 
         Args:
-            measurement: What the robot's sensors give.
+            measurement: Measurement of the robot at this tick.
             frame: Number of the sensor frame that will follow.
         """
         listener = self._listener
         if listener.accept():
-            self._told = None
-        seen = measurement.sighting
-        if seen is None or seen is self._told or listener.client is None:
+            self._sent = None
+        sighting = measurement.sighting
+        if (
+            sighting is None
+            or sighting is self._sent
+            or listener.client is None
+        ):
             return
-        age = max(measurement.time - seen.time, 0.0)
-        message = SightMessage(frame, age, seen.bearing, seen.distance)
+        age = max(measurement.time - sighting.time, 0.0)
+        message = SightMessage(frame, age, sighting.bearing, sighting.distance)
         try:
             listener.send(pack_sight(message))
-            self._told = seen
+            self._sent = sighting
         except OSError as error:
             listener.drop(error)
 
-    def forget(self) -> None:
-        """Tell everything anew, as frames are numbered anew."""
-        self._told = None
+    def restart(self) -> None:
+        """Send the newest sighting again, as frame numbers start anew."""
+        self._sent = None
 
     def close(self) -> None:
-        """Stop telling."""
+        """Stop the server."""
         self._listener.close()

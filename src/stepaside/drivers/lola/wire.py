@@ -1,8 +1,7 @@
-"""LoLA's bytes: MessagePack maps of fixed keys, lengths and types.
+"""Wire format of LoLA: MessagePack maps of fixed keys, lengths and types.
 
-A frame is read strictly or not at all: whatever arrives, what comes out is
-a whole frame of finite numbers or one :class:`WireError` that says what was
-wrong with the bytes.
+Decoding is strict: it yields a complete frame of finite numbers, or a
+:class:`WireError` that names the fault.
 """
 
 from collections.abc import Mapping, Sequence
@@ -11,24 +10,24 @@ from typing import Any, NamedTuple
 
 import msgpack
 
-from ...core.errors import StepAsideError
+from ..joint.frames import FrameError
 
 SENSOR_BYTES = 896  # of every sensor frame
 ACTUATOR_BYTES = 786  # of an actuator frame with all keys
 LONGEST_ANSWER = 4096  # more than any encoding of an actuator frame
-GREATEST = 3.4028234e38  # of a number in single precision
-SHORT_TEXT = 31  # length of a text that takes one byte of header
+MAX_FLOAT = 3.4028234e38  # largest number in single precision
+MAX_TEXT = 31  # longest text with a one-byte header, in characters
 
 
-class WireError(StepAsideError, ValueError):
-    """Bytes that are no frame, or values that no frame can carry."""
+class WireError(FrameError):
+    """Bytes that are not a valid frame, or values that cannot be encoded."""
 
 
 class Field(NamedTuple):
-    """One key of a frame.
+    """Key of a frame, with the type of its values.
 
     Attributes:
-        key: As it stands on the wire.
+        key: Key on the wire.
         length: Number of values.
         kind: float, int, bool or str.
     """
@@ -66,13 +65,13 @@ ACTUATOR_FIELDS = (
     Field("Skull", 12),
     Field("Sonar", 2, bool),
 )
-# Peers leave the lights' memory as they found it.
+# Fields whose memory some peers leave uninitialised.
 LIGHTS = frozenset(f.key for f in ACTUATOR_FIELDS[2:-1])
 Values = dict[str, list[Any]]
 
 
 class Pairs(list[tuple[Any, Any]]):
-    """Keys and values of one map, in order, doubles and all."""
+    """Keys and values of one map, in order, including duplicate keys."""
 
 
 LIMITS = {
@@ -87,33 +86,35 @@ LIMITS = {
 
 
 def decode(data: bytes) -> Any:
-    """Decode one MessagePack object that fills all of the bytes.
+    """Decode the bytes of one MessagePack object.
 
     Raises:
-        WireError: If there is none.
+        WireError: If the bytes are anything else.
     """
     try:
         return msgpack.unpackb(data, **LIMITS)
-    except Exception as error:  # whatever foreign bytes make it raise
+    except Exception as error:  # msgpack raises many kinds of errors
         name = type(error).__name__
-        raise WireError(f"no MessagePack: {name} {error}".strip()) from error
+        raise WireError(
+            f"cannot decode MessagePack: {name} {error}".strip()
+        ) from error
 
 
 def check_map(
     decoded: Any, fields: Sequence[Field], *, partial: bool = False
 ) -> Values:
-    """Check that a decoded object is a frame of these fields.
+    """Check that a decoded object is a frame of given fields.
 
     Args:
-        decoded: What :func:`decode` gave.
-        fields: Keys that it must have, and no others, in any order.
-        partial: Whether it may leave keys out.
+        decoded: Result of :func:`decode`.
+        fields: Fields of the frame; other keys are not allowed.
+        partial: Whether keys may be missing.
 
     Returns:
         Values by key; numbers of float fields are floats.
 
     Raises:
-        WireError: If it is not; names the first fault.
+        WireError: With the first fault, if it is not such a frame.
     """
     if not isinstance(decoded, Pairs):
         raise WireError(f"a frame must be a map, got {_kind(decoded)}")
@@ -123,7 +124,7 @@ def check_map(
         if not isinstance(key, str) or key not in known:
             raise WireError(f"unknown key {key!r:.40}")
         if key in values:
-            raise WireError(f"key {key} stands twice")
+            raise WireError(f"key {key} must occur once")
         values[key] = _check(known[key], value)
     missing = [key for key in known if key not in values]
     if missing and not partial:
@@ -132,11 +133,11 @@ def check_map(
 
 
 def encode(values: Mapping[str, Any], fields: Sequence[Field]) -> bytes:
-    """Encode a frame in the order of its fields, floats in 4 bytes.
+    """Encode a frame in the order of its fields, floats as 4 bytes.
 
     Args:
-        values: Values by key; a key that is left out is not sent.
-        fields: Keys that there are.
+        values: Values by key; missing keys are not encoded.
+        fields: Fields of the frame.
 
     Raises:
         WireError: If a value has the wrong length or type, or is not
@@ -152,7 +153,7 @@ def encode(values: Mapping[str, Any], fields: Sequence[Field]) -> bytes:
 
 
 def _check(field: Field, value: Any) -> list[Any]:
-    """Values of one field, of the type that it has."""
+    """Return the values of one field, checked."""
     if not isinstance(value, list) or isinstance(value, Pairs):
         raise WireError(
             f"{field.key} must be an array of {field.length}, "
@@ -172,19 +173,19 @@ def _check(field: Field, value: Any) -> list[Any]:
             )
         if field.kind is int and not 0 <= entry <= 127:
             raise WireError(f"{field.key} must lie in [0, 127], got {entry}")
-        if field.kind is str and len(entry) > SHORT_TEXT:
+        if field.kind is str and len(entry) > MAX_TEXT:
             raise WireError(
-                f"{field.key} must have at most {SHORT_TEXT} characters, "
+                f"{field.key} must have at most {MAX_TEXT} characters, "
                 f"got {len(entry)}"
             )
     return value
 
 
 def _number(key: str, entry: Any) -> float:
-    """A float from a float or, as some peers write it, a whole number."""
+    """Return a float from a float or, as some peers write it, an integer."""
     if type(entry) is not float and type(entry) is not int:
         raise WireError(f"{key} must hold numbers, got {_kind(entry)}")
-    if not isfinite(entry) or abs(entry) > GREATEST:
+    if not isfinite(entry) or abs(entry) > MAX_FLOAT:
         if key in LIGHTS and type(entry) is float:
             return 0.0
         raise WireError(f"{key} must be finite, got {entry}")

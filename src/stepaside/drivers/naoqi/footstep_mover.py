@@ -1,4 +1,4 @@
-"""How a robot on NAOqi that walks by itself is told to: by footsteps."""
+"""Footstep commands to ALMotion."""
 
 import logging
 from collections.abc import Callable
@@ -16,17 +16,17 @@ from .qi_session import answer_of
 from .velocity_mover import PendingCall
 
 LEGS = {Foot.LEFT: "LLeg", Foot.RIGHT: "RLeg"}
-AHEAD = 3  # footsteps that are told at once
-REFUSALS = 5  # in a row, after which a robot takes no footsteps
+HORIZON = 3  # footsteps per command
+MAX_REFUSALS = 5  # consecutive refusals after which the session ends
 log = logging.getLogger(__name__)
 
 
 class FootstepMover:
-    """Moves a robot by ``setFootSteps``, planned anew when a step begins.
+    """Mover by ``setFootSteps``, which replans when a step begins.
 
-    The template of (7) and (8) begins beside the last foot that cannot be
-    changed any more, as the robot says it: replanning takes place at each
-    step, as in Sec. III-E. What was told before of later steps is cleared.
+    The template of (7) and (8) starts beside the last footstep that the
+    robot reports as unchangeable: replanning takes place at each step, as
+    in Sec. III-E. Later footsteps of earlier plans are cleared.
     """
 
     def __init__(
@@ -36,90 +36,97 @@ class FootstepMover:
         clock: Callable[[], float],
         limits: StepLimits | None = None,
     ) -> None:
-        """Know a robot's ALMotion.
+        """Start without footsteps.
 
         Args:
-            motion: Its ALMotion.
-            gait: Gives stride, gain, foot spacing and time of a step.
+            motion: The robot's ALMotion.
+            gait: Gives stride, gain, foot spacing and step duration.
             clock: Time of this computer, in [s].
-            limits: What its walk accepts; NAO's by default.
+            limits: Limits of one step; NAO's by default.
         """
         self._motion, self._gait = motion, gait
         self._limits = limits or StepLimits()
-        self._errand = PendingCall(clock)
-        self._asked = REST
-        self._look: Any = None
-        self._tells = False  # whether the last call told footsteps
-        self._after: object = None
+        self._call = PendingCall(clock)
+        self._commanded = REST
+        self._query: Any = None  # pending call of getFootSteps
+        self._sent_footsteps = False  # whether the last call sent footsteps
+        self._planned_after: object = None
         self._refused = 0
 
     def command(self, velocity: VelocityCommand) -> None:
-        """Ask for footsteps along the path of a velocity.
+        """Command footsteps along the path of a velocity.
 
         Raises:
-            SessionLost: If the robot is gone, stuck, or takes no footsteps.
+            SessionLost: If the robot cannot be reached, does not answer, or
+                refuses all footsteps.
         """
         if velocity == REST:
             self._stop()
-        elif self._taken():
-            self._asked = velocity
-            told = self._looked()
-            if told is not None:
-                self._plan(velocity, *told)
+        elif self._is_free():
+            self._commanded = velocity
+            footsteps = self._reported_footsteps()
+            if footsteps is not None:
+                self._plan(velocity, *footsteps)
 
     def _stop(self) -> None:
-        """Stop at once, whatever footsteps are on their way."""
-        at_rest = self._asked == REST and self._errand.begun
-        if at_rest or not self._taken():
+        """Stop at once, and drop all pending footsteps."""
+        is_stopped = self._commanded == REST and self._call.begun
+        if is_stopped or not self._is_free():
             return
-        self._asked, self._after = REST, None
-        self._look, self._tells = None, False
-        self._errand.send("stopMove", self._motion.stopMove(_async=True))
+        self._commanded, self._planned_after = REST, None
+        self._query, self._sent_footsteps = None, False
+        self._call.send("stopMove", self._motion.stopMove(_async=True))
 
-    def _taken(self) -> bool:
-        """Whether the robot is free for another command."""
-        why = self._errand.refusal() if self._tells else ""
-        if why:
-            # Perhaps a step has begun meanwhile, which they do not follow.
-            log.warning("footsteps refused: %s", why)
-            self._after, self._tells = None, False
+    def _is_free(self) -> bool:
+        """Whether the last command has been answered."""
+        reason = self._call.refusal() if self._sent_footsteps else ""
+        if reason:
+            # A step may have begun meanwhile, so that the plan did not fit.
+            log.warning("footsteps refused: %s", reason)
+            self._planned_after, self._sent_footsteps = None, False
             self._refused += 1
-            if self._refused >= REFUSALS:
-                raise SessionLost("the robot takes no footsteps")
+            if self._refused >= MAX_REFUSALS:
+                raise SessionLost(
+                    f"the robot refused {MAX_REFUSALS} footstep commands in "
+                    f"a row: {reason}"
+                )
             return True
-        if not self._errand.arrived:
+        if not self._call.arrived:
             return False
-        if self._tells:
+        if self._sent_footsteps:
             self._refused = 0
         return True
 
-    def _looked(self) -> tuple[list[Any], list[Any]] | None:
-        """Steps that are certain, and those that can be changed.
+    def _reported_footsteps(self) -> tuple[list[Any], list[Any]] | None:
+        """Return the unchangeable and the changeable footsteps.
 
-        None while the robot has not said them.
+        None until the robot has reported them.
         """
-        look = self._look
-        if look is None:
-            self._look = self._motion.getFootSteps(_async=True)
+        query = self._query
+        if query is None:
+            self._query = self._motion.getFootSteps(_async=True)
             return None
-        if not look.isFinished():
+        if not query.isFinished():
             return None
-        self._look = None
-        told = answer_of(look, "getFootSteps", within=0.0)
+        self._query = None
+        answer = answer_of(query, "getFootSteps", within=0.0)
         try:
-            _, certain, later = told
-            return list(certain), list(later)
+            _, fixed, changeable = answer
+            return list(fixed), list(changeable)
         except (TypeError, ValueError) as error:
             raise SessionLost(
-                f"the robot's footsteps are {told!r:.60}"
+                f"getFootSteps must return three lists, got {answer!r:.60}"
             ) from error
 
     def _plan(
-        self, velocity: VelocityCommand, certain: list[Any], later: list[Any]
+        self,
+        velocity: VelocityCommand,
+        fixed: list[Any],
+        changeable: list[Any],
     ) -> None:
-        """Tell the next footsteps, if the last ones told have begun."""
-        last = _leg_and_place(certain[-1]) if certain else None
-        if later and last == self._after:
+        """Send new footsteps, if a step of the last plan has begun."""
+        last = _leg_and_pose(fixed[-1]) if fixed else None
+        if changeable and last == self._planned_after:
             return
         left_supports = last is not None and last[0] == LEGS[Foot.LEFT]
         steps = plan_footsteps(
@@ -127,17 +134,19 @@ class FootstepMover:
             self._gait,
             self._limits,
             first_foot=Foot.RIGHT if left_supports else Foot.LEFT,
-            count=AHEAD,
+            count=HORIZON,
         )
-        self._after, self._tells = last, True
-        call = self._motion.setFootSteps(*words_of(steps), True, _async=True)
-        self._errand.send("setFootSteps", call)
+        self._planned_after, self._sent_footsteps = last, True
+        call = self._motion.setFootSteps(
+            *footstep_arguments(steps), True, _async=True
+        )
+        self._call.send("setFootSteps", call)
 
 
-def words_of(
+def footstep_arguments(
     steps: tuple[FootCommand, ...],
 ) -> tuple[list[str], list[list[float]], list[float]]:
-    """Footsteps as ``setFootSteps`` takes them: legs, places and times."""
+    """Return the arguments of ``setFootSteps``: legs, poses and times."""
     return (
         [LEGS[step.foot] for step in steps],
         [list(step.pose) for step in steps],
@@ -145,14 +154,13 @@ def words_of(
     )
 
 
-def _leg_and_place(told: Any) -> tuple[str, tuple[float, ...]]:
-    """Leg and place of a footstep that a robot tells.
-
-    Raises:
-        SessionLost: If it is none.
-    """
+def _leg_and_pose(entry: Any) -> tuple[str, tuple[float, ...]]:
+    """Return leg and relative pose of an entry of ``getFootSteps``."""
     try:
-        leg, _, place = told
-        return str(leg), tuple(float(value) for value in place)
+        leg, _, pose = entry
+        return str(leg), tuple(float(value) for value in pose)
     except (TypeError, ValueError) as error:
-        raise SessionLost(f"the robot's footstep is {told!r:.60}") from error
+        raise SessionLost(
+            "a footstep of getFootSteps must be leg, time and pose, got "
+            f"{entry!r:.60}"
+        ) from error

@@ -1,4 +1,4 @@
-"""Names of joints and of chains of joints, as NAOqi's services take them."""
+"""Names of NAOqi's joints and kinematic chains."""
 
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
@@ -9,12 +9,20 @@ import numpy as np
 from ...core.poses import Array
 
 LEG = (
-    *("HipYawPitch", "HipRoll", "HipPitch"),
-    *("KneePitch", "AnklePitch", "AnkleRoll"),
+    "HipYawPitch",
+    "HipRoll",
+    "HipPitch",
+    "KneePitch",
+    "AnklePitch",
+    "AnkleRoll",
 )
 ARM = (
-    *("ShoulderPitch", "ShoulderRoll", "ElbowYaw", "ElbowRoll"),
-    *("WristYaw", "Hand"),
+    "ShoulderPitch",
+    "ShoulderRoll",
+    "ElbowYaw",
+    "ElbowRoll",
+    "WristYaw",
+    "Hand",
 )
 SIMPLE = {
     "Head": ("HeadYaw", "HeadPitch"),
@@ -34,12 +42,12 @@ CHAINS: Mapping[str, tuple[str, ...]] = MappingProxyType(
 
 
 def joints_of(names: Any, known: Sequence[str]) -> list[str]:
-    """Return the joints that names stand for, in NAOqi's order of a chain.
+    """Expand names of joints and chains to joints, in NAOqi's order.
 
     Args:
         names: One name or several, each of a joint or of a chain.
-        known: Joints of the robot. The whole body is all of them; those
-            that NAOqi does not know come last.
+        known: Joints of the robot. A chain for the whole body has all of
+            them, joints that NAOqi does not define last.
 
     Raises:
         ValueError: If the robot has no such joint or chain.
@@ -62,18 +70,18 @@ def joints_of(names: Any, known: Sequence[str]) -> list[str]:
 
 
 def values_of(joints: Sequence[str], values: Any, what: str) -> Array:
-    """Return one finite value for each joint; a single one serves for all.
+    """Return one finite value for each joint.
 
     Args:
-        joints: Their names.
-        values: One or as many.
+        joints: Names of the joints.
+        values: One value for all joints, or one for each.
         what: Name of the values, for messages.
 
     Returns:
         Shape (joints,).
 
     Raises:
-        ValueError: If there are more or fewer, or one is NaN or inf.
+        ValueError: If their number does not match, or one is NaN or inf.
     """
     given = _one_each(joints, values)
     if not np.isfinite(given).all():
@@ -85,14 +93,14 @@ def shares_of(joints: Sequence[str], values: Any) -> Array:
     """Return a stiffness for each joint, from 0 to 1.
 
     Args:
-        joints: Their names.
-        values: One for all, or as many.
+        joints: Names of the joints.
+        values: One value for all joints, or one for each.
 
     Returns:
         Shape (joints,).
 
     Raises:
-        ValueError: If there are more or fewer, or one is out of range.
+        ValueError: If their number does not match, or one is out of range.
     """
     given = _one_each(joints, values)
     if not np.all((given >= 0.0) & (given <= 1.0)):
@@ -104,7 +112,7 @@ def _one_each(joints: Sequence[str], values: Any) -> Array:
     given = np.array(values, dtype=np.float64)
     if given.ndim > 1 or given.size not in (1, len(joints)):
         raise ValueError(
-            f"a value for each of {len(joints)} joints is needed, "
-            f"got {given.size}"
+            f"{len(joints)} joints need one value, or {len(joints)}, got "
+            f"{given.size}"
         )
     return np.broadcast_to(given.ravel(), len(joints)).copy()

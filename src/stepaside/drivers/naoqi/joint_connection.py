@@ -1,4 +1,4 @@
-"""Connecting to a robot on NAOqi whose joints are moved."""
+"""Connection to a robot that is driven by its joints over NAOqi."""
 
 import logging
 from collections.abc import Sequence
@@ -11,6 +11,7 @@ from ..guardian_process import open_within
 from ..joint.joint_body import JointBody
 from ..joint.session_options import PLAIN, SessionOptions
 from ..joint.stiffness_guardian import StiffnessGuardian
+from ..lola.nao_joints import NAO_MOTORS
 
 if TYPE_CHECKING:
     from .joint_transport import JointTransport
@@ -24,47 +25,48 @@ def open_joints(
     stance: Array,
     how: SessionOptions = PLAIN,
 ) -> JointBody:
-    """Connect to a robot, whose body is the one that LoLA's robots have.
+    """Connect to a robot.
 
     Args:
-        url: Like tcp://HOST:PORT.
+        url: Address like tcp://HOST:PORT.
         joint_names: Actuated joints, in the order of joint targets.
-        stance: Posture in which control begins, in [rad].
-        how: What is asked of the session; lights stay as they are.
+        stance: Posture in which control begins, in [rad]. Shape (joints,).
+        how: Options of the session; lights are not commanded.
 
     Raises:
-        SessionLost: If no robot answers there, or no camera.
+        SessionLost: If no robot or no camera answers.
     """
     with ExitStack() as stack:
         guardian = None
         if how.guards:
-            # Forked here: what speaks to the robot starts threads.
+            # Forked before the connection, whose library starts threads.
             guardian = StiffnessGuardian(partial(_fade, url))
             stack.callback(guardian.dismiss)
-        line = open_within(lambda: _line_to(url), how.patience)
-        stack.callback(line.close)
+        link = open_within(lambda: _connect(url), how.patience)
+        stack.callback(link.close)
         from .joint_transport import CODEC, MemorySight
 
         eyes = how.eyes()
-        sight = MemorySight(line) if line.simulated and eyes is None else None
+        sight = MemorySight(link) if link.simulated and eyes is None else None
         if sight is not None:
-            log.warning("sees by the ideal line of sight of the robot")
+            log.warning("uses the ideal line of sight of the robot")
         body = JointBody(
-            line,
+            link,
             joint_names,
             stance,
+            NAO_MOTORS,
+            CODEC,
             sight=sight,
             eyes=eyes,
             guardian=guardian,
             safety=how.safety,
             dry_run=how.dry_run,
-            codec=CODEC,
         )
-        stack.pop_all()  # they are the body's now
+        stack.pop_all()  # the body closes them from now on
         return body
 
 
-def _line_to(url: str) -> "JointTransport":
+def _connect(url: str) -> "JointTransport":
     from .joint_transport import JointTransport
 
     return JointTransport(url)

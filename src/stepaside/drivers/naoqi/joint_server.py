@@ -1,12 +1,12 @@
-"""The robot's side of NAOqi, for a simulated robot moved by its joints."""
+"""Server of NAOqi's services for a simulated robot driven by its joints."""
 
 import logging
 from collections.abc import Sequence
 
 from ...perception.measurement import Measurement
-from ..joint.frame_clock import TICK
-from ..joint.served_joints import ServedJointRobot, ServedJoints
-from ..lola.conventions import COUNTER_RANGE
+from ..joint.frame_clock import COUNTER_RANGE
+from ..lola.nao_joints import TICK
+from ..lola.served_joints import ServedJointRobot, ServedJoints
 from .joint_services import (
     JointMemoryService,
     JointMotionService,
@@ -16,16 +16,16 @@ from .naoqi_url import IDEAL_SIGHT
 from .qi_session import listen
 from .sensor_keys import FRAME, values_of
 
-SILENCE = 0.5  # without a command before nobody is there, in [s]
+SILENCE = 0.5  # without a command before a client counts as gone, in [s]
 log = logging.getLogger(__name__)
 
 
 class NaoqiJointServer:
-    """Services of one robot, with a service directory of their own.
+    """NAOqi services of one robot, with their own service directory.
 
     A tick is :meth:`speak`, then :meth:`hear` until the client has set the
     joints or time is up, then :meth:`act`. A real ALMotion keeps the joints
-    stiff when whoever commanded them has gone; here stiffness decays.
+    stiff when its client has gone; here stiffness decays.
     """
 
     def __init__(
@@ -40,24 +40,24 @@ class NaoqiJointServer:
         """Offer the services.
 
         Args:
-            url: Where, like tcp://127.0.0.1:PORT.
-            robot: Whom to speak for.
+            url: Address like tcp://127.0.0.1:PORT.
+            robot: The simulated robot.
             joint_names: Its joints, in the order of its measurements.
-            lock_step: Whether its world waits for answers.
-            ideal_sight: Whether the true line of sight is told.
+            lock_step: Whether the simulation waits for answers.
+            ideal_sight: Whether the true line of sight is offered.
 
         Raises:
-            ConfigurationError: If nobody can listen there.
+            ConfigurationError: If the address cannot be listened on.
             ModelError: If NAOqi has no motor for one of the joints.
         """
         self.joints = ServedJoints(robot, joint_names)
         self._lock_step, self._ideal_sight = lock_step, ideal_sight
         self._chest_pressed = False
-        self._lonely = round(SILENCE / TICK) + 1
-        self._silent, self._count = self._lonely, 0
+        self._max_silent = round(SILENCE / TICK) + 1
+        self._silent, self._count = self._max_silent, 0
         self._closed = False
         self.robot = JointServiceState()
-        self._tell(self.joints.sense())
+        self._publish(self.joints.sense())
         services = {
             "ALMotion": JointMotionService(self.robot),
             "ALMemory": JointMemoryService(self.robot),
@@ -67,75 +67,79 @@ class NaoqiJointServer:
 
     @property
     def url(self) -> str:
-        """Where the services are."""
+        """Address of the services."""
         endpoint: str = self._session.endpoints()[0]
         return endpoint
 
     @property
     def connected(self) -> bool:
-        """Whether anybody commanded anything lately."""
-        return self._silent < self._lonely
+        """Whether a client has commanded recently."""
+        return self._silent < self._max_silent
 
     @property
     def ready(self) -> bool:
-        """Whether somebody is there, and holds the robot stiff."""
+        """Whether a client is connected and holds the robot stiff."""
         return self.connected and self.joints.stiff
 
     def fileno(self) -> int:
-        """No descriptor to wait on."""
+        """Return -1: there is no descriptor to wait on."""
         return -1
 
     def press(self, pressed: bool) -> None:
-        """Press the chest button, or let it go."""
+        """Press the chest button, or release it."""
         self._chest_pressed = pressed
 
     def speak(self) -> None:
-        """Let ALMemory tell what the sensors give."""
-        self._tell(self.joints.sense())
+        """Read the sensors into ALMemory."""
+        self._publish(self.joints.sense())
 
     def hear(self) -> bool:
-        """Whether the joints were set, or nobody is waited for."""
+        """Return whether the joints were set, or no client is connected."""
         with self.robot.lock:
             answered = self.robot.answered
         return answered or not self.connected
 
     def act(self) -> None:
-        """Let the robot do what was asked, as stiff as it may be."""
-        asked = self.robot.taken()
-        if asked is None:
-            self._silent = min(self._silent + 1, self._lonely)
+        """Apply the newest commands for one tick."""
+        command = self.robot.taken()
+        if command is None:
+            self._silent = min(self._silent + 1, self._max_silent)
         else:
             self._silent = 0
-            self.joints.take(asked)
+            self.joints.take(command)
         self.joints.act()
 
     def drop(self, why: str) -> None:
-        """Count nobody as there any more, and say why."""
+        """Count the client as gone, and log why."""
         log.warning("%s", why)
-        self._silent = self._lonely
+        self._silent = self._max_silent
 
     def close(self) -> None:
-        """Take the services away."""
+        """Remove the services."""
         if not self._closed:
             self._closed = True
             self._session.close()
 
-    def _tell(self, measurement: Measurement) -> None:
+    def _publish(self, measurement: Measurement) -> None:
         self._count = (self._count + 1) % COUNTER_RANGE
         frame = self.joints.frame(
             self._count,
             chest_pressed=self._chest_pressed,
             lock_step=self._lock_step,
         )
-        seen = measurement.sighting if self._ideal_sight else None
-        told = values_of(frame) | {
+        sighting = measurement.sighting if self._ideal_sight else None
+        values = values_of(frame) | {
             FRAME: [self._count, int(self._lock_step)],
             IDEAL_SIGHT: None
-            if seen is None
-            else [measurement.time - seen.time, seen.bearing, seen.distance],
+            if sighting is None
+            else [
+                measurement.time - sighting.time,
+                sighting.bearing,
+                sighting.distance,
+            ],
         }
         with self.robot.lock:
             if not self.robot.commanded and not self.connected:
                 self.robot.targets = self.joints.targets.copy()
-            self.robot.values, self.robot.angles = told, frame.position
+            self.robot.values, self.robot.angles = values, frame.position
             self.robot.answered = False

@@ -1,7 +1,7 @@
-"""NAOqi's services for a simulated robot whose joints a client moves.
+"""NAOqi services of a simulated robot that is driven by its joints.
 
-Methods are called from threads of the messaging, by the names and with the
-arguments that NAOqi's own services have.
+The methods have the names and arguments of NAOqi's own services, and are
+called from threads of the ``qi`` library.
 """
 
 from threading import Lock
@@ -10,29 +10,30 @@ from typing import Any
 import numpy as np
 
 from ...core.poses import Array
-from ..joint.frames import ActuatorFrame
-from ..joint.joint_map import JOINT_COUNT, NAMES
+from ..lola.lola_frames import ActuatorFrame
+from ..lola.nao_joints import JOINT_COUNT, NAMES
 from .joint_chains import joints_of, shares_of, values_of
 
-SHARED = "RHipYawPitch"  # the motor of LHipYawPitch turns both
+SHARED = "RHipYawPitch"  # driven by the motor of LHipYawPitch
 KNOWN = (*NAMES, SHARED)
 
 
 class JointServiceState:
-    """What the services share, guarded by one lock.
+    """State that the services share, guarded by a lock.
 
     Attributes:
-        lock: Held by whoever reads or writes.
-        values: What ALMemory tells, by key.
-        angles: Of the joints, in [rad]. Shape (25,).
-        targets: Commanded last, in [rad]. Shape (25,).
-        stiffness: Commanded last, shares of the torque. Shape (25,).
-        answered: Whether the last frame was: joints were set, or let go.
-        commanded: Whether anything was, that has not been taken.
+        lock: Must be held to read or write the other attributes.
+        values: Values of ALMemory, by key.
+        angles: Measured joint angles, in [rad]. Shape (25,).
+        targets: Newest joint targets, in [rad]. Shape (25,).
+        stiffness: Newest commanded stiffness, from 0 to 1. Shape (25,).
+        answered: Whether a client has set or released the joints since the
+            last frame.
+        commanded: Whether there is a command that has not been taken.
     """
 
     def __init__(self) -> None:
-        """Begin limp, with nothing told."""
+        """Start with limp joints and no values."""
         self.lock = Lock()
         self.values: dict[str, Any] = {}
         self.angles: Array = np.zeros(JOINT_COUNT)
@@ -41,12 +42,12 @@ class JointServiceState:
         self.answered = self.commanded = False
 
     def command(self, *, answers: bool) -> None:
-        """Note a command; the lock is held."""
+        """Note a command; the caller holds the lock."""
         self.commanded = True
         self.answered = self.answered or answers
 
     def taken(self) -> ActuatorFrame | None:
-        """What was commanded since the last time; None if nothing was."""
+        """Take the command since the last call; None without one."""
         with self.lock:
             if not self.commanded:
                 return None
@@ -58,11 +59,11 @@ class JointMotionService:
     """ALMotion: stiffness and joint angles."""
 
     def __init__(self, robot: JointServiceState) -> None:
-        """Move a robot."""
+        """Create the service of a robot."""
         self._robot = robot
 
     def wakeUp(self) -> None:
-        """Make the motors stiff where they are."""
+        """Make all joints stiff at their present angles."""
         robot = self._robot
         with robot.lock:
             robot.targets = robot.angles.copy()
@@ -70,22 +71,22 @@ class JointMotionService:
             robot.command(answers=False)
 
     def rest(self) -> None:
-        """Let the motors go."""
+        """Make all joints limp."""
         with self._robot.lock:
             self._robot.stiffness = np.zeros(JOINT_COUNT)
             self._robot.command(answers=True)
 
     def robotIsWakeUp(self) -> bool:
-        """Whether the motors are stiff."""
+        """Return whether all joints are stiff."""
         with self._robot.lock:
             return bool(self._robot.stiffness.min() > 0.0)
 
     def stopMove(self) -> None:
-        """Nothing: it does not walk by itself."""
+        """Do nothing: there is no walking control."""
 
     def setStiffnesses(self, names: Any, stiffness: Any) -> None:
-        """Set shares of the torque, from 0 to 1."""
-        joints, at = _places(names)
+        """Set the stiffness of joints or chains, from 0 to 1."""
+        joints, at = _indices(names)
         values = shares_of(joints, stiffness)
         with self._robot.lock:
             self._robot.stiffness[at] = values
@@ -93,48 +94,48 @@ class JointMotionService:
             self._robot.command(answers=limp)
 
     def setAngles(self, names: Any, angles: Any, fraction: float) -> None:
-        """Set joint targets, in [rad], that are taken at once."""
-        joints, at = _places(names)
+        """Set joint targets, in [rad], which are applied at once."""
+        joints, at = _indices(names)
         values = values_of(joints, angles, "angles")
         if not 0.0 < fraction <= 1.0:
-            raise ValueError(f"fraction must lie in (0, 1]: {fraction}")
+            raise ValueError(f"fraction must lie in (0, 1], got {fraction}")
         with self._robot.lock:
             self._robot.targets[at] = values
             self._robot.command(answers=True)
 
     def getBodyNames(self, name: str) -> list[str]:
-        """Names of the joints of a chain."""
+        """Return the names of the joints of a chain."""
         return joints_of(name, KNOWN)
 
     def getAngles(self, names: Any, use_sensors: bool) -> list[float]:
-        """Angles of joints, in [rad]."""
+        """Return measured or commanded joint angles, in [rad]."""
         with self._robot.lock:
             robot = self._robot
             angles = robot.angles if use_sensors else robot.targets
-            told: list[float] = angles[_places(names)[1]].tolist()
-            return told
+            selected: list[float] = angles[_indices(names)[1]].tolist()
+            return selected
 
 
 class JointMemoryService:
     """ALMemory: values by key."""
 
     def __init__(self, robot: JointServiceState) -> None:
-        """Know the robot."""
+        """Create the service of a robot."""
         self._robot = robot
 
     def getData(self, key: str) -> Any:
-        """One value."""
+        """Return the value of a key."""
         with self._robot.lock:
             return self._robot.values[key]
 
     def getListData(self, keys: Any) -> list[Any]:
-        """Values; None for what there is not."""
+        """Return the values of keys; None for unknown keys."""
         with self._robot.lock:
             return [self._robot.values.get(key) for key in keys]
 
 
-def _places(names: Any) -> tuple[list[str], list[int]]:
-    """Return joints by the names of joints or chains, and their places."""
+def _indices(names: Any) -> tuple[list[str], list[int]]:
+    """Return the joints that names stand for, and their indices."""
     joints = joints_of(names, KNOWN)
     return joints, [
         NAMES.index("LHipYawPitch" if name == SHARED else name)

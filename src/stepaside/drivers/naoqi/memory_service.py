@@ -1,4 +1,4 @@
-"""ALMemory and ALSonar of a simulated robot that walks by itself."""
+"""ALMemory and ALSonar of a simulated robot with walking control."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -13,24 +13,24 @@ SONARS = {
     "left": f"{SUBDEVICES}/US/Left/Sensor/Value",
     "right": f"{SUBDEVICES}/US/Right/Sensor/Value",
 }
-SILENCE = 2.55  # what a sonar says that heard nothing, in [m]
+NO_ECHO = 2.55  # reading of a sonar without an echo, in [m]
 
 
 class ALSonar:
-    """Sonars: while somebody subscribes their echoes are in ALMemory."""
+    """Sonars, whose echoes are in ALMemory while there are subscribers."""
 
     def __init__(self, robot: WalkServiceState) -> None:
-        """Know the robot."""
+        """Create the service of a robot."""
         self._robot = robot
 
     def subscribe(self, name: str) -> None:
-        """Let the sonars sound."""
+        """Switch the sonars on for a subscriber."""
         with self._robot.lock:
             self._robot.calls += 1
             self._robot.listeners.add(name)
 
     def unsubscribe(self, name: str) -> None:
-        """Stop listening; they are silent when nobody listens."""
+        """Remove a subscriber; without any the sonars are off."""
         with self._robot.lock:
             self._robot.calls += 1
             self._robot.listeners.discard(name)
@@ -40,17 +40,17 @@ class ALMemory:
     """Values by key."""
 
     def __init__(self, robot: WalkServiceState) -> None:
-        """Know the robot."""
+        """Create the service of a robot."""
         self._robot = robot
 
     def getData(self, key: str) -> Any:
-        """One value."""
+        """Return the value of a key."""
         with self._robot.lock:
             self._robot.calls += 1
             return self._values()[key]
 
     def getListData(self, keys: Any) -> list[Any]:
-        """Values; None for what there is not."""
+        """Return the values of keys; None for unknown keys."""
         with self._robot.lock:
             self._robot.calls += 1
             values = self._values()
@@ -66,13 +66,13 @@ class ALMemory:
         for name, angle in zip(robot.names, robot.state.joints, strict=True):
             values[f"{SUBDEVICES}/{name}/{SENSED}"] = angle
         for sonar, key in SONARS.items():
-            heard = robot.state.echoes.get(sonar) if robot.listeners else None
-            values[key] = SILENCE if heard is None else heard
+            echo = robot.state.echoes.get(sonar) if robot.listeners else None
+            values[key] = NO_ECHO if echo is None else echo
         return values
 
 
 def _sight(state: WalkerState) -> list[float] | None:
-    seen = state.sighting
-    if seen is None:
+    sighting = state.sighting
+    if sighting is None:
         return None
-    return [state.time - seen.time, seen.bearing, seen.distance]
+    return [state.time - sighting.time, sighting.bearing, sighting.distance]

@@ -1,7 +1,7 @@
-"""ALMotion and ALRobotPosture of a simulated robot that walks by itself.
+"""ALMotion and ALRobotPosture of a simulated robot with walking control.
 
-Methods are called from threads of the messaging, by the names and with the
-arguments that NAOqi's own services have.
+The methods have the names and arguments of NAOqi's own services, and are
+called from threads of the ``qi`` library.
 """
 
 from collections import deque
@@ -11,7 +11,7 @@ from typing import Any
 
 from ...planning import GaitSettings
 from ..velocity.velocity_body import REST, VelocityCommand
-from .footstep_requests import read_steps, told, velocity_of
+from .footstep_requests import footstep_entry, read_steps, velocity_of
 from .joint_chains import joints_of, shares_of, values_of
 from .service_state import WalkServiceState
 
@@ -20,7 +20,7 @@ POSTURES = ("Stand", "StandInit", "StandZero", "Crouch")
 
 
 class ALMotion:
-    """Motion: stiffness, walking, where the robot is."""
+    """Stiffness, walking, head and odometry."""
 
     def __init__(
         self,
@@ -28,24 +28,30 @@ class ALMotion:
         fastest: VelocityCommand,
         gait: GaitSettings,
     ) -> None:
-        """Move a robot, at most so fast, by the steps of its gait."""
+        """Create the service of a robot.
+
+        Args:
+            robot: State shared by the services.
+            fastest: Velocity of which ``moveToward`` takes fractions.
+            gait: Gait by which footsteps are walked.
+        """
         self._robot, self._fastest, self._gait = robot, fastest, gait
 
     def wakeUp(self) -> None:
-        """Make the motors stiff."""
+        """Make all joints stiff."""
         with self._robot.lock:
             self._robot.calls += 1
             self._robot.stiffen(dict.fromkeys(self._robot.names, 1.0))
 
     def rest(self) -> None:
-        """Stop, crouch, and let the motors go."""
+        """Stop, crouch and go limp."""
         with self._robot.lock:
             self._robot.calls += 1
             self._robot.rest()
             self._robot.awake, self._robot.posture = False, "Crouch"
 
     def robotIsWakeUp(self) -> bool:
-        """Whether the motors are stiff."""
+        """Return whether the legs are stiff."""
         with self._robot.lock:
             self._robot.calls += 1
             return self._robot.awake
@@ -59,7 +65,7 @@ class ALMotion:
             self._robot.stiffen(dict(zip(joints, shares, strict=True)))
 
     def setAngles(self, names: Any, angles: Any, fraction: float) -> None:
-        """Turn the head: the other joints walk by themselves."""
+        """Command the head; the walking control moves all other joints."""
         with self._robot.lock:
             self._robot.calls += 1
             joints = joints_of(names, self._robot.names)
@@ -67,11 +73,13 @@ class ALMotion:
             others = set(joints) - {*HEAD}
             if others:
                 raise ValueError(
-                    f"only {' and '.join(HEAD)} may be set while it walks "
-                    f"by itself, got {sorted(others)}"
+                    f"only {' and '.join(HEAD)} can be set, as the walking "
+                    f"control moves all other joints, got {sorted(others)}"
                 )
             if not 0.0 < fraction <= 1.0:
-                raise ValueError(f"fraction must lie in (0, 1]: {fraction}")
+                raise ValueError(
+                    f"fraction must lie in (0, 1], got {fraction}"
+                )
             if not self._robot.awake:
                 raise RuntimeError("the robot is asleep: wakeUp first")
             self._robot.head |= {
@@ -81,7 +89,7 @@ class ALMotion:
             }
 
     def moveInit(self) -> None:
-        """Make ready to walk: it always is."""
+        """Do nothing: the robot is always ready to walk."""
         with self._robot.lock:
             self._robot.calls += 1
 
@@ -90,53 +98,52 @@ class ALMotion:
         self._walk(values, VelocityCommand(1.0, 1.0))
 
     def moveToward(self, *values: Any) -> None:
-        """Walk at shares of the top speeds."""
+        """Walk at fractions of the maximum velocity."""
         self._walk(values, self._fastest)
 
     def setFootSteps(
-        self, legs: Any, places: Any, times: Any, clear: bool
+        self, legs: Any, poses: Any, times: Any, clear: bool
     ) -> None:
-        """Make steps, after those that were told, or instead of them.
+        """Append footsteps to the pending ones, or replace those.
 
-        The step that is being made is finished. Each takes the time of the
-        gait: times only have to rise. After the last one it brings its
-        feet together and rests.
+        The current step is finished first. Each step takes the gait's step
+        duration: times only have to increase. After the last one the robot
+        brings its feet together and stands.
         """
         robot = self._robot
         with robot.lock:
             robot.calls += 1
             if not robot.awake:
                 raise RuntimeError("the robot is asleep: wakeUp first")
-            kept = [] if clear else list(robot.steps)
-            making = robot.state.step
-            before = kept[-1][0] if kept else making
+            pending = [] if clear else list(robot.steps)
+            before = pending[-1][0] if pending else robot.state.step
             steps = read_steps(
-                legs, places, times, None if before is None else before.foot
+                legs, poses, times, None if before is None else before.foot
             )
-            walked = [(step, velocity_of(step, self._gait)) for step in steps]
+            added = [(step, velocity_of(step, self._gait)) for step in steps]
             robot.asked = REST
-            robot.steps = deque([*kept, *walked])
+            robot.steps = deque([*pending, *added])
 
     def getFootSteps(self) -> list[Any]:
-        """Both feet, the step that is being made, and those to come."""
+        """Return the poses of both feet, the current and pending steps."""
         robot = self._robot
         with robot.lock:
             robot.calls += 1
-            making = robot.state.step
+            current = robot.state.step
             return [
                 [list(foot) for foot in robot.state.feet],
-                [] if making is None else [told(making)],
-                [told(step) for step, _ in robot.steps],
+                [] if current is None else [footstep_entry(current)],
+                [footstep_entry(step) for step, _ in robot.steps],
             ]
 
     def stopMove(self) -> None:
-        """Come to rest."""
+        """Stop walking."""
         with self._robot.lock:
             self._robot.calls += 1
             self._robot.rest()
 
     def moveIsActive(self) -> bool:
-        """Whether it is asked to walk."""
+        """Return whether the robot walks or has been commanded to."""
         with self._robot.lock:
             self._robot.calls += 1
             robot = self._robot
@@ -144,35 +151,37 @@ class ALMotion:
             return walks or robot.state.step is not None
 
     def getRobotPosition(self, use_sensors: bool) -> list[float]:
-        """Pose in its odometry: x, y [m], theta [rad]."""
+        """Return the pose in odometry: x, y [m], theta [rad]."""
         with self._robot.lock:
             self._robot.calls += 1
             return list(self._robot.state.pose)
 
     def getRobotVelocity(self) -> list[float]:
-        """Velocity: x, y [m/s], theta [rad/s]."""
+        """Return the velocity: x, y [m/s], theta [rad/s]."""
         with self._robot.lock:
             self._robot.calls += 1
             forward, turn = self._robot.state.velocity
             return [forward, 0.0, turn]
 
     def getBodyNames(self, name: str) -> list[str]:
-        """Names of the joints of a chain."""
+        """Return the names of the joints of a chain."""
         return joints_of(name, self._robot.names)
 
     def getAngles(self, names: Any, use_sensors: bool) -> list[float]:
-        """Angles of joints, in [rad]."""
+        """Return joint angles, in [rad]."""
         with self._robot.lock:
             self._robot.calls += 1
-            wanted = joints_of(names, self._robot.names)
-            where = dict(
+            joints = joints_of(names, self._robot.names)
+            angles = dict(
                 zip(self._robot.names, self._robot.state.joints, strict=True)
             )
-            return [where[name] for name in wanted]
+            return [angles[name] for name in joints]
 
     def _walk(self, values: Sequence[Any], scale: VelocityCommand) -> None:
         if len(values) not in (3, 4):
-            raise ValueError(f"x, y and theta are needed, got {values!r}")
+            raise ValueError(
+                f"a velocity must be x, y and theta, got {values!r}"
+            )
         x, y, theta = (float(value) for value in values[:3])
         velocity = VelocityCommand(scale.forward * x, scale.turn * theta)
         with self._robot.lock:
@@ -184,20 +193,20 @@ class ALMotion:
                 raise ValueError(f"velocity must be finite, got {values!r}")
             if y != 0.0:
                 self._robot.rest()
-                raise ValueError(f"it walks no way aside, got y = {y}")
+                raise ValueError(f"lateral velocity must be 0 m/s, got {y}")
             self._robot.rest()
             self._robot.asked = velocity
 
 
 class ALRobotPosture:
-    """Postures: it stands, or crouches."""
+    """Posture of the robot: standing or crouching."""
 
     def __init__(self, robot: WalkServiceState) -> None:
-        """Know the robot."""
+        """Create the service of a robot."""
         self._robot = robot
 
     def goToPosture(self, name: str, speed: float) -> bool:
-        """Go there; whether it did."""
+        """Take a posture; return whether it exists and the robot is awake."""
         with self._robot.lock:
             self._robot.calls += 1
             if name not in POSTURES or not self._robot.awake:
@@ -207,6 +216,6 @@ class ALRobotPosture:
             return True
 
     def getPosture(self) -> str:
-        """Where it is."""
+        """Return the present posture."""
         with self._robot.lock:
             return self._robot.posture

@@ -1,4 +1,4 @@
-"""The robot's side of NAOqi, for a robot that is simulated."""
+"""Server of NAOqi's services for a simulated robot with walking control."""
 
 import logging
 from collections.abc import Sequence
@@ -12,15 +12,15 @@ from .qi_session import listen
 from .service_state import WalkServiceState
 from .video_service import ALVideoDevice
 
-SILENCE = 0.5  # of everybody before the robot rests, in [s]
+SILENCE = 0.5  # without a call before the robot stops, in [s]
 log = logging.getLogger(__name__)
 
 
 class NaoqiServer:
-    """Services of one robot, with a service directory of their own.
+    """NAOqi services of one robot, with their own service directory.
 
-    A real ALMotion walks on when whoever commanded it has gone; this one
-    rests when nobody asked it anything for half a second.
+    A real ALMotion walks on when its client has gone; this one stops after
+    half a second without a call.
     """
 
     def __init__(
@@ -36,15 +36,15 @@ class NaoqiServer:
         """Offer the services.
 
         Args:
-            url: Where, like tcp://127.0.0.1:PORT.
-            robot: Whom to speak for.
-            joint_names: Its joints.
-            fastest: What ``moveToward`` takes shares of.
+            url: Address like tcp://127.0.0.1:PORT.
+            robot: The simulated robot.
+            joint_names: Names of its joints.
+            fastest: Velocity of which ``moveToward`` takes fractions.
             tick: Time between two calls of :meth:`speak`, in [s].
-            gait: How it walks footsteps; NAO's gait by default.
+            gait: Gait by which footsteps are walked; NAO's by default.
 
         Raises:
-            ConfigurationError: If nobody can listen there.
+            ConfigurationError: If the address cannot be listened on.
         """
         self._walker, self._tick = robot, tick
         self.robot = WalkServiceState(robot.state(), joint_names)
@@ -64,31 +64,31 @@ class NaoqiServer:
 
     @property
     def url(self) -> str:
-        """Where the services are."""
+        """Address of the services."""
         endpoint: str = self._session.endpoints()[0]
         return endpoint
 
     @property
     def connected(self) -> bool:
-        """Whether anybody asked anything lately."""
+        """Whether a client has called recently."""
         return self._silent * self._tick <= SILENCE
 
     @property
     def ready(self) -> bool:
-        """Whether somebody is there, and has made the robot stand."""
+        """Whether a client is connected and has made the robot stand."""
         with self.robot.lock:
             stands = self.robot.awake and self.robot.posture != "Crouch"
         return self.connected and stands
 
     def fileno(self) -> int:
-        """No descriptor to wait on."""
+        """Return -1: there is no descriptor to wait on."""
         return -1
 
     def press(self, pressed: bool) -> None:
-        """Nothing: the button of this robot is not what starts it."""
+        """Do nothing: this robot is not started by its button."""
 
     def speak(self) -> None:
-        """Tell the services what the robot says of itself now."""
+        """Give the services the robot's present state."""
         state = self._walker.state()
         with self.robot.lock:
             steps = self.robot.steps
@@ -101,15 +101,15 @@ class NaoqiServer:
         self._calls = calls
 
     def hear(self) -> bool:
-        """Nobody is waited for."""
+        """Return True: the simulation does not wait for clients."""
         return True
 
     def act(self) -> VelocityCommand:
-        """What the robot is to do at this tick."""
+        """Return the velocity command for this tick."""
         with self.robot.lock:
             robot = self.robot
             if not self.connected and (robot.steps or robot.asked != REST):
-                log.warning("nobody asks anything: the robot rests")
+                log.warning("no call for %g s: the robot stops", SILENCE)
                 robot.rest()
             head, asked = dict(robot.head), robot.asked
             following = robot.steps[0] if robot.steps else None
@@ -122,13 +122,13 @@ class NaoqiServer:
         return velocity
 
     def drop(self, why: str) -> None:
-        """Let the robot rest, and say why."""
+        """Stop the robot, and log why."""
         log.warning("%s", why)
         with self.robot.lock:
             self.robot.rest()
 
     def close(self) -> None:
-        """Take the services away."""
+        """Remove the services."""
         if not self._closed:
             self._closed = True
             self._session.close()

@@ -1,4 +1,4 @@
-"""Where NAOqi listens."""
+"""Addresses of robots on NAOqi."""
 
 import re
 
@@ -6,19 +6,19 @@ from ...core.errors import ConfigurationError
 
 SCHEME = "naoqi:"
 PORT = 9559
-# What a simulated robot tells beside NAOqi's own keys: seconds since the
-# other was seen, its bearing [rad] and distance [m]. It is the truth.
+# Key of a simulated robot beside NAOqi's own: age [s], bearing [rad] and
+# distance [m] of the ideal sighting, which is ground truth.
 IDEAL_SIGHT = "Stepaside/IdealSight"
 _URL = re.compile(r"(?:tcp://)?(?P<host>[A-Za-z0-9_.-]+)(?::(?P<port>\d+))?")
 
 
 def parse_url(text: str) -> str:
-    """Read ``tcp://HOST:PORT``, with or without ``naoqi:`` before it.
+    """Parse ``tcp://HOST:PORT``, with or without the prefix ``naoqi:``.
 
-    ``tcp://`` and the port, 9559, may be left out.
+    ``tcp://`` and the port, 9559, may be omitted.
 
     Raises:
-        ConfigurationError: If it is none.
+        ConfigurationError: If it is not such an address.
     """
     found = _URL.fullmatch(text.removeprefix(SCHEME))
     port = int(found["port"] or PORT) if found and text.isascii() else 0

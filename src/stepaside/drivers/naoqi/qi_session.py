@@ -1,4 +1,4 @@
-"""Sessions of NAOqi's messaging: connecting, listening, asking in time."""
+"""Sessions of the ``qi`` library, and calls with a timeout."""
 
 from functools import cache
 from typing import Any
@@ -10,16 +10,16 @@ try:
     import qi
 except ImportError as error:
     raise ConfigurationError(
-        "NAOqi needs its messaging: pip install 'stepaside[naoqi]'"
+        "NAOqi needs its library qi: pip install 'stepaside[naoqi]'"
     ) from error
 
-CONNECTING = 5000  # longest time to connect, in [ms]
-SOURCE = "\n\nAt:\n"  # after it come files and lines of a service in Python
+CONNECT_TIMEOUT = 5000  # in [ms]
+TRACEBACK = "\n\nAt:\n"  # begins the traceback in errors of Python services
 
 
 @cache
 def _application() -> Any:
-    """The one application that a process may have."""
+    """Create the application, of which a process can have only one."""
     qi.logging.setLevel(qi.logging.ERROR)
     return qi.Application(["stepaside"], raw=True)
 
@@ -28,18 +28,18 @@ def connect(url: str) -> Any:
     """Connect to a robot.
 
     Args:
-        url: Like tcp://HOST:PORT.
+        url: Address like tcp://HOST:PORT.
 
     Returns:
-        A session; an open one keeps the process from ending.
+        Session; while it is open the process cannot end.
 
     Raises:
-        SessionLost: If nobody answers there.
+        SessionLost: If no robot answers.
     """
     _application()
     session = qi.Session()
     try:
-        session.connect(url, _async=True).value(CONNECTING)
+        session.connect(url, _async=True).value(CONNECT_TIMEOUT)
     except RuntimeError as error:
         session.close()
         why = reason_of(error)
@@ -48,14 +48,14 @@ def connect(url: str) -> Any:
 
 
 def listen(url: str, services: dict[str, Any]) -> Any:
-    """Offer services, with a directory of their own.
+    """Offer services, with their own service directory.
 
     Args:
-        url: Like tcp://127.0.0.1:PORT.
-        services: Objects whose methods are called, by name.
+        url: Address like tcp://127.0.0.1:PORT.
+        services: Objects whose methods are offered, by service name.
 
     Raises:
-        ConfigurationError: If nobody can listen there.
+        ConfigurationError: If the address cannot be listened on.
     """
     _application()
     session = qi.Session()
@@ -71,22 +71,22 @@ def listen(url: str, services: dict[str, Any]) -> Any:
 
 
 def ask(service: Any, method: str, *values: Any, within: float) -> Any:
-    """Call a method, and wait for its answer for some time, in [s].
+    """Call a method, and wait up to ``within``, in [s], for its answer.
 
     Raises:
-        TimeoutError: If none came yet.
-        SessionLost: If there will be none.
+        TimeoutError: If there is no answer yet.
+        SessionLost: If the call failed.
     """
     future = getattr(service, method)(*values, _async=True)
     return answer_of(future, method, within=within)
 
 
 def answer_of(future: Any, what: str, *, within: float) -> Any:
-    """Answer of a call that was made, waited for for some time, in [s].
+    """Wait up to ``within``, in [s], for the answer of a pending call.
 
     Raises:
-        TimeoutError: If none came yet.
-        SessionLost: If there will be none.
+        TimeoutError: If there is no answer yet.
+        SessionLost: If the call failed.
     """
     try:
         return future.value(round(1000.0 * within))
@@ -97,46 +97,44 @@ def answer_of(future: Any, what: str, *, within: float) -> Any:
 
 
 def reason_of(error: object) -> str:
-    """Return the whole reason for which a call was refused, in one line.
-
-    What a service in Python adds of its own source is left out.
+    """Return the reason of a failed call in one line, without traceback.
 
     Args:
-        error: What the messaging raised, or the text of it.
+        error: Error of the ``qi`` library, or its text.
     """
-    reason, _, _ = str(error).partition(SOURCE)
+    reason, _, _ = str(error).partition(TRACEBACK)
     return " ".join(reason.split()) or "no reason was given"
 
 
 class Call:
-    """A call that is repeated, each time after its answer has come.
+    """Call that is repeated, each time after its answer has been taken.
 
-    An answer that is late is not lost: the next look finds it, and no
-    second call is made while it is on its way.
+    A late answer is not lost: it can still be taken, and no second call is
+    made while one is pending.
     """
 
     def __init__(self, service: Any, method: str, *values: Any) -> None:
-        """Make no call yet."""
+        """Prepare the call, without making it."""
         self._service, self._method, self._values = service, method, values
         self._future: Any = None
 
     def begin(self) -> None:
-        """Make the call, unless one is on its way or its answer waits."""
+        """Make the call, unless one is pending or its answer not taken."""
         if self._future is None:
             call = getattr(self._service, self._method)
             self._future = call(*self._values, _async=True)
 
-    def answered(self, patience: float) -> bool:
-        """Wait for the answer for some time, in [s]; whether it is here."""
+    def answered(self, timeout: float) -> bool:
+        """Wait up to ``timeout``, in [s]; return whether the answer came."""
         self.begin()
-        self._future.wait(round(1000.0 * max(patience, 0.0)))
+        self._future.wait(round(1000.0 * max(timeout, 0.0)))
         return bool(self._future.isFinished())
 
     def take(self) -> Any:
-        """Return the answer that is here; the next look calls anew.
+        """Return the answer; :meth:`begin` makes a new call after it.
 
         Raises:
-            SessionLost: If the call was refused, or the robot is gone.
+            SessionLost: If the call failed.
         """
         future, self._future = self._future, None
         return answer_of(future, self._method, within=0.0)

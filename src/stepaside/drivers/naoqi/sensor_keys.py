@@ -1,7 +1,7 @@
-"""Joints and senses of a robot as keys of ALMemory.
+"""Keys of ALMemory for a robot's joints and sensors.
 
-Signs and units are those of LoLA's frames: an upright robot's accelerometer
-reads z near -9.8 m/s^2, and its feet weigh in [kg].
+Signs and units are those of LoLA's frames: the accelerometer of an upright
+robot reads z near -9.8 m/s^2, and foot sensors are in [kg].
 """
 
 from collections.abc import Sequence
@@ -10,8 +10,6 @@ from typing import Any
 
 import numpy as np
 
-from ..joint.frames import SensorFrame
-from ..joint.joint_map import NAMES
 from ..lola.conventions import (
     CHEST_BUTTON,
     COUNTER,
@@ -19,18 +17,20 @@ from ..lola.conventions import (
     LOCK_STEP,
     REAL_TIME,
 )
+from ..lola.lola_frames import SensorFrame
+from ..lola.nao_joints import NAMES
 from ..lola.wire import WireError
 
 DEVICES = "Device/SubDeviceList"
-# Of a simulated robot: number of its frame, and 1 if its world waits.
+# Key of a simulated robot: number of the frame, and 1 in lock step.
 FRAME = "Stepaside/Frame"
 _AXES = "XYZ"
-TOUCHES = 14  # values of a frame
+TOUCH_COUNT = 14  # touch values of a frame
 _CORNERS = ("FrontLeft", "FrontRight", "RearLeft", "RearRight")
 
 
-def _each(what: str) -> list[str]:
-    return [f"{DEVICES}/{name}/{what}/Value" for name in NAMES]
+def _joint_keys(quantity: str) -> list[str]:
+    return [f"{DEVICES}/{name}/{quantity}/Value" for name in NAMES]
 
 
 def _inertial(name: str, axes: str = _AXES) -> list[str]:
@@ -40,9 +40,9 @@ def _inertial(name: str, axes: str = _AXES) -> list[str]:
 
 
 GROUPS: dict[str, list[str]] = {
-    "position": _each("Position/Sensor"),
-    "stiffness": _each("Hardness/Actuator"),
-    "temperature": _each("Temperature/Sensor"),
+    "position": _joint_keys("Position/Sensor"),
+    "stiffness": _joint_keys("Hardness/Actuator"),
+    "temperature": _joint_keys("Temperature/Sensor"),
     "status": [f"{DEVICES}/{n}/Temperature/Sensor/Status" for n in NAMES],
     "accelerometer": _inertial("Accelerometer"),
     "gyroscope": _inertial("Gyroscope"),
@@ -59,18 +59,18 @@ GROUPS: dict[str, list[str]] = {
         for side in "LR"
         for half in ("Left", "Right")
     ],
-    "current": _each("ElectricCurrent/Sensor"),
+    "current": _joint_keys("ElectricCurrent/Sensor"),
     "charge": [f"{DEVICES}/Battery/Charge/Sensor/Value"],
 }
 KEYS = [key for keys in GROUPS.values() for key in keys]
 SLOW = ("stiffness", "current", "temperature", "status", "charge")
-# What has to be known at every tick: half of all.
+# Keys that are read at every tick: half of all.
 QUICK_KEYS = [
     key for name, keys in GROUPS.items() if name not in SLOW for key in keys
 ]
-# What a robot may not tell, and what it is taken to be then.
-UNUSED = ("LWristYaw", "RWristYaw", "LHand", "RHand")  # not on every NAO
-UNTOLD = {
+OPTIONAL_JOINTS = ("LWristYaw", "RWristYaw", "LHand", "RHand")
+# Values of groups that a robot may lack.
+DEFAULTS = {
     "status": 0.0,
     "temperature": 0.0,
     "current": 0.0,
@@ -78,8 +78,8 @@ UNTOLD = {
     "sonar": 2.55,
     "charge": 1.0,
 }
-# Names of the inertial unit's values on NAO V3 and V4, whose gyro has no
-# third axis.
+# Names of the inertial unit's values on NAO V3 and V4, whose gyro has two
+# axes.
 ACCELEROMETER, GYROSCOPE = GROUPS["accelerometer"], GROUPS["gyroscope"]
 OLDER = dict(
     zip(
@@ -91,8 +91,8 @@ OLDER = dict(
 
 
 def values_of(frame: SensorFrame) -> dict[str, float]:
-    """Values by key, as ALMemory tells them."""
-    told: dict[str, Sequence[float]] = {
+    """Return the values of a frame by key, as in ALMemory."""
+    groups: dict[str, Sequence[float]] = {
         "position": frame.position.tolist(),
         "stiffness": frame.stiffness.tolist(),
         "temperature": frame.temperature.tolist(),
@@ -110,48 +110,48 @@ def values_of(frame: SensorFrame) -> dict[str, float]:
     return {
         key: value
         for name, keys in GROUPS.items()
-        for key, value in zip(keys, told[name], strict=True)
+        for key, value in zip(keys, groups[name], strict=True)
     }
 
 
 def frame_of(
     values: Sequence[Any], number: int, *, lock_step: bool
 ) -> SensorFrame:
-    """Frame of what ALMemory tells.
+    """Build a sensor frame from values of ALMemory.
 
-    The gyro's third axis is NaN on a robot that has none.
+    The gyro's third axis is NaN on a robot that lacks it.
 
     Args:
-        values: Of ``KEYS``, in that order; None where there is none.
-        number: Of the frame.
-        lock_step: Whether its world waits for answers.
+        values: Values of ``KEYS``, in that order; None where missing.
+        number: Number of the frame.
+        lock_step: Whether the simulation waits for answers.
 
     Raises:
-        WireError: If something that is needed is missing or no number.
+        WireError: If a required value is missing, NaN or inf.
     """
     if len(values) != len(KEYS):
         raise WireError(f"{len(KEYS)} values are needed, got {len(values)}")
-    told: dict[str, list[float]] = {}
+    groups: dict[str, list[float]] = {}
     rest = iter(zip(KEYS, values, strict=True))
     for name, keys in GROUPS.items():
-        told[name] = [_number(name, *next(rest)) for _ in keys]
+        groups[name] = [_number(name, *next(rest)) for _ in keys]
     body = LOCK_STEP if lock_step else REAL_TIME
-    battery = [told["charge"][0], 0.0, 0.0, 0.0]
+    battery = [groups["charge"][0], 0.0, 0.0, 0.0]
     battery[COUNTER] = float(number)
     charge, second, third, fourth = battery
-    roll, pitch = told["angles"]
-    left, right = told["sonar"]
-    touch = TOUCHES * [0.0]
-    for at, value in zip(FOOT_BUMPERS, told["bumper"], strict=True):
+    roll, pitch = groups["angles"]
+    left, right = groups["sonar"]
+    touch = TOUCH_COUNT * [0.0]
+    for at, value in zip(FOOT_BUMPERS, groups["bumper"], strict=True):
         touch[at] = value
-    touch[CHEST_BUTTON] = told["chest"][0]
-    arrays = {name: np.array(values) for name, values in told.items()}
+    touch[CHEST_BUTTON] = groups["chest"][0]
+    arrays = {name: np.array(values) for name, values in groups.items()}
     return SensorFrame(
         arrays["position"],
         arrays["stiffness"],
         arrays["current"],
         arrays["temperature"],
-        tuple(round(status) for status in told["status"]),
+        tuple(round(status) for status in groups["status"]),
         arrays["accelerometer"],
         arrays["gyroscope"],
         (roll, pitch),
@@ -164,17 +164,19 @@ def frame_of(
 
 
 def _number(group: str, key: str, value: Any) -> float:
-    if value is None and group in UNTOLD:
-        return UNTOLD[group]
+    if value is None and group in DEFAULTS:
+        return DEFAULTS[group]
     if value is None and key == GYROSCOPE[2]:
         return nan
     if value is None and group in ("position", "stiffness"):
-        if key.split("/")[2] in UNUSED:
+        if key.split("/")[2] in OPTIONAL_JOINTS:
             return 0.0
     try:
         number = float(value)
     except (TypeError, ValueError) as error:
-        raise WireError(f"{key} is {value!r:.40}") from error
+        raise WireError(f"{key} must be a number, got {value!r:.40}") from (
+            error
+        )
     if not isfinite(number):
-        raise WireError(f"{key} is {number}")
+        raise WireError(f"{key} must be finite, got {number}")
     return number

@@ -1,4 +1,4 @@
-"""What NAOqi's services know of a simulated robot that walks by itself."""
+"""State shared by the NAOqi services of a robot with walking control."""
 
 from collections import deque
 from collections.abc import Mapping, Sequence
@@ -11,23 +11,23 @@ from .joint_chains import LEGS
 
 
 class WalkServiceState:
-    """What the services share, guarded by one lock.
+    """State that the services share, guarded by a lock.
 
     Attributes:
-        lock: Held by whoever reads or writes.
-        state: What the robot said of itself last.
-        asked: Velocity that was asked for last.
-        steps: Footsteps that have not begun, each with its velocity.
-        awake: Whether its legs are stiff.
-        limp: Joints without stiffness, of a robot that is awake.
-        posture: Where it stands, or crouches.
-        head: Angles that its head is asked for, in [rad], by joint.
-        listeners: Who subscribed to its sonars.
-        calls: How often anything was asked.
+        lock: Must be held to read or write the other attributes.
+        state: Newest state of the robot.
+        asked: Newest velocity command.
+        steps: Pending footsteps, each with its velocity.
+        awake: Whether the legs are stiff.
+        limp: Joints whose stiffness has been set to zero.
+        posture: Present posture, one of ``POSTURES``.
+        head: Commanded angles of the head joints, in [rad], by name.
+        listeners: Names of the sonars' subscribers.
+        calls: Number of calls so far.
     """
 
     def __init__(self, state: WalkerState, names: Sequence[str]) -> None:
-        """Begin at rest, asleep."""
+        """Start crouched and limp."""
         self.lock = Lock()
         self.steps: deque[tuple[FootCommand, VelocityCommand]] = deque()
         self.state, self.names = state, list(names)
@@ -39,23 +39,26 @@ class WalkServiceState:
         self.listeners: set[str] = set()
         self.calls = 0
 
-    def stiffen(self, shares: Mapping[str, float]) -> None:
-        """Set the stiffness of joints; the lock is held.
+    def stiffen(self, stiffness: Mapping[str, float]) -> None:
+        """Set the stiffness of joints; the caller holds the lock.
 
-        A robot whose legs go limp is asleep, and does not walk any more.
+        A robot with a limp leg joint is not awake, and stops.
 
         Args:
-            shares: Of the full torque, by joint.
+            stiffness: Stiffness by joint, from 0 to 1.
         """
-        for joint, share in shares.items():
-            (self.limp.discard if share > 0.0 else self.limp.add)(joint)
+        for joint, value in stiffness.items():
+            if value > 0.0:
+                self.limp.discard(joint)
+            else:
+                self.limp.add(joint)
         legs = [name for name in self.names if name in LEGS] or self.names
-        if any(leg in shares for leg in legs):
+        if any(leg in stiffness for leg in legs):
             self.awake = not any(leg in self.limp for leg in legs)
             if not self.awake:
                 self.rest()
 
     def rest(self) -> None:
-        """Forget what was asked for; the lock is held."""
+        """Clear velocity and footsteps; the caller holds the lock."""
         self.asked = REST
         self.steps.clear()

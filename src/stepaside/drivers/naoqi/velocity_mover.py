@@ -1,4 +1,4 @@
-"""How a robot on NAOqi that walks by itself is told to: by velocity."""
+"""Velocity commands to ALMotion."""
 
 from collections.abc import Callable
 from typing import Any, Protocol
@@ -7,30 +7,30 @@ from ..guardian_process import SessionLost
 from ..velocity.velocity_body import REST, VelocityCommand
 from .qi_session import answer_of, reason_of
 
-REPEATED = 0.25  # after which the same velocity is asked for again, in [s]
-STUCK = 1.0  # for which a command may be on its way, in [s]
+REPEAT = 0.25  # after which an unchanged velocity is sent again, in [s]
+TIMEOUT = 1.0  # for the answer to a command, in [s]
 
 
 class Mover(Protocol):
-    """Takes what the template wants to ALMotion, without waiting for it."""
+    """Sender of commands to ALMotion that does not wait for the answer."""
 
     def command(self, velocity: VelocityCommand) -> None:
-        """Ask for a velocity.
+        """Command a velocity.
 
         Raises:
-            SessionLost: If the robot is gone or stuck.
+            SessionLost: If the robot cannot be reached or does not answer.
         """
 
 
 class PendingCall:
-    """One call that is on its way to the robot, or none.
+    """Newest call to the robot, whose answer may be pending.
 
     Attributes:
-        called: When the last one was made, in [s].
+        called: Time of the call, in [s].
     """
 
     def __init__(self, clock: Callable[[], float]) -> None:
-        """Begin with none."""
+        """Start without a call."""
         self._clock = clock
         self._future: Any = None
         self._what = ""
@@ -38,16 +38,16 @@ class PendingCall:
 
     @property
     def begun(self) -> bool:
-        """Whether there has been one."""
+        """Whether there has been a call."""
         return self._future is not None
 
     def send(self, what: str, future: Any) -> None:
-        """Note a call that was made."""
+        """Store a call that has just been made."""
         self._what, self._future = what, future
         self.called = self._clock()
 
     def refusal(self) -> str:
-        """Why the last call was refused; empty if it was not, or is new."""
+        """Return why the call was refused; empty if not, or not yet."""
         future = self._future
         if future is None or not future.isFinished() or not future.hasError():
             return ""
@@ -56,48 +56,50 @@ class PendingCall:
 
     @property
     def arrived(self) -> bool:
-        """Whether the last call has been taken.
+        """Whether the call has been answered.
 
         Raises:
-            SessionLost: If it was refused, or is on its way for too long.
+            SessionLost: If it was refused, or the answer is overdue.
         """
         if self._future is None:
             return True
         if self._future.isFinished():
             answer_of(self._future, self._what, within=0.0)
             return True
-        if self._clock() - self.called > STUCK:
-            raise SessionLost("the robot takes no command")
+        if self._clock() - self.called > TIMEOUT:
+            raise SessionLost(
+                f"the robot did not answer {self._what} within {TIMEOUT:g} s"
+            )
         return False
 
 
 class VelocityMover:
-    """Moves a robot by ``move``, until it is told otherwise."""
+    """Mover by ``move`` and ``stopMove``."""
 
     def __init__(self, motion: Any, clock: Callable[[], float]) -> None:
-        """Know its ALMotion, and the time of this computer."""
+        """Command an ALMotion, by the clock of this computer in [s]."""
         self._motion, self._clock = motion, clock
-        self._errand = PendingCall(clock)
-        self._asked = REST
+        self._call = PendingCall(clock)
+        self._commanded = REST
 
     def command(self, velocity: VelocityCommand) -> None:
-        """Ask for a velocity.
+        """Command a velocity.
 
         Raises:
-            SessionLost: If the robot is gone or stuck.
+            SessionLost: If the robot cannot be reached or does not answer.
         """
-        errand = self._errand
-        if not errand.arrived:
+        call = self._call
+        if not call.arrived:
             return
-        passed = self._clock() - errand.called
-        same = velocity == self._asked and passed < REPEATED
-        at_rest = velocity == REST and self._asked == REST
-        if same or (at_rest and errand.begun):
+        passed = self._clock() - call.called
+        is_same = velocity == self._commanded and passed < REPEAT
+        is_stopped = velocity == REST and self._commanded == REST
+        if is_same or (is_stopped and call.begun):
             return
-        self._asked = velocity
+        self._commanded = velocity
         if velocity == REST:
-            errand.send("stopMove", self._motion.stopMove(_async=True))
+            call.send("stopMove", self._motion.stopMove(_async=True))
         else:
             forward, turn = velocity
-            call = self._motion.move(forward, 0.0, turn, _async=True)
-            errand.send("move", call)
+            future = self._motion.move(forward, 0.0, turn, _async=True)
+            call.send("move", future)

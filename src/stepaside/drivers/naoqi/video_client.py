@@ -1,4 +1,4 @@
-"""NAOqi's cameras: what ALVideoDevice hands over."""
+"""Client of ALVideoDevice, the camera service of NAOqi."""
 
 from time import sleep
 from typing import Any
@@ -11,23 +11,23 @@ from ..cameras.image_source import LiveCamera
 from ..guardian_process import SessionLost
 from .qi_session import ask, connect
 
-TOP = 0  # camera over the eyes
+TOP = 0  # index of the upper camera
 RGB = 11  # colour space kRGB
-RESOLUTIONS = {  # number of each size (columns, rows)
+RESOLUTIONS = {  # index of each size (columns, rows)
     (160, 120): 0,
     (320, 240): 1,
     (640, 480): 2,
     (1280, 960): 3,
 }
-NAME = "stepaside"  # of the subscriber; a robot takes six of a name
-ANSWER = 2.0  # longest time that an image takes, in [s]
-AGAIN = 0.01  # until a robot that had no new image is asked again, in [s]
+NAME = "stepaside"  # of the subscriber; a robot accepts six of a name
+TIMEOUT = 2.0  # for the answer with an image, in [s]
+POLL = 0.01  # between two polls for a new image, in [s]
 # Fields of an image.
 WIDTH, HEIGHT, LAYERS, SPACE, SECONDS, MICROS, DATA = range(7)
 
 
 def resolution_for(model: CameraModel) -> int:
-    """Number of the smallest size that is not smaller than a model's.
+    """Return the index of the smallest size that is at least a model's.
 
     Args:
         model: Optics and size.
@@ -39,14 +39,17 @@ def resolution_for(model: CameraModel) -> int:
 
 
 def pixels_of(image: Any) -> Pixels:
-    """Pixels of what ``getImageRemote`` gives. Shape (height, width, 3).
+    """Decode an image of ``getImageRemote``.
 
     Args:
-        image: A list or tuple: columns, rows, layers, colour space, seconds,
+        image: List or tuple: columns, rows, layers, colour space, seconds,
             microseconds, bytes, and more.
 
+    Returns:
+        Red, green and blue. Shape (height, width, 3).
+
     Raises:
-        SessionLost: If it is no image in red, green and blue.
+        SessionLost: If it is not an RGB image.
     """
     try:
         width, height = int(image[WIDTH]), int(image[HEIGHT])
@@ -56,7 +59,8 @@ def pixels_of(image: Any) -> Pixels:
         raise SessionLost(f"the robot's camera: {error}") from error
     if not known or len(data) != 3 * width * height or not data:
         raise SessionLost(
-            "the robot's camera gives no image in red, green and blue"
+            "images of the robot's camera must be RGB with three bytes per "
+            f"pixel, got {width} by {height} px in {len(data)} bytes"
         )
     return np.frombuffer(data, np.uint8).reshape(height, width, 3)
 
@@ -67,13 +71,13 @@ def open_video(
     """Subscribe to the top camera of a robot.
 
     Args:
-        url: Like tcp://HOST:PORT.
-        model: Optics and size.
-        rate: Images per second, in [1/s].
-        latency: From exposure to the image in hand, in [s].
+        url: Address like tcp://HOST:PORT.
+        model: Optics and requested size.
+        rate: Frame rate, in [1/s].
+        latency: Time from exposure to arrival, in [s].
 
     Raises:
-        SessionLost: If there is no such robot, or it has no camera.
+        SessionLost: If no robot with a camera answers.
     """
     session = connect(url)
     try:
@@ -81,32 +85,36 @@ def open_video(
         handle = ask(
             device,
             "subscribeCamera",
-            *(NAME, TOP, resolution_for(model), RGB, round(rate)),
-            within=ANSWER,
+            NAME,
+            TOP,
+            resolution_for(model),
+            RGB,
+            round(rate),
+            within=TIMEOUT,
         )
     except (RuntimeError, TimeoutError, SessionLost) as error:
         session.close()
         raise SessionLost(f"no camera at {url}: {error}") from error
 
-    told: tuple[int, int] | None = None
+    newest: tuple[int, int] | None = None
 
     def grab() -> Pixels | None:
-        nonlocal told
+        nonlocal newest
         while True:
-            image = ask(device, "getImageRemote", handle, within=ANSWER)
-            ask(device, "releaseImage", handle, within=ANSWER)
+            image = ask(device, "getImageRemote", handle, within=TIMEOUT)
+            ask(device, "releaseImage", handle, within=TIMEOUT)
             if image and image[WIDTH]:
-                taken = int(image[SECONDS]), int(image[MICROS])
-                if taken != told:
-                    told = taken
+                stamp = int(image[SECONDS]), int(image[MICROS])
+                if stamp != newest:
+                    newest = stamp
                     return pixels_of(image)
-            sleep(AGAIN)
+            sleep(POLL)
 
     def let_go() -> None:
         try:
-            ask(device, "unsubscribe", handle, within=ANSWER)
+            ask(device, "unsubscribe", handle, within=TIMEOUT)
         except (RuntimeError, TimeoutError, SessionLost):
-            pass  # it is gone
+            pass  # the connection has ended already
         finally:
             session.close()
 

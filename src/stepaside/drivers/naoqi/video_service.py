@@ -1,8 +1,8 @@
-"""NAOqi's camera service for a simulated robot.
+"""Camera service of a simulated robot on NAOqi.
 
-Methods are called from threads of the messaging, by the names and with the
-arguments that NAOqi's own service has. Images come in the size that the
-simulated camera has, whatever was asked for.
+The methods have the names and arguments of NAOqi's own service, and are
+called from threads of the ``qi`` library. Images have the size of the
+simulated camera, not the requested one.
 """
 
 from typing import Any
@@ -13,15 +13,15 @@ from ...perception.images import ColourImage
 from .service_state import WalkServiceState
 from .video_client import RGB, TOP
 
-IMAGE = "(iiiiiiriffff)"  # an image as NAOqi's messaging spells it
+IMAGE = "(iiiiiiriffff)"  # signature of an image in the qi library
 MICRO = 1_000_000  # microseconds in a second
 
 
 class ALVideoDevice:
-    """The camera over the eyes: who subscribes asks for images."""
+    """Upper camera, whose subscribers request images."""
 
     def __init__(self, robot: WalkServiceState) -> None:
-        """Know the robot."""
+        """Create the service of a robot."""
         self._robot = robot
         self._handles: set[str] = set()
         self._subscribed = 0
@@ -29,10 +29,11 @@ class ALVideoDevice:
     def subscribeCamera(
         self, name: str, camera: int, resolution: int, space: int, rate: int
     ) -> str:
-        """Begin to look; what images are asked for by."""
+        """Subscribe, and return the handle by which images are requested."""
         if camera != TOP or space != RGB:
             raise ValueError(
-                f"only camera {TOP} in colour space {RGB} is offered"
+                f"camera must be {TOP} and colour space {RGB}, got {camera} "
+                f"and {space}"
             )
         with self._robot.lock:
             self._robot.calls += 1
@@ -43,11 +44,11 @@ class ALVideoDevice:
 
     @qi.bind(returnType=IMAGE)  # type: ignore[untyped-decorator]
     def getImageRemote(self, handle: str) -> tuple[Any, ...]:
-        """Newest image; one without pixels if there is none yet."""
+        """Return the newest image; one without pixels if there is none."""
         with self._robot.lock:
             self._robot.calls += 1
             if handle not in self._handles:
-                raise KeyError(f"nobody subscribed as {handle}")
+                raise KeyError(f"no subscription has the handle {handle}")
             image: ColourImage | None = self._robot.state.image
         height, width, data, time = 0, 0, b"", 0.0
         if image is not None:
@@ -59,11 +60,11 @@ class ALVideoDevice:
         return (*size, seconds, micro, data, TOP, *angles)
 
     def releaseImage(self, handle: str) -> bool:
-        """Give an image back."""
+        """Release an image; does nothing here."""
         return True
 
     def unsubscribe(self, handle: str) -> bool:
-        """Stop looking; whether anybody looked."""
+        """Unsubscribe; return whether the handle was valid."""
         with self._robot.lock:
             known = handle in self._handles
             self._handles.discard(handle)

@@ -1,1 +1,1 @@
-"""ROS 2 topics without ROS: DDS with the standard types."""
+"""Driver and server for ROS 2 topics, by DDS without a ROS installation."""

@@ -1,4 +1,4 @@
-"""What the camera of a simulated robot shows, on topics."""
+"""Image topics of a simulated robot."""
 
 from ...perception.images import ColourImage
 from .dds_domain import DdsParticipant
@@ -7,31 +7,32 @@ from .topics import COMPRESSED, IMAGE, dds_topic, frame
 
 
 class CameraTopics:
-    """Writes images, whole and compressed, for those who read them."""
+    """Publisher of raw and compressed images."""
 
     def __init__(self, dds: DdsParticipant, namespace: str) -> None:
-        """Take part in the topics of a robot's camera.
+        """Create the publishers.
 
         Args:
-            dds: Where; it stays with the caller.
-            namespace: Of the robot, with a slash before it, or empty.
+            dds: DDS participant; the caller closes it.
+            namespace: Namespace of the robot, with a leading slash; or empty.
         """
         self._frame = frame(namespace, "camera")
-        self._whole = dds.writer(dds_topic(namespace, IMAGE), Image)
-        self._squeezed = dds.writer(
+        self._raw = dds.writer(dds_topic(namespace, IMAGE), Image)
+        self._compressed = dds.writer(
             dds_topic(namespace, COMPRESSED), CompressedImage
         )
-        self._told: ColourImage | None = None
+        self._published: ColourImage | None = None
 
-    def tell(self, image: ColourImage | None) -> None:
-        """Write an image, if it is new and somebody reads it."""
-        if image is None or image is self._told:
+    def publish(self, image: ColourImage | None) -> None:
+        """Publish an image that is new, on topics with a subscriber."""
+        if image is None or image is self._published:
             return
+        # Imported here, as only images need OpenCV.
         from .image_messages import compressed_message, image_message
 
-        self._told = image
+        self._published = image
         header = Header(Time.of(image.time), self._frame)
-        if self._whole.get_matched_subscriptions():
-            self._whole.write(image_message(header, image.pixels))
-        if self._squeezed.get_matched_subscriptions():
-            self._squeezed.write(compressed_message(header, image.pixels))
+        if self._raw.get_matched_subscriptions():
+            self._raw.write(image_message(header, image.pixels))
+        if self._compressed.get_matched_subscriptions():
+            self._compressed.write(compressed_message(header, image.pixels))

@@ -1,4 +1,4 @@
-"""Joining DDS: on this machine alone, unless told otherwise."""
+"""DDS participant, by default restricted to this machine."""
 
 import os
 from collections.abc import Iterator
@@ -7,7 +7,7 @@ from threading import RLock
 from typing import Any
 
 from ...core.errors import ConfigurationError
-from . import messages  # says what to install where there is no DDS
+from . import messages  # its error names the extra to install without DDS
 
 from cyclonedds.core import DDSException, Policy, Qos  # isort: skip
 from cyclonedds.domain import DomainParticipant  # isort: skip
@@ -16,8 +16,8 @@ from cyclonedds.sub import DataReader  # isort: skip
 from cyclonedds.topic import Topic  # isort: skip
 
 SETTING = "CYCLONEDDS_URI"
-MAKING = RLock()  # two topics that are made at once may fail, one of them
-LONGEST_DOMAIN = 232  # number of the last domain that has ports
+CREATION = RLock()  # topics that are created concurrently may fail
+MAX_DOMAIN = 232  # last domain number for which ports exist
 LOCAL = (
     "ROS 2 topics stay on this machine: start its ROS 2 programs with "
     "ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST; --network reaches others"
@@ -32,7 +32,7 @@ COMPATIBLE = """
   </Compatibility>
 </Domain></CycloneDDS>
 """
-HERE = """
+LOCALHOST = """
 <CycloneDDS><Domain>
   <General>
     <Interfaces>
@@ -51,7 +51,7 @@ HERE = """
 
 
 class DdsParticipant:
-    """A participant, and what it reads and writes."""
+    """Participant of a DDS domain, with its topics."""
 
     def __init__(
         self,
@@ -63,21 +63,26 @@ class DdsParticipant:
         """Join a domain.
 
         Args:
-            domain: Its number; that of ``ROS_DOMAIN_ID``, or 0, by default.
-            beyond: Whether other machines may take part: then discovery is
-                as CycloneDDS, or ``CYCLONEDDS_URI``, has it.
-            tag: Only who has the same one is met; for tests.
+            domain: Domain number; ``ROS_DOMAIN_ID``, or 0, by default.
+            beyond: Whether other machines are discovered, as configured by
+                CycloneDDS's defaults or ``CYCLONEDDS_URI``.
+            tag: Discovery tag: participants with another one are ignored.
+                Separates concurrent tests.
 
         Raises:
-            ConfigurationError: If there is no such domain, or DDS fails.
+            ConfigurationError: If the number is out of range or DDS fails.
         """
-        number = _number() if domain is None else domain
-        if not 0 <= number <= LONGEST_DOMAIN:
+        number = _environment_domain() if domain is None else domain
+        if not 0 <= number <= MAX_DOMAIN:
             raise ConfigurationError(
-                f"domain must lie in [0, {LONGEST_DOMAIN}], got {number}"
+                f"domain must lie in [0, {MAX_DOMAIN}], got {number}"
             )
-        base = os.environ.get(SETTING, "") if beyond else HERE.format(tag=tag)
-        with MAKING, _configured(base, COMPATIBLE):
+        base = (
+            os.environ.get(SETTING, "")
+            if beyond
+            else LOCALHOST.format(tag=tag)
+        )
+        with CREATION, _configured(base, COMPATIBLE):
             try:
                 self.participant = DomainParticipant(number)
             except DDSException as error:
@@ -87,48 +92,50 @@ class DdsParticipant:
         self._topics: dict[tuple[str, type[Any]], Any] = {}
 
     def register(self, topic: str, kind: type[Any]) -> None:
-        """Make a topic known, so that its first writer is ready at once.
+        """Create a topic in advance, so that its first writer starts faster.
 
         Args:
-            topic: Its name on DDS.
-            kind: Of its messages.
+            topic: Name of the topic on DDS.
+            kind: Type of its messages.
         """
-        with MAKING:
+        with CREATION:
             self._topic(topic, kind)
 
     def writer(self, topic: str, kind: type[Any], depth: int = 1) -> Any:
-        """Something that writes a topic, reliably.
+        """Create a reliable writer of a topic.
 
         Args:
-            topic: Its name on DDS.
-            kind: Of its messages.
-            depth: Messages kept for readers that are slow.
+            topic: Name of the topic on DDS.
+            kind: Type of its messages.
+            depth: Messages queued for slow readers.
         """
         qos = Qos(
             Policy.Reliability.Reliable(0),
             Policy.History.KeepLast(depth),
             Policy.DataRepresentation(use_cdrv0_representation=True),
         )
-        with MAKING:
-            topic_of_it = self._topic(topic, kind)
-            return DataWriter(self.participant, topic_of_it, qos=qos)
+        with CREATION:
+            return DataWriter(
+                self.participant, self._topic(topic, kind), qos=qos
+            )
 
     def reader(self, topic: str, kind: type[Any], depth: int = 10) -> Any:
-        """Something that reads a topic, whatever its writers promise.
+        """Create a best-effort reader, which matches writers of any QoS.
 
         Args:
-            topic: Its name on DDS.
-            kind: Of its messages.
-            depth: Messages kept until they are taken.
+            topic: Name of the topic on DDS.
+            kind: Type of its messages.
+            depth: Messages queued until they are taken.
         """
         qos = Qos(
             Policy.Reliability.BestEffort,
             Policy.History.KeepLast(depth),
             Policy.DataRepresentation(use_cdrv0_representation=True),
         )
-        with MAKING:
-            topic_of_it = self._topic(topic, kind)
-            return DataReader(self.participant, topic_of_it, qos=qos)
+        with CREATION:
+            return DataReader(
+                self.participant, self._topic(topic, kind), qos=qos
+            )
 
     def _topic(self, name: str, kind: type[Any]) -> Any:
         key = name, kind
@@ -137,21 +144,21 @@ class DdsParticipant:
         return self._topics[key]
 
     def close(self) -> None:
-        """Leave the domain, whoever still holds a reader or a writer.
+        """Leave the domain, even if readers or writers are still referenced.
 
-        A participant that lives on keeps the configuration of its domain for
-        all that come after it in this process.
+        A participant that stays alive would impose its configuration on all
+        later participants of this domain in this process.
         """
-        with MAKING:
+        with CREATION:
             self._topics.clear()
-            self.participant.__del__()  # there is no other way to say it
+            self.participant.__del__()  # CycloneDDS has no method to close
         del self.participant
 
 
 def taken(reader: Any) -> list[Any]:
-    """Messages that have arrived, without waiting, oldest first.
+    """Take the messages that have arrived, oldest first, without waiting.
 
-    What only says that a writer came or went is none.
+    Samples without data, which announce a change of a writer, are dropped.
     """
     try:
         samples = reader.take(N=64)
@@ -162,10 +169,10 @@ def taken(reader: Any) -> list[Any]:
 
 @contextmanager
 def _configured(*parts: str) -> Iterator[None]:
-    """Configure the domain that the first participant of a process makes.
+    """Set the configuration for the first participant of a domain.
 
     Args:
-        parts: Files or documents; what a later one says counts.
+        parts: Names of files, or documents; later ones take precedence.
     """
     before = os.environ.get(SETTING)
     lines = ("".join(part.split("\n")) for part in parts if part)
@@ -179,7 +186,7 @@ def _configured(*parts: str) -> Iterator[None]:
             os.environ.pop(SETTING, None)
 
 
-def _number() -> int:
+def _environment_domain() -> int:
     text = os.environ.get("ROS_DOMAIN_ID", "0") or "0"
     if not text.isascii() or not text.isdigit():
         raise ConfigurationError(

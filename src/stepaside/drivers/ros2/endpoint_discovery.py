@@ -1,4 +1,4 @@
-"""Readers and writers that other participants have on one topic."""
+"""Discovery of the readers or writers of other participants."""
 
 from typing import Any
 from uuid import UUID
@@ -12,25 +12,25 @@ from cyclonedds.builtin import (  # isort: skip
 )
 from cyclonedds.core import DDSException  # isort: skip
 
-ONCE = 64  # announcements that are taken at once
+BATCH = 64  # announcements taken per call
 
 
 class Endpoints:
-    """Endpoints of others on one topic, whatever their type.
+    """Endpoints of other participants on one topic, of any type.
 
-    Unlike a reader or a writer of one's own it sees those that do not
-    match, and none of them sees it.
+    Includes endpoints whose type or QoS would not match, and creates no
+    endpoint that others could match.
     """
 
     def __init__(
         self, dds: DdsParticipant, topic: str, *, writers: bool
     ) -> None:
-        """Listen to what DDS discovers.
+        """Subscribe to the discovery of DDS.
 
         Args:
-            dds: Where; it stays with the caller.
-            topic: Name on DDS.
-            writers: Whether writers are looked for, or readers.
+            dds: DDS participant; the caller closes it.
+            topic: Name of the topic on DDS.
+            writers: Whether to list writers, or readers.
         """
         builtin = (
             BuiltinTopicDcpsPublication
@@ -44,19 +44,19 @@ class Endpoints:
     @property
     def participants(self) -> int:
         """Number of participants that have such an endpoint."""
-        return len({participant for participant, _ in self._look()})
+        return len({participant for participant, _ in self._present()})
 
     @property
     def types(self) -> set[str]:
         """Types of the endpoints, by their names on DDS."""
-        return {kind for _, kind in self._look()}
+        return {kind for _, kind in self._present()}
 
-    def _look(self) -> list[tuple[UUID, str]]:
-        """Participant and type of each endpoint that is there now."""
+    def _present(self) -> list[tuple[UUID, str]]:
+        """Return participant and type of each endpoint present now."""
         while arrived := self._taken():
             for sample in arrived:
                 if not sample.sample_info.valid_data:
-                    self._found.pop(sample.key, None)  # it is gone
+                    self._found.pop(sample.key, None)  # endpoint removed
                 elif sample.topic_name == self._topic:
                     if sample.participant_key != self._own:
                         self._found[sample.key] = (
@@ -67,7 +67,7 @@ class Endpoints:
 
     def _taken(self) -> list[Any]:
         try:
-            found: list[Any] = self._reader.take(N=ONCE)
+            found: list[Any] = self._reader.take(N=BATCH)
         except DDSException:
             return []
         return found

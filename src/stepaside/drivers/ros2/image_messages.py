@@ -1,4 +1,4 @@
-"""Images of ROS 2 topics, and back: whole ones and compressed ones."""
+"""Conversion of raw and compressed ROS 2 images, and a camera by topic."""
 
 from typing import Any
 
@@ -12,17 +12,17 @@ from .messages import CompressedImage, Header, Image
 from .topics import dds_topic
 
 RGB, BGR, MONO = "rgb8", "bgr8", "mono8"
-LARGEST = 4096  # columns or rows
-DEPTH = 2  # images kept until they are taken
+MAX_SIZE = 4096  # columns or rows, in [px]
+DEPTH = 2  # images queued until they are taken
 CHANNELS = {RGB: 3, BGR: 3, MONO: 1}
 
 
 def image_message(header: Header, pixels: Pixels) -> Image:
-    """An image as a message, in red, green and blue.
+    """Encode an image in ``rgb8``.
 
     Args:
-        header: When and in which frame.
-        pixels: Shape (height, width, 3).
+        header: Time stamp and frame.
+        pixels: Red, green and blue. Shape (height, width, 3).
     """
     height, width = pixels.shape[:2]
     data: Any = pixels.tobytes()
@@ -30,28 +30,32 @@ def image_message(header: Header, pixels: Pixels) -> Image:
 
 
 def compressed_message(header: Header, pixels: Pixels) -> CompressedImage:
-    """The same as JPEG.
+    """Encode an image as JPEG.
 
     Args:
-        header: When and in which frame.
-        pixels: Shape (height, width, 3).
+        header: Time stamp and frame.
+        pixels: Red, green and blue. Shape (height, width, 3).
     """
     import cv2
 
     _, data = cv2.imencode(".jpg", cv2.cvtColor(pixels, cv2.COLOR_RGB2BGR))
-    squeezed: Any = data.tobytes()
-    return CompressedImage(header, "jpeg", squeezed)
+    compressed: Any = data.tobytes()
+    return CompressedImage(header, "jpeg", compressed)
 
 
 def pixels_of(message: Image) -> Pixels | None:
-    """Pixels of a message; None if it is no image of ours.
+    """Decode an image; None if it is invalid or of another encoding.
 
     Args:
-        message: In ``rgb8``, ``bgr8`` or ``mono8``; rows may be padded.
+        message: Image in ``rgb8``, ``bgr8`` or ``mono8``; rows may be
+            padded.
+
+    Returns:
+        Red, green and blue. Shape (height, width, 3).
     """
     channels = CHANNELS.get(message.encoding, 0)
     width, height, step = message.width, message.height, message.step
-    if not channels or not (0 < width <= LARGEST and 0 < height <= LARGEST):
+    if not channels or not (0 < width <= MAX_SIZE and 0 < height <= MAX_SIZE):
         return None
     data = np.frombuffer(bytes(message.data), np.uint8)
     if step < channels * width or data.size != step * height:
@@ -64,10 +68,13 @@ def pixels_of(message: Image) -> Pixels | None:
 
 
 def unpacked(message: CompressedImage) -> Pixels | None:
-    """Pixels of a compressed message; None if it is none.
+    """Decode a compressed image; None if it is invalid.
 
     Args:
-        message: JPEG or PNG.
+        message: Image as JPEG or PNG.
+
+    Returns:
+        Red, green and blue. Shape (height, width, 3).
     """
     import cv2
 
@@ -75,16 +82,16 @@ def unpacked(message: CompressedImage) -> Pixels | None:
     if not data.size:
         return None
     image = cv2.imdecode(data, cv2.IMREAD_COLOR)
-    if image is None or max(image.shape) > LARGEST:
+    if image is None or max(image.shape) > MAX_SIZE:
         return None
     return np.asarray(cv2.cvtColor(image, cv2.COLOR_BGR2RGB), dtype=np.uint8)
 
 
 class TopicCamera:
-    """Images of a topic, of which the newest counts.
+    """Camera whose images come by topic; only the newest one is used.
 
-    Its stamps are of another clock than the robot's frames: an image is
-    taken to be as old as it usually is when it arrives.
+    The stamps may be of another clock than the robot's frames, so an image
+    is assumed to be taken a constant latency before its arrival.
     """
 
     def __init__(
@@ -95,27 +102,27 @@ class TopicCamera:
         *,
         latency: float,
     ) -> None:
-        """Take part in a topic.
+        """Subscribe to a topic.
 
         Args:
-            dds: Where; it is closed with the camera.
-            topic: Like ``/camera/image_raw``; its last word being
-                ``compressed`` says that it is.
-            model: Optics; scaled to the size of the images that come.
-            latency: From exposure to the image in hand, in [s].
+            dds: DDS participant; closed with the camera.
+            topic: Topic like ``/camera/image_raw``; one that ends in
+                ``/compressed`` has compressed images.
+            model: Optics, which are scaled to the size of each image.
+            latency: Time from exposure to arrival, in [s].
         """
         self._dds, self._model, self._latency = dds, model, latency
-        self._squeezed = topic.endswith("/compressed")
-        kind: Any = CompressedImage if self._squeezed else Image
+        self._is_compressed = topic.endswith("/compressed")
+        kind: Any = CompressedImage if self._is_compressed else Image
         self._reader = dds.reader(dds_topic("", topic.strip("/")), kind, DEPTH)
 
     def percepts(self, frame: int, now: float, tick: float) -> list[Percept]:
-        """The newest image, if it is new."""
+        """Return the newest image, if there is a new one."""
         arrived = taken(self._reader)
         if not arrived:
             return []
         newest = arrived[-1]
-        pixels = unpacked(newest) if self._squeezed else pixels_of(newest)
+        pixels = unpacked(newest) if self._is_compressed else pixels_of(newest)
         if pixels is None:
             return []
         height, width = pixels.shape[:2]
@@ -123,6 +130,6 @@ class TopicCamera:
         return [ColourImage(now - self._latency, model, pixels)]
 
     def close(self) -> None:
-        """Leave the topic."""
+        """Unsubscribe and leave DDS."""
         del self._reader
         self._dds.close()

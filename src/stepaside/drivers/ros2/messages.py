@@ -1,7 +1,7 @@
-"""The standard messages that are spoken, as DDS carries them.
+"""Standard ROS 2 messages as DDS types.
 
-Names and order of the fields are those of ROS 2's interface definitions:
-they decide the bytes. A field must not be moved.
+Names and order of the fields are those of ROS 2's interface definitions,
+which determine the wire format: do not reorder fields.
 """
 
 from dataclasses import dataclass
@@ -23,31 +23,31 @@ except ImportError as error:
         "ROS 2 topics need CycloneDDS: pip install 'stepaside[ros2]'"
     ) from error
 
-MATRIX = 36  # numbers in a covariance
+MATRIX = 36  # entries of a 6 by 6 covariance
 
 
 @dataclass
 class Time(IdlStruct, typename="builtin_interfaces.msg.dds_.Time_"):
-    """An instant."""
+    """Time stamp."""
 
     sec: int32
     nanosec: uint32
 
     @classmethod
     def of(cls, time: float) -> "Time":
-        """The message of a time, in [s]."""
+        """Convert a time in [s]."""
         nanoseconds = round(time * 1e9)
         return cls(nanoseconds // 10**9, nanoseconds % 10**9)
 
     @property
     def seconds(self) -> float:
-        """The instant, in [s]."""
+        """Time, in [s]."""
         return float(self.sec + 1e-9 * self.nanosec)
 
 
 @dataclass
 class Header(IdlStruct, typename="std_msgs.msg.dds_.Header_"):
-    """When and in which frame."""
+    """Time stamp and frame of a message."""
 
     stamp: Time
     frame_id: str
@@ -55,7 +55,7 @@ class Header(IdlStruct, typename="std_msgs.msg.dds_.Header_"):
 
 @dataclass
 class Vector3(IdlStruct, typename="geometry_msgs.msg.dds_.Vector3_"):
-    """A vector."""
+    """Vector in three dimensions."""
 
     x: float64 = 0.0
     y: float64 = 0.0
@@ -64,7 +64,7 @@ class Vector3(IdlStruct, typename="geometry_msgs.msg.dds_.Vector3_"):
 
 @dataclass
 class Point(IdlStruct, typename="geometry_msgs.msg.dds_.Point_"):
-    """A point, in [m]."""
+    """Position, in [m]."""
 
     x: float64 = 0.0
     y: float64 = 0.0
@@ -73,7 +73,7 @@ class Point(IdlStruct, typename="geometry_msgs.msg.dds_.Point_"):
 
 @dataclass
 class Quaternion(IdlStruct, typename="geometry_msgs.msg.dds_.Quaternion_"):
-    """A rotation."""
+    """Rotation as a unit quaternion."""
 
     x: float64 = 0.0
     y: float64 = 0.0
@@ -83,7 +83,7 @@ class Quaternion(IdlStruct, typename="geometry_msgs.msg.dds_.Quaternion_"):
 
 @dataclass
 class PoseMessage(IdlStruct, typename="geometry_msgs.msg.dds_.Pose_"):
-    """Place and rotation."""
+    """Position and orientation."""
 
     position: Point
     orientation: Quaternion
@@ -91,7 +91,7 @@ class PoseMessage(IdlStruct, typename="geometry_msgs.msg.dds_.Pose_"):
 
 @dataclass
 class Twist(IdlStruct, typename="geometry_msgs.msg.dds_.Twist_"):
-    """Velocities, in [m/s] and [rad/s]."""
+    """Linear and angular velocity, in [m/s] and [rad/s]."""
 
     linear: Vector3
     angular: Vector3
@@ -99,7 +99,7 @@ class Twist(IdlStruct, typename="geometry_msgs.msg.dds_.Twist_"):
 
 @dataclass
 class TwistStamped(IdlStruct, typename="geometry_msgs.msg.dds_.TwistStamped_"):
-    """Velocities at an instant."""
+    """Velocity with header."""
 
     header: Header
     twist: Twist
@@ -107,7 +107,7 @@ class TwistStamped(IdlStruct, typename="geometry_msgs.msg.dds_.TwistStamped_"):
 
 @dataclass
 class PointStamped(IdlStruct, typename="geometry_msgs.msg.dds_.PointStamped_"):
-    """A point at an instant."""
+    """Position with header."""
 
     header: Header
     point: Point
@@ -115,7 +115,7 @@ class PointStamped(IdlStruct, typename="geometry_msgs.msg.dds_.PointStamped_"):
 
 @dataclass
 class PoseStamped(IdlStruct, typename="geometry_msgs.msg.dds_.PoseStamped_"):
-    """A pose at an instant."""
+    """Pose with header."""
 
     header: Header
     pose: PoseMessage
@@ -125,7 +125,7 @@ class PoseStamped(IdlStruct, typename="geometry_msgs.msg.dds_.PoseStamped_"):
 class PoseWithCovariance(
     IdlStruct, typename="geometry_msgs.msg.dds_.PoseWithCovariance_"
 ):
-    """A pose, and how sure it is."""
+    """Pose with covariance."""
 
     pose: PoseMessage
     covariance: array[float64, MATRIX]
@@ -135,7 +135,7 @@ class PoseWithCovariance(
 class TwistWithCovariance(
     IdlStruct, typename="geometry_msgs.msg.dds_.TwistWithCovariance_"
 ):
-    """Velocities, and how sure they are."""
+    """Velocity with covariance."""
 
     twist: Twist
     covariance: array[float64, MATRIX]
@@ -143,7 +143,7 @@ class TwistWithCovariance(
 
 @dataclass
 class Odometry(IdlStruct, typename="nav_msgs.msg.dds_.Odometry_"):
-    """Where a robot believes to be, and how it moves."""
+    """Estimated pose and velocity of a robot."""
 
     header: Header
     child_frame_id: str
@@ -153,7 +153,7 @@ class Odometry(IdlStruct, typename="nav_msgs.msg.dds_.Odometry_"):
 
 @dataclass
 class Transform(IdlStruct, typename="geometry_msgs.msg.dds_.Transform_"):
-    """From one frame to another."""
+    """Translation and rotation between two frames."""
 
     translation: Vector3
     rotation: Quaternion
@@ -163,7 +163,7 @@ class Transform(IdlStruct, typename="geometry_msgs.msg.dds_.Transform_"):
 class TransformStamped(
     IdlStruct, typename="geometry_msgs.msg.dds_.TransformStamped_"
 ):
-    """A transform at an instant."""
+    """Transform with header."""
 
     header: Header
     child_frame_id: str
@@ -172,21 +172,21 @@ class TransformStamped(
 
 @dataclass
 class TFMessage(IdlStruct, typename="tf2_msgs.msg.dds_.TFMessage_"):
-    """Transforms."""
+    """List of transforms, as on ``/tf``."""
 
     transforms: sequence[TransformStamped]
 
 
 @dataclass
 class ClockMessage(IdlStruct, typename="rosgraph_msgs.msg.dds_.Clock_"):
-    """Time of a simulated world."""
+    """Simulated time, as on ``/clock``."""
 
     clock: Time
 
 
 @dataclass
 class JointState(IdlStruct, typename="sensor_msgs.msg.dds_.JointState_"):
-    """Angles of joints, in [rad]."""
+    """Joint angles, in [rad]."""
 
     header: Header
     name: sequence[str]
@@ -197,7 +197,7 @@ class JointState(IdlStruct, typename="sensor_msgs.msg.dds_.JointState_"):
 
 @dataclass
 class Image(IdlStruct, typename="sensor_msgs.msg.dds_.Image_"):
-    """An image, row by row."""
+    """Uncompressed image."""
 
     header: Header
     height: uint32
@@ -212,7 +212,7 @@ class Image(IdlStruct, typename="sensor_msgs.msg.dds_.Image_"):
 class CompressedImage(
     IdlStruct, typename="sensor_msgs.msg.dds_.CompressedImage_"
 ):
-    """An image in a format that holds fewer bytes: JPEG or PNG."""
+    """Image as JPEG or PNG."""
 
     header: Header
     format: str

@@ -1,4 +1,4 @@
-"""Namespaces of robots on ROS 2 topics."""
+"""Parser of ROS 2 namespaces on the command line."""
 
 import re
 
@@ -9,13 +9,13 @@ _NAME = re.compile(r"(/[A-Za-z_][A-Za-z0-9_]*)*")
 
 
 def parse_namespace(text: str) -> str:
-    """Read ``/NAMESPACE``, with or without ``ros2:`` before it.
+    """Parse ``/NAMESPACE``, with or without the prefix ``ros2:``.
 
     Returns:
-        The namespace with a slash before it; empty for the root.
+        The namespace with a leading slash; empty for the root.
 
     Raises:
-        ConfigurationError: If no topic could be called so.
+        ConfigurationError: If it is not a valid ROS 2 namespace.
     """
     name = text.removeprefix(SCHEME).rstrip("/")
     name = name if not name or name.startswith("/") else f"/{name}"

@@ -1,4 +1,4 @@
-"""A robot on ROS 2 topics, behind the interface that velocities move."""
+"""Driver for a robot that follows velocity commands on ROS 2 topics."""
 
 import logging
 from collections.abc import Callable
@@ -22,40 +22,40 @@ from .topics import (
     POINT,
     POSE,
     dds_topic,
-    place_of,
     pose_of,
+    position_of,
 )
 from .velocity_commands import KINDS, CommandWriter
 
-POLL = 0.001  # between two looks for what has arrived, in [s]
-PARTING = 5  # times that rest is asked for at the end
-PARTING_PAUSE = 0.02  # between them, in [s]
-LETTING_GO = 3.0  # how long rest is asked for in control's place, in [s]
-POSE_TICK = 0.01  # of remembered poses, in [s]
-UNSTAMPED = Header(Time(0, 0), "")  # robots take it for now, or for too old
+POLL = 0.001  # between two checks for messages, in [s]
+STOP_COUNT = 5  # commands of zero velocity at the end of a session
+STOP_PAUSE = 0.02  # between two of them, in [s]
+GUARDIAN_DURATION = 3.0  # of zero commands by the guardian, in [s]
+POSE_TICK = 0.01  # between stored poses, in [s]
+UNSTAMPED = Header(Time(0, 0), "")  # robots read it as now, or reject it
 log = logging.getLogger(__name__)
 
 
 class Ros2Body:
-    """One robot in a namespace.
+    """Robot in a ROS 2 namespace.
 
-    It hears ``odom`` and where the other is: ``other`` (a point) or
-    ``other_pose``, in the frame of the odometry if that is what the header
-    says, else in the robot's own frame, x ahead and y left; from a
-    simulated robot also ``ideal_sight``. It writes ``cmd_vel``, as ``Twist``
-    or ``TwistStamped``: what the robot subscribes to. A stamp is that of the
-    newest odometry, since robots refuse stamps that are old by their clock.
+    Reads ``odom`` and the opponent's position: ``other`` (a point) or
+    ``other_pose``, in the odometry frame if the header says so, else in the
+    robot's own frame, x forward and y left; from a simulated robot also
+    ``ideal_sight``. Writes ``cmd_vel`` as ``Twist`` or ``TwistStamped``,
+    whichever the robot subscribes to. Commands carry the stamp of the newest
+    odometry, as robots reject stamps that are old by their clock.
     """
 
     def __init__(
         self, dds: DdsParticipant, namespace: str, *, dry_run: bool = False
     ) -> None:
-        """Take part in the topics of a robot.
+        """Subscribe to the robot's topics.
 
         Args:
-            dds: Where; it is closed with the body.
-            namespace: Of the robot, with a slash before it, or empty.
-            dry_run: Whether nothing is ever commanded.
+            dds: DDS participant; closed with the body.
+            namespace: Namespace of the robot, with a leading slash; or empty.
+            dry_run: Whether nothing is commanded.
         """
         self._dds, self._namespace = dds, namespace
 
@@ -76,49 +76,47 @@ class Ros2Body:
         self._header = UNSTAMPED
         self._poses: StateHistory[Pose] = StateHistory(POSE_TICK)
         self._sighting: Sighting | None = None
-        self._told_ideal = False
+        self._is_ideal_logged = False
 
     @property
     def commanders(self) -> int:
-        """How many others command this robot."""
+        """Number of other participants that command this robot."""
         return self._others.participants
 
     def listen(self, patience: float) -> VelocityReport | None:
-        """Newest report since the last; None if none comes in time.
+        """Return the newest report since the last call, or None.
 
         Args:
-            patience: Longest time to wait for it, in [s].
+            patience: Longest time to wait for a report, in [s].
         """
-        until = monotonic() + patience
+        deadline = monotonic() + patience
         while True:
             arrived = taken(self._odometry)
             if arrived:
                 return self._report(arrived[-1])
-            if monotonic() >= until:
+            if monotonic() >= deadline:
                 return None
             sleep(POLL)
 
     def command(self, velocity: VelocityCommand) -> None:
-        """Ask for a velocity.
+        """Publish a velocity command.
 
         Raises:
-            SessionLost: If it cannot be written.
+            SessionLost: If it cannot be published.
         """
         if self._commands is None:
             return
         try:
             self._commands.write(velocity, self._header)
         except Exception as error:
-            raise SessionLost(f"the robot takes no command: {error}") from (
-                error
-            )
+            raise SessionLost(f"cannot command the robot: {error}") from error
 
     def close(self) -> None:
-        """Ask for rest a few times, and leave."""
+        """Command zero velocity several times, and leave DDS."""
         try:
-            for _ in range(PARTING if self._commands else 0):
+            for _ in range(STOP_COUNT if self._commands else 0):
                 self.command(REST)
-                sleep(PARTING_PAUSE)
+                sleep(STOP_PAUSE)
         except SessionLost as error:
             log.warning("%s", error)
         finally:
@@ -133,42 +131,42 @@ class Ros2Body:
         self._poses.note(time, pose)
         for name, reader in self._sights.items():
             for message in taken(reader):
-                if name == IDEAL and not self._told_ideal:
-                    self._told_ideal = True
+                if name == IDEAL and not self._is_ideal_logged:
+                    self._is_ideal_logged = True
                     log.warning(
-                        "sees by the ideal line of sight of %s",
+                        "uses the ideal line of sight of %s",
                         self._namespace or "/",
                     )
                 self._note(message, odometry.header.frame_id)
         return VelocityReport(time, pose, self._sighting, self._hindrance())
 
     def _hindrance(self) -> str:
-        """Why the robot must not be asked to move, if anything is."""
-        if self._commands is not None and (why := self._commands.hindrance()):
-            return why
+        """Return why the robot must not move; empty if it may."""
+        if self._commands and (reason := self._commands.hindrance()):
+            return reason
         others = self.commanders
         return f"{others} others command this robot" if others else ""
 
     def _note(
         self, message: PointStamped | PoseStamped, odometry_frame: str
     ) -> None:
-        """Turn a place of the other into a sighting."""
-        place, time = place_of(message), message.header.stamp.seconds
-        x, y = place.x, place.y
+        """Convert the opponent's position to a sighting."""
+        point, time = position_of(message), message.header.stamp.seconds
+        x, y = point.x, point.y
         if message.header.frame_id == odometry_frame:
-            own = self._poses.at(time)
-            x, y, _ = own.inverse().compose(Pose(x, y, 0.0))
+            pose_in_odometry = self._poses.at(time)
+            x, y, _ = pose_in_odometry.inverse().compose(Pose(x, y, 0.0))
         self._sighting = Sighting(time, atan2(y, x), hypot(x, y))
 
 
 def rester_of(dds: DdsParticipant, namespace: str) -> Callable[[], None]:
-    """Join a robot's topics in advance, and return what asks it for rest.
+    """Register a robot's topics, and return a function that stops it.
 
-    Nothing is written before: a second writer would be another commander.
+    No writer is created before: it would count as a second commander.
 
     Args:
-        dds: Where; closed when the robot has been asked.
-        namespace: Of the robot.
+        dds: DDS participant; closed after the robot has been stopped.
+        namespace: Namespace of the robot, with a leading slash; or empty.
     """
     for kind in KINDS:
         dds.register(dds_topic(namespace, COMMAND), kind)
@@ -176,18 +174,19 @@ def rester_of(dds: DdsParticipant, namespace: str) -> Callable[[], None]:
 
 
 def rest(
-    dds: DdsParticipant, namespace: str, duration: float = LETTING_GO
+    dds: DdsParticipant, namespace: str, duration: float = GUARDIAN_DURATION
 ) -> None:
-    """Ask a robot for rest in place of control that is gone.
+    """Command zero velocity when control has failed.
 
     Args:
-        dds: Where; it is closed.
-        namespace: Of the robot.
-        duration: How long, in [s]: it takes a while to be found.
+        dds: DDS participant; it is closed.
+        namespace: Namespace of the robot, with a leading slash; or empty.
+        duration: Duration of the commands, in [s]; discovery takes some
+            of it.
     """
     commands = CommandWriter(dds, namespace)
-    for _ in range(round(duration / PARTING_PAUSE)):
+    for _ in range(round(duration / STOP_PAUSE)):
         commands.write(REST, UNSTAMPED)
-        sleep(PARTING_PAUSE)
+        sleep(STOP_PAUSE)
     del commands
     dds.close()

@@ -1,4 +1,4 @@
-"""The robot's side of the topics, for a robot that is simulated."""
+"""Server of ROS 2 topics for a simulated robot."""
 
 import logging
 from collections.abc import Sequence
@@ -38,36 +38,36 @@ from .topics import (
 from .velocity_commands import CommandReader
 
 EVERY = 4  # ticks from one report to the next: 48 ms
-SILENCE = 0.5  # of the commander before the robot rests, in [s]
-LOOKS = 400  # for an answer in lock step before it is asked for again
-UNKNOWN = (0.0,) * 36  # covariance of what nobody has estimated
+SILENCE = 0.5  # without a command before the robot stops, in [s]
+REPEAT = 400  # polls for an answer in lock step before a report is repeated
+UNKNOWN = (0.0,) * 36  # covariance that is not estimated
 log = logging.getLogger(__name__)
 
 
 class WorldClock:
-    """Tells simulated time to everybody on one domain."""
+    """Publisher of simulated time on one domain."""
 
     def __init__(self, dds: DdsParticipant) -> None:
-        """Write ``/clock``."""
+        """Create the publisher of ``/clock``."""
         self._writer = dds.writer(dds_topic("", "clock"), ClockMessage)
-        self._told = -1.0
+        self._published = -1.0
 
-    def tell(self, time: float) -> None:
-        """Say what time it is, in [s], if that is new."""
-        if time != self._told:
-            self._told = time
+    def publish(self, time: float) -> None:
+        """Publish the time, in [s], if it has changed."""
+        if time != self._published:
+            self._published = time
             self._writer.write(ClockMessage(Time.of(time)))
 
 
 class Ros2Server:
-    """Speaks ROS 2 topics for one robot.
+    """ROS 2 interface of one simulated robot.
 
-    The first who commands is the commander until it leaves; what others ask
-    for is refused. Commands are ``Twist`` or ``TwistStamped``; a stamp is
-    not looked at.
+    The first participant that sends a command is the commander until it
+    leaves; commands of others are refused. Commands are ``Twist`` or
+    ``TwistStamped``, whose stamp is ignored.
 
     Attributes:
-        refused: Commands that were not followed.
+        refused: Number of commands that were refused.
         answered: Whether the last report has been answered.
     """
 
@@ -82,16 +82,16 @@ class Ros2Server:
         tick: float,
         lock_step: bool = False,
     ) -> None:
-        """Take part in the topics of a namespace.
+        """Create the topics.
 
         Args:
-            dds: Where; it stays with the caller.
-            namespace: With a slash before it, or empty.
-            robot: Whom to speak for.
-            joint_names: Its joints.
-            clock: Tells the time of its world.
+            dds: DDS participant; the caller closes it.
+            namespace: Namespace of the robot, with a leading slash; or empty.
+            robot: The simulated robot.
+            joint_names: Names of its joints.
+            clock: Publisher of simulated time.
             tick: Time between two calls of :meth:`speak`, in [s].
-            lock_step: Whether its world waits for answers.
+            lock_step: Whether the simulation waits for answers.
         """
         self._robot, self._namespace = robot, namespace
         self._clock = clock
@@ -108,89 +108,93 @@ class Ros2Server:
         self._commands = CommandReader(dds, namespace)
         self._cameras = CameraTopics(dds, namespace)
         self._commander: int | None = None
-        self._told: Sighting | None = None
+        self._published: Sighting | None = None
         self._ticks = 0
         self._silent = 0
         self._velocity = REST
         self._closed = False
         self._state: WalkerState | None = None
-        self._looks = 0
+        self._polls = 0
         self.refused = 0
         self.answered = True
 
     @property
     def connected(self) -> bool:
-        """Whether somebody commands."""
+        """Whether there is a commander."""
         return self._commander is not None
 
     @property
     def ready(self) -> bool:
-        """Whether somebody commands, so that the game may begin."""
+        """Whether there is a commander, so that the game may begin."""
         return self.connected
 
     def fileno(self) -> int:
-        """No descriptor to wait on."""
+        """Return -1: there is no descriptor to wait on."""
         return -1
 
     def press(self, pressed: bool) -> None:
-        """Report with the first tick, when the button is let go."""
+        """Align the reports with the tick at which the button is released."""
         if not pressed:
             self._ticks = 0
 
     def speak(self) -> None:
-        """Tell of the robot, when it is time to."""
+        """Publish a report, if one is due at this tick."""
         self.hear()
         if self._ticks % EVERY == 0:
             self._state = self._robot.state()
-            self._tell(self._state)
-            self.answered, self._looks = False, 0
+            self._publish(self._state)
+            self.answered, self._polls = False, 0
         self._ticks += 1
 
     def hear(self) -> bool:
-        """Take commands that have come; whether nobody is waited for."""
+        """Take commands that have arrived.
+
+        Returns:
+            Whether the simulation may go on.
+        """
         present = self._commands.commanders()
         if self._commander is not None and self._commander not in present:
             log.warning("%s: commander left", self._namespace or "/")
             self._commander, self._velocity = None, REST
         if self._commander is None:
             self._commands.choose()
-        for who, twist in self._commands.taken():
-            if self._commander is None and who in present:
-                self._commander = who
-                log.info("%s: commander came", self._namespace or "/")
-            if who == self._commander:
+        for sender, twist in self._commands.taken():
+            if self._commander is None and sender in present:
+                self._commander = sender
+                log.info("%s: commander connected", self._namespace or "/")
+            if sender == self._commander:
                 self._take(twist)
             else:
                 self.refused += 1
         waits = self._lock_step and self.connected and not self.answered
         if waits:
-            self._ask_again()
+            self._repeat()
         return not waits
 
-    def _ask_again(self) -> None:
-        """Repeat a report: it, or its answer, may have been lost on its way.
+    def _repeat(self) -> None:
+        """Repeat a report from time to time while its answer is missing.
 
-        Readers take what comes, and are sent nothing twice by DDS. Who has
-        it already answers as before.
+        Readers are best-effort, so the report or the answer may be lost. A
+        client that has the report already answers as before.
         """
-        self._looks += 1
-        if self._looks % LOOKS == 0 and self._state is not None:
-            self._tell(self._state)
+        self._polls += 1
+        if self._polls % REPEAT == 0 and self._state is not None:
+            self._publish(self._state)
 
     def act(self) -> VelocityCommand:
-        """What the robot is to do at this tick."""
+        """Return the velocity command for this tick."""
         self._silent += 1
         if self._silent * self._tick > SILENCE and not self._lock_step:
             self._velocity = REST
         return self._velocity
 
     def drop(self, why: str) -> None:
-        """Let go of the commander, and say why; another may come."""
+        """Disconnect the commander, and log why; another may connect."""
         log.warning("%s: commander dropped: %s", self._namespace or "/", why)
         self._commander, self._velocity = None, REST
 
     def close(self) -> None:
-        """Stop telling and listening."""
+        """Remove the topics."""
         if self._closed:
             return
         self._closed = True
@@ -206,22 +210,22 @@ class Ros2Server:
         self.answered, self._silent = True, 0
         self._velocity = VelocityCommand(forward, turn)
 
-    def _tell(self, state: WalkerState) -> None:
-        """Write everything; odometry last, as it is what is waited for."""
+    def _publish(self, state: WalkerState) -> None:
+        """Publish the state; odometry last, as clients wait for it."""
         stamp = Time.of(state.time)
-        self._clock.tell(state.time)
-        self._cameras.tell(state.image)
+        self._clock.publish(state.time)
+        self._cameras.publish(state.image)
         own = frame(self._namespace, "base_link")
         fixed = Header(stamp, frame(self._namespace, "odom"))
-        seen = state.sighting
-        if seen is not None and seen is not self._told:
-            self._told = seen
-            place = Point(
-                seen.distance * cos(seen.bearing),
-                seen.distance * sin(seen.bearing),
+        sighting = state.sighting
+        if sighting is not None and sighting is not self._published:
+            self._published = sighting
+            point = Point(
+                sighting.distance * cos(sighting.bearing),
+                sighting.distance * sin(sighting.bearing),
             )
             self._sight.write(
-                PointStamped(Header(Time.of(seen.time), own), place)
+                PointStamped(Header(Time.of(sighting.time), own), point)
             )
         pose, velocity = state.pose, state.velocity
         self._joints.write(
@@ -229,10 +233,10 @@ class Ros2Server:
                 Header(stamp, ""), self._names, list(state.joints), [], []
             )
         )
-        turned = about_the_vertical(pose.theta)
-        moved = Transform(vector(pose.x, pose.y), turned)
+        rotation = about_the_vertical(pose.theta)
+        transform = Transform(vector(pose.x, pose.y), rotation)
         self._transforms.write(
-            TFMessage([TransformStamped(fixed, own, moved)])
+            TFMessage([TransformStamped(fixed, own, transform)])
         )
         twist = Twist(vector(velocity.forward), vector(z=velocity.turn))
         self._odometry.write(

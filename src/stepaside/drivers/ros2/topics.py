@@ -1,4 +1,4 @@
-"""Names of topics and frames, and the conventions of ROS 2 on DDS."""
+"""Names of topics and frames, and conversions of poses, for ROS 2 on DDS."""
 
 from math import atan2, cos, sin
 
@@ -14,52 +14,52 @@ from .messages import (
 
 COMMAND = "cmd_vel"
 ODOMETRY = "odom"
-POINT, POSE = "other", "other_pose"  # the other, as a point or as a pose
-IDEAL = "ideal_sight"  # where a simulated robot offers the truth
+POINT, POSE = "other", "other_pose"  # opponent, as a point or as a pose
+IDEAL = "ideal_sight"  # ground truth of a simulated robot
 JOINTS = "joint_states"
 IMAGE = "camera/image_raw"
 COMPRESSED = f"{IMAGE}/compressed"
 
 
 def dds_topic(namespace: str, name: str) -> str:
-    """Name of a topic on DDS, where ROS 2 puts ``rt`` before it."""
+    """Return the name of a topic on DDS, where ROS 2 prefixes ``rt``."""
     return f"rt{namespace}/{name}"
 
 
 def frame(namespace: str, name: str) -> str:
-    """Name of a frame of one robot."""
+    """Return the name of a frame of one robot."""
     return f"{namespace}/{name}".lstrip("/")
 
 
 def yaw(rotation: Quaternion) -> float:
-    """Heading of a rotation, in [rad]."""
+    """Return the yaw angle of a rotation, in [rad]."""
     x, y, z, w = rotation.x, rotation.y, rotation.z, rotation.w
     return atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
 
 
 def about_the_vertical(heading: float) -> Quaternion:
-    """Rotation by a heading, in [rad]."""
+    """Return the rotation about the vertical by a heading, in [rad]."""
     return Quaternion(0.0, 0.0, sin(0.5 * heading), cos(0.5 * heading))
 
 
 def pose_message(pose: Pose) -> PoseMessage:
-    """A pose on the floor as a message."""
+    """Convert a planar pose to a message."""
     return PoseMessage(Point(pose.x, pose.y), about_the_vertical(pose.theta))
 
 
 def pose_of(message: PoseMessage) -> Pose:
-    """Pose on the floor that a message gives."""
-    place = message.position
-    return Pose(place.x, place.y, yaw(message.orientation))
+    """Project the pose of a message onto the floor."""
+    point = message.position
+    return Pose(point.x, point.y, yaw(message.orientation))
 
 
-def place_of(message: PointStamped | PoseStamped) -> Point:
-    """Point that a message gives."""
+def position_of(message: PointStamped | PoseStamped) -> Point:
+    """Return the position in a message."""
     if isinstance(message, PoseStamped):
         return message.pose.position
     return message.point
 
 
 def vector(x: float = 0.0, y: float = 0.0, z: float = 0.0) -> Vector3:
-    """A vector as a message."""
+    """Return a vector message."""
     return Vector3(x, y, z)

@@ -1,7 +1,7 @@
-"""Velocity commands: ``Twist`` or ``TwistStamped``, as they are taken.
+"""Writer and reader of velocity commands, ``Twist`` or ``TwistStamped``.
 
 ROS 2 robots take one or the other on ``cmd_vel``; on DDS a writer of one
-type does not match a reader of the other, and no error says so.
+type does not match a reader of the other, without any error.
 """
 
 import logging
@@ -14,22 +14,22 @@ from .messages import Header, Twist, TwistStamped
 from .topics import COMMAND, dds_topic, vector
 
 KINDS: tuple[type[Any], ...] = (Twist, TwistStamped)
-HANDLES = 1 << 64  # handles are signed in some places, unsigned in others
+HANDLES = 1 << 64  # CycloneDDS has handles as signed and unsigned numbers
 log = logging.getLogger(__name__)
 
 
 class CommandWriter:
-    """Writes commands in each type that has a subscriber.
+    """Publisher of commands in each type that has a subscriber.
 
-    A writer is made when the first subscriber of its type is discovered.
+    A writer is created when the first subscriber of its type is discovered.
     """
 
     def __init__(self, dds: DdsParticipant, namespace: str) -> None:
-        """Look for subscribers.
+        """Start the discovery of subscribers.
 
         Args:
-            dds: Where; it stays with the caller.
-            namespace: Of the robot, with a slash before it, or empty.
+            dds: DDS participant; the caller closes it.
+            namespace: Namespace of the robot, with a leading slash; or empty.
         """
         self._dds, self._name = dds, f"{namespace}/{COMMAND}"
         self._topic = dds_topic(namespace, COMMAND)
@@ -37,7 +37,7 @@ class CommandWriter:
         self._writers: dict[type[Any], Any] = {}
 
     def hindrance(self) -> str:
-        """Why no command would arrive; empty if one would."""
+        """Return why no command would be received; empty if one would."""
         kinds = self._prepare()
         if not kinds:
             return f"nothing subscribes to {self._name}"
@@ -54,12 +54,12 @@ class CommandWriter:
         return ""
 
     def write(self, velocity: VelocityCommand, header: Header) -> None:
-        """Ask for a velocity.
+        """Publish a command.
 
         Args:
-            velocity: Of the robot.
+            velocity: Velocity command.
             header: Time of the robot's clock and frame of its base, for
-                those who take stamped commands.
+                stamped commands.
         """
         self._prepare()
         twist = Twist(vector(velocity.forward), vector(z=velocity.turn))
@@ -69,39 +69,39 @@ class CommandWriter:
             )
 
     def _prepare(self) -> set[str]:
-        """Make what writers lack; types of the subscribers, as in ROS."""
+        """Create missing writers, and return the subscribers' types."""
         kinds = {_ros(kind) for kind in self._subscribers.types}
         for kind in KINDS:
             if ros_name(kind) in kinds and kind not in self._writers:
                 self._writers[kind] = self._dds.writer(self._topic, kind)
-                log.info("%s takes %s", self._name, ros_name(kind))
+                log.info("%s is subscribed as %s", self._name, ros_name(kind))
         return kinds
 
 
 class CommandReader:
-    """Takes the commands of a served robot, one type at a time.
+    """Subscriber of the commands to a served robot, one type at a time.
 
-    A commander that writes each type that has a subscriber writes one then.
+    So a commander that writes each subscribed type sends each command once.
     """
 
     def __init__(self, dds: DdsParticipant, namespace: str) -> None:
         """Subscribe to ``Twist``.
 
         Args:
-            dds: Where; it stays with the caller.
-            namespace: Of the robot, with a slash before it, or empty.
+            dds: DDS participant; the caller closes it.
+            namespace: Namespace of the robot, with a leading slash; or empty.
         """
         self._dds, self._topic = dds, dds_topic(namespace, COMMAND)
         self._publishers = Endpoints(dds, self._topic, writers=True)
         self._subscribe(Twist)
 
     def commanders(self) -> set[int]:
-        """Handles of those who may command now."""
+        """Return the handles of all publishers of commands."""
         found = self._reader.get_matched_publications()
         return {handle % HANDLES for handle in found}
 
     def taken(self) -> list[tuple[int, Twist]]:
-        """Commands that have arrived and their commanders' handles."""
+        """Return each command that has arrived, after its sender's handle."""
         return [
             (
                 sample.sample_info.publication_handle % HANDLES,
@@ -111,9 +111,9 @@ class CommandReader:
         ]
 
     def choose(self) -> None:
-        """Subscribe to the type that is written, if the present one is not.
+        """Subscribe to a type that is published, if the present one is not.
 
-        To be called while there is no commander.
+        Call this only while there is no commander.
         """
         written = {_ros(kind) for kind in self._publishers.types}
         if ros_name(self._kind) in written:
@@ -129,12 +129,12 @@ class CommandReader:
 
 
 def ros_name(kind: type[Any]) -> str:
-    """Name of a message as in ROS, such as ``geometry_msgs/Twist``."""
+    """Return the name of a message in ROS, such as ``geometry_msgs/Twist``."""
     return _ros(kind.__idl__.idl_transformed_typename)
 
 
 def _ros(name: str) -> str:
-    """Name in ROS of a type on DDS; others stay as they are."""
+    """Convert a type name from DDS to ROS; return others unchanged."""
     package, _, rest = name.partition("::")
     middle, _, message = rest.rpartition("::")
     if middle != "msg::dds_" or not message.endswith("_"):

@@ -1,6 +1,6 @@
-"""Footsteps for a robot that walks where it is told to step.
+"""Footstep commands for a robot with its own walking control.
 
-Each is told relative to the other foot, as NAOqi does it.
+Each footstep is given relative to the other foot, as in NAOqi.
 """
 
 from dataclasses import dataclass
@@ -16,7 +16,7 @@ from ...planning.footsteps import place_footsteps
 from ...planning.template_path import path_samples
 from .velocity_body import VelocityCommand
 
-CREEPING = 1e-6  # speed of a template that turns in place, in [m/s]
+MIN_SPEED = 1e-6  # speed of a template that turns in place, in [m/s]
 
 
 class FootCommand(NamedTuple):
@@ -24,8 +24,8 @@ class FootCommand(NamedTuple):
 
     Attributes:
         foot: Foot that lands.
-        pose: Where, in the frame of the foot that supports it.
-        time: When, in [s].
+        pose: Landing pose in the frame of the stance foot, in [m] and [rad].
+        time: Landing time, in [s].
     """
 
     foot: Foot
@@ -34,30 +34,31 @@ class FootCommand(NamedTuple):
 
 
 class PathSegment(NamedTuple):
-    """Part of a path that one step walks.
+    """Displacement of the template over one step.
 
     Attributes:
-        length: Along the path, in [m], negative backward.
-        turn: From its beginning to its end, in [rad].
-        aside: What no path of a unicycle has, in [m], positive leftward.
+        length: Length along the path, in [m], negative backward.
+        turn: Change of heading, in [rad].
+        lateral: Lateral displacement, in [m], positive leftward; zero on
+            any path of a unicycle.
     """
 
     length: float
     turn: float
-    aside: float
+    lateral: float
 
 
 @dataclass(frozen=True, slots=True)
 class StepLimits:
-    """What a robot's own walk accepts of one step.
+    """Limits of one step of a robot's own walking control.
 
-    The default is what the vendor publishes of NAO's default gait.
+    The defaults are the vendor's published values of NAO's default gait.
 
     Attributes:
-        stride: Longest way of a foot along the path, in [m].
-        turn: Greatest turn of a step, in [rad].
-        shortest: Least time of a step, in [s].
-        longest: Most time of a step, in [s].
+        stride: Maximum displacement along the path, in [m].
+        turn: Maximum change of heading, in [rad].
+        shortest: Minimum step duration, in [s].
+        longest: Maximum step duration, in [s].
     """
 
     stride: float = 0.04
@@ -66,7 +67,7 @@ class StepLimits:
     longest: float = 0.6
 
     def __post_init__(self) -> None:
-        """Refuse limits that let nothing through."""
+        """Validate the limits."""
         error = ConfigurationError
         check_positive(self.stride, "stride", "m", error)
         check_within(self.turn, 1e-3, 1.5, "turn", "rad", error)
@@ -83,29 +84,28 @@ def plan_footsteps(
     first_foot: Foot,
     count: int,
 ) -> tuple[FootCommand, ...]:
-    r"""Footsteps of a template, as the paper's maneuvers have them.
+    r"""Plan footsteps along the template's path (paper, Sec. III-C).
 
-    The template begins beside the support foot, on the path of eqs. (9) to
-    (14) whose turning rate is the given one; feet land beside it (Sec.
-    III-C). A step that is too long or turns too far is cut short on that
-    path, which keeps its curvature.
+    The template starts beside the stance foot, on the path of eqs. (9) to
+    (14) with the given turning rate; feet land beside it. Steps that exceed
+    a limit are shortened along the path, so that its curvature is kept.
 
     Args:
-        velocity: Of the template: :math:`\pm \bar{v}` and
-            :math:`k \theta^*`. Finite.
-        gait: Gives stride, steering gain, foot spacing and time of a step.
-        limits: What the robot accepts.
-        first_foot: Foot that lands first; the other one supports.
-        count: Footsteps.
+        velocity: Velocity of the template: :math:`\pm \bar{v}`, in [m/s],
+            and :math:`k \theta^*`, in [rad/s]. Finite.
+        gait: Gives stride, steering gain, foot spacing and step duration.
+        limits: Limits of one step.
+        first_foot: Foot that lands first; the other one is the stance foot.
+        count: Number of footsteps.
 
     Returns:
-        Footsteps in landing order, their times since the first was lifted.
+        Footsteps in landing order, with times since the first lift-off.
     """
-    speed = max(abs(velocity.forward), CREEPING)
+    speed = max(abs(velocity.forward), MIN_SPEED)
     length, turn = (
         gait.path_interval * part for part in (speed, abs(velocity.turn))
     )
-    share = 1.0 / max(1.0, length / limits.stride, turn / limits.turn)
+    scale = 1.0 / max(1.0, length / limits.stride, turn / limits.turn)
     forward = velocity.forward >= 0.0
     path = UnicycleTrajectory(
         velocity.turn / gait.gain,
@@ -116,7 +116,7 @@ def plan_footsteps(
     rows = place_footsteps(
         path,
         count=count,
-        stride=share * length,
+        stride=scale * length,
         foot_spacing=gait.foot_spacing,
         first_foot=first_foot,
     )
@@ -131,19 +131,22 @@ def plan_footsteps(
     return tuple(steps)
 
 
-def stride_of(pose: Pose, foot: Foot, foot_spacing: float) -> PathSegment:
-    """Part of a path beside which a foot lands, an arc of a circle.
+def path_segment_of(
+    pose: Pose, foot: Foot, foot_spacing: float
+) -> PathSegment:
+    """Return the circular arc that the template follows over one step.
 
     Args:
-        pose: Where it lands, in the frame of the other foot.
+        pose: Landing pose in the frame of the other foot.
         foot: Side of the foot that lands.
         foot_spacing: Coronal distance between the feet, in [m].
     """
     feet = np.array([(0.0, 0.0, 0.0), pose])
     start, end = path_samples(feet, foot.other, foot_spacing).tolist()
-    way = Pose(*start).inverse().compose(Pose(*end))
-    half = 0.5 * way.theta  # an arc lies aside of its tangent by that much
-    along = cos(half) * way.x + sin(half) * way.y
-    aside = cos(half) * way.y - sin(half) * way.x
+    motion = Pose(*start).inverse().compose(Pose(*end))
+    half = 0.5 * motion.theta  # angle between the tangent and the chord
+    along = cos(half) * motion.x + sin(half) * motion.y
+    lateral = cos(half) * motion.y - sin(half) * motion.x
     # sin(a) / a, without dividing by a
-    return PathSegment(along / float(np.sinc(half / np.pi)), way.theta, aside)
+    length = along / float(np.sinc(half / np.pi))
+    return PathSegment(length, motion.theta, lateral)

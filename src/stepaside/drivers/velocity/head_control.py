@@ -1,4 +1,4 @@
-"""Eyes for a robot that walks by itself, and turns its head when asked."""
+"""Camera perception and gaze for a robot driven by velocity commands."""
 
 from collections import deque
 from itertools import pairwise
@@ -12,19 +12,19 @@ from ...perception.planar_perception import PlanarPerception
 from ..cameras.image_source import ImageSource
 from .velocity_body import VelocityBody, VelocityCommand, VelocityReport
 
-PERIOD = 0.05  # between two looks, in [s]; the head is turned as often
-KEPT = 20  # reports between which an image may have been taken
+PERIOD = 0.05  # between two updates of perception and head, in [s]
+HISTORY = 20  # reports among which an image is placed in time: 1 s
 
 
 class HeadBody(VelocityBody, Protocol):
-    """A robot that walks by itself and has a head."""
+    """Robot driven by velocity commands that can also turn its head."""
 
     @property
     def joints(self) -> Array:
-        """Joints when it was last heard, in [rad]. Shape (joints,)."""
+        """Joint angles of the newest report, in [rad]. Shape (joints,)."""
 
     def look(self, yaw: float, pitch: float) -> None:
-        """Turn the head, in [rad].
+        """Command the angles of the head, in [rad].
 
         Raises:
             SessionLost: If the robot cannot be reached.
@@ -32,12 +32,12 @@ class HeadBody(VelocityBody, Protocol):
 
 
 class PoseReport(NamedTuple):
-    """Where a robot was at a report.
+    """Configuration of a robot at one report.
 
     Attributes:
-        time: Of the report, in [s].
-        pose: By its odometry.
-        joints: Their angles, in [rad]. Shape (joints,).
+        time: Time of the report, in [s].
+        pose: Pose of the robot in odometry.
+        joints: Joint angles, in [rad]. Shape (joints,).
     """
 
     time: float
@@ -46,7 +46,7 @@ class PoseReport(NamedTuple):
 
 
 class CameraBody:
-    """Sees the other by the robot's own camera, and keeps looking at it."""
+    """Robot whose sightings of the opponent come from its own camera."""
 
     def __init__(
         self,
@@ -56,67 +56,72 @@ class CameraBody:
         *,
         turns_head: bool = True,
     ) -> None:
-        """Open a robot's eyes.
+        """Combine a robot and its camera.
 
         Args:
-            body: The robot; closed with this one.
-            eyes: Its camera, likewise.
-            perception: What sees and looks, at a period of ``PERIOD``.
+            body: The robot; closed with this object.
+            eyes: Its camera; closed with this object.
+            perception: Perception that detects the opponent and plans the
+                gaze, at a period of ``PERIOD``.
             turns_head: Whether the head is commanded.
         """
         self._body, self._eyes = body, eyes
         self._perception, self._turns_head = perception, turns_head
-        self._heard = 0
-        self._told: deque[PoseReport] = deque(maxlen=KEPT)
+        self._count = 0
+        self._reports: deque[PoseReport] = deque(maxlen=HISTORY)
 
     def listen(self, patience: float) -> VelocityReport | None:
-        """Newest report, with what was seen until then."""
+        """Return the newest report, with the newest sighting."""
         report = self._body.listen(patience)
         if report is None:
             return None
-        self._heard += 1
-        images = self._eyes.percepts(self._heard, report.time, PERIOD)
-        nothing = np.zeros(3)
+        self._count += 1
+        images = self._eyes.percepts(self._count, report.time, PERIOD)
         measured = Measurement(
-            *(report.time, self._body.joints, nothing, nothing, np.zeros(8)),
+            report.time,
+            self._body.joints,
+            np.zeros(3),
+            np.zeros(3),
+            np.zeros(8),
             None,
             tuple(images),
         )
-        told = PoseReport(report.time, report.pose, self._body.joints)
-        self._told.append(told)
+        self._reports.append(
+            PoseReport(report.time, report.pose, self._body.joints)
+        )
         for image in images:
             self._recall(image.time)
-        seen = self._perception.see_level(measured, report.pose)
+        sighting = self._perception.see_level(measured, report.pose)
         if self._turns_head:
             self._body.look(*self._perception.gaze)
-        return report._replace(sighting=seen)
+        return report._replace(sighting=sighting)
 
     def _recall(self, time: float) -> None:
-        """Put the body where it was when an image was taken.
+        """Give perception the configuration at the time of an image.
 
-        The head turns by some degrees from one report to the next.
+        Interpolated, as the head turns by some degrees between reports.
         """
-        for earlier, later in pairwise(self._told):
+        for earlier, later in pairwise(self._reports):
             if earlier.time < time < later.time:
                 break
         else:
             return
-        share = (time - earlier.time) / (later.time - earlier.time)
+        fraction = (time - earlier.time) / (later.time - earlier.time)
         (x, y, heading), after = earlier.pose, later.pose
         turn = wrap_angle(after.theta - heading)
         pose = Pose(
-            x + share * (after.x - x),
-            y + share * (after.y - y),
-            heading + share * turn,
+            x + fraction * (after.x - x),
+            y + fraction * (after.y - y),
+            heading + fraction * turn,
         )
-        joints = earlier.joints + share * (later.joints - earlier.joints)
+        joints = earlier.joints + fraction * (later.joints - earlier.joints)
         self._perception.recall_level(time, joints, pose)
 
     def command(self, velocity: VelocityCommand) -> None:
-        """Ask for a velocity."""
+        """Send a velocity command."""
         self._body.command(velocity)
 
     def close(self) -> None:
-        """Let the robot stand, and close its eyes."""
+        """Stop the robot and close its camera."""
         self._eyes.close()
         self._body.close()

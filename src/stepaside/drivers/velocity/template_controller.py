@@ -1,4 +1,4 @@
-"""The template as it stands in the paper: a strategy drives a unicycle."""
+"""Velocity control by the paper's template, a unicycle."""
 
 from ...control.strategy_runner import StrategyRunner
 from ...planning import GaitSettings
@@ -6,45 +6,46 @@ from ...strategies import Strategy
 from ...theory import laws
 from .velocity_body import REST, VelocityCommand, VelocityReport
 
-MEMORY_TICK = 0.02  # of remembered poses, in [s]: some seconds are kept
+MEMORY_TICK = 0.02  # between poses stored for the strategy, in [s]
 
 
 class TemplateController:
-    r"""Velocities :math:`(\pm \bar{v}, k \theta^*)`, eqs. (1) to (6).
+    r"""Controller with the velocities :math:`(\pm \bar{v}, k \theta^*)`.
+
+    Equations (1) to (6) of the paper.
 
     Attributes:
-        moving: Whether the strategy wants motion.
+        moving: Whether the newest intent is to walk.
     """
 
     def __init__(self, strategy: Strategy, gait: GaitSettings) -> None:
-        """Begin with nobody seen yet.
+        """Start without a sighting.
 
         Args:
-            strategy: From what is known to what is wanted.
-            gait: Gives speed and gain of the template, and the time that
-                rates are measured over.
+            strategy: Function from knowledge to intent.
+            gait: Gives speed and gain of the template, and the time over
+                which rates are measured.
         """
         self._decisions = StrategyRunner(strategy, gait, MEMORY_TICK)
         self._gait = gait
         self.moving = False
 
     def decide(self, report: VelocityReport) -> VelocityCommand:
-        """What the template is told now.
+        """Return the velocity command for a report.
 
         Args:
-            report: What the robot says; rest is the answer to a report
-                without a sighting.
+            report: Newest report; without a sighting the command is zero.
 
         Raises:
-            StrategyError: If the strategy gives no intent.
+            StrategyError: If the strategy does not return an intent.
         """
-        decisions, seen = self._decisions, report.sighting
+        decisions, sighting = self._decisions, report.sighting
         decisions.headings.note(report.time, report.pose.theta)
         decisions.templates.note(report.time, report.pose)
-        if seen is None:
+        if sighting is None:
             self.moving = False
             return REST
-        intent = decisions.decide(report.time, seen, moving=self.moving)
+        intent = decisions.decide(report.time, sighting, moving=self.moving)
         self.moving = intent.walks
         if not intent.walks:
             return REST

@@ -1,4 +1,4 @@
-"""A robot that walks by itself: velocities in, odometry and sight out."""
+"""Interface of a robot that follows velocity commands."""
 
 from typing import NamedTuple, Protocol
 
@@ -7,7 +7,7 @@ from ...perception.measurement import Sighting
 
 
 class VelocityCommand(NamedTuple):
-    """What a unicycle is told.
+    """Velocity command of a unicycle.
 
     Attributes:
         forward: Driving velocity, in [m/s], negative backward.
@@ -22,14 +22,14 @@ REST = VelocityCommand(0.0, 0.0)
 
 
 class VelocityReport(NamedTuple):
-    """What such a robot says of itself at one instant.
+    """State of the robot at one instant.
 
     Attributes:
-        time: The instant on the robot's clock, in [s].
-        pose: Where it is by its odometry.
-        sighting: The other, seen at a time of the same clock, its bearing
-            from the heading of the odometry then; None if nobody was seen.
-        hindrance: Why it must not move now, if it says so itself.
+        time: Time on the robot's clock, in [s].
+        pose: Pose of the robot in odometry.
+        sighting: Newest sighting of the opponent, timed by the same clock,
+            its bearing from the robot's heading then; None without one.
+        hindrance: Reason why the robot must not move now; empty if it may.
     """
 
     time: float
@@ -39,24 +39,24 @@ class VelocityReport(NamedTuple):
 
 
 class VelocityBody(Protocol):
-    """A robot at the other end of a line that carries velocities."""
+    """Connection to a robot that follows velocity commands."""
 
     def listen(self, patience: float) -> VelocityReport | None:
-        """Newest report since the last; None if none comes in time.
+        """Return the newest report since the last call, or None.
 
         Args:
-            patience: Longest time to wait for it, in [s].
+            patience: Longest time to wait for a report, in [s].
 
         Raises:
-            SessionLost: If there will be none any more.
+            SessionLost: If the connection has ended.
         """
 
     def command(self, velocity: VelocityCommand) -> None:
-        """Ask for a velocity.
+        """Send a velocity command.
 
         Raises:
             SessionLost: If the robot cannot be reached.
         """
 
     def close(self) -> None:
-        """Let the robot stand, as far as it can be reached, and go."""
+        """Stop the robot if it can be reached, and disconnect."""

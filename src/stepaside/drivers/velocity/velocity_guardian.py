@@ -1,4 +1,4 @@
-"""Rest for a robot that walks on when nobody tells it to stop."""
+"""Guardian of a robot that keeps its last velocity command."""
 
 from collections.abc import Callable
 from contextlib import suppress
@@ -7,45 +7,45 @@ from ...core.errors import StepAsideError
 from ..guardian_process import Guardian
 from .velocity_body import REST, VelocityBody, VelocityCommand, VelocityReport
 
-SILENCE = 0.5  # of control before the guardian acts, in [s]
+SILENCE = 0.5  # time without control before the guardian acts, in [s]
 
 
 def guardian_of(join: Callable[[], Callable[[], None]]) -> Guardian:
-    """Fork a guardian, which joins the robot's line at once.
+    """Fork a guardian, which connects to the robot at once.
 
-    Loading a language and finding the robot takes longer than stopping it.
+    Connecting in advance, as it takes longer than stopping the robot.
 
     Args:
-        join: Takes part in a line of its own, and returns what makes the
-            robot rest. It is called in the other process; where it fails,
-            once more when the robot is to rest.
+        join: Function that connects to the robot and returns a function
+            that stops it. Called in the guardian process; called again, if
+            it failed at first, when the robot is to be stopped.
     """
-    joined: list[Callable[[], None]] = []
+    stops: list[Callable[[], None]] = []
 
     def prepare() -> None:
         with suppress(StepAsideError):
-            joined.append(join())
+            stops.append(join())
 
-    def rest(word: bytes) -> None:
-        let_go = joined[0] if joined else join()
-        let_go()
+    def stop(data: bytes) -> None:
+        stop_robot = stops[0] if stops else join()
+        stop_robot()
 
-    return Guardian(rest, SILENCE, prepare=prepare)
+    return Guardian(stop, SILENCE, prepare=prepare)
 
 
 class GuardedBody:
-    """A robot whose guardian hears what it is asked for."""
+    """Robot with a guardian that is informed of every command."""
 
     def __init__(self, body: VelocityBody, guardian: Guardian) -> None:
-        """Join both."""
+        """Combine a robot and its guardian."""
         self._body, self._guardian = body, guardian
 
     def listen(self, patience: float) -> VelocityReport | None:
-        """Newest report since the last."""
+        """Return the newest report since the last call, or None."""
         return self._body.listen(patience)
 
     def command(self, velocity: VelocityCommand) -> None:
-        """Ask for a velocity, and say so."""
+        """Send a velocity command, and inform the guardian."""
         if velocity == REST:
             self._guardian.leave()
         else:
@@ -53,6 +53,6 @@ class GuardedBody:
         self._body.command(velocity)
 
     def close(self) -> None:
-        """Let the robot rest, and the guardian go."""
+        """Stop the robot, then dismiss the guardian."""
         self._body.close()
         self._guardian.dismiss()

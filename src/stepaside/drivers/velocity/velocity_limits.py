@@ -1,4 +1,4 @@
-"""What a robot accepts: velocities within limits, reached by a ramp."""
+"""Limits of velocity commands, and a ramp between commands."""
 
 from dataclasses import dataclass
 from math import inf, isfinite
@@ -9,14 +9,14 @@ from .velocity_body import REST, VelocityCommand
 
 @dataclass(frozen=True, slots=True)
 class VelocityLimits:
-    """What a robot accepts.
+    """Limits of a robot's velocity commands.
 
     Attributes:
-        forward: Greatest speed ahead, in [m/s].
-        backward: Greatest speed backward, in [m/s].
-        turn: Greatest turning rate, in [rad/s].
-        acceleration: Greatest change of the speed, in [m/s^2].
-        turn_acceleration: Greatest change of the rate, in [rad/s^2].
+        forward: Maximum forward speed, in [m/s].
+        backward: Maximum backward speed, in [m/s].
+        turn: Maximum turning rate, in [rad/s].
+        acceleration: Maximum linear acceleration, in [m/s^2].
+        turn_acceleration: Maximum angular acceleration, in [rad/s^2].
     """
 
     forward: float = inf
@@ -26,7 +26,7 @@ class VelocityLimits:
     turn_acceleration: float = 2.0
 
     def __post_init__(self) -> None:
-        """Refuse limits that let nothing through."""
+        """Validate the limits."""
         error = ConfigurationError
         for name in ("forward", "backward"):
             if not getattr(self, name) == inf:
@@ -38,51 +38,50 @@ class VelocityLimits:
             self.turn_acceleration, "turn_acceleration", "rad/s^2", error
         )
 
-    def within(self, wanted: VelocityCommand) -> VelocityCommand:
-        """A velocity that the robot accepts.
+    def scale(self, wanted: VelocityCommand) -> VelocityCommand:
+        """Scale a velocity into the limits.
 
-        Who is too fast is slowed down on its path: speed and turning rate
-        are scaled alike, so that the path keeps its curvature, and with it
-        the circle its radius.
+        Speed and turning rate are scaled by the same factor, so that the
+        path keeps its curvature, and with it the circle its radius.
 
         Args:
-            wanted: Finite.
+            wanted: Finite velocity.
         """
         speed, rate = abs(wanted.forward), abs(wanted.turn)
         top = self.forward if wanted.forward > 0.0 else self.backward
-        share = min(
+        factor = min(
             1.0,
             top / speed if speed > 0.0 else 1.0,
             self.turn / rate if rate > 0.0 else 1.0,
         )
-        return VelocityCommand(share * wanted.forward, share * wanted.turn)
+        return VelocityCommand(factor * wanted.forward, factor * wanted.turn)
 
 
 class Ramp:
-    """Changes what is asked for no faster than the limits say.
+    """Rate limiter of velocity commands.
 
     Attributes:
-        velocity: What is asked for now.
+        velocity: Newest command.
     """
 
     def __init__(self, limits: VelocityLimits) -> None:
-        """Begin at rest."""
+        """Start at zero velocity."""
         self._limits = limits
         self.velocity = REST
 
     def toward(
         self, wanted: VelocityCommand, passed: float
     ) -> VelocityCommand:
-        """Go toward a velocity.
+        """Move the command toward a velocity, and return it.
 
         Args:
-            wanted: Where to; what is no number is rest, at once.
+            wanted: Target velocity; NaN or inf stops at once.
             passed: Time since the last call, in [s].
         """
         if not (isfinite(wanted.forward) and isfinite(wanted.turn)):
             return self.stop()
         limits, now = self._limits, self.velocity
-        goal = limits.within(wanted)
+        goal = limits.scale(wanted)
         self.velocity = VelocityCommand(
             _step(now.forward, goal.forward, limits.acceleration * passed),
             _step(now.turn, goal.turn, limits.turn_acceleration * passed),
@@ -90,7 +89,7 @@ class Ramp:
         return self.velocity
 
     def stop(self) -> VelocityCommand:
-        """Rest at once: a robot that walks by itself ends its own step."""
+        """Command zero velocity at once: the robot finishes its own step."""
         self.velocity = REST
         return REST
 

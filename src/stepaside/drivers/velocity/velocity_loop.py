@@ -1,4 +1,4 @@
-"""One player at one robot that walks by itself."""
+"""Control loop of a player whose robot follows velocity commands."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -15,31 +15,31 @@ from .velocity_limits import Ramp, VelocityLimits
 from .watchdog import Watchdog, WatchSettings
 
 PATIENCE = 0.05  # for a report before the last command is repeated, in [s]
-STILL = 1e-6  # velocity below which a robot is asked for none
+STILL = 1e-6  # velocity below which a robot stands, in [m/s] or [rad/s]
 
 
 class DrivingState(Enum):
-    """What the robot is doing."""
+    """State of a robot that follows velocity commands."""
 
-    WAITING = "waiting"  # must rest: the watchdog says why
-    STANDING = "standing"  # may move, and does not want to
-    WALKING = "walking"  # goes as control says
-    STOPPING = "stopping"  # slows down, for good
-    RESTING = "resting"  # is done
+    WAITING = "waiting"  # must stand, for a reason of the watchdog
+    STANDING = "standing"  # may move; the strategy's intent is to stand
+    WALKING = "walking"  # follows the template
+    STOPPING = "stopping"  # slows down to end the session
+    RESTING = "resting"  # stands at the end of the session
 
 
 @dataclass(frozen=True, slots=True)
 class VelocityTick:
-    """What one tick was, for whoever looks on.
+    """Result of one tick, for logs and the status line.
 
     Attributes:
-        state: What the robot is doing.
-        reason: Why, in words.
-        time: Of the newest report, on the robot's clock, in [s].
-        pose: Where the robot was then, by its odometry.
-        sighting: The other, as far as is known.
-        wanted: What the template would do.
-        velocity: What was asked for.
+        state: State of the robot.
+        reason: Reason for the state, as a message.
+        time: Time of the newest report on the robot's clock, in [s].
+        pose: Pose of the robot in odometry at that time.
+        sighting: Newest sighting of the opponent; None without one.
+        wanted: Velocity of the template.
+        velocity: Command that was sent.
     """
 
     state: DrivingState
@@ -52,7 +52,7 @@ class VelocityTick:
 
     @property
     def words(self) -> str:
-        """The tick in one line."""
+        """State, reason and command as a short text."""
         forward, turn = self.velocity
         return (
             f"{self.state.value} ({self.reason}), "
@@ -61,11 +61,10 @@ class VelocityTick:
 
 
 class VelocityLoop:
-    """Drives a robot by the template's velocities, report by report.
+    """Loop that drives a robot by the template's velocities.
 
-    The robot rests unless everything speaks for motion: whatever is lost or
-    cannot be true stops it at once. It goes on by itself when all is well
-    again, with a mind that remembers nothing.
+    Any missing or implausible input stops the robot at once. When the
+    inputs are valid again it continues, with a new controller.
     """
 
     def __init__(
@@ -78,90 +77,93 @@ class VelocityLoop:
         dry_run: bool = False,
         clock: Callable[[], float] = monotonic,
     ) -> None:
-        """Take a robot over.
+        """Start the loop; the robot stands.
 
         Args:
-            body: The robot; it is closed by whoever opened it.
-            make_mind: Makes a mind that remembers nothing.
-            limits: What the robot accepts.
-            watch: When it must rest.
+            body: The robot; the caller closes it.
+            make_mind: Factory of controllers.
+            limits: Limits of the commands.
+            watch: Settings of the watchdog.
             dry_run: Whether nothing is commanded.
             clock: Time of this computer, in [s].
         """
         self.body = body
-        self._make_mind = make_mind
-        self._mind = make_mind()
+        self._make_controller = make_mind
+        self._controller = make_mind()
         self._ramp = Ramp(limits)
         self._watchdog = Watchdog(watch)
         self._paced, self._forsaken = watch.paced, watch.forsaken
         self._dry_run, self._clock = dry_run, clock
         self._report: VelocityReport | None = None
         self._wanted = REST
-        self._why_leave = ""
+        self._leave_reason = ""
         self._failure = ""
 
     def leave(self, reason: str) -> None:
-        """Slow down and rest, for good."""
-        self._why_leave = self._why_leave or reason
+        """Slow down and end the session."""
+        self._leave_reason = self._leave_reason or reason
 
     def tick(self) -> VelocityTick:
-        """Listen, decide, command.
+        """Read a report, decide, and send a command.
 
         Raises:
-            SessionLost: If the robot is gone; it was told to rest as far as
-                it could be reached.
+            SessionLost: If the connection failed; the robot was commanded
+                to stop if it could be reached.
         """
         report = self.body.listen(PATIENCE)
-        why = self._watchdog.look(report, self._clock())
+        hindrance = self._watchdog.check(report, self._clock())
         if self._watchdog.silent > self._forsaken:
             raise SessionLost(
-                f"the robot has not been heard for {self._forsaken:g} s"
+                f"no report from the robot for {self._forsaken:g} s"
             )
-        velocity = self._decide(report, why or self._failure)
+        hindrance = hindrance or self._failure
+        velocity = self._decide(report, hindrance)
         if not self._dry_run and (self._paced or report is not None):
             self.body.command(velocity)
-        return self._told(why or self._failure, velocity)
+        return self._result(hindrance or self._failure, velocity)
 
     def _decide(
-        self, report: VelocityReport | None, why: str
+        self, report: VelocityReport | None, hindrance: str
     ) -> VelocityCommand:
-        """What to ask for, given why not."""
+        """Return the command; zero while there is a hindrance."""
         last = self._report
-        if why:
-            if self._mind.moving:
-                self._mind = self._make_mind()
+        if hindrance:
+            if self._controller.moving:
+                self._controller = self._make_controller()
             self._report, self._wanted = report or last, REST
             return self._ramp.stop()
         if report is None:
-            leaves = bool(self._why_leave)
+            leaves = bool(self._leave_reason)
             return self._ramp.stop() if leaves else self._ramp.velocity
         self._report = report
         passed = 0.0 if last is None else max(report.time - last.time, 0.0)
-        if self._why_leave:
+        if self._leave_reason:
             self._wanted = REST
         elif passed > 0.0 or last is None:
-            self._wanted = self._ask(report)
+            self._wanted = self._template_velocity(report)
         return self._ramp.toward(self._wanted, min(passed, 2.0 * PATIENCE))
 
-    def _ask(self, report: VelocityReport) -> VelocityCommand:
+    def _template_velocity(self, report: VelocityReport) -> VelocityCommand:
         try:
-            return self._mind.decide(report)
+            return self._controller.decide(report)
         except StrategyError as error:
             self._failure = f"the strategy failed: {error}"
             self.leave(self._failure)
             return REST
 
-    def _told(self, why: str, velocity: VelocityCommand) -> VelocityTick:
+    def _result(
+        self, hindrance: str, velocity: VelocityCommand
+    ) -> VelocityTick:
         moves = max(abs(velocity.forward), abs(velocity.turn)) > STILL
-        if self._why_leave:
+        if self._leave_reason:
             state = DrivingState.STOPPING if moves else DrivingState.RESTING
-            reason = self._why_leave
-        elif why:
-            state, reason = DrivingState.WAITING, why
-        elif moves or self._mind.moving:
-            state, reason = DrivingState.WALKING, "sees the other"
+            reason = self._leave_reason
+        elif hindrance:
+            state, reason = DrivingState.WAITING, hindrance
+        elif moves or self._controller.moving:
+            state, reason = DrivingState.WALKING, "opponent detected"
         else:
-            state, reason = DrivingState.STANDING, "no reason to move"
+            state, reason = DrivingState.STANDING, "strategy wants to stand"
         report = self._report
         return VelocityTick(
             state,

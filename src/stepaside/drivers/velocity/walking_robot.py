@@ -1,4 +1,4 @@
-"""A simulated robot that walks by itself, as its servers see it."""
+"""Interface between a simulated robot with walking control and servers."""
 
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
@@ -15,19 +15,20 @@ STANDING = (Pose(0.0, 0.0, 0.0), Pose(0.0, 0.0, 0.0))
 
 
 class WalkerState(NamedTuple):
-    """What a simulated robot says of itself.
+    """State of a simulated robot at one instant.
 
     Attributes:
-        time: Simulated, in [s].
-        pose: Of its own frame in its odometry.
-        velocity: With which it is asked to walk.
-        joints: Angles of its joints, in [rad].
-        sighting: The other, from its own frame, if that is offered.
-        image: Newest of its camera, if it has one.
-        feet: Left and right foot where they last stood, in its odometry.
-        step: Being made, its time what is left of it; None if it stands.
-        steps: Begun so far, but for those that came to rest.
-        echoes: Distances that its sonars heard last, in [m], by name.
+        time: Simulated time, in [s].
+        pose: Pose of the robot in its odometry.
+        velocity: Commanded velocity.
+        joints: Joint angles, in [rad].
+        sighting: Ideal sighting of the opponent, if it is offered.
+        image: Newest image of the camera, if there is one.
+        feet: Last stance poses of the left and right foot, in odometry.
+        step: Current step, with the time left until landing; None when
+            standing.
+        steps: Number of steps begun, without those that end a walk.
+        echoes: Newest distances of the sonars, in [m], by name.
     """
 
     time: float
@@ -43,13 +44,13 @@ class WalkerState(NamedTuple):
 
 
 class WalkingRobot(Protocol):
-    """A robot that walks by itself, of which servers tell."""
+    """Simulated robot that follows velocity or footstep commands."""
 
     def state(self) -> WalkerState:
-        """What it says of itself now."""
+        """Return the state now."""
 
     def look(self, angles: Mapping[str, float]) -> None:
-        """Turn the head to angles of its joints, in [rad], by name."""
+        """Command the angles of the head joints, in [rad], by name."""
 
     def lead_with(self, foot: Foot) -> None:
-        """Make the next first step with a foot, if the robot stands."""
+        """Set the foot of the first step of the next walk."""

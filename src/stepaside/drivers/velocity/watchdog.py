@@ -1,29 +1,30 @@
-"""Whether what a robot says lets it move: a judge without a clock."""
+"""Watchdog of the reports of a robot that follows velocity commands."""
 
 from dataclasses import dataclass
 from math import isfinite
 
 from ...core.errors import ConfigurationError, check_within
 from ...perception.measurement import Sighting
-from ..sighting_checks import fault_of
+from ..sighting_checks import sighting_fault
 from .velocity_body import VelocityReport
 
-DRIFT = 0.02  # by which two clocks may differ, relatively
+DRIFT = 0.02  # relative difference of two clocks' rates at most
+NO_REPORT = "no odometry received yet"
 
 
 @dataclass(frozen=True, slots=True)
 class WatchSettings:
-    """When a robot must rest.
+    """Thresholds at which a robot must stand.
 
     Attributes:
-        silence: Without odometry for this long, in [s].
-        oldest: Age of the newest sighting, in [s].
-        lead: How far stamps may run ahead of this computer's clock, and
-            sightings ahead of the odometry, in [s].
-        warm_up: Good reports in a row before the robot may move.
-        paced: Whether the robot's time passes as ours does; a simulated one
-            may stand still and run.
-        forsaken: Without odometry for this long the session is over, in
+        silence: Maximum time without odometry, in [s].
+        oldest: Maximum age of the newest sighting, in [s].
+        lead: Maximum time by which stamps may run ahead of this computer's
+            clock, and sightings ahead of the odometry, in [s].
+        warm_up: Consecutive valid reports before the robot may move.
+        paced: Whether the robot's clock runs in real time; that of a
+            simulator may pause or run faster.
+        forsaken: Time without odometry after which the session ends, in
             [s].
     """
 
@@ -35,7 +36,7 @@ class WatchSettings:
     forsaken: float = 10.0
 
     def __post_init__(self) -> None:
-        """Refuse what watches over nothing."""
+        """Validate the thresholds."""
         error = ConfigurationError
         check_within(self.silence, 0.01, 60.0, "silence", "s", error)
         check_within(self.oldest, 0.01, 60.0, "oldest", "s", error)
@@ -45,35 +46,35 @@ class WatchSettings:
 
 
 class Watchdog:
-    """Says why a robot must rest, if it must.
+    """Check of each report, and of its absence.
 
-    Two clocks need not show the same time. What is known is how much time
-    passed on each: stamps that outrun the clock here come from the future.
+    The clocks of robot and computer may have different zeros, so only time
+    differences are compared: the robot's clock must not run ahead.
 
     Attributes:
-        silent: How long there was no report, in [s].
+        silent: Time since the newest report, in [s].
     """
 
     def __init__(self, settings: WatchSettings) -> None:
-        """Begin before the first report."""
+        """Start before the first report."""
         self._settings = settings
         self._stamp: float | None = None
         self._arrived = 0.0
         self._lead = 0.0
         self._good = 0
-        self._verdict = "has not been heard yet"
+        self._verdict = NO_REPORT
         self._began: float | None = None
         self.silent = 0.0
 
-    def look(self, report: VelocityReport | None, now: float) -> str:
-        """Look at a report, or at its absence.
+    def check(self, report: VelocityReport | None, now: float) -> str:
+        """Check a report, or its absence.
 
         Args:
-            report: What came, if anything did.
+            report: Newest report; None if none came since the last call.
             now: Time on the clock of this computer, in [s].
 
         Returns:
-            Why the robot must rest; empty if it may move.
+            Reason why the robot must stand; empty if it may move.
         """
         if self._began is None:
             self._began = self._arrived = now
@@ -88,9 +89,9 @@ class Watchdog:
         self._stamp = report.time
         self._good += 1
         if self._good < self._settings.warm_up:
-            self._verdict = "has only just been heard"
+            self._verdict = "waiting for more odometry"
         else:
-            self._verdict = report.hindrance or self._sight(
+            self._verdict = report.hindrance or self._sighting_fault(
                 report.sighting, report.time
             )
         return self._verdict
@@ -99,14 +100,14 @@ class Watchdog:
         self.silent = now - self._arrived
         if self._settings.paced and self.silent > self._settings.silence:
             self._good, self._stamp = 0, None
-            if self._verdict != "has not been heard yet":
+            if self._verdict != NO_REPORT:
                 self._verdict = f"no odometry for {self.silent:.2f} s"
         return self._verdict
 
     def _fault(self, report: VelocityReport, now: float) -> str:
-        """What cannot be true of a report, if anything."""
+        """Return why the odometry is invalid; empty if it is valid."""
         if not all(isfinite(v) for v in (report.time, *report.pose)):
-            return "odometry holds what is no number"
+            return "odometry contains NaN or inf"
         if self._stamp is None:
             return ""
         passed = report.time - self._stamp
@@ -120,17 +121,17 @@ class Watchdog:
             return f"odometry is {self._lead:.3f} s ahead of the clock"
         return ""
 
-    def _sight(self, seen: Sighting | None, now: float) -> str:
-        """Why the newest sighting is none to act upon, if it is not."""
-        if seen is None:
-            return "sees nobody"
-        if not isfinite(seen.time):
-            return "the sighting holds what is no number"
-        if fault := fault_of(seen.bearing, seen.distance):
+    def _sighting_fault(self, sighting: Sighting | None, now: float) -> str:
+        """Return why the sighting cannot be used; empty if it can."""
+        if sighting is None:
+            return "opponent not detected"
+        if not isfinite(sighting.time):
+            return f"time of the sighting must be finite, got {sighting.time}"
+        if fault := sighting_fault(sighting.bearing, sighting.distance):
             return fault
-        age = now - seen.time
+        age = now - sighting.time
         if age < -self._settings.lead:
-            return f"the sighting is from the future, by {-age:.2f} s"
+            return f"the sighting is {-age:.2f} s in the future"
         if age > self._settings.oldest:
-            return f"the other was seen {min(age, 9999.0):.1f} s ago"
+            return f"the sighting is {min(age, 9999.0):.1f} s old"
         return ""

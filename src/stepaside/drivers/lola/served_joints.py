@@ -1,4 +1,4 @@
-"""The joints of a simulated robot, in the hands of a client."""
+"""Joints of a simulated robot that a client commands."""
 
 from collections.abc import Sequence
 from typing import Protocol
@@ -8,53 +8,53 @@ import numpy as np
 from ...core.poses import Array
 from ...perception.attitude import AttitudeFilter
 from ...perception.measurement import Measurement
-from ..lola.conventions import sensor_frame_of
-from .frame_clock import TICK
-from .frames import ActuatorFrame, SensorFrame
-from .joint_map import JOINT_COUNT, LEGS, JointMap
+from ..joint.joint_map import JointMap
+from .conventions import sensor_frame_of
+from .lola_frames import ActuatorFrame, SensorFrame
+from .nao_joints import JOINT_COUNT, LEGS, NAO_MOTORS, TICK
 
-SILENT = 8  # ticks without an answer before stiffness decays: 0.1 s
-BELIEF = 0.5  # rate at which the accelerometer is believed, in [1/s]
+SILENT = 8  # ticks without a command before stiffness decays: 0.1 s
+ATTITUDE_GAIN = 0.5  # of the accelerometer in the attitude, in [1/s]
 FADING = 0.5  # from full stiffness to none, in [s]
-SETTLED = 40  # ticks after which stiffness that stayed will grow no more
+SETTLED = 40  # ticks after which constant stiffness counts as final
 
 
 class ServedJointRobot(Protocol):
-    """A robot that LoLA can be spoken for."""
+    """Simulated robot that can be driven by its joints."""
 
     def sensors(self) -> Measurement:
-        """What its sensors give now."""
+        """Return the measurement of this tick."""
 
     def command(self, targets: Array, stiffness: Array) -> None:
-        """Set joint targets, in [rad], and shares of the torque."""
+        """Set joint targets, in [rad], and stiffness, from 0 to 1."""
 
 
 class ServedJoints:
-    """What a client's commands make of the joints, tick by tick.
+    """Joints of a simulated robot under a client's commands.
 
-    A tick is :meth:`sense`, then :meth:`take` for what is commanded, then
-    :meth:`act`. Only who commands stiffness keeps the robot stiff.
+    A tick is :meth:`sense`, then :meth:`take` for each command, then
+    :meth:`act`. Stiffness decays if it is not commanded repeatedly.
 
     Attributes:
-        measurement: What the sensors gave last.
-        share: What is left of the commanded stiffness without commands.
-        stiffness: Of the motors now. Shape (25,).
+        measurement: Newest measurement.
+        share: Fraction of the commanded stiffness that is applied.
+        stiffness: Stiffness of the motors now. Shape (25,).
     """
 
     def __init__(
         self, robot: ServedJointRobot, joint_names: Sequence[str]
     ) -> None:
-        """Begin limp.
+        """Start limp.
 
         Args:
-            robot: Whose joints they are.
+            robot: The simulated robot.
             joint_names: Its joints, in the order of its measurements.
 
         Raises:
             ModelError: If LoLA has no motor for one of the joints.
         """
-        self._robot, self._joints = robot, JointMap(joint_names)
-        self._attitude = AttitudeFilter(BELIEF, 0.0, calibration=0.0)
+        self._robot, self._joints = robot, JointMap(joint_names, NAO_MOTORS)
+        self._attitude = AttitudeFilter(ATTITUDE_GAIN, 0.0, calibration=0.0)
         self._silent = 0
         self._unchanged = 0
         self.share = 0.0
@@ -65,7 +65,7 @@ class ServedJoints:
 
     @property
     def stiff(self) -> bool:
-        """Whether the legs are held as stiff as their client wants them."""
+        """Whether the legs have the stiffness that the client wants."""
         least = float(self.stiffness[LEGS].min())
         return least > 0.99 or (least > 0.0 and self._unchanged >= SETTLED)
 
@@ -75,7 +75,7 @@ class ServedJoints:
         own, seen = self._attitude, self.measurement
         own.update(seen.gyro, seen.accelerometer, (0.0, 0.0), TICK)
         if not self._has_targets:
-            self.targets = self._joints.to_lola(
+            self.targets = self._joints.to_motors(
                 seen.joint_positions, np.zeros(JOINT_COUNT)
             )
         return seen
@@ -83,12 +83,12 @@ class ServedJoints:
     def frame(
         self, count: int, *, chest_pressed: bool, lock_step: bool
     ) -> SensorFrame:
-        """What the robot says of what was sensed last.
+        """Return the sensor frame of the newest measurement.
 
         Args:
             count: Number of the frame.
-            chest_pressed: Whether somebody presses the chest button.
-            lock_step: Whether its world waits for answers.
+            chest_pressed: Whether the chest button is pressed.
+            lock_step: Whether the simulation waits for answers.
         """
         own = self._attitude
         return sensor_frame_of(
@@ -102,7 +102,7 @@ class ServedJoints:
         )
 
     def take(self, frame: ActuatorFrame) -> None:
-        """Take what a client commands."""
+        """Take a client's command."""
         if frame.position is not None:
             self.targets, self._has_targets = frame.position, True
         if frame.stiffness is not None:
@@ -110,7 +110,7 @@ class ServedJoints:
             self._silent, self.share = 0, 1.0
 
     def act(self) -> None:
-        """Let the robot do what was asked, as stiff as it may be."""
+        """Command the robot for one tick."""
         if self._silent >= SILENT:
             self.share = max(0.0, self.share - TICK / FADING)
         self._silent += 1
@@ -118,5 +118,5 @@ class ServedJoints:
         stays = np.array_equal(stiffness, self.stiffness)
         self._unchanged = self._unchanged + 1 if stays else 0
         self.stiffness = stiffness
-        pick = self._joints.from_lola
+        pick = self._joints.from_motors
         self._robot.command(pick(self.targets), pick(self.stiffness))

@@ -1,4 +1,4 @@
-"""A listening socket with at most one client."""
+"""Listening socket with at most one client."""
 
 import errno
 import logging
@@ -9,24 +9,22 @@ from contextlib import suppress
 from tempfile import TemporaryDirectory
 
 from ...core.errors import ConfigurationError
-from ..lola.lola_address import EARLY, LolaAddress
+from .lola_address import EARLY, LolaAddress
 
 log = logging.getLogger(__name__)
 
 
 class ClientListener:
-    """Accepts one client at a time; a second one is refused.
+    """Listening socket that refuses a second client.
 
     Attributes:
-        client: The one that is connected, if there is one.
-        accepted: Clients so far.
-        refused: Clients that came while there was one.
+        client: Socket of the connected client, if there is one.
+        accepted: Number of clients so far.
+        refused: Number of clients refused because one was connected.
     """
 
     def __init__(self, address: LolaAddress) -> None:
-        """Listen.
-
-        A socket that nobody listens on any more is replaced.
+        """Listen; replace a stale socket at the path.
 
         Raises:
             ConfigurationError: If the address cannot be listened on.
@@ -54,9 +52,9 @@ class ClientListener:
         self._socket.setblocking(False)
 
     def _listen_at(self, path: str) -> None:
-        """Listen at a path; once it is there somebody listens."""
-        # In a folder of our own, so that no other file is in the way. Unlike
-        # a renamed file, a linked one replaces nothing.
+        """Create a socket at a path, which already listens when it appears."""
+        # In a temporary folder, where no other file is in the way. Unlike a
+        # rename, a link does not replace an existing file.
         with TemporaryDirectory(
             prefix=".", dir=os.path.dirname(path) or "."
         ) as own:
@@ -67,7 +65,7 @@ class ClientListener:
             os.link(early, path)
 
     def accept(self) -> bool:
-        """Take whoever has come; whether that is a new client."""
+        """Accept waiting clients; return whether there is a new one."""
         is_new = False
         while True:
             try:
@@ -87,10 +85,10 @@ class ClientListener:
             is_new = True
 
     def receive(self, limit: int) -> bytes:
-        """Bytes of the client that have arrived, without waiting.
+        """Return bytes from the client, without waiting.
 
         Raises:
-            ConnectionError: If it has gone.
+            ConnectionError: If the client has disconnected.
         """
         if self.client is None:
             return b""
@@ -103,10 +101,10 @@ class ClientListener:
         return data
 
     def send(self, data: bytes) -> None:
-        """Send to the client at once and whole, if there is one.
+        """Send all bytes to the client, if there is one, without waiting.
 
         Raises:
-            ConnectionError: If it has gone or does not read.
+            ConnectionError: If the client has disconnected or does not read.
         """
         if self.client is None:
             return
@@ -118,14 +116,14 @@ class ClientListener:
             raise ConnectionAbortedError("it does not read")
 
     def drop(self, why: object) -> None:
-        """Let go of the client, if there is one, and say why."""
+        """Disconnect the client, if there is one, and log why."""
         if self.client is not None:
             log.warning("%s: client dropped: %s", self.address, why)
             self.client.close()
             self.client = None
 
     def close(self) -> None:
-        """Let go of everybody and take the socket away."""
+        """Disconnect the client and remove the socket."""
         if self.client is not None:
             self.client.close()
             self.client = None
@@ -142,11 +140,11 @@ def _inode(path: str) -> tuple[int, int]:
 
 
 def _remove_stale(address: LolaAddress) -> None:
-    """Remove a socket that is left over; refuse one that is in use."""
+    """Remove a stale socket; refuse one that is in use."""
     path = address.path
     try:
         if not stat.S_ISSOCK(os.lstat(path).st_mode):
-            raise OSError(errno.EEXIST, "there is a file of that name")
+            raise OSError(errno.EEXIST, "a file of that name exists")
     except FileNotFoundError:
         return
     with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as probe:
@@ -154,8 +152,8 @@ def _remove_stale(address: LolaAddress) -> None:
         try:
             probe.connect(path)
         except BlockingIOError:
-            pass  # somebody listens, and is busy
+            pass  # in use: its queue of clients is full
         except ConnectionRefusedError:
             os.unlink(path)
             return
-    raise OSError(errno.EADDRINUSE, "somebody listens there")
+    raise OSError(errno.EADDRINUSE, "another program listens there")
