@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from made_up_robot import GAIT, FakeLegs
-from stepaside.arena import check_starts, load_room
+from stepaside.arena import check_initial_poses, load_room
 from stepaside.control.clearance.guard import Guard
 from stepaside.control.clearance.surroundings import KnownRoom
-from stepaside.control.clearance.swept_outline import BodyOutline, sway_of
+from stepaside.control.clearance.swept_outline import BodyOutline, lateral_sway
 from stepaside.control.scheme import ControlScheme
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.perception.measurement import Measurement, Sighting
@@ -32,9 +32,9 @@ def test_pursuer_reaches_a_standing_evader_without_contact(file: Path) -> None:
     """It passes the pillar, the door and the dead end."""
     room = load_room(file)
     assert room.starts is not None
-    check_starts(room, room.starts)
+    check_initial_poses(room, room.starts)
     start, other = room.starts
-    needs = NAO.radius + MARGIN + sway_of(GAIT)
+    needs = NAO.radius + MARGIN + lateral_sway(GAIT)
     around = KnownRoom(room, start)
     guard = Guard(around, NAO, ManeuverPlanner(GAIT), margin=MARGIN)
     legs: Any = FakeLegs()

@@ -12,14 +12,14 @@ from stepaside.arena import (
     Obstacle,
     Room,
     RoomRecipe,
-    draw_starts,
-    make_room,
+    draw_initial_poses,
+    generate_room,
 )
 from stepaside.arena.moving_box import MovingBox
 from stepaside.arena.reachability import path_exists
 from stepaside.arena.room_generation import FARTHEST, NEAREST
 from stepaside.arena.room_metrics import CELL, measure_room
-from stepaside.arena.shortest_path import first_point
+from stepaside.arena.shortest_path import first_waypoint
 from stepaside.core.poses import Pose, wrap_angle
 
 RECIPE = RoomRecipe(4.0, 3.0, discs=2, boxes=1, polygons=1, doors=1)
@@ -29,7 +29,7 @@ RECIPE = RoomRecipe(4.0, 3.0, discs=2, boxes=1, polygons=1, doors=1)
 def test_initial_poses_lie_within_the_ranges_of_a_duel(seed: int) -> None:
     """The evader is ahead of the pursuer and nearly faces it."""
     for recipe in (RECIPE, RoomRecipe(None, None)):
-        room = make_room(recipe, seed)
+        room = generate_room(recipe, seed)
         assert room.starts is not None
         pursuer, evader = room.starts
         x, y = evader.x - pursuer.x, evader.y - pursuer.y
@@ -44,7 +44,7 @@ def test_initial_poses_are_uniform_over_their_ranges() -> None:
     """Extremes are reached; mean and deviation are those of a uniform law."""
     room, turns, faces, sights = Room(None, None), [], [], []
     for seed in range(300):
-        pursuer, evader = draw_starts(room, seed)
+        pursuer, evader = draw_initial_poses(room, seed)
         sight = atan2(evader.y - pursuer.y, evader.x - pursuer.x)
         turns.append(wrap_angle(pursuer.theta - sight) / (pi / 2))
         faces.append(wrap_angle(evader.theta - sight - pi) / radians(30.0))
@@ -57,7 +57,7 @@ def test_initial_poses_are_uniform_over_their_ranges() -> None:
 
 @pytest.mark.parametrize("seed", range(12))
 def test_obstacles_have_the_given_sizes_and_do_not_overlap(seed: int) -> None:
-    room = make_room(RECIPE, seed)
+    room = generate_room(RECIPE, seed)
     assert len(room.obstacles) == 4 and len(room.doors) == 1
     for one in room.obstacles:
         if isinstance(one, Disc):
@@ -147,8 +147,8 @@ def test_path_around_obstacles_rotates_with_the_frame(
     solids = (Disc(0.0, 0.1, 0.3), Disc(0.4, -0.9, 0.2))
     moved = tuple(Disc(*transform(s.centre), s.radius) for s in solids)
     start, end = (-1.0, 0.0), (1.0, 0.05)
-    first = first_point(solids, start, end, 0.2)
-    other = first_point(moved, transform(start), transform(end), 0.2)
+    first = first_waypoint(solids, start, end, 0.2)
+    other = first_waypoint(moved, transform(start), transform(end), 0.2)
     # Same side only: corners around a disc lie at fixed angles.
     back = frame.inverse().compose(Pose(*other, 0.0))
     assert first != end and first[1] * back.y > 0.0
@@ -164,6 +164,6 @@ def test_path_around_obstacles_rotates_with_the_frame(
 @pytest.mark.parametrize("seed", range(60))
 def test_initial_headings_lie_within_one_turn(seed: int) -> None:
     """So that the poses can be those of a room, and stored in its file."""
-    starts = draw_starts(Room(None, None), seed)
+    starts = draw_initial_poses(Room(None, None), seed)
     assert max(abs(pose.theta) for pose in starts) <= 2.0 * pi
     assert Room(starts=starts).starts == starts

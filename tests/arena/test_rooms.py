@@ -18,15 +18,15 @@ from stepaside.arena import (
     Polygon,
     Room,
     RoomRecipe,
-    check_starts,
+    check_initial_poses,
     clearance_between,
-    draw_starts,
+    draw_initial_poses,
+    generate_room,
     load_room,
-    make_room,
     path_exists,
-    room_entries,
-    room_of_entries,
-    room_text,
+    room_from_entries,
+    room_to_entries,
+    room_to_toml,
     wall_between,
 )
 from stepaside.arena.room_metrics import measure_room
@@ -134,9 +134,9 @@ def test_path_leads_around_a_disc() -> None:
 def test_invalid_initial_poses_are_refused(
     room: Room, starts: tuple[Pose, Pose], rule: str
 ) -> None:
-    check_starts(PILLAR, APART)
+    check_initial_poses(PILLAR, APART)
     with pytest.raises(ConfigurationError, match=rule):
-        check_starts(room, starts)
+        check_initial_poses(room, starts)
 
 
 RECIPE = RoomRecipe(3.0, 3.0, discs=3, boxes=2, polygons=2, doors=2)
@@ -144,11 +144,11 @@ RECIPE = RoomRecipe(3.0, 3.0, discs=3, boxes=2, polygons=2, doors=2)
 
 def test_generated_room_follows_its_recipe() -> None:
     for seed in range(8):
-        room = make_room(RECIPE, seed)
-        assert make_room(RECIPE, seed) == room
+        room = generate_room(RECIPE, seed)
+        assert generate_room(RECIPE, seed) == room
         assert (len(room.obstacles), len(room.doors)) == (7, 2)
         assert room.starts is not None
-        check_starts(room, room.starts)
+        check_initial_poses(room, room.starts)
         pursuer, evader = room.starts
         x, y = evader.x - pursuer.x, evader.y - pursuer.y
         assert 0.6 <= hypot(x, y) <= 1.5
@@ -160,11 +160,11 @@ def test_generated_room_follows_its_recipe() -> None:
             for other in room.obstacles[:i]:
                 if not isinstance(one, Disc):
                     assert clearance_between(one, other) > 0.0
-    assert make_room(RECIPE, 1) != make_room(RECIPE, 2)
+    assert generate_room(RECIPE, 1) != generate_room(RECIPE, 2)
 
 
 def test_initial_poses_do_not_depend_on_other_draws_of_the_seed() -> None:
-    assert draw_starts(Room(9.0, 9.0), 5) == draw_starts(
+    assert draw_initial_poses(Room(9.0, 9.0), 5) == draw_initial_poses(
         Room(9.0, 9.0, (Disc(4.4, 4.4, 0.05),)), 5
     )
 
@@ -174,26 +174,26 @@ def test_file_preserves_boxes_and_walls() -> None:
     triangle = Polygon(((0.5, 0.5), (0.9, 0.5), (0.7, 0.9)))
     box, wall = Box(0.4, -0.7, 0.3, 0.2, 0.5), wall_between((0, 0), (0, 1))
     room = Room(3.0, 3.0, (triangle, wall, Disc(-0.6, 0.2, 0.15), box))
-    entries = room_entries(room)
+    entries = room_to_entries(room)
     assert entries["boxes"] == [
         {"x": 0.0, "y": 0.5, "width": 1.0, "depth": 0.1, "heading": pi / 2},
         {"x": 0.4, "y": -0.7, "width": 0.3, "depth": 0.2, "heading": 0.5},
     ]
     assert len(entries["polygons"]) == len(entries["discs"]) == 1
-    assert room_of_entries(entries) == room
+    assert room_from_entries(entries) == room
 
 
 def test_recipe_that_does_not_fit_is_refused() -> None:
     with pytest.raises(ConfigurationError, match="too full"):
-        make_room(RoomRecipe(2.0, 2.0, discs=60), 1)
+        generate_room(RoomRecipe(2.0, 2.0, discs=60), 1)
     with pytest.raises(ConfigurationError, match="two players"):
-        make_room(RoomRecipe(0.8, 0.8), 1)
+        generate_room(RoomRecipe(0.8, 0.8), 1)
 
 
 def test_room_survives_a_round_trip_through_a_file(tmp_path: Path) -> None:
-    room = make_room(RECIPE, 3)
+    room = generate_room(RECIPE, 3)
     file = tmp_path / "room.toml"
-    file.write_text(room_text(room), encoding="utf-8")
+    file.write_text(room_to_toml(room), encoding="utf-8")
     assert load_room(file) == room
     again = tmp_path / "again.json"
     answer = CliRunner().invoke(
@@ -201,7 +201,7 @@ def test_room_survives_a_round_trip_through_a_file(tmp_path: Path) -> None:
     )
     assert answer.exit_code == 0, answer.output
     assert load_room(again) == room
-    assert room_of_entries(json.loads(answer.output)["room"]) == room
+    assert room_from_entries(json.loads(answer.output)["room"]) == room
 
 
 @pytest.mark.parametrize(
@@ -251,7 +251,7 @@ def test_invalid_file_is_refused_in_one_line(
     with pytest.raises(ConfigurationError, match=rule):
         room = load_room(file)
         assert room.starts is not None
-        check_starts(room, room.starts)
+        check_initial_poses(room, room.starts)
 
 
 @pytest.mark.parametrize(

@@ -11,10 +11,10 @@ import pytest
 from stepaside.arena import (
     MovingBox,
     Room,
-    check_starts,
+    check_initial_poses,
     load_room,
-    room_entries,
-    room_of_entries,
+    room_from_entries,
+    room_to_entries,
 )
 from stepaside.control.clearance.surroundings import AHEAD, KnownRoom
 from stepaside.core.errors import ConfigurationError
@@ -27,7 +27,7 @@ from stepaside.report.room_figure import room_patches
 from stepaside.report.scene import RunScene
 from stepaside.robots.leg_kinematics import BodyReference
 from stepaside.sim.camera_settings import SceneSettings
-from stepaside.sim.obstacle_geoms import add_solids, mover_of
+from stepaside.sim.obstacle_geoms import add_solids, obstacle_mover
 from stepaside.studies.tournament_settings import TournamentSettings
 
 BOX = MovingBox(0.2, -0.9, 0.3, 0.2, (0.5, 0.6), 0.1, 0.4)
@@ -99,16 +99,16 @@ def test_box_stays_between_the_walls_and_off_the_initial_poses() -> None:
     with pytest.raises(ConfigurationError, match="between the walls"):
         Room(3.0, 3.0, moving=(MovingBox(0, 0, 0.2, 0.2, (1.6, 0)),))
     assert ROOM.starts is not None
-    check_starts(ROOM, ROOM.starts)
+    check_initial_poses(ROOM, ROOM.starts)
     on_it = Pose(0.2, -0.7, 0.0), ROOM.starts[1]
     with pytest.raises(ConfigurationError, match="pursuer must start"):
-        check_starts(ROOM, on_it)
+        check_initial_poses(ROOM, on_it)
 
 
 def test_moving_box_survives_a_round_trip_through_a_file(
     tmp_path: Path,
 ) -> None:
-    assert room_of_entries(room_entries(ROOM)) == ROOM
+    assert room_from_entries(room_to_entries(ROOM)) == ROOM
     file = tmp_path / "room.toml"
     file.write_text(
         "moving = [{x = 0, y = 0, width = 1, depth = 1, to = [1, 'a']}]\n",
@@ -123,7 +123,7 @@ def test_simulated_box_follows_the_room() -> None:
     add_solids(spec, ROOM)
     model = spec.compile()
     data = mujoco.MjData(model)
-    move = mover_of(model, data, ROOM)
+    move = obstacle_mover(model, data, ROOM)
     geom = model.body("moving box 1").geomadr[0]
     for time in (0.0, 3.0, HALF + 2.0):
         move(time)

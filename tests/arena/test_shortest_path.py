@@ -12,9 +12,9 @@ from stepaside.arena import (
     Obstacle,
     ObstacleSet,
     RoomRecipe,
-    make_room,
+    generate_room,
 )
-from stepaside.arena.shortest_path import first_point
+from stepaside.arena.shortest_path import first_waypoint
 from stepaside.core.poses import Pose
 from stepaside.strategies import Knowledge, Limits, Pursuit
 
@@ -28,7 +28,7 @@ def path(
 ) -> list[Point]:
     points = [start]
     while points[-1] != end:
-        points.append(first_point(solids, points[-1], end, RADIUS))
+        points.append(first_waypoint(solids, points[-1], end, RADIUS))
         assert len(points) < 50
     return points
 
@@ -39,9 +39,9 @@ def length(points: list[Point]) -> float:
 
 
 def test_free_path_is_straight() -> None:
-    assert first_point((), (0.0, 0.0), (1.0, 2.0), RADIUS) == (1.0, 2.0)
+    assert first_waypoint((), (0.0, 0.0), (1.0, 2.0), RADIUS) == (1.0, 2.0)
     beside = (Disc(0.5, 0.31, 0.1),)
-    assert first_point(beside, (0.0, 0.0), (1.0, 0.0), RADIUS) == (1.0, 0.0)
+    assert first_waypoint(beside, (0.0, 0.0), (1.0, 0.0), RADIUS) == (1.0, 0.0)
 
 
 def test_path_around_a_disc_is_tangents_and_an_arc() -> None:
@@ -71,7 +71,7 @@ def test_path_around_a_wall_passes_its_nearer_end() -> None:
 def test_paths_keep_their_clearance_in_random_rooms() -> None:
     recipe = RoomRecipe(discs=3, boxes=2, polygons=1)
     for seed in range(3):
-        room = make_room(recipe, seed)
+        room = generate_room(recipe, seed)
         assert room.starts is not None
         start, end = ((p.x, p.y) for p in room.starts)
         for goal in (end, (-end[0], -end[1])):
@@ -93,7 +93,7 @@ def test_without_a_path_the_waypoint_is_the_goal() -> None:
             (0.0, -0.6, 1.3, 0.1),
         )
     )
-    assert first_point(cage, (0.0, 0.0), (2.0, 0.0), RADIUS) == (2.0, 0.0)
+    assert first_waypoint(cage, (0.0, 0.0), (2.0, 0.0), RADIUS) == (2.0, 0.0)
 
 
 @pytest.mark.parametrize("side", [1, -1])
@@ -115,7 +115,7 @@ def test_pursuer_turns_at_its_full_rate_around_a_pillar() -> None:
     here = Pose(0.0, 0.0, 0.0)
     known = Knowledge(0.0, 0.0, 1.5, LIMITS, pose=here, obstacles=(pillar,))
     intent, _ = Pursuit().decide(known, None)
-    corner = first_point((pillar,), (0.0, 0.0), (1.5, 0.0), RADIUS)
+    corner = first_waypoint((pillar,), (0.0, 0.0), (1.5, 0.0), RADIUS)
     turn = LIMITS.gain * LIMITS.stride / LIMITS.speed * intent.heading
     assert atan2(corner[1], corner[0]) < -0.3
     assert turn == pytest.approx(-0.08 * pi / 2)
@@ -135,7 +135,7 @@ def test_pursuer_with_a_free_line_of_sight_avoids_a_pillar_ahead() -> None:
 
 
 def test_solids_of_a_room_have_the_clearance_of_each() -> None:
-    room = make_room(RoomRecipe(discs=2, boxes=1, polygons=2, doors=1), 3)
+    room = generate_room(RoomRecipe(discs=2, boxes=1, polygons=2, doors=1), 3)
     points = np.random.default_rng(4).uniform(-1.6, 1.6, (300, 2))
     expected = np.stack([s.clearance(points) for s in room.solids], axis=1)
     found = ObstacleSet(room.solids).clearances(points)
@@ -152,7 +152,7 @@ def test_path_is_equivariant_under_transformations_and_mirroring(
     turn, beside = random.uniform(-0.2, 0.2, 2).tolist()
     walls = (Box(0.0, beside, 0.1, 1.0, turn), Box(0.8, -0.4, 0.3, 0.4))
     start, end = (-1.0, 0.1), (1.6, -0.05)
-    found = first_point(walls, start, end, RADIUS, side)
+    found = first_waypoint(walls, start, end, RADIUS, side)
     frame = Pose(*random.uniform(-3.0, 3.0, 3).tolist())
 
     def transform(point: Point) -> Point:
@@ -160,11 +160,13 @@ def test_path_is_equivariant_under_transformations_and_mirroring(
         return x, y
 
     moved = tuple(wall.moved(frame) for wall in walls)
-    again = first_point(moved, transform(start), transform(end), RADIUS, side)
+    again = first_waypoint(
+        moved, transform(start), transform(end), RADIUS, side
+    )
     assert again == pytest.approx(transform(found), abs=1e-9)
     mirrored = (Box(0.0, -beside, 0.1, 1.0, -turn), Box(0.8, 0.4, 0.3, 0.4))
     ends = (start[0], -start[1]), (end[0], -end[1])
-    x, y = first_point(mirrored, *ends, RADIUS, -side)
+    x, y = first_waypoint(mirrored, *ends, RADIUS, -side)
     assert (x, -y) == pytest.approx(found, abs=1e-9)
 
 
@@ -177,6 +179,6 @@ def test_path_takes_the_preferred_side(side: int, turn: float) -> None:
     for beside, preferred in ((0.05, True), (0.3, False)):
         wall = Box(0.5, side * beside, 0.1, 1.0).moved(here)
         start, end = (here.x, here.y), (goal.x, goal.y)
-        corner = first_point((wall,), start, end, RADIUS, side)
+        corner = first_waypoint((wall,), start, end, RADIUS, side)
         ahead = here.inverse().transform_points([corner])[0]
         assert bool(side * ahead[1] > 0.0) is preferred

@@ -11,7 +11,7 @@ from stepaside.cli.interruption import resume_message
 from stepaside.cli.main import LazyGroup, all_commands, main
 from stepaside.cli.output_files import OutputFile, attempt, writes_files
 from stepaside.cli.run_output import SavedRun
-from stepaside.core.atomic_output import writing
+from stepaside.core.atomic_output import atomic_draft
 from stepaside.games.outcome import Outcome
 from tools.fuzz import stopping
 
@@ -24,11 +24,11 @@ def draws(figure: str, map: str) -> None:  # noqa: A002 (an option's name)
     """Write one figure; be interrupted while writing the next."""
 
     def draw() -> None:
-        with writing(Path(figure)) as draft:
+        with atomic_draft(Path(figure)) as draft:
             draft.write_text("whole")
 
     attempt(draw)
-    with writing(Path(map)) as draft:
+    with atomic_draft(Path(map)) as draft:
         draft.write_text("half")
         raise KeyboardInterrupt
 

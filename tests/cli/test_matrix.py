@@ -28,9 +28,9 @@ from stepaside.games.duel_settings import (
     StartSettings,
 )
 from stepaside.games.outcome import Outcome
-from stepaside.games.run_archive import load_run, write_record
+from stepaside.games.run_archive import load_run, write_run_files
 from stepaside.games.trajectory import Trajectory
-from stepaside.games.walker import Walker
+from stepaside.games.walker import SimulatedPlayer
 from stepaside.locomotion.zmp.control_settings import METHODS, ControlSettings
 from stepaside.report.compare_figure import draw_comparison
 from stepaside.report.figure_style import plt
@@ -224,7 +224,7 @@ def test_run_folder_is_complete_and_read_unchanged(
     assert loaded.name == folder.name and not loaded.stills
     again = tmp_path / "again"
     again.mkdir()
-    write_record(again, loaded)
+    write_run_files(again, loaded)
     check_same(load_run(again), run)
 
 
@@ -314,7 +314,7 @@ def test_live_duel_is_stepped_pushed_and_drawn(
     assert solved == (set(case.walkers) if case.method == "mpc" else set())
     for player in session.duel.players:
         seen = player.snapshot()
-        if not isinstance(player, Walker):
+        if not isinstance(player, SimulatedPlayer):
             assert seen.walk is None
             continue
         assert player.robot.pusher is not None

@@ -16,8 +16,8 @@ from stepaside.arena import (
     Room,
     RoomRecipe,
     clearance_between,
+    generate_room,
     hull,
-    make_room,
 )
 from stepaside.control.clearance.guard import Guard, GuardDecision
 from stepaside.control.clearance.map_settings import MapSettings
@@ -120,7 +120,7 @@ def test_any_intent_keeps_the_robot_clear_of_obstacles() -> None:
     nothing, tick = np.zeros(3), 0.02
     recipe = RoomRecipe(2.2, 2.2, discs=2, boxes=1, polygons=1, largest=0.2)
     for seed in range(4):
-        room = make_room(recipe, seed)
+        room = generate_room(recipe, seed)
         assert room.starts is not None
         start = room.starts[0]
         scheme = scheme_in(room, start, seed, tick)
@@ -143,7 +143,7 @@ def test_any_intent_keeps_the_robot_clear_of_obstacles() -> None:
 def test_an_accepted_step_and_its_halt_keep_clear() -> None:
     """The halt after each accepted step, from the step's own end."""
     random = np.random.default_rng(3)
-    room = make_room(RoomRecipe(2.2, 2.2, discs=2, boxes=1), 2)
+    room = generate_room(RoomRecipe(2.2, 2.2, discs=2, boxes=1), 2)
     planner = ManeuverPlanner(GAIT)
     guard = Guard(
         KnownRoom(room, Pose(0.0, 0.0, 0.0)), OUTLINE, planner, margin=MARGIN

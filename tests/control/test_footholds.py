@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from stepaside.arena import Box, Disc, Obstacle, ObstacleSet, Room
-from stepaside.control.clearance.footholds import Footholds
+from stepaside.control.clearance.footstep_adjustment import FootstepAdjustment
 from stepaside.control.clearance.surroundings import HERE, KnownRoom
 from stepaside.control.scheme_builder import ClearanceSetup, build_guard
 from stepaside.core.poses import Array, Pose
@@ -31,7 +31,7 @@ GAIT = GaitSettings()
 PLANNER = ManeuverPlanner(GAIT)
 REACH = StabiliserSettings()
 NEEDS = 0.2
-HOLDS = Footholds(PLANNER, REACH, NEEDS)
+HOLDS = FootstepAdjustment(PLANNER, REACH, NEEDS)
 FRAME = Pose(0.4, -0.3, 2.1)  # of the plan in the room
 NEAR = 2.0 * GAIT.sole.inner + REACH.gap
 FAR = GAIT.foot_spacing + REACH.reach_outward
@@ -121,7 +121,7 @@ def test_feet_land_where_legs_reach_and_soles_do_not_touch(
     wall = beside(wanted, NEEDS - 0.04, angle)
     for gap, outward in ((0.028, 1.0), (0.0, 0.003), (0.028, 0.004)):
         tight = replace(REACH, gap=gap, reach_outward=outward)
-        kept = Footholds(PLANNER, tight, NEEDS).adjust(
+        kept = FootstepAdjustment(PLANNER, tight, NEEDS).adjust(
             wanted, FRAME, ObstacleSet(wall)
         )
         aside = [y for _, y in strides(kept)]
@@ -209,7 +209,7 @@ def test_where_no_footsteps_keep_clear_the_plan_is_left_to_the_guard(
     wall = beside(wanted, NEEDS - 0.03, pi)
     rows, least = HOLDS._half_planes(wanted, FRAME, ObstacleSet(wall))
     both = np.concatenate([rows, -rows]), np.concatenate([least, 0.1 - least])
-    monkeypatch.setattr(Footholds, "_half_planes", lambda *_: both)
+    monkeypatch.setattr(FootstepAdjustment, "_half_planes", lambda *_: both)
     assert HOLDS.adjust(wanted, FRAME, ObstacleSet(wall)) is wanted
 
 

@@ -4,7 +4,11 @@ from math import pi
 
 import pytest
 
-from stepaside.control.velocity_walk import accepted, fastest, walk_at
+from stepaside.control.velocity_walk import (
+    limit_velocity,
+    strategy_at_velocity,
+    velocity_limits,
+)
 from stepaside.planning import Direction, GaitSettings
 from stepaside.strategies import StandStill, Walk
 
@@ -14,7 +18,7 @@ FORWARD, BACKWARD = Direction.FORWARD, Direction.BACKWARD
 
 
 def test_a_gait_is_as_fast_as_one_stride_a_step() -> None:
-    speed, rate = fastest(GAIT)
+    speed, rate = velocity_limits(GAIT)
     assert speed == pytest.approx(0.04 / 0.547)
     assert rate == pytest.approx(0.2 * PACE * pi)
 
@@ -24,8 +28,8 @@ def test_a_gait_is_as_fast_as_one_stride_a_step() -> None:
 def test_excessive_velocity_is_scaled_on_the_same_path(
     forward: float, turn: float
 ) -> None:
-    speed, rate = fastest(GAIT)
-    v, w = accepted(forward, turn, GAIT)
+    speed, rate = velocity_limits(GAIT)
+    v, w = limit_velocity(forward, turn, GAIT)
     assert v * turn == pytest.approx(w * forward)
     assert abs(v) <= speed + 1e-12 and abs(w) <= rate + 1e-12
     fits = abs(forward) <= speed and abs(turn) <= rate
@@ -36,8 +40,8 @@ def test_excessive_velocity_is_scaled_on_the_same_path(
 def test_half_the_speed_halves_the_stride_not_the_turn(
     sign: float,
 ) -> None:
-    speed, _ = fastest(GAIT)
-    walk = walk_at(sign * 0.5 * speed, 0.1, GAIT, under_way=None)
+    speed, _ = velocity_limits(GAIT)
+    walk = strategy_at_velocity(sign * 0.5 * speed, 0.1, GAIT, under_way=None)
     assert isinstance(walk, Walk)
     assert walk.direction.value == sign
     assert walk.speed_factor == pytest.approx(0.5)
@@ -46,13 +50,19 @@ def test_half_the_speed_halves_the_stride_not_the_turn(
 
 
 def test_turning_in_place_keeps_position_and_direction() -> None:
-    walk = walk_at(0.0, -0.2, GAIT, under_way=BACKWARD)
+    walk = strategy_at_velocity(0.0, -0.2, GAIT, under_way=BACKWARD)
     assert isinstance(walk, Walk)
     assert walk.direction is BACKWARD and walk.bearing < 0.0
     assert walk.speed_factor == pytest.approx(1e-3)
 
 
 def test_reversal_halts_first() -> None:
-    assert isinstance(walk_at(0.0, 0.0, GAIT, under_way=None), StandStill)
-    assert isinstance(walk_at(0.05, 0.0, GAIT, under_way=BACKWARD), StandStill)
-    assert isinstance(walk_at(0.05, 0.0, GAIT, under_way=FORWARD), Walk)
+    assert isinstance(
+        strategy_at_velocity(0.0, 0.0, GAIT, under_way=None), StandStill
+    )
+    assert isinstance(
+        strategy_at_velocity(0.05, 0.0, GAIT, under_way=BACKWARD), StandStill
+    )
+    assert isinstance(
+        strategy_at_velocity(0.05, 0.0, GAIT, under_way=FORWARD), Walk
+    )

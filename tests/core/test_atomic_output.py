@@ -18,17 +18,17 @@ from click.testing import CliRunner
 from stepaside.cli.main import COMMANDS, main
 from stepaside.cli.output_files import OutputFile
 from stepaside.core.atomic_output import (
+    atomic_draft,
     check_file,
     check_folder,
     free_file,
-    writing,
 )
 from stepaside.core.errors import ConfigurationError, OutputError
 from stepaside.games.duel import run_duel
 from stepaside.games.duel_run import DuelRun
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.report import duel_figure, unicycle_sweep
-from stepaside.report.run_folder import keep_run, write_run
+from stepaside.report.run_folder import save_run, write_run
 
 FULL = OSError(errno.ENOSPC, "No space left on device")
 
@@ -84,7 +84,7 @@ def test_a_path_that_cannot_be_written_is_refused(
         check_folder(path, new=True)
     if kind not in ("pipe", "device", "nothing", "dangling", "looping"):
         with pytest.raises(OutputError, match="could not be written"):
-            with writing(path) as draft:
+            with atomic_draft(path) as draft:
                 draft.write_text("new")
     assert sorted(tmp_path.rglob("*")) == before
 
@@ -122,7 +122,7 @@ def test_nothing_is_replaced_unless_asked(tmp_path: Path) -> None:
 def test_writing_follows_a_link(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("old")
     (tmp_path / "link").symlink_to(tmp_path / "file")
-    with writing(tmp_path / "link") as draft:
+    with atomic_draft(tmp_path / "link") as draft:
         draft.write_text("new")
     assert (tmp_path / "link").is_symlink()
     assert (tmp_path / "file").read_text() == "new"
@@ -132,10 +132,10 @@ def test_a_failed_write_leaves_the_old_file(tmp_path: Path) -> None:
     file = tmp_path / "file"
     file.write_text("old")
     with pytest.raises(OutputError, match="file could not.*no space left"):
-        with writing(file) as draft:
+        with atomic_draft(file) as draft:
             draft.write_text("ne")
             raise FULL
-    with pytest.raises(KeyboardInterrupt), writing(file) as draft:
+    with pytest.raises(KeyboardInterrupt), atomic_draft(file) as draft:
         draft.write_text("ne")
         raise KeyboardInterrupt
     assert list(tmp_path.iterdir()) == [file]
@@ -144,7 +144,7 @@ def test_a_failed_write_leaves_the_old_file(tmp_path: Path) -> None:
 
 def test_an_output_file_has_default_permissions(tmp_path: Path) -> None:
     (tmp_path / "usual").write_text("")
-    with writing(tmp_path / "ours") as draft:
+    with atomic_draft(tmp_path / "ours") as draft:
         draft.write_text("")
     modes = {file.stat().st_mode for file in tmp_path.iterdir()}
     assert len(modes) == 1
@@ -188,12 +188,12 @@ def test_a_run_that_cannot_be_written_is_saved_in_the_temporary_folder(
             raise FULL
 
     monkeypatch.setattr(duel_figure, "draw_duel", full)
-    saved, error = keep_run(there / "run", short)
+    saved, error = save_run(there / "run", short)
     assert saved == spare / "stepaside-run"
     assert error is not None and "no space left" in str(error)
     assert list(there.iterdir()) == []
     monkeypatch.setattr("tempfile.tempdir", str(there))
-    assert keep_run(there / "run", short)[0] is None
+    assert save_run(there / "run", short)[0] is None
     assert list(there.iterdir()) == []
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from stepaside.cli.main import all_commands
-from stepaside.core.extras import EXTRAS, remedy
+from stepaside.core.extras import EXTRAS, install_hint
 from tools.documents.store import ROOT
 
 PACKAGES = {"cv2": "opencv-python-headless"}  # where it differs
@@ -92,6 +92,6 @@ def test_the_table_matches_the_package_metadata() -> None:
 
 def test_a_missing_core_dependency_names_the_package() -> None:
     error = ModuleNotFoundError("No module named 'click.x'", name="click.x")
-    assert remedy(error).endswith(
+    assert install_hint(error).endswith(
         "click, which is not installed: pip install stepaside"
     )

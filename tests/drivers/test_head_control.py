@@ -9,7 +9,7 @@ import pytest
 pytest.importorskip("cv2")
 
 from stepaside.core.poses import wrap_angle  # noqa: E402
-from stepaside.drivers.scheme_factory import level_perception  # noqa: E402
+from stepaside.drivers.scheme_factory import build_planar_perception  # noqa: E402
 from stepaside.drivers.velocity.head_control import PERIOD, CameraBody
 from stepaside.drivers.velocity.template_controller import TemplateController  # noqa: E402
 from stepaside.drivers.velocity.velocity_body import (
@@ -24,7 +24,7 @@ from stepaside.games.duel import Duel  # noqa: E402
 from stepaside.games.duel_settings import DuelSettings, StartSettings  # noqa: E402
 from stepaside.games.match import Match, play  # noqa: E402
 from stepaside.games.velocity_walker import VelocityWalker  # noqa: E402
-from stepaside.games.walker import Walker  # noqa: E402
+from stepaside.games.walker import SimulatedPlayer  # noqa: E402
 from stepaside.locomotion.zmp.control_settings import STABILISED  # noqa: E402
 from stepaside.perception.images import Percept  # noqa: E402
 from stepaside.planning import GaitSettings  # noqa: E402
@@ -52,7 +52,7 @@ class NoWire:
         self.robot, self._ticks, self._velocity = robot, 0, REST
         self._told: Any = None
         self.seen: VelocityReport | None = None
-        perception = level_perception(role, load_robot("nao"), PERIOD)
+        perception = build_planar_perception(role, load_robot("nao"), PERIOD)
         self._looking = CameraBody(self, self, perception)
         self.playing = VelocityLoop(
             self._looking,
@@ -102,7 +102,7 @@ def test_players_with_cameras_detect_each_other_and_walk() -> None:
     wires, players = {}, []
     plays: dict[str, Strategy] = {"pursuer": Pursuit(), "evader": Evasion()}
     for player in duel.players:
-        assert isinstance(player, Walker)
+        assert isinstance(player, SimulatedPlayer)
         robot = VelocityWalker(player)
         robot.commander = wire = NoWire(robot, player.name, plays[player.name])
         wires[player.name] = wire

@@ -46,7 +46,7 @@ from stepaside.drivers.naoqi.sensor_keys import (  # noqa: E402
     frame_of,
     values_of,
 )
-from stepaside.drivers.scheme_factory import mind_maker  # noqa: E402
+from stepaside.drivers.scheme_factory import control_scheme_factory  # noqa: E402
 from stepaside.games.duel import run_duel  # noqa: E402
 from stepaside.games.duel_settings import DuelSettings, StartSettings  # noqa: E402
 from stepaside.games.naoqi_offers import NaoqiJointsOffer  # noqa: E402
@@ -472,7 +472,7 @@ SETTINGS = DuelSettings(
 
 def client(url: str, ticks: list[JointTick]) -> None:
     """The evader, until its robot is gone."""
-    make = mind_maker(
+    make = control_scheme_factory(
         load_robot("nao"), GaitSettings(), SETTINGS.control, tick=0.012
     )
 

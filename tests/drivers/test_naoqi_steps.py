@@ -21,7 +21,7 @@ from stepaside.drivers.velocity.velocity_body import REST, VelocityCommand  # no
 from stepaside.games.duel import Duel  # noqa: E402
 from stepaside.games.duel_settings import DuelSettings, StartSettings  # noqa: E402
 from stepaside.games.velocity_walker import VelocityWalker  # noqa: E402
-from stepaside.games.walker import Walker  # noqa: E402
+from stepaside.games.walker import SimulatedPlayer  # noqa: E402
 from stepaside.locomotion.zmp.control_settings import STABILISED  # noqa: E402
 from stepaside.planning import Foot, GaitSettings  # noqa: E402
 from stepaside.sim.body_settings import BODIES  # noqa: E402
@@ -226,7 +226,7 @@ def walked() -> tuple[VelocityWalker, list[VelocityCommand]]:
     )
     duel = Duel(settings, recorded=False)
     player = duel.players[0]
-    assert isinstance(player, Walker)
+    assert isinstance(player, SimulatedPlayer)
     walker = VelocityWalker(player)
     served = NaoqiServer(
         *("tcp://127.0.0.1:0", walker, ["a"] * 24, FASTEST), tick=TICK

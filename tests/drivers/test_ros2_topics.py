@@ -31,7 +31,7 @@ from stepaside.drivers.ros2.messages import (  # noqa: E402
     Vector3,
 )
 from stepaside.drivers.ros2.namespaces import parse_namespace  # noqa: E402
-from stepaside.drivers.ros2.ros2_body import Ros2Body, rest, rester_of
+from stepaside.drivers.ros2.ros2_body import Ros2Body, register_stopper, rest
 from stepaside.drivers.ros2.ros2_server import EVERY, Ros2Server, WorldClock
 from stepaside.drivers.ros2.topics import (  # noqa: E402
     about_the_vertical,
@@ -313,7 +313,7 @@ def test_a_guardian_commands_nothing_until_it_acts() -> None:
     body = Ros2Body(DdsParticipant(0, tag=TAG), "/nao")
     reader_of = DdsParticipant(0, tag=TAG)
     reader = reader_of.reader(dds_topic("/nao", "cmd_vel"), Twist)
-    let_go = rester_of(DdsParticipant(0, tag=TAG), "/nao")
+    let_go = register_stopper(DdsParticipant(0, tag=TAG), "/nao")
     sleep(0.5)
     assert body.commanders == 0
     guardian = Thread(target=let_go)

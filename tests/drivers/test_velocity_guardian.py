@@ -12,7 +12,7 @@ import pytest
 from stepaside.drivers.velocity.velocity_body import REST, VelocityCommand
 from stepaside.drivers.velocity.velocity_guardian import (
     GuardedBody,
-    guardian_of,
+    fork_velocity_guardian,
 )
 
 from velocity_fakes import FakeWalker  # isort: skip
@@ -21,8 +21,8 @@ from velocity_fakes import FakeWalker  # isort: skip
 CONTROL = """
 import sys, time
 from pathlib import Path
-from stepaside.drivers.velocity.velocity_guardian import guardian_of
-guardian = guardian_of(lambda: Path(sys.argv[1]).touch)
+from stepaside.drivers.velocity.velocity_guardian import fork_velocity_guardian
+guardian = fork_velocity_guardian(lambda: Path(sys.argv[1]).touch)
 tell = guardian.hold if sys.argv[2] == "moves" else guardian.leave
 for _ in range(10):
     tell()
@@ -83,7 +83,7 @@ JOINING = """
 import sys, time
 from pathlib import Path
 from stepaside.drivers.guardian_process import SessionLost
-from stepaside.drivers.velocity.velocity_guardian import guardian_of
+from stepaside.drivers.velocity.velocity_guardian import fork_velocity_guardian
 folder = Path(sys.argv[1])
 def join():
     late = (folder / "tried").exists()
@@ -92,7 +92,7 @@ def join():
         raise SessionLost("no robot yet")
     (folder / "joined").touch()
     return (folder / "rest").touch
-guardian = guardian_of(join)
+guardian = fork_velocity_guardian(join)
 print("forked", flush=True)
 sys.stdin.readline()
 guardian.hold()
@@ -132,7 +132,7 @@ def test_a_guardian_joins_before_it_is_needed_or_tries_again(
 
 def test_a_guarded_robot_receives_the_same_commands(tmp_path: Path) -> None:
     robot = FakeWalker([])
-    guardian = guardian_of(lambda: (tmp_path / "rest").touch)
+    guardian = fork_velocity_guardian(lambda: (tmp_path / "rest").touch)
     body = GuardedBody(robot, guardian)
     body.command(VelocityCommand(0.1, 0.2))
     assert body.listen(0.0) is None

@@ -13,12 +13,12 @@ from stepaside.core.errors import ModelError
 from stepaside.core.poses import Pose
 from stepaside.fitting import derivation as leaning
 from stepaside.fitting.derivation import LEAN_CANDIDATES, derive, least_lean
-from stepaside.fitting.description_edit import rewritten
+from stepaside.fitting.description_edit import rewrite_description
 from stepaside.fitting.description_writer import write_description
 from stepaside.fitting.gait_candidates import Candidate
 from stepaside.fitting.gait_feasibility import JointLoads
 from stepaside.fitting.walk_trials import WalkTrialResult
-from stepaside.games.robot_settings import settings_of
+from stepaside.games.robot_settings import settings_from_description
 from stepaside.locomotion.zmp.control_settings import StabiliserSettings
 from stepaside.locomotion.zmp.joint_correction import Ankles
 from stepaside.locomotion.zmp.state_estimator import BodyState
@@ -169,7 +169,7 @@ def test_the_least_sufficient_lean_is_chosen(
         )
 
     monkeypatch.setattr(leaning, "step_loads", borne)
-    found, kept = least_lean(NAO, settings_of(NAO).gait, {})
+    found, kept = least_lean(NAO, settings_from_description(NAO).gait, {})
     assert found == lean
     assert kept.most == shares[LEAN_CANDIDATES.index(lean)]
 
@@ -209,11 +209,13 @@ def test_a_lean_that_a_search_found_is_written(tmp_path: Path) -> None:
     for lean in (0.06, 0.12):  # none stood there, then one did
         made = Candidate(1.0, lean=lean, even=1.0).applied(own)
         assert made is not None and made.lean == lean
-        text = rewritten(file.read_text(encoding="utf-8"), made, ["found"])
+        text = rewrite_description(
+            file.read_text(encoding="utf-8"), made, ["found"]
+        )
         file.write_text(text, encoding="utf-8")
         again = load_robot(tmp_path)
         assert again.lean == lean and again.legs == own.legs
-        assert settings_of(again).gait.swing_profile == "even"
+        assert settings_from_description(again).gait.swing_profile == "even"
     assert Candidate(1.0, lean=0.31).applied(own) is None
     tried = {each.lean for each in Candidate(1.0).neighbours()}
     assert tried == {0.0, 0.06, 0.12}

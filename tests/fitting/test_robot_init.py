@@ -29,7 +29,10 @@ from stepaside.fitting.walk_trials import (
     walk_trial,
 )
 from stepaside.games import DuelSettings, run_duel
-from stepaside.games.robot_settings import settings_of, with_robot
+from stepaside.games.robot_settings import (
+    settings_from_description,
+    with_robot,
+)
 from stepaside.robots.description import (
     FILE,
     RobotDescription,
@@ -85,7 +88,7 @@ def test_the_written_description_equals_the_derived_one(
     assert robot.overlay == own.overlay and robot.place == own.place
     assert robot.gait == own.gait and robot.control == own.control
     assert robot.control["learn_turns"] is True
-    gait = settings_of(robot).gait
+    gait = settings_from_description(robot).gait
     assert gait.com_height == pytest.approx(found.size.com_height, abs=1e-4)
     assert gait.sole.front == pytest.approx(stranger.SOLE[1])
 
@@ -278,7 +281,7 @@ def test_a_robot_of_other_size_plays_by_its_own_distances(
     model = tmp_path / "large.xml"
     model.write_text(spec.to_xml())
     found, robot = described(model, tmp_path / "robot")
-    gait = settings_of(robot).gait
+    gait = settings_from_description(robot).gait
     assert gait.com_height == pytest.approx(scale * 0.268, rel=0.02)
     assert gait.foot_spacing == pytest.approx(scale * 0.1, rel=0.05)
     assert found.description.legs[0] == "LHipYawPitch"

@@ -14,15 +14,15 @@ import stepaside.fitting.robot_verification as checking
 from inline_executor import InlineExecutor
 from stepaside.cli.main import main
 from stepaside.fitting.derivation import derive
-from stepaside.fitting.description_edit import rewritten
+from stepaside.fitting.description_edit import rewrite_description
 from stepaside.fitting.description_writer import write_description
 from stepaside.fitting.gait_candidates import Candidate
 from stepaside.fitting.gait_search import GaitSearch
 from stepaside.fitting.joint_strain import JointStrain
-from stepaside.fitting.requirements import findings_of
+from stepaside.fitting.requirements import check_requirements
 from stepaside.fitting.robot_verification import check_robot
 from stepaside.fitting.walk_trials import PATHS, WalkTrial, WalkTrialResult
-from stepaside.games.robot_settings import settings_of
+from stepaside.games.robot_settings import settings_from_description
 from stepaside.robots.description import (
     FILE,
     RobotDescription,
@@ -61,7 +61,7 @@ def walked(
 
 
 def test_a_derived_robot_meets_all_requirements(tmp_path: Path) -> None:
-    found = findings_of(described(tmp_path))
+    found = check_requirements(described(tmp_path))
     assert {f.verdict for f in found} == {"pass"}, found
     assert {"free joint", "sensors", "actuators", "reach"} <= {
         f.name for f in found
@@ -85,7 +85,7 @@ def test_invalid_descriptions_fail_with_a_hint(
         own = replace(own, gait=own.gait | change)
     elif "torso" in change:
         own = replace(own, **change)
-    failed = [f for f in findings_of(own) if f.verdict == "fail"]
+    failed = [f for f in check_requirements(own) if f.verdict == "fail"]
     assert [f.name for f in failed] == ([name] if name else [])
     for finding in failed:
         assert said in finding.value and finding.hint
@@ -98,13 +98,13 @@ def test_missing_sensors_and_servos_are_reported(tmp_path: Path) -> None:
     (tmp_path / "model.xml").write_text(text)
     toml = (nao.folder / FILE).read_text(encoding="utf-8")
     (tmp_path / FILE).write_text(toml, encoding="utf-8")
-    found = findings_of(load_robot(tmp_path))
+    found = check_requirements(load_robot(tmp_path))
     failed = {f.name: f for f in found if f.verdict == "fail"}
     assert set(failed) == {"sensors"}
     assert "no gyro" in failed["sensors"].value
     named = toml + '\n[sensors]\ngyro = "turning"\n'
     (tmp_path / FILE).write_text(named, encoding="utf-8")
-    again = findings_of(load_robot(tmp_path))
+    again = check_requirements(load_robot(tmp_path))
     assert all(f.verdict != "fail" for f in again)
 
 
@@ -134,7 +134,7 @@ def test_a_robot_that_walks_as_described_passes(
 
 def test_unsteadiness_is_that_of_the_worst_measure(tmp_path: Path) -> None:
     own = described(tmp_path)
-    settings = settings_of(own)
+    settings = settings_from_description(own)
     trial = WalkTrial(own, settings.gait, settings.control, PATHS[0])
     assert walked(trial, 0.5).unsteadiness == pytest.approx(0.5)
     slow = walked(trial, 0.5)._replace(speed=0.7)
@@ -183,7 +183,7 @@ def test_a_search_escapes_from_falls(
 ) -> None:
     """Who falls later is nearer to walking; two changes are needed here."""
     own = described(tmp_path)
-    gait = settings_of(own).gait
+    gait = settings_from_description(own).gait
     walks = []
 
     def walk(trial: WalkTrial) -> WalkTrialResult:
@@ -209,8 +209,10 @@ def test_a_candidate_that_cannot_win_is_stopped(
     begun: dict[float, int] = {}
 
     def walk(trial: WalkTrial) -> WalkTrialResult:
-        same = trial.gait == settings_of(own).gait
-        part = round(trial.gait.stride / settings_of(own).gait.stride, 2)
+        same = trial.gait == settings_from_description(own).gait
+        part = round(
+            trial.gait.stride / settings_from_description(own).gait.stride, 2
+        )
         begun[part] = begun.get(part, 0) + 1
         return walked(trial, 0.3 if same else 0.5)
 
@@ -252,7 +254,7 @@ def test_tuned_values_are_written_with_the_previous_ones(
     made = Candidate(1.0, stiffness=1.6, times=0.8).applied(own)
     assert made is not None
     for _ in range(2):  # a second search replaces the words of the first
-        text = rewritten(text, made, ["0.9 before, 0.1 after"])
+        text = rewrite_description(text, made, ["0.9 before, 0.1 after"])
         (tmp_path / FILE).write_text(text, encoding="utf-8")
         again = load_robot(tmp_path)
         assert again.gait == pytest.approx(made.gait)

@@ -15,7 +15,7 @@ from stepaside.fitting import (
 )
 from stepaside.fitting.gait_feasibility import step_loads
 from stepaside.fitting.joint_strain import JointStrain
-from stepaside.fitting.requirements import findings_of
+from stepaside.fitting.requirements import check_requirements
 from stepaside.fitting.robot_verification import check_robot
 from stepaside.fitting.walk_trials import (
     GREATEST_COM_ERROR,
@@ -25,7 +25,7 @@ from stepaside.fitting.walk_trials import (
     trials_of,
     walk_trial,
 )
-from stepaside.games.robot_settings import settings_of
+from stepaside.games.robot_settings import settings_from_description
 from stepaside.robots.description import load_robot
 
 NAO = load_robot("nao")
@@ -70,7 +70,7 @@ def test_torques_are_reported_in_percent_and_sag_in_mm(
         model.joint(model.actuator_trnid[i, 0]).name: float(high)
         for i, high in enumerate(model.actuator_forcerange[:, 1])
     }
-    borne = step_loads(NAO, settings_of(NAO).gait, torques)
+    borne = step_loads(NAO, settings_from_description(NAO).gait, torques)
     percent = f"{100.0 * borne.usual:.0f} % of the limit of {borne.joint}"
     assert said["torque of a step"] == percent
     assert 0.01 < borne.usual < 1.0
@@ -79,7 +79,7 @@ def test_torques_are_reported_in_percent_and_sag_in_mm(
 
 def test_percentages_are_between_0_and_100() -> None:
     """Whatever has a percent sign is between 1 and 100 for a sound robot."""
-    for finding in findings_of(NAO):
+    for finding in check_requirements(NAO):
         words = finding.value.split()
         for number, unit in zip(words, words[1:], strict=False):
             if unit.startswith("%"):
@@ -108,7 +108,7 @@ def test_a_walk_trial_reports_degrees_and_fractions(
     monkeypatch: pytest.MonkeyPatch, way: trials.TrialPath
 ) -> None:
     monkeypatch.setattr(trials, "CYCLES", 3)
-    own = settings_of(NAO)
+    own = settings_from_description(NAO)
     leaning = replace(NAO, lean=0.03)
     found = walk_trial(WalkTrial(leaning, own.gait, own.control, way))
     assert found.completed and found.lasted == pytest.approx(1.0, abs=0.01)

@@ -20,10 +20,10 @@ from stepaside.fitting.gait_feasibility import step_loads
 from stepaside.fitting.gait_search import GOOD
 from stepaside.fitting.joint_strain import JointStrain
 from stepaside.fitting.model_analysis import analyse_model
-from stepaside.fitting.requirements import findings_of
+from stepaside.fitting.requirements import check_requirements
 from stepaside.fitting.robot_verification import check_robot
 from stepaside.fitting.walk_trials import WalkTrialResult
-from stepaside.games.robot_settings import settings_of
+from stepaside.games.robot_settings import settings_from_description
 from stepaside.robots.description import FILE, load_robot
 
 
@@ -73,7 +73,7 @@ def test_torques_of_a_step_stay_finite_without_a_mass(
     )
     limits = dict.fromkeys(merged.legs, 90.0)
     one, other = (
-        step_loads(robot, settings_of(robot).gait, limits)
+        step_loads(robot, settings_from_description(robot).gait, limits)
         for robot in (merged, split)
     )
     assert np.isfinite(one.usual) and 0.0 < one.usual < 2.0
@@ -88,7 +88,7 @@ def test_a_robot_with_several_hinges_in_a_body_can_be_looked_at(
     words = ["robot", "init", str(model), "--output", str(folder)]
     shown = CliRunner().invoke(main, words)
     assert shown.exit_code == 0, shown.output
-    found = findings_of(load_robot(folder))
+    found = check_requirements(load_robot(folder))
     assert {finding.verdict for finding in found} <= {"pass", "warn"}
 
 

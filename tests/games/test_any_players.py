@@ -27,7 +27,7 @@ from stepaside.report.figure_style import COLOURS, PUSHED, THEORY, colours_of
 from stepaside.report.replay_page import write_page
 from stepaside.report.scene import RunScene
 from stepaside.report.viewer.replay_viewer import ReplayPage
-from stepaside.report.viewer.scene_layers import pushes_at
+from stepaside.report.viewer.scene_layers import push_arrows
 
 NAMES = ("walker", "hare", "tortoise")
 PUSH = np.array([[0.1, 0.1, 0.3, -0.2, 0.0, 0.8]])
@@ -153,7 +153,7 @@ def test_every_player_is_on_the_page(count: int, tmp_path: Path) -> None:
 def test_every_player_is_in_the_film(count: int) -> None:
     run = game(count)
     drawn = mujoco.MjvScene(RunScene(run).model, maxgeom=5000)
-    film_layers.decorate(drawn, run=run, index=20, trail=0.8)
+    film_layers.add_layers(drawn, run=run, index=20, trail=0.8)
     colours = list(colours_of(run.players).values())
     for colour in colours:
         assert _of(drawn, colour)
@@ -161,7 +161,7 @@ def test_every_player_is_in_the_film(count: int) -> None:
     (arrow,) = _of(drawn, PUSHED)
     assert arrow.type == mujoco.mjtGeom.mjGEOM_ARROW
     early = mujoco.MjvScene(RunScene(run).model, maxgeom=5000)
-    film_layers.decorate(early, run=run, index=3, trail=0.8)
+    film_layers.add_layers(early, run=run, index=3, trail=0.8)
     assert _of(early, PUSHED) == []
 
 
@@ -191,11 +191,11 @@ def test_every_player_is_in_the_layers_of_a_replay(count: int) -> None:
 
 
 def test_an_arrow_ends_where_the_push_was_applied() -> None:
-    lines = pushes_at(PUSH, 0.5)
+    lines = push_arrows(PUSH, 0.5)
     np.testing.assert_allclose(lines[0, 1, :2], (0.3, -0.2))
     np.testing.assert_allclose(
         lines[0, 1, :2] - lines[0, 0, :2], 0.25 * PUSH[0, 4:]
     )
     for time, shown in ((0.09, 0), (0.1, 3), (1.09, 3), (1.11, 0)):
-        assert len(pushes_at(PUSH, time)) == shown
-    assert pushes_at(None, 0.5).shape == (0, 2, 3)
+        assert len(push_arrows(PUSH, time)) == shown
+    assert push_arrows(None, 0.5).shape == (0, 2, 3)

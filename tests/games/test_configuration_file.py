@@ -18,7 +18,11 @@ from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.initial_poses import draw_start
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.locomotion.zmp.control_settings import ControlSettings
-from stepaside.sim.body_settings import BODIES, BodySettings, with_cycle
+from stepaside.sim.body_settings import (
+    BODIES,
+    BodySettings,
+    with_control_period,
+)
 from stepaside.sim.physics_settings import PhysicsSettings, SightSettings
 from stepaside.sim.push import Push
 from stepaside.strategies import Evasion
@@ -163,11 +167,11 @@ def test_an_invalid_strategy_is_refused_at_once() -> None:
 
 def test_a_body_may_set_the_control_period() -> None:
     physics = PhysicsSettings()
-    assert with_cycle(physics, BodySettings()) is physics
-    asked = with_cycle(physics, BodySettings(cycle=0.012))
+    assert with_control_period(physics, BodySettings()) is physics
+    asked = with_control_period(physics, BodySettings(cycle=0.012))
     assert asked == replace(physics, tick=0.012)
     with pytest.raises(ConfigurationError, match="whole multiple"):
-        with_cycle(physics, BodySettings(cycle=0.011))
+        with_control_period(physics, BodySettings(cycle=0.011))
 
 
 @pytest.mark.parametrize(

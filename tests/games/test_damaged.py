@@ -26,7 +26,7 @@ from stepaside.games.run_archive import (
     SUMMARY,
     TRAJECTORIES,
     load_run,
-    write_record,
+    write_run_files,
 )
 from stepaside.games.trajectory import Trajectory
 from stepaside.report.scene import RunScene
@@ -52,7 +52,7 @@ def played() -> DuelRun:
 def folder(tmp_path: Path, played: DuelRun) -> Path:
     made = tmp_path / "run"
     made.mkdir()
-    write_record(made, played)
+    write_run_files(made, played)
     return made
 
 

@@ -9,7 +9,7 @@ import pytest
 
 from stepaside.core.poses import Array
 from stepaside.games import DuelRun, DuelSettings, Outcome, run_duel
-from stepaside.games.duel_circle import theory_of
+from stepaside.games.duel_circle import circle_of_theory
 from stepaside.games.duel_settings import StartSettings
 from stepaside.planning import GaitSettings
 from stepaside.robots.description import load_robot
@@ -154,7 +154,9 @@ def turn_of(headings: Array) -> float:
 
 def test_theory_follows_the_settings() -> None:
     settings = DuelSettings()
-    assert theory_of(settings).distance_m == pytest.approx(0.9003, abs=1e-4)
+    assert circle_of_theory(settings).distance_m == pytest.approx(
+        0.9003, abs=1e-4
+    )
     saturated = replace(settings.strategy, saturated=True)
-    circle = theory_of(replace(settings, strategy=saturated))
+    circle = circle_of_theory(replace(settings, strategy=saturated))
     assert circle.radius_evader_m == pytest.approx(0.5)

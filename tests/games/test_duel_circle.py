@@ -18,10 +18,10 @@ from made_up_record import (
 from stepaside.core.poses import Array
 from stepaside.games.duel_circle import (
     angle_between,
-    converged_at,
+    circle_of_theory,
+    convergence_time,
     cycle_mean,
     distance_between,
-    theory_of,
 )
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.sim.person_settings import PersonSettings
@@ -31,7 +31,9 @@ from stepaside.strategies import Evasion
 def since(record: Record, settings: DuelSettings = SETTINGS) -> float | None:
     """Return the time from which a record is on the circle, in [s]."""
     places = record.places["pursuer"], record.places["evader"]
-    return converged_at(record.times, *places, settings, theory_of(settings))
+    return convergence_time(
+        record.times, *places, settings, circle_of_theory(settings)
+    )
 
 
 def test_theory_is_the_circle_of_the_settings() -> None:
@@ -42,9 +44,9 @@ def test_theory_is_the_circle_of_the_settings() -> None:
     assert THEORY.distance_m == pytest.approx(2**0.5 * radius)
     assert THEORY.headings_apart_rad == pytest.approx(pi / 2)
     back = replace(SETTINGS, strategy=Evasion(angle=0.0))
-    assert not theory_of(back).exists
+    assert not circle_of_theory(back).exists
     sliding = replace(SETTINGS, strategy=Evasion(saturated=True))
-    assert theory_of(sliding).radius_evader_m == pytest.approx(0.5)
+    assert circle_of_theory(sliding).radius_evader_m == pytest.approx(0.5)
 
 
 def test_a_person_walks_the_same_circle_at_the_real_time_scale() -> None:
@@ -53,17 +55,23 @@ def test_a_person_walks_the_same_circle_at_the_real_time_scale() -> None:
     pace = gait.path_interval / gait.step_duration
     assert pace < 0.9
     person = PersonSettings(speed=gait.speed * pace, gain=gait.gain * pace)
-    circle = theory_of(replace(SETTINGS, pursuer="person", person=person))
+    circle = circle_of_theory(
+        replace(SETTINGS, pursuer="person", person=person)
+    )
     assert circle.radius_evader_m == pytest.approx(THEORY.radius_evader_m)
     assert circle.distance_m == pytest.approx(THEORY.distance_m)
     assert circle.turning_rate_rad_s == pytest.approx(
         pace * THEORY.turning_rate_rad_s
     )
     slower = replace(person, speed=0.9 * person.speed)
-    other = theory_of(replace(SETTINGS, pursuer="person", person=slower))
+    other = circle_of_theory(
+        replace(SETTINGS, pursuer="person", person=slower)
+    )
     assert other.radius_pursuer_m < 0.95 * other.radius_evader_m
     unsure = replace(person, gain=0.9 * person.gain)
-    other = theory_of(replace(SETTINGS, pursuer="person", person=unsure))
+    other = circle_of_theory(
+        replace(SETTINGS, pursuer="person", person=unsure)
+    )
     assert other.turning_rate_rad_s < 0.99 * circle.turning_rate_rad_s
 
 

@@ -11,7 +11,7 @@ from stepaside.games.duel import Duel, run_duel
 from stepaside.games.duel_run import DuelRun
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.outcome import Outcome
-from stepaside.games.walker import Walker
+from stepaside.games.walker import SimulatedPlayer
 from stepaside.locomotion.zmp.control_settings import STABILISED
 from stepaside.locomotion.zmp.feedback_loop import ClosedLoop
 from stepaside.sim.body_settings import BODIES
@@ -43,7 +43,7 @@ def test_both_robots_of_a_hardware_duel_have_servo_and_sensor_models() -> None:
     assert duel.world.physics.tick == 0.012
     masses = []
     for walker in duel.players:
-        assert isinstance(walker, Walker)
+        assert isinstance(walker, SimulatedPlayer)
         robot, balance = walker.robot, walker.scheme.balance
         assert isinstance(robot.servos, RealisticServos)
         assert isinstance(balance, ClosedLoop)

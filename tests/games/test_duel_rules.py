@@ -16,7 +16,7 @@ from stepaside.games.match import Progress
 from stepaside.games.outcome import Outcome
 from stepaside.games.recorder import Recorder
 from stepaside.games.trajectory import PlanningTimes
-from stepaside.games.walker import Walker
+from stepaside.games.walker import SimulatedPlayer
 from stepaside.sim.camera_settings import RoomObject, SceneSettings
 from stepaside.sim.ground_truth import torsos_apart
 from stepaside.sim.physics_settings import SightSettings
@@ -30,8 +30,12 @@ def begun(**changes: Any) -> Duel:
     return Duel(DuelSettings(**{"start": START, **changes}))
 
 
-def walkers(duel: Duel) -> list[Walker]:
-    return [player for player in duel.players if isinstance(player, Walker)]
+def walkers(duel: Duel) -> list[SimulatedPlayer]:
+    return [
+        player
+        for player in duel.players
+        if isinstance(player, SimulatedPlayer)
+    ]
 
 
 def test_robots_begin_at_the_poses_of_the_start() -> None:
@@ -141,8 +145,8 @@ def test_closest_approach_and_trigger_are_recorded(
 
     monkeypatch.setattr(Duel, "torsos_apart", property(apart))
     monkeypatch.setattr(Duel, "distance", 0.7)
-    monkeypatch.setattr(Walker, "is_moving", property(moves.get))
-    monkeypatch.setattr(Walker, "tick", lambda walker: None)
+    monkeypatch.setattr(SimulatedPlayer, "is_moving", property(moves.get))
+    monkeypatch.setattr(SimulatedPlayer, "tick", lambda walker: None)
     duel.min_distance = 5.0
     closest = []
     for _ in range(4):
@@ -160,7 +164,7 @@ def test_capture_is_the_first_time_at_the_capture_distance(
     duel = begun()
     ways = iter((0.4, CAPTURE_DISTANCE, 0.3, 0.4, 0.2))
     monkeypatch.setattr(Duel, "torsos_apart", property(lambda _: next(ways)))
-    monkeypatch.setattr(Walker, "tick", lambda walker: None)
+    monkeypatch.setattr(SimulatedPlayer, "tick", lambda walker: None)
     monkeypatch.setattr(Duel, "distance", 0.3)
     told = []
     for _ in range(5):
@@ -213,14 +217,14 @@ def test_planning_of_both_robots_is_combined(
 def test_an_unreachable_reference_ends_a_duel_and_it_is_recorded(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    tick = Walker.tick
+    tick = SimulatedPlayer.tick
 
-    def clumsy(walker: Walker) -> None:
+    def clumsy(walker: SimulatedPlayer) -> None:
         if walker.name == "evader" and walker.robot.world.ticks == 12:
             raising(ReachError("a leg is too short"))()
         tick(walker)
 
-    monkeypatch.setattr(Walker, "tick", clumsy)
+    monkeypatch.setattr(SimulatedPlayer, "tick", clumsy)
     result = run_duel(DuelSettings(start=START, duration=1.0))
     assert result.outcome is Outcome.UNREACHABLE
     said = "evader lost its footing at 0.05 s: a leg is too short"

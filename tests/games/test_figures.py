@@ -17,7 +17,7 @@ from matplotlib.text import Annotation
 from invented_run import run_of
 from stepaside.arena import BODY_RADIUS, Disc, MovingBox, Room
 from stepaside.core.poses import Array
-from stepaside.games.duel_circle import theory_of
+from stepaside.games.duel_circle import circle_of_theory
 from stepaside.games.duel_run import DuelRun
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.duel_summary import TheorySummary
@@ -430,7 +430,7 @@ def test_a_comparison_has_every_run_and_their_common_theory(
         assert drawn.get_linestyle() == styles[number // 2 % 4]
     shades = [drawn.get_alpha() for drawn in path.lines[::2]]
     assert shades == [1.0] * 4 + [pytest.approx(1.0 - 0.6 / 5)]
-    circle = theory_of(SETTINGS)
+    circle = circle_of_theory(SETTINGS)
     for axes, values, level in (
         (distance, runs[0].distance, circle.distance_m),
         (angle, runs[0].orientation, 90.0),
@@ -461,7 +461,7 @@ def test_a_comparison_has_the_theory_of_every_run(
     compare_figure.draw_comparison(runs, Path("figure.png"))
     _, distance, angle = kept[-1].axes
     found = levels(distance)
-    wanted = [theory_of(each).distance_m for each in (SETTINGS, faster)]
+    wanted = [circle_of_theory(each).distance_m for each in (SETTINGS, faster)]
     np.testing.assert_allclose(list(found), wanted, atol=1e-5)
     assert list(found.values()) == list(compare_figure.RUNS[:2])
     ((height, colour),) = levels(angle).items()

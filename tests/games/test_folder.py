@@ -20,7 +20,7 @@ from stepaside.games.run_archive import (
     SUMMARY,
     TRAJECTORIES,
     load_run,
-    write_record,
+    write_run_files,
 )
 from stepaside.games.run_header import FORMAT
 from stepaside.games.trajectory import Trajectory
@@ -83,7 +83,7 @@ by_run = pytest.mark.parametrize("run", RUNS.values(), ids=RUNS.keys())
 def folder_of(tmp_path: Path, run: DuelRun) -> Path:
     folder = tmp_path / "run"
     folder.mkdir()
-    write_record(folder, run)
+    write_run_files(folder, run)
     return folder
 
 

@@ -12,11 +12,15 @@ from click.testing import CliRunner, Result
 from stepaside.arena import Room
 from stepaside.cli.main import main
 from stepaside.core.poses import wrap_angle
-from stepaside.games.duel_circle import no_circle_because, pace_of, theory_of
+from stepaside.games.duel_circle import (
+    circle_of_theory,
+    no_circle_because,
+    time_scale,
+)
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.forecast import ExpectedEnd, Forecast, forecast
-from stepaside.games.initial_poses import with_start
-from stepaside.games.template_approach import play_template
+from stepaside.games.initial_poses import with_initial_poses
+from stepaside.games.template_game import play_template
 from stepaside.sim.camera_settings import SceneSettings
 from stepaside.sim.person_settings import PersonSettings
 from stepaside.strategies import Evasion
@@ -27,7 +31,7 @@ BASE = DuelSettings(duration=80.0, start=START)
 
 def told(settings: DuelSettings) -> Forecast:
     """Return the forecast of a duel that has one."""
-    found = forecast(with_start(settings))
+    found = forecast(with_initial_poses(settings))
     assert found is not None
     return found
 
@@ -46,7 +50,7 @@ def closest(settings: DuelSettings, step: float = 0.005) -> float:
     assert start.distance is not None
     assert start.pursuer_offset is not None
     assert start.evader_offset is not None
-    v, k = (pace_of(gait) * one for one in (gait.speed, gait.gain))
+    v, k = (time_scale(gait) * one for one in (gait.speed, gait.gain))
     x, y, p = 0.0, 0.0, start.pursuer_offset
     u, w, e = start.distance, 0.0, pi + start.evader_offset
     side, least = 0, start.distance
@@ -113,7 +117,7 @@ def test_a_circle_too_small_for_two_bodies_is_contact(
     gain: float,
 ) -> None:
     settings = turning(gain)
-    circle = theory_of(settings)
+    circle = circle_of_theory(settings)
     assert circle.distance_m < settings.start.least
     found = told(settings)
     assert found.expected is ExpectedEnd.CONTACT
@@ -137,8 +141,8 @@ def test_a_release_distance_within_the_circle_gives_no_circle(
     release: float,
 ) -> None:
     settings = playing(release_distance=release)
-    assert theory_of(playing(release_distance=1.5)).exists
-    assert not theory_of(settings).exists
+    assert circle_of_theory(playing(release_distance=1.5)).exists
+    assert not circle_of_theory(settings).exists
     found = told(settings)
     assert found.expected is ExpectedEnd.NO_CIRCLE
     assert found.words == no_circle_because(settings)
@@ -147,7 +151,7 @@ def test_a_release_distance_within_the_circle_gives_no_circle(
 
 def test_an_evader_by_time_has_no_circle() -> None:
     settings = playing(trigger="time")
-    assert not theory_of(settings).exists
+    assert not circle_of_theory(settings).exists
     assert told(settings).expected is ExpectedEnd.NO_CIRCLE
     assert "time to contact" in no_circle_because(settings)
 
@@ -166,7 +170,7 @@ def test_only_a_person_that_keeps_steering_has_a_circle(
     person: PersonSettings, exists: bool
 ) -> None:
     settings = replace(BASE, pursuer="person", person=person)
-    assert theory_of(settings).exists is exists
+    assert circle_of_theory(settings).exists is exists
     assert forecast(settings) is None
     if not exists:
         assert "the person" in no_circle_because(settings)
@@ -242,9 +246,12 @@ def test_the_templates_of_a_duel_are_played_once(
         return play_template(*args, duration=duration, **options)
 
     monkeypatch.setattr("stepaside.games.forecast.play_template", count)
-    settings = with_start(DuelSettings(seed=77, duration=3.0))
+    settings = with_initial_poses(DuelSettings(seed=77, duration=3.0))
     first = forecast(settings)
-    assert forecast(with_start(DuelSettings(seed=77, duration=3.0))) == first
+    assert (
+        forecast(with_initial_poses(DuelSettings(seed=77, duration=3.0)))
+        == first
+    )
     assert plays == [3.0]
     forecast(replace(settings, duration=4.0))
     assert plays == [3.0, 4.0]

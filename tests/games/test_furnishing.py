@@ -8,7 +8,7 @@ import pytest
 from stepaside.arena import Disc, Room
 from stepaside.games import DuelSettings
 from stepaside.games.duel import furnisher_of
-from stepaside.sim.passer_settings import Passer
+from stepaside.sim.passerby_settings import Passer
 
 ALONE = DuelSettings()
 INSIDE = replace(

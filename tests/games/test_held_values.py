@@ -14,7 +14,7 @@ from stepaside.fitting.leg_detection import find_legs
 from stepaside.fitting.model_analysis import analyse_model
 from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
-from stepaside.games.walker import Walker
+from stepaside.games.walker import SimulatedPlayer
 from stepaside.planning import (
     Direction,
     Foot,
@@ -71,7 +71,7 @@ def test_values_returned_by_a_duel_do_not_change_later(
     duel, kept = Duel(settings), Kept()
     ticks = 0
     walker = duel.players[1]
-    assert isinstance(walker, Walker)
+    assert isinstance(walker, SimulatedPlayer)
     robot: Any = walker.robot
     read, write = robot.read, robot.write
 

@@ -19,7 +19,7 @@ from stepaside.games.configuration_file import (
 from stepaside.games.duel import Duel, run_duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.report.scene import RunScene
-from stepaside.sim.passer_settings import Passer
+from stepaside.sim.passerby_settings import Passer
 from stepaside.sim.person_settings import PersonSettings
 
 EVADER = Pose(3.0, -1.0, 2.5)

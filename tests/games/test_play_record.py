@@ -28,7 +28,7 @@ from stepaside.games.play_rows import one_clock
 from stepaside.games.play_run import PlayRun
 from stepaside.games.play_settings import PlaySettings
 from stepaside.games.run_archive import load_run
-from stepaside.games.walker import Walker
+from stepaside.games.walker import SimulatedPlayer
 from stepaside.perception.measurement import Sighting
 from stepaside.report.run_folder import draw_run
 from stepaside.report.scene import RunScene
@@ -46,7 +46,7 @@ def log_at(folder: Path, settings: PlaySettings) -> PlayLog:
     return PlayLog(folder, {"role": settings.role}, beside)
 
 
-def look_at(log: PlayLog, walker: Walker) -> None:
+def look_at(log: PlayLog, walker: SimulatedPlayer) -> None:
     """Log measurements and intents of a walker, tick by tick."""
     read, write = walker.robot.read, walker.robot.write
     measured: list[Any] = []
@@ -87,7 +87,7 @@ class Walked:
         duel = Duel(settings, recorded=False)
         self.folder, log = folder, log_at(folder, EVADER)
         evader = duel.players[1]
-        assert isinstance(evader, Walker)
+        assert isinstance(evader, SimulatedPlayer)
         look_at(log, evader)
         self.true: list[Any] = []
         self.others: list[tuple[float, float]] = []

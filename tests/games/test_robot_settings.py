@@ -16,7 +16,7 @@ from stepaside.games.configuration_file import (
     dump_configuration,
     parse_settings,
 )
-from stepaside.games.duel_circle import pace_of, theory_of
+from stepaside.games.duel_circle import circle_of_theory, time_scale
 from stepaside.games.duel_settings import DuelSettings, RobotSettings
 from stepaside.games.initial_poses import draw_start
 from stepaside.games.robot_settings import (
@@ -159,10 +159,10 @@ def test_theory_of_different_gaits_is_in_real_time() -> None:
     """A gait with a slower time scale is a slower unicycle."""
     slow = GaitSettings(single_support=0.85, double_support=0.244)
     gait = GaitSettings()
-    assert pace_of(slow) == pytest.approx(0.5 * pace_of(gait))
+    assert time_scale(slow) == pytest.approx(0.5 * time_scale(gait))
     own = RobotSettings(gait=slow)
-    theory = theory_of(DuelSettings(pursuer_robot=own))
-    pace = pace_of(gait)
+    theory = circle_of_theory(DuelSettings(pursuer_robot=own))
+    pace = time_scale(gait)
     expected = find_circle(
         0.05 * pace,
         0.1 * pace,
@@ -173,8 +173,8 @@ def test_theory_of_different_gaits_is_in_real_time() -> None:
     )
     assert theory == expected
     assert theory.radius_pursuer_m < theory.radius_evader_m
-    same = theory_of(DuelSettings(pursuer_robot=RobotSettings()))
-    assert same == theory_of(DuelSettings())
+    same = circle_of_theory(DuelSettings(pursuer_robot=RobotSettings()))
+    assert same == circle_of_theory(DuelSettings())
 
 
 def test_equal_gaits_reach_the_circle_of_the_paper_at_any_time_scale() -> None:
@@ -182,7 +182,7 @@ def test_equal_gaits_reach_the_circle_of_the_paper_at_any_time_scale() -> None:
     slow = GaitSettings(single_support=0.85, double_support=0.244)
     both = RobotSettings(gait=slow)
     settings = DuelSettings(pursuer_robot=both, evader_robot=both)
-    one, other = theory_of(settings), theory_of(DuelSettings())
+    one, other = circle_of_theory(settings), circle_of_theory(DuelSettings())
     assert one.radius_evader_m == pytest.approx(other.radius_evader_m)
     assert one.distance_m == pytest.approx(other.distance_m)
     assert settings.cycle == pytest.approx(2.0 * slow.step_duration)

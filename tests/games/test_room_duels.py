@@ -15,8 +15,8 @@ from stepaside.arena import (
     Disc,
     Polygon,
     Room,
-    make_room,
-    room_of_entries,
+    generate_room,
+    room_from_entries,
 )
 from stepaside.arena.room_generation import RoomRecipe
 from stepaside.cli.main import main
@@ -79,7 +79,7 @@ def test_a_box_has_the_size_and_heading_of_its_file() -> None:
         "polygons": [{"corners": [[1, 1], [1.2, 1], [1.2, 1.3], [1, 1.3]]}],
     }
     file["boxes"][0]["heading"] = 0.5  # type: ignore[index]
-    room = room_of_entries(file)
+    room = room_from_entries(file)
     add_solids(spec, room)
     model = spec.compile()
     for name, place, sides, heading in (
@@ -148,7 +148,7 @@ def test_a_room_excludes_other_starts_and_people() -> None:
 
 def test_a_configuration_keeps_the_room() -> None:
     recipe = RoomRecipe(discs=2, boxes=1, polygons=1, doors=1)
-    room = make_room(recipe, 3)
+    room = generate_room(recipe, 3)
     settings = placed(room)
     for text in (dump_configuration(settings), commented(settings)):
         read = read_settings(DuelSettings, text, "here")

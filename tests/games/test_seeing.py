@@ -18,7 +18,7 @@ from stepaside.games.configuration_file import (
 )
 from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import StartSettings
-from stepaside.games.walker import Walker
+from stepaside.games.walker import SimulatedPlayer
 from stepaside.perception.gaze import MAX_YAW, SCAN_SPEED
 from stepaside.perception.images import ColourImage, SonarEcho
 from stepaside.perception.perception import Perception
@@ -48,11 +48,15 @@ def play() -> Run:
     return run_duel(SEEING)
 
 
-def walkers(duel: Duel) -> list[Walker]:
-    return [player for player in duel.players if isinstance(player, Walker)]
+def walkers(duel: Duel) -> list[SimulatedPlayer]:
+    return [
+        player
+        for player in duel.players
+        if isinstance(player, SimulatedPlayer)
+    ]
 
 
-def perception_of(walker: Walker) -> Perception:
+def perception_of(walker: SimulatedPlayer) -> Perception:
     assert isinstance(walker.scheme.senses, CameraSight)
     return walker.scheme.senses.perception
 

@@ -9,7 +9,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.arena import Room, RoomRecipe, make_room
+from stepaside.arena import Room, RoomRecipe, generate_room
 from stepaside.control.clearance.map_settings import MapSettings
 from stepaside.control.sight_sources import CameraSight
 from stepaside.core.poses import Pose
@@ -17,12 +17,16 @@ from stepaside.games import camera_duel as seeing
 from stepaside.games.camera_duel import CameraSenses, SightObserver
 from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import PLAYERS, DuelSettings, StartSettings
-from stepaside.games.initial_poses import frames_of, walls_of, with_start
+from stepaside.games.initial_poses import (
+    initial_poses,
+    wall_distance,
+    with_initial_poses,
+)
 from stepaside.games.outcome import Outcome
 from stepaside.games.person_player import PersonPlayer
 from stepaside.games.sight_evaluation import FrameCounts
 from stepaside.games.sight_summary import ErrorSpread, SightSummary
-from stepaside.games.walker import Walker
+from stepaside.games.walker import SimulatedPlayer
 from stepaside.robots.description import load_robot
 from stepaside.robots.head import load_head
 from stepaside.sim.camera_settings import (
@@ -63,7 +67,10 @@ def judged(colour: FrameCounts, depth: FrameCounts, lost: float) -> Any:
 def prepared(*names: str, **changes: Any) -> CameraSenses:
     settings = SETTINGS if not changes else DuelSettings(**changes)
     return CameraSenses(
-        with_start(settings), load_robot("nao"), names or PLAYERS, tick=0.004
+        with_initial_poses(settings),
+        load_robot("nao"),
+        names or PLAYERS,
+        tick=0.004,
     )
 
 
@@ -170,7 +177,7 @@ def test_each_robot_with_cameras_is_evaluated() -> None:
     assert witness is not None and list(witness.judges) == list(PLAYERS)
     assert duel.observers == (duel.recorder, witness)
     for own, other in (duel.players, duel.players[::-1]):
-        assert isinstance(own, Walker)
+        assert isinstance(own, SimulatedPlayer)
         assert own.robot.eyes is not None and own.robot.sight is None
         assert isinstance(own.scheme.senses, CameraSight)
         judge = witness.judges[own.name]
@@ -243,7 +250,7 @@ def test_players_begin_well_inside_the_walls(
         room=SceneSettings(walls=asked),
         start=StartSettings(distance, 0.0, 0.0),
     )
-    assert walls_of(settings) == pytest.approx(there)
+    assert wall_distance(settings) == pytest.approx(there)
 
 
 @pytest.mark.parametrize("side", [-1.0, 1.0])
@@ -257,12 +264,12 @@ def test_the_walls_of_a_room_are_beyond_every_start(
     far = side * 4.5
     starts[who] = Pose(far, 0.0, 0.0) if axis == 0 else Pose(0.0, far, 0.0)
     plan = Room(10.0, 10.0, starts=(starts[0], starts[1]))
-    settings = with_start(DuelSettings(room=SceneSettings(plan=plan)))
-    assert walls_of(settings) == pytest.approx(8.0)
+    settings = with_initial_poses(DuelSettings(room=SceneSettings(plan=plan)))
+    assert wall_distance(settings) == pytest.approx(8.0)
 
 
 def test_no_wall_is_between_a_robot_and_a_fast_person() -> None:
-    settings = with_start(
+    settings = with_initial_poses(
         DuelSettings(
             pursuer="person",
             person=PersonSettings("straight", 1.0),
@@ -275,13 +282,13 @@ def test_no_wall_is_between_a_robot_and_a_fast_person() -> None:
     head = load_head(load_robot("nao")).body
     spec.worldbody.add_body(name=f"evader/{head}")
     seeing.furnish(spec)
-    evader = frames_of(settings)[1]
+    evader = initial_poses(settings)[1]
     assert evader.x > 5.0
     assert spec.geom("wall 1 0").pos[0] - evader.x == pytest.approx(3.5)
 
 
 def test_robots_that_map_a_room_wait_for_the_start_of_the_game() -> None:
-    room = SceneSettings(plan=make_room(RoomRecipe(discs=1), 3))
+    room = SceneSettings(plan=generate_room(RoomRecipe(discs=1), 3))
     mapping = prepared(
         seed=3,
         sensing="cameras",

@@ -18,7 +18,7 @@ from stepaside.drivers.joint.session_options import SessionOptions
 from stepaside.drivers.lola.camera_channel import CameraChannel
 from stepaside.drivers.lola.lola_address import LolaAddress
 from stepaside.drivers.lola.lola_connection import open_lola
-from stepaside.drivers.scheme_factory import mind_maker
+from stepaside.drivers.scheme_factory import control_scheme_factory
 from stepaside.games.duel import run_duel
 from stepaside.games.duel_run import DuelRun
 from stepaside.games.duel_settings import DuelSettings, StartSettings
@@ -59,7 +59,7 @@ def client(
             SessionOptions(open_eyes=None if sees_as is None else open_eyes),
         )
 
-    make = mind_maker(
+    make = control_scheme_factory(
         load_robot("nao"),
         GaitSettings(),
         FEEDBACK,

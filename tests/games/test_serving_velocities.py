@@ -23,7 +23,7 @@ from stepaside.games.match import Match, play
 from stepaside.games.robot_offers import Offer
 from stepaside.games.served_duel import serve_duel
 from stepaside.games.velocity_walker import VelocityWalker
-from stepaside.games.walker import Walker
+from stepaside.games.walker import SimulatedPlayer
 from stepaside.locomotion.zmp.control_settings import STABILISED
 from stepaside.planning import GaitSettings
 from stepaside.sim.body_settings import BODIES
@@ -84,7 +84,7 @@ def distance_without_a_wire() -> float:
     duel = Duel(SETTINGS, recorded=False)
     players = []
     for player in duel.players:
-        assert isinstance(player, Walker)
+        assert isinstance(player, SimulatedPlayer)
         robot = VelocityWalker(player)
         robot.commander = NoWire(robot, ROLES[player.name])
         players.append(robot)

@@ -11,7 +11,7 @@ from stepaside.drivers.velocity.velocity_body import REST, VelocityCommand
 from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.velocity_walker import VelocityWalker
-from stepaside.games.walker import Walker
+from stepaside.games.walker import SimulatedPlayer
 from stepaside.locomotion.zmp.control_settings import STABILISED
 from stepaside.sim.body_settings import BODIES
 
@@ -45,7 +45,7 @@ def walked() -> tuple[VelocityWalker, VelocityWalker, list[VelocityCommand]]:
     told = [Told(VelocityCommand(0.06, 0.1)), Told(VelocityCommand(-0.2, 0.2))]
     players = []
     for player, commander in zip(duel.players, told, strict=True):
-        assert isinstance(player, Walker)
+        assert isinstance(player, SimulatedPlayer)
         players.append(VelocityWalker(player))
         players[-1].commander = commander
     before = [player.state().velocity for player in players]
@@ -103,7 +103,7 @@ def test_the_served_sighting_is_in_odometry(
 
 def test_a_robot_may_serve_no_sighting() -> None:
     player = Duel(SETTINGS, recorded=False).players[0]
-    assert isinstance(player, Walker)
+    assert isinstance(player, SimulatedPlayer)
     assert VelocityWalker(player).state().sighting is not None
     silent = VelocityWalker(player, offers_sight=False)
     assert silent.state().sighting is None
@@ -114,7 +114,7 @@ def test_turns_of_a_commanded_robot_are_calibrated_once() -> None:
     control = replace(SETTINGS.control, learn_turns=True)
     duel = Duel(replace(SETTINGS, control=control), recorded=False)
     player = duel.players[0]
-    assert isinstance(player, Walker)
+    assert isinstance(player, SimulatedPlayer)
     assert player.scheme.decisions.turns is not None
     assert VelocityWalker(player).scheme.decisions.turns is None
 
@@ -125,7 +125,7 @@ def test_a_hardware_like_robot_turns_by_its_command() -> None:
     duel = Duel(hardware, recorded=False)
     players = []
     for player, forward in zip(duel.players, (0.06, -0.06), strict=True):
-        assert isinstance(player, Walker)
+        assert isinstance(player, SimulatedPlayer)
         players.append(VelocityWalker(player))
         players[-1].commander = Told(VelocityCommand(forward, 0.12))
     turned = np.zeros(2)
@@ -148,7 +148,7 @@ def test_a_served_sighting_is_relative_to_the_heading_of_its_time() -> None:
     duel = Duel(SETTINGS, recorded=False)
     players = []
     for player in duel.players:
-        assert isinstance(player, Walker)
+        assert isinstance(player, SimulatedPlayer)
         robot = VelocityWalker(player)
         robot.commander = Told(VelocityCommand(0.05, 0.12))
         players.append((robot, player.frame))

@@ -8,7 +8,7 @@ import pytest
 
 from stepaside.core.poses import Array
 from stepaside.games.outcome import Outcome
-from stepaside.games.support_foot_view import COLUMNS
+from stepaside.games.support_foot_columns import COLUMNS
 from stepaside.games.walk_evaluation import StepCounts, figures_of
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.games.walk_summary import WalkSummary

@@ -20,7 +20,7 @@ from stepaside.games.duel import run_duel
 from stepaside.games.duel_run import DuelRun
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.outcome import Outcome
-from stepaside.games.run_archive import load_run, write_record
+from stepaside.games.run_archive import load_run, write_run_files
 from stepaside.games.walk_game import run_walk
 from stepaside.games.walk_run import WalkRun
 from stepaside.games.walk_settings import WalkSettings
@@ -28,7 +28,7 @@ from stepaside.report.figure_style import PUSHED
 from stepaside.report.run_folder import write_run
 from stepaside.report.scene import RunScene
 from stepaside.report.walk_figure import draw_walk
-from stepaside.report.walks_figure import speed_over
+from stepaside.report.walks_figure import mean_speed
 from stepaside.sim.push import Push
 
 PUSHES = (Push(0.5, 1.0, pi / 2), Push(0.4, 1.1, 0.0))
@@ -69,7 +69,7 @@ def test_a_folder_of_another_game_is_refused(
     with pytest.raises(ConfigurationError, match="a duel, got one of a walk"):
         load_run(folder, DuelRun)
     duel = run_duel(DuelSettings(duration=0.04))
-    write_record(tmp_path, duel)
+    write_run_files(tmp_path, duel)
     with pytest.raises(ConfigurationError, match="a walk, got one of a duel"):
         load_run(tmp_path, WalkRun)
 
@@ -158,7 +158,7 @@ def test_a_walk_can_be_stored_compared_and_replayed(tmp_path: Path) -> None:
     assert compared.exit_code == 0 and "speed" in compared.stdout
     duel = tmp_path / "duel"
     duel.mkdir()
-    write_record(duel, run_duel(DuelSettings(duration=0.04)))
+    write_run_files(duel, run_duel(DuelSettings(duration=0.04)))
     mixed = call("compare", one, str(duel), "--output", f"{tmp_path}/d.png")
     assert mixed.exit_code == 2 and mixed.output.count("\n") == 1
     assert "must be of the same game, got duel and walk" in mixed.output
@@ -171,7 +171,7 @@ def test_speed_is_over_a_cycle_and_none_at_the_ends() -> None:
     times = 0.02 * np.arange(200, dtype=float)
     sway = 0.03 * np.sin(2.0 * pi * times)
     places = np.column_stack([0.1 * times, 0.2 + sway])
-    speed = speed_over(places, times, 1.0)
+    speed = mean_speed(places, times, 1.0)
     assert np.isnan(speed[:25]).all() and np.isnan(speed[-25:]).all()
     np.testing.assert_allclose(speed[25:-25], 0.1, atol=1e-9)
-    assert np.isnan(speed_over(places[:1], times[:1], 1.0)).all()
+    assert np.isnan(mean_speed(places[:1], times[:1], 1.0)).all()

@@ -11,7 +11,7 @@ from click.testing import CliRunner
 
 from stepaside.cli.main import main
 from stepaside.games.outcome import Outcome
-from stepaside.games.support_foot_view import seen_from_foot
+from stepaside.games.support_foot_columns import express_in_support_foot
 from stepaside.games.walk_game import run_walk
 from stepaside.games.walk_run import WalkRun
 from stepaside.games.walk_settings import WalkSettings
@@ -59,7 +59,7 @@ def check_recovery(result: WalkRun, heading: float) -> None:
         heading: Greatest turn that the push may have left, in [rad].
     """
     assert result.outcome is Outcome.COMPLETED
-    arrays = seen_from_foot(result.times, result.walker)
+    arrays = express_in_support_foot(result.times, result.walker)
     late = arrays["time"] > arrays["time"][-1] - CYCLE
     for axis in "xy":
         off = arrays[f"com_{axis}"] - arrays[f"reference_{axis}"]

@@ -11,10 +11,10 @@ from made_up_players import begun
 from stepaside.core.poses import Array, Pose
 from stepaside.games.outcome import Outcome
 from stepaside.games.recorder import Recorder
-from stepaside.games.support_foot_view import (
+from stepaside.games.support_foot_columns import (
     COLUMNS,
-    on_its_feet,
-    seen_from_foot,
+    express_in_support_foot,
+    upright_samples,
 )
 from stepaside.games.walk_game import WalkGame
 from stepaside.games.walk_settings import WalkSettings
@@ -41,7 +41,7 @@ def recorder(walking: WalkGame) -> Recorder:
 
 
 def columns(made: Recorder) -> dict[str, Array]:
-    return seen_from_foot(made.times, made.tracks()["walker"])
+    return express_in_support_foot(made.times, made.tracks()["walker"])
 
 
 def last(walking: WalkGame) -> dict[str, float]:
@@ -244,7 +244,7 @@ def test_a_duel_records_no_foot_states() -> None:
     assert far.sole is far.support is far.velocity is far.estimate is None
     assert near.sole is not None and near.estimate is None
     with pytest.raises(ValueError, match="must have sole, support and tilt"):
-        seen_from_foot(plain.times, far)
+        express_in_support_foot(plain.times, far)
 
 
 def test_the_last_sample_counts_if_evenly_spaced_and_upright() -> None:
@@ -256,8 +256,8 @@ def test_the_last_sample_counts_if_evenly_spaced_and_upright() -> None:
     ):
         for times, due in ((even, True), (cut, False)):
             expected = [True, True, True, stands and due]
-            assert on_its_feet(times, outcome).tolist() == expected
-    assert on_its_feet(even[:0], Outcome.FALL).tolist() == []
+            assert upright_samples(times, outcome).tolist() == expected
+    assert upright_samples(even[:0], Outcome.FALL).tolist() == []
 
 
 def test_steps_and_solver_results_are_collected() -> None:

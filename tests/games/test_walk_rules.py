@@ -11,7 +11,7 @@ from made_up_players import clock
 from stepaside.control import Phase
 from stepaside.core.errors import ConfigurationError, ReachError
 from stepaside.games.outcome import Outcome
-from stepaside.games.support_foot_view import on_its_feet
+from stepaside.games.support_foot_columns import upright_samples
 from stepaside.games.walk_game import WalkGame, run_walk
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.locomotion.zmp.control_settings import STABILISED
@@ -108,7 +108,7 @@ def test_a_walk_that_falls_ends_there(monkeypatch: pytest.MonkeyPatch) -> None:
     np.testing.assert_allclose(
         result.times, [*(0.02 * np.arange(8)), 0.16], atol=1e-12
     )
-    even = on_its_feet(result.times, result.outcome)
+    even = upright_samples(result.times, result.outcome)
     assert even.tolist() == 8 * [True] + [False]
 
 
@@ -123,7 +123,7 @@ def test_a_walk_lasts_its_duration(duration: float, ticks: int) -> None:
     due = 0.02 * np.arange(ticks // 5 + 1)
     last = [] if ticks % 5 == 0 else [0.004 * ticks]
     np.testing.assert_allclose(result.times, [*due, *last], atol=1e-12)
-    even = on_its_feet(result.times, result.outcome)
+    even = upright_samples(result.times, result.outcome)
     np.testing.assert_allclose(result.times[even], due, atol=1e-12)
     # The footstep that is being made counts.
     told = result.summary

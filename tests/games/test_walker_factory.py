@@ -7,7 +7,7 @@ import pytest
 
 from stepaside.arena import Disc, Room
 from stepaside.control.clearance.map_settings import MapSettings
-from stepaside.control.clearance.swept_outline import BodyOutline, sway_of
+from stepaside.control.clearance.swept_outline import BodyOutline, lateral_sway
 from stepaside.control.scheme_builder import ClearanceSetup
 from stepaside.core.poses import Pose
 from stepaside.games import walker_factory as standing
@@ -82,7 +82,7 @@ def test_the_body_radius_of_a_strategy_is_at_least_that_of_the_robot() -> None:
     """With outline, margin and sway."""
     clearance = known(margin=0.07)
     assert clearance is not None
-    needs = 0.25 + 0.07 + sway_of(GAIT)
+    needs = 0.25 + 0.07 + lateral_sway(GAIT)
     small, wide = LookAhead(body_radius=0.1), LookAhead(body_radius=0.6)
     fitted = fitting(small, clearance, GAIT)
     assert isinstance(fitted, LookAhead)

@@ -17,9 +17,9 @@ from stepaside.locomotion.zmp.current_step import (
     adapted_landing,
     beyond,
     clip_to,
+    first_step_of,
     resting_step,
     shifted_swing,
-    step_of,
     zmp_box,
 )
 from stepaside.planning import (
@@ -90,7 +90,7 @@ def test_step_of_a_plan_follows_its_clock(standing: bool, foot: Foot) -> None:
     begins = GAIT.start_support if standing else 0.0
     for phase in (-0.1, 0.25, 0.9, 1.2):
         passed = begins + phase * GAIT.single_support
-        made = step_of(plan, SUPPORT, passed)
+        made = first_step_of(plan, SUPPORT, passed)
         assert made.support == SUPPORT and made.swing is foot
         assert made.walking and made.plan is plan
         assert made.passed == passed

@@ -15,9 +15,9 @@ from stepaside.planning import (
 )
 from stepaside.planning.steady_gait import steady_plan
 from stepaside.planning.template_path import (
-    clock_of,
     path_samples,
     poses_on_path,
+    progress_by_time,
 )
 
 GAIT = GaitSettings()
@@ -99,7 +99,7 @@ def test_a_body_passes_its_sample_in_the_middle_of_single_support(
         poses_on_path(
             samples,
             plan.sample(times).com,
-            clock_of(plan.schedule, np.array(times)),
+            progress_by_time(plan.schedule, np.array(times)),
             GAIT,
         )[:, 2]
         for times in ([middle], middle + apart, middle - apart)
@@ -120,7 +120,7 @@ def test_a_body_is_past_the_middle_of_its_feet_when_a_step_ends() -> None:
     )
     samples = path_samples(plan.placements, Foot.LEFT, GAIT.foot_spacing)
     com = plan.sample([STEP]).com
-    clock = clock_of(plan.schedule, np.array([STEP]))
+    clock = progress_by_time(plan.schedule, np.array([STEP]))
     ((x, _, _),) = poses_on_path(samples, com, clock, GAIT)
     eta, rest, ramp = GAIT.eta, GAIT.single_support, GAIT.double_support
     # x - p over a standing foot is odd about the middle of support: a sinh;
@@ -152,7 +152,7 @@ def test_a_body_that_turns_has_the_heading_between_its_feet(
     poses = poses_on_path(
         samples,
         plan.sample(times).com,
-        clock_of(plan.schedule, times),
+        progress_by_time(plan.schedule, times),
         GAIT,
     )
     # The middle of a support is half a single support after it begins.

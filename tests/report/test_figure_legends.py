@@ -11,9 +11,9 @@ from invented_run import run_of
 from stepaside.games.trajectory import Trajectory
 from stepaside.report import bound_figure, people_figure
 from stepaside.report import figure_style as style
-from stepaside.report.film_shot import FilmSettings
+from stepaside.report.film_settings import FilmSettings
 from stepaside.report.film_strip import legend_entries
-from stepaside.theory.bound import Bound, Grid, against_any, solve_bound
+from stepaside.theory.bound import Bound, Grid, solve_bound, two_car_game
 
 
 @pytest.fixture
@@ -89,5 +89,5 @@ def test_the_bound_s_lines_are_named(kept: list[Figure], bound: Bound) -> None:
 @pytest.fixture(scope="module")
 def bound() -> Bound:
     """A coarse table of two identical cars."""
-    game = against_any(1.0, 1.0, 1.0)
+    game = two_car_game(1.0, 1.0, 1.0)
     return solve_bound(game, Grid(0.3, 6.0, 17, 16, 16))

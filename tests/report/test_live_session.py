@@ -17,7 +17,7 @@ from stepaside.games.approach_forecast import CourseApproach
 from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.run_archive import load_run
-from stepaside.games.walker import Walker
+from stepaside.games.walker import SimulatedPlayer
 from stepaside.report.viewer import live_session as live
 from stepaside.report.viewer import plot_history as trails
 from stepaside.report.viewer import run_saving as saving
@@ -67,10 +67,10 @@ def run_until(session: LiveSession, time: float) -> None:
     look_away(duel, looking)
 
 
-def walker(session: LiveSession, number: int = 0) -> Walker:
+def walker(session: LiveSession, number: int = 0) -> SimulatedPlayer:
     """Player who is a robot."""
     player = session.duel.players[number]
-    assert isinstance(player, Walker)
+    assert isinstance(player, SimulatedPlayer)
     return player
 
 

@@ -32,7 +32,7 @@ from stepaside.games.duel import Duel
 from stepaside.games.duel_run import DuelRun
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.run_archive import load_run
-from stepaside.games.walker import Walker
+from stepaside.games.walker import SimulatedPlayer
 from stepaside.report.replay_page import write_page
 from stepaside.report.scene import RunScene
 from stepaside.report.text_escaping import visible
@@ -95,7 +95,7 @@ def test_a_live_duel_can_be_watched_pushed_and_driven(browser: Any) -> None:
 
     slowing = look_on(session.duel, slow_down)
     pursuer = session.duel.players[0]
-    assert isinstance(pursuer, Walker)
+    assert isinstance(pursuer, SimulatedPlayer)
     try:
         page = open_page(browser)
         page.goto(f"http://127.0.0.1:{live.server.get_port()}")
@@ -161,7 +161,7 @@ def test_a_robot_is_pulled_with_the_pointer_and_driven_by_hand(
     live.start()
     session = live.session
     pursuer = session.duel.players[0]
-    assert isinstance(pursuer, Walker)
+    assert isinstance(pursuer, SimulatedPlayer)
     try:
         page = open_page(browser, width=900, has_touch=True)
         page.goto(f"http://127.0.0.1:{live.server.get_port()}")

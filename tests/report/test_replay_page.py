@@ -274,7 +274,7 @@ def test_a_picture_is_of_the_time_asked_for(time: float, index: int) -> None:
     np.testing.assert_array_equal(places, stage.data.xpos)
     bare, full = scene(), scene()
     add(full)
-    film_layers.decorate(bare, run=made(), index=index, trail=20.0)
+    film_layers.add_layers(bare, run=made(), index=index, trail=20.0)
     assert full.ngeom == bare.ngeom
     _, _, add = filmed(FilmSettings(layers=False), time)
     add(empty := scene())
@@ -304,7 +304,7 @@ def ends(geom: Any) -> Array:
 def test_lines_of_a_film_lie_where_the_run_was() -> None:
     run, index = made(), 60
     drawn = scene()
-    film_layers.decorate(drawn, run=run, index=index, trail=0.8)
+    film_layers.add_layers(drawn, run=run, index=index, trail=0.8)
     (sight, *circle) = lines_of(drawn, THEORY)
     places = [run.tracks[n].torso[index, :2] for n in COLOURS]
     np.testing.assert_allclose(
@@ -353,7 +353,7 @@ def test_footprints_come_half_a_second_early_and_go_with_the_trail(
     index: int, trail: float, shown: int
 ) -> None:
     drawn = scene()
-    film_layers.decorate(drawn, run=made(), index=index, trail=trail)
+    film_layers.add_layers(drawn, run=made(), index=index, trail=trail)
     boxes = [
         geom
         for geom in lines_of(drawn, COLOURS["evader"])
@@ -364,7 +364,7 @@ def test_footprints_come_half_a_second_early_and_go_with_the_trail(
 
 def test_a_full_scene_takes_no_more() -> None:
     small = mujoco.MjvScene(RunScene(made()).model, maxgeom=10)
-    film_layers.decorate(small, run=made(), index=60, trail=20.0)
+    film_layers.add_layers(small, run=made(), index=60, trail=20.0)
     assert small.ngeom == 10
 
 
@@ -400,13 +400,13 @@ def test_pictures_come_in_order_and_all_of_them(
     monkeypatch.setattr(film, "_draw", lambda f, s, b, times: list(times))
     shot = FilmSettings(rate=100.0)
     for workers in (1, 2, 30):
-        drawn = list(film.pictures(Path("run"), shot, workers=workers))
+        drawn = list(film.render_images(Path("run"), shot, workers=workers))
         np.testing.assert_allclose(drawn, 0.01 * np.arange(203))
     with pytest.raises(ConfigurationError, match="before the run's end"):
-        list(film.pictures(Path("run"), FilmSettings(begin=5.0)))
+        list(film.render_images(Path("run"), FilmSettings(begin=5.0)))
     monkeypatch.setattr(film, "choose_renderer", lambda wanted: RAYCAST)
     with pytest.raises(ConfigurationError, match="EGL or OSMesa"):
-        list(film.pictures(Path("run"), shot))
+        list(film.render_images(Path("run"), shot))
 
 
 def test_a_worker_keeps_its_graphics(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -438,7 +438,7 @@ def test_films_have_their_pictures_and_their_rate(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, kind: str
 ) -> None:
     monkeypatch.setattr(film, "load_run", lambda folder: made())
-    monkeypatch.setattr(film, "pictures", lambda folder, shot: shades(6))
+    monkeypatch.setattr(film, "render_images", lambda folder, shot: shades(6))
     told: list[tuple[int, int]] = []
     file = tmp_path / f"run.{kind}"
     shot = FilmSettings(64, 48, rate=5.0, duration=1.0)
@@ -473,7 +473,7 @@ def test_a_film_that_fails_leaves_nothing_behind(
         raise RuntimeError("the light went out")
 
     monkeypatch.setattr(film, "load_run", lambda folder: made())
-    monkeypatch.setattr(film, "pictures", failing)
+    monkeypatch.setattr(film, "render_images", failing)
     with pytest.raises(RuntimeError, match="light"):
         film.write_video(tmp_path, tmp_path / "run.mp4", FilmSettings(64, 48))
     assert list(tmp_path.iterdir()) == []

@@ -14,7 +14,7 @@ from invented_run import check_same, run_of
 from stepaside.core.errors import ConfigurationError, OutputError
 from stepaside.core.poses import Array
 from stepaside.games.duel import run_duel
-from stepaside.games.duel_circle import theory_of
+from stepaside.games.duel_circle import circle_of_theory
 from stepaside.games.duel_run import DuelRun
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.outcome import Outcome
@@ -243,7 +243,7 @@ def test_a_run_tells_its_distance_and_angle_in_degrees() -> None:
 
 
 def test_theory_is_radius_distance_and_degrees() -> None:
-    circle = theory_of(DuelSettings())
+    circle = circle_of_theory(DuelSettings())
     assert invented().theory == pytest.approx(
         (circle.radius_evader_m, circle.distance_m, 90.0)
     )

@@ -13,7 +13,7 @@ from stepaside.control import Phase
 from stepaside.core.errors import ConfigurationError
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.person_player import PersonPlayer
-from stepaside.games.walker import Walker
+from stepaside.games.walker import SimulatedPlayer
 from stepaside.report.viewer.drive_panel import DrivePanel, add_push
 from stepaside.report.viewer.live_drawing import draw_session
 from stepaside.report.viewer.live_session import LiveSession
@@ -41,7 +41,9 @@ def stepped(session: LiveSession, duration: float) -> None:
 
 def test_a_person_walks_on_in_a_step(session: LiveSession) -> None:
     person, evader = session.duel.players
-    assert isinstance(person, PersonPlayer) and isinstance(evader, Walker)
+    assert isinstance(person, PersonPlayer) and isinstance(
+        evader, SimulatedPlayer
+    )
     began = np.array(person.truth.position)
     stepped(session, 1.0)
     assert session.duel.world.time == pytest.approx(1.0)
@@ -67,7 +69,9 @@ def test_the_robot_is_pushed_and_the_person_is_not(
     session.push(1, 0.4, pi / 2)
     stepped(session, 0.2)
     evader = session.duel.players[1]
-    assert isinstance(evader, Walker) and evader.robot.pusher is not None
+    assert (
+        isinstance(evader, SimulatedPlayer) and evader.robot.pusher is not None
+    )
     assert np.hypot(*evader.robot.pusher.impulse[:2]) == pytest.approx(0.4)
     assert session.outcome is None
 

@@ -11,7 +11,10 @@ from stepaside.games.duel_run import DuelRun
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.outcome import Outcome
 from stepaside.games.trajectory import Trajectory
-from stepaside.report.settling_report import settling_time, settling_words
+from stepaside.report.settling_report import (
+    explain_missing_circle,
+    settling_time,
+)
 
 TIMES = np.linspace(0.0, 60.0, 601)
 STANDING = Trajectory(np.zeros((601, 3)), np.zeros((601, 3)))
@@ -53,7 +56,7 @@ def test_a_game_without_a_circle_settles_nowhere() -> None:
 def test_it_is_said_why_the_circle_was_not_reached(
     angle: float, since: float | None, words: str
 ) -> None:
-    told = settling_words(made(angle, since))
+    told = explain_missing_circle(made(angle, since))
     assert told.startswith(words)
 
 
@@ -61,7 +64,9 @@ def test_it_is_said_why_the_circle_was_not_reached(
 def test_time_is_not_missing_where_no_circle_was_expected(
     expected: str,
 ) -> None:
-    assert settling_words(made(pi / 2, 20.0, expected)) == "not expected"
+    assert (
+        explain_missing_circle(made(pi / 2, 20.0, expected)) == "not expected"
+    )
 
 
 @pytest.mark.parametrize(
@@ -75,7 +80,7 @@ def test_it_is_said_when_theory_is_on_the_circle(
     outcome: Outcome, words: str
 ) -> None:
     run = made(pi / 2, 20.0, "circle", 34.0, outcome)
-    told = settling_words(run)
+    told = explain_missing_circle(run)
     assert told == f"{words}the template reaches it at 34 s"
 
 

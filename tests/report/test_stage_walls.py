@@ -18,7 +18,11 @@ from stepaside.report.visual_geoms import (
 from stepaside.robots.description import load_robot
 from stepaside.sim.obstacle_geoms import add_solids
 from stepaside.sim.pedestrian_models import FIGURES
-from stepaside.sim.person_body import add_person, parts_of, pose_figure
+from stepaside.sim.person_body import (
+    add_person,
+    mocap_indices,
+    set_person_pose,
+)
 from stepaside.sim.physics_settings import PhysicsSettings
 from stepaside.sim.world import build_model
 
@@ -165,8 +169,8 @@ def test_the_label_of_a_person_is_above_its_head(
         furnish=lambda spec: add_person(spec, "pursuer", shape),
     )
     data = mujoco.MjData(model)
-    pose_figure(
-        data, parts_of(model, "pursuer"), Pose(*place, 0.4), 1.3, shape
+    set_person_pose(
+        data, mocap_indices(model, "pursuer"), Pose(*place, 0.4), 1.3, shape
     )
     mujoco.mj_kinematics(model, data)
     scene: Any = Scene()

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from invented_run import run_of
 from stepaside.control import Phase
-from stepaside.games.approach_forecast import CourseApproach, approach_between
+from stepaside.games.approach_forecast import CourseApproach, estimate_approach
 from stepaside.games.duel_run import DuelRun
 from stepaside.games.trajectory import Trajectory
 from stepaside.report.viewer.status_text import outlook, status_text
@@ -62,11 +62,11 @@ def test_an_approach_is_found_again_from_two_offsets(
     before = x - vx * elapsed, y - vy * elapsed
     if hypot(x, y) < 0.1:
         return
-    found = approach_between(before, (x, y), elapsed)
+    found = estimate_approach(before, (x, y), elapsed)
     assert found is not None
     falls = (hypot(*before) - hypot(x, y)) / elapsed
     assert found.speed == pytest.approx(falls, abs=1e-9)
-    turned = approach_between((x, y), (-y, x), elapsed)
+    turned = estimate_approach((x, y), (-y, x), elapsed)
     assert turned is not None and abs(turned.speed) < 1e-9
     assert not turned.is_approaching and not turned.is_leaving
 
@@ -86,7 +86,7 @@ def test_a_time_is_said_of_who_comes_within_the_radius_alone() -> None:
 
 
 def test_nothing_is_said_of_a_time_that_cannot_be_told() -> None:
-    for approach in (None, approach_between((nan, 0.0), (1.0, 0.0), 1.0)):
+    for approach in (None, estimate_approach((nan, 0.0), (1.0, 0.0), 1.0)):
         said = outlook(
             2.0,
             Phase.STANDING,
@@ -96,7 +96,7 @@ def test_nothing_is_said_of_a_time_that_cannot_be_told() -> None:
             settling=None,
         )
         assert "about" not in said and "0.80 m" in said
-    assert approach_between((1.0, 0.0), (1.0, 0.0), 0.0) is None
+    assert estimate_approach((1.0, 0.0), (1.0, 0.0), 0.0) is None
 
 
 @pytest.mark.parametrize(

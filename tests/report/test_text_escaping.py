@@ -17,7 +17,7 @@ from hostile import HOSTILE
 from invented_run import run_of
 from stepaside.cli.main import main
 from stepaside.games.duel_run import DuelRun
-from stepaside.games.run_archive import write_record
+from stepaside.games.run_archive import write_run_files
 from stepaside.games.trajectory import Trajectory
 from stepaside.report.text_escaping import (
     INVISIBLE,
@@ -115,7 +115,7 @@ def test_a_name_is_shown_literally_in_a_figure(name: str) -> None:
 def test_runs_of_any_name_are_compared(tmp_path: Path, text: str) -> None:
     folder = tmp_path / text
     folder.mkdir()
-    write_record(folder, small_run(message=text))
+    write_run_files(folder, small_run(message=text))
     output = tmp_path / "c.png"
     arguments = ["compare", str(folder), "--output", str(output)]
     result = CliRunner().invoke(main, arguments)

@@ -21,7 +21,7 @@ from stepaside.games.duel import Duel, run_duel
 from stepaside.games.duel_run import DuelRun
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.outcome import Outcome
-from stepaside.games.walker import Walker
+from stepaside.games.walker import SimulatedPlayer
 from stepaside.locomotion.zmp.control_settings import OPEN_LOOP, STABILISED
 from stepaside.perception.images import ColourImage, DepthImage
 from stepaside.planning import GaitSettings
@@ -61,10 +61,10 @@ def played(session: LiveSession, ticks: int) -> None:
     session._in_loop(lambda: session._advance(ticks))
 
 
-def walker(session: LiveSession, number: int) -> Walker:
+def walker(session: LiveSession, number: int) -> SimulatedPlayer:
     """Player who is a robot."""
     player = session.duel.players[number]
-    assert isinstance(player, Walker)
+    assert isinstance(player, SimulatedPlayer)
     return player
 
 
@@ -262,7 +262,7 @@ class FakeSession:
         decisions = StrategyRunner(Pursuit(), GaitSettings(), 0.004)
         self.lock = RLock()
         self.scheme: Any = SimpleNamespace(decisions=decisions)
-        pursuer: Any = Walker.__new__(Walker)
+        pursuer: Any = SimulatedPlayer.__new__(SimulatedPlayer)
         pursuer.scheme = self.scheme
         self.duel: Any = SimpleNamespace(
             world=SimpleNamespace(time=5.0), players=(pursuer, None)
@@ -493,7 +493,9 @@ def test_the_page_works_nothing_out_while_the_physics_moves(
         return look
 
     played(page.session, 60)
-    monkeypatch.setattr(Walker, "snapshot", watched(Walker.snapshot))
+    monkeypatch.setattr(
+        SimulatedPlayer, "snapshot", watched(SimulatedPlayer.snapshot)
+    )
     distance: Any = Duel.distance
     seen = property(watched(distance.fget))
     monkeypatch.setattr(Duel, "distance", seen)

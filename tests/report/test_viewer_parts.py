@@ -15,7 +15,7 @@ from stepaside.control.walk_snapshots import StepStarted, WalkState
 from stepaside.core.poses import Array, Pose
 from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
-from stepaside.games.walker import Walker
+from stepaside.games.walker import SimulatedPlayer
 from stepaside.perception.images import ColourImage
 from stepaside.planning import Foot, SoleRectangle
 from stepaside.planning.support_polygon import sole_corners
@@ -512,7 +512,7 @@ def test_a_true_fall_counts_as_a_phase() -> None:
 def test_a_robot_has_fallen_that_lies_or_feels_it(
     lies: bool, phase: Phase
 ) -> None:
-    robot: Any = Walker.__new__(Walker)
+    robot: Any = SimulatedPlayer.__new__(SimulatedPlayer)
     robot.truth = SimpleNamespace(has_fallen=lies)
     robot.scheme = SimpleNamespace(phase=phase)
     assert robot.has_fallen is (lies or phase is FELL)

@@ -80,12 +80,12 @@ def test_damaged_code_is_not_used(suffix: str) -> None:
 
 
 def test_short_games_do_not_wait_for_machine_code() -> None:
-    machine.prefer_for(machine.LONG - 1.0, many=True)
+    machine.prefer_for_duration(machine.LONG - 1.0, many=True)
     assert machine.preferred() is JitPreference.PLAIN
-    machine.prefer_for(machine.LONG)
+    machine.prefer_for_duration(machine.LONG)
     assert machine.preferred() is JitPreference.STORED
-    machine.prefer_for(machine.LONG, many=True)
-    machine.prefer_for(machine.LONG)
+    machine.prefer_for_duration(machine.LONG, many=True)
+    machine.prefer_for_duration(machine.LONG)
     assert machine.preferred() is JitPreference.COMPILED
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import Array
-from stepaside.sim.geom_points import points_of
+from stepaside.sim.geom_points import geom_points_in_world
 
 SIZE = np.array([0.3, 0.2, 0.1])
 QUAT = "0.8 0.3 -0.4 0.2"
@@ -34,7 +34,9 @@ def points(geom: str, assets: str = "") -> tuple[Array, Array]:
     )
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
-    return points_of(model, data, 0), data.geom_xmat[0].reshape(3, 3)
+    return geom_points_in_world(model, data, 0), data.geom_xmat[0].reshape(
+        3, 3
+    )
 
 
 @pytest.mark.parametrize("kind", REACHES)
@@ -70,4 +72,4 @@ def test_a_plane_has_no_points() -> None:
     )
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
-    assert points_of(model, data, 0).shape == (0, 3)
+    assert geom_points_in_world(model, data, 0).shape == (0, 3)

@@ -13,7 +13,7 @@ from stepaside.core.poses import Array, Pose
 from stepaside.games.duel import Duel, furnisher_of
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.person_player import PersonPlayer
-from stepaside.games.walker import Walker
+from stepaside.games.walker import SimulatedPlayer
 from stepaside.robots.head import rotation
 from stepaside.sim.ground_truth import torsos_apart
 from stepaside.sim.pedestrian_models import FIGURES, HIP
@@ -21,8 +21,8 @@ from stepaside.sim.person_body import (
     PARTS,
     PersonBody,
     add_person,
-    parts_of,
-    pose_figure,
+    mocap_indices,
+    set_person_pose,
 )
 from stepaside.sim.person_motion import PersonMotion
 from stepaside.sim.person_settings import PersonSettings
@@ -41,7 +41,7 @@ def figure() -> tuple[mujoco.MjModel, mujoco.MjData]:
 
 def posed(frame: Pose, way: float) -> tuple[mujoco.MjModel, mujoco.MjData]:
     model, data = figure()
-    pose_figure(data, parts_of(model, "her"), frame, way)
+    set_person_pose(data, mocap_indices(model, "her"), frame, way)
     mujoco.mj_kinematics(model, data)
     return model, data
 
@@ -136,8 +136,8 @@ def test_pedestrians_are_scaled_and_step_as_far_as_legs_swing(
     add_person(spec, "her", figure)
     model = spec.compile()
     data = mujoco.MjData(model)
-    parts = parts_of(model, "her")
-    pose_figure(data, parts, STANDING, 0.0, figure)
+    parts = mocap_indices(model, "her")
+    set_person_pose(data, parts, STANDING, 0.0, figure)
     mujoco.mj_kinematics(model, data)
     adult = posed(STANDING, 0.0)
     for part in PARTS:
@@ -344,7 +344,9 @@ def test_a_person_starts_at_the_pursuer_pose() -> None:
         )
         duel = Duel(settings)
         person, evader = duel.players
-        assert isinstance(person, PersonPlayer) and isinstance(evader, Walker)
+        assert isinstance(person, PersonPlayer) and isinstance(
+            evader, SimulatedPlayer
+        )
         assert (person.name, evader.name) == ("pursuer", "evader")
         assert person.truth.position == (0.0, 0.0)
         aside = np.arctan2(miss, 2.0)

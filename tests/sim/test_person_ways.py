@@ -8,7 +8,7 @@ import pytest
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.sim.person_motion import PersonMotion
 from stepaside.sim.person_settings import PersonSettings
-from stepaside.sim.person_visits import RADIUS, RepeatedVisits
+from stepaside.sim.repeated_visits import RADIUS, RepeatedVisits
 
 GOLDEN = 0.5 * (5.0**0.5 - 1.0)
 

@@ -9,7 +9,7 @@ import pytest
 
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array
-from stepaside.sim.push import Push, check_pushes, pushes_of
+from stepaside.sim.push import Push, check_pushes, pushes_by_robot
 from stepaside.sim.push_forces import PushApplier
 
 STEP = 0.002
@@ -147,9 +147,9 @@ def test_pushes_are_grouped_by_robot() -> None:
     """Who is not named is the last: the walker, or the evader."""
     one, other = Push(1.0, 2.0, 0.0), Push(2.0, 1.0, 0.0, player="pursuer")
     players = ("pursuer", "evader")
-    found = pushes_of([one, other], players)
+    found = pushes_by_robot([one, other], players)
     assert found == {"pursuer": (other,), "evader": (one,)}
-    assert pushes_of([], players) == {"pursuer": (), "evader": ()}
+    assert pushes_by_robot([], players) == {"pursuer": (), "evader": ()}
     check_pushes([one, other], players)
     with pytest.raises(ConfigurationError, match="one of evader.*'pursuer'"):
         check_pushes([one, other], ("evader",))

@@ -12,8 +12,8 @@ from stepaside.control import ControlScheme, Phase
 from stepaside.control.sight_sources import CameraSight, MeasuredSight
 from stepaside.core.poses import Array, Pose
 from stepaside.core.random_streams import named_generator
-from stepaside.games.walker import Walker
-from stepaside.games.walker_factory import stand_walker
+from stepaside.games.walker import SimulatedPlayer
+from stepaside.games.walker_factory import place_walker
 from stepaside.locomotion.zmp.control_settings import OPEN_LOOP, STABILISED
 from stepaside.locomotion.zmp.feedback_loop import ClosedLoop, OpenLoop
 from stepaside.locomotion.zmp.stabiliser import Stabiliser
@@ -43,13 +43,13 @@ def walker(
     sight: Any = None,
     eyes: Any = None,
     **effects: Any,
-) -> Walker:
+) -> SimulatedPlayer:
     """The second of two robots in a world."""
     body = BodySettings(**effects)
     physics = PhysicsSettings(tick=0.012)
     world = World({"first": NAO, "second": NAO}, physics, body)
     world.data.qpos[:3] = (-9.0, 0.0, 0.33)  # out of the way
-    made = stand_walker(
+    made = place_walker(
         world,
         "second",
         NAO,

@@ -12,7 +12,12 @@ from stepaside.core.poses import Pose
 from stepaside.robots.description import load_robot
 from stepaside.sim.body_settings import BodySettings
 from stepaside.sim.physics_settings import PhysicsSettings
-from stepaside.sim.world import COLOURS, World, build_model, place_free_body
+from stepaside.sim.world import (
+    COLOURS,
+    World,
+    build_model,
+    transform_free_joint,
+)
 
 NAO = load_robot("nao")
 TWO = dict.fromkeys(("pursuer", "evader"), NAO)
@@ -182,7 +187,7 @@ def test_a_placed_body_is_turned_about_the_vertical(theta: float) -> None:
     own = np.array([0.6, -0.2, 0.5, 0.3])
     own /= np.linalg.norm(own)
     pose = Pose(1.0, -2.0, theta)
-    placed_at = place_free_body([0.3, 0.1, 0.4, *own], pose)
+    placed_at = transform_free_joint([0.3, 0.1, 0.4, *own], pose)
     np.testing.assert_allclose(
         placed_at[:3], [*pose.transform_points([[0.3, 0.1]])[0], 0.4]
     )

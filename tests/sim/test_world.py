@@ -9,10 +9,10 @@ from stepaside.core.poses import Pose
 from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.outcome import Outcome
-from stepaside.games.walker import Walker
+from stepaside.games.walker import SimulatedPlayer
 from stepaside.robots.description import load_robot
 from stepaside.sim.physics_settings import PhysicsSettings, SightSettings
-from stepaside.sim.world import World, build_model, place_free_body
+from stepaside.sim.world import World, build_model, transform_free_joint
 
 
 def standing(distance: float = 2.0, **changes: object) -> Duel:
@@ -20,8 +20,12 @@ def standing(distance: float = 2.0, **changes: object) -> Duel:
     return Duel(DuelSettings(start=start, **changes))  # type: ignore[arg-type]
 
 
-def walkers(duel: Duel) -> list[Walker]:
-    return [player for player in duel.players if isinstance(player, Walker)]
+def walkers(duel: Duel) -> list[SimulatedPlayer]:
+    return [
+        player
+        for player in duel.players
+        if isinstance(player, SimulatedPlayer)
+    ]
 
 
 def test_dense_and_sparse_solvers_agree_in_contact() -> None:
@@ -195,7 +199,7 @@ def test_a_robot_does_not_collide_with_itself() -> None:
 
 def test_free_body_is_placed_by_composition() -> None:
     pose = Pose(1.0, 2.0, 0.7)
-    placed = place_free_body([0.1, -0.2, 0.3, 1.0, 0.0, 0.0, 0.0], pose)
+    placed = transform_free_joint([0.1, -0.2, 0.3, 1.0, 0.0, 0.0, 0.0], pose)
     point = pose.transform_points([[0.1, -0.2]])[0]
     np.testing.assert_allclose(placed[:2], point)
     np.testing.assert_allclose(

@@ -13,7 +13,7 @@ from stepaside.arena import (
     Polygon,
     Room,
     RoomRecipe,
-    make_room,
+    generate_room,
 )
 from stepaside.control.clearance.surroundings import KnownRoom, MappedRoom
 from stepaside.control.strategy_runner import StrategyRunner
@@ -67,7 +67,7 @@ def turned(map_error: float) -> int:
     """How often an evader turns from one side to the other, in a minute."""
     evader, changes = Flickering(map_error), 0
     for seed in (0, 2):
-        room = make_room(RoomRecipe(3.0, 3.0, discs=3), seed)
+        room = generate_room(RoomRecipe(3.0, 3.0, discs=3), seed)
         assert room.starts is not None
         game = StepGame(duration=30.0)
         play_steps(Pursuit(), evader, room.starts, room=room, game=game)

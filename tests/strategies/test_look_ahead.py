@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from stepaside.arena import Disc, Room, RoomRecipe, make_room
+from stepaside.arena import Disc, Room, RoomRecipe, generate_room
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.strategies import (
@@ -15,7 +15,7 @@ from stepaside.strategies import (
     Knowledge,
     Limits,
     LookAhead,
-    Optimal,
+    OptimalEvasion,
     Pursuit,
     StepGame,
     StepOutcome,
@@ -94,7 +94,7 @@ def test_sightings_at_every_tick_do_not_crowd_out_those_of_steps() -> None:
 
 @pytest.mark.parametrize("seed", [1, 3, 5])
 def test_in_a_room_it_survives_where_moving_aside_touches(seed: int) -> None:
-    room = make_room(RoomRecipe(discs=3), seed)
+    room = generate_room(RoomRecipe(discs=3), seed)
     assert room.starts is not None
     game = StepGame(duration=60.0)
 
@@ -115,7 +115,7 @@ def test_in_a_room_it_survives_where_moving_aside_touches(seed: int) -> None:
 
 def test_with_its_back_in_a_corner_it_turns_before_it_walks() -> None:
     """Every sequence of steps from here is caught within 17."""
-    room = make_room(RoomRecipe(), 314)
+    room = generate_room(RoomRecipe(), 314)
     assert room.starts is not None
     game = StepGame(duration=16.0)
     for tight, expected in (
@@ -159,7 +159,7 @@ def test_it_knows_the_map_in_its_own_odometry() -> None:
 
 def test_turns_stay_within_the_largest_heading() -> None:
     mind = LookAhead(largest_error=0.5)
-    room = make_room(RoomRecipe(discs=3), 2)
+    room = generate_room(RoomRecipe(discs=3), 2)
     assert room.starts is not None
     track = play_steps(
         Pursuit(), mind, room.starts, room=room, game=StepGame(duration=12.0)
@@ -181,7 +181,7 @@ def test_the_optimal_evader_maximises_its_table() -> None:
     promised: list[float] = []
     aside: list[float] = []
     for seed in range(6):
-        starts = make_room(RoomRecipe(None, None), seed).starts
+        starts = generate_room(RoomRecipe(None, None), seed).starts
         assert starts is not None
         pursuer, evader = starts
         x, y = evader.x - pursuer.x, evader.y - pursuer.y
@@ -192,7 +192,7 @@ def test_the_optimal_evader_maximises_its_table() -> None:
             wrap_angle(sight + pi - evader.theta),
         )
         promised.append(unit * float(value))
-        for found, mind in ((kept, Optimal(cells)), (aside, ASIDE)):
+        for found, mind in ((kept, OptimalEvasion(cells)), (aside, ASIDE)):
             track = play_steps(Pursuit(), mind, starts, game=SHORT)
             found.append(float(track.distances.min()))
     assert np.mean(kept) >= 0.97 * np.mean(promised)

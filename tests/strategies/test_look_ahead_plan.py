@@ -11,7 +11,7 @@ from stepaside.strategies import (
     Knowledge,
     Limits,
     LookAhead,
-    Optimal,
+    OptimalEvasion,
     OptimalPursuit,
 )
 
@@ -63,5 +63,7 @@ def test_knowledge_defaults_to_unknown() -> None:
 
 def test_players_with_tables_have_equally_fine_ones() -> None:
     """So no game of two of them is decided by the finer grid."""
-    cells = {kind().cells for kind in (LookAhead, Optimal, OptimalPursuit)}
+    cells = {
+        kind().cells for kind in (LookAhead, OptimalEvasion, OptimalPursuit)
+    }
     assert cells == {64}

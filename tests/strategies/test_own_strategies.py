@@ -16,7 +16,7 @@ from stepaside.games.configuration_file import (
     load_configuration,
 )
 from stepaside.games.duel import Duel
-from stepaside.games.duel_circle import theory_of
+from stepaside.games.duel_circle import circle_of_theory
 from stepaside.games.duel_settings import StartSettings
 from stepaside.games.outcome import Outcome
 from stepaside.planning import Direction
@@ -258,9 +258,9 @@ def test_a_person_plays_no_strategy() -> None:
 
 
 def test_the_theory_is_that_of_the_strategies_of_the_paper() -> None:
-    assert theory_of(DuelSettings()).exists
-    assert not theory_of(DuelSettings(evader_strategy="walk")).exists
-    assert not theory_of(DuelSettings(pursuer_strategy="stand")).exists
+    assert circle_of_theory(DuelSettings()).exists
+    assert not circle_of_theory(DuelSettings(evader_strategy="walk")).exists
+    assert not circle_of_theory(DuelSettings(pursuer_strategy="stand")).exists
 
 
 def test_names_of_files_are_those_of_every_folder(

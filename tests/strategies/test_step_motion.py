@@ -7,7 +7,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.arena import NO_OBSTACLES, RoomRecipe, make_room, obstacle_set
+from stepaside.arena import (
+    NO_OBSTACLES,
+    RoomRecipe,
+    generate_room,
+    obstacle_set,
+)
 from stepaside.core.poses import Pose
 from stepaside.planning import Direction
 from stepaside.planning.path import UnicycleTrajectory
@@ -24,11 +29,11 @@ from stepaside.strategies.search.packed_obstacles import clearance_at
 from stepaside.strategies.search.step_motion import half_turn, step_both
 from stepaside.strategies.search.turn_search import look_ahead
 from stepaside.strategies.search.value_lookup import value_at
-from stepaside.theory.bound import Bound, Grid, against_pursuit
+from stepaside.theory.bound import Bound, Grid, fixed_pursuit_game
 
 FACED = Pose(1.0, 1.0, 3.9)
 RULES = StepRules(0.04, 0.08, 0.04, 0.08)
-ROOM = make_room(RoomRecipe(discs=3, boxes=2, polygons=2, doors=1), 4)
+ROOM = generate_room(RoomRecipe(discs=3, boxes=2, polygons=2, doors=1), 4)
 PACKED, NOTHING = obstacle_set(ROOM.solids).packed, NO_OBSTACLES.packed
 
 
@@ -87,7 +92,7 @@ def bound() -> Bound:
     """A table of anything; nothing is solved."""
     grid = Grid.cube(0.3, 3.0, 16)
     values = np.random.default_rng(2).uniform(0.1, 0.3, grid.shape)
-    game = against_pursuit(1.0, 1.0, 1.0)
+    game = fixed_pursuit_game(1.0, 1.0, 1.0)
     return Bound(
         game, grid, values.astype(np.float32), 6.0, "weno", 0.0, 0.0, 0.0
     )
@@ -200,7 +205,9 @@ def test_a_tie_keeps_the_plan() -> None:
 
 def test_missing_clearance_and_lost_sight_are_penalised() -> None:
     both = place(Pose(0.0, 0.0, 0.0), Pose(1.0, 1.0, 0.0))
-    packed = obstacle_set(make_room(RoomRecipe(discs=1), 1).obstacles).packed
+    packed = obstacle_set(
+        generate_room(RoomRecipe(discs=1), 1).obstacles
+    ).packed
     x, y, radius = packed.discs[0]
     near = both._replace(
         ex=x + radius + 0.15, ey=y, px=x + radius + 1.15, py=y

@@ -19,7 +19,7 @@ from stepaside.strategies import (
     LeadPursuit,
     Limits,
     LookAhead,
-    Optimal,
+    OptimalEvasion,
     OptimalPursuit,
     Pursuit,
 )
@@ -48,7 +48,7 @@ STRATEGIES: dict[str, Any] = {
     "evasion in time": Evasion(trigger="time", contact_time=20.0),
     "deflected": DeflectedEvasion(),
     "look-ahead": LookAhead(cells=16),
-    "optimal": Optimal(cells=16),
+    "optimal": OptimalEvasion(cells=16),
 }
 
 

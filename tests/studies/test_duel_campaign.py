@@ -27,15 +27,15 @@ from stepaside.studies.duel_campaign import (
     play_record,
     run_duels,
     settings_hash,
-    stamps_of,
     verify_duels,
+    versions_of,
 )
 from stepaside.studies.duel_statistics import (
     FIELDS,
     certificate_row,
-    figure_row,
     share,
     summarise_duels,
+    value_row,
 )
 from stepaside.studies.record_store import RecordStore
 
@@ -193,7 +193,7 @@ def test_older_records_are_verified_if_duels_repeat(
     quick.seeds.clear()
     found = run_duels(SETTINGS, range(6), file, quick)
     assert quick.seeds == []
-    stamps = stamps_of(found.values())
+    stamps = versions_of(found.values())
     assert stamps["version"] == "old"
     assert stamps["verified"] == {**NOW, "replayed": 3}
 
@@ -233,7 +233,7 @@ def test_any_executor_serves(quick: Here) -> None:
 
 def test_mean_interval_and_worst_seed_are_known_ones() -> None:
     records = [made(s, distance_m=d) for s, d in enumerate([0.8, 0.9, 1.3])]
-    row = figure_row("distance_m", records, 0.9, 0)
+    row = value_row("distance_m", records, 0.9, 0)
     assert row is not None
     assert row["mean"] == pytest.approx(1.0)
     assert row["deviation"] == pytest.approx(0.2645751)
@@ -243,14 +243,14 @@ def test_mean_interval_and_worst_seed_are_known_ones() -> None:
     assert (row["least"], row["median"], row["greatest"]) == (0.8, 0.9, 1.3)
     assert row["worst_seed"] == 2  # farthest from theory
     assert row["worst"] == 1.3
-    low = figure_row("distance_m", records, 0.9, -1)
+    low = value_row("distance_m", records, 0.9, -1)
     assert low is not None and low["worst_seed"] == 0
-    high = figure_row("distance_m", records[:2], None, 1)
+    high = value_row("distance_m", records[:2], None, 1)
     assert high is not None and high["worst_seed"] == 1
 
 
 def test_a_value_without_records_is_left_out() -> None:
-    assert figure_row("misled_s", [made(1)], None, 1) is None
+    assert value_row("misled_s", [made(1)], None, 1) is None
     assert "misled_s" not in summarise_duels(SETTINGS, [made(1)])["figures"]
 
 

@@ -12,9 +12,9 @@ from counting import NORMAL, is_wilson
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.studies.duel_statistics import (
     VALUES,
-    figure_row,
     share,
     summarise_duels,
+    value_row,
 )
 
 SETTINGS = DuelSettings()
@@ -75,7 +75,7 @@ def test_a_mean_has_the_interval_of_its_standard_error(
     values: list[float], theory: float
 ) -> None:
     rows = [{"seed": i, "x": value} for i, value in enumerate(values)]
-    found = figure_row("x", rows, theory, 0)
+    found = value_row("x", rows, theory, 0)
     assert found is not None
     half = NORMAL * stdev(values) / len(values) ** 0.5
     low, high = found["mean_low"], found["mean_high"]
@@ -89,7 +89,7 @@ def test_a_mean_has_the_interval_of_its_standard_error(
     off = [abs(value - theory) for value in values]
     assert abs(found["worst"] - theory) == pytest.approx(max(off))
     for bad, worst in ((1, max(values)), (-1, min(values))):
-        row = figure_row("x", rows, None, bad)
+        row = value_row("x", rows, None, bad)
         assert row is not None and row["worst"] == worst
 
 

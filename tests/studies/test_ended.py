@@ -13,7 +13,12 @@ from pathlib import Path
 import pytest
 
 from stepaside.cli import reproduce_figures
-from stepaside.core.atomic_output import DRAFT, draft_prefix, sweep, writing
+from stepaside.core.atomic_output import (
+    DRAFT,
+    atomic_draft,
+    draft_prefix,
+    remove_stale_drafts,
+)
 from stepaside.core.errors import OutputError
 from stepaside.core.interrupts import interruptible
 from stepaside.core.worker_pool import worker_pool
@@ -59,10 +64,10 @@ def test_drafts_of_the_dead_are_swept_and_no_others(tmp_path: Path) -> None:
     (tmp_path / gone[0]).mkdir()
     (tmp_path / gone[0] / "part").write_text("")
     assert draft_prefix() == f"{DRAFT}{HERE}-{os.getpid()}-"
-    with writing(tmp_path / "new") as draft:
+    with atomic_draft(tmp_path / "new") as draft:
         draft.write_text("whole")
     assert {f.name for f in tmp_path.iterdir()} == {*kept, "new"}
-    sweep(tmp_path)
+    remove_stale_drafts(tmp_path)
     assert {f.name for f in tmp_path.iterdir()} == {*kept, "new"}
 
 
@@ -112,17 +117,17 @@ def test_a_figure_is_trusted_by_what_it_holds(
 
         return drawer
 
-    for name in ("game", "sweep", "duel"):
+    for name in ("game", "remove_stale_drafts", "duel"):
         monkeypatch.setattr(reproduce_figures, f"_draw_{name}", draw(name))
     reproduce_figures.draw_figures(tmp_path, 1)
-    assert sorted(drawn) == ["duel", "game", "sweep"]
+    assert sorted(drawn) == ["duel", "game", "remove_stale_drafts"]
     reproduce_figures.draw_figures(tmp_path, 1)
     assert len(drawn) == 3
     (tmp_path / "sweep.png").write_text("torn")
     (tmp_path / "fig2.png").unlink()
     reproduce_figures.draw_figures(tmp_path, 1)
-    assert sorted(drawn[3:]) == ["game", "sweep"]
-    assert (tmp_path / "sweep.png").read_text() == "sweep"
+    assert sorted(drawn[3:]) == ["game", "remove_stale_drafts"]
+    assert (tmp_path / "sweep.png").read_text() == "remove_stale_drafts"
 
 
 def mask(_: int) -> tuple[bool, bool]:

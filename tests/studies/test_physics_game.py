@@ -11,7 +11,7 @@ from made_up_record import Record
 from stepaside.games.duel_run import DuelRun
 from stepaside.games.duel_summary import PlanTimes
 from stepaside.games.trajectory import Trajectory
-from stepaside.studies.physics_game import figures_of
+from stepaside.studies.physics_game import record_values_of
 
 
 def played(turns: float = 0.0) -> DuelRun:
@@ -27,16 +27,16 @@ def played(turns: float = 0.0) -> DuelRun:
 
 
 def test_whole_turns_of_a_record_change_no_figure() -> None:
-    plain = figures_of(played(), 0.2)
+    plain = record_values_of(played(), 0.2)
     for turns in (-3.0, 1.0, 2.0):
-        found = figures_of(played(turns), 0.2)
+        found = record_values_of(played(turns), 0.2)
         for name in ("unseen", "turning_rad_s", "walked_m", "floor_m2"):
             assert found[name] == pytest.approx(plain[name]), name
     assert 0.0 <= plain["unseen"] <= 1.0
 
 
 def test_decisions_are_told_in_seconds() -> None:
-    found = figures_of(played(), 0.2)
+    found = record_values_of(played(), 0.2)
     assert found["decision_s"] == pytest.approx(300e-6)
     assert found["longest_decision_s"] == pytest.approx(900e-6)
     run = played()

@@ -20,7 +20,7 @@ from stepaside.planning import PRESETS
 from stepaside.robots.description import load_robot
 from stepaside.sim.body_settings import BODIES
 from stepaside.sim.camera_settings import RoomObject
-from stepaside.sim.passer_settings import Passer
+from stepaside.sim.passerby_settings import Passer
 from stepaside.sim.push import Push
 from stepaside.studies.duel_campaign import key_of, settings_hash
 from stepaside.studies.people_campaign import encounters

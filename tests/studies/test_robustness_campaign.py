@@ -35,11 +35,11 @@ from stepaside.studies.robustness_campaign import (
     STRENGTHS,
     RobustnessTrial,
     control_of,
-    louder,
     push_time,
     run_campaign,
     settings_of,
     trials,
+    with_noise,
 )
 
 TRIAL = RobustnessTrial("friction", 0.3, "", 0.0, 5, "measured", "hardware")
@@ -113,7 +113,7 @@ def test_noise_is_a_multiple_of_the_hardwares_on_any_body() -> None:
     assert walk.body.gyro_noise == 2.0 * hardware.gyro_noise
     assert walk.body.force_gain_error == 2.0 * hardware.force_gain_error
     assert walk.body.backlash == ideal.backlash
-    silent = louder(hardware, 0.0)
+    silent = with_noise(hardware, 0.0)
     assert silent.accelerometer_bias == silent.gyro_bias == 0.0
 
 
@@ -222,11 +222,11 @@ def test_libraries_and_walk_modules_invalidate_a_result(
     other: Callable[..., object],
 ) -> None:
     file = tmp_path / "trials.jsonl"
-    trial_results.note_result(file, TRIAL.key, True)
+    trial_results.append_result(file, TRIAL.key, True)
     assert trial_results.read_results(file) == {TRIAL.key: True}
     monkeypatch.setattr(trial_results, name, other, raising=False)
     assert trial_results.read_results(file) == {}
-    trial_results.note_result(file, TRIAL.key, False)
+    trial_results.append_result(file, TRIAL.key, False)
     assert trial_results.read_results(file) == {TRIAL.key: False}
 
 

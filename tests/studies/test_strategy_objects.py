@@ -24,7 +24,12 @@ from stepaside.cli.main import main
 from stepaside.core.errors import ConfigurationError
 from stepaside.games.configuration_file import dump_configuration
 from stepaside.planning import Direction
-from stepaside.strategies import STRATEGIES, EvasionMemory, LookAhead, Optimal
+from stepaside.strategies import (
+    STRATEGIES,
+    EvasionMemory,
+    LookAhead,
+    OptimalEvasion,
+)
 from stepaside.studies.duel_campaign import digest_of, run_duels
 from stepaside.studies.record_store import RecordStore
 
@@ -232,7 +237,9 @@ def test_options_that_the_strategy_uses_are_taken(strategy: str) -> None:
     assert result.exit_code == 0 and "safety_radius = 1.2" in result.output
 
 
-@pytest.mark.parametrize("own", [LookAhead(), Optimal(), "stand", Own()])
+@pytest.mark.parametrize(
+    "own", [LookAhead(), OptimalEvasion(), "stand", Own()]
+)
 def test_values_that_the_strategy_ignores_are_reported(own: object) -> None:
     aside = Evasion(safety_radius=1.2, angle=1.0)
     settings = replace(SHORT, strategy=aside, evader_strategy=own)  # type: ignore[arg-type]

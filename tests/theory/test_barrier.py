@@ -12,7 +12,7 @@ import pytest
 from numpy.typing import NDArray
 
 from stepaside.core.errors import PlanError
-from stepaside.theory.bound import Bound, Grid, against_any, solve_bound
+from stepaside.theory.bound import Bound, Grid, solve_bound, two_car_game
 from stepaside.theory.bound.barrier import (
     barrier_slice,
     barrier_states,
@@ -22,7 +22,7 @@ from stepaside.theory.bound.barrier import (
 from stepaside.theory.bound.bound_checks import check_barrier
 
 Array = NDArray[np.float64]
-CARS = against_any(1.0, 1.0, 1.0)
+CARS = two_car_game(1.0, 1.0, 1.0)
 CAPTURES = (0.3, 1.0, 2.5)
 COUNT = 41
 
@@ -181,7 +181,7 @@ def test_barrier_of_the_table_is_that_of_the_closed_form(
 
 
 def test_different_cars_are_refused() -> None:
-    other = against_any(1.0, 1.0, 1.0, 1.1)
+    other = two_car_game(1.0, 1.0, 1.0, 1.1)
     assert CARS.identical and not other.identical
     with pytest.raises(PlanError, match="identical"):
         barrier_states(other, 1.0)

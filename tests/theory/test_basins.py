@@ -11,10 +11,10 @@ from stepaside.theory.unicycle.adaptive_simulation import simulate
 from stepaside.theory.unicycle.all_circles import circles_of
 from stepaside.theory.unicycle.basins import (
     Basins,
+    duration_and_step,
     find_basins,
-    lengths_of,
     random_starts,
-    shares_of,
+    settled_fractions,
 )
 from stepaside.theory.unicycle.kernel import Outcomes, play_games
 from stepaside.theory.unicycle.relative_coordinates import RelativeStart
@@ -56,7 +56,7 @@ def test_duration_is_bounded_and_needs_no_circle() -> None:
 def test_fractions_count_games_per_circle() -> None:
     out = play_games(FAST, STARTS, 0.1)
     some = replace(out, circle=np.array([1, -1, 1, 0]))
-    assert shares_of(some, 3) == (0.25, 0.5, 0.0)
+    assert settled_fractions(some, 3) == (0.25, 0.5, 0.0)
 
 
 def test_mean_closest_approach_is_that_of_the_games() -> None:
@@ -146,7 +146,7 @@ def test_fractions_and_closest_approach_are_over_all_starts() -> None:
     game, capture = FAST, 0.5
     starts = random_starts(game, 60, seed=2)
     found = find_basins(game, starts, capture_distance=capture)
-    _, step = lengths_of(game)
+    _, step = duration_and_step(game)
     out = play_games(
         game, starts, found.duration, step=step, capture_distance=capture
     )

@@ -14,7 +14,10 @@ from stepaside.theory.bound import (
 )
 from stepaside.theory.bound.bound_checks import check_by_playing
 from stepaside.theory.bound.grid_refinement import differences, refine_bound
-from stepaside.theory.bound.relative_game import against_any, against_pursuit
+from stepaside.theory.bound.relative_game import (
+    fixed_pursuit_game,
+    two_car_game,
+)
 from stepaside.theory.bound.state_grid import Grid
 from stepaside.theory.bound.value_solver import (
     DiscretisationScheme,
@@ -23,7 +26,7 @@ from stepaside.theory.bound.value_solver import (
 )
 from stepaside.theory.bound.value_table import Bound
 
-GAME = against_pursuit(0.12, 0.1, 0.2)
+GAME = fixed_pursuit_game(0.12, 0.1, 0.2)
 SMALL = Grid.cube(0.1, 2.0, 10)
 
 
@@ -137,21 +140,21 @@ def test_lengths_and_times_of_a_bound_scale_with_its_units() -> None:
     """Twice the speed is twice the length; twice the rates, half the time."""
     plain = solve_bound(GAME, SMALL, horizon=6.0)
     fast = solve_bound(
-        against_pursuit(0.24, 0.2, 0.2),
+        fixed_pursuit_game(0.24, 0.2, 0.2),
         Grid.cube(0.2, 4.0, 10),
         horizon=6.0,
     )
-    quick = solve_bound(against_pursuit(0.24, 0.2, 0.4), SMALL, horizon=3.0)
+    quick = solve_bound(fixed_pursuit_game(0.24, 0.2, 0.4), SMALL, horizon=3.0)
     np.testing.assert_allclose(fast.values, 2.0 * plain.values, atol=1e-5)
     np.testing.assert_allclose(quick.values, plain.values, atol=1e-5)
     # By eq. (2) the pursuer turns by at most half a turn times its gain.
     assert GAME.evader_turn == pytest.approx(0.2 * np.pi)
-    for game in (GAME, against_any(0.1, 0.1, 0.5)):
+    for game in (GAME, two_car_game(0.1, 0.1, 0.5)):
         assert game.unit * game.rate == pytest.approx(game.evader_speed)
 
 
 def test_optimal_turning_rates_keep_their_limits_and_are_mirrored() -> None:
-    bound = solve_bound(against_any(0.12, 0.1, 0.4, 0.5), SMALL, horizon=6.0)
+    bound = solve_bound(two_car_game(0.12, 0.1, 0.4, 0.5), SMALL, horizon=6.0)
     random = np.random.default_rng(1)
     r = random.uniform(0.2, 1.9, 100)
     a, psi = random.uniform(-3.0, 3.0, (2, 100))

@@ -14,16 +14,16 @@ from stepaside.theory.bound import (
     BoundGame,
     DiscretisationScheme,
     Grid,
-    against_any,
-    against_pursuit,
+    fixed_pursuit_game,
     solve_bound,
+    two_car_game,
 )
 from stepaside.theory.bound.grid_refinement import refine_bound
 from stepaside.theory.bound.state_grid import fill_ghosts
 
 Array = NDArray[np.float64]
-PURSUIT = against_pursuit(1.0, 1.0, 1.0)
-CARS = against_any(1.0, 1.0, 1.0)
+PURSUIT = fixed_pursuit_game(1.0, 1.0, 1.0)
+CARS = two_car_game(1.0, 1.0, 1.0)
 SMALL = Grid(0.4, 3.4, 16, 16, 16)
 
 
@@ -124,7 +124,7 @@ def test_value_is_symmetric_under_mirroring(cars: Bound) -> None:
 def test_free_pursuer_is_no_worse_than_one_with_a_law(
     pursuit: Bound,
 ) -> None:
-    free = solve_bound(against_any(1.0, 1.0, pi), SMALL, horizon=3.0)
+    free = solve_bound(two_car_game(1.0, 1.0, pi), SMALL, horizon=3.0)
     assert (free.values - pursuit.values).max() < 0.05
     assert (free.values - pursuit.values).mean() < -0.01
 
@@ -149,7 +149,7 @@ def test_value_is_monotone_in_the_capabilities(
 def test_lengths_scale_with_speed_over_gain(pursuit: Bound) -> None:
     """NAO's 0.1 m/s and 0.2 1/s are the same game at half the size."""
     small = solve_bound(
-        against_pursuit(0.1, 0.1, 0.2),
+        fixed_pursuit_game(0.1, 0.1, 0.2),
         Grid(0.2, 1.7, 16, 16, 16),
         horizon=15.0,
     )
@@ -244,9 +244,9 @@ def test_ghosts_continue_the_game() -> None:
         (lambda: Grid(0.0, 1.0, 16, 16, 16), "near"),
         (lambda: Grid(0.1, 1.0, 16, 17, 16), "errors must be even"),
         (lambda: Grid(0.1, 1.0, 4, 16, 16), "distances must be >= 8"),
-        (lambda: against_pursuit(1.0, 1.0, float("nan")), "pursuer_gain"),
-        (lambda: against_any(1.0, 1.0, 0.0, 1.0), "pursuer_turn"),
-        (lambda: against_any(1.0, -1.0, 1.0), "evader_speed"),
+        (lambda: fixed_pursuit_game(1.0, 1.0, float("nan")), "pursuer_gain"),
+        (lambda: two_car_game(1.0, 1.0, 0.0, 1.0), "pursuer_turn"),
+        (lambda: two_car_game(1.0, -1.0, 1.0), "evader_speed"),
         (lambda: solve_bound(CARS, SMALL, horizon=-1.0), "horizon"),
         (lambda: refine_bound(CARS, SMALL, 9), "must be >="),
         (lambda: refine_bound(CARS, SMALL, -1), "refine"),
@@ -258,6 +258,6 @@ def test_bad_values_are_refused_by_name(make: Any, words: str) -> None:
 
 
 def test_too_many_steps_are_refused_before_the_computation() -> None:
-    game = against_pursuit(1.0, 1.0, 0.5, 1e9)
+    game = fixed_pursuit_game(1.0, 1.0, 0.5, 1e9)
     with pytest.raises(PlanError, match="horizon must be at most .* steps"):
         solve_bound(game, Grid.cube(0.3, 4.0, 16), horizon=1.0)

@@ -14,15 +14,15 @@ from stepaside.core.errors import PlanError
 from stepaside.theory.bound import (
     Bound,
     Grid,
-    against_any,
-    against_pursuit,
+    fixed_pursuit_game,
     load_bound,
     solve_bound,
+    two_car_game,
 )
 from stepaside.theory.bound.bound_checks import (
     check_by_playing,
     draw_starts,
-    moving,
+    fixed_angle_evader,
     play_bound,
 )
 from stepaside.theory.unicycle import make_game, play_games
@@ -32,12 +32,12 @@ GRID = Grid(0.3, 4.0, 33, 32, 32)
 
 @pytest.fixture(scope="module")
 def pursuit() -> Bound:
-    return solve_bound(against_pursuit(1.0, 1.0, 1.0), GRID, horizon=4.0)
+    return solve_bound(fixed_pursuit_game(1.0, 1.0, 1.0), GRID, horizon=4.0)
 
 
 @pytest.fixture(scope="module")
 def cars() -> Bound:
-    game = against_any(1.0, 1.0, 1.0)
+    game = two_car_game(1.0, 1.0, 1.0)
     return solve_bound(game, replace(GRID, far=6.0))
 
 
@@ -101,7 +101,9 @@ def test_simulated_games_agree_with_the_kernel(pursuit: Bound) -> None:
     """Moving aside by eq. (4), played twice by independent code."""
     starts = draw_starts(pursuit, 100, 2)
     free = replace(pursuit, game=replace(pursuit.game, evader_turn=1e3))
-    here = play_bound(free, starts, moving(pursuit, pi / 2), duration=4.0)
+    here = play_bound(
+        free, starts, fixed_angle_evader(pursuit, pi / 2), duration=4.0
+    )
     game = make_game(1.0, 1.0, 1.0, 1.0)
     out = play_games(game, starts, 4.0, capture_distance=GRID.near)
     there = np.maximum(out.closest_distance, GRID.near)
@@ -157,7 +159,7 @@ def test_command_writes_table_and_figure(tmp_path: Path) -> None:
     assert found["horizon_s"] == pytest.approx(2.0 * pi)
     assert found["refinement"][0]["cells"] == 12
     assert found["played"][0]["over_bound"] == pytest.approx(1.0, abs=0.03)
-    assert load_bound(table).game == against_any(1.0, 1.0, 1.0)
+    assert load_bound(table).game == two_car_game(1.0, 1.0, 1.0)
     assert figure.stat().st_size > 10_000
 
 

@@ -12,7 +12,7 @@ from stepaside.theory.unicycle.certificate import (
     largest_change,
 )
 from stepaside.theory.unicycle.circle_equations import circle_of
-from stepaside.theory.unicycle.game_parameters import rules_of
+from stepaside.theory.unicycle.game_parameters import flat_parameters
 from stepaside.theory.unicycle.kernel import play_games
 from stepaside.theory.unicycle.relative_coordinates import RelativeStart
 from stepaside.theory.unicycle.relative_motion import (
@@ -144,7 +144,7 @@ def test_lyapunov_rate_matches_the_proof() -> None:
     rng = np.random.default_rng(5)
     v, k, alpha = 0.8, 0.6, 1.1
     game = make_game(v, v, k, k, alpha)
-    radius, rules = circle_of(game).distance_m, rules_of(game, 1e-6)
+    radius, rules = circle_of(game).distance_m, flat_parameters(game, 1e-6)
     for r, a, b in rng.uniform([0.2, -2, -2], [3, 2, 2], (100, 3)):
         psi = b - alpha
         *_, r_dot, omega = geometry_of(RelativeState(r, a, psi), rules)
@@ -163,7 +163,7 @@ def test_lyapunov_rate_matches_the_proof() -> None:
 def test_dulac_function_has_a_divergence_of_one_sign() -> None:
     """On d = 0: divergence of r (r', x') is -k r, so nothing is periodic."""
     v, k, alpha, h = 1.0, 0.5, 1.3, 1e-5
-    rules = rules_of(make_game(v, v, k, k, alpha), 1e-6)
+    rules = flat_parameters(make_game(v, v, k, k, alpha), 1e-6)
 
     def field(r: float, x: float) -> np.ndarray:
         a = x + alpha / 2

@@ -12,7 +12,10 @@ from stepaside.theory.unicycle.event_location import (
     margin,
     time_of,
 )
-from stepaside.theory.unicycle.game_parameters import FlatParameters, rules_of
+from stepaside.theory.unicycle.game_parameters import (
+    FlatParameters,
+    flat_parameters,
+)
 from stepaside.theory.unicycle.relative_motion import (
     RelativeState,
     geometry_of,
@@ -30,12 +33,14 @@ ONWARD = Mode(1, Branch.PROPORTIONAL)
 
 def driving_past(capture_distance: float) -> FlatParameters:
     """A pursuer drives straight on, and the evader stands still."""
-    made = rules_of(make_game(1.0, 1.0, 1.0, 1.0, 0.0), capture_distance)
+    made = flat_parameters(
+        make_game(1.0, 1.0, 1.0, 1.0, 0.0), capture_distance
+    )
     return made._replace(evader_speed=0.0, pursuer_gain=0.0, evader_gain=0.0)
 
 
 def test_margins_fall_to_zero_at_their_events() -> None:
-    rules = rules_of(make_game(1.2, 0.9, 0.5, 0.6), 0.7)
+    rules = flat_parameters(make_game(1.2, 0.9, 0.5, 0.6), 0.7)
     state, piece = (
         RelativeState(2.0, -0.4, -0.3),
         SmoothPiece(-1.0, 0.5, 0.0, 0.6, 1.0),
@@ -71,7 +76,9 @@ def test_step_returns_the_closest_approach_and_its_time() -> None:
 
 def test_return_to_an_edge_is_located() -> None:
     """The line of sight outruns the evader for some milliseconds only."""
-    rules = rules_of(make_game(1.0, 1.0, 0.5, 0.5, law="saturated"), 0.2)
+    rules = flat_parameters(
+        make_game(1.0, 1.0, 0.5, 0.5, law="saturated"), 0.2
+    )
     state = RelativeState(1.2787314540990418, -2.7776696801482905, -0.5 * pi)
     left = Mode(1, Branch.LEFT)
     assert 0.5 < geometry_of(state, rules).sight < 0.51

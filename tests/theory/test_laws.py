@@ -96,15 +96,15 @@ def test_side_changes_beyond_the_hysteresis_at_both_ends(
     away = 1.0 if past == 0.0 else -1.0
     for degrees, expected in ((19.0, side), (21.0, -side)):
         bearing = wrap_angle(side * (past + away * radians(degrees)))
-        assert laws.keep_side(side, bearing, hysteresis) == expected
-    assert laws.keep_side(side, -side * 1.0, hysteresis) == side
+        assert laws.update_side(side, bearing, hysteresis) == expected
+    assert laws.update_side(side, -side * 1.0, hysteresis) == side
 
 
 def test_hysteresis_of_a_right_angle_never_changes_the_side() -> None:
     for bearing in (-pi, -pi / 2, 0.0, pi / 2, pi):
-        assert laws.keep_side(1, bearing, pi / 2) == 1
-        assert laws.keep_side(-1, bearing, pi / 2) == -1
-    assert laws.keep_side(1, pi / 2, nextafter(pi / 2, 0.0)) == -1
+        assert laws.update_side(1, bearing, pi / 2) == 1
+        assert laws.update_side(-1, bearing, pi / 2) == -1
+    assert laws.update_side(1, pi / 2, nextafter(pi / 2, 0.0)) == -1
 
 
 @given(ANGLES)
@@ -113,21 +113,21 @@ def test_without_hysteresis_the_side_is_the_one_behind(
 ) -> None:
     if 1e-9 < abs(bearing) < pi - 1e-9:
         for side in (-1, 0, 1):
-            kept = laws.keep_side(side, bearing, 0.0)
+            kept = laws.update_side(side, bearing, 0.0)
             assert kept == laws.side_behind(bearing)
 
 
 def test_first_side_is_the_one_behind() -> None:
-    assert laws.keep_side(0, 0.1, 1.0) == -1
-    assert laws.keep_side(0, -0.1, 1.0) == 1
+    assert laws.update_side(0, 0.1, 1.0) == -1
+    assert laws.update_side(0, -0.1, 1.0) == 1
 
 
 @given(ANGLES, st.floats(0.0, pi))
 def test_chosen_side_is_stable_at_the_same_bearing(
     bearing: float, hysteresis: float
 ) -> None:
-    side = laws.keep_side(0, bearing, hysteresis)
-    assert laws.keep_side(side, bearing, hysteresis) == side
+    side = laws.update_side(0, bearing, hysteresis)
+    assert laws.update_side(side, bearing, hysteresis) == side
 
 
 def test_turning_is_proportional_or_saturated() -> None:
@@ -152,7 +152,7 @@ def test_both_errors_are_half_the_angle_on_the_circle_of_the_theory() -> None:
             bearing = a - side * angle  # b = psi + sigma alpha
             b = laws.evasion_heading(bearing, side, angle)
             assert b == pytest.approx(a)
-            assert laws.keep_side(side, bearing, 0.0) == side
+            assert laws.update_side(side, bearing, 0.0) == side
             rate = laws.proportional_rate(b, 0.2)
             assert rate == pytest.approx(side * 0.1 * angle)
 
@@ -175,7 +175,7 @@ def test_desired_heading_is_continuous_where_the_bearing_wraps(
     near = copysign(pi - 1e-3, step)
     side = laws.side_behind(near)
     after = wrap_angle(near + step)
-    side = laws.keep_side(side, after, radians(20.0))
+    side = laws.update_side(side, after, radians(20.0))
     change = laws.evasion_heading(after, side, pi / 2) - laws.evasion_heading(
         near, laws.side_behind(near), pi / 2
     )

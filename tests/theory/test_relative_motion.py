@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import Pose
-from stepaside.theory.unicycle.game_parameters import rules_of
+from stepaside.theory.unicycle.game_parameters import flat_parameters
 from stepaside.theory.unicycle.relative_coordinates import RelativeStart
 from stepaside.theory.unicycle.relative_motion import (
     RelativeState,
@@ -23,7 +23,7 @@ from stepaside.theory.unicycle.smooth_pieces import (
 )
 from stepaside.theory.unicycle.unicycle_game import make_game
 
-RULES = rules_of(make_game(1.2, 0.9, 0.5, 0.7, 1.1), 0.1)
+RULES = flat_parameters(make_game(1.2, 0.9, 0.5, 0.7, 1.1), 0.1)
 HERE = RelativeState(1.4, 0.6, -0.8)
 
 

@@ -5,7 +5,10 @@ from math import inf, pi, remainder, tau
 import numpy as np
 import pytest
 
-from stepaside.theory.unicycle.game_parameters import FlatParameters, rules_of
+from stepaside.theory.unicycle.game_parameters import (
+    FlatParameters,
+    flat_parameters,
+)
 from stepaside.theory.unicycle.smooth_pieces import (
     Branch,
     Edge,
@@ -26,7 +29,7 @@ FULL = (Branch.LEFT, Branch.RIGHT)
 def rules(
     *, angle: float = ANGLE, keeps: bool = False, saturated: bool = False
 ) -> FlatParameters:
-    made = rules_of(make_game(1.2, 0.9, 0.5, GAIN, angle), 0.1)
+    made = flat_parameters(make_game(1.2, 0.9, 0.5, GAIN, angle), 0.1)
     return made._replace(
         hysteresis=WIDTH, keeps_side=keeps, saturated=saturated
     )

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.theory.bound import DiscretisationScheme, Grid, against_any
+from stepaside.theory.bound import DiscretisationScheme, Grid, two_car_game
 from stepaside.theory.bound.compiled_stage import (
     mark_active_rows,
     stage_blocks,
@@ -129,7 +129,7 @@ def test_numpy_stage_equals_the_compiled_stage(
         monkeypatch.setattr(arrays, name, plain(getattr(numerics, name)))
     grid = Grid(0.4, 3.4, 10, 12, 10)
     setting, rate = make_stage_parameters(
-        against_any(1.0, 1.2, 0.9, 1.1), grid, scheme, np.float64
+        two_car_game(1.0, 1.2, 0.9, 1.1), grid, scheme, np.float64
     )
     rng = np.random.default_rng(4)
     first: Any = rng.uniform(0.4, 3.0, tuple(n + 6 for n in grid.shape))

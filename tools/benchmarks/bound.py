@@ -28,12 +28,12 @@ from stepaside.studies.result_files import header, write_result
 from stepaside.theory.bound import (
     DiscretisationScheme,
     Grid,
-    against_pursuit,
+    fixed_pursuit_game,
     solve_bound,
 )
 from stepaside.theory.bound.relative_game import BoundGame
 
-MODULES = ("bound", "unicycle")
+MODULES = ("theory/bound", "theory/unicycle")
 Array = NDArray[np.float64]
 ACCURACY = {
     DiscretisationScheme.LAX: "very_high",
@@ -133,7 +133,7 @@ def measure(
     import jax
 
     jax.config.update("jax_enable_x64", double)
-    game = against_pursuit(1.0, 1.0, 1.0)
+    game = fixed_pursuit_game(1.0, 1.0, 1.0)
     grid = Grid.cube(0.3, 4.0, cells)
     reference = reference_solver(game, grid, ACCURACY[scheme])
     reference(0.01 * horizon)  # compile

@@ -15,17 +15,22 @@ from asking import ask, machine
 from numpy.typing import NDArray
 
 from stepaside.studies.result_files import header, write_result
-from stepaside.theory.bound import Bound, Grid, against_any, against_pursuit
+from stepaside.theory.bound import (
+    Bound,
+    Grid,
+    fixed_pursuit_game,
+    two_car_game,
+)
 from stepaside.theory.bound.bound_checks import (
     Steering,
     check_barrier,
-    moving,
+    fixed_angle_evader,
     play_bound,
 )
 from stepaside.theory.bound.grid_refinement import refine_bound
 
 Array = NDArray[np.float64]
-MODULES = ("bound", "unicycle")
+MODULES = ("theory/bound", "theory/unicycle")
 LIBRARIES = ("numpy", "numba")
 GAMES = 4000
 # distance range [v/k], maximum bearings of evader and pursuer
@@ -59,7 +64,10 @@ def starts_in(box: tuple[float, float, float, float]) -> Array:
 def compare(bound: Bound, starts: Array) -> list[dict[str, Any]]:
     """Return the mean closest approach of every evader and of the table."""
     evaders: dict[str, Steering | None] = {"optimal": None}
-    evaders |= {name: moving(bound, angle) for name, angle in ANGLES.items()}
+    evaders |= {
+        name: fixed_angle_evader(bound, angle)
+        for name, angle in ANGLES.items()
+    }
     evaders["saturated"] = saturated
     promised = bound.value(*starts.T)
     rows: list[dict[str, Any]] = []
@@ -100,7 +108,7 @@ def main() -> None:
     arguments = asked.parse_args()
     cells = arguments.cells
 
-    law = against_pursuit(1.0, 1.0, 1.0)
+    law = fixed_pursuit_game(1.0, 1.0, 1.0)
     pursuit, rows = refine_bound(law, Grid.cube(0.15, 4.5, cells), 2)
     boxes = {name: compare(pursuit, starts_in(b)) for name, b in BOXES.items()}
     found: dict[str, Any] = {
@@ -113,7 +121,7 @@ def main() -> None:
             "boxes": boxes,
         }
     }
-    free = against_any(1.0, 1.0, 1.0)
+    free = two_car_game(1.0, 1.0, 1.0)
     cars, rows = refine_bound(free, Grid.cube(0.3, 8.0, cells), 2)
     barrier = []
     for capture in (0.5, 1.0, 2.0, 3.0):

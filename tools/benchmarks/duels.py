@@ -21,15 +21,15 @@ from asking import ask, seeds_of
 from tqdm import tqdm
 
 from stepaside.core.worker_pool import worker_pool
-from stepaside.games.configuration_file import spelled_settings
+from stepaside.games.configuration_file import json_settings
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.locomotion.zmp.control_settings import ControlSettings
 from stepaside.sim.body_settings import BODIES
 from stepaside.studies.duel_campaign import (
     run_duels,
     settings_hash,
-    stamps_of,
     verify_duels,
+    versions_of,
 )
 from stepaside.studies.duel_statistics import summarise_duels
 from stepaside.studies.record_store import RecordStore
@@ -98,11 +98,11 @@ def main() -> None:
 
         found = run_duels(settings, seeds, file, executor, report)
     records = list(found.values())
-    entries = spelled_settings(settings) | {"seeds": [seeds.start, seeds.stop]}
+    entries = json_settings(settings) | {"seeds": [seeds.start, seeds.stop]}
     write_result(
         output,
         header(entries),
-        played_by=stamps_of(records),
+        played_by=versions_of(records),
         records={
             "file": file.path.name,
             "settings": settings_hash(settings),

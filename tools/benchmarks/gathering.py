@@ -11,7 +11,7 @@ from typing import Any, TypeVar
 import numpy as np
 from tqdm import tqdm
 
-from stepaside.core.worker_pool import give_up, worker_pool
+from stepaside.core.worker_pool import cancel_pending, worker_pool
 from stepaside.studies.record_store import RecordStore
 
 Row = dict[str, Any]
@@ -72,7 +72,7 @@ def gather(
                 keep(future)
                 bar.update()
         except BaseException:
-            give_up(pool, futures)
+            cancel_pending(pool, futures)
             for future, key in futures.items():
                 over = future.done() and not future.cancelled()
                 new = keys[key] not in done

@@ -20,8 +20,8 @@ from gathering import finished, gather
 from stepaside.control import ControlScheme
 from stepaside.core.poses import wrap_angle
 from stepaside.games import DuelRun, run_duel
-from stepaside.games.configuration_file import plain_settings
-from stepaside.games.duel_circle import theory_of
+from stepaside.games.configuration_file import settings_entries
+from stepaside.games.duel_circle import circle_of_theory
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.sim.ideal_sensors import IdealLineOfSight
 from stepaside.studies.result_files import header, write_result
@@ -137,7 +137,7 @@ def main() -> None:
         for seed in asked.seeds
     }
     rows = list(gather(asked.output, head, jobs, play).values())
-    theory = theory_of(settings)
+    theory = circle_of_theory(settings)
     write_result(
         asked.output,
         head,
@@ -145,7 +145,7 @@ def main() -> None:
             "radius_m": theory.radius_evader_m,
             "distance_m": theory.distance_m,
         },
-        gait=plain_settings(settings)["gait"],
+        gait=settings_entries(settings)["gait"],
         rows=rows,
     )
     finished(asked.output)

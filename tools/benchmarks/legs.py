@@ -23,7 +23,7 @@ from mujoco_legs import MujocoLegs
 from stepaside.core.poses import Array
 from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings
-from stepaside.games.walker import Walker
+from stepaside.games.walker import SimulatedPlayer
 from stepaside.robots.leg_kinematics import LegKinematics
 from stepaside.studies.result_files import header, write_result
 
@@ -48,7 +48,9 @@ class Side:
         """Place the robots at their initial poses."""
         with patch(LEGS, KINDS[kind]), patch(LOAD, _no_load):
             self.duel = Duel(settings)
-        self.walkers = [p for p in self.duel.players if isinstance(p, Walker)]
+        self.walkers = [
+            p for p in self.duel.players if isinstance(p, SimulatedPlayer)
+        ]
         world = self.duel.world
         self.model, self.data = world.model, world.data
         self.steps = world.physics.steps_per_tick

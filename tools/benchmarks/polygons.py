@@ -25,13 +25,13 @@ from stepaside.arena import (
     ObstacleSet,
     Room,
     RoomRecipe,
-    draw_starts,
-    make_room,
+    draw_initial_poses,
+    generate_room,
 )
 from stepaside.arena.polygon_cover import cover
 from stepaside.control.clearance.guard import Guard, GuardDecision
 from stepaside.control.clearance.surroundings import HERE
-from stepaside.control.clearance.swept_outline import sway_of
+from stepaside.control.clearance.swept_outline import lateral_sway
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.planning import (
     CenterState,
@@ -57,7 +57,7 @@ GAIT = GaitSettings()
 NAO = measure_outline(load_robot("nao"), GAIT)
 PLANNER = ManeuverPlanner(GAIT)
 MARGIN, CELL = 0.02, 0.05  # margins of the guard and of a map, in [m]
-NEEDS = NAO.radius + MARGIN + sway_of(GAIT)
+NEEDS = NAO.radius + MARGIN + lateral_sway(GAIT)
 MODULES = ("planning", "arena", "strategies", "control/clearance")
 RECIPES = (RoomRecipe(), RoomRecipe(discs=3), RoomRecipe(discs=6))
 WIDE = 2.0  # half side of a map, in [m]
@@ -143,8 +143,8 @@ def measure(recipe: RoomRecipe, fine: float, games: int) -> dict[str, Any]:
     times: dict[str, list[float]] = {}
     counts: list[int] = []
     for seed in range(games):
-        room = make_room(recipe, seed)
-        starts = draw_starts(room, seed, NEEDS)
+        room = generate_room(recipe, seed)
+        starts = draw_initial_poses(room, seed, NEEDS)
         solids = seen(room, fine)
         counts.append(len(solids.shapes))
         for own, name, mind in (

@@ -17,7 +17,7 @@ from asking import ask
 
 from stepaside.fitting.derivation import derive
 from stepaside.fitting.description_writer import write_description
-from stepaside.fitting.model_report import facts_of
+from stepaside.fitting.model_report import report_of
 from stepaside.games.duel import run_duel
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.robot_settings import with_robot
@@ -217,7 +217,7 @@ def measure(humanoid: Humanoid, model: Path) -> dict[str, Any]:
         (folder / FILE).write_text(text, encoding="utf-8")
         settings = with_robot(DuelSettings(seed=SEED, duration=DURATION), made)
         run = run_duel(settings)
-    facts, told = facts_of(derived), run.summary.to_json()
+    facts, told = report_of(derived), run.summary.to_json()
     asked = facts["asked_for"]
     return {
         **humanoid._asdict(),

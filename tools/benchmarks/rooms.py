@@ -15,7 +15,7 @@ from typing import NamedTuple
 from asking import ask, machine, seeds_of
 from gathering import Row, finished, gather, spread
 
-from stepaside.arena import RoomRecipe, make_room
+from stepaside.arena import RoomRecipe, generate_room
 from stepaside.control.clearance.map_settings import MAPS, MapSettings
 from stepaside.core.constants import CAPTURE_DISTANCE
 from stepaside.games import DuelSettings, run_duel
@@ -44,7 +44,7 @@ def play(played: Played) -> Row:
         duration=played.duration,
         evader_strategy=played.strategy,
         sensing="cameras" if seen else "ideal",
-        room=SceneSettings(plan=make_room(RECIPE, played.seed)),
+        room=SceneSettings(plan=generate_room(RECIPE, played.seed)),
         map=MapSettings(source=played.map),
     )
     run = run_duel(settings)

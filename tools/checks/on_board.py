@@ -39,7 +39,7 @@ def record(file: Path) -> None:
     """Record the measurements and joint targets of two robots."""
     from stepaside.games.duel import Duel
     from stepaside.games.duel_settings import DuelSettings
-    from stepaside.games.walker import Walker
+    from stepaside.games.walker import SimulatedPlayer
     from stepaside.locomotion.zmp.control_settings import STABILISED
     from stepaside.sim.body_settings import BODIES
 
@@ -53,7 +53,7 @@ def record(file: Path) -> None:
     rows: dict[str, list[Any]] = {role: [] for role in ROLES}
     for _ in range(round(SECONDS / TICK)):
         for player in duel.players:
-            assert isinstance(player, Walker)
+            assert isinstance(player, SimulatedPlayer)
             m = player.robot.read()
             targets = player.scheme.update(m).copy()
             player.robot.write(targets)
@@ -70,14 +70,16 @@ def play(file: Path) -> dict[str, Any]:
     """Run the controller on recorded measurements."""
     for name in ABSENT:
         sys.modules[name] = None  # type: ignore[assignment]
-    from stepaside.drivers.scheme_factory import mind_maker
+    from stepaside.drivers.scheme_factory import control_scheme_factory
     from stepaside.locomotion.zmp.control_settings import STABILISED
     from stepaside.perception.measurement import Measurement, Sighting
     from stepaside.planning import GaitSettings
     from stepaside.robots.description import load_robot
     from stepaside.strategies import Evasion, Pursuit
 
-    make = mind_maker(load_robot("nao"), GaitSettings(), STABILISED, tick=TICK)
+    make = control_scheme_factory(
+        load_robot("nao"), GaitSettings(), STABILISED, tick=TICK
+    )
     first = make(Pursuit())
     ready = age()
     minds = {"pursuer": first, "evader": make(Evasion())}

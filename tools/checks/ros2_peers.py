@@ -53,7 +53,7 @@ from stepaside.perception.measurement import Sighting
 from stepaside.studies.result_files import header, write_result
 
 RESULT = Path("docs/results/ros2-peers.json")
-MODULES = ("errors", "poses", "sensing", "control", "drivers")
+MODULES = ("core", "perception", "control", "drivers")
 LIBRARIES = ("cyclonedds", "numpy")
 DOMAIN = 60 + os.getpid() % 40  # separate ROS 2 domain
 LONGEST = 60.0  # timeout for messages, in [s]

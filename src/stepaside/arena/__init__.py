@@ -1,5 +1,6 @@
 """Rooms: walls, discs, boxes and polygons on the floor."""
 
+from .initial_pose_checks import BODY_RADIUS, check_initial_poses
 from .moving_box import MovingBox
 from .obstacles import (
     NO_OBSTACLES,
@@ -10,10 +11,14 @@ from .obstacles import (
 )
 from .reachability import path_exists
 from .room import OPEN_FLOOR, Door, Room
-from .room_file import load_room, room_entries, room_of_entries, room_text
-from .room_generation import RoomRecipe, draw_starts, make_room
+from .room_file import (
+    load_room,
+    room_from_entries,
+    room_to_entries,
+    room_to_toml,
+)
+from .room_generation import RoomRecipe, draw_initial_poses, generate_room
 from .shapes import Box, Disc, Polygon, hull, wall_between
-from .start_checks import BODY_RADIUS, check_starts
 
 __all__ = [
     "BODY_RADIUS",
@@ -28,16 +33,16 @@ __all__ = [
     "Polygon",
     "Room",
     "RoomRecipe",
-    "check_starts",
+    "check_initial_poses",
     "clearance_between",
-    "draw_starts",
+    "draw_initial_poses",
     "path_exists",
     "hull",
     "load_room",
-    "make_room",
+    "generate_room",
     "obstacle_set",
-    "room_entries",
-    "room_of_entries",
-    "room_text",
+    "room_to_entries",
+    "room_from_entries",
+    "room_to_toml",
     "wall_between",
 ]

@@ -54,12 +54,12 @@ def load_room(file: AnyPath) -> Room:
     if not isinstance(entries, dict):
         raise ERROR(f"room {file} must hold one object, got {entries!r:.40}")
     try:
-        return room_of_entries(entries)
+        return room_from_entries(entries)
     except ConfigurationError as error:
         raise ERROR(f"room {file}: {error}") from error
 
 
-def room_of_entries(entries: Mapping[str, Any]) -> Room:
+def room_from_entries(entries: Mapping[str, Any]) -> Room:
     """Build a room from the entries of a file.
 
     Args:
@@ -109,7 +109,7 @@ def room_of_entries(entries: Mapping[str, Any]) -> Room:
     )
 
 
-def room_entries(room: Room) -> dict[str, Any]:
+def room_to_entries(room: Room) -> dict[str, Any]:
     """Return the entries of a file from which the room can be rebuilt."""
     entries: dict[str, Any] = {}
     if room.has_walls:
@@ -129,9 +129,9 @@ def room_entries(room: Room) -> dict[str, Any]:
     return entries
 
 
-def room_text(room: Room) -> str:
+def room_to_toml(room: Room) -> str:
     """Return the room as the text of a TOML file."""
-    return tomli_w.dumps(room_entries(room))
+    return tomli_w.dumps(room_to_entries(room))
 
 
 def _pair(given: Any, name: str) -> tuple[float, float]:

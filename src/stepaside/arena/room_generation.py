@@ -8,12 +8,12 @@ import numpy as np
 from ..core.errors import ConfigurationError, check_within
 from ..core.poses import Array, Pose
 from ..core.random_streams import named_generator
+from .initial_pose_checks import BODY_RADIUS
 from .obstacles import Obstacle, clearance_between
 from .polygon_checks import check_coordinate
 from .reachability import path_exists
 from .room import LARGEST, MAX_COUNT, SIDES, SMALLEST, Door, Room
 from .shapes import Box, Disc, Polygon
-from .start_checks import BODY_RADIUS
 
 ERROR = ConfigurationError
 MAX_DRAWS = 2000  # of one obstacle, before a room counts as full
@@ -74,7 +74,7 @@ class RoomRecipe:
         return self.width or 2 * FARTHEST, self.depth or 2 * FARTHEST
 
 
-def make_room(recipe: RoomRecipe, seed: int) -> Room:
+def generate_room(recipe: RoomRecipe, seed: int) -> Room:
     """Draw a random room with initial poses.
 
     Obstacles do not overlap. Initial distance and headings are drawn as in a
@@ -119,11 +119,11 @@ def make_room(recipe: RoomRecipe, seed: int) -> Room:
         else:
             raise _full(recipe, f"{len(kinds)} obstacles")
     room = Room(recipe.width, recipe.depth, tuple(obstacles), tuple(doors))
-    starts = draw_starts(room, seed)
+    starts = draw_initial_poses(room, seed)
     return Room(room.width, room.depth, room.obstacles, room.doors, starts)
 
 
-def draw_starts(
+def draw_initial_poses(
     room: Room, seed: int, radius: float = BODY_RADIUS
 ) -> tuple[Pose, Pose]:
     """Draw initial poses of pursuer and evader in a room.

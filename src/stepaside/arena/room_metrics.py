@@ -5,10 +5,10 @@ from typing import Any
 
 import numpy as np
 
+from .initial_pose_checks import BODY_RADIUS
 from .obstacles import clearance_between
 from .room import Room
-from .room_file import room_entries
-from .start_checks import BODY_RADIUS
+from .room_file import room_to_entries
 
 CELL = 0.02  # of the grid that measures areas, in [m]
 
@@ -43,7 +43,7 @@ def measure_room(room: Room, radius: float = BODY_RADIUS) -> dict[str, Any]:
         result["free_m2"] = floor * float((clearance > 0.0).mean())
         result["body_radius_m"] = radius
         result["free_for_body_m2"] = floor * float((clearance > radius).mean())
-    result["room"] = room_entries(room)
+    result["room"] = room_to_entries(room)
     return result
 
 

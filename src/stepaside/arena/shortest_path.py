@@ -15,7 +15,7 @@ MARGIN = 0.01  # added to the radius at corners, in [m]
 Point = tuple[float, float]
 
 
-def first_point(
+def first_waypoint(
     solids: Sequence[Obstacle],
     start: Point,
     end: Point,

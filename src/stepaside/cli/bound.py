@@ -195,12 +195,12 @@ def _game_of(
     turning: tuple[float, float, float | None],
 ) -> "BoundGame":
     """Return the game for gain, pursuer's and evader's turning limits."""
-    from ..theory.bound import against_any, against_pursuit
+    from ..theory.bound import fixed_pursuit_game, two_car_game
 
     gain, limit, evader_turn = turning
     if against == "pursuit":
-        return against_pursuit(*speeds, gain, evader_turn)
-    return against_any(*speeds, limit, evader_turn)
+        return fixed_pursuit_game(*speeds, gain, evader_turn)
+    return two_car_game(*speeds, limit, evader_turn)
 
 
 class _BoundProblem(NamedTuple):

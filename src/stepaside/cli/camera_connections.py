@@ -74,14 +74,14 @@ def open_camera_body(
         StepAsideError: If the robot cannot be reached or has no camera.
     """
     from ..drivers.naoqi.naoqi_body import NaoqiBody
-    from ..drivers.scheme_factory import level_perception
+    from ..drivers.scheme_factory import build_planar_perception
     from ..drivers.velocity.head_control import PERIOD, CameraBody
     from ..robots.description import load_robot
     from ..robots.head import load_head
 
     description = load_robot(options["description"])
     head = load_head(description)
-    perception = level_perception(options["role"], description, PERIOD)
+    perception = build_planar_perception(options["role"], description, PERIOD)
     dry_run = options["dry_run"]
     body = NaoqiBody(
         url,

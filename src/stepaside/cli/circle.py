@@ -97,13 +97,13 @@ def circle(
 
 def _announce(game: Game, starts: int, *, remedies: bool) -> int:
     """Announce long simulations; return the number of games."""
-    from ..theory.unicycle.basins import lengths_of
+    from ..theory.unicycle.basins import duration_and_step
     from ..theory.unicycle.remedies import alternatives
 
     played = [game, *(alternatives(game).values() if remedies else ())]
     steps = 0.0
     for each in played if starts else ():
-        duration, step = lengths_of(each)
+        duration, step = duration_and_step(each)
         steps += starts * duration / step
     games = starts * len(played)
     announce_effort(f"{games} games", steps / STEPS)

@@ -44,8 +44,8 @@ def duel(
     and a figure.
     """
     from ..games.outcome import Outcome
-    from ..report.run_folder import check_output, figure_of, free_folder
-    from ..report.settling_report import settling_words
+    from ..report.run_folder import check_output, figure_name, free_folder
+    from ..report.settling_report import explain_missing_circle
 
     if output is None and not as_json:
         output = free_folder(Path("runs"), f"duel-seed{settings.seed}")
@@ -63,8 +63,8 @@ def duel(
     if as_json:
         print_json(summary)
     else:
-        _print(summary, settling_words(run))
-        saved.print_paths(figure_of(run))
+        _print(summary, explain_missing_circle(run))
+        saved.print_paths(figure_name(run))
     saved.raise_failure()
     saved.exit_if_interrupted(run.outcome)
 
@@ -72,9 +72,9 @@ def duel(
 def _warn_of_expected_end(settings: "DuelSettings") -> None:
     """Print a warning if two robots are not expected to reach a circle."""
     from ..games.forecast import ExpectedEnd, forecast
-    from ..games.initial_poses import with_start
+    from ..games.initial_poses import with_initial_poses
 
-    end = forecast(with_start(settings))
+    end = forecast(with_initial_poses(settings))
     if end and end.expected in (ExpectedEnd.CONTACT, ExpectedEnd.NO_CIRCLE):
         echo(f"stepaside: expected outcome: {end.words}", err=True)
 

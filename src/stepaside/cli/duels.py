@@ -232,16 +232,16 @@ def _run(
 def _result(
     settings: "DuelSettings", seeds: range, records: list[dict[str, Any]]
 ) -> dict[str, Any]:
-    from ..games.configuration_file import spelled_settings
-    from ..studies.duel_campaign import stamps_of
+    from ..games.configuration_file import json_settings
+    from ..studies.duel_campaign import versions_of
     from ..studies.duel_statistics import summarise_duels
     from ..studies.result_files import header
 
-    entries = spelled_settings(settings)
+    entries = json_settings(settings)
     del entries["seed"]  # the result has an entry for all seeds
     return {
         **header(entries),
-        "played_by": stamps_of(records),
+        "played_by": versions_of(records),
         "seeds": f"{seeds.start}:{seeds.stop}",
         "summary": summarise_duels(settings, records),
     }

@@ -8,8 +8,8 @@ from typing import Any, NoReturn
 import click
 
 from .. import __version__
-from ..core.errors import StepAsideError, shortened
-from ..core.extras import remedy
+from ..core.errors import StepAsideError, shorten_words
+from ..core.extras import install_hint
 from ..core.interrupts import interruptible
 
 INTERRUPTED = 130  # exit status
@@ -70,7 +70,7 @@ class LazyGroup(click.Group):
         except StepAsideError as error:
             _refuse(str(error))
         except ModuleNotFoundError as error:
-            _refuse(remedy(error))
+            _refuse(install_hint(error))
         except BrokenExecutor:
             _refuse(
                 "a worker process was killed, possibly out of memory; "
@@ -114,7 +114,7 @@ def _leave() -> NoReturn:
 def _refuse(message: str) -> NoReturn:
     from .terminal import echo
 
-    line = shortened(" ".join(message.split()))
+    line = shorten_words(" ".join(message.split()))
     echo(f"stepaside: {line}", err=True)
     sys.exit(2)
 

@@ -227,7 +227,7 @@ def _print(result: dict[str, Any]) -> None:
 def _circles(game: Game, outcomes: Any) -> list[dict[str, Any]]:
     """Return every circle with the fraction of games that end on it."""
     from ..theory.unicycle.all_circles import circles_of
-    from ..theory.unicycle.basins import shares_of
+    from ..theory.unicycle.basins import settled_fractions
 
     circles = circles_of(game)
     return [
@@ -238,6 +238,6 @@ def _circles(game: Game, outcomes: Any) -> list[dict[str, Any]]:
             "share": share,
         }
         for circle, share in zip(
-            circles, shares_of(outcomes, len(circles)), strict=True
+            circles, settled_fractions(outcomes, len(circles)), strict=True
         )
     ]

@@ -10,7 +10,7 @@ from ..core.atomic_output import free_file, reason_of
 from ..core.errors import OutputError, StepAsideError
 from ..drivers.guardian_process import SessionLost
 from ..drivers.play_log import PlayLog
-from ..games.configuration_file import dump_configuration, spelled_settings
+from ..games.configuration_file import dump_configuration, json_settings
 from ..games.duel_settings import EVADER
 from ..games.outcome import Outcome
 from ..games.play_conversion import seal_play
@@ -49,7 +49,7 @@ class PlayRecord:
             ConfigurationError: If the folder cannot be written.
         """
         self._settings = settings_of_play(settings, options)
-        spelled = spelled_settings(self._settings)
+        spelled = json_settings(self._settings)
         about = options | {k: spelled[k] for k in ("gait", "control")}
         text = dump_configuration(self._settings)
         self.log = PlayLog(folder, about, {CONFIGURATION: text})

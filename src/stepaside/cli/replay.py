@@ -204,7 +204,7 @@ def _film_settings(
 
 def _announce(film: "FilmSettings", run: "Run") -> None:
     """Announce long rendering."""
-    from ..report.film_shot import AROUND, SLOWEST
+    from ..report.film_settings import AROUND, SLOWEST
 
     shown = min(float(run.times[-1]) - film.begin, film.duration)
     slower = 2.0 * AROUND / SLOWEST if film.slow else 0.0

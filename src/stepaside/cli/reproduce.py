@@ -6,7 +6,7 @@ from typing import Any
 
 import click
 
-from ..core.atomic_output import check_folder, writing
+from ..core.atomic_output import atomic_draft, check_folder
 from ..core.errors import OutputError
 from .campaign_reports import report_set_aside
 from .effort_estimate import announce_effort
@@ -83,7 +83,7 @@ def _write_all(
 
     figures = draw_figures(output, seed)
     made = {"seed": seed, "runs": runs, "jobs": provenance(seed)}
-    with writing(output / "claims.json") as draft:
+    with atomic_draft(output / "claims.json") as draft:
         text = json.dumps(made | {"rows": rows}, indent=1, allow_nan=False)
         draft.write_text(text + "\n", encoding="utf-8")
     beside = paper_figures(rows, *turns_shown())

@@ -38,7 +38,7 @@ def open_joints(
     """Connect to a robot for joint control."""
     from ..drivers.joint.joint_loop import JointLoop
     from ..drivers.lola.nao_joints import NAO_MOTORS
-    from ..drivers.scheme_factory import mind_maker
+    from ..drivers.scheme_factory import control_scheme_factory
     from ..robots.description import load_robot
     from .feedback_default import with_feedback
 
@@ -52,7 +52,7 @@ def open_joints(
         kinematics = scheme.kinematics
         return open_robot(kinematics.joint_names, scheme.joint_targets)
 
-    make = mind_maker(
+    make = control_scheme_factory(
         load_robot(options["description"]),
         settings.gait,
         settings.control,
@@ -128,18 +128,21 @@ def _guarded(
     settings: "DuelSettings", options: dict[str, Any]
 ) -> "VelocityBody":
     """Connect to a robot, with a guardian process if it can move."""
-    from ..drivers.guardian_process import open_within
-    from ..drivers.velocity.velocity_guardian import GuardedBody, guardian_of
+    from ..drivers.guardian_process import open_with_retries
+    from ..drivers.velocity.velocity_guardian import (
+        GuardedBody,
+        fork_velocity_guardian,
+    )
 
     open_once, join = _velocity_connection(settings, options)
 
     def open_body() -> "VelocityBody":
-        return open_within(open_once, options["wait"])
+        return open_with_retries(open_once, options["wait"])
 
     if options["dry_run"] or options["sim_time"]:
         return open_body()
     # Fork before connecting, which starts threads.
-    guardian = guardian_of(join)
+    guardian = fork_velocity_guardian(join)
     try:
         return GuardedBody(open_body(), guardian)
     except BaseException:
@@ -175,9 +178,11 @@ def _velocity_connection(
 
         def join_ros2() -> "Callable[[], None]":
             from ..drivers.ros2.dds_domain import DdsParticipant
-            from ..drivers.ros2.ros2_body import rester_of
+            from ..drivers.ros2.ros2_body import register_stopper
 
-            return rester_of(DdsParticipant(domain, beyond=beyond), namespace)
+            return register_stopper(
+                DdsParticipant(domain, beyond=beyond), namespace
+            )
 
         return open_ros2, join_ros2
     if robot.startswith(NAOQI):
@@ -199,9 +204,9 @@ def _velocity_connection(
             )
 
         def join_naoqi() -> "Callable[[], None]":
-            from ..drivers.naoqi.naoqi_body import stopper_of
+            from ..drivers.naoqi.naoqi_body import connect_stopper
 
-            return stopper_of(url)
+            return connect_stopper(url)
 
         return open_naoqi, join_naoqi
     raise click.BadParameter(

@@ -5,7 +5,7 @@ from typing import Any
 
 import click
 
-from ..core.atomic_output import check_file, check_folder, writing
+from ..core.atomic_output import atomic_draft, check_file, check_folder
 from ..core.errors import StepAsideError
 from .options.common_options import FOLDER, json_option
 from .output_files import OVERWRITE
@@ -47,7 +47,7 @@ def init(
     """
     from ..fitting.derivation import derive
     from ..fitting.description_writer import write_description
-    from ..fitting.model_report import facts_of
+    from ..fitting.model_report import report_of
     from ..robots.description import FILE, load_robot
 
     folder = output or Path(model.stem)
@@ -57,10 +57,10 @@ def init(
     else:
         check_folder(folder, "output", new=True)
     derived = derive(model, folder, list(meshes))
-    facts = facts_of(derived) | {"folder": str(folder), "file": str(file)}
+    facts = report_of(derived) | {"folder": str(folder), "file": str(file)}
     failed: Exception | None = None
     try:
-        with writing(file) as draft:
+        with atomic_draft(file) as draft:
             draft.write_text(write_description(derived), encoding="utf-8")
         load_robot(folder)
     except (StepAsideError, OSError) as error:

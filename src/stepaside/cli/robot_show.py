@@ -4,7 +4,7 @@ from pathlib import Path
 
 import click
 
-from ..core.atomic_output import writing
+from ..core.atomic_output import atomic_draft
 from .options.common_options import FILE, json_option
 from .output_files import writes_files
 from .tables import print_table, table_rows
@@ -44,7 +44,7 @@ def show(
         if output is None:
             echo(text)
         else:
-            with writing(Path(output)) as draft:
+            with atomic_draft(Path(output)) as draft:
                 draft.write_text(text, encoding="utf-8")
             echo(f"wrote {output}", err=True)
         return

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..core.atomic_output import writing
+from ..core.atomic_output import atomic_draft
 from .interruption import exit_interrupted, resume_message
 from .options.common_options import WORKERS, json_option
 from .progress import show_progress
@@ -35,7 +35,7 @@ def tune(folder: Path, workers: int | None, as_json: bool) -> None:
     are recorded in FOLDER/tune.jsonl, so that an interrupted search can be
     continued with the same command.
     """
-    from ..fitting.description_edit import rewritten
+    from ..fitting.description_edit import rewrite_description
     from ..robots.description import FILE, load_robot
 
     description = load_robot(folder)
@@ -46,9 +46,10 @@ def tune(folder: Path, workers: int | None, as_json: bool) -> None:
     if changed:
         file = folder / FILE
         text = file.read_text(encoding="utf-8")
-        with writing(file) as draft:
+        with atomic_draft(file) as draft:
             draft.write_text(
-                rewritten(text, best, _comment_lines(tuned)), encoding="utf-8"
+                rewrite_description(text, best, _comment_lines(tuned)),
+                encoding="utf-8",
             )
     facts = {
         "robot": description.name,

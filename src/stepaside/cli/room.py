@@ -48,17 +48,22 @@ def room(
 
     Prints free floor, obstacles and clearances of the room.
     """
-    from ..arena import RoomRecipe, check_starts, load_room, make_room
+    from ..arena import (
+        RoomRecipe,
+        check_initial_poses,
+        generate_room,
+        load_room,
+    )
     from ..arena.room_metrics import measure_room
 
     if file is None:
         width, depth = size or (None, None)
-        made = make_room(RoomRecipe(width, depth, **recipe), seed)
+        made = generate_room(RoomRecipe(width, depth, **recipe), seed)
     else:
         _refuse_both()
         made = load_room(file)
         if made.starts is not None:
-            check_starts(made, made.starts)
+            check_initial_poses(made, made.starts)
     result = measure_room(made)
     if output is not None and attempt(lambda: _write(made, Path(output))):
         result["output"] = output
@@ -91,11 +96,11 @@ def _write(made: Any, file: Path) -> None:
     """Write a room in the format of the file suffix."""
     import json
 
-    from ..arena import room_entries, room_text
-    from ..core.atomic_output import writing
+    from ..arena import room_to_entries, room_to_toml
+    from ..core.atomic_output import atomic_draft
 
-    text = room_text(made)
+    text = room_to_toml(made)
     if file.suffix.lower() == ".json":
-        text = json.dumps(room_entries(made), allow_nan=False) + "\n"
-    with writing(file) as draft:
+        text = json.dumps(room_to_entries(made), allow_nan=False) + "\n"
+    with atomic_draft(file) as draft:
         draft.write_text(text, encoding="utf-8")

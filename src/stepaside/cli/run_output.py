@@ -79,9 +79,9 @@ def save_run(output: Path | None, run: R) -> tuple[R, SavedRun]:
     """
     if output is None:
         return run, SavedRun()
-    from ..report.run_folder import keep_run
+    from ..report.run_folder import save_run
 
-    folder, failed = keep_run(output, run)
+    folder, failed = save_run(output, run)
     if folder is not None and folder != output:
         echo(
             f"stepaside: cannot write to {output}; the run is saved in "

@@ -263,11 +263,11 @@ def _run(
     from contextlib import nullcontext
 
     from ..core.worker_pool import worker_pool
-    from ..strategies.bound_cache import has_pursuit_bound
+    from ..strategies.bound_cache import is_pursuit_bound_cached
     from ..studies.record_store import RecordStore
     from ..studies.tournament_campaign import CELLS, play_tournament
 
-    if not has_pursuit_bound(CELLS):
+    if not is_pursuit_bound_cached(CELLS):
         echo(SOLVES, err=True)
     file = None if output is None else RecordStore(output / RECORDS)
     total = len(seeds) * len(pairings)
@@ -313,12 +313,12 @@ def _result(
 
 def _worst(settings: Any, rows: list[dict[str, Any]]) -> list[Any]:
     """Return title, room and trajectory of the worst game of each row."""
-    from ..studies.tournament_campaign import play_ways
+    from ..studies.tournament_campaign import play_paths
 
     games = []
     for row in rows:
         seed = row["worst_seeds"][0]
-        room, track = play_ways(
+        room, track = play_paths(
             settings, (row["evader"], row["pursuer"]), seed
         )
         title = f"{row['evader']} against {row['pursuer']}, seed {seed}"

@@ -3,7 +3,11 @@
 from time import process_time
 
 from ..core.poses import Array, Pose
-from ..locomotion.zmp.current_step import CurrentStep, resting_step, step_of
+from ..locomotion.zmp.current_step import (
+    CurrentStep,
+    first_step_of,
+    resting_step,
+)
 from ..locomotion.zmp.feedback_loop import Balance, OpenLoop
 from ..locomotion.zmp.reference_table import (
     ReferenceSample,
@@ -308,7 +312,9 @@ class ControlScheme:
         if self.plan is None:
             foot = self._first_foot
             return resting_step(self._support(foot), foot)
-        return step_of(self.plan, self.plan_frame, now - self.plan_started)
+        return first_step_of(
+            self.plan, self.plan_frame, now - self.plan_started
+        )
 
     def _support(self, swing: Foot) -> Pose:
         """Return the support foot while the other swings, in odometry."""

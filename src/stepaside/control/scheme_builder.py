@@ -13,10 +13,10 @@ from ..robots.description import RobotDescription
 from ..robots.forward_kinematics import ForwardKinematics
 from ..robots.leg_kinematics import LegKinematics
 from ..strategies.strategy import Strategy
-from .clearance.footholds import Footholds
+from .clearance.footstep_adjustment import FootstepAdjustment
 from .clearance.guard import Guard
 from .clearance.surroundings import Surroundings
-from .clearance.swept_outline import BodyOutline, sway_of
+from .clearance.swept_outline import BodyOutline, lateral_sway
 from .scheme import ControlScheme
 from .sight_sources import CameraSight, MeasuredSight
 from .turn_calibration import TurnCalibration
@@ -150,8 +150,10 @@ def build_guard(
     planner = ManeuverPlanner(gait)
     footholds = None
     if control.method == "mpc":
-        radius = clearance.outline.radius + clearance.margin + sway_of(gait)
-        footholds = Footholds(planner, control.stabiliser, radius)
+        radius = (
+            clearance.outline.radius + clearance.margin + lateral_sway(gait)
+        )
+        footholds = FootstepAdjustment(planner, control.stabiliser, radius)
     return Guard(
         clearance.surroundings,
         clearance.outline,

@@ -6,7 +6,7 @@ from math import pi
 from ..core.poses import Pose
 from ..perception.measurement import Measurement, Sighting
 from ..planning import Foot, GaitSettings
-from ..planning.template_path import passed_beside
+from ..planning.template_path import pose_beside_foot
 from ..strategies.decision_maker import DecisionMaker
 from ..strategies.knowledge import ON_THE_SPOT, Intent, Knowledge, Limits
 from ..strategies.strategy import Strategy
@@ -140,7 +140,7 @@ class StrategyRunner(DecisionMaker):
             return Intent(turning * pi, ON_THE_SPOT)
         known = self._knowledge(now, sighting, moving=moving)
         if moving and stands is not None:
-            begins = passed_beside(*stands, self._spacing)
+            begins = pose_beside_foot(*stands, self._spacing)
             begins = self._surroundings.frame.compose(begins)
             known = replace(known, begins=begins)
         intent = self.evaluate(known)

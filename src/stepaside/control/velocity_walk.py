@@ -9,7 +9,7 @@ STILL = 1e-3  # speed [m/s] or turning rate [rad/s] that counts as zero
 IN_PLACE = 1e-3  # speed factor of a turn on the spot
 
 
-def fastest(gait: GaitSettings) -> tuple[float, float]:
+def velocity_limits(gait: GaitSettings) -> tuple[float, float]:
     """Return the greatest speed [m/s] and turning rate [rad/s] of a gait.
 
     A stride takes a whole step, which is longer than the time that the
@@ -19,7 +19,7 @@ def fastest(gait: GaitSettings) -> tuple[float, float]:
     return gait.speed * pace, gait.gain * pace * pi
 
 
-def accepted(
+def limit_velocity(
     forward: float, turn: float, gait: GaitSettings
 ) -> tuple[float, float]:
     """Limit a velocity to what a gait can walk, on the same path.
@@ -31,12 +31,12 @@ def accepted(
         turn: Turning rate, in [rad/s].
         gait: Gait of the robot.
     """
-    speed, rate = fastest(gait)
+    speed, rate = velocity_limits(gait)
     share = 1.0 / max(1.0, abs(forward) / speed, abs(turn) / rate)
     return share * forward, share * turn
 
 
-def walk_at(
+def strategy_at_velocity(
     forward: float,
     turn: float,
     gait: GaitSettings,
@@ -52,8 +52,8 @@ def walk_at(
         under_way: Present direction of a walking robot; a reversal halts
             it first.
     """
-    forward, turn = accepted(forward, turn, gait)
-    speed, rate = fastest(gait)
+    forward, turn = limit_velocity(forward, turn, gait)
+    speed, rate = velocity_limits(gait)
     if abs(forward) < STILL and abs(turn) < STILL:
         return StandStill()
     direction = Direction.FORWARD if forward >= 0.0 else Direction.BACKWARD

@@ -4,7 +4,11 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from ..core.poses import Pose
-from ..locomotion.zmp.current_step import CurrentStep, resting_step, step_of
+from ..locomotion.zmp.current_step import (
+    CurrentStep,
+    first_step_of,
+    resting_step,
+)
 from ..locomotion.zmp.mpc import MpcResult
 from ..locomotion.zmp.state_estimator import BodyState
 from ..perception.measurement import Sighting
@@ -79,4 +83,6 @@ class WalkState:
         if self.plan is None:
             support = self.right_foot if foot is Foot.LEFT else self.left_foot
             return resting_step(support, foot)
-        return step_of(self.plan, self.plan_frame, now - self.plan_started)
+        return first_step_of(
+            self.plan, self.plan_frame, now - self.plan_started
+        )

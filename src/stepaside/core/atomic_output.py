@@ -85,7 +85,7 @@ def free_file(file: Path) -> Path:
 
 
 @contextmanager
-def writing(file: Path) -> Iterator[Path]:
+def atomic_draft(file: Path) -> Iterator[Path]:
     """Yield a draft that replaces the file atomically on success.
 
     Args:
@@ -98,7 +98,7 @@ def writing(file: Path) -> Iterator[Path]:
     try:
         target = _target(file)
         target.parent.mkdir(parents=True, exist_ok=True)
-        sweep(target.parent)
+        remove_stale_drafts(target.parent)
         handle, draft = tempfile.mkstemp(
             prefix=draft_prefix(), suffix=file.suffix, dir=target.parent
         )
@@ -123,7 +123,7 @@ def draft_prefix() -> str:
     return f"{DRAFT}{_machine()}-{os.getpid()}-"
 
 
-def sweep(folder: Path) -> None:
+def remove_stale_drafts(folder: Path) -> None:
     """Remove drafts of killed processes of this machine from a folder."""
     mine = f"{DRAFT}{_machine()}-"
     for entry in os.scandir(folder):

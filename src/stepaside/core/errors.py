@@ -20,7 +20,7 @@ class StepAsideError(Exception):
 
     def __str__(self) -> str:
         """Return the message with overlong words cut."""
-        return shortened(super().__str__())
+        return shorten_words(super().__str__())
 
 
 class PlanError(StepAsideError, ValueError):
@@ -47,7 +47,7 @@ class OutputError(StepAsideError, OSError):
     """A result could not be written."""
 
 
-def shortened(text: str) -> str:
+def shorten_words(text: str) -> str:
     """Return a text with overlong words cut, like a number of 1,000 digits."""
     if len(text) <= LONGEST_WORD:
         return text
@@ -77,7 +77,7 @@ def _spelled(value: object) -> str:
         return f"a {type(value).__name__}"
 
 
-def number_in(value: object, *, whole: bool = False) -> float | None:
+def as_number(value: object, *, whole: bool = False) -> float | None:
     """Return a number in double precision; None for any other type.
 
     NumPy would compare a half or single precision number with the bounds in
@@ -107,7 +107,7 @@ def check_finite(
     error: type[StepAsideError] = PlanError,
 ) -> None:
     """Raise ``error`` unless ``value`` is a finite number."""
-    number = number_in(value)
+    number = as_number(value)
     if number is None or not -GREATEST <= number <= GREATEST:
         raise error(f"{name} must be finite [{unit}], got {shown(value)}")
 
@@ -119,7 +119,7 @@ def check_positive(
     error: type[StepAsideError] = PlanError,
 ) -> None:
     """Raise ``error`` unless ``value`` is finite and above zero."""
-    number = number_in(value)
+    number = as_number(value)
     if number is None or not LEAST <= number <= LARGEST:
         raise error(
             f"{name} must be finite and > 0 [{unit}], {LEAST:g} to "
@@ -134,7 +134,7 @@ def check_not_negative(
     error: type[StepAsideError] = PlanError,
 ) -> None:
     """Raise ``error`` unless ``value`` is finite and at least zero."""
-    number = number_in(value)
+    number = as_number(value)
     if number is None or not 0.0 <= number <= LARGEST:
         raise error(
             f"{name} must be finite and >= 0 [{unit}], at most "
@@ -151,7 +151,7 @@ def check_within(
     error: type[StepAsideError] = PlanError,
 ) -> None:
     """Raise ``error`` unless ``low <= value <= high``."""
-    number = number_in(value)
+    number = as_number(value)
     if number is None or not low <= number <= high:
         raise error(
             f"{name} must lie in [{low:g}, {high:g}] [{unit}], "

@@ -11,7 +11,7 @@ EXTRAS = {  # as in ``pyproject.toml``, with the names of the modules
 }
 
 
-def remedy(error: ModuleNotFoundError) -> str:
+def install_hint(error: ModuleNotFoundError) -> str:
     """Return a message with the command that installs a missing module."""
     missing = (error.name or str(error)).partition(".")[0]
     extra = next((e for e, names in EXTRAS.items() if missing in names), "")

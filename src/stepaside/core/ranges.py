@@ -7,7 +7,7 @@ from numbers import Integral
 from types import NoneType
 from typing import Any, NamedTuple
 
-from .errors import ConfigurationError, StepAsideError, number_in, shown
+from .errors import ConfigurationError, StepAsideError, as_number, shown
 
 
 class Range(NamedTuple):
@@ -61,7 +61,7 @@ class Range(NamedTuple):
         """Return whether a value is permitted."""
         if value is None:
             return None in self.also
-        number = number_in(value, whole=self.whole)
+        number = as_number(value, whole=self.whole)
         if number is None:
             return False
         within = self.low <= number <= self.high
@@ -120,7 +120,7 @@ def check_settings(
         value = getattr(settings, name)
         allowed.check(value, f"{prefix}{name}", error)
         if type(value) not in (int, float, NoneType):  # NumPy, Fraction
-            number = number_in(value, whole=isinstance(value, Integral))
+            number = as_number(value, whole=isinstance(value, Integral))
             object.__setattr__(settings, name, number)
     for name, kind in _kinds(type(settings)).items():  # type: ignore[arg-type]
         value = getattr(settings, name)

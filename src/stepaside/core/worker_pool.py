@@ -33,7 +33,7 @@ class WorkerPool(ProcessPoolExecutor):
         timeout: float | None = None,
         chunksize: int = 1,
     ) -> Iterator[R]:
-        """Submit a task for each; none is cancelled, see :func:`give_up`."""
+        """Submit a task for each item; see :func:`cancel_pending`."""
         each = zip(*iterables, strict=False)
         futures = [self.submit(fn, *one) for one in each]
         return (future.result(timeout) for future in futures)
@@ -45,7 +45,7 @@ class WorkerPool(ProcessPoolExecutor):
         super().__exit__(*error)
 
 
-def give_up(executor: Executor, futures: Iterable[Future[Any]]) -> None:
+def cancel_pending(executor: Executor, futures: Iterable[Future[Any]]) -> None:
     """Cancel tasks that have not started.
 
     A process pool is left alone: it drops all tasks with its workers, and

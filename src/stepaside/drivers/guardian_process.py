@@ -29,7 +29,9 @@ class SessionLost(StepAsideError, ConnectionError):
     """The connection to the robot failed or its data cannot be trusted."""
 
 
-def open_within(open_robot: Callable[[], Opened], patience: float) -> Opened:
+def open_with_retries(
+    open_robot: Callable[[], Opened], patience: float
+) -> Opened:
     """Connect to a robot, retrying until a timeout.
 
     Args:

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..control import Phase
 from ..control.walk_snapshots import StepStarted, WalkState
-from ..core.atomic_output import check_folder, writing
+from ..core.atomic_output import atomic_draft, check_folder
 from ..core.poses import Array
 from .joint.joint_loop import JointTick
 from .joint.safety import RobotState
@@ -149,7 +149,7 @@ class PlayLog:
         }
         text = json.dumps(metadata, indent=1, allow_nan=False)
         folder.stat()  # a removed folder must not return without its rows
-        with writing(folder / METADATA) as draft:
+        with atomic_draft(folder / METADATA) as draft:
             draft.write_text(text + "\n", encoding="utf-8")
 
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 REQUEST_TO_MOTION = 3  # ticks from command to motion, measured on NAO
 
 
-def mind_maker(
+def control_scheme_factory(
     description: RobotDescription,
     gait: GaitSettings,
     control: ControlSettings,
@@ -42,7 +42,7 @@ def mind_maker(
         ConfigurationError: If cameras are used without OpenCV installed.
         ModelError: If cameras are used and the robot has no head.
     """
-    perceive = None if sees_as is None else perception_of(sees_as)
+    perceive = None if sees_as is None else perception_factory(sees_as)
 
     def make(strategy: Strategy) -> ControlScheme:
         return build_scheme(
@@ -60,7 +60,7 @@ def mind_maker(
     return make
 
 
-def perception_of(
+def perception_factory(
     role: str,
 ) -> "Callable[[RobotDescription, float], Perception]":
     """Return a factory of perception from description and period [s].
@@ -83,7 +83,7 @@ def perception_of(
     return make
 
 
-def level_perception(
+def build_planar_perception(
     role: str, description: RobotDescription, tick: float
 ) -> "PlanarPerception":
     """Build the perception of a robot that has its own walking control.

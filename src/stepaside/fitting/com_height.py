@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from ..core.errors import ModelError, ReachError
-from ..games.robot_settings import settings_of
+from ..games.robot_settings import settings_from_description
 from ..planning import GaitSettings
 from ..robots.description import RobotDescription
 from ..robots.leg_kinematics import BodyReference, LegKinematics
@@ -54,7 +54,7 @@ def with_gait(
 ) -> tuple[RobotDescription, GaitSettings]:
     """Return the description with gait entries, and the gait settings."""
     changed = replace(description, gait=dict(gait))
-    return changed, settings_of(changed).gait
+    return changed, settings_from_description(changed).gait
 
 
 def reachable_heights(

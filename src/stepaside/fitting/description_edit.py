@@ -13,7 +13,9 @@ ENTRY = re.compile(
 TITLE = "# Tuned by `stepaside robot tune`:"
 
 
-def rewritten(text: str, tuned: RobotDescription, words: list[str]) -> str:
+def rewrite_description(
+    text: str, tuned: RobotDescription, words: list[str]
+) -> str:
     """Return the text of a description with the values of a search.
 
     Args:

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from dataclasses import asdict, dataclass, replace
 from math import hypot, log
 
-from ..games.robot_settings import settings_of
+from ..games.robot_settings import settings_from_description
 from ..robots.description import RobotDescription
 from ..robots.description_file import LEAN_LIMIT
 from .derivation import LEAST_SPACING
@@ -80,7 +80,7 @@ class Candidate:
         Args:
             own: Description without the changes.
         """
-        settings = settings_of(own)
+        settings = settings_from_description(own)
         gait, sole = settings.gait, settings.gait.sole
         length = sole.front - sole.back
         spacing = self.spacing * gait.foot_spacing
@@ -130,7 +130,7 @@ class Candidate:
         changed = self.applied(own)
         if changed is None:
             return ()
-        settings = settings_of(changed)
+        settings = settings_from_description(changed)
         return tuple(
             WalkTrial(changed, settings.gait, settings.control, path)
             for path in reversed(PATHS)

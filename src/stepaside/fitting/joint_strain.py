@@ -6,7 +6,7 @@ import numpy as np
 
 from ..games.match import Match
 from ..games.outcome import Outcome
-from ..games.walker import Walker
+from ..games.walker import SimulatedPlayer
 
 STANDING_FROM = 0.3  # time at which transients have settled, in [s]
 STANDING_UNTIL = 0.6  # time before which no robot starts walking, in [s]
@@ -65,7 +65,7 @@ class StrainGauge:
         if now < STANDING_UNTIL:
             self._standing = np.maximum(self._standing, loads)
             walker = match.players[0]
-            assert isinstance(walker, Walker)
+            assert isinstance(walker, SimulatedPlayer)
             height = walker.scheme.reference.com[2]
             self._sags.append(height - float(walker.truth.com[2]))
         self._walking = np.maximum(self._walking, loads)

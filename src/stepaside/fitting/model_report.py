@@ -53,7 +53,7 @@ def _carried_mass(analysis: ModelAnalysis, joint: int) -> float:
     return float(analysis.model.body_subtreemass[body])
 
 
-def facts_of(derived: DerivedDescription) -> dict[str, Any]:
+def report_of(derived: DerivedDescription) -> dict[str, Any]:
     """Return the report as values for JSON."""
     analysis, size = derived.analysis, derived.size
     own = derived.description

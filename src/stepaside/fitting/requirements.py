@@ -8,7 +8,7 @@ import numpy as np
 
 from ..core.errors import StepAsideError
 from ..core.poses import Pose
-from ..games.robot_settings import settings_of
+from ..games.robot_settings import settings_from_description
 from ..locomotion.zmp.reference_table import standing_reference
 from ..robots.description import REMEDY, RobotDescription
 from ..robots.forward_kinematics import ForwardKinematics
@@ -39,7 +39,9 @@ class RequirementCheck(NamedTuple):
     hint: str = ""
 
 
-def findings_of(description: RobotDescription) -> list[RequirementCheck]:
+def check_requirements(
+    description: RobotDescription,
+) -> list[RequirementCheck]:
     """Check all requirements that need no walking.
 
     An invalid description ends the list with a failure that gives the
@@ -154,7 +156,7 @@ def _actuators(description: RobotDescription) -> Iterator[RequirementCheck]:
 
 
 def _reach(description: RobotDescription) -> Iterator[RequirementCheck]:
-    gait = settings_of(description).gait
+    gait = settings_from_description(description).gait
     half = 0.5 * gait.foot_spacing
     feet = Pose(0.0, half, 0.0), Pose(0.0, -half, 0.0)
     stance = standing_reference(*feet, gait)
@@ -179,7 +181,7 @@ def _reach(description: RobotDescription) -> Iterator[RequirementCheck]:
 
 
 def _strength(description: RobotDescription) -> Iterator[RequirementCheck]:
-    gait = settings_of(description).gait
+    gait = settings_from_description(description).gait
     model = description.compile()
     torques = {
         model.joint(model.actuator_trnid[i, 0]).name: float(high)

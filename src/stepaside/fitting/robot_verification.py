@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 from ..robots.description import RobotDescription
 from .joint_strain import JointStrain
-from .requirements import RequirementCheck, findings_of
+from .requirements import RequirementCheck, check_requirements
 from .walk_trials import WalkTrialResult, trials_of, walk_trial
 
 GREATEST_SAG = 0.02  # of the CoM while standing, in [m]
@@ -71,7 +71,7 @@ def check_robot(
         executor: Executor of the walks.
         report: Called with the number of finished walks and of all walks.
     """
-    found = findings_of(description)
+    found = check_requirements(description)
     if any(finding.verdict == "fail" for finding in found):
         return VerificationReport(tuple(found), (), False)
     own = trials_of(description, feedback=False)

@@ -13,7 +13,7 @@ from scipy.spatial import ConvexHull, QhullError
 
 from ..core.errors import ModelError
 from ..core.poses import Array
-from ..sim.geom_points import points_of
+from ..sim.geom_points import geom_points_in_world
 
 SOLE_THICKNESS = 0.012  # of the points of a sole, by the length of the leg
 GREATEST_TILT = np.cos(np.radians(40.0))  # of a sole in the zero posture
@@ -113,7 +113,9 @@ def foot_points(
         for geom in geoms
         if model.geom_contype[geom] or model.geom_conaffinity[geom]
     ]
-    found = [points_of(model, data, geom) for geom in touching or geoms]
+    found = [
+        geom_points_in_world(model, data, geom) for geom in touching or geoms
+    ]
     found = [points for points in found if len(points)]
     if not found:
         return np.array([data.xpos[body]])

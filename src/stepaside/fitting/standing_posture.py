@@ -3,7 +3,7 @@
 import mujoco
 import numpy as np
 
-from ..sim.geom_points import points_of
+from ..sim.geom_points import geom_points_in_world
 from .leg_detection import ALIGNED, JOINT_TYPES, DetectedLeg
 from .model_analysis import ModelAnalysis
 from .standing_angles import STRAIGHT_MARGIN, bend_of, straight_of
@@ -88,7 +88,7 @@ def reach_of(
     middle = np.array([forward, 0.0])
     farthest = 0.0
     for geom in range(model.ngeom):
-        points = points_of(model, data, geom)
+        points = geom_points_in_world(model, data, geom)
         if len(points):
             away = np.linalg.norm(points[:, :2] - middle, axis=1).max()
             farthest = max(farthest, float(away))

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 from ..core.errors import StepAsideError
 from ..games.match import play
 from ..games.outcome import Outcome
-from ..games.robot_settings import settings_of
+from ..games.robot_settings import settings_from_description
 from ..games.walk_game import WalkGame
 from ..games.walk_settings import WalkSettings
 from ..locomotion.zmp.control_settings import ControlSettings, Method
@@ -137,7 +137,7 @@ def trials_of(
     Raises:
         StepAsideError: If its settings are invalid.
     """
-    own = settings_of(description)
+    own = settings_from_description(description)
     control = control_with(own.control, feedback)
     return tuple(
         WalkTrial(description, own.gait, control, path) for path in PATHS

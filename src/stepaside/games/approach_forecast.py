@@ -69,7 +69,7 @@ class CourseApproach(NamedTuple):
         return x * vx + y * vy
 
 
-def motion_words(approach: CourseApproach | None) -> str:
+def describe_motion(approach: CourseApproach | None) -> str:
     """Return "approaches", "moves away" or "walks" for a pursuer."""
     if approach is not None and approach.is_approaching:
         return "approaches"
@@ -78,7 +78,7 @@ def motion_words(approach: CourseApproach | None) -> str:
     return "walks"
 
 
-def approach_between(
+def estimate_approach(
     before: tuple[float, float], now: tuple[float, float], elapsed: float
 ) -> CourseApproach | None:
     """Estimate an approach from two offsets, best a gait cycle apart.

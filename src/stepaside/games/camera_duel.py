@@ -25,7 +25,7 @@ from ..sim.sensor_suite import SensorSuite
 from ..sim.simulated_robot import SimulatedRobot
 from ..sim.world import World
 from .duel_settings import DuelSettings
-from .initial_poses import walls_of
+from .initial_poses import wall_distance
 from .match import Match
 from .outcome import Outcome
 from .sight_evaluation import EvaluatedImage, SightEvaluator
@@ -79,7 +79,7 @@ class CameraSenses:
             settings.room,
             "evader",
             self._head,
-            walls=walls_of(settings),
+            walls=wall_distance(settings),
             lower=self._low,
         )
         self.perceptions = {

@@ -13,7 +13,7 @@ CHECKSUMS = "checksums.txt"
 LINE = re.compile(r"([0-9a-f]{64})  ([\w.-]+)")
 
 
-def seal(folder: Path) -> None:
+def write_checksums(folder: Path) -> None:
     """Write the SHA-256 checksums of all files of a folder.
 
     The file has the format of ``sha256sum --check``.
@@ -29,7 +29,7 @@ def seal(folder: Path) -> None:
     (folder / CHECKSUMS).write_text("".join(lines), encoding="utf-8")
 
 
-def check_seal(folder: Path, names: Collection[str]) -> None:
+def check_checksums(folder: Path, names: Collection[str]) -> None:
     """Check the files of a run folder against its checksums.
 
     A folder without checksums was edited by hand and is not checked.

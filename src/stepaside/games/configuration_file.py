@@ -11,7 +11,7 @@ from typing import Any, Literal, TypeVar, get_args, get_origin, get_type_hints
 import dacite
 import tomli_w
 
-from ..arena import Room, room_entries, room_of_entries
+from ..arena import Room, room_from_entries, room_to_entries
 from ..core.errors import (
     AnyPath,
     ConfigurationError,
@@ -90,7 +90,7 @@ def load_entries(path: Path) -> dict[str, Any]:
     return read_entries(text, str(path))
 
 
-def says(path: Path, entry: str) -> bool:
+def has_entry(path: Path, entry: str) -> bool:
     """Return whether a configuration file contains an entry.
 
     Args:
@@ -171,7 +171,7 @@ def parse_settings(
     entries = {key: v for key, v in entries.items() if key not in left}
 
     if base is not None:
-        entries = over(plain_settings(base), entries)
+        entries = over(settings_entries(base), entries)
     entries = with_tuples(kind, entries)
     hooks: dict[type[Any], Callable[[Any], Any]]
     hooks = {float: _as_float, int: _as_int, Room: _as_room}
@@ -213,10 +213,10 @@ def parse_configuration(entries: dict[str, Any], source: str) -> DuelSettings:
 
 def dump_configuration(settings: Any) -> str:
     """Return the TOML text from which the same settings are read."""
-    return tomli_w.dumps(plain_settings(settings))
+    return tomli_w.dumps(settings_entries(settings))
 
 
-def plain_settings(settings: Any) -> dict[str, Any]:
+def settings_entries(settings: Any) -> dict[str, Any]:
     """Return settings as the nested entries of a configuration file."""
     if isinstance(settings, DuelSettings):
         settings = settings.named()
@@ -224,9 +224,9 @@ def plain_settings(settings: Any) -> dict[str, Any]:
     return entries
 
 
-def spelled_settings(settings: Any) -> dict[str, Any]:
+def json_settings(settings: Any) -> dict[str, Any]:
     """Return settings for JSON; infinite values become text."""
-    entries: dict[str, Any] = _spelled(plain_settings(settings))
+    entries: dict[str, Any] = _spelled(settings_entries(settings))
     return entries
 
 
@@ -268,13 +268,13 @@ HOOKS = {float: _as_float, int: _as_int}  # numbers in TOML and JSON files
 
 def _as_room(value: Any) -> Any:
     """Convert the entries of a room file to a room."""
-    return room_of_entries(value) if isinstance(value, dict) else value
+    return room_from_entries(value) if isinstance(value, dict) else value
 
 
 def _unfolded(value: Any) -> Any:
     """Convert settings to nested entries, and rooms to those of a file."""
     if isinstance(value, Room):
-        return room_entries(value)
+        return room_to_entries(value)
     if isinstance(value, list | tuple):
         return [_unfolded(entry) for entry in value]
     if not is_dataclass(value):

@@ -10,29 +10,29 @@ from ..core.errors import ConfigurationError
 from ..core.poses import Pose
 from ..core.random_streams import named_generator
 from ..robots.description import RobotDescription, load_robot
-from ..robots.jit import prefer_for
-from ..sim.body_settings import with_cycle
+from ..robots.jit import prefer_for_duration
+from ..sim.body_settings import with_control_period
 from ..sim.ground_truth import GroundTruth
 from ..sim.ideal_sensors import IdealLineOfSight
-from ..sim.obstacle_geoms import add_solids, mover_of
+from ..sim.obstacle_geoms import add_solids, obstacle_mover
 from ..sim.passer_bodies import add_passers, passer_mover
 from ..sim.pedestrian_models import FIGURES
 from ..sim.person_body import PersonBody, add_person
 from ..sim.person_motion import PersonMotion
-from ..sim.push import pushes_of
+from ..sim.push import pushes_by_robot
 from ..sim.world import World
 from ..strategies import Strategy, load_strategy
 from .duel_evaluation import summarise
 from .duel_run import DuelRun
 from .duel_settings import EVADER, PLAYERS, PURSUER, DuelSettings
-from .initial_poses import frames_of, with_start
+from .initial_poses import initial_poses, with_initial_poses
 from .match import Match, MatchObserver, Progress, play
 from .outcome import Outcome
 from .person_player import PersonPlayer
 from .player import Player
 from .recorder import Recorder
-from .walker import Walker
-from .walker_factory import clearance_in, stand_walker, watch
+from .walker import SimulatedPlayer
+from .walker_factory import clearance_in, place_walker, watch
 
 if TYPE_CHECKING:
     from .camera_duel import CameraSenses, SightObserver
@@ -66,11 +66,11 @@ class Duel(Match):
             StepAsideError: If the settings contradict each other or cannot
                 be met by the robots.
         """
-        self.settings = settings = with_start(settings)
-        self.frames = frames = frames_of(settings)
+        self.settings = settings = with_initial_poses(settings)
+        self.frames = frames = initial_poses(settings)
         stage = _Stage(settings, frames)
         mujoco.mj_forward(stage.world.model, stage.world.data)
-        for name, pushes in pushes_of(
+        for name, pushes in pushes_by_robot(
             settings.pushes, settings.robots
         ).items():
             if pushes:
@@ -121,7 +121,7 @@ class _Stage:
         self._descriptions = {
             name: load_robot(own.robot) for name, own in self._robots.items()
         }
-        physics = with_cycle(settings.physics, settings.body)
+        physics = with_control_period(settings.physics, settings.body)
         self._senses = _camera_senses(
             settings, self._descriptions, walkers, physics.tick
         )
@@ -135,7 +135,7 @@ class _Stage:
         )
         plan = settings.room.plan
         if plan is not None and plan.moving:
-            move = mover_of(self.world.model, self.world.data, plan)
+            move = obstacle_mover(self.world.model, self.world.data, plan)
             self.world.before_step.append(move)
         if settings.passers:
             walk = passer_mover(
@@ -167,7 +167,7 @@ class _Stage:
         evader = self._walker(EVADER, settings.evader_strategy)
         self.players = (pursuer, evader)
 
-    def _walker(self, name: str, strategy: str | Strategy) -> Walker:
+    def _walker(self, name: str, strategy: str | Strategy) -> SimulatedPlayer:
         """Place a robot in the world, with the sensors of the settings."""
         settings, senses = self._settings, self._senses
         own, description = self._robots[name], self._descriptions[name]
@@ -181,7 +181,7 @@ class _Stage:
                 settings.sight,
                 named_generator(settings.seed, f"sight/{name}"),
             )
-        return stand_walker(
+        return place_walker(
             self.world,
             name,
             description,
@@ -213,7 +213,7 @@ class _Stage:
 
         judges = {}
         for own, other in (self.players, self.players[::-1]):
-            if isinstance(own, Walker):
+            if isinstance(own, SimulatedPlayer):
                 judges[own.name] = self._senses.judge(
                     own.robot,
                     self._truths[other.name],
@@ -315,7 +315,7 @@ def run_duel(
         StepAsideError: If the settings contradict each other or cannot be
             met by the robots.
     """
-    prefer_for(settings.duration)
+    prefer_for_duration(settings.duration)
     duel = Duel(settings)
     outcome, wall_time = play(duel, settings.duration, report)
     return duel.run(outcome, wall_time)

@@ -13,7 +13,7 @@ DISTANCE_BAND = 0.05  # relative to the distance on the circle
 ORIENTATION_BAND = 5.0  # around the orientation on the circle, in [deg]
 
 
-def theory_of(settings: DuelSettings) -> Circle:
+def circle_of_theory(settings: DuelSettings) -> Circle:
     """Compute the circle that the unicycles of a duel converge to.
 
     The circle does not exist where the game differs from that of the paper;
@@ -31,7 +31,7 @@ def no_circle_because(settings: DuelSettings) -> str:
     """Return the reason why the unicycles of a duel reach no circle.
 
     Args:
-        settings: Settings of a duel for which :func:`theory_of` returns a
+        settings: Settings for which :func:`circle_of_theory` returns a
             circle that does not exist.
     """
     differs = _differs(settings)
@@ -72,13 +72,13 @@ def _circle_of(settings: DuelSettings) -> Circle:
     chasing = settings.robot_of(PURSUER).gait
     if settings.pursuer == "person":
         # A person's speed is in real time, that of a gait in path time.
-        pace = pace_of(gait)
+        pace = time_scale(gait)
         person = settings.person
         speeds = person.speed, gait.speed * pace
         gains = person.gain, gait.gain * pace
     elif chasing != gait:
         # Path times of different gaits differ: compare in real time.
-        paces = pace_of(chasing), pace_of(gait)
+        paces = time_scale(chasing), time_scale(gait)
         speeds = chasing.speed * paces[0], gait.speed * paces[1]
         gains = chasing.gain * paces[0], gait.gain * paces[1]
     return find_circle(
@@ -89,7 +89,7 @@ def _circle_of(settings: DuelSettings) -> Circle:
     )
 
 
-def pace_of(gait: GaitSettings) -> float:
+def time_scale(gait: GaitSettings) -> float:
     """Return the path time that a gait walks per unit of real time."""
     return gait.path_interval / gait.step_duration
 
@@ -148,7 +148,7 @@ def cycle_mean(values: Array, times: Array, period: float) -> Array:
     return mean
 
 
-def converged_at(
+def convergence_time(
     times: Array,
     pursuer: Array,
     evader: Array,

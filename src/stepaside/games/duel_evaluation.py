@@ -11,11 +11,11 @@ from ..theory.unicycle.circle_equations import Circle
 from ..theory.unicycle.circle_fit import fit_circle
 from .duel_circle import (
     angle_between,
-    converged_at,
+    circle_of_theory,
+    convergence_time,
     distance_between,
     no_circle_because,
-    pace_of,
-    theory_of,
+    time_scale,
 )
 from .duel_settings import EVADER, PLAYERS, DuelSettings
 from .duel_summary import (
@@ -29,7 +29,7 @@ from .forecast import ExpectedEnd, forecast
 from .match import Match
 from .outcome import Outcome
 from .sight_summary import SightReport
-from .template_approach import template_meeting
+from .template_game import template_closest_approach
 from .trajectory import PlanningTimes, Trajectory
 
 
@@ -56,8 +56,8 @@ def summarise(
         wall_time: Time that the computation took, in [s].
     """
     pursuer, evader = (tracks[name].unicycle for name in PLAYERS)
-    theory = theory_of(settings)
-    converged = converged_at(times, pursuer, evader, settings, theory)
+    theory = circle_of_theory(settings)
+    converged = convergence_time(times, pursuer, evader, settings, theory)
     tail = times >= times[-1] * 2.0 / 3.0
     last = pursuer[tail], evader[tail]
     start, now = settings.start, match.world.time
@@ -102,7 +102,7 @@ def summarise(
 
 def _theory(settings: DuelSettings, converged: float | None) -> TheorySummary:
     """Summarise theory; no circle if the forecast is contact before it."""
-    circle, expectation = theory_of(settings), forecast(settings)
+    circle, expectation = circle_of_theory(settings), forecast(settings)
     words = None if circle.exists else no_circle_because(settings)
     if expectation is not None and converged is None:
         if expectation.expected is ExpectedEnd.CONTACT:
@@ -156,10 +156,10 @@ def _closest_approach(settings: DuelSettings) -> float | None:
         Pose(start.distance, 0.0, pi + (start.evader_offset or 0.0)),
     )
     if settings.strategy.trigger == "time":
-        return template_meeting(
+        return template_closest_approach(
             *initial, settings.strategy, gait, duration=settings.duration
         )
-    pace = pace_of(gait)
+    pace = time_scale(gait)
     return template_approach(
         *initial,
         speed=gait.speed * pace,

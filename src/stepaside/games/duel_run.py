@@ -9,8 +9,12 @@ import numpy as np
 from ..arena import Room
 from ..core.poses import Array
 from ..sim.camera_settings import RoomObject
-from .approach_forecast import CourseApproach, approach_between, motion_words
-from .duel_circle import angle_between, distance_between, theory_of
+from .approach_forecast import (
+    CourseApproach,
+    describe_motion,
+    estimate_approach,
+)
+from .duel_circle import angle_between, circle_of_theory, distance_between
 from .duel_settings import EVADER, PURSUER, DuelSettings
 from .duel_summary import DuelSummary
 from .run import Run, SafetyArea
@@ -66,7 +70,7 @@ class DuelRun(Run):
 
         None if there is no circle, or the forecast was contact before it.
         """
-        circle, summary = theory_of(self.settings), self.summary
+        circle, summary = circle_of_theory(self.settings), self.summary
         converged = summary.converged_at_s is not None
         if summary.theory.expected == "contact" and not converged:
             return None
@@ -124,7 +128,7 @@ class DuelRun(Run):
         if pushed:
             return f"the {' and the '.join(pushed)} is pushed"
         if triggered is None or time < triggered:
-            moves = motion_words(self._approach_at(index))
+            moves = describe_motion(self._approach_at(index))
             return f"the pursuer {moves}; the evader stands"
         if time < triggered + 1.0:
             return "the evader is triggered"
@@ -145,4 +149,4 @@ class DuelRun(Run):
         ]
         (x, y), (now_x, now_y) = (offset.tolist() for offset in offsets)
         elapsed = float(self.times[last] - self.times[first])
-        return approach_between((x, y), (now_x, now_y), elapsed)
+        return estimate_approach((x, y), (now_x, now_y), elapsed)

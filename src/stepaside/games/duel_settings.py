@@ -19,7 +19,7 @@ from ..locomotion.zmp.control_settings import ControlSettings
 from ..planning import GaitSettings
 from ..sim.body_settings import BodySettings
 from ..sim.camera_settings import CameraSettings, SceneSettings
-from ..sim.passer_settings import MOST_PASSERS, Passer
+from ..sim.passerby_settings import MOST_PASSERS, Passer
 from ..sim.person_settings import PersonSettings, check_pursuer
 from ..sim.physics_settings import PhysicsSettings, SightSettings
 from ..sim.push import MOST_PUSHES, Push, check_pushes
@@ -30,7 +30,7 @@ from ..strategies.registry import (
     describe_strategy,
     is_described,
 )
-from .strategy_objects import EVASION, settled
+from .strategy_objects import EVASION, resolve_strategies
 
 ERROR = ConfigurationError
 SENSING = ("ideal", "cameras")
@@ -166,7 +166,7 @@ class DuelSettings:
 
     def __post_init__(self) -> None:
         """Validate ranges, strategies and combinations of settings."""
-        for name, value in settled(
+        for name, value in resolve_strategies(
             self.strategy, self.evader_strategy, self.pursuer_strategy
         ).items():
             object.__setattr__(self, name, value)

@@ -4,7 +4,7 @@ from dataclasses import asdict, dataclass, field
 from typing import Any
 
 from .sight_summary import SEEING, SIGHT, PerceptionSummary, SightSummary, lift
-from .summary_parsing import check_object, read_figures
+from .summary_parsing import check_object, parse_summary
 
 
 @dataclass(frozen=True, slots=True)
@@ -171,4 +171,4 @@ class DuelSummary:
         for name in ("pursuer", "evader"):
             if isinstance(entries.get(name), dict):
                 entries[name] = lift(entries[name], SIGHT)
-        return read_figures(cls, entries, source)
+        return parse_summary(cls, entries, source)

@@ -7,10 +7,15 @@ from enum import StrEnum
 from ..core.poses import Pose
 from ..sim.person_motion import PersonMotion, Place
 from ..sim.person_settings import PersonSettings
-from .duel_circle import converged_at, no_circle_because, pace_of, theory_of
+from .duel_circle import (
+    circle_of_theory,
+    convergence_time,
+    no_circle_because,
+    time_scale,
+)
 from .duel_settings import EVADER, PURSUER, DuelSettings
-from .initial_poses import frames_of
-from .template_approach import play_template
+from .initial_poses import initial_poses
+from .template_game import play_template
 
 MAX_DURATION = 600.0  # of a game of templates, in [s]
 STEP = 0.05  # of its integration, in [s]
@@ -79,7 +84,7 @@ def _play(settings: DuelSettings) -> Forecast:
     """Play the templates of a duel of two robots."""
     start = settings.start
     chasing = settings.robot_of(PURSUER).gait
-    pace = pace_of(chasing)
+    pace = time_scale(chasing)
     steering = PersonSettings(
         "steer", chasing.speed * pace, chasing.gain * pace
     )
@@ -90,14 +95,14 @@ def _play(settings: DuelSettings) -> Forecast:
     duration = min(settings.duration, MAX_DURATION)
     played = play_template(
         motion,
-        *frames_of(settings),
+        *initial_poses(settings),
         settings.strategy,
         settings.robot_of(EVADER).gait,
         duration=duration,
         step=STEP,
     )
-    circle, closest = theory_of(settings), played.closest_m
-    since = converged_at(
+    circle, closest = circle_of_theory(settings), played.closest_m
+    since = convergence_time(
         played.times, played.pursuer, played.evader, settings, circle
     )
     if closest < start.least:

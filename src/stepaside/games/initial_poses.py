@@ -3,7 +3,7 @@
 from dataclasses import fields, replace
 from math import atan2, hypot, pi, radians
 
-from ..arena import check_starts, draw_starts
+from ..arena import check_initial_poses, draw_initial_poses
 from ..core.errors import ConfigurationError
 from ..core.poses import Pose, wrap_angle
 from ..core.random_streams import named_generator
@@ -37,7 +37,7 @@ def draw_start(settings: DuelSettings) -> StartSettings:
     )
 
 
-def with_start(settings: DuelSettings) -> DuelSettings:
+def with_initial_poses(settings: DuelSettings) -> DuelSettings:
     """Return the settings of the same duel with its start filled in.
 
     Raises:
@@ -47,8 +47,8 @@ def with_start(settings: DuelSettings) -> DuelSettings:
     plan = settings.room.plan
     if plan is None:
         return replace(settings, start=draw_start(settings))
-    starts = plan.starts or draw_starts(plan, settings.seed)
-    check_starts(plan, starts)
+    starts = plan.starts or draw_initial_poses(plan, settings.seed)
+    check_initial_poses(plan, starts)
     plan = replace(plan, starts=starts)
     return replace(
         settings,
@@ -68,7 +68,7 @@ def start_of(starts: tuple[Pose, Pose]) -> StartSettings:
     )
 
 
-def frames_of(settings: DuelSettings) -> tuple[Pose, Pose]:
+def initial_poses(settings: DuelSettings) -> tuple[Pose, Pose]:
     """Return the initial poses of pursuer and evader in the world.
 
     Args:
@@ -86,7 +86,7 @@ def frames_of(settings: DuelSettings) -> tuple[Pose, Pose]:
     )
 
 
-def walls_of(settings: DuelSettings) -> float:
+def wall_distance(settings: DuelSettings) -> float:
     """Return the distance of the walls from the origin.
 
     A player that began outside the walls would pass through one, undetected
@@ -100,7 +100,7 @@ def walls_of(settings: DuelSettings) -> float:
         Distance, in [m]; 0 without walls.
     """
     walls = settings.room.walls
-    reach = max(abs(c) for frame in frames_of(settings) for c in frame[:2])
+    reach = max(abs(c) for frame in initial_poses(settings) for c in frame[:2])
     if not walls or reach + WALL_MARGIN <= walls:
         return walls
     return reach + WALL_DISTANCE

@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from ..control.velocity_walk import fastest
+from ..control.velocity_walk import velocity_limits
 from ..core.errors import ConfigurationError
 from ..drivers.lola.nao_joints import TICK
 from ..drivers.naoqi.joint_server import NaoqiJointServer
@@ -11,7 +11,7 @@ from ..drivers.velocity.velocity_body import VelocityCommand
 from .robot_offers import OfferedPlayer
 from .served_player import ServedBody, ServedPlayer
 from .velocity_walker import VelocityWalker
-from .walker import Walker
+from .walker import SimulatedPlayer
 
 
 class NaoqiOffer(NamedTuple):
@@ -25,7 +25,9 @@ class NaoqiOffer(NamedTuple):
     url: str
     ideal_sight: bool = True
 
-    def serve(self, walker: Walker, *, lock_step: bool) -> OfferedPlayer:
+    def serve(
+        self, walker: SimulatedPlayer, *, lock_step: bool
+    ) -> OfferedPlayer:
         """Serve a robot that balances itself."""
         if lock_step:
             raise ConfigurationError(
@@ -37,7 +39,7 @@ class NaoqiOffer(NamedTuple):
             self.url,
             player,
             walker.scheme.kinematics.joint_names,
-            VelocityCommand(*fastest(walker.scheme.settings)),
+            VelocityCommand(*velocity_limits(walker.scheme.settings)),
             tick=TICK,
             gait=walker.scheme.settings,
         )
@@ -56,7 +58,9 @@ class NaoqiJointsOffer(NamedTuple):
     url: str
     ideal_sight: bool = True
 
-    def serve(self, walker: Walker, *, lock_step: bool) -> OfferedPlayer:
+    def serve(
+        self, walker: SimulatedPlayer, *, lock_step: bool
+    ) -> OfferedPlayer:
         """Serve the joints of a robot."""
         body = ServedBody(walker.robot)
         server = NaoqiJointServer(

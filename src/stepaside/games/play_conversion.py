@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..core.atomic_output import writing
+from ..core.atomic_output import atomic_draft
 from ..core.poses import Array
 from ..drivers.joint.safety import RobotState
 from ..drivers.row_file import HEADER, ROWS
@@ -13,7 +13,7 @@ from ..drivers.velocity.velocity_loop import DrivingState
 from ..robots.description import load_robot
 from ..theory.unicycle.circle_fit import fit_circle
 from .array_checks import check_times, check_tracks
-from .checksums import seal
+from .checksums import write_checksums
 from .duel_circle import cycle_mean, distance_between
 from .duel_settings import PLAYERS
 from .outcome import Outcome
@@ -99,14 +99,14 @@ def seal_play(
         OutputError: Likewise.
     """
     run = run_of_play(folder, settings, outcome, message)
-    with writing(folder / TRAJECTORIES) as draft:
+    with atomic_draft(folder / TRAJECTORIES) as draft:
         np.savez_compressed(draft, allow_pickle=False, **run.arrays())
     head = RunHeader(FORMAT, run.game, run.players)
     summary = {**head.to_json(), **run.summary.to_json()}
     text = json.dumps(summary, indent=2, allow_nan=False) + "\n"
-    with writing(folder / SUMMARY) as draft:
+    with atomic_draft(folder / SUMMARY) as draft:
         draft.write_text(text, encoding="utf-8")
-    seal(folder)
+    write_checksums(folder)
     return run
 
 

@@ -8,7 +8,7 @@ from ..core.errors import ConfigurationError
 from ..core.poses import Array, Pose
 from ..perception.attitude import AttitudeFilter
 from ..planning import GaitSettings
-from ..robots.body_pose import StandingBody, stand_on
+from ..robots.body_pose import SpatialTorsoPose, torso_pose_on_foot
 from ..robots.description import RobotDescription
 from ..robots.forward_kinematics import ForwardKinematics, MeasuredPosture
 from .play_rows import PlayedRows
@@ -114,15 +114,17 @@ class OdometryPath:
 
     def _stand(
         self, row: int, frame: Pose
-    ) -> tuple[MeasuredPosture, StandingBody]:
+    ) -> tuple[MeasuredPosture, SpatialTorsoPose]:
         x, y, heading, side = self._columns["support"][row].tolist()
         posture = self._forward.posture(self._columns["joint_positions"][row])
         support = frame.compose(Pose(x, y, heading))
         roll, pitch = self._tilts[row].tolist()
         foot = 0 if side > 0.0 else 1
-        return posture, stand_on(posture, foot, support, (roll, pitch))
+        return posture, torso_pose_on_foot(
+            posture, foot, support, (roll, pitch)
+        )
 
-    def _qpos(self, row: int, body: StandingBody) -> Array:
+    def _qpos(self, row: int, body: SpatialTorsoPose) -> Array:
         """Return position and quaternion of the torso, then all joints."""
         measured = self._columns["joint_positions"][row].tolist()
         known = dict(self._standing)
@@ -135,7 +137,7 @@ class OdometryPath:
         return np.array([*body.place, *quaternion, *joints])
 
     def _zmp(
-        self, row: int, posture: MeasuredPosture, body: StandingBody
+        self, row: int, posture: MeasuredPosture, body: SpatialTorsoPose
     ) -> Array:
         """Return the center of the foot forces; NaN without any force."""
         forces = self._columns["foot_forces"][row]

@@ -12,7 +12,7 @@ from ..core.errors import ConfigurationError
 from ..core.poses import Array
 from ..drivers.row_file import HEADER, ROWS, columns_in
 from .archive_reader import MAX_ARRAY_BYTES, read_bytes, read_json
-from .summary_parsing import check_object, read_figures
+from .summary_parsing import check_object, parse_summary
 
 NOTES = "play.json"
 PERIOD = 0.02  # approximate smallest period of the samples of a run, in [s]
@@ -114,7 +114,7 @@ def read_played(folder: Path) -> PlayedRows:
     found = columns_in(read_bytes(folder / ROWS, MAX_ARRAY_BYTES), columns)
     if not len(found["times_s"]):
         raise ConfigurationError(f"{ROWS} of {name} has no rows")
-    notes = read_figures(
+    notes = parse_summary(
         PlayNotes, read_json(folder / NOTES), f"{NOTES} of {name}"
     )
     return PlayedRows(found, one_clock(found["times_s"]), notes.changes)

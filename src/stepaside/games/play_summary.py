@@ -3,7 +3,7 @@
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from .summary_parsing import read_figures
+from .summary_parsing import parse_summary
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,4 +81,4 @@ class PlaySummary:
             ConfigurationError: If an entry is missing or of the wrong type;
                 names the entry.
         """
-        return read_figures(cls, plain, source)
+        return parse_summary(cls, plain, source)

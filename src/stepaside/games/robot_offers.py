@@ -8,7 +8,7 @@ from ..drivers.lola.lola_server import LolaServer
 from .lockstep import RobotServer
 from .player import Player
 from .served_player import ServedBody, ServedPlayer
-from .walker import Walker
+from .walker import SimulatedPlayer
 
 
 class OfferedPlayer(NamedTuple):
@@ -21,7 +21,9 @@ class OfferedPlayer(NamedTuple):
 class Offer(Protocol):
     """Protocol and address at which a robot is served."""
 
-    def serve(self, walker: Walker, *, lock_step: bool) -> OfferedPlayer:
+    def serve(
+        self, walker: SimulatedPlayer, *, lock_step: bool
+    ) -> OfferedPlayer:
         """Serve a robot.
 
         Args:
@@ -44,7 +46,9 @@ class LolaOffer(NamedTuple):
     address: LolaAddress
     ideal_sight: bool = True
 
-    def serve(self, walker: Walker, *, lock_step: bool) -> OfferedPlayer:
+    def serve(
+        self, walker: SimulatedPlayer, *, lock_step: bool
+    ) -> OfferedPlayer:
         """Serve the joints of a robot; the client has to balance it."""
         senses = walker.scheme.senses
         head: tuple[int, ...] = ()

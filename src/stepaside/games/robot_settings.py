@@ -60,10 +60,10 @@ def settings_of_robot(robot: str) -> RobotSettings:
     Raises:
         StepAsideError: If the description is invalid.
     """
-    return replace(settings_of(load_robot(robot)), robot=robot)
+    return replace(settings_from_description(load_robot(robot)), robot=robot)
 
 
-def settings_of(description: RobotDescription) -> RobotSettings:
+def settings_from_description(description: RobotDescription) -> RobotSettings:
     """Return gait and control from a description."""
     source = str(description.folder / FILE)
     gait: dict[str, Any] = dict(description.gait)
@@ -78,7 +78,9 @@ def settings_of(description: RobotDescription) -> RobotSettings:
     )
 
 
-def game_of(description: RobotDescription) -> RobotGameSettings | None:
+def game_settings_from_description(
+    description: RobotDescription,
+) -> RobotGameSettings | None:
     """Return the game settings of a description; None if it has none."""
     if not description.game:
         return None
@@ -104,7 +106,7 @@ def with_robot(settings: S, robot: str) -> S:
     values: dict[str, Any] = {
         field.name: getattr(own, field.name) for field in fields(own)
     }
-    game = game_of(load_robot(robot))
+    game = game_settings_from_description(load_robot(robot))
     if isinstance(settings, DuelSettings) and game is not None:
         values["strategy"] = _with_radius(settings.strategy, game)
         values["start"] = _with_distances(settings.start, game)
@@ -128,7 +130,7 @@ def with_players(
         own = settings_of_robot(robot)
         change: dict[str, Any] = {f"{player}_robot": own}
         settings = replace(settings, **change)
-        game = game_of(load_robot(robot))
+        game = game_settings_from_description(load_robot(robot))
         if game is None:
             continue
         start, strategy = settings.start, settings.strategy

@@ -5,7 +5,7 @@ from ..drivers.ros2.dds_domain import DdsParticipant
 from ..drivers.ros2.ros2_server import Ros2Server, WorldClock
 from .robot_offers import OfferedPlayer
 from .velocity_walker import VelocityWalker
-from .walker import Walker
+from .walker import SimulatedPlayer
 
 
 class Ros2Offer:
@@ -30,7 +30,9 @@ class Ros2Offer:
         self._dds, self._clock = dds, clock
         self._namespace, self._ideal_sight = namespace, ideal_sight
 
-    def serve(self, walker: Walker, *, lock_step: bool) -> OfferedPlayer:
+    def serve(
+        self, walker: SimulatedPlayer, *, lock_step: bool
+    ) -> OfferedPlayer:
         """Serve a robot that balances itself."""
         player = VelocityWalker(walker, offers_sight=self._ideal_sight)
         server = Ros2Server(

@@ -12,7 +12,7 @@ from ..core.errors import AnyPath, ConfigurationError, as_path
 from ..core.poses import Array
 from .archive_reader import read_arrays, read_json, read_text
 from .array_checks import check_times, check_tracks
-from .checksums import check_seal
+from .checksums import check_checksums
 from .configuration_file import dump_configuration, read_settings
 from .duel_run import DuelRun
 from .outcome import Outcome
@@ -45,7 +45,7 @@ READ_ERRORS = (  # raised for damaged files
 )
 
 
-def write_record(folder: Path, run: Run) -> None:
+def write_run_files(folder: Path, run: Run) -> None:
     """Write configuration, summary and trajectories into a folder.
 
     Args:
@@ -95,7 +95,7 @@ def load_run(folder: AnyPath, kind: type[Run] = Run) -> Run:
             )
     name = folder.resolve().name
     try:
-        check_seal(folder, (CONFIGURATION, SUMMARY, TRAJECTORIES))
+        check_checksums(folder, (CONFIGURATION, SUMMARY, TRAJECTORIES))
         plain = read_json(folder / SUMMARY)
         text = read_text(folder / CONFIGURATION)
         head = read_head(plain, name, tuple(RUN_CLASSES))

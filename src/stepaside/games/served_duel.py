@@ -15,7 +15,7 @@ from .player import Player
 from .recorder import Recorder
 from .robot_offers import Offer
 from .served_player import ServedPlayer
-from .walker import Walker
+from .walker import SimulatedPlayer
 
 
 class ServedDuel(NamedTuple):
@@ -78,7 +78,7 @@ def serve_duel(
         players: list[Player] = []
         servers: list[RobotServer] = []
         for player in duel.players:
-            if player.name in offers and isinstance(player, Walker):
+            if player.name in offers and isinstance(player, SimulatedPlayer):
                 offer = offers[player.name]
                 player, server = offer.serve(player, lock_step=lock_step)
                 stack.callback(server.close)

@@ -10,7 +10,9 @@ from ..strategies.registry import OF_EVASION
 EVASION = "evasion"
 
 
-def settled(strategy: Any, evader: Any, pursuer: Any) -> dict[str, Any]:
+def resolve_strategies(
+    strategy: Any, evader: Any, pursuer: Any
+) -> dict[str, Any]:
     """Replace strategy objects of a duel by names where possible.
 
     An object that equals a strategy of the registry is replaced by its name.
@@ -63,7 +65,7 @@ def settled(strategy: Any, evader: Any, pursuer: Any) -> dict[str, Any]:
     }
 
 
-def check_named(settings: Any) -> None:
+def check_strategy_names(settings: Any) -> None:
     """Reject strategy objects where records are stored by settings.
 
     Args:

@@ -28,7 +28,7 @@ def check_object(plain: Any, source: str) -> dict[str, Any]:
     return plain
 
 
-def read_figures(kind: type[F], plain: Any, source: str) -> F:
+def parse_summary(kind: type[F], plain: Any, source: str) -> F:
     """Parse plain values into a summary.
 
     Args:

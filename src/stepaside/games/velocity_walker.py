@@ -6,7 +6,7 @@ from typing import Protocol
 from ..control import Phase
 from ..control.sight_sources import MeasuredSight
 from ..control.turn_calibration import TurnCalibration
-from ..control.velocity_walk import accepted, walk_at
+from ..control.velocity_walk import limit_velocity, strategy_at_velocity
 from ..core.poses import Array, Pose, wrap_angle
 from ..drivers.velocity.footstep_commands import FootCommand
 from ..drivers.velocity.velocity_body import REST, VelocityCommand
@@ -15,7 +15,7 @@ from ..perception.images import ColourImage, SonarEcho
 from ..perception.measurement import Measurement, Sighting
 from ..planning import Direction, Foot
 from ..strategies import StandStill
-from .walker import Walker
+from .walker import SimulatedPlayer
 
 HEAD_SPEED = 3.0  # of a head commanded by a client, in [rad/s]
 # Placeholder that lets the walk start: commands do not depend on sightings.
@@ -32,7 +32,7 @@ class VelocitySource(Protocol):
         """Close the connection to the client."""
 
 
-class VelocityWalker(Walker):
+class VelocityWalker(SimulatedPlayer):
     """Simulated robot that walks at commanded velocities.
 
     Attributes:
@@ -40,7 +40,9 @@ class VelocityWalker(Walker):
             robot stands.
     """
 
-    def __init__(self, walker: Walker, *, offers_sight: bool = True) -> None:
+    def __init__(
+        self, walker: SimulatedPlayer, *, offers_sight: bool = True
+    ) -> None:
         """Take over a walker.
 
         Args:
@@ -74,8 +76,8 @@ class VelocityWalker(Walker):
         if scheme.phase is Phase.STANDING:
             self._walking_direction = None
         measurement = self._read()
-        forward, turn = accepted(*self._velocity, scheme.settings)
-        strategy = walk_at(
+        forward, turn = limit_velocity(*self._velocity, scheme.settings)
+        strategy = strategy_at_velocity(
             forward,
             turn / self._turns.share,
             scheme.settings,
@@ -103,7 +105,7 @@ class VelocityWalker(Walker):
         measurement = self._read()
         now, scheme = measurement.time, self.scheme
         walk = scheme.state
-        velocity = accepted(*self._velocity, scheme.settings)
+        velocity = limit_velocity(*self._velocity, scheme.settings)
         return WalkerState(
             now,
             scheme.decisions.templates.at(now),

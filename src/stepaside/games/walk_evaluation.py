@@ -8,7 +8,11 @@ import numpy as np
 from ..core.poses import Array
 from ..locomotion.zmp.mpc import MpcResult
 from .outcome import Outcome
-from .support_foot_view import COLUMNS, on_its_feet, seen_from_foot
+from .support_foot_columns import (
+    COLUMNS,
+    express_in_support_foot,
+    upright_samples,
+)
 from .trajectory import Trajectory
 from .walk_settings import WalkSettings
 from .walk_summary import (
@@ -92,8 +96,8 @@ def summarise_walk(
     """
     columns = {name: np.zeros(0) for name in COLUMNS}
     if len(times):
-        mask = on_its_feet(times, outcome)
-        in_foot = seen_from_foot(times, track)
+        mask = upright_samples(times, outcome)
+        in_foot = express_in_support_foot(times, track)
         columns = {name: values[mask] for name, values in in_foot.items()}
     return figures_of(settings, outcome, message, duration, columns, counted)
 

@@ -10,8 +10,8 @@ from ..locomotion.zmp.mpc import MpcResult
 from ..perception.measurement import Sighting
 from ..planning import Direction
 from ..robots.description import RobotDescription, load_robot
-from ..robots.jit import prefer_for
-from ..sim.body_settings import with_cycle
+from ..robots.jit import prefer_for_duration
+from ..sim.body_settings import with_control_period
 from ..sim.world import World
 from ..strategies import Walk
 from .match import Match, MatchObserver, Progress, play
@@ -20,8 +20,8 @@ from .recorder import Recorder
 from .walk_evaluation import StepCounts, summarise_walk
 from .walk_run import WalkRun
 from .walk_settings import WALKER, WalkSettings
-from .walker import Walker
-from .walker_factory import stand_walker
+from .walker import SimulatedPlayer
+from .walker_factory import place_walker
 
 
 class WalkTally:
@@ -32,7 +32,9 @@ class WalkTally:
         solved: Results of the MPC so far, if there is one.
     """
 
-    def __init__(self, walker: Walker, *, keeps_answers: bool = True) -> None:
+    def __init__(
+        self, walker: SimulatedPlayer, *, keeps_answers: bool = True
+    ) -> None:
         """Observe a walker."""
         self._walker, self._keeps_answers = walker, keeps_answers
         self.steps = 0
@@ -89,12 +91,12 @@ class WalkGame(Match):
         description = description or load_robot(settings.robot)
         world = World(
             {WALKER: description},
-            with_cycle(settings.physics, settings.body),
+            with_control_period(settings.physics, settings.body),
             settings.body,
             settings.seed,
         )
         back, ahead = Direction.BACKWARD, Direction.FORWARD
-        self.walker = stand_walker(
+        self.walker = place_walker(
             world,
             WALKER,
             description,
@@ -175,7 +177,7 @@ def run_walk(
         StepAsideError: If the settings contradict each other or cannot be
             met by the robot.
     """
-    prefer_for(settings.duration)
+    prefer_for_duration(settings.duration)
     game = WalkGame(settings, recorded=record)
 
     def report_time(progress: Progress) -> None:

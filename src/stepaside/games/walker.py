@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from ..perception.perception import Perception
 
 
-class Walker:
+class SimulatedPlayer:
     """Simulated robot with its controller.
 
     Attributes:

@@ -10,7 +10,7 @@ from ..control.clearance.surroundings import (
     MappedRoom,
     Surroundings,
 )
-from ..control.clearance.swept_outline import sway_of
+from ..control.clearance.swept_outline import lateral_sway
 from ..control.scheme_builder import ClearanceSetup, build_scheme
 from ..core.poses import Pose
 from ..core.random_streams import named_generator
@@ -25,7 +25,7 @@ from ..sim.outline_measurement import measure_outline
 from ..sim.simulated_robot import SimulatedRobot
 from ..sim.world import World
 from ..strategies import Strategy
-from .walker import Walker
+from .walker import SimulatedPlayer
 
 if TYPE_CHECKING:
     from ..perception.perception import Perception
@@ -45,7 +45,7 @@ def watch(
     )
 
 
-def stand_walker(
+def place_walker(
     world: World,
     name: str,
     description: RobotDescription,
@@ -62,7 +62,7 @@ def stand_walker(
     perception: "Perception | None" = None,
     truth: TrueRobotState | None = None,
     clearance: ClearanceSetup | None = None,
-) -> Walker:
+) -> SimulatedPlayer:
     """Place one robot in a world and build its controller.
 
     Args:
@@ -112,7 +112,7 @@ def stand_walker(
         knows_place=clearance is not None
         and isinstance(clearance.surroundings, KnownRoom),
     )
-    return Walker(robot, scheme, frame)
+    return SimulatedPlayer(robot, scheme, frame)
 
 
 def clearance_in(
@@ -162,7 +162,7 @@ def fitting(
     """
     if clearance is None or not is_dataclass(strategy):
         return strategy
-    radius = clearance.outline.radius + clearance.margin + sway_of(gait)
+    radius = clearance.outline.radius + clearance.margin + lateral_sway(gait)
     if getattr(strategy, "body_radius", radius) >= radius:
         return strategy
     enlarged: Strategy = replace(strategy, body_radius=radius)

@@ -16,7 +16,7 @@ STILL = 1e-6  # samples closer than this coincide, in [m]
 SHORT = 0.18  # largest stride of a step on the spot, in foot spacings
 
 
-def passed_beside(foot: Pose, side: Foot, foot_spacing: float) -> Pose:
+def pose_beside_foot(foot: Pose, side: Foot, foot_spacing: float) -> Pose:
     """Return the pose with which the unicycle passes a stance foot.
 
     Args:
@@ -93,7 +93,7 @@ def poses_on_path(
     return poses
 
 
-def clock_of(schedule: Schedule, times: Array) -> Array:
+def progress_by_time(schedule: Schedule, times: Array) -> Array:
     """Return the progress between the feet of a plan by time.
 
     The first one is undefined for a start from standing: the CoM may then

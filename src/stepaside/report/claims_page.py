@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from ..core.atomic_output import writing
+from ..core.atomic_output import atomic_draft
 
 HEAD = """# Every claim of the paper, measured
 
@@ -105,7 +105,7 @@ def write_page(
     import markdown
 
     text = markdown_page(rows, beside, figures, made)
-    with writing(folder / "claims.md") as draft:
+    with atomic_draft(folder / "claims.md") as draft:
         draft.write_text(text, encoding="utf-8")
     body = markdown.markdown(text, extensions=["tables"])
     html = folder / "claims.html"
@@ -114,7 +114,7 @@ def write_page(
         "<title>Every claim of the paper, measured</title>"
         f"<style>{STYLE}</style>{body}</html>"
     )
-    with writing(html) as draft:
+    with atomic_draft(html) as draft:
         draft.write_text(page, encoding="utf-8")
     return html
 

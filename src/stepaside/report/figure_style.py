@@ -12,7 +12,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 from cycler import cycler  # noqa: E402
 
-from ..core.atomic_output import writing  # noqa: E402
+from ..core.atomic_output import atomic_draft  # noqa: E402
 from ..core.errors import AnyPath, as_path  # noqa: E402
 from .figure_sizes import sheet  # noqa: E402
 
@@ -157,7 +157,7 @@ def save(figure: Any, file: AnyPath) -> None:
         figure.savefig(buffer, format=kind, metadata=UNDATED.get(kind))
     finally:
         plt.close(figure)
-    with writing(path) as draft:
+    with atomic_draft(path) as draft:
         draft.write_bytes(buffer.getvalue())
 
 

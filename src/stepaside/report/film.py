@@ -10,7 +10,7 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
-from ..core.atomic_output import reason_of, writing
+from ..core.atomic_output import atomic_draft, reason_of
 from ..core.errors import ConfigurationError, OutputError
 from ..core.poses import Array
 from ..core.worker_pool import worker_pool
@@ -27,8 +27,8 @@ from ..sim.offscreen_rendering import (
 from .film_camera import FilmCamera
 from .film_captions import caption, draw_title
 from .film_insets import FilmInsets, inset_width
-from .film_layers import aim_light, decorate
-from .film_shot import FilmSettings
+from .film_layers import add_layers, aim_light
+from .film_settings import FilmSettings
 from .scene import RunScene
 
 CHUNK = 15  # images that one worker renders at a time
@@ -79,7 +79,7 @@ class FilmRenderer:
         def add(scene: mujoco.MjvScene) -> None:
             aim_light(scene, view.target)
             if settings.layers:
-                decorate(scene, run=run, index=index, trail=TRAIL)
+                add_layers(scene, run=run, index=index, trail=TRAIL)
 
         with hidden_walls(self._scene.model, view.eye):
             image = self._renderer.draw(self._scene.data, view.camera(), add)
@@ -194,7 +194,7 @@ def _draw(
     return [_renderers[key].picture(time) for time in times]
 
 
-def pictures(
+def render_images(
     folder: Path, settings: FilmSettings, *, workers: int | None = None
 ) -> Iterator[Pixels]:
     """Render the images of a film in order, on all cores.
@@ -255,14 +255,14 @@ def write_video(
         Number of images.
 
     Raises:
-        ConfigurationError: As in :func:`pictures`.
+        ConfigurationError: As in :func:`render_images`.
         OutputError: If the file cannot be written.
     """
     import av
 
     number = len(frame_times_of(load_run(folder), settings))
     done = 0
-    with writing(file) as draft:
+    with atomic_draft(file) as draft:
         try:
             with av.open(
                 str(draft), "w", options={"movflags": "faststart"}
@@ -272,7 +272,7 @@ def write_video(
                 stream.width, stream.height = settings.width, settings.height
                 stream.pix_fmt = "yuv420p"
                 stream.options = {"crf": "23", "preset": "veryfast"}
-                for picture in pictures(folder, settings):
+                for picture in render_images(folder, settings):
                     frame = av.VideoFrame.from_ndarray(picture, format="rgb24")
                     out.mux(stream.encode(frame))
                     done += 1
@@ -304,19 +304,19 @@ def write_gif(
         Number of images.
 
     Raises:
-        ConfigurationError: As in :func:`pictures`.
+        ConfigurationError: As in :func:`render_images`.
         OutputError: If the file cannot be written.
     """
     from PIL import Image
 
     number = len(frame_times_of(load_run(folder), settings))
     frames = []
-    for picture in pictures(folder, settings):
+    for picture in render_images(folder, settings):
         image = Image.fromarray(picture)
         frames.append(image.quantize(64, dither=Image.Dither.NONE))
         if report is not None:
             report(len(frames), number)
-    with writing(file) as draft:
+    with atomic_draft(file) as draft:
         frames[0].save(
             draft,
             format="GIF",
@@ -329,4 +329,4 @@ def write_gif(
     return len(frames)
 
 
-__all__ = ["FilmSettings", "pictures", "write_gif", "write_video"]
+__all__ = ["FilmSettings", "render_images", "write_gif", "write_video"]

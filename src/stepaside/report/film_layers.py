@@ -19,7 +19,7 @@ PUSH_SHOWN = 1.0  # time for which an arrow is shown, in [s]
 FOOTPRINT = (0.045, 0.025)  # half sizes, in [m]
 
 
-def decorate(
+def add_layers(
     scene: mujoco.MjvScene, *, run: Run, index: int, trail: float
 ) -> None:
     """Add traces, footprints, pushes, line of sight and rings to a scene.

@@ -10,7 +10,7 @@ from ..games.run_archive import load_run
 from .duel_figure import draw_top
 from .figure_sizes import sheet
 from .figure_style import THEORY, colours_of, new_figure, save
-from .film import FilmSettings, frame_times_of, pictures
+from .film import FilmSettings, frame_times_of, render_images
 
 FRAMES = 4
 
@@ -53,7 +53,7 @@ def write_strip(
     settings = strip_settings(settings, float(run.times[-1]))
     times = frame_times_of(run, settings)
     images = []
-    for image in pictures(folder, settings):
+    for image in render_images(folder, settings):
         images.append(image)
         if report is not None:
             report(len(images), len(times))

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ..core.atomic_output import writing
+from ..core.atomic_output import atomic_draft
 from ..core.errors import AnyPath, ConfigurationError, as_path
 from ..core.poses import Array
 from ..games.run import Run
@@ -81,7 +81,7 @@ def write_page(run: Run, file: AnyPath) -> None:
     """
     file = as_path(file, "file")
     text = fill_page(template(), {"NAME": run.name}, _page_data(run))
-    with writing(file) as draft:
+    with atomic_draft(file) as draft:
         draft.write_text(text, encoding="utf-8", newline="\n")
 
 

@@ -9,11 +9,11 @@ from matplotlib.patches import Polygon
 from scipy.spatial import ConvexHull, QhullError
 
 from ..core.poses import Array, Pose
-from ..games.robot_settings import settings_of
+from ..games.robot_settings import settings_from_description
 from ..locomotion.zmp.reference_table import standing_reference
 from ..robots.description import RobotDescription
 from ..robots.leg_kinematics import LegKinematics
-from ..sim.geom_points import points_of
+from ..sim.geom_points import geom_points_in_world
 from .figure_style import plt, save
 
 VIEWS = (("from the front", 1, "y [m]"), ("from the left", 0, "x [m]"))
@@ -33,7 +33,7 @@ def draw_robot(description: RobotDescription, file: Path) -> None:
         StepAsideError: If the stance is out of reach.
         OutputError: If the figure cannot be written.
     """
-    gait = settings_of(description).gait
+    gait = settings_from_description(description).gait
     half = 0.5 * gait.foot_spacing
     feet = Pose(0.0, half, 0.0), Pose(0.0, -half, 0.0)
     stance = standing_reference(*feet, gait)
@@ -79,7 +79,7 @@ def _draw_links(
 ) -> None:
     """Draw the outlines of all geoms, and lines from joint to joint."""
     for geom in range(model.ngeom):
-        points = points_of(model, data, geom)[:, [across, 2]]
+        points = geom_points_in_world(model, data, geom)[:, [across, 2]]
         if len(points) < 3:
             continue
         try:
@@ -109,7 +109,7 @@ def _draw_frame(
 
 def _corners(description: RobotDescription, *, left: bool) -> Array:
     """Return the outline of a sole in its frame, in [m]. Shape (5, 3)."""
-    sole = settings_of(description).gait.sole
+    sole = settings_from_description(description).gait.sole
     outer, inner = (sole.outer, -sole.inner)
     high, low = (outer, inner) if left else (-inner, -outer)
     x = [sole.back, sole.front, sole.front, sole.back, sole.back]

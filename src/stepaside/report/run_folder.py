@@ -6,13 +6,18 @@ import shutil
 import tempfile
 from pathlib import Path
 
-from ..core.atomic_output import check_folder, draft_prefix, reason_of, sweep
+from ..core.atomic_output import (
+    check_folder,
+    draft_prefix,
+    reason_of,
+    remove_stale_drafts,
+)
 from ..core.errors import AnyPath, OutputError, as_path
-from ..games.checksums import seal
+from ..games.checksums import write_checksums
 from ..games.outcome import Outcome
 from ..games.play_run import PlayRun
 from ..games.run import Run
-from ..games.run_archive import write_record
+from ..games.run_archive import write_run_files
 
 SIGHT = "sight.png"
 
@@ -36,7 +41,7 @@ def free_folder(parent: Path, name: str) -> Path:
     return folder
 
 
-def figure_of(run: Run) -> str:
+def figure_name(run: Run) -> str:
     """Return the name of a run's figure, like ``duel.png``."""
     return f"{run.game}.png"
 
@@ -86,19 +91,19 @@ def write_run(folder: AnyPath, run: Run, *, drawn: bool = True) -> Path:
         folder = folder.resolve()  # ``.`` has neither name nor parent
     try:
         folder.parent.mkdir(parents=True, exist_ok=True)
-        sweep(folder.parent)
+        remove_stale_drafts(folder.parent)
         draft = Path(
             tempfile.mkdtemp(prefix=draft_prefix(), dir=folder.parent)
         )
-        write_record(draft, run)
-        figure = figure_of(run)
+        write_run_files(draft, run)
+        figure = figure_name(run)
         if drawn:
             draw_run(run, draft / figure)
         if drawn and run.stills:
             from .sight_figure import draw_sight
 
             draw_sight(run, draft / SIGHT)
-        seal(draft)
+        write_checksums(draft)
         draft.chmod(0o755)
         return _move(draft, folder) / figure
     except OutputError:
@@ -124,7 +129,7 @@ def _move(draft: Path, folder: Path) -> Path:
             target = free_folder(folder.parent, folder.name)
 
 
-def keep_run(folder: Path, run: Run) -> tuple[Path | None, OutputError | None]:
+def save_run(folder: Path, run: Run) -> tuple[Path | None, OutputError | None]:
     """Write a game, falling back to the temporary folder.
 
     A game that was interrupted is written without figures, since the user is

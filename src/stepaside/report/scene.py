@@ -6,15 +6,15 @@ import numpy as np
 from ..core.errors import ConfigurationError
 from ..core.poses import Array, Pose
 from ..games.duel_settings import EVADER, DuelSettings
-from ..games.initial_poses import frames_of, walls_of
+from ..games.initial_poses import initial_poses, wall_distance
 from ..games.run import Run
 from ..robots.description import load_robot
 from ..robots.head import load_head
-from ..sim.obstacle_geoms import add_solids, mover_of
+from ..sim.obstacle_geoms import add_solids, obstacle_mover
 from ..sim.passer_bodies import add_passers, passer_mover
-from ..sim.passer_settings import Passer
+from ..sim.passerby_settings import Passer
 from ..sim.pedestrian_models import FIGURES
-from ..sim.person_body import add_person, parts_of, pose_figure
+from ..sim.person_body import add_person, mocap_indices, set_person_pose
 from ..sim.room_furnishing import Furnish, furnisher, hide_walls
 from ..sim.template_body import add_template, pose_template
 from ..sim.world import build_model
@@ -83,7 +83,9 @@ class RunScene:
             )
         empty = np.zeros((len(run.times), 0))
         self._qpos = np.concatenate([empty, *known], axis=1)
-        self._persons = {name: parts_of(self.model, name) for name in persons}
+        self._persons = {
+            name: mocap_indices(self.model, name) for name in persons
+        }
         self._walked = {
             name: _distance_walked(run.tracks[name].torso[:, :2])
             for name in persons
@@ -92,9 +94,9 @@ class RunScene:
         self._times = run.times
         self._movers = []
         if room is not None:
-            self._movers.append(mover_of(self.model, self.data, room))
+            self._movers.append(obstacle_mover(self.model, self.data, room))
         if isinstance(settings, DuelSettings) and passers:
-            evader = frames_of(settings)[1]
+            evader = initial_poses(settings)[1]
             self._movers.append(
                 passer_mover(self.model, self.data, passers, evader)
             )
@@ -107,7 +109,7 @@ class RunScene:
         for name, parts in self._persons.items():
             pose = Pose(*self._tracks[name].torso[index].tolist())
             walked = float(self._walked[name][index])
-            pose_figure(self.data, parts, pose, walked, self._figure)
+            set_person_pose(self.data, parts, pose, walked, self._figure)
         for name in self._templates:
             pose = Pose(*self._tracks[name].torso[index].tolist())
             pose_template(self.model, self.data, name, pose)
@@ -141,4 +143,6 @@ def surroundings_of(run: Run) -> Furnish | None:
     if settings.sensing != "cameras" or EVADER not in run.robots:
         return None
     head = load_head(load_robot(settings.robot_of(EVADER).robot))
-    return furnisher(settings.room, EVADER, head, walls=walls_of(settings))
+    return furnisher(
+        settings.room, EVADER, head, walls=wall_distance(settings)
+    )

@@ -1,6 +1,6 @@
 """Report on why a duel did not reach its circle."""
 
-from ..games.duel_circle import theory_of
+from ..games.duel_circle import circle_of_theory
 from ..games.duel_run import DuelRun
 from ..games.duel_settings import DuelSettings
 from ..games.outcome import Outcome
@@ -18,7 +18,7 @@ def settling_time(settings: DuelSettings) -> float | None:
     Returns:
         The time constant; None without a stable circle.
     """
-    circle = theory_of(settings)
+    circle = circle_of_theory(settings)
     if not (circle.exists and circle.stable):
         return None
     gait = settings.gait
@@ -29,7 +29,7 @@ def settling_time(settings: DuelSettings) -> float | None:
     return circle.time_constant_s * (gait.step_duration / gait.path_interval)
 
 
-def settling_words(run: DuelRun) -> str:
+def explain_missing_circle(run: DuelRun) -> str:
     """Return why a run did not end on its circle, as text.
 
     Args:

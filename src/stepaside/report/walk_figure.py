@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..games.run import Run
-from ..games.support_foot_view import seen_from_foot
+from ..games.support_foot_columns import express_in_support_foot
 from ..games.trajectory import Trajectory
 from .duel_figure import draw_paths
 from .figure_style import LEFT, MEAN, RIGHT, THEORY, new_figure, save
@@ -49,7 +49,7 @@ def _draw_over_time(
     figure: Any, grid: Any, run: Run, track: Trajectory
 ) -> None:
     """Draw roll and pitch of the torso, and the CoM error."""
-    times, seen = run.times, seen_from_foot(run.times, track)
+    times, seen = run.times, express_in_support_foot(run.times, track)
     upper = figure.add_subplot(grid[1, :])
     lower = figure.add_subplot(grid[2, :], sharex=upper)
     for lean, axis, colour, label in (

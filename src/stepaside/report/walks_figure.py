@@ -8,7 +8,7 @@ import numpy as np
 
 from ..core.poses import Array
 from ..games.run import Run
-from ..games.support_foot_view import seen_from_foot
+from ..games.support_foot_columns import express_in_support_foot
 from .figure_style import OTHERS, new_figure, save
 from .push_marks import draw_pushes
 from .text_escaping import for_figure
@@ -36,11 +36,11 @@ def draw_walks(runs: Sequence[Run], file: Path) -> None:
         axes["path"].plot(*track.com[:, :2].T, label=name, **look)
         draw_pushes(axes["path"], track.pushes)
         if track.sole is not None:
-            seen = seen_from_foot(run.times, track)
+            seen = express_in_support_foot(run.times, track)
             tilt = np.degrees(np.hypot(seen["roll"], seen["pitch"]))
             axes["tilt"].plot(run.times, tilt, **look)
         cycle = 2.0 * run.settings.gait.step_duration
-        speed = speed_over(track.unicycle, run.times, cycle)
+        speed = mean_speed(track.unicycle, run.times, cycle)
         axes["speed"].plot(run.times, speed, **look)
     axes["path"].set_aspect("equal", adjustable="datalim")
     axes["path"].set(xlabel="x [m]", ylabel="y [m]", title="CoM paths")
@@ -51,7 +51,7 @@ def draw_walks(runs: Sequence[Run], file: Path) -> None:
     save(figure, file)
 
 
-def speed_over(places: Array, times: Array, period: float) -> Array:
+def mean_speed(places: Array, times: Array, period: float) -> Array:
     """Return the mean speed over the gait cycle around each sample.
 
     Args:

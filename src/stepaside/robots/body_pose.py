@@ -37,7 +37,7 @@ class BodyPose:
     pitch: float
 
 
-class StandingBody(NamedTuple):
+class SpatialTorsoPose(NamedTuple):
     """Spatial pose of a torso in odometry.
 
     Attributes:
@@ -51,12 +51,12 @@ class StandingBody(NamedTuple):
     heading: float
 
 
-def stand_on(
+def torso_pose_on_foot(
     posture: MeasuredPosture,
     foot: int,
     support: Pose,
     tilt: tuple[float, float],
-) -> StandingBody:
+) -> SpatialTorsoPose:
     """Return the torso pose that puts the stance foot at a given pose.
 
     Args:
@@ -74,7 +74,7 @@ def stand_on(
     place = -(axes @ posture.feet[foot])
     place[0] += support.x
     place[1] += support.y
-    return StandingBody(place, axes, heading)
+    return SpatialTorsoPose(place, axes, heading)
 
 
 class BodyKinematics:
@@ -119,7 +119,7 @@ class BodyKinematics:
         """
         posture = self._kinematics.posture(joints)
         foot = 0 if left_supports else 1
-        torso = stand_on(posture, foot, support, tilt)
+        torso = torso_pose_on_foot(posture, foot, support, tilt)
         return self._with_head(time, joints, posture, torso)
 
     def level(self, time: float, joints: Array, frame: Pose) -> BodyPose:
@@ -139,7 +139,7 @@ class BodyKinematics:
         c, s = cos(frame.theta), sin(frame.theta)
         axes = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
         place = np.array([frame.x, frame.y, 0.0]) - axes @ [x, y, low]
-        torso = StandingBody(place, axes, frame.theta)
+        torso = SpatialTorsoPose(place, axes, frame.theta)
         return self._with_head(time, joints, posture, torso)
 
     def _with_head(
@@ -147,7 +147,7 @@ class BodyKinematics:
         time: float,
         joints: Array,
         posture: MeasuredPosture,
-        torso: StandingBody,
+        torso: SpatialTorsoPose,
     ) -> BodyPose:
         """Add the head to a torso pose."""
         place, axes, heading = torso

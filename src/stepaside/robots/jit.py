@@ -39,7 +39,7 @@ def prefer(preference: JitPreference) -> None:
     _preference = max(_preference, preference)
 
 
-def prefer_for(duration: float, *, many: bool = False) -> None:
+def prefer_for_duration(duration: float, *, many: bool = False) -> None:
     """Prefer machine code for games that are long enough to benefit.
 
     Args:

@@ -154,7 +154,7 @@ BODIES = {
 }
 
 
-def with_cycle(
+def with_control_period(
     physics: PhysicsSettings, body: BodySettings
 ) -> PhysicsSettings:
     """Return physics settings with the control period of a body.

@@ -10,7 +10,9 @@ from ..core.poses import Array
 TYPES = mujoco.mjtGeom
 
 
-def points_of(model: mujoco.MjModel, data: mujoco.MjData, geom: int) -> Array:
+def geom_points_in_world(
+    model: mujoco.MjModel, data: mujoco.MjData, geom: int
+) -> Array:
     """Return points that span a geom, in the world.
 
     Round geoms give their extreme points along the axes of the world; planes

@@ -33,7 +33,7 @@ def add_solids(spec: mujoco.MjSpec, room: Room) -> None:
         _add_solid(spec, _name(number), box.at(0.0), BROWN, moves=True)
 
 
-def mover_of(
+def obstacle_mover(
     model: mujoco.MjModel, data: mujoco.MjData, room: Room
 ) -> Callable[[float], None]:
     """Return the function that moves the moving boxes of a room.

@@ -5,9 +5,9 @@ from collections.abc import Callable, Sequence
 import mujoco
 
 from ..core.poses import Pose
-from .passer_settings import Passer
+from .passerby_settings import Passer
 from .pedestrian_models import FIGURES
-from .person_body import add_person, parts_of, pose_figure
+from .person_body import add_person, mocap_indices, set_person_pose
 
 
 def add_passers(spec: mujoco.MjSpec, passers: Sequence[Passer]) -> None:
@@ -38,13 +38,13 @@ def passer_mover(
     Returns:
         Function of the time, in [s].
     """
-    parts = [parts_of(model, _name(i + 1)) for i in range(len(passers))]
+    parts = [mocap_indices(model, _name(i + 1)) for i in range(len(passers))]
 
     def move(time: float) -> None:
         for own, passer in zip(parts, passers, strict=True):
             pose = passer.pose_at(time, evader)
             walked = passer.speed * time
-            pose_figure(data, own, pose, walked, FIGURES[passer.figure])
+            set_person_pose(data, own, pose, walked, FIGURES[passer.figure])
 
     return move
 

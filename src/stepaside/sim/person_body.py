@@ -8,7 +8,7 @@ import numpy as np
 from ..core.poses import Array, Pose
 from .pedestrian_models import FIGURES, HIP, Colour, PedestrianModel
 from .person_motion import PersonMotion
-from .person_visits import RepeatedVisits
+from .repeated_visits import RepeatedVisits
 from .world import FLOOR_BIT, World
 
 SKIN = (0.85, 0.68, 0.56, 1.0)
@@ -61,14 +61,14 @@ def add_person(
         capsule(arm, (0, 0.04 * y, 0), (0.03, 0.05 * y, -0.55), 0.045, shirt)
 
 
-def parts_of(model: mujoco.MjModel, name: str) -> dict[str, int]:
+def mocap_indices(model: mujoco.MjModel, name: str) -> dict[str, int]:
     """Return the mocap indices of the bodies of a person, by part."""
     return {
         part: int(model.body(f"{name}/{part}").mocapid[0]) for part in PARTS
     }
 
 
-def pose_figure(
+def set_person_pose(
     data: mujoco.MjData,
     parts: dict[str, int],
     frame: Pose,
@@ -79,7 +79,7 @@ def pose_figure(
 
     Args:
         data: State of the world.
-        parts: Mocap indices, from :func:`parts_of`.
+        parts: Mocap indices, from :func:`mocap_indices`.
         frame: Pose of the person in the world.
         way: Distance walked, which is the phase of the step, in [m].
         figure: Pedestrian model.
@@ -158,7 +158,7 @@ class PersonBody:
         self._figure = figure
         self._motion = motion
         self._walked = 0.0
-        self._parts = parts_of(world.model, name)
+        self._parts = mocap_indices(world.model, name)
         self._update_bodies()
 
     @property
@@ -183,7 +183,7 @@ class PersonBody:
         """Set the poses of trunk, legs and arms."""
         data = self.world.data
         pose = self._motion.pose
-        pose_figure(data, self._parts, pose, self._walked, self._figure)
+        set_person_pose(data, self._parts, pose, self._walked, self._figure)
 
 
 def _quaternion(heading: float, pitch: float) -> tuple[float, ...]:

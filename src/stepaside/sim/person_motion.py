@@ -11,7 +11,7 @@ from ..core.errors import ConfigurationError
 from ..core.poses import Array, Pose, wrap_angle
 from ..theory import laws
 from .person_settings import PATHS, PersonSettings
-from .person_visits import RepeatedVisits
+from .repeated_visits import RepeatedVisits
 
 Place = tuple[float, float]
 

@@ -83,7 +83,7 @@ def check_pushes(pushes: Sequence[Push], robots: Sequence[str]) -> None:
             )
 
 
-def pushes_of(
+def pushes_by_robot(
     pushes: Sequence[Push], robots: Sequence[str]
 ) -> dict[str, tuple[Push, ...]]:
     """Group pushes by the name of the robot; see :func:`check_pushes`."""

@@ -22,7 +22,7 @@ from .push_forces import PushApplier
 from .sensor_errors import AveragedImu, SensorErrors
 from .servos import IdealServos, RealisticServos
 from .true_stance import StanceWatch, TrueStance
-from .world import World, place_free_body
+from .world import World, transform_free_joint
 
 if TYPE_CHECKING:
     from .sensor_suite import SensorSuite
@@ -160,7 +160,7 @@ class SimulatedRobot:
         qpos = self.world.data.qpos
         self.qpos_slice = slice(at, at + posture.size)
         qpos[self.qpos_slice] = posture
-        qpos[at : at + 7] = place_free_body(posture[:7].tolist(), pose)
+        qpos[at : at + 7] = transform_free_joint(posture[:7].tolist(), pose)
 
     @property
     def weight(self) -> float:

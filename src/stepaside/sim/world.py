@@ -209,7 +209,7 @@ class World:
         return touching
 
 
-def place_free_body(qpos: Sequence[float], pose: Pose) -> list[float]:
+def transform_free_joint(qpos: Sequence[float], pose: Pose) -> list[float]:
     """Transform the free joint of a robot from odometry to the world.
 
     Args:

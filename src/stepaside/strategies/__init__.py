@@ -7,7 +7,7 @@ from .herding import HerdingPursuit
 from .knowledge import STAND, Intent, Knowledge, Limits
 from .lead_pursuit import LeadPursuit
 from .look_ahead import LookAhead
-from .optimal_evasion import Optimal
+from .optimal_evasion import OptimalEvasion
 from .optimal_pursuit import OptimalPursuit
 from .pursuit import Pursuit
 from .registry import STRATEGIES, load_strategy
@@ -29,7 +29,7 @@ __all__ = [
     "LeadPursuit",
     "Limits",
     "LookAhead",
-    "Optimal",
+    "OptimalEvasion",
     "OptimalPursuit",
     "Pursuit",
     "StandStill",

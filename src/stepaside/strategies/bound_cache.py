@@ -25,7 +25,7 @@ def cache_folder() -> Path:
     return Path(base).expanduser() / "stepaside"
 
 
-def has_pursuit_bound(cells: int) -> bool:
+def is_pursuit_bound_cached(cells: int) -> bool:
     """Return whether :func:`pursuit_bound` is cached.
 
     Args:
@@ -41,20 +41,20 @@ def pursuit_bound(cells: int) -> "Bound":
     Args:
         cells: Number of cells along each axis.
     """
-    from ..theory.bound import against_pursuit
+    from ..theory.bound import fixed_pursuit_game
 
     return _load_or_solve(
-        "pursuit", against_pursuit(1.0, 1.0, 1.0), NEAR, FAR, cells
+        "pursuit", fixed_pursuit_game(1.0, 1.0, 1.0), NEAR, FAR, cells
     )
 
 
 @lru_cache(maxsize=8)
 def cars_bound(cells: int) -> "Bound":
     """Load or solve the bound of two identical cars of unit speed and turn."""
-    from ..theory.bound import against_any
+    from ..theory.bound import two_car_game
 
     return _load_or_solve(
-        "cars", against_any(1.0, 1.0, 1.0), CARS_NEAR, CARS_FAR, cells
+        "cars", two_car_game(1.0, 1.0, 1.0), CARS_NEAR, CARS_FAR, cells
     )
 
 

@@ -6,7 +6,7 @@ from typing import Any
 from ..arena import Obstacle
 from ..core.errors import StrategyError
 from ..core.poses import Pose, wrap_angle
-from .foreign_code import ask
+from .foreign_code import evaluate_strategy
 from .knowledge import Intent, Knowledge, Limits
 from .opponent_rates import FloorVelocity, SightRates
 from .strategy import Strategy
@@ -113,7 +113,7 @@ class DecisionMaker:
         Raises:
             StrategyError: If the strategy returns no intent.
         """
-        return ask(self.strategy, knowledge, self.memory)
+        return evaluate_strategy(self.strategy, knowledge, self.memory)
 
     def evaluate(self, knowledge: Knowledge) -> Intent:
         """Decide and store the memory.

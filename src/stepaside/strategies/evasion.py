@@ -150,7 +150,7 @@ class Evasion:
         ):
             return STAND, EvasionMemory()
         bearing = knowledge.bearing
-        side = laws.keep_side(memory.side, bearing, self.side_hysteresis)
+        side = laws.update_side(memory.side, bearing, self.side_hysteresis)
         heading = laws.evasion_heading(bearing, side, self.angle)
         return Intent(heading), EvasionMemory(True, side)
 

@@ -10,7 +10,7 @@ from .strategy import Strategy
 FAILURES = (Exception, SystemExit)
 
 
-def ask(
+def evaluate_strategy(
     strategy: Strategy, knowledge: Knowledge, memory: Any
 ) -> tuple[Intent, Any]:
     """Evaluate one decision of a strategy.

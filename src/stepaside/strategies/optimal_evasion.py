@@ -10,7 +10,7 @@ TURNS = 15  # tried per step
 
 
 @dataclass(frozen=True, slots=True)
-class Optimal:
+class OptimalEvasion:
     """Evader that maximises the value of the table after one step.
 
     The table holds for an open floor: obstacles are ignored.

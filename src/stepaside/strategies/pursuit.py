@@ -7,7 +7,7 @@ from typing import ClassVar
 import numpy as np
 
 from ..arena import BODY_RADIUS, obstacle_set
-from ..arena.shortest_path import first_point
+from ..arena.shortest_path import first_waypoint
 from ..core.poses import wrap_angle
 from ..core.ranges import Range, Ranges, check_settings
 from ..planning import Direction
@@ -105,7 +105,7 @@ class Pursuit:
             x + knowledge.distance * cos(sight),
             y + knowledge.distance * sin(sight),
         )
-        u, v = first_point(
+        u, v = first_waypoint(
             knowledge.obstacles, (x, y), evader, self.body_radius, side
         )
         return wrap_angle(atan2(v - y, u - x) - theta)

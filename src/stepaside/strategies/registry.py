@@ -19,17 +19,17 @@ from .foreign_code import FAILURES
 from .herding import HerdingPursuit
 from .lead_pursuit import LeadPursuit
 from .look_ahead import LookAhead
-from .optimal_evasion import Optimal
+from .optimal_evasion import OptimalEvasion
 from .optimal_pursuit import OptimalPursuit
 from .pursuit import Pursuit
 from .strategy import Strategy
-from .strategy_validation import try_strategy
+from .strategy_validation import validate_strategy
 
 STRATEGIES: Mapping[str, Callable[[Evasion], Strategy]] = {
     "evasion": lambda evasion: evasion,
     "deflected": lambda evasion: DeflectedEvasion(evasion),
     "look-ahead": lambda evasion: LookAhead(),
-    "optimal": lambda evasion: Optimal(),
+    "optimal": lambda evasion: OptimalEvasion(),
     "pursuit": lambda evasion: Pursuit(),
     "sharp": lambda evasion: Pursuit(gain_ratio=inf),
     "herding": lambda evasion: HerdingPursuit(),
@@ -128,7 +128,7 @@ def load_strategy(
         ConfigurationError: If there is no such strategy, or it is invalid.
     """
     if not isinstance(name, str):
-        try_strategy(name, describe_strategy(name))
+        validate_strategy(name, describe_strategy(name))
         return name
     if is_described(name):
         raise ConfigurationError(
@@ -143,7 +143,7 @@ def load_strategy(
     if found is None:
         return STRATEGIES[name](evasion or Evasion())
     made = _create(found["file"], found["name"])
-    try_strategy(made, name)
+    validate_strategy(made, name)
     strategy: Strategy = made
     return strategy
 

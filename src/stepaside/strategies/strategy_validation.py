@@ -30,7 +30,7 @@ def trial_knowledge() -> Iterator[Knowledge]:
         )
 
 
-def try_strategy(candidate: Any, name: str) -> None:
+def validate_strategy(candidate: Any, name: str) -> None:
     """Check that an object behaves as a strategy.
 
     Args:

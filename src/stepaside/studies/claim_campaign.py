@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from ..core.errors import OutputError
-from ..core.worker_pool import give_up
+from ..core.worker_pool import cancel_pending
 from .claim_jobs import JOBS
 from .claims import ClaimJob, ClaimRow, Readings
 from .code_version import code_version, library_versions
@@ -144,7 +144,7 @@ def _run(
         for future in as_completed(futures):
             done(futures[future], future.result())
     except BaseException:
-        give_up(executor, futures)
+        cancel_pending(executor, futures)
         raise
 
 

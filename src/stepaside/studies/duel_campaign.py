@@ -15,12 +15,12 @@ import numpy as np
 from ..core.errors import PlanError
 from ..core.poses import Pose
 from ..core.random_streams import named_generator
-from ..core.worker_pool import give_up
+from ..core.worker_pool import cancel_pending
 from ..games.duel import run_duel
 from ..games.duel_run import DuelRun
 from ..games.duel_settings import DuelSettings
-from ..games.strategy_objects import check_named
-from ..robots.jit import prefer_for
+from ..games.strategy_objects import check_strategy_names
+from ..robots.jit import prefer_for_duration
 from ..strategies.registry import file_of
 from ..theory.unicycle.certificate import certify
 from ..theory.unicycle.relative_coordinates import RelativeStart
@@ -70,7 +70,7 @@ def play_record(settings: DuelSettings) -> Record:
         ``digest`` of the trajectories, and versions of code and libraries.
     """
     began = perf_counter()
-    prefer_for(settings.duration, many=True)
+    prefer_for_duration(settings.duration, many=True)
     run = run_duel(settings)
     summary = run.summary
     record = {
@@ -178,7 +178,7 @@ def run_duels(
     }
     results: dict[str, Record] = {} if done is None else done
     if file is not None:
-        check_named(settings)
+        check_strategy_names(settings)
         results |= {
             key: record
             for key, record in file.read(FIELDS).items()
@@ -200,7 +200,7 @@ def run_duels(
             if report is not None:
                 report(len(results))
     except BaseException:
-        give_up(executor, futures)
+        cancel_pending(executor, futures)
         raise
     return {key: results[key] for key in requested}
 
@@ -265,7 +265,7 @@ def _substance(record: Record) -> Record:
     return {k: v for k, v in record.items() if k not in MACHINE}
 
 
-def stamps_of(records: Iterable[Record]) -> Record:
+def versions_of(records: Iterable[Record]) -> Record:
     """Return the versions of code and libraries of some records.
 
     Returns:

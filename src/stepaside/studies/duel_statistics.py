@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ..games.duel_circle import theory_of
+from ..games.duel_circle import circle_of_theory
 from ..games.duel_settings import DuelSettings
 from .survival import CONFIDENCE, wilson
 
@@ -72,7 +72,7 @@ def summarise_duels(
     outcomes = dict.fromkeys([*OUTCOMES, *(r["outcome"] for r in records)])
     values = {}
     for name, (theory_name, bad) in VALUES.items():
-        row = figure_row(name, played, theory.get(theory_name or ""), bad)
+        row = value_row(name, played, theory.get(theory_name or ""), bad)
         if row is not None:
             values[name] = row
     return {
@@ -111,7 +111,7 @@ def share(hits: Iterable[bool]) -> dict[str, float]:
     return {"number": sum(each), "of": len(each), "low": low, "high": high}
 
 
-def figure_row(
+def value_row(
     name: str, records: Sequence[Record], theory: float | None, bad: int
 ) -> dict[str, Any] | None:
     """Return mean, spread and worst seed of a value; None without records.
@@ -169,7 +169,7 @@ def certificate_row(records: Sequence[Record]) -> dict[str, Any]:
 
 
 def _theory(settings: DuelSettings) -> dict[str, float]:
-    circle = theory_of(settings)
+    circle = circle_of_theory(settings)
     if not circle.exists:
         return {}
     return {

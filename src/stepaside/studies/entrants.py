@@ -9,7 +9,7 @@ from ..strategies import (
     DeflectedEvasion,
     Evasion,
     LookAhead,
-    Optimal,
+    OptimalEvasion,
     Strategy,
     load_strategy,
 )
@@ -23,7 +23,7 @@ EVADERS: Mapping[str, Callable[[float], Strategy]] = {
     "saturated": lambda angle: Evasion(saturated=True, safety_radius=ALWAYS),
     "alpha": lambda angle: Evasion(angle, safety_radius=ALWAYS),
     "deflected": lambda angle: DeflectedEvasion(),
-    "optimal": lambda angle: Optimal(),
+    "optimal": lambda angle: OptimalEvasion(),
 }
 """Factories of the evaders, which take the angle of "alpha" in [rad]."""
 PURSUERS: Mapping[str, str] = {

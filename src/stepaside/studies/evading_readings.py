@@ -6,7 +6,7 @@ from math import inf
 
 import numpy as np
 
-from ..arena import RoomRecipe, make_room
+from ..arena import RoomRecipe, generate_room
 from ..games.duel import run_duel
 from ..games.duel_run import DuelRun
 from ..games.duel_settings import PLAYERS, DuelSettings
@@ -99,7 +99,7 @@ def room_settings(seed: int, duration: float = DURATION) -> DuelSettings:
         seed=seed,
         duration=duration,
         evader_strategy="look-ahead",
-        room=SceneSettings(plan=make_room(RoomRecipe(discs=3), seed)),
+        room=SceneSettings(plan=generate_room(RoomRecipe(discs=3), seed)),
     )
 
 

@@ -13,7 +13,7 @@ from ..games.duel import Duel
 from ..games.duel_settings import DuelSettings
 from ..games.outcome import Outcome
 from ..games.trajectory import Trajectory
-from ..games.walker import Walker
+from ..games.walker import SimulatedPlayer
 from ..planning import ManeuverPlan
 from ..robots.description import load_robot
 
@@ -77,7 +77,7 @@ def play_instrumented(settings: DuelSettings) -> InstrumentedDuel:
     recorders = [
         _TickRecorder(duel, player, count)
         for player in duel.players
-        if isinstance(player, Walker)
+        if isinstance(player, SimulatedPlayer)
     ]
     outcome: Outcome | None = None
     while outcome is None and world.ticks < count:
@@ -106,7 +106,9 @@ def play_instrumented(settings: DuelSettings) -> InstrumentedDuel:
 class _TickRecorder:
     """Recorder of one robot of a duel at every tick."""
 
-    def __init__(self, duel: Duel, walker: Walker, count: int) -> None:
+    def __init__(
+        self, duel: Duel, walker: SimulatedPlayer, count: int
+    ) -> None:
         """Find the sensors and allocate arrays for a number of ticks."""
         self.name = walker.name
         self._scheme: ControlScheme = walker.scheme

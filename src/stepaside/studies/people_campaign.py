@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from ..core.poses import wrap_angle
-from ..core.worker_pool import give_up
-from ..games.configuration_file import plain_settings
+from ..core.worker_pool import cancel_pending
+from ..games.configuration_file import settings_entries
 from ..games.duel import run_duel
 from ..games.duel_settings import DuelSettings, StartSettings
 from ..games.walk_settings import WalkSettings
@@ -63,7 +63,7 @@ class Encounter:
     @property
     def key(self) -> str:
         """Key in a file of results."""
-        text = json.dumps(plain_settings(self.base), sort_keys=True)
+        text = json.dumps(settings_entries(self.base), sort_keys=True)
         digest = sha256(text.encode()).hexdigest()[:12]
         path = (self.speed, self.bearing, self.offset, self.sensing)
         return json.dumps([*path, self.seed, digest])
@@ -200,6 +200,6 @@ def run_encounters(
             if report is not None:
                 report(len(results))
     except BaseException:
-        give_up(executor, futures)
+        cancel_pending(executor, futures)
         raise
     return results

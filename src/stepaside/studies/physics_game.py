@@ -80,13 +80,13 @@ class DuelPaths(NamedTuple):
     evader: Array
 
 
-def ways_of(run: DuelRun) -> DuelPaths:
+def paths_of(run: DuelRun) -> DuelPaths:
     """Return the paths of the players of a duel."""
     pursuer, evader = (run.tracks[name].unicycle for name in PLAYERS)
     return DuelPaths(outcome_of(run), pursuer, evader)
 
 
-def figures_of(run: DuelRun, radius: float) -> dict[str, Any]:
+def record_values_of(run: DuelRun, radius: float) -> dict[str, Any]:
     """Return the record values of a duel as a tournament game.
 
     Args:
@@ -101,7 +101,7 @@ def figures_of(run: DuelRun, radius: float) -> dict[str, Any]:
         ``decision_s`` is the time of a whole replan.
     """
     summary = run.summary
-    outcome, pursuer, evader = ways_of(run)
+    outcome, pursuer, evader = paths_of(run)
     aims = pursuer[:, :2] - evader[:, :2]
     bearings = np.arctan2(aims[:, 1], aims[:, 0]) - evader[:, 2]
     seconds = max(run.duration, 1e-9)

@@ -7,9 +7,9 @@ import numpy as np
 
 from ..games.duel_circle import (
     angle_between,
-    converged_at,
+    circle_of_theory,
+    convergence_time,
     distance_between,
-    theory_of,
 )
 from ..games.duel_settings import PLAYERS, DuelSettings, StartSettings
 from ..games.outcome import Outcome
@@ -87,8 +87,8 @@ def last_circle(duel: InstrumentedDuel) -> Readings:
         return dict.fromkeys(keys, nan)
     times = duel.times
     pursuer, evader = (duel.tracks[name].unicycle for name in PLAYERS)
-    theory = theory_of(duel.settings)
-    since = converged_at(times, pursuer, evader, duel.settings, theory)
+    theory = circle_of_theory(duel.settings)
+    since = convergence_time(times, pursuer, evader, duel.settings, theory)
     tail = times >= times[-1] * 2.0 / 3.0
     circles = [fit_circle(duel.tracks[n].unicycle[tail, :2]) for n in PLAYERS]
     pursuer_speed, evader_speed = (walking_speed(duel, n) for n in PLAYERS)

@@ -6,11 +6,11 @@ from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
 from dataclasses import replace
 from pathlib import Path
 
-from ..core.worker_pool import give_up
+from ..core.worker_pool import cancel_pending
 from .robustness_campaign import (
     DIRECTIONS,
     RobustnessTrial,
-    note_result,
+    append_result,
     read_results,
     run_trial,
 )
@@ -143,10 +143,10 @@ def search_limits(
                 case, strength = running.pop(future)
                 key, survived = future.result()
                 results[key] = outcomes[case][strength] = survived
-                note_result(file, key, survived)
+                append_result(file, key, survived)
                 start(case)
     except BaseException:
-        give_up(executor, running)
+        cancel_pending(executor, running)
         raise
     if report is not None:
         report(len(cases))

@@ -7,7 +7,7 @@ from math import isfinite, nan
 from pathlib import Path
 from typing import Any
 
-from ..core.atomic_output import free_file, writing
+from ..core.atomic_output import atomic_draft, free_file
 from .claims import Readings
 
 Key = dict[str, Any]
@@ -74,7 +74,7 @@ class ReadingStore:
             "check": _check(key, values),
         }
         text = json.dumps(entries, indent=1)
-        with writing(file) as draft:
+        with atomic_draft(file) as draft:
             draft.write_text(text, encoding="utf-8")
 
     def _file(self, name: str) -> Path | None:

@@ -8,7 +8,7 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
-from ..core.atomic_output import reason_of, writing
+from ..core.atomic_output import atomic_draft, reason_of
 from ..core.errors import OutputError
 
 try:
@@ -96,7 +96,7 @@ class RecordStore:
     def write(self, records: dict[str, dict[str, Any]]) -> None:
         """Replace the content of the file atomically."""
         lines = [_line(key, record) for key, record in records.items()]
-        with writing(self.path) as draft:
+        with atomic_draft(self.path) as draft:
             draft.write_text("".join(lines), encoding="utf-8")
 
     def _set_aside(

@@ -12,7 +12,7 @@ from math import isfinite
 from pathlib import Path
 from typing import Any
 
-from ..core.atomic_output import writing
+from ..core.atomic_output import atomic_draft
 from ..core.errors import ConfigurationError
 from .code_version import LIBRARIES, PHYSICS, code_version, library_versions
 
@@ -96,7 +96,7 @@ def write_result(
         )
     result: dict[str, Any] = _rounded({**head, **found}, file.name)
     text = json.dumps(result, indent=1, ensure_ascii=False)
-    with writing(file) as draft:
+    with atomic_draft(file) as draft:
         draft.write_text(text + "\n", encoding="utf-8")
     return result
 

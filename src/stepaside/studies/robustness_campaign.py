@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import Any
 
 from ..core.errors import ConfigurationError
-from ..core.worker_pool import give_up
+from ..core.worker_pool import cancel_pending
 from ..games.outcome import Outcome
-from ..games.robot_settings import game_of
+from ..games.robot_settings import game_settings_from_description
 from ..games.walk_game import run_walk
 from ..games.walk_settings import WalkSettings
 from ..locomotion.zmp.control_settings import ControlSettings, Method
@@ -49,7 +49,7 @@ def read_results(file: Path | None) -> dict[str, bool]:
     }
 
 
-def note_result(file: Path | None, key: str, survived: bool) -> None:
+def append_result(file: Path | None, key: str, survived: bool) -> None:
     """Append a result to the file, if there is one."""
     if file is not None:
         RecordStore(file).append(key, record_of(survived))
@@ -177,7 +177,10 @@ def push_scale(robot: str) -> float:
     It is the ratio of the push units of their descriptions, which scale with
     mass and pendulum speed; without them, the ratio of the masses.
     """
-    own, nao = (game_of(load_robot(name)) for name in (robot, REFERENCE))
+    own, nao = (
+        game_settings_from_description(load_robot(name))
+        for name in (robot, REFERENCE)
+    )
     if own is None or nao is None:
         return mass_of(robot) / mass_of(REFERENCE)
     return own.push_unit / nao.push_unit
@@ -214,7 +217,7 @@ def settings_of(trial: RobustnessTrial) -> WalkSettings:
     elif trial.kind == "backlash":
         body = replace(body, backlash=x * pi / 180.0)
     elif trial.kind == "noise":
-        body = louder(body, x)
+        body = with_noise(body, x)
     elif trial.kind == "model":
         body = replace(body, mass_error=x, com_error=0.1 * x)
     else:
@@ -224,7 +227,7 @@ def settings_of(trial: RobustnessTrial) -> WalkSettings:
     return replace(walk, duration=20.0, body=body, physics=physics)
 
 
-def louder(body: BodySettings, factor: float) -> BodySettings:
+def with_noise(body: BodySettings, factor: float) -> BodySettings:
     """Return a body with the noise and bias of "hardware" times a factor."""
     hardware = BODIES["hardware"]
     names = (
@@ -301,10 +304,10 @@ def run_campaign(
             key, survived = future.result()
             results[key] = survived
             number += 1
-            note_result(file, key, survived)
+            append_result(file, key, survived)
             if report is not None:
                 report(number)
     except BaseException:
-        give_up(executor, futures)
+        cancel_pending(executor, futures)
         raise
     return results

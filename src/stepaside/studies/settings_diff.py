@@ -5,7 +5,7 @@ from dataclasses import replace
 from functools import cache
 from typing import Any
 
-from ..games.configuration_file import parse_settings, plain_settings
+from ..games.configuration_file import parse_settings, settings_entries
 from ..games.walk_settings import WalkSettings
 from ..sim.body_settings import BODIES
 
@@ -39,7 +39,7 @@ def changes_of(walk: WalkSettings) -> tuple[str, str]:
             feedback=default.control.feedback,
         ),
     )
-    found = _differences(plain_settings(plain), plain_settings(default))
+    found = _differences(settings_entries(plain), settings_entries(default))
     return (presets or [OWN])[0], json.dumps(found) if found else ""
 
 

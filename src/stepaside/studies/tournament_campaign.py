@@ -11,7 +11,7 @@ import numpy as np
 
 from ..arena import Room
 from ..core.poses import Array, wrap_angle, wrap_angles
-from ..core.worker_pool import give_up
+from ..core.worker_pool import cancel_pending
 from ..strategies.bound_cache import pursuit_bound
 from ..strategies.step_game import StepGame, StepTrack, play_steps
 from .code_version import code_version, library_versions
@@ -47,16 +47,16 @@ Pairing = tuple[str, str]
 """Names of an evader and of a pursuer."""
 
 
-def play_ways(
+def play_paths(
     settings: TournamentSettings, pairing: Pairing, seed: int
 ) -> "tuple[Room, StepTrack | DuelPaths]":
     """Play one game of a tournament; return its room and both paths."""
     if settings.level != HUMANOIDS:
         return play_track(settings, pairing, seed)
-    from .physics_game import ways_of
+    from .physics_game import paths_of
 
     room, run = _play_humanoids(settings, pairing, seed)
-    return room, ways_of(run)
+    return room, paths_of(run)
 
 
 def _play_humanoids(
@@ -154,13 +154,13 @@ def _humanoid_values(
     settings: TournamentSettings, pairing: Pairing, seed: int
 ) -> Record:
     """Play a game in physics and return its values."""
-    from .physics_game import figures_of
+    from .physics_game import record_values_of
 
     _, run = _play_humanoids(settings, pairing, seed)
     pursuer, evader = (
         track.unicycle[0] for track in (run.pursuer, run.evader)
     )
-    found = figures_of(run, settings.game.body_radius)
+    found = record_values_of(run, settings.game.body_radius)
     return found | {"bound_m": bound_of(pursuer, evader, settings.game)}
 
 
@@ -251,7 +251,7 @@ def play_tournament(
             for future in as_completed(futures):
                 add(futures[future], future.result())
         except BaseException:
-            give_up(executor, futures)
+            cancel_pending(executor, futures)
             raise
     return {key: results[key] for key in requested}
 

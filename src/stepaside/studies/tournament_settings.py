@@ -6,7 +6,13 @@ from hashlib import sha256
 from math import pi
 from typing import Any
 
-from ..arena import Room, RoomRecipe, draw_starts, make_room, room_entries
+from ..arena import (
+    Room,
+    RoomRecipe,
+    draw_initial_poses,
+    generate_room,
+    room_to_entries,
+)
 from ..core.errors import ConfigurationError, check_within
 from ..core.poses import Pose
 from ..strategies.step_game import StepGame
@@ -65,8 +71,8 @@ class TournamentSettings:
         """Return the room of a seed, and the initial poses in it."""
         if isinstance(self.room, Room):
             room = self.room
-            return room, room.starts or draw_starts(room, seed)
-        room = make_room(self.room, seed)
+            return room, room.starts or draw_initial_poses(room, seed)
+        room = generate_room(self.room, seed)
         assert room.starts is not None
         return room, room.starts
 
@@ -76,7 +82,7 @@ class TournamentSettings:
         physics = {"map": self.map} if self.level == HUMANOIDS else {}
         return {
             "level": self.level,
-            "room": room_entries(room)
+            "room": room_to_entries(room)
             if isinstance(room, Room)
             else asdict(room),
             "game": asdict(self.game),

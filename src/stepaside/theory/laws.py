@@ -77,7 +77,7 @@ def side_behind(bearing: float) -> int:
     return -1 if bearing > 0.0 else 1
 
 
-def keep_side(side: int, bearing: float, hysteresis: float) -> int:
+def update_side(side: int, bearing: float, hysteresis: float) -> int:
     """Update the side of the evader with hysteresis.
 
     The side changes only when the pursuer is clearly on the other side, so

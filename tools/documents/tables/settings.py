@@ -15,7 +15,7 @@ from stepaside.core.ranges import ranges_of
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.sim.camera_settings import RoomObject
-from stepaside.sim.passer_settings import Passer
+from stepaside.sim.passerby_settings import Passer
 from stepaside.sim.push import Push
 
 from .markdown import table

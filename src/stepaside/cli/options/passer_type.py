@@ -13,7 +13,7 @@ from .declaration import OptionDeclaration
 from .push_type import NO_VALUE
 
 if TYPE_CHECKING:
-    from ...sim.passer_settings import Passer
+    from ...sim.passerby_settings import Passer
 
 PASSER = re.compile(
     r"^(?P<speed>[^@]+)@(?P<distance>[^:]+):(?P<bearing>[^:]+)"
@@ -38,7 +38,7 @@ class PasserType(click.ParamType["Passer | None"]):
     ) -> "Passer | None":
         """Parse a pedestrian."""
         from ...core.errors import StepAsideError
-        from ...sim.passer_settings import Passer
+        from ...sim.passerby_settings import Passer
 
         if value == NO_VALUE:
             return None

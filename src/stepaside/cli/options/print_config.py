@@ -6,7 +6,7 @@ from enum import Enum
 from textwrap import wrap
 from typing import Any
 
-from ...arena import Room, room_entries
+from ...arena import Room, room_to_entries
 
 WIDTH = 76  # characters of a comment
 
@@ -72,7 +72,7 @@ def _room(room: Room, section: tuple[str, ...]) -> str:
     """Return a room in the format of room files, inside a section."""
     import tomli_w
 
-    entries: dict[str, Any] = room_entries(room)
+    entries: dict[str, Any] = room_to_entries(room)
     for name in reversed(section):
         entries = {name: entries}
     # The outermost section is open already.

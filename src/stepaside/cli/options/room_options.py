@@ -152,11 +152,11 @@ def with_room(given: Mapping[str, Any]) -> dict[str, Any]:
             f"{option} requires a random room (--room SEED), got {room}"
         )
     if isinstance(source, int):
-        from ...arena import RoomRecipe, make_room
+        from ...arena import RoomRecipe, generate_room
 
         size = recipe.pop("size", (3.0, 3.0)) or (None, None)
         made = RoomRecipe(width=size[0], depth=size[1], **recipe)
-        values[PLAN] = make_room(made, source)
+        values[PLAN] = generate_room(made, source)
     elif isinstance(source, Path):
         from ...arena import load_room
 

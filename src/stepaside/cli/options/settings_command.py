@@ -162,9 +162,9 @@ def _in_file(config: Path | None, path: str) -> bool:
     """Return whether the configuration file sets an entry."""
     if config is None:
         return False
-    from ...games.configuration_file import says
+    from ...games.configuration_file import has_entry
 
-    return says(config, path)
+    return has_entry(config, path)
 
 
 def _settings(

@@ -23,7 +23,7 @@ from ...core.poses import Pose
 from ...planning import ManeuverPlan, ManeuverPlanner
 from ...planning.steady_gait import landing_state
 from ...strategies.knowledge import Intent
-from .footholds import Footholds
+from .footstep_adjustment import FootstepAdjustment
 from .surroundings import Surroundings
 from .swept_outline import BodyOutline
 
@@ -98,7 +98,7 @@ class Guard:
         planner: ManeuverPlanner,
         *,
         margin: float,
-        footholds: Footholds | None = None,
+        footholds: FootstepAdjustment | None = None,
     ) -> None:
         """Prepare the guard of one robot.
 

@@ -82,7 +82,7 @@ class BodyOutline:
         return corners
 
 
-def sway_of(gait: GaitSettings) -> float:
+def lateral_sway(gait: GaitSettings) -> float:
     """Return the lateral sway amplitude on a straight path, in [m]."""
     plan = ManeuverPlanner(gait).plan(
         0.0, Direction.FORWARD, first_foot=Foot.LEFT, standing=True

@@ -18,8 +18,8 @@ from .link import FrameLink
 from .motion_states import JointMotionState
 from .safety import RobotState, Safety
 from .safety_conditions import SafetyInputs, SafetySettings
+from .safety_monitor import SafetyMonitor
 from .stiffness_guardian import StiffnessGuardian
-from .vitals import Vitals
 
 log = logging.getLogger(__name__)
 
@@ -96,7 +96,7 @@ class JointBody:
         self.tick = motors.tick
         self._joints = JointMap(joint_names, motors)
         self._motion = JointMotionState(self._joints, stance, motors)
-        self._vitals = Vitals(settings.look_ahead, motors)
+        self._vitals = SafetyMonitor(settings.look_ahead, motors)
         self._silence = settings.silence
         self._safety = Safety(settings)
         self._hearing = FrameReceiver(

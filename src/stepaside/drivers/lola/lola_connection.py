@@ -8,7 +8,7 @@ from functools import partial
 from time import sleep
 
 from ...core.poses import Array
-from ..guardian_process import SessionLost, open_within
+from ..guardian_process import SessionLost, open_with_retries
 from ..joint.joint_body import JointBody
 from ..joint.safety import RobotState
 from ..joint.session_options import PLAIN, SessionOptions
@@ -45,7 +45,7 @@ def open_lola(
     """
     sees = how.open_eyes is not None
     with ExitStack() as stack:
-        sight, link = open_within(
+        sight, link = open_with_retries(
             lambda: _sight_and_link(address, sees=sees), how.patience
         )
         stack.callback(link.close)

@@ -7,7 +7,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from ...core.poses import Array
-from ..guardian_process import open_within
+from ..guardian_process import open_with_retries
 from ..joint.joint_body import JointBody
 from ..joint.session_options import PLAIN, SessionOptions
 from ..joint.stiffness_guardian import StiffnessGuardian
@@ -42,7 +42,7 @@ def open_joints(
             # Forked before the connection, whose library starts threads.
             guardian = StiffnessGuardian(partial(_fade, url))
             stack.callback(guardian.dismiss)
-        link = open_within(lambda: _connect(url), how.patience)
+        link = open_with_retries(lambda: _connect(url), how.patience)
         stack.callback(link.close)
         from .joint_transport import CODEC, MemorySight
 

@@ -268,7 +268,7 @@ def stop(url: str) -> None:
         session.close()
 
 
-def stopper_of(url: str) -> Callable[[], None]:
+def connect_stopper(url: str) -> Callable[[], None]:
     """Connect to a robot in advance, and return a function that stops it.
 
     Raises:

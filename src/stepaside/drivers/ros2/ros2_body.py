@@ -159,7 +159,9 @@ class Ros2Body:
         self._sighting = Sighting(time, atan2(y, x), hypot(x, y))
 
 
-def rester_of(dds: DdsParticipant, namespace: str) -> Callable[[], None]:
+def register_stopper(
+    dds: DdsParticipant, namespace: str
+) -> Callable[[], None]:
     """Register a robot's topics, and return a function that stops it.
 
     No writer is created before: it would count as a second commander.

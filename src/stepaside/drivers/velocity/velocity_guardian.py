@@ -10,7 +10,7 @@ from .velocity_body import REST, VelocityBody, VelocityCommand, VelocityReport
 SILENCE = 0.5  # time without control before the guardian acts, in [s]
 
 
-def guardian_of(join: Callable[[], Callable[[], None]]) -> Guardian:
+def fork_velocity_guardian(join: Callable[[], Callable[[], None]]) -> Guardian:
     """Fork a guardian, which connects to the robot at once.
 
     Connecting in advance, as it takes longer than stopping the robot.

@@ -51,7 +51,9 @@ def resting_step(support: Pose, foot: Foot) -> CurrentStep:
     return CurrentStep(support, foot, support, 0.0, 1.0, False)
 
 
-def step_of(plan: ManeuverPlan, frame: Pose, passed: float) -> CurrentStep:
+def first_step_of(
+    plan: ManeuverPlan, frame: Pose, passed: float
+) -> CurrentStep:
     """Return the first step of a plan.
 
     Args:

@@ -8,7 +8,11 @@ import numpy as np
 from ...core.poses import Pose, wrap_angle
 from ...planning import GaitSettings, ManeuverPlan
 from ...planning.schedule import Sampler, Schedule
-from ...planning.template_path import clock_of, path_samples, poses_on_path
+from ...planning.template_path import (
+    path_samples,
+    poses_on_path,
+    progress_by_time,
+)
 from ...robots.leg_kinematics import BodyReference
 
 CACHED = 256  # samplers; rational durations need only a few
@@ -106,7 +110,7 @@ class ReferenceTable:
         path = path_samples(
             plan.placements, plan.first_foot, settings.foot_spacing
         )
-        clock = clock_of(plan.schedule, sampler.times)
+        clock = progress_by_time(plan.schedule, sampler.times)
         template = poses_on_path(path, samples.com, clock, settings)
         points = np.concatenate(
             [

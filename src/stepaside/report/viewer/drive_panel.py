@@ -8,7 +8,7 @@ import viser
 
 from ...core.errors import StepAsideError
 from ...games.duel import Duel
-from ...games.walker import Walker
+from ...games.walker import SimulatedPlayer
 from ...strategies import Pursuit, Strategy, TeleoperatedPursuit
 from .live_session import LiveSession
 from .scoreboard import Scoreboard
@@ -135,7 +135,7 @@ class DrivePanel:
         self, *, turn: float | None = None, going: bool | None = None
     ) -> None:
         """Change the command, taking over the pursuer if it is a robot."""
-        if not isinstance(self._session.duel.players[0], Walker):
+        if not isinstance(self._session.duel.players[0], SimulatedPlayer):
             return
         hand = self._hand
         if hand is None:
@@ -166,7 +166,7 @@ class DrivePanel:
     def _state_text(self) -> str:
         """Return the state of teleoperation as text."""
         hand = self._hand
-        if not isinstance(self._session.duel.players[0], Walker):
+        if not isinstance(self._session.duel.players[0], SimulatedPlayer):
             return "The pursuer is a person and cannot be driven."
         if hand is None:
             return "Not driven: the pursuer follows its own strategy."
@@ -181,7 +181,7 @@ class DrivePanel:
 
         def change(duel: Duel) -> None:
             pursuer = duel.players[0]
-            if isinstance(pursuer, Walker):
+            if isinstance(pursuer, SimulatedPlayer):
                 pursuer.scheme.decisions.adopt(strategy)
 
         self._session.change(change)

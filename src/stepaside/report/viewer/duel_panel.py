@@ -10,7 +10,7 @@ from ...core.errors import StepAsideError
 from ...games.duel import Duel
 from ...games.duel_settings import SENSING, DuelSettings
 from ...games.strategy_objects import EVASION
-from ...games.walker import Walker
+from ...games.walker import SimulatedPlayer
 from ...locomotion.zmp.control_settings import (
     OPEN_LOOP,
     STABILISED,
@@ -147,7 +147,7 @@ class DuelPanel:
 
         def change(duel: Duel) -> None:
             evader = duel.players[1]
-            if isinstance(evader, Walker):
+            if isinstance(evader, SimulatedPlayer):
                 evader.scheme.decisions.adopt(strategy)
 
         session.change(change)

@@ -13,7 +13,7 @@ from .scene_layers import (
     footprints_of,
     path_of,
     polyline,
-    pushes_at,
+    push_arrows,
     ring,
     safety_ring,
     support_outline,
@@ -49,7 +49,7 @@ def draw_session(layers: SceneLayers, session: LiveSession) -> None:
                 )
             lines += _trace_lines(session, name)
             pushes = np.array(snapshot.pushes[-MAX_PUSHES:]).reshape(-1, 6)
-            lines.append(("pushes", name, pushes_at(pushes, now), PUSHED))
+            lines.append(("pushes", name, push_arrows(pushes, now), PUSHED))
         area = safety_ring(positions[1], session.settings.strategy.area)
         lines.append(("safety radius", "evader", area, EVADER))
         pursuer, evader = positions

@@ -15,7 +15,7 @@ from ...core.errors import StepAsideError
 from ...core.poses import Array
 from ...games.approach_forecast import CourseApproach
 from ...games.duel import Duel
-from ...games.duel_circle import theory_of
+from ...games.duel_circle import circle_of_theory
 from ...games.duel_settings import DuelSettings
 from ...games.outcome import Outcome
 from ...games.player import Snapshot
@@ -53,7 +53,7 @@ def predict(settings: DuelSettings) -> LiveTheory:
     Args:
         settings: Settings of the duel.
     """
-    circle, settling = theory_of(settings), settling_time(settings)
+    circle, settling = circle_of_theory(settings), settling_time(settings)
     if not circle.exists:
         return LiveTheory(None, None, settling)
     values = circle.distance_m, degrees(circle.headings_apart_rad)

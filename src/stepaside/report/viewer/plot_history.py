@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...control.walk_snapshots import StepStarted
-from ...games.approach_forecast import CourseApproach, approach_between
+from ...games.approach_forecast import CourseApproach, estimate_approach
 from ...games.duel_circle import angle_between
 from ...games.match import Match
 from ...games.outcome import Outcome
@@ -95,7 +95,7 @@ class PlotHistory:
         now, x, y = self.offsets[-1]
         for time, was_x, was_y in reversed(self.offsets):
             if now - time > cycle - 0.5 * PERIOD:
-                return approach_between((was_x, was_y), (x, y), now - time)
+                return estimate_approach((was_x, was_y), (x, y), now - time)
         return None
 
     def _trace(self, name: str, position: tuple[float, float]) -> None:

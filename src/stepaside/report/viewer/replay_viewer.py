@@ -24,7 +24,7 @@ from .scene_layers import (
     footprints_at,
     legend,
     polyline,
-    pushes_at,
+    push_arrows,
     ring,
     safety_ring,
 )
@@ -217,7 +217,7 @@ class ReplayPage:
             layers.draw("CoM trace", name, lines, colours[name])
             prints = footprints_at(track.landings, run.settings.gait.sole, now)
             layers.draw("footsteps", name, prints, colours[name])
-            layers.draw("pushes", name, pushes_at(track.pushes, now), PUSHED)
+            layers.draw("pushes", name, push_arrows(track.pushes, now), PUSHED)
         if run.safety is not None:
             player, radius = run.safety
             area = safety_ring(run.tracks[player].torso[index, :2], radius)

@@ -5,7 +5,7 @@ from pathlib import Path
 from threading import Lock
 from typing import Any
 
-from ...core.atomic_output import writing
+from ...core.atomic_output import atomic_draft
 from ...core.errors import ConfigurationError
 from ...games.duel import Duel
 from ...games.match import Match
@@ -79,7 +79,7 @@ class RunSaver:
             name = f"live-seed{run.settings.seed}"
             folder = write_run(free_folder(self._parent, name), run).parent
             if commands:
-                with writing(folder / COMMAND_FILE) as draft:
+                with atomic_draft(folder / COMMAND_FILE) as draft:
                     draft.write_text(json.dumps(commands, indent=1) + "\n")
             self._written += 1
         return folder

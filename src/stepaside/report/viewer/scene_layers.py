@@ -239,7 +239,7 @@ def footprints_at(
     return np.concatenate([np.zeros((0, 2, 3)), *outlines])
 
 
-def pushes_at(pushes: Array | None, now: float) -> Array:
+def push_arrows(pushes: Array | None, now: float) -> Array:
     """Return arrows of the pushes of the last second. Shape (n, 2, 3).
 
     Args:

@@ -3,7 +3,7 @@
 from math import inf, isfinite, log
 
 from ...control import Phase
-from ...games.approach_forecast import CourseApproach, motion_words
+from ...games.approach_forecast import CourseApproach, describe_motion
 from ...games.duel import Duel
 from ...games.player import Player
 
@@ -47,7 +47,7 @@ def status_text(
                 "the evader is **triggered**: the pursuer is within the "
                 "safety radius"
             )
-        motion = motion_words(approach)
+        motion = describe_motion(approach)
         return f"the pursuer {motion}; the evader is **standing**"
     if evader is Phase.HALTING:
         return "the evader is **halting**"

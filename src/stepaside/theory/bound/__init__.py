@@ -1,6 +1,6 @@
 """Optimal evasion: differential games of two unicycles solved on a grid."""
 
-from .relative_game import BoundGame, against_any, against_pursuit
+from .relative_game import BoundGame, fixed_pursuit_game, two_car_game
 from .state_grid import Grid
 from .value_solver import DiscretisationScheme, count_steps, solve_bound
 from .value_table import Bound, load_bound
@@ -10,8 +10,8 @@ __all__ = [
     "BoundGame",
     "Grid",
     "DiscretisationScheme",
-    "against_any",
-    "against_pursuit",
+    "two_car_game",
+    "fixed_pursuit_game",
     "count_steps",
     "load_bound",
     "solve_bound",

@@ -64,7 +64,7 @@ def play_bound(
     return closest
 
 
-def moving(bound: Bound, angle: float) -> Steering:
+def fixed_angle_evader(bound: Bound, angle: float) -> Steering:
     """Return the evader of eq. (4) with the side behind it.
 
     Args:
@@ -110,8 +110,8 @@ def random_evader(bound: Bound, seed: int, hold: int = 60) -> Steering:
 def reference_evaders(bound: Bound) -> dict[str, Steering]:
     """Return evaders for comparison with the bound, by name."""
     return {
-        "move aside": moving(bound, MOVE_ASIDE),
-        "move back": moving(bound, MOVE_BACK),
+        "move aside": fixed_angle_evader(bound, MOVE_ASIDE),
+        "move back": fixed_angle_evader(bound, MOVE_BACK),
         "straight on": lambda r, a, psi: np.zeros_like(r),
         "random": random_evader(bound, 0),
     }

@@ -75,7 +75,7 @@ class BoundGame:
         )
 
 
-def against_pursuit(
+def fixed_pursuit_game(
     pursuer_speed: float,
     evader_speed: float,
     gain: float,
@@ -98,7 +98,7 @@ def against_pursuit(
     return BoundGame(pursuer_speed, evader_speed, gain, 0.0, turn)
 
 
-def against_any(
+def two_car_game(
     pursuer_speed: float,
     evader_speed: float,
     pursuer_turn: float,

@@ -10,7 +10,7 @@ from zipfile import BadZipFile
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ...core.atomic_output import writing
+from ...core.atomic_output import atomic_draft
 from ...core.brief_repr import brief_repr
 from ...core.errors import AnyPath, PlanError, as_path, check_within
 from ..unicycle.relative_coordinates import check_bearings
@@ -179,7 +179,10 @@ class Bound:
         }
         a, r, psi = self.grid.axes()
         nodes = r[:, None], a[:, None, None], psi
-        with writing(as_path(path, "path")) as draft, draft.open("wb") as file:
+        with (
+            atomic_draft(as_path(path, "path")) as draft,
+            draft.open("wb") as file,
+        ):
             np.savez_compressed(
                 file,
                 head=np.array(dumps(head)),

@@ -19,7 +19,7 @@ from ...core.brief_repr import brief_repr
 from ...core.errors import StepAsideError, check_positive
 from ...core.poses import Pose
 from .event_location import EDGES, Event, StateView, cross, margin
-from .game_parameters import FlatParameters, rules_of
+from .game_parameters import FlatParameters, flat_parameters
 from .relative_coordinates import RelativeStart, world_poses
 from .relative_motion import (
     RelativeState,
@@ -242,7 +242,7 @@ def simulate(
     """
     check_positive(duration, "duration", "s")
     check_positive(capture_distance, "capture_distance", "m")
-    rules = rules_of(game, capture_distance)
+    rules = flat_parameters(game, capture_distance)
     r, a, psi = start.wrapped()
     sight = geometry_of(RelativeState(r, a, psi), rules).sight
     psi, mode = initial_mode(psi, sight, side or 0, rules)

@@ -92,7 +92,7 @@ def find_basins(
         Fractions of the games that settled on each circle.
     """
     circles = circles_of(game)
-    until_all, step = lengths_of(game)
+    until_all, step = duration_and_step(game)
     duration = until_all if duration is None else duration
     out = play_games(
         game,
@@ -105,7 +105,7 @@ def find_basins(
     captured = float(out.captured.mean())
     return Basins(
         circles,
-        shares_of(out, len(circles)),
+        settled_fractions(out, len(circles)),
         captured,
         float((out.circle < 0).mean()) - captured,
         float(out.closest_distance.mean()),
@@ -114,7 +114,7 @@ def find_basins(
     )
 
 
-def lengths_of(game: Game) -> tuple[float, float]:
+def duration_and_step(game: Game) -> tuple[float, float]:
     """Return duration and time step of games that reach stable circles.
 
     Returns:
@@ -128,7 +128,7 @@ def lengths_of(game: Game) -> tuple[float, float]:
     return min(duration, _LONGEST / slow), min(0.02 / slow, 0.1 / fast)
 
 
-def shares_of(outcomes: Outcomes, count: int) -> tuple[float, ...]:
+def settled_fractions(outcomes: Outcomes, count: int) -> tuple[float, ...]:
     """Return the fraction of games that settled on each of the circles."""
     numbers = np.bincount(outcomes.circle + 1, minlength=count + 1)[1:]
     return tuple((numbers / len(outcomes.circle)).tolist())

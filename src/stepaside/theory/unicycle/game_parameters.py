@@ -33,7 +33,7 @@ class FlatParameters(NamedTuple):
     capture_distance: float
 
 
-def rules_of(game: Game, capture_distance: float) -> FlatParameters:
+def flat_parameters(game: Game, capture_distance: float) -> FlatParameters:
     """Return the parameters of a game and its capture distance as numbers."""
     return FlatParameters(
         pursuer_speed=float(game.pursuer.speed),

@@ -14,7 +14,7 @@ from .all_circles import circles_of
 from .circle_equations import Circle
 from .compilation import load_numba
 from .game_batch import Array, BatchTiming, deviations
-from .game_parameters import rules_of
+from .game_parameters import flat_parameters
 from .relative_coordinates import check_bearings
 from .relative_motion import RelativeState
 from .unicycle_game import Game
@@ -105,7 +105,7 @@ def play_games(
     circles = circles_of(game)
     rows = circle_states(circles)
     clock = BatchTiming(ceil(duration / step - 1e-9), float(step))
-    rules = rules_of(game, capture_distance)
+    rules = flat_parameters(game, capture_distance)
     played = np.empty((len(_RESULTS), len(states)))
     for first in range(0, len(states), chunk):
         part = states[first : first + chunk]

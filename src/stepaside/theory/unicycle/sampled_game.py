@@ -82,7 +82,7 @@ def choose_turning(
     """
     _, a, psi = start.wrapped()
     if side == 0 or not game.keeps_side:
-        side = laws.keep_side(side, psi, game.hysteresis)
+        side = laws.update_side(side, psi, game.hysteresis)
     error = laws.evasion_heading(psi, side, game.angle)
     turn = laws.saturated_rate if game.saturated else laws.proportional_rate
     aim = laws.pursuit_heading(a)

@@ -38,7 +38,7 @@ class TemplateGame:
         return float(np.hypot(offset[:, 0], offset[:, 1]).min())
 
 
-def template_meeting(
+def template_closest_approach(
     motion: Callable[[Pose, Place], PersonMotion],
     start: Pose,
     evader: Pose,

@@ -10,7 +10,7 @@ from .safety_conditions import SafetyInputs
 MIN_TRAVEL = 0.05  # of a leg's joint, in [rad]: that of 0.1 s of a walk
 
 
-class Vitals:
+class SafetyMonitor:
     """Monitor of sensor frames, with memory of the accelerometer."""
 
     def __init__(self, look_ahead: float, motors: MotorTable) -> None:

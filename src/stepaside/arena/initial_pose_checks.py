@@ -11,7 +11,7 @@ BODY_RADIUS = 0.20  # of a player among obstacles, in [m]
 PLAYERS = ("pursuer", "evader")
 
 
-def check_starts(
+def check_initial_poses(
     room: Room, starts: tuple[Pose, Pose], radius: float = BODY_RADIUS
 ) -> None:
     """Check that initial poses are free and connected by a path.

@@ -46,7 +46,9 @@ COLUMNS = (
 )
 
 
-def seen_from_foot(times: Array, track: Trajectory) -> dict[str, Array]:
+def express_in_support_foot(
+    times: Array, track: Trajectory
+) -> dict[str, Array]:
     """Express a walk in the frame of the support foot.
 
     True quantities are in the frame of the true sole, references and
@@ -99,7 +101,7 @@ def seen_from_foot(times: Array, track: Trajectory) -> dict[str, Array]:
     return {name: found[name] for name in COLUMNS}
 
 
-def on_its_feet(times: Array, outcome: Outcome) -> NDArray[np.bool_]:
+def upright_samples(times: Array, outcome: Outcome) -> NDArray[np.bool_]:
     """Return a mask of the evenly spaced samples of an upright robot.
 
     The last sample is at the end of the game, which may come between two

@@ -29,7 +29,7 @@ SOLVED = 1  # smallest exit flag of the solver for a solution
 NEGLIGIBLE = 1e-9  # violation that is tolerated, in [m]
 
 
-class Footholds:
+class FootstepAdjustment:
     """Moves the footsteps of plans away from obstacles.
 
     Attributes:
