@@ -4,18 +4,12 @@
 """Custom evader: aside at a distance, backward when the pursuer is near."""
 
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import pi
 
 import numpy as np
 
-from stepaside import (
-    Direction,
-    DuelSettings,
-    RelativeStart,
-    StartSettings,
-    run_duel,
-)
+import stepaside as sa
 from stepaside import strategies as st
 from stepaside.theory.unicycle.unicycle_game import Unicycle
 
@@ -24,7 +18,7 @@ from stepaside.theory.unicycle.unicycle_game import Unicycle
 class BackAndAside:
     """Blend "move back" into "move aside" as the distance grows."""
 
-    direction: Direction = Direction.BACKWARD
+    direction: sa.Direction = sa.Direction.BACKWARD
     saturated: bool = False
 
     def begin(self) -> st.EvasionMemory:
@@ -43,29 +37,22 @@ class BackAndAside:
 def main(duration: float) -> None:
     """Compare it with moving aside, with unicycles and with humanoids."""
     body = Unicycle(0.1, 0.2)  # of NAO, in path time: 0.4 s per 0.547 s
-    for name in ("evasion", f"{__file__}:BackAndAside"):
-        game = st.play_strategies(
-            st.Pursuit(),
-            st.load_strategy(name),
-            RelativeStart(0.9, 0.3, -0.2),
-            bodies=(body, body),
-            period=0.4,
-            duration=0.4 / 0.547 * duration,
-        )
-        start = StartSettings(0.9, -0.3, 0.2)
-        duel = run_duel(
-            DuelSettings(duration=duration, start=start, evader_strategy=name)
-        )
+    clock = {"period": 0.4, "duration": 0.4 / 0.547 * duration}
+    at = sa.RelativeStart(0.9, 0.3, -0.2)
+    start = sa.StartSettings(0.9, -0.3, 0.2)
+    settings = sa.DuelSettings(duration=duration, start=start)
+    names = {"aside": "evasion", "own": f"{__file__}:BackAndAside"}
+    for label, name in names.items():
+        both = st.Pursuit(), st.load_strategy(name)
+        game = st.play_strategies(*both, at, bodies=(body, body), **clock)
+        duel = sa.run_duel(replace(settings, evader_strategy=name))
         for bodies, closest, path in (
             ("unicycles", game.closest_distance, game.evader),
             ("humanoids", duel.summary.min_distance_m, duel.evader.torso),
         ):
             floor = np.hypot(*(path - path[0])[:, :2].T).max()
-            strategy = "aside" if name == "evasion" else "own"
-            print(
-                f"{strategy} {bodies}: closest approach {closest:.2f} m, "
-                f"floor used {floor:.2f} m"
-            )
+            print(f"{label} {bodies}: closest approach "
+                  f"{closest:.2f} m, floor used {floor:.2f} m")  # fmt: skip
 
 
 if __name__ == "__main__":

@@ -67,7 +67,7 @@ def test_name_becomes_a_label_and_its_suffix_a_unit(
 
 LONG = {
     "duel --duration 1": "duel",
-    "walk --duration 3": "walk",
+    "walk --duration 20": "walk",
     "duels --seeds 0:2 --duration 1 --workers 1": "duels",
     "circle --starts 5": "circle",
     "map --grid 3 --distances 2 --duration 5": "map",

@@ -295,7 +295,9 @@ def test_a_figure_without_a_suffix_is_reported_with_one(
     assert result.exit_code == 0
     both = ["--sweep", str(tmp_path / "b"), "--figure", f"{tmp_path}/b.png"]
     result = CliRunner().invoke(main, [*words, *both])
-    assert result.exit_code == 2 and "another file" in result.output
+    assert (
+        result.exit_code == 2 and "must differ from the file" in result.output
+    )
 
 
 def test_a_summary_is_printed_although_its_figure_cannot_be_written(

@@ -277,5 +277,5 @@ def test_the_command_does_not_change_a_steady_robot(
     monkeypatch.setattr(tuning, "walk_trial", lambda t: walked(t, 0.1))
     result = CliRunner().invoke(main, ["robot", "tune", str(tmp_path)])
     assert result.exit_code == 0, result.output
-    assert "stays as it is" in result.stdout
+    assert "description is unchanged" in result.stdout
     assert (tmp_path / FILE).read_bytes() == before

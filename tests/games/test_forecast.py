@@ -210,7 +210,8 @@ def test_a_summary_has_the_forecast(
     summary = json.loads((tmp_path / "run" / "summary.json").read_text())
     theory = summary["theory"]
     rows = {
-        line[2:20].strip(): line[21:] for line in result.stdout.split("\n")
+        line[2:20].strip(): line[21:].strip()
+        for line in result.stdout.split("\n")
     }
     assert theory["expected"] == expected
     assert rows["expected"] == theory["words"]
@@ -232,7 +233,10 @@ def test_expected_contact_is_printed_beforehand(tmp_path: Path) -> None:
     assert theory["distance_m"] is None
     assert theory["closest_approach_m"] < 0.4
     assert summary["min_distance_m"] < 0.6
-    assert result.stderr.strip() == f"stepaside: expected is {theory['words']}"
+    assert (
+        result.stderr.strip()
+        == f"stepaside: expected outcome: {theory['words']}"
+    )
 
 
 def test_the_templates_of_a_duel_are_played_once(

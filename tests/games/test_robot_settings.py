@@ -86,7 +86,7 @@ def test_a_description_gives_gait_control_and_distances(
         ("reach = 0.4", "raech = 0.4", ModelError, "unknown entry place.rae"),
         ("HeadYaw = 7.457", "HeadYaw = '7'", ModelError, "speed_limits.Head"),
         ("[0.05, 2.11]", "['low', 2.11]", ModelError, "must be a finite"),
-        ("[0.05, 2.11]", "[2.11]", ModelError, "row of 2 values"),
+        ("[0.05, 2.11]", "[2.11]", ModelError, "array of 2 values"),
         ("[0.05, 2.11]", "[2.2, 2.11]", ModelError, "low < high"),
         ("closed-form", "guess", ConfigurationError, "method"),
     ],

@@ -129,7 +129,7 @@ def test_starts_missing_in_a_room_are_drawn_from_the_seed() -> None:
                 (Box(0.0, 0.0, 3.0, 0.2),),
                 starts=(Pose(0.0, -1.0, 0.0), Pose(0.0, 1.0, 0.0)),
             ),
-            "a way",
+            "a path",
         ),
     ],
 )
@@ -198,4 +198,4 @@ def test_invalid_rooms_are_refused_in_one_line(tmp_path: Path) -> None:
         told = refusal("--room", str(file), "--json")
         assert words in told and "Traceback" not in told
     assert "requires a random room (--room SEED)" in refusal("--discs", "2")
-    assert "a file, got 'no'" in refusal("--room", "no")
+    assert "an existing file, got 'no'" in refusal("--room", "no")

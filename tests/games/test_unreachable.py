@@ -48,7 +48,7 @@ def settings_of(pursuer: str) -> DuelSettings:
 def impatient() -> Iterator[None]:
     """Make legs fail before their robot falls."""
     with pytest.MonkeyPatch.context() as patched:
-        patched.setattr(kinematics, "LOST", 0.02)
+        patched.setattr(kinematics, "GREATEST_ERROR", 0.02)
         yield
 
 

@@ -292,7 +292,7 @@ def test_a_person_cannot_be_pushed() -> None:
     player = PersonPlayer(
         PersonBody(world_of(model, data), "her", motion), other
     )
-    with pytest.raises(ConfigurationError, match="robot, got her, who is a"):
+    with pytest.raises(ConfigurationError, match="robot, got her, which is a"):
         player.push(Push(1.0, 0.0, 0.0))
 
 

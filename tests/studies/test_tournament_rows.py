@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from counting import NORMAL, is_wilson
 from stepaside.studies.tournament_rows import tournament_rows
 
-OUTCOMES = ("survived", "caught", "touched", "fell")
+OUTCOMES = ("survived", "captured", "contact", "touched", "fell")
 MEANS = {
     "survived_s": ("mean_survival_s", 1.0),
     "closest_m": ("mean_closest_m", 1.0),
@@ -21,7 +21,7 @@ MEANS = {
     "decision_s": ("decision_ms", 1e3),
 }
 HALVES = {"closest_m": "mean_closest_pm_m", "floor_m2": "floor_used_pm_m2"}
-SHARES = ("survived", "caught", "touched_obstacle", "fell")
+SHARES = ("survived", "captured", "contact", "touched_obstacle", "fell")
 
 
 @st.composite
@@ -34,9 +34,11 @@ def games(draw: st.DrawFn) -> list[dict[str, Any]]:
             "evader": draw(st.sampled_from(["aside", "look-ahead"])),
             "pursuer": "pure",
             "seed": seed,
-            "outcome": draw(st.sampled_from(OUTCOMES)),
+            "outcome": outcome,
+            "contact": outcome == "contact",
         }
         for seed in range(draw(st.integers(1, 20)))
+        for outcome in [draw(st.sampled_from(OUTCOMES))]
     ]
 
 

@@ -142,11 +142,11 @@ def test_score_counts_detected_faults(tmp_path: Path) -> None:
     assert result["command"] == "make mutate SAMPLE=4 CAP=1"
     assert head(sample=SAMPLE, seed=1, cap=CAP)["command"] == "make mutate"
     assert result["settings"] == {"sample": 4, "seed": 1, "cap_s": 1.0}
-    assert "2 of 4 faults noticed (50.0 %)" in score(result)
+    assert "2 of 4 faults detected (50.0 %)" in score(result)
     assert "| planning | 4 | 2 | 50 % |" in score(result)
     table = survivors(result)
     assert "| planning/toy.py:2 | `a \\| b` | `b` | same |" in table
-    assert "| `b` | no test reaches |" in table
+    assert "| `b` | reached by no test |" in table
 
 
 def test_newer_tests_are_listed_with_survivors_without_changing_the_score(
@@ -167,8 +167,8 @@ def test_newer_tests_are_listed_with_survivors_without_changing_the_score(
         assert write_noticed(path, rows, {second.key: "same"}) == 1
         result = Store(tmp_path).result("mutation")
         assert result["noticed"] == 0 and len(result["survivors"]) == 2
-        assert "notice 1 of the survivors" in score(result)
-        assert "| noticed since by `test_x.py::f` |" in survivors(result)
+        assert "detect 1 of the survivors" in score(result)
+        assert "| detected since by `test_x.py::f` |" in survivors(result)
         assert survivors(result).count("| same |") == 1
     assert write_noticed(path, {}, {}) == 0
     result = Store(tmp_path).result("mutation")

@@ -34,8 +34,8 @@ class StabiliserSettings:
         reach_forward: Farthest footstep ahead of the support foot, in [m]; 0
             to 10.
         reach_backward: Farthest footstep behind it, in [m]; 0 to 10.
-        reach_outward: Largest lateral distance of a footstep beyond the foot
-            spacing, in [m]; 0 to 10.
+        reach_outward: Largest step outward beyond the foot spacing, in [m];
+            0 to 10.
         gap: Least distance between soles abreast, in [m]; 0 to 10.
         step_speed: Greatest speed at which an adapted footstep moves, [m/s]; 0
             to 100.
