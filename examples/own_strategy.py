@@ -7,8 +7,6 @@ import sys
 from dataclasses import dataclass, replace
 from math import pi
 
-import numpy as np
-
 import stepaside as sa
 from stepaside import strategies as st
 from stepaside.theory.unicycle.unicycle_game import Unicycle
@@ -43,14 +41,17 @@ def main(duration: float) -> None:
     settings = sa.DuelSettings(duration=duration, start=start)
     names = {"aside": "evasion", "own": f"{__file__}:BackAndAside"}
     for label, name in names.items():
-        both = st.Pursuit(), st.load_strategy(name)
-        game = st.play_strategies(*both, at, bodies=(body, body), **clock)
+        evader = st.load_strategy(name)
+        game = st.play_strategies(
+            st.Pursuit(), evader, at, bodies=(body, body), **clock
+        )
         duel = sa.run_duel(replace(settings, evader_strategy=name))
         for bodies, closest, path in (
             ("unicycles", game.closest_distance, game.evader),
             ("humanoids", duel.summary.min_distance_m, duel.evader.torso),
         ):
-            floor = np.hypot(*(path - path[0])[:, :2].T).max()
+            moved = (path - path[0])[:, :2]
+            floor = (moved**2).sum(axis=1).max() ** 0.5
             print(f"{label} {bodies}: closest approach "
                   f"{closest:.2f} m, floor used {floor:.2f} m")  # fmt: skip
 
