@@ -56,7 +56,7 @@ def test_a_strip_has_each_image_above_its_top_view(
         drawn.append(float(run.times[index]))
 
     monkeypatch.setattr(film_strip, "load_run", lambda folder: run())
-    monkeypatch.setattr(film_strip, "pictures", shades)
+    monkeypatch.setattr(film_strip, "render_images", shades)
     monkeypatch.setattr(film_strip, "draw_top", top)
     file = tmp_path / "strip.png"
     reported: list[tuple[int, int]] = []

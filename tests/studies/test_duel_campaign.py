@@ -365,7 +365,7 @@ def test_nothing_is_played_when_verified_duels_differ(
 CHILD = """
 import os, signal, sys, time
 from concurrent.futures import as_completed
-from stepaside.core.worker_pool import give_up, worker_pool
+from stepaside.core.worker_pool import cancel_pending, worker_pool
 
 def stay(number):
     print(os.getpid(), flush=True)
@@ -380,7 +380,7 @@ if __name__ == "__main__":
             try:
                 list(as_completed(futures))
             except BaseException:
-                give_up(pool, futures)
+                cancel_pending(pool, futures)
                 raise
     except KeyboardInterrupt:
         sys.exit(130)

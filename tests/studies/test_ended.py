@@ -117,17 +117,17 @@ def test_a_figure_is_trusted_by_what_it_holds(
 
         return drawer
 
-    for name in ("game", "remove_stale_drafts", "duel"):
+    for name in ("game", "sweep", "duel"):
         monkeypatch.setattr(reproduce_figures, f"_draw_{name}", draw(name))
     reproduce_figures.draw_figures(tmp_path, 1)
-    assert sorted(drawn) == ["duel", "game", "remove_stale_drafts"]
+    assert sorted(drawn) == ["duel", "game", "sweep"]
     reproduce_figures.draw_figures(tmp_path, 1)
     assert len(drawn) == 3
     (tmp_path / "sweep.png").write_text("torn")
     (tmp_path / "fig2.png").unlink()
     reproduce_figures.draw_figures(tmp_path, 1)
-    assert sorted(drawn[3:]) == ["game", "remove_stale_drafts"]
-    assert (tmp_path / "sweep.png").read_text() == "remove_stale_drafts"
+    assert sorted(drawn[3:]) == ["game", "sweep"]
+    assert (tmp_path / "sweep.png").read_text() == "sweep"
 
 
 def mask(_: int) -> tuple[bool, bool]:

@@ -108,7 +108,9 @@ def heavier(monkeypatch: pytest.MonkeyPatch, factor: float) -> WalkSettings:
 
     monkeypatch.setattr(robustness, "mass_of", mass_of)
     monkeypatch.setattr(robustness, "load_robot", lambda name: name)
-    monkeypatch.setattr(robustness, "game_of", lambda robot: None)
+    monkeypatch.setattr(
+        robustness, "game_settings_from_description", lambda robot: None
+    )
     monkeypatch.setattr(survival, "mass_of", mass_of)
     bound_at.cache_clear()
     return WalkSettings(robot="heavy")
@@ -137,7 +139,7 @@ def test_robots_with_a_unit_of_pushes_are_pushed_by_it(
     monkeypatch.setattr(robustness, "load_robot", lambda name: name)
     monkeypatch.setattr(
         robustness,
-        "game_of",
+        "game_settings_from_description",
         lambda robot: RobotGameSettings(0.8, 0.4, 0.6, 1.5, units[robot]),
     )
     assert push_scale("tall") == 24.0
