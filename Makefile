@@ -9,7 +9,7 @@ STAMP := $(VENV)/.installed
 INSTALL := -m pip install --disable-pip-version-check --no-warn-script-location \
 	--root-user-action=ignore --constraint constraints.txt
 
-.PHONY: setup duel test types suite python other other-setup other-test mutate \
+.PHONY: setup duel test-tools test types suite python other other-setup other-test mutate \
 	fuzz bench figures wheel clean constraints ros2-peers
 
 setup: $(STAMP)
@@ -41,6 +41,10 @@ types:
 
 suite:
 	$(BIN)/pytest --numprocesses auto
+
+# Tests of the tools of developers, which `make test` does not run.
+test-tools: setup
+	$(BIN)/pytest --numprocesses auto tools/tests
 
 # The Python that the next environment is made with.
 python:
