@@ -54,6 +54,7 @@ class Duel(Match):
         observers: tuple[MatchObserver, ...] = (),
         *,
         recorded: bool = True,
+        rendered: bool = False,
     ) -> None:
         """Build the world and place the players in it.
 
@@ -61,6 +62,8 @@ class Duel(Match):
             settings: Settings of the duel.
             observers: Observers in addition to the recorder.
             recorded: Whether to record; the record grows with time.
+            rendered: Whether to render the world of the duel; cameras do so
+                in any case.
 
         Raises:
             StepAsideError: If the settings contradict each other or cannot
@@ -68,7 +71,7 @@ class Duel(Match):
         """
         self.settings = settings = with_initial_poses(settings)
         self.frames = frames = initial_poses(settings)
-        stage = _Stage(settings, frames)
+        stage = _Stage(settings, frames, rendered=rendered)
         mujoco.mj_forward(stage.world.model, stage.world.data)
         for name, pushes in pushes_by_robot(
             settings.pushes, settings.robots
@@ -113,7 +116,11 @@ class _Stage:
     """World of a duel with its players."""
 
     def __init__(
-        self, settings: DuelSettings, frames: tuple[Pose, Pose]
+        self,
+        settings: DuelSettings,
+        frames: tuple[Pose, Pose],
+        *,
+        rendered: bool,
     ) -> None:
         self._settings, self._frames = settings, frames
         walkers = settings.robots
@@ -132,6 +139,7 @@ class _Stage:
             settings.body,
             settings.seed,
             furnisher_of(settings, furnish),
+            rendered=rendered or self._senses is not None,
         )
         plan = settings.room.plan
         if plan is not None and plan.moving:

@@ -18,6 +18,7 @@ from .physics_settings import PhysicsSettings
 from .sensor_errors import perturb_masses
 
 FLOOR_BIT = 1
+NO_SENSORS = int(mujoco.mjtDisableBit.mjDSBL_SENSOR)
 CONTACT_BITS = 0x7FFFFFFF  # of MuJoCo's contact masks, without the sign
 COLOURS = {
     "pursuer": (0.80, 0.16, 0.14, 1.0),
@@ -31,6 +32,8 @@ def build_model(
     body: BodySettings | None = None,
     seed: int = 0,
     furnish: Callable[[mujoco.MjSpec], None] | None = None,
+    *,
+    rendered: bool = True,
 ) -> mujoco.MjModel:
     """Compile a floor and robots that collide with it and each other.
 
@@ -41,8 +44,11 @@ def build_model(
         body: Errors of the robots; none by default.
         seed: Seed of the floor and of the errors of the robots.
         furnish: Function that adds to the world after the robots.
+        rendered: Whether to include geoms and materials that do not
+            collide and only serve images.
     """
     spec = mujoco.MjSpec()
+    spec.compiler.discardvisual = not rendered
     spec.option.timestep = physics.time_step
     spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
     spec.option.solver = mujoco.mjtSolver.mjSOL_NEWTON
@@ -131,6 +137,8 @@ class World:
         body: BodySettings | None = None,
         seed: int = 0,
         furnish: Callable[[mujoco.MjSpec], None] | None = None,
+        *,
+        rendered: bool = False,
     ) -> None:
         """Compile a world whose robots are not placed yet.
 
@@ -142,7 +150,9 @@ class World:
         for robot in robots.values():
             load_tree(robot)  # raises if model and description differ
         self.physics = physics
-        self.model = build_model(robots, physics, body, seed, furnish)
+        self.model = build_model(
+            robots, physics, body, seed, furnish, rendered=rendered
+        )
         self.data = mujoco.MjData(self.model)
         self.before_step: list[Callable[[float], None]] = []
         self.ticks = 0
@@ -178,7 +188,12 @@ class World:
         if self.before_step:
             self._step_singly(steps)
         else:
-            mujoco.mj_step(self.model, self.data, nstep=steps)
+            # Sensors are read after the last step only.
+            option = self.model.opt
+            option.disableflags = NO_SENSORS
+            mujoco.mj_step(self.model, self.data, nstep=steps - 1)
+            option.disableflags = 0
+            mujoco.mj_step(self.model, self.data)
         self.ticks += 1
 
     def _step_singly(self, steps: int) -> None:

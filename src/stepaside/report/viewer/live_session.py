@@ -158,7 +158,12 @@ class LiveSession:
     def _begin(self, settings: DuelSettings) -> None:
         # A live duel has no end, so that its history is bounded.
         trail = PlotHistory()
-        duel = Duel(settings, (trail, LiveRecording()), recorded=False)
+        duel = Duel(
+            settings,
+            (trail, LiveRecording()),
+            recorded=False,
+            rendered=True,
+        )
         self._close_duel()
         self._open = duel
         self.settings = settings
