@@ -81,9 +81,9 @@ def test_printed_configuration_has_a_comment_for_each_entry(name: str) -> None:
     lines = run(f"{name} --print-config").stdout.splitlines()
     for before, line in zip(lines, lines[1:], strict=False):
         if line and not line.startswith("# "):
-            assert before.startswith("# ") and len(before) > 5, line
+            assert before.startswith("# ") and len(before) > 2, line
     text = "\n".join(lines)
-    step = "# Step size along the trajectory, in [m]; 0.0001 to 10.\nstride = "
+    step = "# Step size along the path [m]; 0.0001 to 10.\nstride = "
     assert step in text
 
 

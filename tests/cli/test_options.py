@@ -14,7 +14,6 @@ from stepaside.cli.bound import AGAINST
 from stepaside.cli.main import COMMANDS, main
 from stepaside.cli.options.connection_options import MOTION_INTERFACES
 from stepaside.cli.options.declaration import DeclaredOption, OptionDeclaration
-from stepaside.cli.options.print_config import meanings
 from stepaside.cli.options.room_options import RECIPE
 from stepaside.cli.options.value_kinds import NameType, WordOrValueType
 from stepaside.cli.plan_settings import FEET, ROLES, PlanSettings
@@ -22,6 +21,7 @@ from stepaside.cli.serve import SIGHTS
 from stepaside.cli.unicycle_options import STRATEGIES
 from stepaside.cli.value_types import AngleType, NumberType
 from stepaside.control.clearance.map_settings import MAPS, UNSEEN
+from stepaside.core.setting import settings_of
 from stepaside.games.duel_settings import SENSING, DuelSettings
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.locomotion.zmp.control_settings import METHODS, TAILS
@@ -221,7 +221,7 @@ def entry(kind: Any, path: str) -> tuple[Any, str]:
     """Return type and description of a configuration entry."""
     for name in path.split("."):
         owner, kind = kind, get_type_hints(kind)[name]
-    return kind, meanings(owner).get(path.split(".")[-1], "")
+    return kind, settings_of(owner)[path.split(".")[-1]].text
 
 
 def test_declarations_agree_with_the_settings() -> None:

@@ -302,10 +302,10 @@ def test_a_measured_pose_corrects_odometry() -> None:
 @pytest.mark.parametrize(
     ("values", "words"),
     [
-        ({"source": "dreamt"}, "map source must be one of given, seen, none"),
-        ({"unseen": "maybe"}, "map unseen must be one of free, taken"),
-        ({"margin": -0.1}, "map margin must lie in"),
-        ({"margin": float("nan")}, "map margin must lie in"),
+        ({"source": "dreamt"}, "map.source must be one of given, seen, none"),
+        ({"unseen": "maybe"}, "map.unseen must be one of free, taken"),
+        ({"margin": -0.1}, "map.margin must lie in"),
+        ({"margin": float("nan")}, "map.margin must lie in"),
     ],
 )
 def test_other_maps_are_refused(values: Any, words: str) -> None:

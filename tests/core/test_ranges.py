@@ -17,6 +17,7 @@ from stepaside.core.errors import (
     check_positive,
     check_within,
 )
+from stepaside.core.setting import ranges_of
 from stepaside.games.configuration_file import dump_configuration
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.planning import (
@@ -29,7 +30,7 @@ from stepaside.sim.physics_settings import PhysicsSettings, SightSettings
 
 GAIT = [  # without those that may be zero
     name
-    for name, r in GaitSettings.ranges.items()
+    for name, r in ranges_of(GaitSettings).items()
     if r.low > 0 and not r.whole
 ]
 ABSURD = (1e18, 1e300, 5e-324, 1e-18, inf, nan, -1.0, True, 0.0)
@@ -44,7 +45,7 @@ def test_a_gait_refuses_absurd_values(name: str, value: Any) -> None:
 
 @pytest.mark.parametrize("name", GAIT)
 def test_values_beyond_a_bound_are_refused(name: str) -> None:
-    low, high = GaitSettings.ranges[name][:2]
+    low, high = ranges_of(GaitSettings)[name][:2]
     for value in (low * 0.99, high * 1.01):
         changes: dict[str, Any] = {name: value}
         with pytest.raises(PlanError, match=f"{name} must lie in"):

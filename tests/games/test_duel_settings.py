@@ -1,4 +1,4 @@
-"""Test that docstring, table and check of each setting agree."""
+"""Test that description and check of each setting agree."""
 
 from typing import Any
 
@@ -7,10 +7,10 @@ import pytest
 
 from stepaside.cli.main import all_commands
 from stepaside.cli.options.declaration import DeclaredOption
-from stepaside.cli.options.print_config import meanings
 from stepaside.cli.value_types import NumberType
 from stepaside.core.errors import StepAsideError
-from stepaside.core.ranges import Range, check_count, check_settings, ranges_of
+from stepaside.core.ranges import Range, check_count
+from stepaside.core.setting import check_settings, ranges_of, settings_of
 from stepaside.sim.physics_settings import PhysicsSettings
 from tools.documents.tables.settings import LISTS, all_settings
 
@@ -23,11 +23,16 @@ NUMBERS = [
 OTHERS = sorted(SETTINGS.keys() - NUMBERS - LISTS.keys())
 
 
-@pytest.mark.parametrize("path", NUMBERS)
-def test_the_docstring_has_the_range(path: str) -> None:
+@pytest.mark.parametrize("path", SETTINGS)
+def test_every_setting_is_described(path: str) -> None:
     setting = SETTINGS[path]
-    allowed: Range = setting.kind.ranges[setting.name]
-    assert allowed.words in meanings(setting.kind)[setting.name]
+    assert settings_of(setting.kind)[setting.name].meaning
+
+
+@pytest.mark.parametrize("path", NUMBERS)
+def test_a_range_has_unit_and_reason(path: str) -> None:
+    setting = SETTINGS[path]
+    allowed = ranges_of(setting.kind)[setting.name]
     assert allowed.unit and allowed.why and allowed.low < allowed.high
 
 

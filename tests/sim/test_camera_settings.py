@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 
 from stepaside.core.errors import ConfigurationError
+from stepaside.core.setting import ranges_of
+from stepaside.games.duel_settings import DuelSettings
 from stepaside.sim.camera_settings import (
     CLUTTER,
     KINDS,
@@ -17,7 +19,7 @@ from stepaside.sim.camera_settings import (
     SceneSettings,
     SonarSettings,
 )
-from stepaside.sim.person_settings import PersonSettings, check_pursuer
+from stepaside.sim.person_settings import PersonSettings
 
 ENDS = [  # settings, name, least, greatest, step beyond them
     (ColourSettings, "rate", 1.0, 60.0, 0.1),
@@ -65,7 +67,7 @@ def test_ranges_include_their_bounds_only(
 
 @pytest.mark.parametrize(("kind", "name"), POSITIVE)
 def test_some_settings_must_be_positive(kind: Any, name: str) -> None:
-    kind(**{name: kind.ranges[name].low})
+    kind(**{name: ranges_of(kind)[name].low})
     for value in (0.0, -1e-6, nan, inf):
         refuse(kind, name, value)
 
@@ -89,10 +91,10 @@ def test_the_speed_of_a_person_is_limited() -> None:
 
 
 def test_a_pursuer_is_a_robot_or_a_person() -> None:
-    check_pursuer("robot")
-    check_pursuer("person")
+    for pursuer in ("robot", "person"):
+        assert DuelSettings(pursuer=pursuer).pursuer == pursuer
     with pytest.raises(ConfigurationError, match="got 'dog'"):
-        check_pursuer("dog")
+        DuelSettings(pursuer="dog")
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -104,7 +106,7 @@ def test_objects_lie_within_twenty_metres(kind: str) -> None:
         ) == place
     for place in ((20.1, 0.0), (0.0, 20.1), (-20.1, 0.0), (0.0, -20.1)):
         with pytest.raises(
-            ConfigurationError, match=f"{kind} [xy] must lie in"
+            ConfigurationError, match="room object [xy] must lie in"
         ):
             RoomObject(kind, *place)
     with pytest.raises(ConfigurationError, match="got 'red ball'"):

@@ -12,7 +12,8 @@ import numpy as np
 import stepaside
 from stepaside import Direction, Foot, GaitSettings, RelativeStart
 from stepaside.core.errors import StepAsideError
-from stepaside.core.ranges import Range, ranges_of
+from stepaside.core.ranges import Range
+from stepaside.core.setting import ranges_of
 
 from .case import Case
 from .values import any_value, around

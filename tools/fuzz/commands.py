@@ -13,7 +13,8 @@ from stepaside.cli.main import all_commands
 from stepaside.cli.options.declaration import DeclaredOption
 from stepaside.cli.options.value_kinds import NameType, WordOrValueType
 from stepaside.cli.value_types import UNITS, AngleType, NumberType
-from stepaside.core.ranges import Range, ranges_of
+from stepaside.core.ranges import Range
+from stepaside.core.setting import ranges_of
 from tools.documents.tables.settings import all_settings
 
 from .case import Case

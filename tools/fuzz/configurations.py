@@ -8,7 +8,7 @@ from typing import Any
 
 from stepaside.cli.plan_settings import PlanSettings
 from stepaside.core.errors import StepAsideError
-from stepaside.core.ranges import ranges_of
+from stepaside.core.setting import ranges_of
 from stepaside.games.configuration_file import read_settings
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.walk_settings import WalkSettings

@@ -1,12 +1,13 @@
 """Settings of one maneuver."""
 
 from collections.abc import Collection
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, fields, replace
 from math import pi
-from typing import ClassVar
 
 from ..core.errors import PlanError
-from ..core.ranges import Range, Ranges, check_settings
+from ..core.ranges import Range
+from ..core.setting import check_settings, setting
+from ..games.duel_settings import GAIT_HELP
 from ..planning import PRESETS, Direction, Foot, GaitSettings
 
 ROLES = {"pursuer": Direction.FORWARD, "evader": Direction.BACKWARD}
@@ -15,41 +16,47 @@ FEET = {foot.name.lower(): foot for foot in Foot}
 
 @dataclass(frozen=True, slots=True)
 class PlanSettings:
-    """Settings of one maneuver.
+    """Settings of one maneuver."""
 
-    Attributes:
-        role: "pursuer" walks forward, "evader" backward.
-        bearing: Desired heading in the frame of the support foot, in [rad];
-            -3.14159 to 3.14159 or none.
-        steps: Number of footsteps; 1 to 200.
-        first_foot: Foot that lands first: "left" or "right".
-        saturated: Whether the robot turns by eq. (6) instead of eq. (8).
-        gait: Gait of the robot.
-    """
-
-    role: str | None = None
-    bearing: float | None = None
-    steps: int = 20
-    first_foot: str = "left"
-    saturated: bool = False
-    gait: GaitSettings = field(default_factory=GaitSettings)
-
-    ranges: ClassVar[Ranges] = {
-        "bearing": Range(-pi, pi, "rad", "half a turn", also=(None,)),
-        "steps": Range(1, 200, "steps", "more cannot be drawn", whole=True),
-    }
+    role: str | None = setting(
+        None,
+        "Role: the pursuer walks forward, the evader backward",
+        names=ROLES,
+        option="--role",
+    )
+    bearing: float | None = setting(
+        None,
+        "Desired heading in the frame of the support foot {unit}; 0 is "
+        "straight ahead",
+        Range(-pi, pi, "rad", "half a turn", also=(None,)),
+        option="--bearing",
+    )
+    steps: int = setting(
+        20,
+        "Number of footsteps",
+        Range(1, 200, "steps", "more cannot be drawn", whole=True),
+        option="--steps",
+    )
+    first_foot: str = setting(
+        "left", "Foot that lands first", names=FEET, option="--first-foot"
+    )
+    saturated: bool = setting(
+        False,
+        "Turn by eq. (6) instead of eq. (8)",
+        option="--saturated/--no-saturated",
+    )
+    gait: GaitSettings = setting(
+        GaitSettings(),
+        "Gait",
+        presets=PRESETS,
+        option="--gait",
+        aliases=("--preset",),
+        option_help=GAIT_HELP,
+    )
 
     def __post_init__(self) -> None:
         """Check all values."""
         check_settings(self, PlanError)
-        for name, value, known in (
-            ("role", self.role, ROLES),
-            ("first_foot", self.first_foot, FEET),
-        ):
-            if value is not None and value not in known:
-                raise PlanError(
-                    f"{name} must be one of {', '.join(known)}, got {value!r}"
-                )
 
     @property
     def preset(self) -> str | None:

@@ -1,11 +1,6 @@
-"""Ranges of settings: one declaration for checks, options and documents."""
+"""Ranges of numbers, with units and reasons."""
 
-from collections.abc import Mapping
-from dataclasses import MISSING, fields, is_dataclass
-from functools import cache
-from numbers import Integral
-from types import NoneType
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from .errors import ConfigurationError, StepAsideError, as_number, shown
 
@@ -87,55 +82,6 @@ class Range(NamedTuple):
         return "".join(f" or {name}" for name in named)
 
 
-Ranges = Mapping[str, Range]
-NO_RANGES: Ranges = {}
-
-
-def ranges_of(kind: type[Any]) -> Ranges:
-    """Return the ranges declared by a class of settings, by attribute."""
-    found: Ranges = getattr(kind, "ranges", NO_RANGES)
-    return found
-
-
-def check_settings(
-    settings: Any,
-    error: type[StepAsideError] = ConfigurationError,
-    *,
-    prefix: str = "",
-) -> None:
-    """Check ranges and types of settings.
-
-    Numbers of other types, as of NumPy, are converted to Python numbers.
-
-    Args:
-        settings: Dataclass with ``ranges`` by attribute. Other attributes
-            must have the type of their default: bool, text or a section.
-        error: Class of the error.
-        prefix: Prefix of each name in messages, like ``person.``.
-
-    Raises:
-        StepAsideError: Of class ``error``.
-    """
-    for name, allowed in ranges_of(type(settings)).items():
-        value = getattr(settings, name)
-        allowed.check(value, f"{prefix}{name}", error)
-        if type(value) not in (int, float, NoneType):  # NumPy, Fraction
-            number = as_number(value, whole=isinstance(value, Integral))
-            object.__setattr__(settings, name, number)
-    for name, kind in _kinds(type(settings)).items():  # type: ignore[arg-type]
-        value = getattr(settings, name)
-        if not isinstance(value, kind):
-            expected = _TYPE_NAMES.get(kind, f"a {kind.__name__}")
-            raise error(
-                f"{prefix}{name} must be {expected}, got {shown(value)}"
-            )
-        if kind is str and "\0" in value:  # not valid in a file name
-            raise error(
-                f"{prefix}{name} must be text without a null character, got "
-                f"{shown(value)}"
-            )
-
-
 def check_count(
     values: object,
     most: int,
@@ -149,23 +95,6 @@ def check_count(
             f"{name} must be a list of at most {most} entries, "
             f"got {shown(got)}"
         )
-
-
-_TYPE_NAMES: Mapping[type[Any], str] = {bool: "true or false", str: "text"}
-
-
-@cache
-def _kinds(kind: type[Any]) -> dict[str, type[Any]]:
-    """Return the types of attributes that are not numbers, from defaults."""
-    found = {}
-    for field in fields(kind):
-        default = field.default
-        if field.default_factory is not MISSING:
-            default = field.default_factory()
-        own = isinstance(default, bool | str) or is_dataclass(default)
-        if field.name not in ranges_of(kind) and own:
-            found[field.name] = type(default)
-    return found
 
 
 SEEDS = Range(

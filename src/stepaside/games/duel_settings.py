@@ -1,8 +1,7 @@
 """Settings of a duel: equal settings repeat it exactly."""
 
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, fields, replace
 from math import pi
-from typing import ClassVar
 
 from ..control.clearance.map_settings import MapSettings
 from ..core.brief_repr import brief_repr
@@ -11,16 +10,15 @@ from ..core.ranges import (
     RUNTIME,
     SEEDS,
     Range,
-    Ranges,
     check_count,
-    check_settings,
 )
+from ..core.setting import check_settings, setting
 from ..locomotion.zmp.control_settings import ControlSettings
-from ..planning import GaitSettings
-from ..sim.body_settings import BodySettings
+from ..planning import PRESETS, GaitSettings
+from ..sim.body_settings import BODIES, BodySettings
 from ..sim.camera_settings import CameraSettings, SceneSettings
 from ..sim.passerby_settings import MOST_PASSERS, Passer
-from ..sim.person_settings import PersonSettings, check_pursuer
+from ..sim.person_settings import PURSUERS, PersonSettings
 from ..sim.physics_settings import PhysicsSettings, SightSettings
 from ..sim.push import MOST_PUSHES, Push, check_pushes
 from ..strategies import Evasion, Strategy
@@ -36,48 +34,64 @@ ERROR = ConfigurationError
 SENSING = ("ideal", "cameras")
 PLAYERS = PURSUER, EVADER = ("pursuer", "evader")
 PURSUIT = "pursuit"  # of the paper, like EVASION
+GAIT_HELP = (
+    "Gait preset: the paper's, the paper's with durations as printed, or a "
+    "fast one (with feedback unless --open-loop). Other gait options modify it"
+)
+BODY_HELP = (
+    "Imperfections of the body: none, delays only, or those of real hardware"
+)
 
 
 @dataclass(frozen=True, slots=True)
 class StartSettings:
-    """Initial poses of the players; omitted values are drawn from the seed.
+    """Initial poses of the players; omitted values are drawn from the seed."""
 
-    Attributes:
-        distance: Distance between the reference points of the players, in
-            [m]; drawn between ``near`` and ``far``; 0 to 100 or none.
-        pursuer_offset: Heading of the pursuer relative to the line of sight
-            to the evader, in [rad]; drawn from -90 deg to 90 deg; -3.14159 to
-            3.14159 or none.
-        evader_offset: Heading of the evader relative to the line of sight to
-            the pursuer, in [rad]; drawn from -30 deg to 30 deg; -3.14159 to
-            3.14159 or none.
-        least: Smallest distance at which the robots cannot overlap, in [m]; 0
-            to 100.
-        near: Smallest distance that is drawn, in [m]; 0 to 100.
-        far: Greatest distance that is drawn, in [m]; 0 to 100.
-    """
-
-    distance: float | None = None
-    pursuer_offset: float | None = None
-    evader_offset: float | None = None
-    least: float = 0.4
-    near: float = 0.6
-    far: float = 1.5
-
-    ranges: ClassVar[Ranges] = {
-        "distance": Range(
+    distance: float | None = setting(
+        None,
+        "Initial distance between the reference points of the players "
+        "{unit}; drawn from the seed by default",
+        Range(
             0.0,
             100.0,
             "m",
             "at ``least``, or they touch; farther, they never meet",
             also=(None,),
         ),
-        "pursuer_offset": Range(-pi, pi, "rad", "half a turn", also=(None,)),
-        "evader_offset": Range(-pi, pi, "rad", "half a turn", also=(None,)),
-        "least": Range(0.0, 100.0, "m", "beyond, they never meet"),
-        "near": Range(0.0, 100.0, "m", "between ``least`` and ``far``"),
-        "far": Range(0.0, 100.0, "m", "beyond, they never meet"),
-    }
+        option="--distance",
+        words={"drawn": None},
+    )
+    pursuer_offset: float | None = setting(
+        None,
+        "Heading of the pursuer relative to its line of sight to the evader "
+        "{unit}; drawn up to a right angle by default",
+        Range(-pi, pi, "rad", "half a turn", also=(None,)),
+        option="--pursuer-offset",
+        words={"drawn": None},
+    )
+    evader_offset: float | None = setting(
+        None,
+        "Heading of the evader relative to its line of sight to the pursuer "
+        "{unit}; drawn up to 30 degrees by default",
+        Range(-pi, pi, "rad", "half a turn", also=(None,)),
+        option="--evader-offset",
+        words={"drawn": None},
+    )
+    least: float = setting(
+        0.4,
+        "Smallest distance at which the robots cannot overlap",
+        Range(0.0, 100.0, "m", "beyond, they never meet"),
+    )
+    near: float = setting(
+        0.6,
+        "Smallest initial distance that is drawn",
+        Range(0.0, 100.0, "m", "between ``least`` and ``far``"),
+    )
+    far: float = setting(
+        1.5,
+        "Greatest initial distance that is drawn",
+        Range(0.0, 100.0, "m", "beyond, they never meet"),
+    )
 
     def __post_init__(self) -> None:
         """Validate ranges and the order of the distances."""
@@ -91,78 +105,128 @@ class StartSettings:
 
 @dataclass(frozen=True, slots=True)
 class RobotSettings:
-    """Robot of a player, with its gait and control.
+    """Robot of a player, with its gait and control."""
 
-    Attributes:
-        robot: Name of a robot or folder of its description.
-        gait: Gait settings.
-        control: Control settings.
-    """
-
-    robot: str = "nao"
-    gait: GaitSettings = field(default_factory=GaitSettings)
-    control: ControlSettings = field(default_factory=ControlSettings)
+    robot: str = setting(
+        "nao", "Name of a robot, or folder of its description"
+    )
+    gait: GaitSettings = setting(GaitSettings(), "Gait")
+    control: ControlSettings = setting(ControlSettings(), "Walking control")
 
 
 @dataclass(frozen=True, slots=True)
 class DuelSettings:
-    """Settings of a duel.
-
-    Attributes:
-        seed: Seed of every random draw; 0 to 3.40282e+38.
-        duration: Simulated time, in [s]; 0.001 to 86400.
-        robot: Name of a robot or folder of its description.
-        pursuer_robot: Robot, gait and control of the pursuer, if it differs
-            from ``robot``.
-        evader_robot: Robot, gait and control of the evader, likewise.
-        start: Initial poses.
-        strategy: Settings of the evasion strategy of the paper.
-        evader_strategy: Strategy of the evader: "evasion" for that of the
-            paper, another name of :data:`~stepaside.strategies.STRATEGIES`, or
-            FILE.py:NAME; from Python also a strategy object.
-        pursuer_strategy: Strategy of a pursuing robot, likewise.
-        gait: Gait of both players, except for one with its own robot.
-        sight: Errors of the ideal line of sight.
-        physics: Physics, floor and clock.
-        body: Deviations of the bodies from ideal ones.
-        control: Control of both players, except for one with its own robot.
-        sensing: "ideal" for the line of sight of ``sight``, or "cameras".
-        cameras: Cameras and their renderer, with camera sensing.
-        room: Walls, objects and room of the game.
-        map: Knowledge of the room that the game is played in.
-        pursuer: "robot", or "person".
-        person: Motion of a person as pursuer.
-        pushes: Pushes on the robots.
-        passers: Further people who walk past, with a person as pursuer; ideal
-            sight reports only the pursuer to the evader.
-    """
+    """Settings of a duel."""
 
     __repr__ = brief_repr
 
-    seed: int = 1
-    duration: float = 120.0
-    robot: str = "nao"
-    start: StartSettings = field(default_factory=StartSettings)
-    strategy: Evasion = field(default_factory=Evasion)
-    evader_strategy: str | Strategy = EVASION
-    pursuer_strategy: str | Strategy = PURSUIT
-    gait: GaitSettings = field(default_factory=GaitSettings)
-    sight: SightSettings = field(default_factory=SightSettings)
-    physics: PhysicsSettings = field(default_factory=PhysicsSettings)
-    body: BodySettings = field(default_factory=BodySettings)
-    control: ControlSettings = field(default_factory=ControlSettings)
-    sensing: str = "ideal"
-    cameras: CameraSettings = field(default_factory=CameraSettings)
-    room: SceneSettings = field(default_factory=SceneSettings)
-    map: MapSettings = field(default_factory=MapSettings)
-    pursuer: str = "robot"
-    person: PersonSettings = field(default_factory=PersonSettings)
-    pursuer_robot: RobotSettings | None = None
-    evader_robot: RobotSettings | None = None
-    pushes: tuple[Push, ...] = ()
-    passers: tuple[Passer, ...] = ()
-
-    ranges: ClassVar[Ranges] = {"seed": SEEDS, "duration": RUNTIME}
+    seed: int = setting(1, "Random seed", SEEDS, option="--seed")
+    duration: float = setting(
+        120.0, "Simulated time", RUNTIME, option="--duration"
+    )
+    robot: str = setting(
+        "nao",
+        "Name of a robot, or folder of its description",
+        option="--robot",
+    )
+    start: StartSettings = setting(StartSettings(), "Initial poses")
+    strategy: Evasion = setting(
+        Evasion(), "Settings of the paper's evasion strategy"
+    )
+    evader_strategy: str | Strategy = setting(
+        EVASION,
+        "Strategy of the evader: evasion, deflected, look-ahead, optimal, "
+        "pursuit, pursuit-xRATIO, sharp, herding, lead, optimal-pursuit, "
+        "stand, walk, or FILE.py:NAME for your own",
+        option="--strategy",
+        aliases=("--evader-strategy",),
+        default_text="evasion",
+    )
+    pursuer_strategy: str | Strategy = setting(
+        PURSUIT,
+        "Strategy of a robot pursuer, by the same names",
+        option="--pursuer-strategy",
+        default_text="pursuit",
+    )
+    gait: GaitSettings = setting(
+        GaitSettings(),
+        "Gait of each player without a robot of its own",
+        presets=PRESETS,
+        option="--gait",
+        aliases=("--preset",),
+        option_help=GAIT_HELP,
+    )
+    sight: SightSettings = setting(SightSettings(), "Errors of ideal sensing")
+    physics: PhysicsSettings = setting(
+        PhysicsSettings(), "Physics, floor and clock"
+    )
+    body: BodySettings = setting(
+        BodySettings(),
+        "Deviations of the bodies from ideal ones",
+        presets=BODIES,
+        option="--body",
+        option_help=BODY_HELP,
+    )
+    control: ControlSettings = setting(
+        ControlSettings(),
+        "Walking control of each player without a robot of its own",
+    )
+    sensing: str = setting(
+        "ideal",
+        "Sensing of opponents: true poses (ideal), or detection in simulated "
+        "camera images",
+        names=SENSING,
+        option="--sensing",
+    )
+    cameras: CameraSettings = setting(
+        CameraSettings(), "Cameras and sonars, with camera sensing"
+    )
+    room: SceneSettings = setting(
+        SceneSettings(), "Room, and what the cameras see of it"
+    )
+    map: MapSettings = setting(
+        MapSettings(), "Map of the room that robots have"
+    )
+    pursuer: str = setting(
+        "robot", "Kind of pursuer", names=PURSUERS, option="--pursuer"
+    )
+    person: PersonSettings = setting(
+        PersonSettings(), "Motion of a person as pursuer"
+    )
+    pursuer_robot: RobotSettings | None = setting(
+        None,
+        "Robot, gait and control of the pursuer, if it has a robot of its own",
+        option="--pursuer-robot",
+        option_help="Robot of the pursuer; that of --robot by default",
+    )
+    evader_robot: RobotSettings | None = setting(
+        None,
+        "Robot, gait and control of the evader, if it has a robot of its own",
+        option="--evader-robot",
+        option_help="Robot of the evader; that of --robot by default",
+    )
+    pushes: tuple[Push, ...] = setting(
+        (),
+        "Pushes on the robots",
+        option="--push",
+        option_help=(
+            "Push the torso of the evader; repeatable. "
+            "1.2@5:90deg is 1.2 N s at 5 s to the left; pursuer=1.2@5:90deg "
+            "pushes the pursuer. none removes those of the configuration"
+        ),
+    )
+    passers: tuple[Passer, ...] = setting(
+        (),
+        "People who walk past, with a person as pursuer; ideal sensing "
+        "reports only the pursuer to the evader",
+        option="--passer",
+        option_help=(
+            "Add a passing pedestrian; repeatable. "
+            "0.8@3:90deg:1.5 walks at 0.8 m/s, starts 3 m to the left of the "
+            "evader and passes it at a lateral offset of 1.5 m. none removes "
+            "those of the configuration"
+        ),
+    )
 
     def __post_init__(self) -> None:
         """Validate ranges, strategies and combinations of settings."""
@@ -177,7 +241,6 @@ class DuelSettings:
             self.named()  # validates the copy that holds names
             return
         check_settings(self)
-        check_pursuer(self.pursuer)
         for name in ("evader_strategy", "pursuer_strategy"):
             check_strategy_name(getattr(self, name), name, recorded=True)
         if self.pursuer == "person" and self.pursuer_strategy != PURSUIT:
@@ -196,11 +259,6 @@ class DuelSettings:
                     "sensing must be 'cameras' with map.source = 'seen', "
                     f"got {self.sensing!r}"
                 )
-        if self.sensing not in SENSING:
-            raise ConfigurationError(
-                f"sensing must be one of {', '.join(SENSING)}, "
-                f"got {self.sensing!r}"
-            )
         check_count(self.pushes, MOST_PUSHES, "pushes")
         check_pushes(self.pushes, self.robots)
         check_count(self.passers, MOST_PASSERS, "passers")

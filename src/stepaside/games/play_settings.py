@@ -1,11 +1,9 @@
 """Settings of a player at a robot."""
 
-from dataclasses import dataclass, field
-from typing import ClassVar
+from dataclasses import dataclass
 
 from ..core.brief_repr import brief_repr
-from ..core.errors import ConfigurationError
-from ..core.ranges import Ranges, check_settings
+from ..core.setting import check_settings, setting
 from ..locomotion.zmp.control_settings import ControlSettings
 from ..planning import GaitSettings
 from ..sim.body_settings import BodySettings
@@ -20,42 +18,29 @@ LANGUAGES = LOLA, NAOQI, ROS2 = ("lola", "naoqi", "ros2")
 
 @dataclass(frozen=True, slots=True)
 class PlaySettings:
-    """Settings of one player at one robot.
-
-    Attributes:
-        role: "pursuer" or "evader".
-        language: Protocol of the robot: "lola", "naoqi" or "ros2".
-        robot: Name of the robot or folder of its description.
-        plays: Strategy of the player.
-        strategy: Settings of the strategy.
-        gait: Gait, or the template by which velocities are chosen.
-        control: Control of the walk, where joints are commanded.
-        dry_run: Whether no commands were sent.
-    """
+    """Settings of one player at one robot."""
 
     __repr__ = brief_repr
 
-    role: str = EVADER
-    language: str = LOLA
-    robot: str = "nao"
-    plays: str = EVASION
-    strategy: Evasion = field(default_factory=Evasion)
-    gait: GaitSettings = field(default_factory=GaitSettings)
-    control: ControlSettings = field(default_factory=ControlSettings)
-    dry_run: bool = False
-
-    ranges: ClassVar[Ranges] = {}
+    role: str = setting(EVADER, "Role of the player", names=PLAYERS)
+    language: str = setting(LOLA, "Protocol of the robot", names=LANGUAGES)
+    robot: str = setting(
+        "nao", "Name of the robot, or folder of its description"
+    )
+    plays: str = setting(EVASION, "Strategy of the player")
+    strategy: Evasion = setting(Evasion(), "Settings of the strategy")
+    gait: GaitSettings = setting(
+        GaitSettings(), "Gait, or the template by which velocities are chosen"
+    )
+    control: ControlSettings = setting(
+        ControlSettings(), "Walking control, where joints are commanded"
+    )
+    dry_run: bool = setting(False, "Whether no commands were sent")
 
     def __post_init__(self) -> None:
         """Validate strategy, role and language."""
         check_settings(self)
         check_strategy_name(self.plays, "plays")
-        for name, known in (("role", PLAYERS), ("language", LANGUAGES)):
-            if getattr(self, name) not in known:
-                raise ConfigurationError(
-                    f"{name} must be one of {', '.join(known)}, "
-                    f"got {getattr(self, name)!r}"
-                )
 
     @property
     def other(self) -> str:

@@ -1,64 +1,79 @@
 """Settings of a walk: equal settings repeat it exactly."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from math import pi
-from typing import ClassVar
 
 from ..core.brief_repr import brief_repr
 from ..core.ranges import (
     RUNTIME,
     SEEDS,
     Range,
-    Ranges,
     check_count,
-    check_settings,
 )
+from ..core.setting import check_settings, setting
 from ..locomotion.zmp.control_settings import ControlSettings
-from ..planning import GaitSettings
-from ..sim.body_settings import BodySettings
+from ..planning import PRESETS, GaitSettings
+from ..sim.body_settings import BODIES, BodySettings
 from ..sim.physics_settings import PhysicsSettings
 from ..sim.push import MOST_PUSHES, Push, check_pushes
-from .duel_settings import RobotSettings
+from .duel_settings import BODY_HELP, GAIT_HELP, RobotSettings
 
 WALKER = "walker"
 
 
 @dataclass(frozen=True, slots=True)
 class WalkSettings:
-    """Settings of a walk.
-
-    Attributes:
-        seed: Seed of every random draw; 0 to 3.40282e+38.
-        duration: Simulated time, in [s]; 0.001 to 86400.
-        robot: Name of a robot or folder of its description.
-        bearing: Desired heading in the frame of each support foot, in [rad]: 0
-            for a straight walk, others for a circle; -3.14159 to 3.14159.
-        backward: Whether the robot walks backward.
-        gait: Gait settings.
-        physics: Physics, floor and clock.
-        body: Deviations of the body from an ideal one.
-        control: Control settings.
-        pushes: Pushes on the robot.
-    """
+    """Settings of a walk."""
 
     __repr__ = brief_repr
 
-    seed: int = 1
-    duration: float = 20.0
-    robot: str = "nao"
-    bearing: float = 0.0
-    backward: bool = False
-    gait: GaitSettings = field(default_factory=GaitSettings)
-    physics: PhysicsSettings = field(default_factory=PhysicsSettings)
-    body: BodySettings = field(default_factory=BodySettings)
-    control: ControlSettings = field(default_factory=ControlSettings)
-    pushes: tuple[Push, ...] = ()
-
-    ranges: ClassVar[Ranges] = {
-        "seed": SEEDS,
-        "duration": RUNTIME,
-        "bearing": Range(-pi, pi, "rad", "half a turn"),
-    }
+    seed: int = setting(1, "Random seed", SEEDS, option="--seed")
+    duration: float = setting(
+        20.0, "Simulated time", RUNTIME, option="--duration"
+    )
+    robot: str = setting(
+        "nao",
+        "Name of a robot, or folder of its description",
+        option="--robot",
+    )
+    bearing: float = setting(
+        0.0,
+        "Desired heading in the frame of the support foot {unit}; 0 is "
+        "straight ahead, others walk a circle",
+        Range(-pi, pi, "rad", "half a turn"),
+        option="--bearing",
+    )
+    backward: bool = setting(
+        False, "Walk backward", option="--backward/--forward"
+    )
+    gait: GaitSettings = setting(
+        GaitSettings(),
+        "Gait",
+        presets=PRESETS,
+        option="--gait",
+        aliases=("--preset",),
+        option_help=GAIT_HELP,
+    )
+    physics: PhysicsSettings = setting(
+        PhysicsSettings(), "Physics, floor and clock"
+    )
+    body: BodySettings = setting(
+        BodySettings(),
+        "Deviations of the body from an ideal one",
+        presets=BODIES,
+        option="--body",
+        option_help=BODY_HELP,
+    )
+    control: ControlSettings = setting(ControlSettings(), "Walking control")
+    pushes: tuple[Push, ...] = setting(
+        (),
+        "Pushes on the robot",
+        option="--push",
+        option_help=(
+            "Push the torso; repeatable. 1.2@5:90deg is 1.2 N s "
+            "at 5 s to the left. none removes those of the configuration"
+        ),
+    )
 
     def __post_init__(self) -> None:
         """Validate ranges and pushes."""

@@ -1,12 +1,13 @@
 """Settings of a gait and of its maneuvers (paper, Sec. IV)."""
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from math import sqrt
-from typing import ClassVar, Literal, get_args
+from typing import Literal
 
 from ..core.constants import GRAVITY
 from ..core.errors import PlanError, check_within
-from ..core.ranges import Range, Ranges, check_settings
+from ..core.ranges import Range
+from ..core.setting import check_settings, setting
 from .swing import SwingProfile
 
 # From about a thousandth to a hundred times the values of humanoids.
@@ -16,27 +17,26 @@ WIDE = "beyond, exponentials of the gait overflow a double"
 
 @dataclass(frozen=True, slots=True)
 class SoleRectangle:
-    """Contact rectangle of the left sole; the right one is its mirror image.
+    """Contact rectangle of the left sole; the right one mirrors it."""
 
-    Attributes:
-        back: Rear edge in the foot frame, in [m], negative; -10 to -0.001.
-        front: Front edge, in [m]; 0.001 to 10.
-        outer: Distance of the outer edge from the foot frame, in [m]; 0.001 to
-            10.
-        inner: Distance of the inner edge, in [m]; 0.001 to 10.
-    """
-
-    back: float = -0.05
-    front: float = 0.095
-    outer: float = 0.042
-    inner: float = 0.035
-
-    ranges: ClassVar[Ranges] = {
-        "back": Range(-10.0, -1e-3, "m", SMALL),
-        "front": Range(1e-3, 10.0, "m", SMALL),
-        "outer": Range(1e-3, 10.0, "m", SMALL),
-        "inner": Range(1e-3, 10.0, "m", SMALL),
-    }
+    back: float = setting(
+        -0.05,
+        "Rear edge in the foot frame {unit}, negative",
+        Range(-10.0, -1e-3, "m", SMALL),
+    )
+    front: float = setting(
+        0.095, "Front edge in the foot frame", Range(1e-3, 10.0, "m", SMALL)
+    )
+    outer: float = setting(
+        0.042,
+        "Distance of the outer edge from the foot frame",
+        Range(1e-3, 10.0, "m", SMALL),
+    )
+    inner: float = setting(
+        0.035,
+        "Distance of the inner edge from the foot frame",
+        Range(1e-3, 10.0, "m", SMALL),
+    )
 
     def __post_init__(self) -> None:
         """Check that the foot frame lies inside the sole."""
@@ -50,72 +50,98 @@ class GaitSettings:
     The defaults are the values of Sec. IV for the NAO, except for the two
     durations, which yield a walk only if they are exchanged, and for those
     that the paper does not give.
-
-    Attributes:
-        speed: Driving speed :math:`\bar{v}` of the template, in [m/s]; 0.0001
-            to 10.
-        gain: Steering gain :math:`k`, in [1/s]; 0.0001 to 100.
-        stride: Step size :math:`\Delta` along the trajectory, in [m]; 0.0001
-            to 10.
-        outer_stride: Longest stride of the outer foot in a turn, in [m], to
-            which sharper turns reduce the stride; None for no reduction;
-            0.0001 to 10 or none.
-        foot_spacing: Coronal distance between the foot frames, in [m]; 0.001
-            to 10.
-        step_height: Apex of the swing foot, in [m]; 0 to 10.
-        single_support: Duration of single support, in [s]; 0.001 to 100.
-        double_support: Duration of double support, in [s]; 0.001 to 100.
-        start_support: Duration of the first double support when the robot
-            starts from standing, in [s]; 0.001 to 100.
-        com_height: CoM height :math:`z_{CoM}` over the floor, in [m]; 0.01 to
-            10.
-        zmp_forward: Sagittal coordinate of the ZMP reference in a foot frame,
-            in [m]; -10 to 10.
-        zmp_profile: Profile of the ZMP between the feet in double support.
-        swing_profile: Profile of the swing foot's motion; see
-            :func:`~stepaside.planning.swing.swing_progress`.
-        swing_reaction: Shift of the ZMP by an acceleration of the swing foot,
-            in [s^2]: 0 for massless legs; see
-            :class:`~stepaside.planning.schedule.Schedule`; 0 to 0.1.
-        horizon: Number of footsteps in a replanned maneuver, at least 2: the
-            last one brings the ZMP midway between the feet, where no next
-            plan can begin; 2 to 1000.
-        gravity: Gravitational acceleration, in [m/s^2]; 0.01 to 100.
-        sole: Shape of the soles.
     """
 
-    speed: float = 0.1
-    gain: float = 0.2
-    stride: float = 0.04
-    outer_stride: float | None = None
-    foot_spacing: float = 0.1
-    step_height: float = 0.02
-    single_support: float = 0.425
-    double_support: float = 0.122
-    start_support: float = 0.8
-    com_height: float = 0.268
-    zmp_forward: float = 0.02
-    zmp_profile: Literal["linear", "cubic"] = "linear"
-    swing_profile: SwingProfile = "minimum-jerk"
-    swing_reaction: float = 0.0
-    horizon: int = 5
-    gravity: float = GRAVITY
-    sole: SoleRectangle = field(default_factory=SoleRectangle)
-
-    ranges: ClassVar[Ranges] = {
-        "speed": Range(1e-4, 10.0, "m/s", WIDE),
-        "gain": Range(1e-4, 100.0, "1/s", WIDE),
-        "stride": Range(1e-4, 10.0, "m", WIDE),
-        "outer_stride": Range(1e-4, 10.0, "m", WIDE, also=(None,)),
-        "foot_spacing": Range(1e-3, 10.0, "m", WIDE),
-        "step_height": Range(0.0, 10.0, "m", "0 slides the foot"),
-        "single_support": Range(1e-3, 100.0, "s", WIDE),
-        "double_support": Range(1e-3, 100.0, "s", WIDE),
-        "start_support": Range(1e-3, 100.0, "s", WIDE),
-        "com_height": Range(1e-2, 10.0, "m", WIDE),
-        "zmp_forward": Range(-10.0, 10.0, "m", "and within the sole"),
-        "swing_reaction": Range(0.0, 0.1, "s^2", "about ten times the NAO's"),
-        "horizon": Range(
+    speed: float = setting(
+        0.1,
+        "Driving speed of the template",
+        Range(1e-4, 10.0, "m/s", WIDE),
+        option="--speed",
+    )
+    gain: float = setting(
+        0.2,
+        "Steering gain k",
+        Range(1e-4, 100.0, "1/s", WIDE),
+        option="--gain",
+    )
+    stride: float = setting(
+        0.04,
+        "Step size along the path",
+        Range(1e-4, 10.0, "m", WIDE),
+        option="--stride",
+    )
+    outer_stride: float | None = setting(
+        None,
+        "Longest displacement of the outer foot in a turn {unit}; sharper "
+        "turns shorten the stride; none never shortens it",
+        Range(1e-4, 10.0, "m", WIDE, also=(None,)),
+        option="--outer-stride",
+        words={"none": None},
+    )
+    foot_spacing: float = setting(
+        0.1,
+        "Lateral distance between the feet",
+        Range(1e-3, 10.0, "m", WIDE),
+        option="--foot-spacing",
+    )
+    step_height: float = setting(
+        0.02,
+        "Maximum height of the swing foot",
+        Range(0.0, 10.0, "m", "0 slides the foot"),
+        option="--step-height",
+    )
+    single_support: float = setting(
+        0.425,
+        "Duration of single support",
+        Range(1e-3, 100.0, "s", WIDE),
+        option="--single-support",
+    )
+    double_support: float = setting(
+        0.122,
+        "Duration of double support between two steps",
+        Range(1e-3, 100.0, "s", WIDE),
+        option="--double-support",
+    )
+    start_support: float = setting(
+        0.8,
+        "Duration of double support before the first step",
+        Range(1e-3, 100.0, "s", WIDE),
+        option="--start-support",
+    )
+    com_height: float = setting(
+        0.268,
+        "Height of the CoM above the floor",
+        Range(1e-2, 10.0, "m", WIDE),
+        option="--com-height",
+    )
+    zmp_forward: float = setting(
+        0.02,
+        "Forward offset of the ZMP reference from the ankle",
+        Range(-10.0, 10.0, "m", "and within the sole"),
+        option="--zmp-forward",
+    )
+    zmp_profile: Literal["linear", "cubic"] = setting(
+        "linear",
+        "ZMP transfer between the feet in double support",
+        option="--profile",
+        aliases=("--zmp-profile",),
+    )
+    swing_profile: SwingProfile = setting(
+        "minimum-jerk",
+        "Time profile of the swing foot",
+        option="--swing-profile",
+    )
+    swing_reaction: float = setting(
+        0.0,
+        "ZMP shift per acceleration of the swing foot {unit}; 0 for massless "
+        "legs",
+        Range(0.0, 0.1, "s^2", "about ten times the NAO's"),
+        option="--swing-reaction",
+    )
+    horizon: int = setting(
+        5,
+        "Footsteps of a maneuver, which is replanned at each step",
+        Range(
             2,
             1000,
             "steps",
@@ -123,8 +149,17 @@ class GaitSettings:
             "and the next one begins with it in a foot",
             whole=True,
         ),
-        "gravity": Range(1e-2, 100.0, "m/s^2", WIDE),
-    }
+        option="--horizon",
+    )
+    gravity: float = setting(
+        GRAVITY,
+        "Gravitational acceleration",
+        Range(1e-2, 100.0, "m/s^2", WIDE),
+    )
+    sole: SoleRectangle = setting(
+        SoleRectangle(),
+        "Contact rectangle of the left sole; the right one mirrors it",
+    )
 
     def __post_init__(self) -> None:
         """Validate the settings."""
@@ -136,19 +171,9 @@ class GaitSettings:
             "zmp_forward",
             "m",
         )
-        if self.zmp_profile not in ("linear", "cubic"):
-            raise PlanError(
-                "zmp_profile must be 'linear' or 'cubic', "
-                f"got {self.zmp_profile!r}"
-            )
         if self.outer_stride is not None:
             outer = (self.outer_stride, self.stride, 10.0)
             check_within(*outer, "outer_stride", "m")
-        if self.swing_profile not in get_args(SwingProfile):
-            raise PlanError(
-                "swing_profile must be 'minimum-jerk' or 'even', "
-                f"got {self.swing_profile!r}"
-            )
         if self.foot_spacing <= 2.0 * self.sole.inner:
             raise PlanError(
                 "foot_spacing must exceed twice the sole's inner half-width, "

@@ -6,9 +6,9 @@ as assumptions, with a table of their effects.
 
 from dataclasses import dataclass, replace
 from math import pi, radians
-from typing import ClassVar
 
-from ..core.ranges import Range, Ranges, check_settings
+from ..core.ranges import Range
+from ..core.setting import check_settings, setting
 from .physics_settings import PhysicsSettings
 
 SENSOR = "some hundred times NAO's; beyond, a sensor is useless"
@@ -16,81 +16,113 @@ SENSOR = "some hundred times NAO's; beyond, a sensor is useless"
 
 @dataclass(frozen=True, slots=True)
 class BodySettings:
-    """Errors of a real body; each default is ideal.
+    """Errors of a real body; each default is ideal."""
 
-    Attributes:
-        cycle: Control period of the body, in [s]; 0 uses that of the physics
-            settings; 0 to 0.1.
-        delay_cycles: Control cycles from a command to the motion; 0 to 100.
-        imu_delay_cycles: Control cycles by which gyro and accelerometer lag; 0
-            to 100.
-        torque_speed: Whether a motor's torque falls with its speed, to zero
-            at the no-load speed.
-        efficiency: Fraction of the motor's ideal stall torque at the joint;
-            0.01 to 1.
-        stiffness: Torque limit set by the robot, as a fraction of the former;
-            0 to 1.
-        servo_gain: Factor on the servos' position gain; 0.01 to 10.
-        backlash: Width of the dead zone of each leg joint, in [rad]; 0 to 0.2.
-        encoder_step: Resolution of the encoders, in [rad]; 1e-09 to 0.1 or
-            0.
-        gyro_noise: Standard deviation of a reading, in [rad/s]; 0 to 10.
-        gyro_bias: Largest constant error, in [rad/s]; 0 to 10.
-        accelerometer_noise: Standard deviation, in [m/s^2]; 0 to 100.
-        accelerometer_bias: Largest constant error, in [m/s^2]; 0 to 100.
-        force_noise: Standard deviation of a foot force, in [N], for a robot
-            of NAO's weight; it scales with the weight; 0 to 1000.
-        force_gain_error: Largest relative error of each foot force; 0 to 1.
-        mass_error: Largest relative error of the mass of each link; 0 to 0.9.
-        com_error: Largest horizontal shift of the torso's CoM on each axis,
-            in [m], for a robot of NAO's size; it scales with the height of
-            the CoM; 0 to 0.1.
-    """
-
-    cycle: float = 0.0
-    delay_cycles: int = 0
-    imu_delay_cycles: int = 0
-    torque_speed: bool = False
-    efficiency: float = 1.0
-    stiffness: float = 1.0
-    servo_gain: float = 1.0
-    backlash: float = 0.0
-    encoder_step: float = 0.0
-    gyro_noise: float = 0.0
-    gyro_bias: float = 0.0
-    accelerometer_noise: float = 0.0
-    accelerometer_bias: float = 0.0
-    force_noise: float = 0.0
-    force_gain_error: float = 0.0
-    mass_error: float = 0.0
-    com_error: float = 0.0
-
-    ranges: ClassVar[Ranges] = {
-        "cycle": Range(
-            0.0, 0.1, "s", "balance needs more than ten cycles a second"
-        ),
-        "delay_cycles": Range(0, 100, "cycles", "a second on NAO", whole=True),
-        "imu_delay_cycles": Range(
-            0, 100, "cycles", "a second on NAO", whole=True
-        ),
-        "efficiency": Range(0.01, 1.0, "1", "a fraction of the ideal torque"),
-        "stiffness": Range(0.0, 1.0, "1", "a fraction; at 0 joints are limp"),
-        "servo_gain": Range(0.01, 10.0, "1", "stiffer servos oscillate"),
-        "backlash": Range(0.0, 0.2, "rad", "more means a broken gear"),
-        "encoder_step": Range(
+    cycle: float = setting(
+        0.0,
+        "Control period of the body {unit}; 0 for the tick of the physics",
+        Range(0.0, 0.1, "s", "balance needs more than ten cycles a second"),
+        option="--cycle",
+    )
+    delay_cycles: int = setting(
+        0,
+        "Delay from command to motion, in control cycles",
+        Range(0, 100, "cycles", "a second on NAO", whole=True),
+        option="--delay-cycles",
+    )
+    imu_delay_cycles: int = setting(
+        0,
+        "Delay of gyro and accelerometer, in control cycles",
+        Range(0, 100, "cycles", "a second on NAO", whole=True),
+        option="--imu-delay-cycles",
+    )
+    torque_speed: bool = setting(
+        False,
+        "Reduce motor torque with speed, to zero at the no-load speed",
+        option="--torque-speed/--no-torque-speed",
+    )
+    efficiency: float = setting(
+        1.0,
+        "Joint stall torque, as a fraction of the ideal one",
+        Range(0.01, 1.0, "1", "a fraction of the ideal torque"),
+        option="--efficiency",
+    )
+    stiffness: float = setting(
+        1.0,
+        "Stiffness setting: fraction of the stall torque allowed",
+        Range(0.0, 1.0, "1", "a fraction; at 0 joints are limp"),
+        option="--stiffness",
+    )
+    servo_gain: float = setting(
+        1.0,
+        "Scale factor of the servo position gain",
+        Range(0.01, 10.0, "1", "stiffer servos oscillate"),
+        option="--servo-gain",
+    )
+    backlash: float = setting(
+        0.0,
+        "Backlash of each leg joint",
+        Range(0.0, 0.2, "rad", "more means a broken gear"),
+        option="--backlash",
+    )
+    encoder_step: float = setting(
+        0.0,
+        "Resolution of the encoders",
+        Range(
             1e-9, 0.1, "rad", "finer is the rounding of a double", also=(0.0,)
         ),
-        "gyro_noise": Range(0.0, 10.0, "rad/s", SENSOR),
-        "gyro_bias": Range(0.0, 10.0, "rad/s", SENSOR),
-        "accelerometer_noise": Range(0.0, 100.0, "m/s^2", SENSOR),
-        "accelerometer_bias": Range(0.0, 100.0, "m/s^2", SENSOR),
-        "force_noise": Range(0.0, 1000.0, "N", SENSOR),
-        "force_gain_error": Range(0.0, 1.0, "1", "a gain is not negative"),
-        "mass_error": Range(
-            0.0, 0.9, "1", "the mass of a link stays positive"
-        ),
-        "com_error": Range(0.0, 0.1, "m", "half the depth of the torso"),
-    }
+        option="--encoder-step",
+    )
+    gyro_noise: float = setting(
+        0.0,
+        "Standard deviation of the gyro noise",
+        Range(0.0, 10.0, "rad/s", SENSOR),
+        option="--gyro-noise",
+    )
+    gyro_bias: float = setting(
+        0.0,
+        "Maximum gyro bias",
+        Range(0.0, 10.0, "rad/s", SENSOR),
+        option="--gyro-bias",
+    )
+    accelerometer_noise: float = setting(
+        0.0,
+        "Standard deviation of the accelerometer noise",
+        Range(0.0, 100.0, "m/s^2", SENSOR),
+        option="--accelerometer-noise",
+    )
+    accelerometer_bias: float = setting(
+        0.0,
+        "Maximum accelerometer bias",
+        Range(0.0, 100.0, "m/s^2", SENSOR),
+        option="--accelerometer-bias",
+    )
+    force_noise: float = setting(
+        0.0,
+        "Standard deviation of the foot force noise {unit} for a robot of "
+        "NAO's weight, with which it scales",
+        Range(0.0, 1000.0, "N", SENSOR),
+        option="--force-noise",
+    )
+    force_gain_error: float = setting(
+        0.0,
+        "Maximum relative gain error of a foot force sensor",
+        Range(0.0, 1.0, "1", "a gain is not negative"),
+        option="--force-gain-error",
+    )
+    mass_error: float = setting(
+        0.0,
+        "Maximum relative error of a link mass",
+        Range(0.0, 0.9, "1", "the mass of a link stays positive"),
+        option="--mass-error",
+    )
+    com_error: float = setting(
+        0.0,
+        "Maximum offset of the torso CoM along each axis {unit} for a robot "
+        "of NAO's size, with which it scales",
+        Range(0.0, 0.1, "m", "half the depth of the torso"),
+        option="--com-error",
+    )
 
     def __post_init__(self) -> None:
         """Check the ranges."""

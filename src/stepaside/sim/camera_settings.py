@@ -1,12 +1,12 @@
 """Settings of cameras and sonars, and of the scene around the robots."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from math import radians
-from typing import ClassVar
 
 from ..arena import Room
 from ..core.errors import ConfigurationError, check_within
-from ..core.ranges import Range, Ranges, check_count, check_settings
+from ..core.ranges import Range, check_count
+from ..core.setting import REQUIRED, check_settings, setting
 from ..perception.camera_model import CameraModel
 
 PIXELS = Range(
@@ -30,43 +30,41 @@ RENDERERS = ("auto", *BACKENDS, RAYCAST)
 
 @dataclass(frozen=True, slots=True)
 class ColourSettings:
-    """Settings of NAO's top camera.
+    """Settings of NAO's top camera."""
 
-    Attributes:
-        optics: "v5" or "v6".
-        width: Image width, in [pixels]; the V6 offers 320 and more, both
-            offer 160; 8 to 4096.
-        height: Image height, in [pixels]; 8 to 4096.
-        rate: Frame rate, in [1/s]; the sensor gives up to 30; 1 to 60.
-        latency: Delay from exposure to arrival, in [s]; 0 to 1.
-        noise: Standard deviation of a pixel, of 255; 0 to 64.
-        renderer: One of ``RENDERERS``.
-    """
-
-    optics: str = "v5"
-    width: int = 320
-    height: int = 240
-    rate: float = 15.0
-    latency: float = 0.05
-    noise: float = 4.0
-    renderer: str = "auto"
-
-    ranges: ClassVar[Ranges] = {
-        "width": PIXELS,
-        "height": PIXELS,
-        "rate": RATE,
-        "latency": LATENCY,
-        "noise": Range(0.0, 64.0, "1", "a quarter of all levels"),
-    }
+    optics: str = setting(
+        "v5",
+        "NAO version whose top camera is simulated",
+        names=OPTICS,
+        option="--optics",
+    )
+    width: int = setting(
+        320,
+        "Image width {unit}; the V6 offers 320 and more, both offer 160",
+        PIXELS,
+    )
+    height: int = setting(240, "Image height", PIXELS)
+    rate: float = setting(
+        15.0, "Frame rate {unit}; the sensor gives up to 30", RATE
+    )
+    latency: float = setting(
+        0.05, "Latency, from exposure to arrival", LATENCY
+    )
+    noise: float = setting(
+        4.0,
+        "Standard deviation of a pixel value, of 255",
+        Range(0.0, 64.0, "1", "a quarter of all levels"),
+    )
+    renderer: str = setting(
+        "auto",
+        "Renderer of the camera images",
+        names=RENDERERS,
+        option="--renderer",
+    )
 
     def __post_init__(self) -> None:
         """Check the ranges."""
         check_settings(self)
-        if self.optics not in OPTICS:
-            raise ConfigurationError(
-                f"optics must be one of {', '.join(OPTICS)}, "
-                f"got {self.optics!r}"
-            )
 
     def model(self) -> CameraModel:
         """Return the camera model with these optics."""
@@ -77,43 +75,41 @@ class ColourSettings:
 
 @dataclass(frozen=True, slots=True)
 class DepthSettings:
-    """Settings of the ASUS Xtion on the evader's head.
+    """Settings of the ASUS Xtion on the evader's head."""
 
-    Attributes:
-        width: Columns that are used, of 640; 8 to 4096.
-        height: Rows that are used, of 480; 8 to 4096.
-        rate: Frame rate, in [1/s]; the sensor gives 30; 1 to 60.
-        latency: Delay from exposure to arrival, in [s]; 0 to 1.
-        near: Lower limit of the range, in [m]; 0.01 to 20.
-        far: Upper limit of the range, in [m]; 0.01 to 20.
-        noise: Standard deviation at 1 m, in [m]; proportional to the squared
-            distance; 0 to 1.
-        step: Quantum at 1 m, in [m]; proportional to the squared distance;
-            1e-06 to 1.
-        missing: Fraction of the pixels without return; 0 to 1.
-    """
-
-    width: int = 80
-    height: int = 60
-    rate: float = 15.0
-    latency: float = 0.05
-    near: float = 0.8
-    far: float = 3.5
-    noise: float = 0.0019
-    step: float = 0.00285
-    missing: float = 0.02
-
-    ranges: ClassVar[Ranges] = {
-        "width": PIXELS,
-        "height": PIXELS,
-        "rate": RATE,
-        "latency": LATENCY,
-        "near": Range(0.01, 20.0, "m", "the size of a lens"),
-        "far": Range(0.01, 20.0, "m", "from near to the size of a room"),
-        "noise": Range(0.0, 1.0, "m", "more is no measurement"),
-        "step": QUANTUM,
-        "missing": Range(0.0, 1.0, "1", "a fraction"),
-    }
+    width: int = setting(80, "Image columns that are used, of 640", PIXELS)
+    height: int = setting(60, "Image rows that are used, of 480", PIXELS)
+    rate: float = setting(15.0, "Frame rate {unit}; the sensor gives 30", RATE)
+    latency: float = setting(
+        0.05, "Latency, from exposure to arrival", LATENCY
+    )
+    near: float = setting(
+        0.8,
+        "Shortest distance that is measured",
+        Range(0.01, 20.0, "m", "the size of a lens"),
+    )
+    far: float = setting(
+        3.5,
+        "Longest distance that is measured",
+        Range(0.01, 20.0, "m", "from near to the size of a room"),
+    )
+    noise: float = setting(
+        0.0019,
+        "Standard deviation at a distance of 1 m {unit}; proportional to the "
+        "squared distance",
+        Range(0.0, 1.0, "m", "more is no measurement"),
+    )
+    step: float = setting(
+        0.00285,
+        "Resolution at a distance of 1 m {unit}; proportional to the squared "
+        "distance",
+        QUANTUM,
+    )
+    missing: float = setting(
+        0.02,
+        "Fraction of pixels without return",
+        Range(0.0, 1.0, "1", "a fraction"),
+    )
 
     def __post_init__(self) -> None:
         """Check the ranges."""
@@ -129,34 +125,36 @@ class DepthSettings:
 
 @dataclass(frozen=True, slots=True)
 class SonarSettings:
-    """Settings of NAO's sonars, V5 and V6.
+    """Settings of NAO's sonars, V5 and V6."""
 
-    Attributes:
-        rate: Echo rate of each, in [1/s]; assumed; 1 to 40.
-        near: Lower limit of the range; nearer objects read as this, in [m];
-            0.01 to 10.
-        far: Upper limit of the range; farther objects give no echo, in [m];
-            0.01 to 10.
-        cone: Opening angle, in [rad]; 0.05 to 2.5.
-        noise: Standard deviation, in [m]; 0 to 1.
-        step: Quantum, in [m]; 1e-06 to 1.
-    """
-
-    rate: float = 10.0
-    near: float = 0.2
-    far: float = 0.8
-    cone: float = radians(60.0)
-    noise: float = 0.01
-    step: float = 0.01
-
-    ranges: ClassVar[Ranges] = {
-        "rate": Range(1.0, 40.0, "1/s", "echoes must not overlap"),
-        "near": Range(0.01, 10.0, "m", "the surface of the chest"),
-        "far": Range(0.01, 10.0, "m", "from near to the longest echo"),
-        "cone": Range(0.05, 2.5, "rad", "from a ray to half the room"),
-        "noise": Range(0.0, 1.0, "m", "more is no measurement"),
-        "step": QUANTUM,
-    }
+    rate: float = setting(
+        10.0,
+        "Echo rate of each sonar {unit}; assumed",
+        Range(1.0, 40.0, "1/s", "echoes must not overlap"),
+    )
+    near: float = setting(
+        0.2,
+        "Shortest distance that is measured {unit}; nearer objects read as "
+        "this",
+        Range(0.01, 10.0, "m", "the surface of the chest"),
+    )
+    far: float = setting(
+        0.8,
+        "Longest distance that is measured {unit}; farther objects give no "
+        "echo",
+        Range(0.01, 10.0, "m", "from near to the longest echo"),
+    )
+    cone: float = setting(
+        radians(60.0),
+        "Opening angle",
+        Range(0.05, 2.5, "rad", "from a ray to half the room"),
+    )
+    noise: float = setting(
+        0.01,
+        "Standard deviation of the distance",
+        Range(0.0, 1.0, "m", "more is no measurement"),
+    )
+    step: float = setting(0.01, "Resolution of the distance", QUANTUM)
 
     def __post_init__(self) -> None:
         """Check the ranges."""
@@ -166,28 +164,29 @@ class SonarSettings:
 
 @dataclass(frozen=True, slots=True)
 class CameraSettings:
-    """Settings of all exteroceptive sensors of the robots.
+    """Settings of all exteroceptive sensors of the robots."""
 
-    Attributes:
-        colour: The camera in the head of either robot.
-        depth: The depth camera on the evader's head.
-        sonar: The sonars in the evader's chest.
-        drop_frames: Fraction of the images that are lost; 0 to 1.
-        added_latency: Additional latency of each camera, in [s]; 0 to 0.5.
-    """
-
-    colour: ColourSettings = field(default_factory=ColourSettings)
-    depth: DepthSettings = field(default_factory=DepthSettings)
-    sonar: SonarSettings = field(default_factory=SonarSettings)
-    drop_frames: float = 0.0
-    added_latency: float = 0.0
-
-    ranges: ClassVar[Ranges] = {
-        "drop_frames": Range(0.0, 1.0, "1", "a fraction"),
-        "added_latency": Range(
-            0.0, 0.5, "s", "in addition to a camera's latency"
-        ),
-    }
+    colour: ColourSettings = setting(
+        ColourSettings(), "Top camera in the head of each robot"
+    )
+    depth: DepthSettings = setting(
+        DepthSettings(), "Depth camera on the evader's head"
+    )
+    sonar: SonarSettings = setting(
+        SonarSettings(), "Sonars in the evader's chest"
+    )
+    drop_frames: float = setting(
+        0.0,
+        "Fraction of images that are lost",
+        Range(0.0, 1.0, "1", "a fraction"),
+        option="--drop-frames",
+    )
+    added_latency: float = setting(
+        0.0,
+        "Latency in addition to that of the camera",
+        Range(0.0, 0.5, "s", "in addition to a camera's latency"),
+        option="--camera-latency",
+    )
 
     def __post_init__(self) -> None:
         """Check the ranges."""
@@ -196,64 +195,23 @@ class CameraSettings:
 
 @dataclass(frozen=True, slots=True)
 class RoomObject:
-    """Object in the room.
+    """Object in the room."""
 
-    Attributes:
-        kind: "red box", "blue box" or "white figure".
-        x: Position, x in the world, in [m]; -20 to 20.
-        y: Position, y in the world, in [m]; -20 to 20.
-    """
-
-    kind: str
-    x: float
-    y: float
-
-    ranges: ClassVar[Ranges] = {
-        "x": Range(-20.0, 20.0, "m", "beyond, outside any room"),
-        "y": Range(-20.0, 20.0, "m", "beyond, outside any room"),
-    }
+    kind: str = setting(REQUIRED, "Kind of object", names=KINDS)
+    x: float = setting(
+        REQUIRED,
+        "Position along x of the world",
+        Range(-20.0, 20.0, "m", "beyond, outside any room"),
+    )
+    y: float = setting(
+        REQUIRED,
+        "Position along y of the world",
+        Range(-20.0, 20.0, "m", "beyond, outside any room"),
+    )
 
     def __post_init__(self) -> None:
         """Check the kind and the ranges."""
-        if self.kind not in KINDS:
-            raise ConfigurationError(
-                f"an object must be one of {', '.join(KINDS)}, got "
-                f"{self.kind!r}"
-            )
-        check_settings(self, prefix=f"{self.kind} ")
-
-
-@dataclass(frozen=True, slots=True)
-class SceneSettings:
-    """Walls, objects and floor plan around the robots.
-
-    Attributes:
-        walls: Distance from the origin to the walls that cameras see, in [m];
-            if a player starts beyond, or less than 1 m inside, they are moved
-            to 3.5 m beyond that player; 0 for none; 2 to 20 or 0.
-        things: Objects.
-        plan: Floor plan of the room of the game, with any kind of sensing;
-            None for an open floor.
-    """
-
-    walls: float = 5.0
-    things: list[RoomObject] = field(default_factory=list)
-    plan: Room | None = None
-
-    ranges: ClassVar[Ranges] = {
-        "walls": Range(
-            2.0,
-            20.0,
-            "m",
-            "nearer, no way past them; farther, out of sight",
-            also=(0.0,),
-        ),
-    }
-
-    def __post_init__(self) -> None:
-        """Check the ranges."""
-        check_settings(self)
-        check_count(self.things, MAX_OBJECTS, "things")
+        check_settings(self, prefix="room object ")
 
 
 # Outside the path of a duel, but in view of both robots.
@@ -262,3 +220,43 @@ CLUTTER = (
     RoomObject("blue box", -1.6, -2.0),
     RoomObject("white figure", 3.2, -1.8),
 )
+
+
+@dataclass(frozen=True, slots=True)
+class SceneSettings:
+    """Walls, objects and floor plan around the robots."""
+
+    walls: float = setting(
+        5.0,
+        "Distance of the visible walls from the origin {unit}; 0 for none; a "
+        "player who begins beyond, or less than 1 m inside, moves them to "
+        "3.5 m beyond",
+        Range(
+            2.0,
+            20.0,
+            "m",
+            "nearer, no way past them; farther, out of sight",
+            also=(0.0,),
+        ),
+        option="--walls",
+    )
+    things: list[RoomObject] = setting(
+        [],
+        "Objects in view of the cameras",
+        presets={True: list(CLUTTER), False: []},
+        option="--clutter/--no-clutter",
+        option_help="Add boxes and a white mannequin as visual distractors",
+    )
+    plan: Room | None = setting(
+        None,
+        "Room in which the game is played; an open floor without",
+        option="--room",
+        option_help=(
+            "Seed of a random room, or room file; an open floor by default"
+        ),
+    )
+
+    def __post_init__(self) -> None:
+        """Check the ranges."""
+        check_settings(self)
+        check_count(self.things, MAX_OBJECTS, "things")

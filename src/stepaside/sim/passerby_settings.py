@@ -2,11 +2,10 @@
 
 from dataclasses import dataclass
 from math import atan2, cos, pi, sin
-from typing import ClassVar
 
-from ..core.errors import ConfigurationError
 from ..core.poses import Pose
-from ..core.ranges import Range, Ranges, check_settings
+from ..core.ranges import Range
+from ..core.setting import REQUIRED, check_settings, setting
 from .pedestrian_models import FIGURES
 
 MOST_PASSERS = 20  # of one game
@@ -15,39 +14,34 @@ METRES = Range(-20.0, 20.0, "m", "beyond, out of sight")
 
 @dataclass(frozen=True, slots=True)
 class Passer:
-    """Person who walks straight past the initial position of the evader.
+    """Person who walks straight past the initial position of the evader."""
 
-    Attributes:
-        speed: Walking speed, in [m/s]; 0 stands still; 0 to 3.
-        distance: Initial distance from the evader, in [m]; 0 to 100.
-        bearing: Initial bearing from the evader's heading, in [rad], positive
-            leftward; -3.14159 to 3.14159.
-        miss: Lateral offset of the walk from the evader, positive to the left
-            of the walk, in [m]; -20 to 20.
-        figure: "adult" or "child".
-    """
-
-    speed: float
-    distance: float
-    bearing: float = 0.0
-    miss: float = 1.2
-    figure: str = "adult"
-
-    ranges: ClassVar[Ranges] = {
-        "speed": Range(0.0, 3.0, "m/s", "faster is running"),
-        "distance": Range(0.0, 100.0, "m", "the farthest start of a walk"),
-        "bearing": Range(-pi, pi, "rad", "half a turn"),
-        "miss": METRES,
-    }
+    speed: float = setting(
+        REQUIRED,
+        "Walking speed {unit}; 0 stands still",
+        Range(0.0, 3.0, "m/s", "faster is running"),
+    )
+    distance: float = setting(
+        REQUIRED,
+        "Initial distance from the evader",
+        Range(0.0, 100.0, "m", "the farthest start of a walk"),
+    )
+    bearing: float = setting(
+        0.0,
+        "Initial bearing from the evader's heading {unit}, positive leftward",
+        Range(-pi, pi, "rad", "half a turn"),
+    )
+    miss: float = setting(
+        1.2,
+        "Lateral offset of the walk from the evader, positive to the left of "
+        "the walk",
+        METRES,
+    )
+    figure: str = setting("adult", "Body model", names=FIGURES)
 
     def __post_init__(self) -> None:
         """Check the ranges and the figure."""
         check_settings(self, prefix="passer ")
-        if self.figure not in FIGURES:
-            raise ConfigurationError(
-                f"passer figure must be one of {', '.join(FIGURES)}, got "
-                f"{self.figure!r}"
-            )
 
     def pose_at(self, time: float, evader: Pose) -> Pose:
         """Return the pose at a time, in the world.

@@ -2,47 +2,53 @@
 
 from dataclasses import dataclass
 from math import inf, pi
-from typing import ClassVar
 
 from ..core.errors import ConfigurationError
-from ..core.ranges import Range, Ranges, check_settings
+from ..core.ranges import Range
+from ..core.setting import check_settings, setting
 
 
 @dataclass(frozen=True, slots=True)
 class PhysicsSettings:
-    """Settings of the physics, its time steps and the floor.
+    """Settings of the physics, its time steps and the floor."""
 
-    Attributes:
-        time_step: Time step of the physics, in [s]; 1e-05 to 0.01.
-        tick: Control period, a multiple of the time step, in [s]; 1e-05 to
-            0.1.
-        friction: Sliding friction of the soles on the floor; 1e-06 to 100.
-        unevenness: Height difference of the lowest and the highest point of
-            the floor, in [m]; 0 to 0.1.
-        slope: Slope of the floor, in [rad]; 0 to 0.5.
-        slope_direction: Direction of descent in the world, in [rad]; -3.14159
-            to 3.14159.
-    """
-
-    time_step: float = 0.002
-    tick: float = 0.004
-    friction: float = 0.8
-    unevenness: float = 0.0
-    slope: float = 0.0
-    slope_direction: float = 0.0
-
-    ranges: ClassVar[Ranges] = {
-        "time_step": Range(
-            1e-5, 0.01, "s", "contacts fail above 10 ms; below, too slow"
-        ),
-        "tick": Range(
-            1e-5, 0.1, "s", "balance needs more than ten cycles a second"
-        ),
-        "friction": Range(1e-6, 100.0, "1", "the minimum of MuJoCo"),
-        "unevenness": Range(0.0, 0.1, "m", "a NAO cannot step over more"),
-        "slope": Range(0.0, 0.5, "rad", "soles slide on more"),
-        "slope_direction": Range(-pi, pi, "rad", "half a turn"),
-    }
+    time_step: float = setting(
+        0.002,
+        "Integration step of the physics",
+        Range(1e-5, 0.01, "s", "contacts fail above 10 ms; below, too slow"),
+        option="--time-step",
+    )
+    tick: float = setting(
+        0.004,
+        "Control period {unit}; an integer multiple of the time step",
+        Range(1e-5, 0.1, "s", "balance needs more than ten cycles a second"),
+        option="--tick",
+    )
+    friction: float = setting(
+        0.8,
+        "Coefficient of friction between soles and floor",
+        Range(1e-6, 100.0, "1", "the minimum of MuJoCo"),
+        option="--friction",
+    )
+    unevenness: float = setting(
+        0.0,
+        "Height difference between the lowest and the highest point of the "
+        "floor",
+        Range(0.0, 0.1, "m", "a NAO cannot step over more"),
+        option="--unevenness",
+    )
+    slope: float = setting(
+        0.0,
+        "Slope of the floor",
+        Range(0.0, 0.5, "rad", "soles slide on more"),
+        option="--slope",
+    )
+    slope_direction: float = setting(
+        0.0,
+        "Direction of steepest descent in the world",
+        Range(-pi, pi, "rad", "half a turn"),
+        option="--slope-direction",
+    )
 
     def __post_init__(self) -> None:
         """Check the ranges, and the ratio of the periods."""
@@ -62,36 +68,39 @@ class PhysicsSettings:
 
 @dataclass(frozen=True, slots=True)
 class SightSettings:
-    """Settings of the ideal line of sight.
+    """Settings of the ideal line of sight."""
 
-    Attributes:
-        bearing_noise: Standard deviation of the bearing, in [rad]; 0 to
-            3.14159.
-        distance_noise: Standard deviation of the distance, in [m]; 0 to 100.
-        delay: Latency of a sighting, in [s]; 0 to 2.
-        rate: Rate of sightings, in [1/s]; inf for one every tick; 0.001 to
-            1e+06 or inf.
-    """
-
-    bearing_noise: float = 0.0
-    distance_noise: float = 0.0
-    delay: float = 0.0
-    rate: float = inf
-
-    ranges: ClassVar[Ranges] = {
-        "bearing_noise": Range(0.0, pi, "rad", "more is no measurement"),
-        "distance_noise": Range(
-            0.0, 100.0, "m", "the largest initial distance"
-        ),
-        "delay": Range(0.0, 2.0, "s", "how long a robot stores its poses"),
-        "rate": Range(
+    bearing_noise: float = setting(
+        0.0,
+        "Standard deviation of the bearing of a sighting",
+        Range(0.0, pi, "rad", "more is no measurement"),
+        option="--bearing-noise",
+    )
+    distance_noise: float = setting(
+        0.0,
+        "Standard deviation of the distance of a sighting",
+        Range(0.0, 100.0, "m", "the largest initial distance"),
+        option="--distance-noise",
+    )
+    delay: float = setting(
+        0.0,
+        "Latency of a sighting",
+        Range(0.0, 2.0, "s", "how long a robot stores its poses"),
+        option="--delay",
+    )
+    rate: float = setting(
+        inf,
+        "Rate of sightings {unit}; inf for one every tick",
+        Range(
             1e-3,
             1e6,
             "1/s",
             "from one in a walk to many in a tick",
             also=(inf,),
         ),
-    }
+        option="--rate",
+        words={"every-tick": inf},
+    )
 
     def __post_init__(self) -> None:
         """Check the ranges."""

@@ -3,42 +3,43 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import pi
-from typing import ClassVar, NamedTuple
+from typing import NamedTuple
 
 from ..core.errors import ConfigurationError
-from ..core.ranges import Range, Ranges, check_settings
+from ..core.ranges import Range
+from ..core.setting import REQUIRED, check_settings, setting
 
 MOST_PUSHES = 1000  # in one game
 
 
 @dataclass(frozen=True, slots=True)
 class Push:
-    """Constant horizontal force at the torso for a short time.
+    """Constant horizontal force at the torso for a short time."""
 
-    Attributes:
-        impulse: Force times duration, in [N s]; 0 to 1000.
-        time: Start time, in [s]; 0 to 86400.
-        direction: Direction of the force from the robot's heading at that
-            time, in [rad]: 0 forward, pi/2 to the left; -6.28319 to 6.28319.
-        duration: Duration, in [s]; 0.0001 to 100.
-        player: Name of the pushed robot; by default the walker, or the evader
-            of a duel.
-    """
-
-    impulse: float
-    time: float
-    direction: float
-    duration: float = 0.1
-    player: str = ""
-
-    ranges: ClassVar[Ranges] = {
-        "impulse": Range(
-            0.0, 1000.0, "N s", "far beyond what a humanoid survives"
-        ),
-        "time": Range(0.0, 86400.0, "s", "the longest walk"),
-        "direction": Range(-2 * pi, 2 * pi, "rad", "a full turn"),
-        "duration": Range(1e-4, 100.0, "s", "at least a physics step"),
-    }
+    impulse: float = setting(
+        REQUIRED,
+        "Impulse: force times duration",
+        Range(0.0, 1000.0, "N s", "far beyond what a humanoid survives"),
+    )
+    time: float = setting(
+        REQUIRED,
+        "Time at which it begins",
+        Range(0.0, 86400.0, "s", "the longest walk"),
+    )
+    direction: float = setting(
+        REQUIRED,
+        "Direction of the force relative to the robot's heading at that time "
+        "{unit}: 0 forward, pi/2 to the left",
+        Range(-2 * pi, 2 * pi, "rad", "a full turn"),
+    )
+    duration: float = setting(
+        0.1, "Duration", Range(1e-4, 100.0, "s", "at least a physics step")
+    )
+    player: str = setting(
+        "",
+        "Name of the pushed robot; by default the walker, or the evader of a "
+        "duel",
+    )
 
     def __post_init__(self) -> None:
         """Check the ranges."""

@@ -2,10 +2,11 @@
 
 from dataclasses import dataclass, replace
 from math import inf, pi, radians
-from typing import ClassVar, Literal, NamedTuple, get_args
+from typing import Literal, NamedTuple, get_args
 
 from ..core.errors import ConfigurationError
-from ..core.ranges import Range, Ranges, check_settings
+from ..core.ranges import Range
+from ..core.setting import check_settings, setting
 from ..planning import Direction
 from ..theory import laws
 from .approach import Approach, correcting_heading, predict_clearance
@@ -44,55 +45,74 @@ class Evasion:
     near soon. It then walks across the path of the pursuer, turns as fast as
     its gait can, and keeps the side with the larger clearance until standing
     is safe.
-
-    Attributes:
-        angle: Strategy alpha, between the line of sight and the direction of
-            walking, in [rad]: pi/2 moves aside, 0 moves back; 0 to 3.14159.
-        saturated: Whether it turns by (6) instead of (4).
-        safety_radius: Distance at which it begins, in [m]; 0.001 to 1e+09.
-        release_distance: Distance at which it ends, in [m]; 0.001 to 1e+09 or
-            inf.
-        side_hysteresis: Angle by which the bearing of the pursuer must be past
-            0 or past pi for the side to change, in [rad]; from pi/2 on it
-            never changes; 0 to 3.14159.
-        trigger: Whether distance or time begins and ends evasion.
-        contact_time: Time to contact at which it begins, in [s], with the
-            trigger time; 1.5 times as much ends it; 0.1 to 60.
-        clearance: Distance that counts as contact with the trigger time, in
-            [m]; 0.1 to 10.
-        calmest: Least pace with the trigger time, see :class:`Intent`: the
-            slowest pace that leaves enough clearance is chosen; 1 always walks
-            at full pace; 0.5 to 1.
     """
 
-    angle: float = pi / 2
-    saturated: bool = False
-    safety_radius: float = 0.8
-    release_distance: float = inf
-    side_hysteresis: float = radians(20.0)
-    trigger: Trigger = "distance"
-    contact_time: float = 3.5
-    clearance: float = 0.7
-    calmest: float = 1.0
-
-    ranges: ClassVar[Ranges] = {
-        "angle": Range(0.0, pi, "rad", "the sign is given by the side"),
-        "safety_radius": Range(
+    angle: float = setting(
+        pi / 2,
+        "Evasion angle alpha between the line of sight and the direction of "
+        "walking {unit}: a right angle moves aside, 0 moves back",
+        Range(0.0, pi, "rad", "the sign is given by the side"),
+        option="--angle",
+    )
+    saturated: bool = setting(
+        False,
+        "Turn the evader by eq. (6) instead of eq. (4)",
+        option="--saturated/--no-saturated",
+    )
+    safety_radius: float = setting(
+        0.8,
+        "Distance at which evasion begins {unit}, with the trigger distance",
+        Range(
             1e-3,
             1e9,
             "m",
             "below a millimetre there is contact; 1e9 m means always",
         ),
-        "release_distance": Range(
-            1e-3, 1e9, "m", "and above safety_radius", also=(inf,)
-        ),
-        "side_hysteresis": Range(0.0, pi, "rad", "half a turn"),
-        "contact_time": Range(
-            0.1, 60.0, "s", "a step takes longer than 0.1 s"
-        ),
-        "clearance": Range(0.1, 10.0, "m", "the bodies have a width"),
-        "calmest": Range(0.5, 1.0, "1", "steps at a lower pace take too long"),
-    }
+        option="--safety-radius",
+    )
+    release_distance: float = setting(
+        inf,
+        "Distance at which evasion ends",
+        Range(1e-3, 1e9, "m", "and above safety_radius", also=(inf,)),
+        option="--release-distance",
+        words={"never": inf},
+    )
+    side_hysteresis: float = setting(
+        radians(20.0),
+        "Angle by which the pursuer's bearing must exceed a change of sign "
+        "before the evader changes side {unit}; from a right angle on it "
+        "never does",
+        Range(0.0, pi, "rad", "half a turn"),
+        option="--side-hysteresis",
+        aliases=("--hysteresis",),
+    )
+    trigger: Trigger = setting(
+        "distance",
+        "Condition that triggers evasion: distance, or predicted time to "
+        "contact",
+        option="--trigger",
+        default_text="time for a person and a fast gait, else distance",
+    )
+    contact_time: float = setting(
+        3.5,
+        "Predicted time to contact at which evasion begins {unit}, with the "
+        "trigger time; 1.5 times as much ends it",
+        Range(0.1, 60.0, "s", "a step takes longer than 0.1 s"),
+        option="--contact-time",
+    )
+    clearance: float = setting(
+        0.7,
+        "Distance that counts as contact {unit}, with the trigger time",
+        Range(0.1, 10.0, "m", "the bodies have a width"),
+        option="--clearance",
+    )
+    calmest: float = setting(
+        1.0,
+        "Minimum step rate, as a fraction of the gait's {unit}, with the "
+        "trigger time: the slowest that leaves enough clearance is chosen",
+        Range(0.5, 1.0, "1", "steps at a lower pace take too long"),
+        option="--calmest",
+    )
 
     def __post_init__(self) -> None:
         """Validate the settings."""
@@ -102,11 +122,6 @@ class Evasion:
                 "release_distance must exceed safety_radius, "
                 f"{self.safety_radius:g} [m], or evasion stops and starts, "
                 f"got {self.release_distance}"
-            )
-        if self.trigger not in TRIGGERS:
-            raise ConfigurationError(
-                f"trigger must be one of {', '.join(TRIGGERS)}, "
-                f"got {self.trigger!r}"
             )
 
     @property

@@ -2,14 +2,14 @@
 
 from dataclasses import dataclass
 from math import atan2, cos, inf, pi, sin
-from typing import ClassVar
 
 import numpy as np
 
 from ..arena import BODY_RADIUS, obstacle_set
 from ..arena.shortest_path import first_waypoint
 from ..core.poses import wrap_angle
-from ..core.ranges import Range, Ranges, check_settings
+from ..core.ranges import Range
+from ..core.setting import check_settings, setting
 from ..planning import Direction
 from ..theory import laws
 from .approach import correcting_heading
@@ -24,28 +24,23 @@ class Pursuit:
     """The paper's pursuer: head for the evader.
 
     With known obstacles it heads for the first vertex of the shortest path.
-
-    Attributes:
-        saturated: Whether to turn by (6) instead of (8).
-        body_radius: Clearance of the path from obstacles, in [m]; above 0 to
-            10.
-        gain_ratio: Its steering gain over that of the gait, in [1]; above 0.
-            Turns are limited to what eq. (2) gives at the gait's gain, k pi:
-            inf turns by the whole bearing in one step, up to that limit.
     """
 
-    saturated: bool = False
-    body_radius: float = BODY_RADIUS
-    gain_ratio: float = 1.0
-
-    ranges: ClassVar[Ranges] = {
-        "body_radius": Range(
-            0.0, 10.0, "m", "a body has a radius", above=True
-        ),
-        "gain_ratio": Range(
+    saturated: bool = setting(False, "Turn by eq. (6) instead of eq. (8)")
+    body_radius: float = setting(
+        BODY_RADIUS,
+        "Clearance of the path from obstacles",
+        Range(0.0, 10.0, "m", "a body has a radius", above=True),
+    )
+    gain_ratio: float = setting(
+        1.0,
+        "Steering gain over that of the gait {unit}. Turns are limited to "
+        "what eq. (2) gives at the gait's gain, k pi: inf turns by the whole "
+        "bearing in one step, up to that limit",
+        Range(
             0.0, 1e3, "1", "it turns to the evader", above=True, also=(inf,)
         ),
-    }
+    )
 
     def __post_init__(self) -> None:
         """Validate the settings."""

@@ -12,6 +12,7 @@ from types import CodeType, FunctionType, ModuleType
 from typing import Any
 
 from ..core.errors import ConfigurationError
+from ..core.setting import ranges_of
 from .constant_walk import StandStill, Walk
 from .deflected_evasion import DeflectedEvasion
 from .evasion import Evasion
@@ -97,7 +98,7 @@ def check_strategy_name(
     if name in STRATEGIES:
         return
     if with_gain := _WITH_GAIN.fullmatch(name):
-        Pursuit.ranges["gain_ratio"].check(
+        ranges_of(Pursuit)["gain_ratio"].check(
             float(with_gain["ratio"]), f"RATIO of {what} pursuit-xRATIO"
         )
         return

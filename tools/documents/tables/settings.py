@@ -11,7 +11,7 @@ from stepaside.cli.main import all_commands
 from stepaside.cli.options.declaration import DeclaredOption
 from stepaside.cli.plan_settings import PlanSettings
 from stepaside.cli.value_types import NumberType
-from stepaside.core.ranges import ranges_of
+from stepaside.core.setting import settings_of
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.sim.camera_settings import RoomObject
@@ -68,26 +68,33 @@ def _in(settings: Any, before: str) -> Iterator[Setting]:
 
 
 def settings(_: Any) -> str:
-    """List all settings: range, unit, default and reason for the bounds."""
-    names = _names()
+    """List all settings with option, meaning, range and default."""
     rows = []
     for path, setting in all_settings().items():
-        known = ranges_of(setting.kind).get(setting.name)
-        if known is not None:
-            may_be, unit, why = known.words, known.unit, known.why
-        elif path in names:
-            may_be, unit, why = ", ".join(names[path]), "", ""
-        elif path in LISTS:
-            may_be, unit, why = "a list", "", ""
+        known = settings_of(setting.kind)[setting.name]
+        option = known.option.partition("/")[0]
+        if known.range is not None:
+            values, why = known.range.words, known.range.why
         else:
-            truth = isinstance(setting.default, bool)
-            may_be, unit, why = "true, false" if truth else "text", "", ""
+            values, why = ", ".join(known.names) or _type(setting), ""
         rows.append(
-            (f"`{path}`", may_be, unit, _default(setting.default), why)
+            (
+                f"`{path}`",
+                f"`{option}`" if option else "",
+                known.text.removesuffix("."),
+                values,
+                _default(setting.default),
+                why,
+            )
         )
-    return table(
-        ("setting", "range", "unit", "default", "reason for the range"), rows
-    )
+    head = ("setting", "option", "meaning", "values", "default", "reason")
+    return table(head, rows)
+
+
+def _type(setting: Setting) -> str:
+    if isinstance(setting.default, bool):
+        return "true, false"
+    return "a list" if setting.path in LISTS else "text"
 
 
 def _default(value: Any) -> str:
@@ -128,15 +135,3 @@ def _options(command: click.Command) -> list[click.Option]:
         if isinstance(param, click.Option)
         and not (isinstance(param, DeclaredOption) and param.sets_settings)
     ]
-
-
-def _names() -> dict[str, tuple[str, ...]]:
-    """Return the allowed names, by the path of the setting."""
-    found = {}
-    for made in all_commands().values():
-        for param in made.params:
-            if isinstance(param, DeclaredOption):
-                declared = param.declaration
-                if declared.registry is not None and declared.path:
-                    found[declared.path] = tuple(map(str, declared.registry()))
-    return found

@@ -1,12 +1,12 @@
 """Configuration text in which a comment explains each entry."""
 
-import re
 from dataclasses import fields, is_dataclass
 from enum import Enum
 from textwrap import wrap
 from typing import Any
 
 from ...arena import Room, room_to_entries
+from ...core.setting import settings_of
 
 WIDTH = 76  # characters of a comment
 
@@ -15,33 +15,9 @@ def commented(settings: Any) -> str:
     """Return a configuration in TOML with a comment above each entry.
 
     Args:
-        settings: Settings; the comments are the attribute descriptions in
-            the docstrings of their classes.
+        settings: Settings; the comments are their descriptions.
     """
     return "\n".join([_summary(settings), *_lines(settings, ())]) + "\n"
-
-
-def meanings(kind: type[Any]) -> dict[str, str]:
-    """Return the descriptions of attributes in the docstring of a class."""
-    _, _, section = (kind.__doc__ or "").partition("Attributes:")
-    found: dict[str, str] = {}
-    indent, name = "", ""
-    for line in section.splitlines():
-        entry = re.match(r"( +)(\w+): (.*)", line)
-        if entry and (not indent or entry[1] == indent):
-            indent, name = entry[1], entry[2]
-            found[name] = entry[3]
-        elif name and line.strip():
-            found[name] += " " + line.strip()
-        elif name:
-            break
-    return {key: _plain(text) for key, text in found.items()}
-
-
-def _plain(text: str) -> str:
-    """Remove mathematics and the markup of reStructuredText."""
-    text = re.sub(r" :math:`[^`]*`", "", text)
-    return re.sub(r":\w+:`~?([^`]*)`|``([^`]*)``", r"\1\2", text)
 
 
 def _summary(settings: Any) -> str:
@@ -50,11 +26,11 @@ def _summary(settings: Any) -> str:
 
 def _lines(settings: Any, section: tuple[str, ...]) -> list[str]:
     """Return the entries of a section, then its subsections."""
-    described = meanings(type(settings))
+    described = settings_of(type(settings))
     lines, subsections = [], []
     for field in fields(settings):
         value = getattr(settings, field.name)
-        comment = _comment(described.get(field.name, ""))
+        comment = _comment(described[field.name].full_text)
         path = (*section, field.name)
         if isinstance(value, Room):
             subsections += ["", comment, _room(value, path)]
