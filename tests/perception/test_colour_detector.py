@@ -10,6 +10,7 @@ from stepaside.perception.colour_detector import (
     RED,
     Appearance,
     ColourDetector,
+    Mask,
 )
 from stepaside.perception.images import ColourImage, Pixels
 
@@ -176,7 +177,13 @@ def test_small_specks_are_no_patches(
             for i in range(count):
                 at = row + i // columns, column + i % columns
                 mask[at] = 255
-        monkeypatch.setattr(detector, "mask", lambda *_, m=mask: m)
+
+        def marked(
+            hsv: Pixels, factor: float = 1.0, mask: Mask = mask
+        ) -> Mask:
+            return mask if factor == 1.0 else np.zeros(hsv.shape[:2], np.uint8)
+
+        monkeypatch.setattr(detector, "mask", marked)
         empty = np.zeros((*mask.shape, 3), np.uint8)
         found = detector.detect(ColourImage(0.0, camera, empty))
         assert (found is not None) is (count == least)

@@ -14,6 +14,7 @@ from stepaside.perception.colour_detector import (
     ColourDetector,
     _check_group,
     _groups,
+    smoothed_hsv,
 )
 from stepaside.perception.images import ColourImage, Pixels
 
@@ -28,7 +29,7 @@ def paint(hue: int, saturation: int, value: int) -> Pixels:
 
 
 def is_trim(look: Appearance, pixels: Pixels) -> bool:
-    mask = ColourDetector(look).mask(pixels)
+    mask = ColourDetector(look).mask(smoothed_hsv(pixels))
     assert mask.min() == mask.max()
     assert mask.max() in (0, 255)
     return bool(mask.max())

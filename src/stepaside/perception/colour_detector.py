@@ -1,6 +1,7 @@
 """Detection of a robot in a colour image by the colour of its trim."""
 
 from dataclasses import dataclass, replace
+from math import ceil
 
 import cv2
 import numpy as np
@@ -97,16 +98,16 @@ class ColourDetector:
 
     def detect(self, image: ColourImage) -> ColourDetection | None:
         """Detect the robot; the tallest group if there are several."""
-        mask = self.mask(image.pixels)
-        _, _, stats, _ = cv2.connectedComponentsWithStats(mask, connectivity=8)
+        hsv = smoothed_hsv(image.pixels)
+        stats = _patches(self.mask(hsv))
         least = max(3.0, MIN_AREA * (image.camera.width / 160.0) ** 2)
         boxes = np.column_stack(
             [
-                stats[1:, 0],
-                stats[1:, 1],
-                stats[1:, 0] + stats[1:, 2],
-                stats[1:, 1] + stats[1:, 3],
-                stats[1:, 4],
+                stats[:, 0],
+                stats[:, 1],
+                stats[:, 0] + stats[:, 2],
+                stats[:, 1] + stats[:, 3],
+                stats[:, 4],
             ]
         )
         boxes = boxes[boxes[:, 4] >= least]
@@ -120,17 +121,17 @@ class ColourDetector:
                 best = found
         if best is None:
             return None
-        return _with_ears(best, self.mask(image.pixels, EAR_SATURATION), least)
+        return self._with_ears(best, hsv, least)
 
-    def mask(self, pixels: Pixels, saturation_factor: float = 1.0) -> Mask:
+    def mask(self, hsv: Pixels, saturation_factor: float = 1.0) -> Mask:
         """Return a mask of the pixels with the trim's colour: 255, else 0.
 
         Args:
-            pixels: Image. Shape (height, width, 3).
+            hsv: Smoothed hue, saturation and value. Shape
+                (height, width, 3).
             saturation_factor: Factor on the minimum saturation.
         """
         appearance = self.appearance
-        hsv = cv2.cvtColor(cv2.blur(pixels, (3, 3)), cv2.COLOR_RGB2HSV)
         low, high = (
             appearance.hue - appearance.width,
             appearance.hue + appearance.width,
@@ -146,6 +147,69 @@ class ColourDetector:
         else:
             mask = cv2.inRange(hsv, (low, *least), (high, 255, 255))
         return np.asarray(mask, dtype=np.uint8)
+
+    def _with_ears(
+        self, found: ColourDetection, hsv: Pixels, least: float
+    ) -> ColourDetection:
+        """Extend a detection to ears, whose narrow patches are less saturated.
+
+        Args:
+            found: Detected robot.
+            hsv: Smoothed image. Shape (height, width, 3).
+            least: Minimum area of a patch, in [pixels].
+        """
+        if found.cut_above:
+            return found
+        height = found.bottom - found.top
+        highest = found.top - EAR_HEIGHT * height
+        # A margin of one pixel: a patch that reaches into it is no ear.
+        first_row = max(0, ceil(highest) - 1)
+        first_column = max(0, int(found.left) - 1)
+        area = hsv[
+            first_row : int(found.top) + 2,
+            first_column : int(found.right) + 1,
+        ]
+        faint = self.mask(area, EAR_SATURATION)
+        left, top, width, tall, size = _patches(faint).T
+        left, top = left + first_column, top + first_row
+        ears = (size >= least) & (left >= found.left)
+        ears &= left + width <= found.right
+        ears &= (top < found.top) & (top >= highest)
+        ears &= (top + tall <= found.top + 1) & (tall < EAR_HEIGHT * height)
+        number = int(ears.sum())
+        if number == 0:
+            return found
+        upper = float(top[ears].min())
+        return replace(
+            found,
+            top=upper,
+            confidence=min(1.0, found.confidence + number / 8.0),
+            cut_above=upper <= 1,
+        )
+
+
+def smoothed_hsv(pixels: Pixels) -> Pixels:
+    """Return hue, saturation and value. Shape (height, width, 3)."""
+    hsv = cv2.cvtColor(cv2.blur(pixels, (3, 3)), cv2.COLOR_RGB2HSV)
+    return np.asarray(hsv, dtype=np.uint8)
+
+
+def _patches(mask: Mask) -> NDArray[np.int32]:
+    """Return left, top, width, height and area of patches. Shape (n, 5).
+
+    Args:
+        mask: Pixels of the patches, not zero. Shape (height, width).
+    """
+    x, y, width, height = cv2.boundingRect(mask)
+    if width == 0:
+        return np.zeros((0, 5), np.int32)
+    # OpenCV numbers patches by blocks of two by two pixels.
+    x, y, right, bottom = x & ~1, y & ~1, x + width, y + height
+    stats = cv2.connectedComponentsWithStats(
+        mask[y:bottom, x:right], connectivity=8
+    )[2][1:]
+    stats[:, :2] += (x, y)
+    return np.asarray(stats, dtype=np.int32)
 
 
 def _groups(boxes: NDArray[np.int32]) -> list[NDArray[np.int32]]:
@@ -214,35 +278,6 @@ def _check_group(
         cut_above,
         cut_below,
         cut_aside,
-    )
-
-
-def _with_ears(
-    found: ColourDetection, faint: Mask, least: float
-) -> ColourDetection:
-    """Extend a detection to ears, whose narrow patches are less saturated.
-
-    Args:
-        found: Detected robot.
-        faint: Mask with the lower saturation of ears.
-        least: Minimum area of a patch, in [pixels].
-    """
-    height = found.bottom - found.top
-    stats = cv2.connectedComponentsWithStats(faint, connectivity=8)[2][1:]
-    left, top, width, tall, area = stats.T
-    ears = (area >= least) & (left >= found.left)
-    ears &= left + width <= found.right
-    ears &= (top < found.top) & (top >= found.top - EAR_HEIGHT * height)
-    ears &= (top + tall <= found.top + 1) & (tall < EAR_HEIGHT * height)
-    number = int(ears.sum())
-    if number == 0 or found.cut_above:
-        return found
-    highest = float(top[ears].min())
-    return replace(
-        found,
-        top=highest,
-        confidence=min(1.0, found.confidence + number / 8.0),
-        cut_above=highest <= 1,
     )
 
 

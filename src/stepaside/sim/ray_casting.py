@@ -8,6 +8,7 @@ from ..perception.camera_model import CameraModel
 from ..perception.images import Depths, Pixels
 from ..robots.head import Mount
 from .camera_settings import DepthSettings, SonarSettings
+from .view_cone import geoms_in_cone
 
 VISIBLE = np.array([1, 1, 1, 0, 0, 0], dtype=np.uint8)  # geom groups
 SKY = np.array([0.78, 0.84, 0.90])
@@ -55,6 +56,7 @@ class RayCaster:
         lengths = np.linalg.norm(rays, axis=1)
         self._rays = rays / lengths[:, None]
         self.along = 1.0 / lengths
+        self._half_angle = float(np.arccos(self._rays[:, 0].min()))
         count = len(rays)
         self.geoms = np.zeros(count, dtype=np.int32)
         self.distances = np.zeros(count)
@@ -67,22 +69,29 @@ class RayCaster:
         data = self._data
         axes = data.xmat[self._body].reshape(3, 3)
         self.origin = data.xpos[self._body] + axes @ self._mount.place
-        turned = self._rays @ (axes @ self._mount.axes).T
-        self.directions = turned
-        mujoco.mj_multiRay(
+        axes_in_world = axes @ self._mount.axes
+        self.directions = self._rays @ axes_in_world.T
+        with geoms_in_cone(
             self._model,
             data,
             self.origin,
-            turned.reshape(-1),
-            VISIBLE,
-            True,
-            self._body,
-            self.geoms,
-            self.distances,
-            self.normals.reshape(-1),
-            len(turned),
-            cutoff,
-        )
+            axes_in_world[:, 0],
+            self._half_angle,
+        ):
+            mujoco.mj_multiRay(
+                self._model,
+                data,
+                self.origin,
+                self.directions.reshape(-1),
+                VISIBLE,
+                True,
+                self._body,
+                self.geoms,
+                self.distances,
+                self.normals.reshape(-1),
+                len(self.directions),
+                cutoff,
+            )
 
     @property
     def slants(self) -> Array:

@@ -3,6 +3,7 @@
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
+from math import atan, hypot
 
 import cv2
 import numpy as np
@@ -27,6 +28,7 @@ from .ray_casting import (
     cone,
 )
 from .room_furnishing import LOWER
+from .view_cone import geoms_in_cone
 from .world import World
 
 RAYCAST_WIDTH = 160  # largest width of a ray-cast image, in [pixels]
@@ -54,6 +56,14 @@ class SensorStream:
     generator: np.random.Generator
     taken: int
     pending: deque[tuple[float, Percept]]
+
+    @property
+    def due(self) -> float:
+        """Time of the next exposure or arrival, in [s]."""
+        due = self.taken * self.period
+        if self.pending:
+            due = min(due, self.pending[0][0])
+        return due - 1e-9
 
     def read(self, now: float, exposed: list[Percept]) -> list[Percept]:
         """Return percepts that have arrived; take one when it is due.
@@ -115,6 +125,7 @@ class SensorSuite:
         self._head = head
         self._renderer: OffscreenRenderer | None = None
         self.exposed: list[Percept] = []
+        self._due = 0.0
         self.camera = _size_for(renderer, settings.colour.model())
         body = f"{name}/{head.body}"
         self._streams = [self._colour(body, renderer)]
@@ -124,10 +135,13 @@ class SensorSuite:
 
     def read(self, now: float) -> tuple[Percept, ...]:
         """Return the percepts that arrive at a tick."""
-        arrived: list[Percept] = []
         self.exposed.clear()
+        if now < self._due:
+            return ()
+        arrived: list[Percept] = []
         for stream in self._streams:
             arrived += stream.read(now, self.exposed)
+        self._due = min(stream.due for stream in self._streams)
         return tuple(arrived)
 
     def close(self) -> None:
@@ -194,7 +208,17 @@ class SensorSuite:
         number = model.camera(f"{self._name}/{name}").id
         vertical = 2.0 * np.arctan(0.5 * camera.height / camera.focal_y)
         model.cam_fovy[number] = np.degrees(vertical)
-        return lambda: screen.draw(data, number)
+        # Graphics use the vertical focal length in both directions.
+        focal = min(camera.focal_x, camera.focal_y)
+        half_angle = atan(0.5 * hypot(camera.width, camera.height) / focal)
+
+        def draw() -> Pixels:
+            axis = -data.cam_xmat[number].reshape(3, 3)[:, 2]
+            position = data.cam_xpos[number]
+            with geoms_in_cone(model, data, position, axis, half_angle):
+                return screen.draw(data, number)
+
+        return draw
 
     def _depth(self, body: str) -> SensorStream:
         world, settings = self._world, self._settings.depth
@@ -248,16 +272,16 @@ class ImageNoise:
         self._height, self._width = camera.height, camera.width
         shape = 2 * camera.height, 2 * camera.width, 3
         tile = np.rint(deviation * generator.standard_normal(shape))
-        self._tile = tile.astype(np.int16)
+        self._brighter = np.clip(tile, 0.0, 255.0).astype(np.uint8)
+        self._darker = np.clip(-tile, 0.0, 255.0).astype(np.uint8)
 
     def add_to(self, pixels: Pixels) -> Pixels:
         """Add noise to an image. Shape (height, width, 3)."""
         row = int(self._generator.integers(self._height))
         column = int(self._generator.integers(self._width))
-        noise = self._tile[
-            row : row + self._height, column : column + self._width
-        ]
-        noisy = cv2.add(pixels, noise, dtype=cv2.CV_8U)
+        area = np.s_[row : row + self._height, column : column + self._width]
+        noisy = cv2.add(pixels, self._brighter[area])
+        noisy = cv2.subtract(noisy, self._darker[area])
         return np.asarray(noisy, dtype=np.uint8)
 
 
