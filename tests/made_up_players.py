@@ -6,12 +6,12 @@ from typing import Any
 
 import pytest
 
-from stepaside.control.walk_snapshots import StepStarted
 from stepaside.core.poses import Pose
 from stepaside.games import match as loop
 from stepaside.games.match import Match
 from stepaside.games.outcome import Outcome
 from stepaside.games.player import Snapshot
+from stepaside.locomotion.walk_snapshots import StepStarted
 from stepaside.planning import Foot
 from stepaside.sim.push import Push
 

@@ -6,10 +6,12 @@ from typing import Any
 
 import numpy as np
 
-from stepaside.control.phase import Phase
+from stepaside.control.maneuver_walk import ManeuverWalk
 from stepaside.control.scheme import ControlScheme
-from stepaside.control.walk_snapshots import StepStarted
+from stepaside.control.sight_sources import MeasuredSight, SightSource
+from stepaside.control.strategy_runner import StrategyRunner
 from stepaside.core.poses import Array, Pose
+from stepaside.locomotion.walk_snapshots import Phase, StepStarted
 from stepaside.locomotion.zmp.feedback_loop import ClosedLoop
 from stepaside.perception.measurement import Measurement, Sighting
 from stepaside.planning import Direction, Foot, GaitSettings
@@ -110,6 +112,31 @@ def measure(
     return Measurement(time, nothing, nothing, nothing, np.zeros(8), seen)
 
 
+def scheme_of(
+    strategy: Any,
+    gait: GaitSettings,
+    legs: Any,
+    *,
+    tick: float,
+    senses: SightSource | None = None,
+    **walk: Any,
+) -> ControlScheme:
+    """Return a scheme whose legs walk by maneuvers."""
+    guard = walk.get("guard")
+    surroundings = None if guard is None else guard.surroundings
+    return ControlScheme(
+        StrategyRunner(strategy, gait, tick, surroundings),
+        ManeuverWalk(gait, legs, tick=tick, **walk),
+        MeasuredSight() if senses is None else senses,
+    )
+
+
+def walk_of(scheme: ControlScheme) -> ManeuverWalk:
+    """Return the walk of a scheme."""
+    assert isinstance(scheme.locomotion, ManeuverWalk)
+    return scheme.locomotion
+
+
 class Run:
     """A scheme on its clock, and the steps that it began."""
 
@@ -119,7 +146,7 @@ class Run:
         legs: Any = FakeLegs()
         self.legs = legs
         self.strategy = strategy or FakeStrategy()
-        self.scheme = ControlScheme(
+        self.scheme = scheme_of(
             self.strategy, gait, legs, tick=TICK, **changes
         )
         self.ticks = 0

@@ -14,8 +14,9 @@ from typing import Any
 import numpy as np
 
 from fake_body import FakeBody
-from stepaside.control import Phase
 from stepaside.control.scheme_builder import build_scheme
+from stepaside.control.sight_sources import CameraSight
+from stepaside.locomotion.walk_snapshots import Phase
 from stepaside.locomotion.zmp.control_settings import ControlSettings
 from stepaside.perception.colour_detector import RED
 from stepaside.perception.images import SonarEcho
@@ -67,7 +68,7 @@ class Day:
             GaitSettings(),
             CONTROLS.get(kind, CONTROLS["feedback"]),
             tick=TICK,
-            perception=eyes,
+            senses=None if eyes is None else CameraSight(eyes, tick=TICK),
         )
         weight = 9.81 * ForwardKinematics(nao).mass
         self.body = DayBody(self.mind.joint_targets, weight, TICK)

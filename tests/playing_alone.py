@@ -60,7 +60,7 @@ def play(feedback: bool) -> dict[str, object]:
     posture = forward.posture(body.joints)
     return {
         "phases": phases,
-        "walked": scheme.left_foot.x,
+        "walked": scheme.state.left_foot.x,
         "apart": float(abs(posture.feet[0] - posture.feet[1])[1]),
     }
 

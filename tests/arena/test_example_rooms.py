@@ -7,12 +7,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from made_up_robot import GAIT, FakeLegs
+from made_up_robot import GAIT, FakeLegs, scheme_of
 from stepaside.arena import check_initial_poses, load_room
 from stepaside.control.clearance.guard import Guard
 from stepaside.control.clearance.surroundings import KnownRoom
 from stepaside.control.clearance.swept_outline import BodyOutline, lateral_sway
-from stepaside.control.scheme import ControlScheme
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.perception.measurement import Measurement, Sighting
 from stepaside.planning import ManeuverPlanner
@@ -39,14 +38,14 @@ def test_pursuer_reaches_a_standing_evader_without_contact(file: Path) -> None:
     guard = Guard(around, NAO, ManeuverPlanner(GAIT), margin=MARGIN)
     legs: Any = FakeLegs()
     tick = 0.02
-    scheme = ControlScheme(
+    scheme = scheme_of(
         Pursuit(body_radius=needs), GAIT, legs, tick=tick, guard=guard
     )
     nothing, distance, least = np.zeros(3), np.inf, np.inf
     goal = start.inverse().compose(other)
     for number in range(round(60.0 / tick)):
         now = number * tick
-        body = scheme.reference
+        body = scheme.state.reference
         legs.torso_heading = body.heading
         away = goal.x - body.com[0], goal.y - body.com[1]
         distance = hypot(*away)

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from made_up_robot import GAIT, FakeLegs
+from made_up_robot import GAIT, FakeLegs, scheme_of
 from stepaside.arena import (
     Box,
     Disc,
@@ -23,10 +23,10 @@ from stepaside.control.clearance.guard import Guard, GuardDecision
 from stepaside.control.clearance.map_settings import MapSettings
 from stepaside.control.clearance.surroundings import KnownRoom
 from stepaside.control.clearance.swept_outline import BodyOutline
-from stepaside.control.phase import Phase
 from stepaside.control.scheme import ControlScheme
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array, Pose
+from stepaside.locomotion.walk_snapshots import Phase
 from stepaside.perception.measurement import Measurement, Sighting
 from stepaside.planning import (
     CenterState,
@@ -89,7 +89,7 @@ def scheme_in(
         ManeuverPlanner(GAIT),
         margin=MARGIN,
     )
-    return ControlScheme(Whim(seed), GAIT, legs, tick=tick, guard=guard)
+    return scheme_of(Whim(seed), GAIT, legs, tick=tick, guard=guard)
 
 
 def corners_of(body: BodyReference, frame: Pose) -> Array:
@@ -132,7 +132,7 @@ def test_any_intent_keeps_the_robot_clear_of_obstacles() -> None:
             )
             phases.add(scheme.phase)
             if number % 10 == 0:
-                corners = corners_of(scheme.reference, start)
+                corners = corners_of(scheme.state.reference, start)
                 least.append(clearance(room, corners))
     assert min(least) >= MARGIN - 1e-4
     assert phases == {Phase.STANDING, Phase.WALKING, Phase.HALTING}

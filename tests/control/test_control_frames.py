@@ -24,9 +24,9 @@ from stepaside.arena.obstacles import ObstacleSet
 from stepaside.control.clearance.guard import Guard
 from stepaside.control.clearance.surroundings import KnownRoom
 from stepaside.control.clearance.swept_outline import BodyOutline
-from stepaside.control.phase import Phase
 from stepaside.control.strategy_runner import StrategyRunner
 from stepaside.core.poses import Pose, wrap_angle
+from stepaside.locomotion.walk_snapshots import Phase
 from stepaside.locomotion.zmp.feedback_loop import OpenLoop
 from stepaside.locomotion.zmp.reference_table import (
     ReferenceSample,

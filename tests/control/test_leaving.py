@@ -134,7 +134,7 @@ def begun(around: Any) -> Foot | None:
     """Return the first foot of a robot that starts to the left."""
     guard = Guard(around, NAO, PLANNER, margin=MARGIN)
     run = Run(FakeStrategy(heading=0.6), guard=guard)
-    plan = run.until(0.1).plan
+    plan = run.until(0.1).state.plan
     return None if plan is None else plan.first_foot
 
 

@@ -7,11 +7,20 @@ from typing import Any
 import numpy as np
 import pytest
 
-from made_up_robot import FIRST, GAIT, STEP, TICK, FakeStrategy, Run, measure
-from stepaside.control.phase import Phase
-from stepaside.control.scheme import RETRY_PERIOD, SETTLING
+from made_up_robot import (
+    FIRST,
+    GAIT,
+    STEP,
+    TICK,
+    FakeStrategy,
+    Run,
+    measure,
+    walk_of,
+)
+from stepaside.control.maneuver_walk import RETRY_PERIOD, SETTLING
 from stepaside.control.sight_sources import MeasuredSight
 from stepaside.core.poses import Pose
+from stepaside.locomotion.walk_snapshots import Phase
 from stepaside.perception.measurement import Sighting
 from stepaside.planning import Direction, Foot
 
@@ -20,18 +29,18 @@ def test_it_stands_midway_until_the_other_is_a_reason() -> None:
     run = Run()
     scheme = run.scheme
     half = 0.5 * GAIT.foot_spacing
-    assert scheme.left_foot == Pose(0.0, half, 0.0)
-    assert scheme.right_foot == Pose(0.0, -half, 0.0)
+    assert scheme.state.left_foot == Pose(0.0, half, 0.0)
+    assert scheme.state.right_foot == Pose(0.0, -half, 0.0)
     com = (GAIT.zmp_forward, 0.0, GAIT.com_height)
     np.testing.assert_allclose(scheme.joint_targets, com, atol=1e-15)
-    assert scheme.plan_frame == Pose(0.0, 0.0, 0.0)
-    assert scheme.plan_started == 0.0
+    assert scheme.state.plan_frame == Pose(0.0, 0.0, 0.0)
+    assert scheme.state.plan_started == 0.0
     run.until(1.0, distance=None)
     run.until(2.0, distance=2.1)
-    assert run.phase() is Phase.STANDING and scheme.plan is None
+    assert run.phase() is Phase.STANDING and scheme.state.plan is None
     assert run.steps == [] and scheme.begun is None
-    assert scheme.reference.com == pytest.approx(com, abs=1e-15)
-    assert scheme.zmp_reference == pytest.approx(com[:2], abs=1e-15)
+    assert scheme.state.reference.com == pytest.approx(com, abs=1e-15)
+    assert scheme.state.zmp_reference == pytest.approx(com[:2], abs=1e-15)
     run.until(2.0 + TICK, distance=1.9)
     assert run.phase() is Phase.WALKING and run.replans == 1
 
@@ -60,7 +69,9 @@ def test_feet_land_alternately_from_the_first_foot(foot: Foot) -> None:
 def test_gait_time_is_exact_though_steps_end_between_ticks() -> None:
     run = Run()
     scheme = run.until(FIRST + 4.2 * STEP)
-    assert scheme.plan_started == pytest.approx(FIRST + 4.0 * STEP, abs=1e-9)
+    assert scheme.state.plan_started == pytest.approx(
+        FIRST + 4.0 * STEP, abs=1e-9
+    )
     assert run.replans == 6
     begins = [0.0, *(FIRST + STEP * np.arange(5))]
     np.testing.assert_allclose([s.started for s in run.steps], begins)
@@ -94,8 +105,9 @@ def test_a_maneuver_turns_the_robot_as_the_template() -> None:
     turn = GAIT.gain * 0.5 * GAIT.path_interval
     headings = [pose.theta for _, _, pose in run.landings]
     np.testing.assert_allclose(headings, turn * np.arange(1, 6))
-    assert scheme.plan is not None and scheme.plan.bearing == 0.5
-    assert scheme.plan_frame.theta == pytest.approx(headings[3])
+    plan = scheme.state.plan
+    assert plan is not None and plan.bearing == 0.5
+    assert scheme.state.plan_frame.theta == pytest.approx(headings[3])
 
 
 def test_strategies_choose_direction_and_template() -> None:
@@ -113,8 +125,8 @@ def test_the_reference_is_continuous_through_all_plans() -> None:
     coms, zmps = [], []
     while run.ticks * TICK < FIRST + 3.0 * STEP:
         scheme = run.until((run.ticks + 1) * TICK)
-        coms.append(scheme.reference.com)
-        zmps.append(scheme.zmp_reference)
+        coms.append(scheme.state.reference.com)
+        zmps.append(scheme.state.zmp_reference)
     speed = np.diff(coms, axis=0) / TICK
     assert np.abs(speed).max() < 0.4
     assert np.abs(np.diff(speed, axis=0)).max() < 0.03
@@ -175,19 +187,19 @@ def test_without_a_reason_it_brings_its_feet_abreast_and_rests() -> None:
     ends = FIRST + STEP + SETTLING
     run.until(ends - 2 * TICK)
     assert run.phase() is Phase.HALTING
-    assert scheme.step(ends).walking
+    assert scheme.locomotion.step(ends).walking
     run.until(ends + 2 * TICK)
-    assert run.phase() is Phase.STANDING and scheme.plan is None
-    apart = scheme.right_foot.inverse().compose(scheme.left_foot)
+    assert run.phase() is Phase.STANDING and scheme.state.plan is None
+    apart = scheme.state.right_foot.inverse().compose(scheme.state.left_foot)
     expected = (0.0, GAIT.foot_spacing, 0.0)
     assert apart == pytest.approx(expected, abs=1e-12)
-    assert scheme.left_foot == run.landings[0][2]
-    assert scheme.right_foot == run.landings[1][2]
+    assert scheme.state.left_foot == run.landings[0][2]
+    assert scheme.state.right_foot == run.landings[1][2]
     assert len(run.steps) == 2 and run.replans == 1  # a halt is no maneuver
     before = run.legs.tracked[-3].com
-    assert scheme.reference.com == pytest.approx(before, abs=1e-3)
-    assert scheme.zmp_reference == scheme.reference.com[:2]
-    assert not scheme.step(ends).walking
+    assert scheme.state.reference.com == pytest.approx(before, abs=1e-3)
+    assert scheme.state.zmp_reference == scheme.state.reference.com[:2]
+    assert not scheme.locomotion.step(ends).walking
     assert SETTLING == 1.0
 
 
@@ -213,13 +225,13 @@ def test_a_sighting_is_used_until_the_next() -> None:
 
 def test_steps_are_reported_when_they_begin() -> None:
     run = Run()
-    rest = run.scheme.step(0.0)
+    rest = run.scheme.locomotion.step(0.0)
     assert not rest.walking and rest.swing is Foot.LEFT
-    assert rest.support == run.scheme.right_foot
+    assert rest.support == run.scheme.state.right_foot
     scheme = run.until(FIRST + 0.1)
-    made = scheme.step(FIRST + 0.1)
+    made = scheme.locomotion.step(FIRST + 0.1)
     assert made.walking and made.swing is Foot.RIGHT
-    assert made.support == scheme.left_foot == scheme.plan_frame
+    assert made.support == scheme.state.left_foot == scheme.state.plan_frame
     assert made.passed == pytest.approx(0.1)
     assert made.remaining == pytest.approx(GAIT.single_support - 0.1)
 
@@ -231,9 +243,9 @@ def test_a_started_step_reports_its_plan_and_planning_time() -> None:
     while run.ticks * TICK < FIRST + 2.0 * STEP:
         scheme = run.until((run.ticks + 1) * TICK)
         if scheme.begun is not None:
-            assert scheme.begun.plan is scheme.plan
-            assert scheme.begun.started == scheme.plan_started
-            plans.append(scheme.plan)
+            assert scheme.begun.plan is scheme.state.plan
+            assert scheme.begun.started == scheme.state.plan_started
+            plans.append(scheme.state.plan)
     times = [s.planning_time for s in run.steps if s.planning_time is not None]
     assert len(plans) == len(times) == run.replans == 3
     assert min(times) >= 0.0
@@ -250,9 +262,9 @@ def test_a_step_is_reported_at_its_first_tick_only() -> None:
         scheme = run.until((run.ticks + 1) * TICK)
         if scheme.begun is not None:
             told.append(run.ticks)
-        if scheme.plan is not plan and scheme.plan is not None:
+        if scheme.state.plan is not plan and scheme.state.plan is not None:
             replaced.append(run.ticks)
-        plan = scheme.plan
+        plan = scheme.state.plan
     ends = FIRST + STEP * np.arange(2)
     expected = [1, *(np.ceil(ends / TICK - 1e-6) + 1)]
     assert told == replaced == expected
@@ -269,20 +281,20 @@ def test_the_state_matches_the_scheme() -> None:
     state = scheme.state
     for name in (
         *("phase", "plan", "plan_frame", "plan_started", "left_foot"),
-        *("right_foot", "reference", "zmp_reference", "sighting"),
+        *("right_foot", "reference"),
     ):
-        assert getattr(state, name) is getattr(scheme, name), name
+        assert getattr(state, name) is getattr(walk_of(scheme), name), name
     assert state.gait is GAIT and state.first_foot is Foot.RIGHT
     assert state.torso_heading == run.legs.torso_heading
     assert (state.estimate, state.solved, state.adapted) == (None, None, 0)
     now = FIRST + 0.1
-    assert state.step(now) == scheme.step(now)
+    assert state.step(now) == scheme.locomotion.step(now)
     before = state.step(now)
     run.until(FIRST + STEP + 0.1)
-    assert state.step(now) == before != scheme.step(now)
+    assert state.step(now) == before != scheme.locomotion.step(now)
     rest = Run(first_foot=Foot.RIGHT).scheme
-    assert rest.state.step(3.0) == rest.step(3.0)
-    assert rest.state.step(3.0).support == rest.left_foot
+    assert rest.state.step(3.0) == rest.locomotion.step(3.0)
+    assert rest.state.step(3.0).support == rest.state.left_foot
 
 
 @pytest.mark.parametrize("foot", Foot)
@@ -293,14 +305,14 @@ def test_a_blocked_start_is_retried_with_the_other_foot(
     """And if there is room for neither, both again, but not at once."""
     run = Run(first_foot=foot)
     asked: list[Foot] = []
-    planned = run.scheme._maneuvers.plan
+    planned = walk_of(run.scheme)._maneuvers.plan
 
     def plan(*words: Any, standing: bool) -> Any:
         asked.append(words[-1])
         none = words[-1] in (foot, foot.other)[:blocked]
         return None if none else planned(*words, standing=standing)
 
-    monkeypatch.setattr(run.scheme._maneuvers, "plan", plan)
+    monkeypatch.setattr(walk_of(run.scheme)._maneuvers, "plan", plan)
     run.until(TICK)
     assert asked == [foot, foot.other][: 1 + min(blocked, 1)]
     if blocked < 2:

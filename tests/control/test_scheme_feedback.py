@@ -17,8 +17,8 @@ from made_up_robot import (
     feeding,
     measure,
 )
-from stepaside.control.phase import Phase
 from stepaside.control.sight_sources import CameraSight
+from stepaside.locomotion.walk_snapshots import Phase
 from stepaside.perception.measurement import Sighting
 from stepaside.planning import Direction, Foot
 
@@ -37,12 +37,16 @@ def test_feedback_modifies_the_leg_reference() -> None:
     run, feedback = feeding()
     feedback.lift = 0.01
     scheme = run.until(0.1)
-    assert scheme.reference.com[2] == pytest.approx(GAIT.com_height + 0.01)
-    assert run.legs.tracked[-1] == scheme.reference
+    assert scheme.state.reference.com[2] == pytest.approx(
+        GAIT.com_height + 0.01
+    )
+    assert run.legs.tracked[-1] == scheme.state.reference
     assert feedback.steps[-1].passed == pytest.approx(0.1 - TICK)
     measurement = measure(0.1)._replace(joint_positions=np.full(3, 7.0))
     targets = scheme.update(measurement)
-    np.testing.assert_allclose(targets, np.add(scheme.reference.com, 7.0))
+    np.testing.assert_allclose(
+        targets, np.add(scheme.state.reference.com, 7.0)
+    )
     assert scheme.joint_targets is targets
 
 
@@ -54,8 +58,8 @@ def test_feedback_says_where_a_foot_landed() -> None:
     assert landed == pytest.approx((GAIT.stride, 0.05, 0.0))
     assert step.remaining == pytest.approx(-GAIT.double_support)
     expected = (GAIT.stride + 0.01, 0.05, 0.0)
-    assert scheme.plan_frame == pytest.approx(expected)
-    assert scheme.left_foot == scheme.plan_frame
+    assert scheme.state.plan_frame == pytest.approx(expected)
+    assert scheme.state.left_foot == scheme.state.plan_frame
 
 
 def test_feedback_fits_all_plans_but_the_first() -> None:
@@ -92,7 +96,7 @@ def test_a_fallen_robot_stops_moving() -> None:
     before = scheme.joint_targets.copy()
     feedback.state = SimpleNamespace(has_fallen=True)
     run.until(FIRST + 0.2)
-    assert run.phase() is Phase.FALLEN and scheme.plan is None
+    assert run.phase() is Phase.FALLEN and scheme.state.plan is None
     np.testing.assert_array_equal(scheme.joint_targets, before)
     steps = len(feedback.steps)
     feedback.state = SimpleNamespace(has_fallen=False)
@@ -110,11 +114,11 @@ def test_perception_stands_on_the_support_foot(foot: Foot) -> None:
     eyes.seen = Sighting(0.1, 0.2, 1.0)
     run.until(0.1 + TICK, bearing=9.0)
     assert run.asked == pytest.approx([0.2])
-    assert scheme.sighting == scheme.state.sighting == eyes.seen
+    assert scheme.sighting == eyes.seen
     assert scheme.joint_targets[0] == 0.75
     run.until(0.1 + FIRST + 0.1)
     left = foot is Foot.RIGHT  # the left one stands while the right swings
-    support = scheme.left_foot if not left else scheme.right_foot
+    support = scheme.state.left_foot if not left else scheme.state.right_foot
     assert eyes.stood[0][1] is left
     assert eyes.stood[-1] == (support, not left)
     eyes.seen = None
@@ -138,7 +142,9 @@ def test_eyes_that_look_around_turn_the_body(
     assert run.asked == []
     if not turning:
         return
-    landed = 0.5 * (np.array(scheme.left_foot) + np.array(scheme.right_foot))
+    landed = 0.5 * (
+        np.array(scheme.state.left_foot) + np.array(scheme.state.right_foot)
+    )
     assert landed[2] == pytest.approx(turning * 2.5 * 0.08 * np.pi, abs=0.01)
     assert np.hypot(*landed[:2]) < 0.02
     eyes.around.turning, eyes.seen = 0.0, Sighting(0.0, 0.2, 1.0)

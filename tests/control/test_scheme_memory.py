@@ -6,11 +6,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from made_up_robot import GAIT, STEP, TICK, FakeStrategy, Run, measure
+from made_up_robot import GAIT, STEP, TICK, FakeStrategy, Run, measure, walk_of
 from made_up_state import FakeEstimator
-from stepaside.control.phase import Phase
 from stepaside.control.sight_sources import CameraSight
 from stepaside.control.state_history import DURATION
+from stepaside.locomotion.walk_snapshots import Phase
 from stepaside.locomotion.zmp.control_settings import (
     ControlSettings,
     MpcSettings,
@@ -86,7 +86,7 @@ class DullJoints:
 def dull(**changes: Any) -> Run:
     run = Run(Dull(heading=0.5), **changes)
     legs: Any = DullLegs()
-    run.legs = run.scheme.kinematics = legs
+    run.legs = walk_of(run.scheme).kinematics = legs
     return run
 
 
@@ -134,7 +134,7 @@ def test_feedback_memory_is_constant(method: Any) -> None:
     stabiliser.joints = DullJoints()  # type: ignore[assignment]
     run = dull(balance=ClosedLoop(stabiliser))
     found = weights(run, rounds=1, times=2)
-    assert (run.scheme.balance.solved is not None) is (method == "mpc")
-    assert run.scheme.balance.adapted > 0
+    assert (run.scheme.state.solved is not None) is (method == "mpc")
+    assert run.scheme.state.adapted > 0
     # Shifts that are none share one object: a few values come and go.
     assert max(found) - min(found) < AGAIN / 10

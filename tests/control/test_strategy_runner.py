@@ -7,10 +7,10 @@ from typing import Any
 import pytest
 
 from made_up_robot import FIRST, GAIT, STEP, TICK, FakeStrategy, Run
-from stepaside.control.phase import Phase
 from stepaside.control.strategy_runner import StrategyRunner
 from stepaside.core.errors import StrategyError
 from stepaside.core.poses import Pose
+from stepaside.locomotion.walk_snapshots import Phase
 from stepaside.perception.measurement import Sighting
 from stepaside.planning import Direction, Foot
 from stepaside.strategies import (
@@ -137,9 +137,9 @@ def test_an_adopted_strategy_acts_at_the_next_step() -> None:
     run = Run(Walk(0.5))
     run.until(FIRST - 0.1)
     run.scheme.decisions.adopt(Walk(-0.5, Direction.BACKWARD))
-    plan = run.scheme.plan
+    plan = run.scheme.state.plan
     assert plan is not None and plan.bearing == 0.5
-    plan = run.until(FIRST + 0.1).plan
+    plan = run.until(FIRST + 0.1).state.plan
     assert plan is not None and plan.bearing == -0.5
     assert plan.direction is Direction.BACKWARD
 

@@ -11,9 +11,7 @@ import numpy as np
 import pytest
 
 from lola_fakes import JOINTS, STANCE, Clock, FakeLink, pressed, sensor_frame
-from stepaside.control import Phase
 from stepaside.control.strategy_runner import StrategyRunner
-from stepaside.control.walk_snapshots import WalkState
 from stepaside.core.errors import ConfigurationError, ReachError, StrategyError
 from stepaside.core.poses import Pose
 from stepaside.drivers.joint.joint_body import JointBody
@@ -25,6 +23,7 @@ from stepaside.drivers.lola.nao_joints import NAO_MOTORS
 from stepaside.drivers.play_log import PlayLog
 from stepaside.drivers.row_file import read_rows
 from stepaside.drivers.status_line import StatusLine
+from stepaside.locomotion.walk_snapshots import Phase, WalkState
 from stepaside.perception.measurement import Sighting
 from stepaside.planning import Foot, GaitSettings
 from stepaside.robots.body_reference import BodyReference
@@ -52,7 +51,6 @@ def standing_still() -> WalkState:
             (0.0, 0.0, 0.27), (*left[:2], 0.0, 0.0), (*right[:2], 0.0, 0.0)
         ),
         zmp_reference=(0.0, 0.0),
-        sighting=None,
         torso_heading=0.0,
         estimate=None,
         solved=None,

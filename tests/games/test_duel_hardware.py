@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from made_up_robot import walk_of
 from stepaside.games.duel import Duel, run_duel
 from stepaside.games.duel_run import DuelRun
 from stepaside.games.duel_settings import DuelSettings, StartSettings
@@ -44,7 +45,7 @@ def test_both_robots_of_a_hardware_duel_have_servo_and_sensor_models() -> None:
     masses = []
     for walker in duel.players:
         assert isinstance(walker, SimulatedPlayer)
-        robot, balance = walker.robot, walker.scheme.balance
+        robot, balance = walker.robot, walk_of(walker.scheme).balance
         assert isinstance(robot.servos, RealisticServos)
         assert isinstance(balance, ClosedLoop)
         assert balance.stabiliser.settings == STABILISED

@@ -92,7 +92,7 @@ def test_values_returned_by_a_duel_do_not_change_later(
             kept.keep("snapshot", walker.snapshot())
             kept.keep("posture", robot.posture)
             kept.keep("truth", (robot.truth.position, robot.truth.place))
-            kept.keep("plan", walker.scheme.plan)
+            kept.keep("plan", walker.scheme.state.plan)
         if ticks == 300:
             kept.keep("tracks", duel.recorder.tracks())
         assert duel.tick() is None

@@ -128,7 +128,9 @@ def test_the_evader_tracks_below_the_near_limit_of_its_camera(
         kept = tuple(
             p for p in measurement.percepts if not isinstance(p, ColourImage)
         )
-        senses.see(measurement._replace(percepts=kept), scheme.step, None)
+        senses.see(
+            measurement._replace(percepts=kept), scheme.locomotion.step, None
+        )
         targets = scheme.joint_targets.copy()
         senses.aim(targets)
         evader.write(targets)

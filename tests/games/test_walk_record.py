@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from made_up_players import begun
+from made_up_robot import walk_of
 from stepaside.core.poses import Array, Pose
 from stepaside.games.outcome import Outcome
 from stepaside.games.recorder import Recorder
@@ -60,7 +61,7 @@ def test_a_walk_is_expressed_in_the_frame_of_the_support_foot(
     walker = walking.walker
     seen = last(walking)
     assert seen["time"] == walking.world.time
-    foot = walker.scheme.step(walking.world.time).swing.other
+    foot = walker.scheme.locomotion.step(walking.world.time).swing.other
     assert seen["support"] == foot.value
     truth = walker.robot.truth
     heading = truth.heading
@@ -74,7 +75,8 @@ def test_a_walk_is_expressed_in_the_frame_of_the_support_foot(
         [seen["world_x"], seen["world_y"]], truth.com[:2]
     )
     np.testing.assert_allclose(
-        [seen["asked_x"], seen["asked_y"]], walker.scheme.reference.com[:2]
+        [seen["asked_x"], seen["asked_y"]],
+        walker.scheme.state.reference.com[:2],
     )
     for name, tolerance in (("com_x", 0.004), ("com_y", 0.004)):
         wanted = seen[name.replace("com", "reference")]
@@ -93,7 +95,7 @@ def test_vectors_are_rotated_and_points_transformed(
     """The pose of the foot is recovered from the columns."""
     walker = walking.walker
     seen = last(walking)
-    foot = walker.scheme.step(walking.world.time).swing.other
+    foot = walker.scheme.locomotion.step(walking.world.time).swing.other
     description = walker.scheme.kinematics.description
     name = {
         Foot.LEFT: description.left_foot,
@@ -121,10 +123,10 @@ def test_vectors_are_rotated_and_points_transformed(
         speed[:2],
         atol=2e-3,  # places and speeds are one physics step apart
     )
-    support = walker.scheme.step(walking.world.time).support
+    support = walker.scheme.locomotion.step(walking.world.time).support
     for column, point in (
-        ("reference", walker.scheme.reference.com[:2]),
-        ("zmp_reference", walker.scheme.zmp_reference),
+        ("reference", walker.scheme.state.reference.com[:2]),
+        ("zmp_reference", walker.scheme.state.zmp_reference),
     ):
         there = [[seen[f"{column}_x"], seen[f"{column}_y"]]]
         np.testing.assert_allclose(
@@ -151,15 +153,16 @@ def test_estimates_are_in_the_frame_of_the_support_foot(
     walking: WalkGame,
 ) -> None:
     walker = walking.walker
-    assert isinstance(walker.scheme.balance, ClosedLoop)
-    stabiliser = walker.scheme.balance.stabiliser
+    balance = walk_of(walker.scheme).balance
+    assert isinstance(balance, ClosedLoop)
+    stabiliser = balance.stabiliser
     state = BodyState(
         *((1.0, 2.0), (0.3, 0.4), (9.0, 9.0), (1.5, 2.5), (0.01, 0.02)),
         *((0.0, 0.0, 0.0), 0.5, 50.0),
     )
     before, stabiliser.state = stabiliser.state, state
     seen = last(walking)
-    support = walker.scheme.step(walking.world.time).support
+    support = walker.scheme.locomotion.step(walking.world.time).support
     turned = Pose(0.0, 0.0, support.theta)
     for name, frame, value in (
         ("com", support, state.com),
@@ -185,7 +188,7 @@ def test_single_support_lasts_while_a_foot_swings() -> None:
     while walking.world.time < 3.0:
         assert walking.tick() is None
         singles.append(last(walking)["single"])
-        feet = walking.walker.scheme.reference
+        feet = walking.walker.scheme.state.reference
         heights.append(max(feet.left_foot[2], feet.right_foot[2]))
     single, lifted = np.array(singles) > 0.5, np.array(heights) > 1e-3
     assert single[lifted].mean() > 0.97
@@ -218,7 +221,7 @@ def test_references_and_estimates_are_placed_with_the_odometry() -> None:
     made.before(walking)
     track = made.tracks()["walker"]
     assert track.support is not None and track.estimate is not None
-    step = walking.walker.scheme.step(walking.world.time)
+    step = walking.walker.scheme.locomotion.step(walking.world.time)
     wanted = frame.compose(step.support)
     np.testing.assert_allclose(track.support[0, 2:], wanted)
     there = columns(made)
@@ -263,12 +266,14 @@ def test_the_last_sample_counts_if_evenly_spaced_and_upright() -> None:
 def test_steps_and_solver_results_are_collected() -> None:
     for keeps in (True, False):
         walking = WalkGame(WalkSettings(), recorded=keeps)
-        scheme: Any = walking.walker.scheme
+        walk: Any = walk_of(walking.walker.scheme)
         answers: list[Any] = ["one", None, "two"]
         step = begun()
         for answer, began in zip(answers, (step, None, step), strict=True):
-            scheme.balance = SimpleNamespace(solved=answer)
-            scheme.begun = began
+            walk.balance = SimpleNamespace(
+                solved=answer, state=None, adapted=0
+            )
+            walk.begun = began
             walking.tally.acted(walking)
         assert walking.tally.steps == 2
         solved: list[Any] = list(walking.tally.solved)

@@ -8,12 +8,13 @@ import numpy as np
 import pytest
 
 from made_up_players import clock
-from stepaside.control import Phase
+from made_up_robot import walk_of
 from stepaside.core.errors import ConfigurationError, ReachError
 from stepaside.games.outcome import Outcome
 from stepaside.games.support_foot_columns import upright_samples
 from stepaside.games.walk_game import WalkGame, run_walk
 from stepaside.games.walk_settings import WalkSettings
+from stepaside.locomotion.walk_snapshots import Phase
 from stepaside.locomotion.zmp.control_settings import STABILISED
 from stepaside.locomotion.zmp.mpc import MpcResult
 from stepaside.planning import Direction
@@ -72,11 +73,11 @@ def test_a_fall_is_detected_by_truth_reach_or_the_robot_itself() -> None:
     walking = WalkGame(WalkSettings())
     assert walking.tick() is None
     scheme: Any = walking.walker.scheme
-    scheme.phase = Phase.FALLEN
+    walk_of(scheme).phase = Phase.FALLEN
     scheme.update = lambda measured: scheme.joint_targets
     assert walking.tick() is Outcome.FALL
     assert walking.message == "walker fell at 0.01 s"
-    scheme.phase = Phase.WALKING
+    walk_of(scheme).phase = Phase.WALKING
     assert walking.tick() is None
     data = walking.world.data
     data.qpos[2:7] = (1.0, 0.5**0.5, 0.5**0.5, 0.0, 0.0)
@@ -175,7 +176,7 @@ def test_feedback_is_summarised(monkeypatch: pytest.MonkeyPatch) -> None:
     tick = WalkGame.tick
 
     def adapted(walking: WalkGame) -> Outcome | None:
-        balance: Any = walking.walker.scheme.balance
+        balance: Any = walk_of(walking.walker.scheme).balance
         balance.stabiliser.adapted = 7
         answer = solved(walking.world.ticks)
         balance.stabiliser.zmp_feedback.solved = answer

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from made_up_robot import measure
+from made_up_robot import measure, walk_of
 from stepaside.control.scheme_builder import build_balance, build_scheme
 from stepaside.control.sight_sources import CameraSight, MeasuredSight
 from stepaside.control.turn_calibration import TurnCalibration
@@ -193,13 +193,17 @@ def test_settings_open_or_close_the_loop() -> None:
 @pytest.mark.parametrize("seen", [None, Sighting(0.0, 0.1, 2.0)])
 def test_a_scheme_is_built_without_a_simulation(seen: Sighting | None) -> None:
     wish = Pursuit()
-    mind = build_scheme(wish, NAO, GAIT, OPEN_LOOP, tick=0.004, sighting=seen)
-    assert mind.decisions.strategy is wish and mind.settings is GAIT
-    assert isinstance(mind.balance, OpenLoop)
+    mind = build_scheme(
+        wish, NAO, GAIT, OPEN_LOOP, tick=0.004, senses=MeasuredSight(seen)
+    )
+    assert mind.decisions.strategy is wish and mind.gait is GAIT
+    assert isinstance(walk_of(mind).balance, OpenLoop)
     assert isinstance(mind.senses, MeasuredSight)
     assert mind.joint_targets.shape == (len(mind.kinematics.joint_names),)
     targets = mind.update(measure(0.0, distance=None))
-    assert mind.sighting == seen and (mind.plan is None) is (seen is None)
+    assert mind.sighting == seen and (mind.state.plan is None) is (
+        seen is None
+    )
     assert targets is mind.joint_targets
 
 
@@ -214,10 +218,13 @@ def test_a_scheme_uses_its_perception() -> None:
     around = SimpleNamespace(behind=True)
     eyes: Any = SimpleNamespace(forward=ForwardKinematics(NAO), around=around)
     mind = build_scheme(
-        *(Pursuit(), NAO, GAIT, STABILISED), tick=0.004, perception=eyes
+        *(Pursuit(), NAO, GAIT, STABILISED),
+        tick=0.004,
+        senses=CameraSight(eyes, tick=0.004),
     )
     assert isinstance(mind.senses, CameraSight)
     assert mind.senses.perception is eyes and not around.behind
-    assert isinstance(mind.balance, ClosedLoop)
+    balance = walk_of(mind).balance
+    assert isinstance(balance, ClosedLoop)
     # The measured body is worked out once, for eyes and balance.
-    assert mind.balance.stabiliser.estimator._kinematics is eyes.forward
+    assert balance.stabiliser.estimator._kinematics is eyes.forward

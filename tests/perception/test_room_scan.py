@@ -8,6 +8,7 @@ import pytest
 from made_up_eyes import HEAD, NAO
 from made_up_robot import GAIT, FakeStrategy
 from stepaside.control.scheme_builder import build_scheme
+from stepaside.control.sight_sources import CameraSight
 from stepaside.core.poses import Array
 from stepaside.locomotion.zmp.control_settings import OPEN_LOOP
 from stepaside.perception.colour_detector import RED
@@ -137,6 +138,6 @@ def test_a_robot_that_walks_backward_scans_behind(
         GAIT,
         OPEN_LOOP,
         tick=TICK,
-        perception=perception,
+        senses=CameraSight(perception, tick=TICK),
     )
     assert perception.around.behind is (direction is Direction.BACKWARD)

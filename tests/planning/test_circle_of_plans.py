@@ -10,8 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from made_up_robot import FakeLegs
-from stepaside.control.scheme import ControlScheme
+from made_up_robot import FakeLegs, scheme_of
 from stepaside.core.poses import Array, Pose, wrap_angle
 from stepaside.perception.measurement import Measurement, Sighting
 from stepaside.planning import Foot, GaitSettings
@@ -36,13 +35,13 @@ class Ghost:
     ) -> None:
         legs: Any = FakeLegs()
         self.legs, self.frame, self.lead = legs, frame, gait.zmp_forward
-        self.scheme = ControlScheme(
+        self.scheme = scheme_of(
             strategy, gait, legs, tick=TICK, first_foot=foot
         )
 
     def pose(self) -> Pose:
         """Place, and heading of the torso: midway between the feet's."""
-        body = self.scheme.reference
+        body = self.scheme.state.reference
         apart = wrap_angle(body.left_foot[3] - body.right_foot[3])
         heading = body.right_foot[3] + 0.5 * apart
         self.legs.torso_heading = heading

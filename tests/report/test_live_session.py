@@ -11,13 +11,13 @@ import numpy as np
 import pytest
 
 from onlooker import look_away, look_on
-from stepaside.control import Phase
 from stepaside.core.errors import ConfigurationError, StepAsideError
 from stepaside.games.approach_forecast import CourseApproach
 from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.run_archive import load_run
 from stepaside.games.walker import SimulatedPlayer
+from stepaside.locomotion.walk_snapshots import Phase
 from stepaside.report.viewer import live_session as live
 from stepaside.report.viewer import plot_history as trails
 from stepaside.report.viewer import run_saving as saving
@@ -253,11 +253,11 @@ def test_the_hand_steers_the_same_planner(session: LiveSession) -> None:
 
     hold(TeleoperatedPursuit(turn=1.0, going=True))
     run_until(session, 3.0)
-    plan = scheme.plan
+    plan = scheme.state.plan
     assert plan is not None and plan.bearing == pytest.approx(TURN)
     hold(TeleoperatedPursuit(turn=-0.5, going=True))
     run_until(session, 4.5)
-    plan = scheme.plan
+    plan = scheme.state.plan
     assert plan is not None and plan.bearing == pytest.approx(-0.5 * TURN)
     hold(TeleoperatedPursuit(turn=-0.5, going=False))
     run_until(session, 8.0)

@@ -127,7 +127,10 @@ def test_a_live_duel_can_be_watched_pushed_and_driven(browser: Any) -> None:
 
         press(page, "left")
         mind = pursuer.scheme
-        until(page, lambda: (p := mind.plan) is not None and p.bearing > 0.8)
+        until(
+            page,
+            lambda: (p := mind.state.plan) is not None and p.bearing > 0.8,
+        )
         page.get_by_text("the evader survived").wait_for()
 
         press(page, "Pause")

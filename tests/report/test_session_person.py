@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 from fake_page import Gui
-from stepaside.control import Phase
 from stepaside.core.errors import ConfigurationError
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.person_player import PersonPlayer
 from stepaside.games.walker import SimulatedPlayer
+from stepaside.locomotion.walk_snapshots import Phase
 from stepaside.report.viewer.drive_panel import DrivePanel, add_push
 from stepaside.report.viewer.live_drawing import draw_session
 from stepaside.report.viewer.live_session import LiveSession

@@ -9,10 +9,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from invented_run import run_of
-from stepaside.control import Phase
 from stepaside.games.approach_forecast import CourseApproach, estimate_approach
 from stepaside.games.duel_run import DuelRun
 from stepaside.games.trajectory import Trajectory
+from stepaside.locomotion.walk_snapshots import Phase
 from stepaside.report.viewer.status_text import outlook, status_text
 
 SPEED = st.floats(-2.0, 2.0)

@@ -140,7 +140,7 @@ def test_a_step_is_kept_only_when_it_begins(session: LiveSession) -> None:
     assert list(session.trail.steps["pursuer"]) == told
     assert 2 <= len(told) <= 5
     last = told[-1]
-    assert last.plan is walker(session, 0).scheme.plan
+    assert last.plan is walker(session, 0).scheme.state.plan
 
 
 def test_the_newest_image_of_each_camera_is_handed_out_once(

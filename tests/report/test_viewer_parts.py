@@ -10,12 +10,11 @@ import numpy as np
 import pytest
 
 from fake_page import Gui, Scene
-from stepaside.control import Phase
-from stepaside.control.walk_snapshots import StepStarted, WalkState
 from stepaside.core.poses import Array, Pose
 from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.walker import SimulatedPlayer
+from stepaside.locomotion.walk_snapshots import Phase, StepStarted, WalkState
 from stepaside.perception.images import ColourImage
 from stepaside.planning import Foot, SoleRectangle
 from stepaside.planning.support_polygon import sole_corners

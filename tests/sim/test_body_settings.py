@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from made_up_robot import scheme_of
 from stepaside.control import ControlScheme
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array, Pose
@@ -157,7 +158,7 @@ def test_a_push_applies_its_impulse_in_the_robot_frame() -> None:
     description = load_robot("nao")
     kinematics = LegKinematics(description, tick=0.004)
     world = World({"walker": description}, PhysicsSettings())
-    scheme = ControlScheme(
+    scheme = scheme_of(
         Walk(),
         GaitSettings(),
         kinematics,

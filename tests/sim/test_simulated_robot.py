@@ -8,12 +8,14 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.control import ControlScheme, Phase
+from made_up_robot import walk_of
+from stepaside.control import ControlScheme
 from stepaside.control.sight_sources import CameraSight, MeasuredSight
 from stepaside.core.poses import Array, Pose
 from stepaside.core.random_streams import named_generator
 from stepaside.games.walker import SimulatedPlayer
 from stepaside.games.walker_factory import place_walker
+from stepaside.locomotion.walk_snapshots import Phase
 from stepaside.locomotion.zmp.control_settings import OPEN_LOOP, STABILISED
 from stepaside.locomotion.zmp.feedback_loop import ClosedLoop, OpenLoop
 from stepaside.locomotion.zmp.stabiliser import Stabiliser
@@ -76,8 +78,9 @@ def stand(
 
 
 def stabiliser_of(scheme: ControlScheme) -> Stabiliser:
-    assert isinstance(scheme.balance, ClosedLoop)
-    return scheme.balance.stabiliser
+    balance = walk_of(scheme).balance
+    assert isinstance(balance, ClosedLoop)
+    return balance.stabiliser
 
 
 def test_a_robot_starts_at_its_odometry_frame() -> None:
@@ -258,7 +261,7 @@ def test_without_a_generator_sensors_are_exact() -> None:
 
 def test_feedback_makes_the_imu_average() -> None:
     robot, scheme = stand(feedback=True)
-    assert isinstance(scheme.balance, ClosedLoop)
+    assert isinstance(walk_of(scheme).balance, ClosedLoop)
     data = robot.world.data
     (average,) = robot.world.before_step
     for reading in (1.0, 3.0):
@@ -269,7 +272,7 @@ def test_feedback_makes_the_imu_average() -> None:
     np.testing.assert_allclose(measured.gyro, 2.0)
     np.testing.assert_allclose(measured.accelerometer, 4.0)
     plain, open_loop = stand()
-    assert isinstance(open_loop.balance, OpenLoop)
+    assert isinstance(walk_of(open_loop).balance, OpenLoop)
     assert plain.world.before_step == []
 
 
@@ -371,9 +374,9 @@ def test_a_walker_reads_decides_and_writes() -> None:
 def test_a_walker_has_fallen_by_truth_or_estimate() -> None:
     made = walker()
     assert not made.has_fallen
-    made.scheme.phase = Phase.FALLEN
+    walk_of(made.scheme).phase = Phase.FALLEN
     assert made.has_fallen
-    made.scheme.phase = Phase.WALKING
+    walk_of(made.scheme).phase = Phase.WALKING
     at, data = made.robot.qpos_slice.start, made.robot.world.data
     data.qpos[at + 3 : at + 7] = (0.5**0.5, 0.5**0.5, 0.0, 0.0)
     mujoco.mj_kinematics(made.robot.world.model, data)
@@ -390,7 +393,7 @@ def test_a_snapshot_holds_an_instant_of_a_walker() -> None:
     assert seen.torso == (*truth.position, truth.heading)
     assert seen.com == tuple(truth.com.tolist())
     assert seen.zmp == robot.measured_zmp()
-    assert seen.walk is not None and seen.walk.plan is scheme.plan
+    assert seen.walk is not None and seen.walk.plan is scheme.state.plan
     assert seen.posture is not None
     np.testing.assert_array_equal(seen.posture, robot.posture)
     robot.world.step()

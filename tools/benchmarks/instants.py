@@ -71,7 +71,7 @@ class Torso:
 
 def play(job: Job) -> dict[str, Any]:
     """Return radii and distance of one duel; run in a process of its own."""
-    look, replan = IdealLineOfSight._measure, ControlScheme._replan
+    look, decide = IdealLineOfSight._measure, ControlScheme.decide
 
     def look_at_torsos(sight: Any, now: float) -> Any:
         own, other = sight._own, sight._other
@@ -81,18 +81,21 @@ def play(job: Job) -> dict[str, Any]:
         finally:
             sight._own, sight._other = own, other
 
-    def replan_from_feet(
-        scheme: Any, started: float, support: Any, *rest: Any, **more: Any
-    ) -> None:
-        state, seen = rest
+    def decide_from_feet(
+        scheme: Any, now: float, support: Any, side: Any, *, moving: bool
+    ) -> Any:
+        walk, seen = scheme.state, scheme.sighting
         subtracted = support.theta
         if job.heading == "both feet":
-            feet = scheme.left_foot.theta - scheme.right_foot.theta
-            subtracted = scheme.right_foot.theta + 0.5 * wrap_angle(feet)
+            feet = walk.left_foot.theta - walk.right_foot.theta
+            subtracted = walk.right_foot.theta + 0.5 * wrap_angle(feet)
         path = scheme.decisions.templates.at(seen.time).theta
         bearing = wrap_angle(seen.bearing + path - subtracted)
-        seen = seen._replace(bearing=bearing)
-        replan(scheme, started, support, state, seen, **more)
+        scheme.sighting = seen._replace(bearing=bearing)
+        try:
+            return decide(scheme, now, support, side, moving=moving)
+        finally:
+            scheme.sighting = seen
 
     settings = DuelSettings(seed=job.seed, duration=DURATION)
     by_path, at_place = job.heading == "path", job.point == "place"
@@ -101,7 +104,7 @@ def play(job: Job) -> dict[str, Any]:
             IdealLineOfSight, "_measure", look if at_place else look_at_torsos
         ),
         patch.object(
-            ControlScheme, "_replan", replan if by_path else replan_from_feet
+            ControlScheme, "decide", decide if by_path else decide_from_feet
         ),
     ):
         run = run_duel(settings)

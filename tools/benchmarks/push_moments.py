@@ -100,7 +100,7 @@ def follow(trial: RobustnessTrial) -> dict[str, float | str | bool]:
         mujoco.mj_subtreeVel(model, data)
         velocity = data.subtree_linvel[torso].copy()
         now = world.time
-        step = scheme.step(now)
+        step = scheme.locomotion.step(now)
         waiting = not rows and step.remaining <= 0.0
         if now < push.time or now > landing or waiting:
             before = velocity

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from ..core.poses import Pose
+from ..locomotion.locomotion import MotionRequest
 from ..locomotion.zmp.feedback_loop import Balance
 from ..planning import (
     CenterState,
@@ -12,8 +13,6 @@ from ..planning import (
     ManeuverPlan,
     ManeuverPlanner,
 )
-from ..strategies.knowledge import Intent
-from ..strategies.strategy import Strategy
 from .clearance.guard import Guard, GuardDecision
 
 
@@ -57,8 +56,7 @@ class ManeuverSelection:
 
     def plan(
         self,
-        intent: Intent,
-        strategy: Strategy,
+        request: MotionRequest,
         state: CenterState,
         feet: tuple[Pose, Pose],
         foot: Foot,
@@ -68,8 +66,7 @@ class ManeuverSelection:
         """Plan an intent, or the accepted decision closest to it.
 
         Args:
-            intent: Requested intent.
-            strategy: Strategy that requested it.
+            request: Decision of the player.
             state: Present CoM in the frame of the support foot.
             feet: Poses of support foot and swing foot in odometry.
             foot: Foot that swings.
@@ -83,39 +80,40 @@ class ManeuverSelection:
         swing_start = support.inverse().compose(feet[1])
 
         def plan_of(choice: GuardDecision, state: CenterState) -> ManeuverPlan:
-            direction, request = strategy.direction, choice.intent
+            direction, chosen = request.direction, choice.intent
             if choice.back:
                 direction = Direction(-direction.value)
             plan = self.planner.plan(
-                request.heading,
+                chosen.heading,
                 direction,
                 first_foot=foot,
                 state=state,
                 swing_start=swing_start,
                 standing=standing,
-                saturated=strategy.saturated,
-                speed_factor=request.speed_factor,
-                pace=request.pace,
+                saturated=request.saturated,
+                speed_factor=chosen.speed_factor,
+                pace=chosen.pace,
             )
             if self.guard is None:
                 return plan
             return self.guard.adjust_footsteps(plan, support)
 
-        chosen: GuardDecision | None = GuardDecision(intent)
+        intent = request.intent
+        accepted: GuardDecision | None = GuardDecision(intent)
         if self.guard is not None:
             # The fit to the state moves no foot: it can follow the choice.
             def planned(choice: GuardDecision) -> ManeuverPlan:
                 return plan_of(choice, state)
 
             if self._relaxed:
-                chosen = self.guard.choose_escape(intent, planned, support)
+                accepted = self.guard.choose_escape(intent, planned, support)
             else:
-                chosen = self.guard.choose(
+                accepted = self.guard.choose(
                     intent, planned, support, standing=standing
                 )
-        if chosen is None:
+        if accepted is None:
             return None
-        walked = chosen
+        walked = accepted
         if standing:
             return plan_of(walked, state), state
         return self._balance.fit(

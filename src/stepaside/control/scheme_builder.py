@@ -1,13 +1,12 @@
 """Construction of a control scheme from settings."""
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from ..locomotion.zmp.control_settings import ControlSettings
 from ..locomotion.zmp.feedback_loop import Balance, ClosedLoop, OpenLoop
 from ..locomotion.zmp.feedforward import LoadFeedforward
 from ..locomotion.zmp.stabiliser import Stabiliser
 from ..locomotion.zmp.state_estimator import StateEstimator
-from ..perception.measurement import Sighting
 from ..planning import Direction, GaitSettings, ManeuverPlanner
 from ..robots.description import RobotDescription
 from ..robots.forward_kinematics import ForwardKinematics
@@ -17,12 +16,11 @@ from .clearance.footstep_adjustment import FootstepAdjustment
 from .clearance.guard import Guard
 from .clearance.surroundings import Surroundings
 from .clearance.swept_outline import BodyOutline, lateral_sway
+from .maneuver_walk import ManeuverWalk
 from .scheme import ControlScheme
-from .sight_sources import CameraSight, MeasuredSight
+from .sight_sources import CameraSight, MeasuredSight, SightSource
+from .strategy_runner import StrategyRunner
 from .turn_calibration import TurnCalibration
-
-if TYPE_CHECKING:
-    from ..perception.perception import Perception
 
 
 def build_balance(
@@ -38,7 +36,6 @@ def build_balance(
     """Build the balance control that the settings select.
 
     Args:
-        description: Robot description.
         description: Robot description.
         gait: Gait.
         control: Control settings.
@@ -93,11 +90,10 @@ def build_scheme(
     *,
     tick: float,
     delay: float = 0.0,
-    sighting: Sighting | None = None,
-    perception: "Perception | None" = None,
+    senses: SightSource | None = None,
     clearance: ClearanceSetup | None = None,
 ) -> ControlScheme:
-    """Build the control scheme of one robot, for any body.
+    """Build the control scheme of one robot that walks by maneuvers.
 
     Args:
         strategy: Strategy of the player.
@@ -106,41 +102,45 @@ def build_scheme(
         control: Control settings.
         tick: Control period, in [s].
         delay: Time from a command to the motion, in [s].
-        sighting: Initial sighting of the opponent, without perception.
-        perception: Perception from images, for a robot with a camera.
+        senses: Source of sightings; by default those that measurements
+            bring.
         clearance: Known obstacles and required clearance, if any.
 
     Raises:
         ReachError: If the standing posture of the gait is out of reach.
     """
-    kinematics = LegKinematics(description, tick=tick)
-    if perception is not None:
+    forward = None
+    if isinstance(senses, CameraSight):
+        perception = senses.perception
         perception.around.behind = strategy.direction is Direction.BACKWARD
-    scheme = ControlScheme(
-        strategy,
+        forward = perception.forward
+    kinematics = LegKinematics(description, tick=tick)
+    walk = ManeuverWalk(
         gait,
         kinematics,
-        tick=tick,
-        delay=delay,
-        balance=build_balance(
+        build_balance(
             description,
             gait,
             control,
             tick=tick,
             delay=delay,
             kinematics=kinematics,
-            forward=None if perception is None else perception.forward,
+            forward=forward,
         ),
-        senses=MeasuredSight(sighting)
-        if perception is None
-        else CameraSight(perception, tick=tick),
+        tick=tick,
+        delay=delay,
         guard=None
         if clearance is None
         else build_guard(clearance, gait, control),
     )
-    if control.learn_turns:
-        scheme.decisions.turns = TurnCalibration(tick)
-    return scheme
+    decisions = StrategyRunner(
+        strategy,
+        gait,
+        tick,
+        None if clearance is None else clearance.surroundings,
+        TurnCalibration(tick) if control.learn_turns else None,
+    )
+    return ControlScheme(decisions, walk, senses or MeasuredSight())
 
 
 def build_guard(

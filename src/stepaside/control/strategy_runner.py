@@ -53,6 +53,7 @@ class StrategyRunner(DecisionMaker):
         gait: GaitSettings,
         tick: float,
         surroundings: Surroundings | None = None,
+        turns: TurnCalibration | None = None,
     ) -> None:
         """Begin without a sighting.
 
@@ -61,6 +62,7 @@ class StrategyRunner(DecisionMaker):
             gait: Gait.
             tick: Control period, in [s].
             surroundings: Known obstacles; none by default.
+            turns: Calibration of the turning rate; none by default.
         """
         super().__init__(
             strategy,
@@ -70,7 +72,7 @@ class StrategyRunner(DecisionMaker):
         self.pace = 1.0
         self.headings: StateHistory[float] = StateHistory(tick)
         self.templates: StateHistory[Pose] = StateHistory(tick)
-        self.turns: TurnCalibration | None = None
+        self.turns = turns
         self._spacing = gait.foot_spacing
         self._track = 0
 

@@ -7,10 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
-from ..control import Phase
-from ..control.walk_snapshots import StepStarted, WalkState
 from ..core.atomic_output import atomic_draft, check_folder
 from ..core.poses import Array
+from ..locomotion.walk_snapshots import Phase, StepStarted, WalkState
 from .joint.joint_loop import JointTick
 from .joint.safety import RobotState
 from .row_file import RowWriter

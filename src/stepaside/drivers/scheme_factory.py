@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 
 from ..control import ControlScheme
 from ..control.scheme_builder import build_scheme
+from ..control.sight_sources import CameraSight
 from ..core.errors import ConfigurationError
 from ..locomotion.zmp.control_settings import ControlSettings
 from ..planning import GaitSettings
@@ -52,9 +53,9 @@ def control_scheme_factory(
             control,
             tick=tick,
             delay=delay_ticks * tick,
-            perception=None
+            senses=None
             if perceive is None
-            else perceive(description, tick),
+            else CameraSight(perceive(description, tick), tick=tick),
         )
 
     return make

@@ -12,6 +12,7 @@ import numpy as np
 
 from ..control.scheme import ControlScheme
 from ..control.scheme_builder import build_scheme
+from ..control.sight_sources import MeasuredSight
 from ..core.poses import Array
 from ..locomotion.zmp.control_settings import OPEN_LOOP
 from ..perception.measurement import Measurement, Sighting
@@ -84,8 +85,8 @@ def step_loads(
     dynamics = LegLoads(legs, zmp_forward=gait.zmp_forward, tick=TICK)
     by_swing_foot: dict[bool, list[Array]] = {True: [], False: []}
     for _ in _walk(scheme, gait):
-        body = scheme.reference
-        required = np.abs(dynamics.torques(body, scheme.zmp_reference))
+        body = scheme.state.reference
+        required = np.abs(dynamics.torques(body, scheme.state.zmp_reference))
         left, right = (
             f[2] > LIFTED for f in (body.left_foot, body.right_foot)
         )
@@ -198,7 +199,7 @@ def _scheme(
         gait,
         OPEN_LOOP,
         tick=TICK,
-        sighting=Sighting(0.0, 0.0, inf),
+        senses=MeasuredSight(Sighting(0.0, 0.0, inf)),
     )
 
 

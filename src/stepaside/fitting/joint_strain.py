@@ -66,7 +66,7 @@ class StrainGauge:
             self._standing = np.maximum(self._standing, loads)
             walker = match.players[0]
             assert isinstance(walker, SimulatedPlayer)
-            height = walker.scheme.reference.com[2]
+            height = walker.scheme.state.reference.com[2]
             self._sags.append(height - float(walker.truth.com[2]))
         self._walking = np.maximum(self._walking, loads)
 

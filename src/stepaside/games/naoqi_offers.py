@@ -39,9 +39,9 @@ class NaoqiOffer(NamedTuple):
             self.url,
             player,
             walker.scheme.kinematics.joint_names,
-            VelocityCommand(*velocity_limits(walker.scheme.settings)),
+            VelocityCommand(*velocity_limits(walker.scheme.gait)),
             tick=TICK,
-            gait=walker.scheme.settings,
+            gait=walker.scheme.gait,
         )
         player.commander = server
         return OfferedPlayer(player, server)

@@ -3,9 +3,9 @@
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from ..control.walk_snapshots import StepStarted
 from ..core.errors import ConfigurationError
 from ..core.poses import Pose
+from ..locomotion.walk_snapshots import StepStarted
 from ..sim.ground_truth import GroundTruth
 from ..sim.person_body import PersonBody
 from ..sim.push import Push

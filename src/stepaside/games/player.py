@@ -4,8 +4,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
-from ..control.walk_snapshots import StepStarted, WalkState
 from ..core.poses import Array, Pose
+from ..locomotion.walk_snapshots import StepStarted, WalkState
 from ..sim.ground_truth import GroundTruth
 from ..sim.push import Push, ScheduledPush
 from ..sim.true_stance import TrueStance

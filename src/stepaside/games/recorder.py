@@ -4,8 +4,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..control.walk_snapshots import StepStarted
 from ..core.poses import Array, Pose
+from ..locomotion.walk_snapshots import StepStarted
 from ..planning import Foot, ManeuverPlan
 from ..sim.push import ScheduledPush
 from .match import Match

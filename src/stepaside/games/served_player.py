@@ -5,9 +5,9 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
-from ..control.walk_snapshots import StepStarted
 from ..core.constants import GRAVITY
 from ..core.poses import Array
+from ..locomotion.walk_snapshots import StepStarted
 from ..perception.measurement import Measurement
 from ..sim.ground_truth import GroundTruth
 from ..sim.push import Push

@@ -3,7 +3,6 @@
 from collections.abc import Mapping
 from typing import Protocol
 
-from ..control import Phase
 from ..control.sight_sources import MeasuredSight
 from ..control.turn_calibration import TurnCalibration
 from ..control.velocity_walk import limit_velocity, strategy_at_velocity
@@ -11,6 +10,7 @@ from ..core.poses import Array, Pose, wrap_angle
 from ..drivers.velocity.footstep_commands import FootCommand
 from ..drivers.velocity.velocity_body import REST, VelocityCommand
 from ..drivers.velocity.walking_robot import WalkerState
+from ..locomotion.walk_snapshots import Phase
 from ..perception.images import ColourImage, SonarEcho
 from ..perception.measurement import Measurement, Sighting
 from ..planning import Direction, Foot
@@ -76,11 +76,11 @@ class VelocityWalker(SimulatedPlayer):
         if scheme.phase is Phase.STANDING:
             self._walking_direction = None
         measurement = self._read()
-        forward, turn = limit_velocity(*self._velocity, scheme.settings)
+        forward, turn = limit_velocity(*self._velocity, scheme.gait)
         strategy = strategy_at_velocity(
             forward,
             turn / self._turns.share,
-            scheme.settings,
+            scheme.gait,
             under_way=self._walking_direction,
         )
         scheme.decisions.adopt(strategy)
@@ -105,7 +105,7 @@ class VelocityWalker(SimulatedPlayer):
         measurement = self._read()
         now, scheme = measurement.time, self.scheme
         walk = scheme.state
-        velocity = limit_velocity(*self._velocity, scheme.settings)
+        velocity = limit_velocity(*self._velocity, scheme.gait)
         return WalkerState(
             now,
             scheme.decisions.templates.at(now),
@@ -121,7 +121,7 @@ class VelocityWalker(SimulatedPlayer):
 
     def lead_with(self, foot: Foot) -> None:
         """Make the first step with a foot, if the robot stands."""
-        self.scheme.lead_with(foot)
+        self.scheme.locomotion.lead_with(foot)
 
     def _present_step(self, now: float) -> FootCommand | None:
         """Return the step in progress, with its remaining time."""

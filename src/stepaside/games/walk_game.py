@@ -48,7 +48,7 @@ class WalkTally:
         walker = self._walker
         if walker.begun is not None:
             self.steps += 1
-        solved = walker.scheme.balance.solved
+        solved = walker.scheme.state.solved
         if solved is not None and self._keeps_answers:
             self.solved.append(solved)
 
@@ -139,7 +139,7 @@ class WalkGame(Match):
             tracks[WALKER],
             StepCounts(
                 self.tally.steps,
-                walker.scheme.balance.adapted,
+                walker.scheme.state.adapted,
                 (0.0, 0.0) if pusher is None else pusher.impulse,
                 recorder.planning()[WALKER].zmp_margin,
                 tuple(self.tally.solved),

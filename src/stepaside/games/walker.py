@@ -3,10 +3,10 @@
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from ..control import ControlScheme, Phase
+from ..control import ControlScheme
 from ..control.sight_sources import CameraSight
-from ..control.walk_snapshots import StepStarted
 from ..core.poses import Pose
+from ..locomotion.walk_snapshots import Phase, StepStarted
 from ..sim.ground_truth import GroundTruth
 from ..sim.push import Push
 from ..sim.simulated_robot import SimulatedRobot

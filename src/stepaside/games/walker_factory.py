@@ -12,6 +12,7 @@ from ..control.clearance.surroundings import (
 )
 from ..control.clearance.swept_outline import lateral_sway
 from ..control.scheme_builder import ClearanceSetup, build_scheme
+from ..control.sight_sources import CameraSight, MeasuredSight
 from ..core.poses import Pose
 from ..core.random_streams import named_generator
 from ..locomotion.zmp.control_settings import ControlSettings
@@ -93,8 +94,9 @@ def place_walker(
         control,
         tick=tick,
         delay=body.delay_cycles * tick,
-        sighting=sighting,
-        perception=perception,
+        senses=MeasuredSight(sighting)
+        if perception is None
+        else CameraSight(perception, tick=tick),
         clearance=clearance,
     )
     robot = SimulatedRobot(

@@ -131,10 +131,10 @@ class _TickRecorder:
         scheme, data = self._scheme, self._data
         self.loads[tick] = data.sensordata[self._sensors].sum(axis=1)
         self.feet[tick] = data.site_xpos[self._sites, :2]
-        self.references[tick] = scheme.reference.com[:2]
-        plan = scheme.plan
+        self.references[tick] = scheme.state.reference.com[:2]
+        plan = scheme.state.plan
         if plan is not self._plan and plan is not None:
             standing = plan.schedule.standing
-            start_time = scheme.plan_started
+            start_time = scheme.state.plan_started
             self.plans.append(WalkedPlan(start_time, now, standing))
         self._plan = plan

@@ -4,10 +4,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol
 
-from ...control import ControlScheme, Phase
-from ...control.walk_snapshots import StepStarted, WalkState
+from ...control import ControlScheme
 from ...core.errors import ReachError, StrategyError
 from ...core.poses import Array
+from ...locomotion.walk_snapshots import Phase, StepStarted, WalkState
 from ...perception.measurement import Measurement, Sighting
 from ...strategies import StandStill, Strategy
 from .joint_body import JointBody

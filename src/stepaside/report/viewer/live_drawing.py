@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from ...control.walk_snapshots import StepStarted, WalkState
 from ...core.poses import Array, Pose
+from ...locomotion.walk_snapshots import StepStarted, WalkState
 from ..figure_style import COLOURS, EVADER, PUSHED, THEORY
 from .live_session import LiveSession
 from .scene_layers import (

@@ -10,7 +10,6 @@ from pathlib import Path
 from time import perf_counter, sleep
 from typing import TYPE_CHECKING, NamedTuple
 
-from ...control import Phase
 from ...core.errors import StepAsideError
 from ...core.poses import Array
 from ...games.approach_forecast import CourseApproach
@@ -19,6 +18,7 @@ from ...games.duel_circle import circle_of_theory
 from ...games.duel_settings import DuelSettings
 from ...games.outcome import Outcome
 from ...games.player import Snapshot
+from ...locomotion.walk_snapshots import Phase
 from ...sim.push import Push
 from ..settling_report import settling_time
 from .plot_history import PlotHistory

@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...control.walk_snapshots import StepStarted
 from ...games.approach_forecast import CourseApproach, estimate_approach
 from ...games.duel_circle import angle_between
 from ...games.match import Match
 from ...games.outcome import Outcome
+from ...locomotion.walk_snapshots import StepStarted
 
 if TYPE_CHECKING:
     from ...perception.frame_report import FrameReport

@@ -6,9 +6,9 @@ from math import inf
 import numpy as np
 import viser
 
-from ...control.walk_snapshots import StepStarted, WalkState
 from ...core.convex import convex_hull
 from ...core.poses import Array, Pose
+from ...locomotion.walk_snapshots import StepStarted, WalkState
 from ...planning import Foot, SoleRectangle
 from ...planning.support_polygon import sole_corners
 from ..palette import on_both_floors

@@ -2,10 +2,10 @@
 
 from math import inf, isfinite, log
 
-from ...control import Phase
 from ...games.approach_forecast import CourseApproach, describe_motion
 from ...games.duel import Duel
 from ...games.player import Player
+from ...locomotion.walk_snapshots import Phase
 
 NEAR_DISTANCE = 0.05  # relative tolerance of the distance on the circle
 NEAR_ANGLE = 5.0  # tolerance of the angle on the circle, in [deg]

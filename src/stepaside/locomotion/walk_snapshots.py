@@ -1,20 +1,24 @@
 """State of a walking robot at one tick, as values."""
 
 from dataclasses import dataclass
+from enum import Enum
 from typing import NamedTuple
 
 from ..core.poses import Pose
-from ..locomotion.zmp.current_step import (
-    CurrentStep,
-    first_step_of,
-    resting_step,
-)
-from ..locomotion.zmp.mpc import MpcResult
-from ..locomotion.zmp.state_estimator import BodyState
-from ..perception.measurement import Sighting
 from ..planning import Foot, GaitSettings, ManeuverPlan
 from ..robots.leg_kinematics import BodyReference
-from .phase import Phase
+from .zmp.current_step import CurrentStep, first_step_of, resting_step
+from .zmp.mpc import MpcResult
+from .zmp.state_estimator import BodyState
+
+
+class Phase(Enum):
+    """Phase of motion of a robot, by its own estimate."""
+
+    STANDING = "standing"
+    WALKING = "walking"
+    HALTING = "halting"
+    FALLEN = "fallen"
 
 
 class StepStarted(NamedTuple):
@@ -54,7 +58,6 @@ class WalkState:
         first_foot: Foot that swings now, or will swing first.
         reference: Body reference.
         zmp_reference: ZMP reference, in [m].
-        sighting: Last sighting of the opponent; None if it is lost.
         torso_heading: Reference heading of the torso, in [rad].
         estimate: Estimated state of the body, if any.
         solved: Result of the MPC at this tick, if it ran.
@@ -71,7 +74,6 @@ class WalkState:
     first_foot: Foot
     reference: BodyReference
     zmp_reference: tuple[float, float]
-    sighting: Sighting | None
     torso_heading: float
     estimate: BodyState | None
     solved: MpcResult | None

@@ -1,0 +1,305 @@
+"""Locomotion of the paper: a maneuver is planned for every step."""
+
+from time import process_time
+
+from ..core.poses import Array, Pose
+from ..locomotion.locomotion import IntentSource, VelocityBounds
+from ..locomotion.walk_snapshots import Phase, StepStarted, WalkState
+from ..locomotion.zmp.current_step import (
+    CurrentStep,
+    first_step_of,
+    resting_step,
+)
+from ..locomotion.zmp.feedback_loop import Balance, OpenLoop
+from ..locomotion.zmp.reference_table import (
+    ReferenceSample,
+    ReferenceTable,
+    resting_sample,
+)
+from ..perception.measurement import Measurement
+from ..planning import CenterState, Foot, GaitSettings, ManeuverPlan
+from ..planning.steady_gait import landing_state
+from ..robots.leg_kinematics import BodyReference, LegKinematics
+from .clearance.guard import Guard
+from .maneuver_selection import ManeuverSelection
+from .velocity_walk import velocity_limits
+
+SETTLING = 1.0  # how long a halted robot takes to come to rest, in [s]
+RETRY_PERIOD = 0.2  # between attempts of a blocked robot, in [s]
+
+
+class ManeuverWalk:
+    """Walk by maneuvers (Sec. III), planned at the end of each step.
+
+    All poses are in the robot's own odometry: the frame midway between its
+    feet at the start. No history is stored: a recorder reads ``begun`` after
+    each tick. See :class:`.locomotion.Locomotion`.
+
+    Attributes:
+        gait: Gait.
+        kinematics: Joint motion generation.
+        balance: Balance control.
+        phase: Phase of motion.
+        plan: Maneuver being walked; None while standing.
+        plan_frame: Pose of its frame in odometry.
+        plan_started: When it began, in [s].
+        reference: Body reference of this tick, in odometry.
+        left_foot: Last stance pose of the left foot, in odometry.
+        right_foot: Last stance pose of the right foot, likewise.
+        begun: Step that began at this tick; None if none did.
+        joint_targets: Joint targets of this tick, in [rad]. Shape (joints,).
+        pose_delay: Time from a tick until the body is at its pose, in [s].
+    """
+
+    def __init__(
+        self,
+        gait: GaitSettings,
+        kinematics: LegKinematics,
+        balance: Balance | None = None,
+        *,
+        tick: float,
+        delay: float = 0.0,
+        first_foot: Foot = Foot.LEFT,
+        guard: Guard | None = None,
+    ) -> None:
+        """Take the standing posture.
+
+        Args:
+            gait: Gait.
+            kinematics: Joint motion generation of the robot.
+            balance: Balance control; none by default, the plan alone.
+            tick: Control period, in [s].
+            delay: Time from a command to the motion, in [s].
+            first_foot: Foot that makes the first step.
+            guard: Guard against obstacles; none by default.
+
+        Raises:
+            ReachError: If the standing posture of the gait is out of reach.
+        """
+        self.gait = gait
+        self.kinematics = kinematics
+        self.balance: Balance = OpenLoop() if balance is None else balance
+        self.phase = Phase.STANDING
+        self.reference: BodyReference
+        self._resting: ReferenceSample
+        self._sample: ReferenceSample
+        self.plan: ManeuverPlan | None = None
+        self.plan_frame = Pose(0.0, 0.0, 0.0)
+        self.plan_started = self._blocked_until = self._plan_ends = 0.0
+        half = 0.5 * gait.foot_spacing
+        self.left_foot = Pose(0.0, half, 0.0)
+        self.right_foot = Pose(0.0, -half, 0.0)
+        self.begun: StepStarted | None = None
+        self.pose_delay = delay + tick
+        self._delay, self._pace = delay, 1.0
+        self._maneuvers = ManeuverSelection(gait, self.balance, guard)
+        self._first_foot = first_foot
+        self._table = ReferenceTable(tick)
+        self._stand()
+        self.joint_targets: Array = kinematics.stand(self.reference)
+
+    @property
+    def velocity_bounds(self) -> VelocityBounds:
+        """Greatest velocities of the gait."""
+        speed, turn = velocity_limits(self.gait)
+        return VelocityBounds(speed, 0.0, turn)
+
+    @property
+    def torso_heading(self) -> float:
+        """Heading of the torso, as measured if feedback does so, in [rad]."""
+        measured = self.balance.torso_heading
+        return self.kinematics.torso_heading if measured is None else measured
+
+    @property
+    def heading_delay(self) -> float:
+        """Time until the torso has that heading, in [s]."""
+        return self._delay if self.balance.torso_heading is None else 0.0
+
+    @property
+    def pose(self) -> Pose:
+        """Pose of the template unicycle, in odometry."""
+        return self._sample.template
+
+    @property
+    def tilt(self) -> tuple[float, float] | None:
+        """Roll and pitch of the torso, in [rad]; None without an estimate."""
+        return self.balance.tilt
+
+    @property
+    def state(self) -> WalkState:
+        """Plan and references of the current tick."""
+        return WalkState(
+            phase=self.phase,
+            gait=self.gait,
+            plan=self.plan,
+            plan_frame=self.plan_frame,
+            plan_started=self.plan_started,
+            left_foot=self.left_foot,
+            right_foot=self.right_foot,
+            first_foot=self._first_foot,
+            reference=self.reference,
+            zmp_reference=self._sample.zmp,
+            torso_heading=self.kinematics.torso_heading,
+            estimate=self.balance.state,
+            solved=self.balance.solved,
+            adapted=self.balance.adapted,
+        )
+
+    def lead_with(self, foot: Foot) -> None:
+        """Choose the foot of the first step, if the robot stands."""
+        if self.plan is None:
+            self._first_foot = foot
+
+    def update(
+        self, measurement: Measurement, decisions: IntentSource
+    ) -> Array:
+        """Run one control tick; see :class:`.locomotion.Locomotion`."""
+        self.begun = None
+        if self.phase is Phase.FALLEN:
+            return self.joint_targets
+        now, balance = measurement.time, self.balance
+        if self._maneuvers.guard is not None:
+            surroundings = self._maneuvers.guard.surroundings
+            surroundings.note(measurement, self.reference)
+        if self.plan is None:
+            self._wait(now, decisions)
+        elif now >= self._plan_ends - 1e-9:
+            self._finish(self.plan, decisions)
+        sample = self._resting if self.plan is None else self._table.at(now)
+        self._sample = sample
+        self.reference = balance.update(measurement, sample, self.step)
+        if balance.has_fallen:
+            self.phase, self.plan = Phase.FALLEN, None
+            return self.joint_targets
+        targets = self.kinematics.track(self.reference)
+        self.joint_targets = balance.correct(measurement, targets)
+        return self.joint_targets
+
+    def _stand(self) -> None:
+        """Come to rest midway between the feet."""
+        self.phase, self.plan = Phase.STANDING, None
+        self._resting = self._sample = resting_sample(
+            self.left_foot, self.right_foot, self.gait
+        )
+        self.reference = self._resting.body
+
+    def _wait(self, now: float, decisions: IntentSource) -> None:
+        """Stand until the player requests motion."""
+        if not self.balance.ready or now < self._blocked_until:
+            return
+        if not decisions.starts(now):
+            return
+        x, y, _ = self.reference.com
+        for _ in self._maneuvers.start_attempts():
+            support = self._support(self._first_foot)
+            rest = support.inverse().compose(Pose(x, y, 0.0))
+            state = CenterState(rest[:2], (0.0, 0.0))
+            self._replan(now, support, state, decisions, standing=True)
+            if self.plan is not None or not self._blocked_until > now:
+                return
+            # Starting with the other foot sways to the other side first.
+            self._first_foot = self._first_foot.other
+
+    def _finish(self, plan: ManeuverPlan, decisions: IntentSource) -> None:
+        """End a step: the landed foot becomes the support, then replan."""
+        landed = self.plan_frame.compose(Pose(*plan.placements[2].tolist()))
+        position, velocity = landing_state(plan)
+        landed, position, velocity = self.balance.land(
+            landed, position, velocity, self.step(self._plan_ends)
+        )
+        state = CenterState(position, velocity)
+        if plan.first_foot is Foot.LEFT:
+            self.left_foot = landed
+        else:
+            self.right_foot = landed
+        if self.phase is Phase.HALTING:
+            self._stand()
+            return
+        self._first_foot = plan.first_foot.other
+        ended = self.plan_started + plan.schedule.first_step_duration
+        self._replan(ended, landed, state, decisions, standing=False)
+
+    def _replan(
+        self,
+        started: float,
+        support: Pose,
+        state: CenterState,
+        decisions: IntentSource,
+        *,
+        standing: bool,
+    ) -> None:
+        """Plan the decided maneuver, or come to rest (Sec. III-E)."""
+        clock, foot = process_time(), self._first_foot
+        request = decisions.decide(
+            started, support, foot.other, moving=not standing
+        )
+        if request is None:
+            self._halt(started, support, state)
+            return
+        self._pace = request.intent.pace
+        feet = support, self._support(foot.other)
+        selected = None
+        if request.intent.walks:
+            selected = self._maneuvers.plan(
+                request, state, feet, foot, standing=standing
+            )
+        if selected is None:
+            self._blocked_until = (
+                started + RETRY_PERIOD if request.intent.walks else 0.0
+            )
+            if not standing:
+                self._halt(started, support, state)
+            return
+        plan, state = selected
+        spent = process_time() - clock
+        self.phase = Phase.WALKING
+        duration = plan.schedule.first_step_duration
+        self._walk(plan, support, started, duration, state, spent)
+
+    def _halt(self, started: float, support: Pose, state: CenterState) -> None:
+        """Plan the halt that brings the feet abreast."""
+        foot = self._first_foot
+        plan = self._maneuvers.planner.plan_halt(
+            first_foot=foot,
+            state=state,
+            swing_start=support.inverse().compose(self._support(foot.other)),
+            pace=self._pace,
+        )
+        self.phase = Phase.HALTING
+        duration = plan.schedule.duration + SETTLING
+        self._walk(plan, support, started, duration, state, None)
+
+    def _walk(
+        self,
+        plan: ManeuverPlan,
+        frame: Pose,
+        started: float,
+        duration: float,
+        state: CenterState,
+        spent: float | None,
+    ) -> None:
+        """Replace the current plan."""
+        self.plan, self.plan_frame, self.plan_started = plan, frame, started
+        self._plan_ends = started + duration
+        self._table.load(plan, frame, started, duration)
+        landing = plan.schedule.first_step_duration
+        landing += started - plan.gait.double_support
+        landed = frame.compose(Pose(*plan.placements[2].tolist()))
+        vx, vy = plan.start_velocity.tolist()
+        jump = max(abs(vx - state.velocity[0]), abs(vy - state.velocity[1]))
+        self.begun = StepStarted(
+            plan, started, landing, plan.first_foot, landed, spent, jump
+        )
+
+    def step(self, now: float) -> CurrentStep:
+        """Return the step in progress at a time, in [s]."""
+        if self.plan is None:
+            foot = self._first_foot
+            return resting_step(self._support(foot), foot)
+        return first_step_of(
+            self.plan, self.plan_frame, now - self.plan_started
+        )
+
+    def _support(self, swing: Foot) -> Pose:
+        """Return the support foot while the other swings, in odometry."""
+        return self.right_foot if swing is Foot.LEFT else self.left_foot

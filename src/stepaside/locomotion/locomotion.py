@@ -1,0 +1,140 @@
+"""Interface between a controller that decides and one that walks."""
+
+from typing import NamedTuple, Protocol
+
+from ..core.poses import Array, Pose
+from ..perception.measurement import Measurement
+from ..planning import Direction, Foot
+from ..robots.leg_kinematics import LegKinematics
+from ..strategies.knowledge import Intent
+from .walk_snapshots import Phase, StepStarted, WalkState
+from .zmp.current_step import CurrentStep
+
+
+class VelocityBounds(NamedTuple):
+    """Greatest velocities that a locomotion delivers, in its body frame.
+
+    Attributes:
+        forward: Speed ahead, in [m/s].
+        sideways: Speed to either side, in [m/s]; 0 for a unicycle.
+        turn: Turning rate, in [rad/s].
+    """
+
+    forward: float
+    sideways: float
+    turn: float
+
+
+class MotionRequest(NamedTuple):
+    """Decision of a player, for its locomotion.
+
+    Attributes:
+        intent: Desired heading and speed, in the frame of the decision.
+        direction: Whether the body drives forward or backward.
+        saturated: Whether it turns by (6) instead of (8).
+    """
+
+    intent: Intent
+    direction: Direction
+    saturated: bool
+
+
+class IntentSource(Protocol):
+    """Decisions of a player, evaluated when its locomotion can use one."""
+
+    def starts(self, now: float) -> bool:
+        """Return whether a standing robot starts to walk.
+
+        Args:
+            now: Time of the decision, in [s].
+        """
+
+    def decide(
+        self, now: float, support: Pose, side: Foot, *, moving: bool
+    ) -> MotionRequest | None:
+        """Decide on the next step.
+
+        Args:
+            now: Time at which the step begins, in [s].
+            support: Pose of its support foot in odometry: the frame of the
+                intent.
+            side: Side of the support foot.
+            moving: Whether the robot is walking.
+
+        Returns:
+            The decision; None if the opponent is lost: the robot halts.
+        """
+
+
+class Locomotion(Protocol):
+    """Locomotion of one robot: from decisions to joint targets.
+
+    Poses are in odometry: the frame midway between the feet at the start.
+
+    Attributes:
+        kinematics: Joints of the robot, in the standing posture at first.
+        phase: Phase of motion.
+        begun: Step that began at the last tick; None if none did.
+        joint_targets: Joint targets of the last tick, in [rad]. Shape
+            (joints,).
+        heading_delay: Time from the last tick to the instant at which the
+            torso has ``torso_heading``, in [s].
+        pose: Pose of the template at the last tick, in odometry.
+        pose_delay: Likewise for ``pose``, from the tick that set it, in [s].
+    """
+
+    kinematics: LegKinematics
+    phase: Phase
+    begun: StepStarted | None
+    joint_targets: Array
+
+    @property
+    def velocity_bounds(self) -> VelocityBounds:
+        """Greatest velocities that it delivers."""
+
+    @property
+    def torso_heading(self) -> float:
+        """Heading of the torso in odometry, in [rad]."""
+
+    @property
+    def heading_delay(self) -> float:
+        """Time until the torso has that heading, in [s]."""
+
+    @property
+    def pose(self) -> Pose:
+        """Pose of the template in odometry."""
+
+    @property
+    def pose_delay(self) -> float:
+        """Time from a tick until the body is at its ``pose``, in [s]."""
+
+    @property
+    def tilt(self) -> tuple[float, float] | None:
+        """Roll and pitch of the torso, in [rad]; None without an estimate."""
+
+    @property
+    def state(self) -> WalkState:
+        """Plan and references of the last tick."""
+
+    def step(self, now: float) -> CurrentStep:
+        """Return the step in progress at a time, in [s]."""
+
+    def lead_with(self, foot: Foot) -> None:
+        """Choose the foot of the first step, if the robot stands."""
+
+    def update(
+        self, measurement: Measurement, decisions: IntentSource
+    ) -> Array:
+        """Run one control tick; decide if a decision is due.
+
+        Args:
+            measurement: Measurement of the tick.
+            decisions: Decisions of the player.
+
+        Returns:
+            Joint targets, in [rad]. Shape (joints,).
+
+        Raises:
+            ReachError: If the legs cannot follow the reference.
+            StrategyError: If the strategy returns no intent.
+        """
