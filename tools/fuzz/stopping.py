@@ -43,7 +43,15 @@ LONG = {
     "robot tune": "robot --workers=2",
 }
 # What is through before anybody would stop it.
-SHORT = {"compare", "plan", "unicycles", "room", "robot init", "robot show"}
+SHORT = {
+    "compare",
+    "legs inspect",
+    "plan",
+    "unicycles",
+    "room",
+    "robot init",
+    "robot show",
+}
 # It lets the robot rest before it ends; a second Ctrl-C lets it go limp.
 APART = {"play"}
 MOMENTS = (0.4, 2.0, 4.0, 8.0)  # of processor time, in [s]

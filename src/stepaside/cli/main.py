@@ -32,6 +32,7 @@ COMMANDS = {
     "serve": "Serve simulated robots over LoLA, NAOqi or ROS 2.",
     "reproduce": "Measure every claim of the paper and write a report.",
     "robot": "Show, describe, check or tune a robot.",
+    "legs": "Inspect or measure a learned walking policy.",
 }
 
 

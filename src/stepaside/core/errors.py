@@ -43,6 +43,10 @@ class ModelError(StepAsideError, ValueError):
     """A robot description does not fit its model."""
 
 
+class PolicyError(StepAsideError, ValueError):
+    """A walking policy does not fit its contract or its robot."""
+
+
 class OutputError(StepAsideError, OSError):
     """A result could not be written."""
 

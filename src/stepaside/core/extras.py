@@ -2,6 +2,7 @@
 
 EXTRAS = {  # as in ``pyproject.toml``, with the names of the modules
     "fast": ("numba",),
+    "legs": ("onnxruntime", "yaml"),
     "mpc": ("daqp",),
     "robot": ("msgpack",),
     "naoqi": ("msgpack", "qi"),

@@ -47,6 +47,9 @@ class Measurement(NamedTuple):
         percepts: Images and echoes that arrived since the last tick.
         place: CoM and heading of the torso in the frame of a known room,
             from a localisation sensor; None without one.
+        joint_velocities: Joint velocities, in [rad/s], in the order of the
+            joint angles, from a body that measures them; else None.
+            Shape (joints,).
     """
 
     time: float
@@ -57,3 +60,4 @@ class Measurement(NamedTuple):
     sighting: Sighting | None
     percepts: tuple["Percept", ...] = ()
     place: Pose | None = None
+    joint_velocities: Array | None = None

@@ -49,6 +49,8 @@ class RobotDescription:
         sensors: Names of the sensors in the model.
         place: Reference point and reach.
         overlay: Elements that are added to the model when it is read.
+        locomotion: Walking policy of the robot and its contract; see
+            :mod:`stepaside.locomotion.policy.contract_reader`. Optional.
         lean: Roll of the torso with the CoM over one foot, in [rad], which
             relieves the roll joint of that hip; 0 to 0.3.
     """
@@ -75,6 +77,7 @@ class RobotDescription:
     sensors: SensorNames = SensorNames()
     place: ReferencePoint = ReferencePoint()
     overlay: Overlay = NO_OVERLAY
+    locomotion: dict[str, Any] = field(default_factory=dict)
     lean: float = 0.0
 
     @property

@@ -180,6 +180,7 @@ OPTIONAL: dict[str, Callable[[str, object], Any]] = {
     "gait": _table,
     "sole": _by_name(_number),
     "control": _table,
+    "locomotion": _table,
     "game": _by_name(_number),
     "sensors": _fields(
         SensorNames,

@@ -1,0 +1,16 @@
+"""``stepaside legs``: inspect and measure walking policies."""
+
+from typing import Any
+
+import click
+
+from .legs_inspect import inspect
+
+
+@click.group("legs")
+def legs(**_: Any) -> None:
+    """Inspect a walking policy, or measure how a robot walks with it."""
+
+
+for command in (inspect,):
+    legs.add_command(command)

@@ -1,0 +1,166 @@
+"""``stepaside legs inspect``: contract of a walking policy, with findings."""
+
+from math import isfinite
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from ..core.errors import PolicyError
+from .options.common_options import json_option
+from .tables import print_table
+from .terminal import echo
+from .value_types import print_json
+
+if TYPE_CHECKING:
+    from ..locomotion.policy.contract_reader import ContractReading
+    from ..locomotion.policy.network import PolicyNetwork
+
+
+@click.command("inspect")
+@click.argument(
+    "network", type=click.Path(exists=True, dir_okay=False, path_type=Path)
+)
+@click.option(
+    "--robot", help="Robot that walks: a name, or folder of a description."
+)
+@click.option("--legs-contract", default="", help="Name of the convention.")
+@json_option
+def inspect(
+    network: Path, robot: str | None, legs_contract: str, as_json: bool
+) -> None:
+    """Print the contract of the walking policy NETWORK (ONNX).
+
+    Says for each value where it comes from, and names what is missing, does
+    not fit the network or the robot, or is implausible. The exit status is 2
+    if the network cannot run.
+    """
+    from ..locomotion.policy.contract_checks import examine
+    from ..locomotion.policy.contract_reader import read_contract
+    from ..locomotion.policy.network import PolicyNetwork
+
+    loaded = PolicyNetwork(network)
+    motors: tuple[str, ...] = ()
+    legs: tuple[str, ...] = ()
+    entries: dict[str, Any] = {}
+    if robot is not None:
+        from ..robots.description import load_robot
+        from ..robots.tree_cache import load_tree
+
+        description = load_robot(robot)
+        motors = tuple(load_tree(description).motors)
+        legs, entries = description.legs, description.locomotion
+    reading = read_contract(
+        loaded,
+        motors=motors,
+        legs=legs,
+        entries=entries,
+        convention=legs_contract,
+    )
+    findings = examine(reading, loaded, motors)
+    if as_json:
+        facts = _facts(reading, loaded)
+        facts["findings"] = [each._asdict() for each in findings]
+        print_json(facts)
+    else:
+        _print(reading, loaded)
+        for finding in findings:
+            echo(f"{finding.severity}: {finding.text}")
+        if not findings:
+            echo("no findings")
+    errors = [each for each in findings if each.severity == "error"]
+    if errors:
+        raise PolicyError(f"legs: {network}: {errors[0].text}")
+
+
+def _facts(
+    reading: "ContractReading", network: "PolicyNetwork"
+) -> dict[str, Any]:
+    """Return contract and network as JSON values."""
+    used = reading.convention
+    return {
+        "network": str(network.path),
+        "input": str(network.observation),
+        "output": str(network.action),
+        "recurrent": [str(given) for given, _ in network.states],
+        "convention": None if used is None else used.name,
+        "source": None if used is None else used.source,
+        "contract": {k: _plain(v) for k, v in reading.values.items()},
+        "sources": reading.sources,
+    }
+
+
+def _plain(value: Any) -> Any:
+    """Convert a value of a contract to JSON; infinity becomes None."""
+    if isinstance(value, float):
+        return value if isfinite(value) else None
+    if hasattr(value, "_asdict"):
+        return {k: _plain(v) for k, v in value._asdict().items()}
+    if hasattr(value, "__dataclass_fields__"):
+        names = value.__dataclass_fields__
+        return {name: _plain(getattr(value, name)) for name in names}
+    if isinstance(value, tuple | list):
+        return [_plain(each) for each in value]
+    return value
+
+
+def _print(reading: "ContractReading", network: "PolicyNetwork") -> None:
+    """Print the contract as tables, each value with its source."""
+    values, sources = reading.values, reading.sources
+    rows = [
+        ("input", str(network.observation)),
+        ("output", str(network.action)),
+    ]
+    rows += [("recurrent state", str(given)) for given, _ in network.states]
+    rows += [
+        (name, f"{_text(name, values[name])}  ({sources[name]})")
+        for name in values
+        if name not in (*PER_JOINT_COLUMNS, "joints")
+    ]
+    print_table(rows)
+    joints = values.get("joints", ())
+    columns = [name for name in PER_JOINT_COLUMNS if name in values]
+    if not joints:
+        return
+    echo(f"\njoints ({sources['joints']}):")
+    for name in columns:
+        echo(f"  {PER_JOINT_COLUMNS[name]} ({sources[name]})")
+    for i, joint in enumerate(joints):
+        numbers = (
+            f"{values[name][i]:10.4g}" if i < len(values[name]) else " " * 10
+            for name in columns
+        )
+        echo(f"  {joint:28s}{''.join(numbers)}")
+
+
+PER_JOINT_COLUMNS = {
+    "default_posture": "default posture [rad]",
+    "stiffness": "stiffness [N m/rad]",
+    "damping": "damping [N m s/rad]",
+    "action_scale": "action scale [rad]",
+}
+
+
+def _text(name: str, value: Any) -> str:
+    """Return a value of a contract as text for the table."""
+    if name == "terms":
+        return ", ".join(
+            term.name
+            if set(term.scale) == {1.0}
+            else f"{term.name} x {'/'.join(f'{s:g}' for s in term.scale)}"
+            for term in value
+        )
+    if name == "clock":
+        if value is None:
+            return "none"
+        phases = ", ".join(f"{x:.3g}" for x in value.offsets)
+        return (
+            f"{value.period:.3g} s, phases {phases} rad, "
+            f"{value.standing} while standing"
+        )
+    if name == "command_ranges":
+        limits = (
+            f"{k} {a:g} to {b:g}" for k, (a, b) in value._asdict().items()
+        )
+        return ", ".join(limits)
+    return f"{value:g}" if isinstance(value, float) else str(value)

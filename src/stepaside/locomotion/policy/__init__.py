@@ -1,0 +1,1 @@
+"""Learned walking policies: a velocity command in, joint targets out."""
