@@ -12,7 +12,6 @@ from pathlib import Path
 import numpy as np
 
 from stepaside import (
-    DuelRun,
     DuelSettings,
     load_run,
     run_duel,
@@ -25,7 +24,7 @@ folder, page = Path("run"), Path("run.html")
 
 if not folder.exists():
     write_run(folder, run_duel(DuelSettings(seed=3, duration=seconds)))
-run = load_run(folder, DuelRun)
+run = load_run(folder, "duel")
 
 print(
     f"{folder} holds {run.name}, {run.duration:.1f} s, seed "

@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 
 from stepaside.core.poses import Array
-from stepaside.games.duel_run import DuelRun
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.duel_summary import (
     DuelSummary,
@@ -17,7 +16,7 @@ from stepaside.games.duel_summary import (
     TheorySummary,
 )
 from stepaside.games.outcome import Outcome
-from stepaside.games.run import Run
+from stepaside.games.run import DuelRun, Run
 from stepaside.games.trajectory import Trajectory
 
 NO_THEORY = TheorySummary(None, False, None, None, None)
@@ -26,10 +25,7 @@ NO_THEORY = TheorySummary(None, False, None, None, None)
 def figures(**changes: Any) -> DuelSummary:
     """Figures of a duel in which nobody was ever triggered."""
     told = DuelSummary(
-        outcome="completed",
-        message="played 18.00 s",
         seed=7,
-        duration_s=18.0,
         start=StartSummary(1.0, 0.0, 0.0),
         triggered_at_s=None,
         triggered_at_distance_m=None,
@@ -80,7 +76,7 @@ def run_of(
         duration=float(times[-1]),
         times=times,
         tracks=tracks,
-        summary=figures(outcome=outcome.value, message=message, **changes),
+        summary=figures(**changes),
         stills=stills or {},
     )
 

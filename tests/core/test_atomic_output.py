@@ -25,8 +25,8 @@ from stepaside.core.atomic_output import (
 )
 from stepaside.core.errors import ConfigurationError, OutputError
 from stepaside.games.duel import run_duel
-from stepaside.games.duel_run import DuelRun
 from stepaside.games.duel_settings import DuelSettings
+from stepaside.games.run import DuelRun
 from stepaside.report import duel_figure, unicycle_sweep
 from stepaside.report.run_folder import save_run, write_run
 

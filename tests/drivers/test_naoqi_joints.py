@@ -50,6 +50,7 @@ from stepaside.drivers.scheme_factory import control_scheme_factory  # noqa: E40
 from stepaside.games.duel import run_duel  # noqa: E402
 from stepaside.games.duel_settings import DuelSettings, StartSettings  # noqa: E402
 from stepaside.games.naoqi_offers import NaoqiJointsOffer  # noqa: E402
+from stepaside.games.run_archive import results_of
 from stepaside.games.served_duel import serve_duel  # noqa: E402
 from stepaside.locomotion.zmp.control_settings import ControlSettings  # noqa: E402
 from stepaside.perception.measurement import Sighting  # noqa: E402
@@ -510,7 +511,7 @@ def test_in_lock_step_a_walk_is_the_one_played_in_one_process() -> None:
         player.join(60.0)
     assert not player.is_alive()
     served = over.to_json()
-    alone = run_duel(SETTINGS).summary.to_json()
+    alone = results_of(run_duel(SETTINGS))
     assert served["outcome"] == alone["outcome"] == "completed"
     for key in ("distance_m", "min_distance_m"):
         assert served[key] == pytest.approx(alone[key], abs=1e-6)

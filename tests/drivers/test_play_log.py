@@ -166,9 +166,10 @@ def test_the_summary_covers_only_the_walk(
             )
         )
     log.close()
-    found = run_of_play(tmp_path / "play", PlaySettings()).summary
+    run = run_of_play(tmp_path / "play", PlaySettings())
+    found = run.summary
     assert found.walking_s == pytest.approx(800 * period)
-    assert found.duration_s == pytest.approx(1199 * period)
+    assert run.duration == pytest.approx(1199 * period)
     assert found.seen_share == pytest.approx(0.25, abs=0.01)
     assert found.radius_m == pytest.approx(radius, abs=1e-3)
     assert found.way_m == pytest.approx(8.0 * radius, rel=0.02)

@@ -24,7 +24,6 @@ from stepaside.drivers.row_file import read_rows  # noqa: E402
 from stepaside.drivers.velocity.velocity_body import REST, VelocityCommand  # noqa: E402
 from stepaside.drivers.velocity.velocity_loop import DrivingState  # noqa: E402
 from stepaside.games.outcome import Outcome  # noqa: E402
-from stepaside.games.play_run import PlayRun  # noqa: E402
 from stepaside.games.run_archive import load_run  # noqa: E402
 from stepaside.perception.measurement import Sighting  # noqa: E402
 
@@ -112,7 +111,7 @@ def test_a_played_run_folder_replays(by: str, tmp_path: Path) -> None:
     folder = tmp_path / "record"
     with offered(scene) as words:
         played([*words, "--by", by, "--record", str(folder)], scene)
-    run = load_run(folder, PlayRun)
+    run = load_run(folder, "play")
     assert run.outcome is Outcome.COMPLETED
     assert run.message == "played long enough"
     assert run.summary.language == "naoqi"
@@ -128,7 +127,7 @@ def test_a_played_run_folder_replays(by: str, tmp_path: Path) -> None:
         walked += [RobotState.RESTING, RobotState.LIMP]  # it has not moved yet
         assert states == [state.value for state in walked]
         assert scene.robot.stiffness.max() == 0.0
-        assert run.player.qpos is not None
+        assert run.evader.qpos is not None
         assert run.summary.closest_m == pytest.approx(2.0)
     else:
         assert DrivingState.WALKING.value in states and scene.told
@@ -164,7 +163,7 @@ def test_a_dry_run_by_joints_moves_nothing_and_is_kept(tmp_path: Path) -> None:
     assert not player.is_alive()
     assert not scene.server.robot.commanded
     np.testing.assert_array_equal(scene.robot.angles, STANCE)
-    run = load_run(folder, PlayRun)
+    run = load_run(folder, "play")
     states = [change.state for change in run.summary.changes]
     assert states[:2] == ["limp", "reaching"]
     assert run.settings.dry_run
@@ -180,6 +179,6 @@ def test_a_dry_run_by_footsteps_is_recorded_without_commands(
         assert not robot.awake and not scene.told and robot.asked == REST
     player.join(60.0)
     assert not player.is_alive()
-    run = load_run(folder, PlayRun)
+    run = load_run(folder, "play")
     assert run.settings.dry_run
     assert np.abs(read_rows(folder)["wanted"][:, 0]).max() > 0.0

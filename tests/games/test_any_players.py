@@ -18,6 +18,7 @@ from matplotlib.figure import Figure
 from stepaside.core.poses import Array
 from stepaside.games.outcome import Outcome
 from stepaside.games.run import Run
+from stepaside.games.run_captions import describe_state
 from stepaside.games.trajectory import Trajectory
 from stepaside.games.walk_game import run_walk
 from stepaside.games.walk_settings import WalkSettings
@@ -76,16 +77,19 @@ def test_a_run_has_its_players_and_the_distance_of_the_first_two(
     assert run.players == run.robots == NAMES[:count]
     assert run.theory is None and run.safety is None and run.circle is None
     if count == 1:
-        assert run.pair is None and run.orientation is None
+        assert run.pair is None and not run.has_orientation
+        assert np.isnan(run.distance).all()
     else:
-        assert run.distance is not None and run.orientation is not None
+        assert run.has_orientation
         np.testing.assert_allclose(run.distance, 1.0)
         np.testing.assert_allclose(run.orientation, 0.0, atol=1e-9)
     assert run.pushed_at(0.05) == () and run.pushed_at(0.1) == (
         NAMES[count - 1],
     )
-    assert run.words(0) == f"{' and '.join(NAMES[:count])} in motion"
-    assert run.words(10) == f"{NAMES[count - 1]} is pushed"
+    if count > 1:
+        names = " and ".join(NAMES[:count])
+        assert describe_state(run, 0) == f"{names} in motion"
+        assert describe_state(run, 10) == f"{NAMES[count - 1]} is pushed"
 
 
 def test_players_have_the_colours_of_their_roles_or_their_own() -> None:
@@ -124,7 +128,7 @@ def test_every_player_is_in_the_figure(
             np.column_stack(way.get_data()), run.tracks[name].com[:, :2]
         )
         assert to_hex(way.get_color()) == colour
-    assert "Game, seed 1: played 0.40 s" in figures[0].get_suptitle()
+    assert "Walk, seed 1: played 0.40 s" in figures[0].get_suptitle()
     if count > 1:
         draw_comparison([run, run], tmp_path / "both.png")
         assert len(figures[1].axes[0].lines) == 2 * count

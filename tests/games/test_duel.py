@@ -30,8 +30,9 @@ SHARED = pytest.mark.xdist_group("duel 11")
 @pytest.mark.parametrize("seed", [pytest.param(11, marks=SHARED), 42])
 def test_robots_walk_the_circle_together(seed: int) -> None:
     """Theory: radius 4v/(pi k) = 0.637 m, distance 0.900 m, 90 degrees."""
-    summary = play(seed).summary
-    assert summary.outcome == "completed"
+    run = play(seed)
+    summary = run.summary
+    assert run.outcome is Outcome.COMPLETED
     for player in (summary.pursuer, summary.evader):
         assert player.radius_m == pytest.approx(0.637, rel=0.04)
     assert summary.distance_m == pytest.approx(0.900, rel=0.04)

@@ -9,9 +9,9 @@ import pytest
 
 from made_up_robot import walk_of
 from stepaside.games.duel import Duel, run_duel
-from stepaside.games.duel_run import DuelRun
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.outcome import Outcome
+from stepaside.games.run import DuelRun
 from stepaside.games.walker import SimulatedPlayer
 from stepaside.locomotion.zmp.control_settings import STABILISED
 from stepaside.locomotion.zmp.feedback_loop import ClosedLoop

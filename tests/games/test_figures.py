@@ -18,9 +18,9 @@ from invented_run import run_of
 from stepaside.arena import BODY_RADIUS, Disc, MovingBox, Room
 from stepaside.core.poses import Array
 from stepaside.games.duel_circle import circle_of_theory
-from stepaside.games.duel_run import DuelRun
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.duel_summary import TheorySummary
+from stepaside.games.run import DuelRun
 from stepaside.games.trajectory import Trajectory
 from stepaside.planning import (
     Direction,

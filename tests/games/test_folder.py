@@ -12,17 +12,17 @@ import pytest
 from invented_run import run_of
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array
-from stepaside.games.duel_run import DuelRun
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.outcome import Outcome
-from stepaside.games.run import Run
+from stepaside.games.run import DuelRun, Run
 from stepaside.games.run_archive import (
+    FORMAT,
     SUMMARY,
     TRAJECTORIES,
     load_run,
+    results_of,
     write_run_files,
 )
-from stepaside.games.run_header import FORMAT
 from stepaside.games.trajectory import Trajectory
 
 ROWS = 6
@@ -62,7 +62,6 @@ def duel(pursuer: Trajectory, **changes: Any) -> DuelRun:
         {"pursuer": pursuer, "evader": robot(2.0, sees=True)},
         settings=DuelSettings(seed=9, start=StartSettings(1.3, 0.4, -0.2)),
         name="run",
-        duration_s=float(TIMES[-1]),
         **changes,
     )
 
@@ -126,12 +125,12 @@ def test_the_format_is_in_the_header_but_not_in_the_summary(
 ) -> None:
     folder = folder_of(tmp_path, RUNS["seeing robots"])
     told = json.loads((folder / SUMMARY).read_text())
-    assert told["format"] == FORMAT == 3
-    plain = load_run(folder, DuelRun).summary.to_json()
+    assert told["format"] == FORMAT == 4
+    plain = results_of(load_run(folder, "duel"))
     assert not {"format", "game", "players"} & plain.keys()
 
 
-@pytest.mark.parametrize("number", [4, 2, 1, 0, -1, 3.0, "3", True, None, [3]])
+@pytest.mark.parametrize("number", [5, 3, 1, 0, -1, 4.0, "4", True, None, [4]])
 def test_an_unknown_format_is_refused_by_its_number(
     tmp_path: Path, number: Any
 ) -> None:
@@ -146,8 +145,21 @@ def test_an_unknown_format_is_refused_by_its_number(
     with pytest.raises(ConfigurationError) as refused:
         load_run(folder)
     message = str(refused.value)
-    assert f"format of run run must be 3, got {number!r}" in message
+    assert f"format of run run must be 4, got {number!r}" in message
     assert "\n" not in message
+
+
+@pytest.mark.parametrize(
+    ("entry", "value"),
+    [("message", 3), ("duration_s", "long"), ("duration_s", None)],
+)
+def test_an_invalid_entry_of_the_header_is_named(
+    tmp_path: Path, entry: str, value: Any
+) -> None:
+    folder = folder_of(tmp_path, RUNS["robots"])
+    damage(folder, lambda plain: plain.update({entry: value}))
+    with pytest.raises(ConfigurationError, match=f"run run: .*{entry}"):
+        load_run(folder)
 
 
 def test_an_array_of_nan_is_read_as_written(tmp_path: Path) -> None:

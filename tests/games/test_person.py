@@ -96,7 +96,7 @@ def test_a_slow_person_is_evaded_close_to_theory() -> None:
     """The robot loses the person's path until its first step lands."""
     result = run_duel(duel_with(PersonSettings("steer", 0.073, 0.146), 40.0))
     summary = result.summary
-    assert summary.outcome == "completed"
+    assert result.outcome.value == "completed"
     assert summary.triggered_at_distance_m == pytest.approx(0.8, abs=0.02)
     assert summary.triggered_at_s is not None
     assert result.evader.landings is not None

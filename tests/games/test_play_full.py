@@ -17,7 +17,6 @@ from stepaside.drivers.velocity.velocity_body import VelocityCommand
 from stepaside.drivers.velocity.velocity_loop import DrivingState, VelocityTick
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.outcome import Outcome
-from stepaside.games.play_run import PlayRun
 from stepaside.games.run_archive import load_run
 from tools.fuzz.places import full, room_in, short_of, taken
 
@@ -78,7 +77,7 @@ def test_a_record_whose_folder_is_deleted_is_complete_elsewhere(
     folder = place(small=False)
     with pytest.raises(OutputError, match="could not be written"):
         play(folder, lambda: gone(folder.parent))
-    run = load_run(tmp_path / "spare" / "stepaside-record", PlayRun)
+    run = load_run(tmp_path / "spare" / "stepaside-record", "play")
     assert len(run.times) >= TICKS // 2
     assert run.outcome is Outcome.COMPLETED
     assert not folder.exists()
@@ -90,7 +89,7 @@ def test_a_record_on_a_full_disk_is_moved_elsewhere(
     folder = place(small=True)
     with pytest.raises(OutputError, match="could not be written"):
         play(folder, lambda: full(folder.parent))
-    run = load_run(tmp_path / "spare" / "stepaside-record", PlayRun)
+    run = load_run(tmp_path / "spare" / "stepaside-record", "play")
     assert len(run.times) > TICKS // 4
     # What reached the disk as it went is there, and no half of a run.
     assert {file.name for file in folder.iterdir()} <= AS_IT_GOES
@@ -122,5 +121,5 @@ def test_a_writable_record_is_in_its_folder(
 ) -> None:
     folder = place(small=False)
     play(folder, lambda: None)
-    assert len(load_run(folder, PlayRun).times) > TICKS // 2
+    assert len(load_run(folder, "play").times) > TICKS // 2
     assert not list((tmp_path / "spare").iterdir())

@@ -23,11 +23,10 @@ from stepaside.games.configuration_file import dump_configuration
 from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.outcome import Outcome
-from stepaside.games.play_conversion import seal_play
 from stepaside.games.play_rows import one_clock
-from stepaside.games.play_run import PlayRun
 from stepaside.games.play_settings import PlaySettings
-from stepaside.games.run_archive import load_run
+from stepaside.games.run_archive import complete_play, load_run
+from stepaside.games.run_captions import describe_state
 from stepaside.games.walker import SimulatedPlayer
 from stepaside.perception.measurement import Sighting
 from stepaside.report.run_folder import draw_run
@@ -98,7 +97,9 @@ class Walked:
             assert duel.tick() is None
         duel.close()
         log.close()
-        self.run = seal_play(folder, EVADER, Outcome.COMPLETED, "long enough")
+        self.run = complete_play(
+            folder, EVADER, Outcome.COMPLETED, "long enough"
+        )
 
 
 @pytest.fixture(scope="module")
@@ -113,11 +114,11 @@ def test_the_replayed_path_is_the_true_one_up_to_slip(
     true = walked.true[:: round(float(run.times[1]) / 0.012)]
     assert len(run.times) in (len(true), len(true) + 1)
     assert run.summary.steps and run.summary.steps >= 4
-    for own, snapshot in zip(run.player.torso, true, strict=False):
+    for own, snapshot in zip(run.evader.torso, true, strict=False):
         wanted = frame.compose(snapshot.torso)
         assert hypot(own[0] - wanted.x, own[1] - wanted.y) < 0.01
         assert abs(wrap_angle(own[2] - wanted.theta)) < 0.02
-    qpos = run.player.qpos
+    qpos = run.evader.qpos
     assert qpos is not None
     truly = np.array([s.posture for s in true])[: len(qpos)]
     off = np.abs(qpos[: len(truly)] - truly)
@@ -145,14 +146,14 @@ def test_the_opponent_is_at_its_sightings(walked: Walked) -> None:
 
 
 def test_a_play_is_read_from_its_folder_with_checksums(walked: Walked) -> None:
-    loaded = load_run(walked.folder, PlayRun)
+    loaded = load_run(walked.folder, "play")
     assert loaded.summary == walked.run.summary
     assert loaded.settings == EVADER
     for name, track in walked.run.tracks.items():
         for key, array in track.arrays("").items():
             got = loaded.tracks[name].arrays("")[key]
             np.testing.assert_array_equal(got, array)
-    assert loaded.words(3) == "walking (chest button)"
+    assert describe_state(loaded, 3) == "walking (chest button)"
     file = walked.folder / "summary.json"
     told = file.read_text()
     file.write_text(told.replace("long enough", "for ever"))
@@ -227,14 +228,14 @@ def test_a_robot_with_its_own_walk_is_shown_as_a_template(
 ) -> None:
     settings = replace(EVADER, role="pursuer", language="ros2")
     circling(log_at(tmp_path / "p", settings), 1.7e9)
-    run = seal_play(tmp_path / "p", settings, Outcome.COMPLETED, "done")
+    run = complete_play(tmp_path / "p", settings, Outcome.COMPLETED, "done")
     assert run.robots == () and run.persons == ()
     assert run.summary.radius_m == pytest.approx(1.0, abs=0.01)
     assert run.summary.distance_m == pytest.approx(1.0, abs=0.01)
     assert run.summary.seen_share == pytest.approx(179 / 199, abs=0.01)
     np.testing.assert_allclose(run.tracks["evader"].com, 0.0, atol=1e-6)
-    assert run.player.command is not None
-    np.testing.assert_array_equal(run.player.command[5], [0.3, 0.2, 0.2, 0.2])
+    assert run.pursuer.command is not None
+    np.testing.assert_array_equal(run.pursuer.command[5], [0.3, 0.2, 0.2, 0.2])
     draw_run(run, tmp_path / "play.png")
     RunScene(run).put(10)
     assert load_run(tmp_path / "p").players == ("pursuer", "evader")
@@ -248,7 +249,7 @@ def test_without_a_sighting_a_play_has_one_player(tmp_path: Path) -> None:
     for tick in range(5):
         log.note(VelocityTick(*why, 0.05 * tick, at, None, rest, rest))
     log.close()
-    run = seal_play(tmp_path / "p", EVADER, Outcome.INTERRUPTED, "enough")
+    run = complete_play(tmp_path / "p", EVADER, Outcome.INTERRUPTED, "enough")
     assert run.players == ("evader",) and run.pair is None
     assert run.summary.closest_m is None and run.summary.walking_s == 0.0
     draw_run(run, tmp_path / "play.png")

@@ -30,6 +30,7 @@ from stepaside.games.configuration_file import (
 from stepaside.games.duel import Duel, run_duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.outcome import Outcome
+from stepaside.games.run_archive import results_of
 from stepaside.sim.camera_settings import SceneSettings
 from stepaside.sim.obstacle_geoms import HEIGHT, add_solids, named_solids
 
@@ -174,7 +175,7 @@ def test_contact_with_an_obstacle_ends_a_duel_and_names_it() -> None:
     run = run_duel(blind)
     assert run.outcome is Outcome.CONTACT
     assert run.message.startswith("disc 1 and evader touched at")
-    assert run.summary.to_json()["touched"] == ["disc 1", "evader"]
+    assert results_of(run)["touched"] == ["disc 1", "evader"]
 
 
 def refusal(*words: str) -> str:

@@ -18,6 +18,7 @@ from stepaside.games.configuration_file import (
 )
 from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import StartSettings
+from stepaside.games.run_archive import results_of
 from stepaside.games.walker import SimulatedPlayer
 from stepaside.perception.gaze import MAX_YAW, SCAN_SPEED
 from stepaside.perception.images import ColourImage, SonarEcho
@@ -64,18 +65,18 @@ def perception_of(walker: SimulatedPlayer) -> Perception:
 def test_robots_with_cameras_begin_as_those_with_ideal_sight() -> None:
     result = play()
     assert result.outcome is Outcome.COMPLETED
-    summary = result.summary.to_json()
+    summary = results_of(result)
     triggered = summary["triggered_at_distance_m"]
     assert triggered == pytest.approx(0.8, abs=0.05)
-    assert summary["camera"] == "raycast"
-    assert summary["detection_rate"] > 0.97
-    assert summary["false_detections"] <= 2
+    assert summary["sight"]["camera"] == "raycast"
+    assert summary["sight"]["detection_rate"] > 0.97
+    assert summary["sight"]["false_detections"] <= 2
     for name in ("pursuer", "evader"):
-        error = summary[name]["bearing_error_deg"]
+        error = summary[name]["sight"]["bearing_error_deg"]
         assert error["median"] < 1.5
         assert error["p95"] < 5.0
-        assert summary[name]["lost_s"] < 1.0
-    assert summary["evader"]["distance_error_m"]["median"] < 0.05
+        assert summary[name]["sight"]["lost_s"] < 1.0
+    assert summary["evader"]["sight"]["distance_error_m"]["median"] < 0.05
 
 
 def test_equal_seeds_give_equal_detections() -> None:

@@ -20,10 +20,10 @@ from stepaside.drivers.lola.lola_address import LolaAddress
 from stepaside.drivers.lola.lola_connection import open_lola
 from stepaside.drivers.scheme_factory import control_scheme_factory
 from stepaside.games.duel import run_duel
-from stepaside.games.duel_run import DuelRun
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.robot_offers import LolaOffer
-from stepaside.games.run_archive import load_run
+from stepaside.games.run import DuelRun
+from stepaside.games.run_archive import load_run, results_of
 from stepaside.games.served_duel import serve_duel
 from stepaside.locomotion.zmp.control_settings import ControlSettings
 from stepaside.planning import GaitSettings
@@ -118,7 +118,7 @@ def test_in_lock_step_the_duel_is_the_one_played_in_one_process(
         offers = {name: LolaOffer(a) for name, a in addresses.items()}
         over = serve_duel(settings, offers, lock_step=True)
     served, played = over.to_json(), run_duel(settings)
-    alone = played.summary.to_json()
+    alone = results_of(played)
     check_record(over.run, played, tmp_path / "kept")
     assert served["outcome"] == alone["outcome"] == "completed"
     assert served["duration_s"] == alone["duration_s"]

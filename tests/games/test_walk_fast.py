@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 
 from stepaside.games.outcome import Outcome
+from stepaside.games.run_archive import results_of
 from stepaside.games.walk_game import WalkGame, run_walk
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.locomotion.zmp.control_settings import ControlSettings
@@ -35,7 +36,7 @@ def walked(
         body=BODIES[body],
         control=CONTROL,
     )
-    found = run_walk(settings).summary.to_json()
+    found = results_of(run_walk(settings))
     assert found["outcome"] == "completed"
     return found
 

@@ -11,9 +11,10 @@ from click.testing import CliRunner
 
 from stepaside.cli.main import main
 from stepaside.games.outcome import Outcome
+from stepaside.games.run import WalkRun
+from stepaside.games.run_archive import results_of
 from stepaside.games.support_foot_columns import express_in_support_foot
 from stepaside.games.walk_game import run_walk
-from stepaside.games.walk_run import WalkRun
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.locomotion.zmp.control_settings import OPEN_LOOP, STABILISED
 from stepaside.planning import GaitSettings
@@ -76,7 +77,7 @@ def test_an_ideal_body_walks_and_estimates_as_planned() -> None:
     result = run_walk(
         WalkSettings(duration=12.0, bearing=0.5, control=STABILISED)
     )
-    summary = result.summary.to_json()
+    summary = results_of(result)
     assert summary["outcome"] == "completed" and summary["adapted_steps"] == 0
     walked = 12.0 - READY - GAIT.start_support
     assert summary["steps"] == 1 + walked // GAIT.step_duration
@@ -106,7 +107,7 @@ def test_a_hardware_like_body_walks_and_turns_as_planned(
             control=STABILISED,
         )
     )
-    summary = result.summary.to_json()
+    summary = results_of(result)
     assert summary["outcome"] == "completed" and summary["adapted_steps"] == 0
     assert summary["speed_ratio"] == pytest.approx(1.0, abs=0.03)
     assert summary["yaw_ratio"] == pytest.approx(1.0, abs=0.035)
@@ -127,7 +128,7 @@ def test_without_feedback_a_hardware_like_body_walks_short_and_slides() -> (
     """The baseline for the tests of feedback."""
     settings = WalkSettings(duration=20.0, body=BODIES["hardware"])
     told = [
-        run_walk(replace(settings, control=control)).summary.to_json()
+        results_of(run_walk(replace(settings, control=control)))
         for control in (OPEN_LOOP, STABILISED)
     ]
     alone, helped = told

@@ -13,6 +13,7 @@ from by_hand import KINDS, corners_by_hand, plan_of
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array
 from stepaside.games.match import play
+from stepaside.games.outcome import Outcome
 from stepaside.games.walk_game import WalkGame, run_walk
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.locomotion.zmp.control_settings import (
@@ -244,9 +245,9 @@ def test_a_pushed_walk_reports_the_solver_results() -> None:
             duration=6.0, control=control, pushes=(Push(1.0, 3.0, 1.57),)
         )
     )
-    summary = walking.run(*play(walking, 6.0)).summary
-    assert summary.outcome == "completed"
-    qp, answers = summary.qp, walking.tally.solved
+    run = walking.run(*play(walking, 6.0))
+    assert run.outcome is Outcome.COMPLETED
+    qp, answers = run.summary.qp, walking.tally.solved
     assert qp is not None and qp.solves == len(answers) > 100
     assert qp.infeasible == sum(not a.feasible for a in answers)
     for answer in answers:

@@ -8,8 +8,8 @@ import pytest
 
 from invented_run import run_of
 from stepaside.arena import Door, Room
-from stepaside.games.duel_run import DuelRun
 from stepaside.games.duel_settings import DuelSettings
+from stepaside.games.run import DuelRun
 from stepaside.games.trajectory import Trajectory
 from stepaside.report.film import hidden_walls, walls_before
 from stepaside.report.film_camera import FilmCamera

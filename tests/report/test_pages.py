@@ -29,7 +29,6 @@ from onlooker import look_away, look_on
 from stepaside.cli.main import main
 from stepaside.games.configuration_file import dump_configuration
 from stepaside.games.duel import Duel
-from stepaside.games.duel_run import DuelRun
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.run_archive import load_run
 from stepaside.games.walker import SimulatedPlayer
@@ -382,7 +381,7 @@ def hostile_run(folder: Path, run: Path, text: str) -> Path:
     file.write_text(json.dumps(summary), encoding="utf-8")
     (there / "checksums.txt").unlink(missing_ok=True)
     if text.isprintable():
-        own = load_run(run, DuelRun).settings
+        own = load_run(run, "duel").settings
         settings = replace(own, person=replace(own.person, path=text))
         (there / "configuration.toml").write_text(
             dump_configuration(settings), encoding="utf-8"

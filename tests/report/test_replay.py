@@ -10,6 +10,7 @@ from click.testing import CliRunner
 from stepaside.cli.main import main
 from stepaside.core.errors import ConfigurationError
 from stepaside.games.run_archive import load_run
+from stepaside.games.run_captions import describe_state
 from stepaside.report.film import FilmSettings
 from stepaside.report.replay_page import three_js, write_page
 from stepaside.sim.offscreen_rendering import RAYCAST, choose_renderer
@@ -122,4 +123,4 @@ def test_the_message_of_the_first_sample_is_that_players_stand(
     run: Path,
 ) -> None:
     loaded = load_run(run)
-    assert "stands" in loaded.words(0)
+    assert "stands" in describe_state(loaded, 0)

@@ -17,8 +17,9 @@ from invented_run import changed, drifted
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array
 from stepaside.games.duel import run_duel
-from stepaside.games.duel_run import DuelRun
 from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.games.run import DuelRun
+from stepaside.games.run_captions import describe_state
 from stepaside.games.trajectory import Trajectory
 from stepaside.report import film, film_layers
 from stepaside.report.cycle_means import whole_cycles
@@ -132,7 +133,7 @@ def test_a_page_tells_what_the_run_tells(tmp_path: Path) -> None:
     shown = content(run, tmp_path)
     chosen = [*range(0, 101, 2), 101]
     said = [shown["messages"][number] for number in shown["message_index"]]
-    assert said == [run.words(index) for index in chosen]
+    assert said == [describe_state(run, index) for index in chosen]
     assert len(set(said)) == 4 == len(shown["messages"])
     cycle = 2.0 * run.settings.gait.step_duration
     for key, values, size in (

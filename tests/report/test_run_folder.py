@@ -15,12 +15,11 @@ from stepaside.core.errors import ConfigurationError, OutputError
 from stepaside.core.poses import Array
 from stepaside.games.duel import run_duel
 from stepaside.games.duel_circle import circle_of_theory
-from stepaside.games.duel_run import DuelRun
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.outcome import Outcome
-from stepaside.games.run import Run
-from stepaside.games.run_archive import load_run
-from stepaside.games.run_header import FORMAT
+from stepaside.games.run import DuelRun, Run
+from stepaside.games.run_archive import FORMAT, load_run, results_of
+from stepaside.games.run_captions import describe_state
 from stepaside.games.trajectory import Trajectory
 from stepaside.report import duel_figure, sight_figure
 from stepaside.report.run_folder import check_output, free_folder, write_run
@@ -68,7 +67,7 @@ def test_a_duration_of_many_cycles_comes_back_to_the_last_digit(
     """17 cycles of 0.012 s are not 0.204 s, but what is told is."""
     body = BODIES["hardware"]
     run = run_duel(replace(SETTINGS, duration=0.2, body=body))
-    assert run.duration == run.summary.duration_s == 0.204 != 17 * body.cycle
+    assert run.duration == 0.204 != 17 * body.cycle
     write_run(tmp_path / "run", run)
     check_same(load_run(tmp_path / "run"), run)
 
@@ -80,7 +79,7 @@ def test_an_empty_folder_is_taken(tmp_path: Path, result: DuelRun) -> None:
     text = (folder / "summary.json").read_text(encoding="utf-8")
     players = ["pursuer", "evader"]
     told = {"format": FORMAT, "game": "duel", "players": players}
-    told |= result.summary.to_json()
+    told |= results_of(result)
     assert text == json.dumps(told, indent=2) + "\n"
 
 
@@ -287,7 +286,7 @@ ROUND = "both robots are on the circle"
 )
 def test_words_change_with_the_time(time: float, words: str) -> None:
     run = invented(triggered_at_s=5.0, converged_at_s=30.0)
-    assert run.words(round(10.0 * time)) == words
+    assert describe_state(run, round(10.0 * time)) == words
 
 
 @pytest.mark.parametrize(
@@ -306,9 +305,9 @@ def test_the_last_words_are_how_it_ended(
     summary: dict[str, Any], words: str
 ) -> None:
     run = invented(**summary)
-    assert run.words(400) == words
+    assert describe_state(run, 400) == words
     before = EVADING if summary.get("triggered_at_s") == 5.0 else COMING
-    assert run.words(394) == before
+    assert describe_state(run, 394) == before
 
 
 def test_the_stage_puts_the_bodies_where_they_were(
@@ -390,4 +389,4 @@ def test_words_of_a_duel_with_a_person_speak_of_players() -> None:
             triggered_at_s=-5.0,
             converged_at_s=0.0,
         )
-        assert run.words(1) == f"both {who} are on the circle"
+        assert describe_state(run, 1) == f"both {who} are on the circle"

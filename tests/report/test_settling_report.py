@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from invented_run import changed, run_of
-from stepaside.games.duel_run import DuelRun
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.outcome import Outcome
+from stepaside.games.run import DuelRun
 from stepaside.games.trajectory import Trajectory
 from stepaside.report.settling_report import (
     explain_missing_circle,

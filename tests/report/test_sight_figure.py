@@ -12,8 +12,8 @@ from matplotlib.figure import Figure
 
 from invented_run import run_of
 from stepaside.core.poses import Array
-from stepaside.games.duel_run import DuelRun
 from stepaside.games.duel_settings import DuelSettings
+from stepaside.games.run import DuelRun
 from stepaside.games.sight_evaluation import EvaluatedImage
 from stepaside.games.trajectory import Trajectory
 from stepaside.perception.camera_model import CameraModel

@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 
 from invented_run import run_of
 from stepaside.games.approach_forecast import CourseApproach, estimate_approach
-from stepaside.games.duel_run import DuelRun
+from stepaside.games.run import DuelRun
+from stepaside.games.run_captions import describe_state
 from stepaside.games.trajectory import Trajectory
 from stepaside.locomotion.walk_snapshots import Phase
 from stepaside.report.viewer.status_text import outlook, status_text
@@ -146,7 +147,8 @@ def test_a_replay_says_so_too(bearing: float) -> None:
     ):
         run = walked(velocity, bearing)
         for index in (0, 1, 200, 300):
-            words = run.words(index)
+            words = describe_state(run, index)
             assert words == f"the pursuer {said}; the evader stands"
     triggered = replace(run.summary, triggered_at_s=1.0)
-    assert "evading" in replace(run, summary=triggered).words(290)
+    later = replace(run, summary=triggered)
+    assert "evading" in describe_state(later, 290)

@@ -16,7 +16,7 @@ import stepaside
 from hostile import HOSTILE
 from invented_run import run_of
 from stepaside.cli.main import main
-from stepaside.games.duel_run import DuelRun
+from stepaside.games.run import DuelRun
 from stepaside.games.run_archive import write_run_files
 from stepaside.games.trajectory import Trajectory
 from stepaside.report.text_escaping import (

@@ -18,9 +18,10 @@ from stepaside.control.strategy_runner import StrategyRunner
 from stepaside.core.errors import ConfigurationError, StepAsideError
 from stepaside.core.poses import Array, wrap_angle
 from stepaside.games.duel import Duel, run_duel
-from stepaside.games.duel_run import DuelRun
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.outcome import Outcome
+from stepaside.games.run import DuelRun
+from stepaside.games.run_captions import describe_state
 from stepaside.games.walker import SimulatedPlayer
 from stepaside.locomotion.zmp.control_settings import OPEN_LOOP, STABILISED
 from stepaside.perception.images import ColourImage, DepthImage
@@ -741,7 +742,8 @@ def test_a_replay_shows_the_sample_of_its_time(
         np.testing.assert_array_equal(frame.wxyz, stage.data.xquat[body])
     status = unescape(server.gui.texts[0].content)
     assert status == (
-        f"**short**: {run.words(index)}\n\n{run.times[index]:.2f} s, "
+        f"**short**: {describe_state(run, index)}\n\n"
+        f"{run.times[index]:.2f} s, "
         f"distance {run.distance[index]:.2f} m, angle between "
         f"the headings {run.orientation[index]:.0f}°"
     )

@@ -8,8 +8,8 @@ import pytest
 
 from invented_run import figures, run_of
 from made_up_record import Record
-from stepaside.games.duel_run import DuelRun
 from stepaside.games.duel_summary import PlanTimes
+from stepaside.games.run import DuelRun
 from stepaside.games.trajectory import Trajectory
 from stepaside.studies.physics_game import record_values_of
 

@@ -23,6 +23,7 @@ from stepaside import (
 from stepaside.cli.main import main
 from stepaside.core.errors import ConfigurationError
 from stepaside.games.configuration_file import dump_configuration
+from stepaside.games.run_archive import results_of
 from stepaside.planning import Direction
 from stepaside.strategies import (
     STRATEGIES,
@@ -124,7 +125,7 @@ def test_a_subclass_is_recorded_as_what_it_is_and_not_repeated(
     text = (folder / "configuration.toml").read_text()
     assert "object " in text and "Other(" in text and "turned=-0.6" in text
     loaded = load_run(folder)
-    (note,) = loaded.summary.to_json()["notes"]
+    (note,) = results_of(loaded)["notes"]
     assert "does not repeat" in note and "Other(" in note
     config = str(folder / "configuration.toml")
     target = tmp_path / "again"
@@ -134,7 +135,7 @@ def test_a_subclass_is_recorded_as_what_it_is_and_not_repeated(
 
 
 def test_a_run_of_names_has_no_notes() -> None:
-    assert "notes" not in run_duel(SHORT).summary.to_json()
+    assert run_duel(SHORT).summary.notes == []
     file = replace(SHORT, evader_strategy="a.py:B")
     assert file.notes == ()
 

@@ -11,6 +11,7 @@ from asking import ask, seeds_of
 from gathering import Row, finished, gather, spread
 
 from stepaside.games import DuelSettings, run_duel
+from stepaside.games.run_archive import results_of
 from stepaside.locomotion.zmp.control_settings import STABILISED
 from stepaside.sim.body_settings import BODIES
 from stepaside.sim.physics_settings import PhysicsSettings
@@ -40,7 +41,7 @@ def play(played: Played) -> Row:
         body=BODIES["hardware"],
         control=STABILISED,
     )
-    found = run_duel(settings).summary.to_json()
+    found = results_of(run_duel(settings))
     return {
         "floor": played.floor,
         "seed": played.seed,

@@ -16,6 +16,7 @@ from asking import ask, seeds_of
 from gathering import Row, finished, gather, spread
 
 from stepaside.games import DuelSettings, run_duel
+from stepaside.games.run_archive import results_of
 from stepaside.sim.camera_settings import CameraSettings, ColourSettings
 from stepaside.sim.person_settings import PersonSettings
 from stepaside.studies.result_files import header, write_result
@@ -49,7 +50,7 @@ def play(walk: Walk) -> Row:
         sensing=walk.sensing,
         cameras=CAMERAS,
     )
-    found = run_duel(settings).summary.to_json()
+    found = results_of(run_duel(settings))
     return {
         "walk": walk.name,
         "seed": walk.seed,

@@ -21,6 +21,7 @@ from stepaside.fitting.model_report import report_of
 from stepaside.games.duel import run_duel
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.robot_settings import with_robot
+from stepaside.games.run_archive import results_of
 from stepaside.robots.description import FILE
 from stepaside.studies.code_version import PHYSICS
 from stepaside.studies.result_files import header, write_result
@@ -217,7 +218,7 @@ def measure(humanoid: Humanoid, model: Path) -> dict[str, Any]:
         (folder / FILE).write_text(text, encoding="utf-8")
         settings = with_robot(DuelSettings(seed=SEED, duration=DURATION), made)
         run = run_duel(settings)
-    facts, told = report_of(derived), run.summary.to_json()
+    facts, told = report_of(derived), results_of(run)
     asked = facts["asked_for"]
     return {
         **humanoid._asdict(),

@@ -19,6 +19,7 @@ from stepaside.arena import RoomRecipe, generate_room
 from stepaside.control.clearance.map_settings import MAPS, MapSettings
 from stepaside.core.constants import CAPTURE_DISTANCE
 from stepaside.games import DuelSettings, run_duel
+from stepaside.games.run_archive import results_of
 from stepaside.sim.camera_settings import SceneSettings
 from stepaside.studies.physics_game import clearance
 from stepaside.studies.result_files import header, read_result, write_result
@@ -48,7 +49,7 @@ def play(played: Played) -> Row:
         map=MapSettings(source=played.map),
     )
     run = run_duel(settings)
-    summary = run.summary.to_json()
+    summary = results_of(run)
     return {
         "strategy": played.strategy,
         "map": played.map,

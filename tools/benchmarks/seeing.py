@@ -13,6 +13,7 @@ from asking import ask, machine, seeds_of
 from gathering import Row, finished, gather, spread
 
 from stepaside.games import DuelSettings, run_duel
+from stepaside.games.run_archive import results_of
 from stepaside.sim.camera_settings import (
     CLUTTER,
     CameraSettings,
@@ -22,9 +23,8 @@ from stepaside.studies.result_files import header, write_result
 
 BEYOND = 0.85  # start distance for a meaningful trigger, in [m]
 LIBRARIES = ("mujoco", "numpy", "opencv-python-headless")
+RATES = ("detection_rate", "false_detections")
 PLAIN = (
-    "detection_rate",
-    "false_detections",
     "distance_m",
     "relative_orientation_deg",
     "converged_at_s",
@@ -50,14 +50,16 @@ def play(seen: Seen) -> Row:
             cameras=CameraSettings(drop_frames=0.3, added_latency=0.1),
             room=SceneSettings(things=list(CLUTTER)),
         )
-    found = run_duel(settings).summary.to_json()
-    row = {key: found[key] for key in PLAIN}
+    found = results_of(run_duel(settings))
+    row = {key: found[key] for key in PLAIN} | {
+        key: found["sight"][key] for key in RATES
+    }
     for name in ("pursuer", "evader"):
-        row[f"{name}_misled_s"] = found[name]["misled_s"]
+        row[f"{name}_misled_s"] = found[name]["sight"]["misled_s"]
         for which in ("median", "p95"):
-            error = found[name]["bearing_error_deg"][which]
+            error = found[name]["sight"]["bearing_error_deg"][which]
             row[f"{name}_bearing_error_{which}_deg"] = error
-    away = found["evader"]["distance_error_m"]["median"]
+    away = found["evader"]["sight"]["distance_error_m"]["median"]
     row["evader_distance_error_median_m"] = away
     begun = found["start"]["distance_m"]
     at = found["triggered_at_distance_m"]
@@ -65,7 +67,7 @@ def play(seen: Seen) -> Row:
     return {
         "seed": seen.seed,
         "outcome": found["outcome"],
-        "camera": found["camera"],
+        "camera": found["sight"]["camera"],
         **row,
     }
 

@@ -10,6 +10,7 @@ from math import degrees, radians
 from asking import ask
 from gathering import Row, finished, gather, spread
 
+from stepaside.games.run_archive import results_of
 from stepaside.games.walk_game import run_walk
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.studies.result_files import header, write_result
@@ -23,7 +24,7 @@ KEYS = ("speed_ratio", "yaw_ratio", "slip_per_step_m")
 
 def walk(settings: WalkSettings) -> Row:
     """Return the values of one walk."""
-    summary = run_walk(settings).summary.to_json()
+    summary = results_of(run_walk(settings))
     return {key: summary[key] for key in ("outcome", *KEYS)}
 
 

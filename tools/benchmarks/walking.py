@@ -13,6 +13,7 @@ from typing import Any
 from asking import ask, seeds_of
 from gathering import Row, finished, gather, spread
 
+from stepaside.games.run_archive import results_of
 from stepaside.games.walk_game import run_walk
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.locomotion.zmp.control_settings import (
@@ -49,7 +50,7 @@ PACE = ("speed_ratio", "yaw_ratio", "slip_per_step_m")
 
 def walk(settings: WalkSettings) -> Row:
     """Return the values of one walk."""
-    summary = run_walk(settings).summary.to_json()
+    summary = results_of(run_walk(settings))
     errors = summary["estimation"]
     return {
         "outcome": summary["outcome"],

@@ -6,6 +6,7 @@ from typing import Any
 
 from gathering import Row, finished, gather
 
+from stepaside.games.run_archive import results_of
 from stepaside.games.walk_game import run_walk
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.studies.result_files import header, write_result
@@ -13,7 +14,7 @@ from stepaside.studies.result_files import header, write_result
 
 def walk(settings: WalkSettings) -> Row:
     """Return the values of one walk."""
-    found: Row = run_walk(settings).summary.to_json()
+    found: Row = results_of(run_walk(settings))
     return found
 
 

@@ -12,8 +12,12 @@ from click.testing import CliRunner
 
 from stepaside.cli.main import main
 from stepaside.core.errors import StepAsideError
-from stepaside.games.checksums import CHECKSUMS
-from stepaside.games.run_archive import CONFIGURATION, SUMMARY, TRAJECTORIES
+from stepaside.games.run_archive import (
+    CHECKSUMS,
+    CONFIGURATION,
+    SUMMARY,
+    TRAJECTORIES,
+)
 from stepaside.games.run_archive import load_run as load
 
 from .case import Case

@@ -15,7 +15,6 @@ from typing import Any, NamedTuple
 
 from stepaside.core.atomic_output import DRAFT
 from stepaside.core.errors import StepAsideError
-from stepaside.games.duel_run import DuelRun
 from stepaside.games.outcome import Outcome
 from stepaside.games.run_archive import load_run
 from stepaside.studies.duel_campaign import digest_of
@@ -42,7 +41,7 @@ class Trial(NamedTuple):
 
 
 def _duel(folder: Path) -> Any:
-    run = load_run(folder / "out", DuelRun)
+    run = load_run(folder / "out", "duel")
     if run.outcome is Outcome.INTERRUPTED:
         (folder / "out").rename(folder / "cut-short")
         return None

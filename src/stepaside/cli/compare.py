@@ -61,7 +61,7 @@ def compare(runs: tuple[Path, ...], output: str | None, as_json: bool) -> None:
     speed; for records of `stepaside play`, the measured distance to the
     opponent.
     """
-    from ..games.run_archive import load_run
+    from ..games.run_archive import load_run, results_of
 
     loaded = [load_run(folder) for folder in runs]
     games = sorted({run.game for run in loaded})
@@ -76,7 +76,7 @@ def compare(runs: tuple[Path, ...], output: str | None, as_json: bool) -> None:
             {
                 "figure": str(file) if drawn else None,
                 "runs": {
-                    str(f): r.summary.to_json()
+                    str(f): results_of(r)
                     for f, r in zip(runs, loaded, strict=True)
                 },
             }
@@ -88,13 +88,13 @@ def compare(runs: tuple[Path, ...], output: str | None, as_json: bool) -> None:
 
 
 def _draw(runs: "list[Run]", file: Path) -> None:
-    from ..games.play_run import PlayRun
+    from ..games.run import is_play
 
-    if len(runs) == 1 and isinstance(runs[0], PlayRun):
+    if len(runs) == 1 and is_play(runs[0]):
         from ..report.play_figure import draw_play
 
         draw_play(runs[0], file)
-    elif runs[0].pair is None and not isinstance(runs[0], PlayRun):
+    elif runs[0].pair is None and not is_play(runs[0]):
         from ..report.walks_figure import draw_walks
 
         draw_walks(runs, file)
@@ -114,7 +114,7 @@ def _print(runs: "list[Run]") -> None:
             _number(getattr(run.summary, name), text)
             for _, name, text in columns
         )
-        echo(line.format(visible(run.name), run.summary.outcome, *cells))
+        echo(line.format(visible(run.name), run.outcome.value, *cells))
 
 
 def _number(value: float | None, text: str) -> str:

@@ -18,8 +18,8 @@ from .terminal import echo
 from .value_types import print_json
 
 if TYPE_CHECKING:
-    from ..games.duel_run import DuelRun
     from ..games.duel_settings import DuelSettings
+    from ..games.run import DuelRun
 
 
 @click.command("duel", cls=SettingsCommand)
@@ -44,6 +44,7 @@ def duel(
     and a figure.
     """
     from ..games.outcome import Outcome
+    from ..games.run_archive import results_of
     from ..report.run_folder import check_output, figure_name, free_folder
     from ..report.settling_report import explain_missing_circle
 
@@ -54,12 +55,13 @@ def duel(
     seconds = settings.duration
     announce_effort(f"a duel of {seconds:g} s", seconds / SIMULATED)
     _warn_of_expected_end(settings)
-    run, saved = save_run(output, _play(settings))
+    run = _play(settings)
+    saved = save_run(output, run)
     if figure is not None and run.outcome is not Outcome.INTERRUPTED:
         from ..report.duel_figure import draw_duel
 
         attempt(lambda: draw_duel(run, Path(figure)))
-    summary = run.summary.to_json()
+    summary = results_of(run) | saved.entries
     if as_json:
         print_json(summary)
     else:
@@ -168,8 +170,8 @@ def _print(summary: dict[str, Any], unsettled: str = "not reached") -> None:
         ),
         ("simulation speed", f"{summary['real_time_factor']:.1f} x real time"),
     ]
-    rows += [("note", note) for note in summary.get("notes", ())]
-    if "camera" in summary:
+    rows += [("note", note) for note in summary["notes"]]
+    if summary["sight"] is not None:
         rows += _sight_rows(summary)
     print_table(rows)
 
@@ -182,26 +184,27 @@ def _capture_text(time: float | None) -> str:
 
 def _sight_rows(summary: dict[str, Any]) -> list[tuple[str, str]]:
     """Return the quality of camera sensing, as rows of the table."""
-    rows = [("camera", summary["camera"])]
+    sight = summary["sight"]
+    rows = [("camera", sight["camera"])]
     for name in ("pursuer", "evader"):
-        error = summary[name].get("bearing_error_deg")
-        # A person has no measured bearing.
-        if error is not None and error["median"] is not None:
+        own = summary[name]["sight"]
+        error = {"median": None} if own is None else own["bearing_error_deg"]
+        if error["median"] is not None:
             text = f"{error['median']:.2f} deg median, {error['p95']:.2f} p95"
             rows.append((f"{name}'s bearing error", text))
-    distance_error = summary["evader"]["distance_error_m"]["median"]
+    distance_error = summary["evader"]["sight"]["distance_error_m"]["median"]
     if distance_error is not None:
         text = f"{distance_error:.3f} m median"
         rows.append(("evader's distance error", text))
     triggered = summary["triggered_at_distance_m"]
-    rate = summary["detection_rate"]
+    rate = sight["detection_rate"]
     rows += [
         (
             "evasion triggered at",
             "never" if triggered is None else f"{triggered:.3f} m",
         ),
         ("detection rate", "-" if rate is None else f"{100.0 * rate:.1f} %"),
-        ("false detections", str(summary["false_detections"])),
-        ("opponent lost for", f"{summary['lost_s']:.1f} s"),
+        ("false detections", str(sight["false_detections"])),
+        ("opponent lost for", f"{sight['lost_s']:.1f} s"),
     ]
     return rows

@@ -13,9 +13,8 @@ from ..drivers.play_log import PlayLog
 from ..games.configuration_file import dump_configuration, json_settings
 from ..games.duel_settings import EVADER
 from ..games.outcome import Outcome
-from ..games.play_conversion import seal_play
 from ..games.play_settings import PlaySettings
-from ..games.run_archive import CONFIGURATION
+from ..games.run_archive import CONFIGURATION, complete_play
 from ..strategies.registry import describe_strategy
 
 if TYPE_CHECKING:
@@ -106,7 +105,7 @@ class PlayRecord:
         if not self.log.count:
             return
         try:
-            seal_play(folder, self._settings, outcome, message)
+            complete_play(folder, self._settings, outcome, message)
         except OSError:
             raise
         except (StepAsideError, ValueError) as failure:

@@ -1,8 +1,7 @@
 """Saving of a finished run, and the messages about where it is."""
 
-from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, NamedTuple
 
 from ..core.errors import OutputError
 from .interruption import NOTHING_SAVED, exit_interrupted
@@ -11,8 +10,6 @@ from .terminal import echo
 if TYPE_CHECKING:
     from ..games.outcome import Outcome
     from ..games.run import Run
-
-R = TypeVar("R", bound="Run")
 
 
 class SavedRun(NamedTuple):
@@ -26,6 +23,11 @@ class SavedRun(NamedTuple):
 
     folder: Path | None = None
     failed: OutputError | None = None
+
+    @property
+    def entries(self) -> dict[str, str]:
+        """Path of the folder as an entry of JSON; empty if not saved."""
+        return {} if self.folder is None else {"run_folder": str(self.folder)}
 
     def print_paths(self, figure: str) -> None:
         """Print the paths of figure and run folder, if the run is saved."""
@@ -67,7 +69,7 @@ def check_run_folder(output: Path | None) -> None:
         check_output(output)
 
 
-def save_run(output: Path | None, run: R) -> tuple[R, SavedRun]:
+def save_run(output: Path | None, run: "Run") -> SavedRun:
     """Write a run to a folder, or to a temporary one if that fails.
 
     Args:
@@ -75,10 +77,10 @@ def save_run(output: Path | None, run: R) -> tuple[R, SavedRun]:
         run: Run to save.
 
     Returns:
-        The run with its folder in the summary, and where it is saved.
+        Where it is saved.
     """
     if output is None:
-        return run, SavedRun()
+        return SavedRun()
     from ..report.run_folder import save_run
 
     folder, failed = save_run(output, run)
@@ -88,7 +90,4 @@ def save_run(output: Path | None, run: R) -> tuple[R, SavedRun]:
             f"{folder}",
             err=True,
         )
-    summary: Any = run.summary
-    path = None if folder is None else str(folder)
-    located = replace(run, summary=replace(summary, run_folder=path))
-    return located, SavedRun(folder, failed)
+    return SavedRun(folder, failed)

@@ -119,10 +119,10 @@ def serve(
             lock_step=lockstep,
             patience=wait,
         )
-    run, saved = save_run(output, served.run)
-    plain = served._replace(run=run).to_json()
+    run, plain = served.run, served.to_json()
+    saved = save_run(output, run)
     if as_json:
-        print_json(plain)
+        print_json(plain | saved.entries)
     else:
         late = ", ".join(f"{k} ms: {n}" for k, n in served.lateness_ms.items())
         print_table(

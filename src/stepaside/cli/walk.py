@@ -18,7 +18,7 @@ from .tables import print_table
 from .value_types import print_json
 
 if TYPE_CHECKING:
-    from ..games.walk_run import WalkRun
+    from ..games.run import WalkRun
     from ..games.walk_settings import WalkSettings
 
 
@@ -47,16 +47,18 @@ def walk(
     `stepaside replay` replays the run folder.
     """
     from ..games.outcome import Outcome
+    from ..games.run_archive import results_of
 
     check_run_folder(output)
     seconds = settings.duration
     announce_effort(f"a walk of {seconds:g} s", seconds / SIMULATED)
-    run, saved = save_run(output, _walk(settings))
+    run = _walk(settings)
+    saved = save_run(output, run)
     if figure is not None and run.outcome is not Outcome.INTERRUPTED:
         from ..report.walk_figure import draw_walk
 
         attempt(lambda: draw_walk(run, Path(figure)))
-    summary = run.summary.to_json()
+    summary = results_of(run) | saved.entries
     if as_json:
         print_json(summary)
     else:

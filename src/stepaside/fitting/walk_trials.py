@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, replace
 from math import degrees, radians
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from ..core.errors import StepAsideError
 from ..games.match import play
@@ -10,6 +10,7 @@ from ..games.outcome import Outcome
 from ..games.robot_settings import settings_from_description
 from ..games.walk_game import WalkGame
 from ..games.walk_settings import WalkSettings
+from ..games.walk_summary import WalkSummary
 from ..locomotion.zmp.control_settings import ControlSettings, Method
 from ..planning import GaitSettings
 from ..robots.description import RobotDescription
@@ -179,26 +180,25 @@ def walk_trial(trial: WalkTrial) -> WalkTrialResult:
         )
     outcome, wall = play(game, duration)
     run = game.run(outcome, wall)
-    summary = run.summary.to_json()
+    summary = run.summary
     return WalkTrialResult(
         path.name,
         feedback,
         run.message,
         outcome is Outcome.COMPLETED,
         run.duration / duration,
-        summary["tilt_max_deg"],
+        summary.tilt_max_deg,
         _com_error(summary, gait),
-        summary["speed_ratio"],
-        summary["yaw_ratio"] if path.bearing else None,
+        summary.speed_ratio,
+        summary.yaw_ratio if path.bearing else None,
         gauge.strain(),
         degrees(trial.description.lean),
     )
 
 
-def _com_error(summary: dict[str, Any], gait: GaitSettings) -> float | None:
+def _com_error(summary: WalkSummary, gait: GaitSettings) -> float | None:
     """Return the rms CoM error by its height, the greater of both axes."""
-    tracking = summary["tracking"]
-    errors = [tracking[f"com_{axis}_m"] for axis in "xy"]
-    if any(error is None for error in errors):
+    sagittal, coronal = summary.tracking.com_x_m, summary.tracking.com_y_m
+    if sagittal is None or coronal is None:
         return None
-    return float(max(e["rms"] for e in errors) / gait.com_height)
+    return max(sagittal.rms, coronal.rms) / gait.com_height

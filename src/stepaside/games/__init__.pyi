@@ -1,10 +1,10 @@
 from .duel import Duel as Duel
 from .duel import run_duel as run_duel
-from .duel_run import DuelRun as DuelRun
 from .duel_settings import DuelSettings as DuelSettings
 from .outcome import Outcome as Outcome
+from .run import DuelRun as DuelRun
 from .run import Run as Run
-from .walk_run import WalkRun as WalkRun
+from .run import WalkRun as WalkRun
 
 __all__ = [
     "Duel",

@@ -11,13 +11,18 @@ from io import BytesIO
 from math import isfinite
 from pathlib import Path
 from stat import S_ISREG
-from typing import IO, Any, NoReturn
+from typing import IO, Any, NoReturn, TypeVar
 from zipfile import ZIP_DEFLATED, ZIP_STORED, ZipFile, ZipInfo
 
+import dacite
 import numpy as np
 from numpy.lib import format as npy
 
+from ..core.errors import ConfigurationError
 from ..core.poses import Array
+from .configuration_file import HOOKS
+
+T = TypeVar("T")
 
 MAX_TEXT_BYTES = 2**20  # of a configuration or a summary
 MAX_ARRAY_BYTES = 2**30  # of all arrays together; a game of a day has less
@@ -48,6 +53,42 @@ def read_json(file: Path) -> Any:
     except RecursionError as error:
         raise ValueError("JSON is nested too deep") from error
     return value
+
+
+def check_object(plain: Any, source: str) -> dict[str, Any]:
+    """Return a JSON object unchanged; reject any other value.
+
+    Args:
+        plain: JSON value.
+        source: Origin of the value, for messages.
+
+    Raises:
+        ConfigurationError: If the value is not an object.
+    """
+    if not isinstance(plain, dict):
+        raise ConfigurationError(
+            f"{source} must hold one JSON object, got {type(plain).__name__}"
+        )
+    return plain
+
+
+def parse_object(kind: type[T], plain: Any, source: str) -> T:
+    """Parse a JSON object into a dataclass; further entries are ignored.
+
+    Args:
+        kind: The dataclass.
+        plain: JSON value.
+        source: Origin of the value, for messages.
+
+    Raises:
+        ConfigurationError: If an entry is missing or of the wrong type;
+            names the entry.
+    """
+    config = dacite.Config(type_hooks=HOOKS, cast=[tuple])
+    try:
+        return dacite.from_dict(kind, check_object(plain, source), config)
+    except (dacite.DaciteError, TypeError, AttributeError) as error:
+        raise ConfigurationError(f"{source}: {error}") from error
 
 
 def read_arrays(file: Path, known: frozenset[str]) -> dict[str, Array]:

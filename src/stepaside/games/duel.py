@@ -23,7 +23,6 @@ from ..sim.push import pushes_by_robot
 from ..sim.world import World
 from ..strategies import Strategy, load_strategy
 from .duel_evaluation import summarise
-from .duel_run import DuelRun
 from .duel_settings import EVADER, PLAYERS, PURSUER, DuelSettings
 from .initial_poses import initial_poses, with_initial_poses
 from .match import Match, MatchObserver, Progress, play
@@ -31,6 +30,7 @@ from .outcome import Outcome
 from .person_player import PersonPlayer
 from .player import Player
 from .recorder import Recorder
+from .run import DuelRun
 from .walker import SimulatedPlayer
 from .walker_factory import clearance_in, place_walker, watch
 
@@ -284,7 +284,6 @@ def make_duel_run(
     summary = summarise(
         settings,
         match,
-        outcome,
         times,
         tracks,
         recorder.planning(),
@@ -296,7 +295,7 @@ def make_duel_run(
         settings=settings,
         outcome=outcome,
         message=match.message,
-        duration=summary.duration_s,
+        duration=round(match.world.time, 9),
         times=times,
         tracks=tracks,
         summary=summary,

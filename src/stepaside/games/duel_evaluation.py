@@ -27,7 +27,6 @@ from .duel_summary import (
 )
 from .forecast import ExpectedEnd, forecast
 from .match import Match
-from .outcome import Outcome
 from .sight_summary import SightReport
 from .template_game import template_closest_approach
 from .trajectory import PlanningTimes, Trajectory
@@ -36,7 +35,6 @@ from .trajectory import PlanningTimes, Trajectory
 def summarise(
     settings: DuelSettings,
     match: Match,
-    outcome: Outcome,
     times: Array,
     tracks: Mapping[str, Trajectory],
     planning: Mapping[str, PlanningTimes],
@@ -48,7 +46,6 @@ def summarise(
     Args:
         settings: Settings of the duel, with the initial poses filled in.
         match: The match that was played.
-        outcome: How it ended.
         times: Times of the samples, in [s]. Shape (n,).
         tracks: Trajectory of each player, by name.
         planning: Planning times of each player, by name.
@@ -63,10 +60,7 @@ def summarise(
     start, now = settings.start, match.world.time
     assert match.min_distance is not None
     return DuelSummary(
-        outcome=outcome.value,
-        message=match.message,
         seed=settings.seed,
-        duration_s=round(now, 9),
         start=StartSummary(
             start.distance, start.pursuer_offset, start.evader_offset
         ),

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, fields, replace
 from math import pi
+from typing import ClassVar
 
 from ..control.clearance.map_settings import MapSettings
 from ..core.brief_repr import brief_repr
@@ -118,6 +119,7 @@ class RobotSettings:
 class DuelSettings:
     """Settings of a duel."""
 
+    game: ClassVar[str] = "duel"
     __repr__ = brief_repr
 
     seed: int = setting(1, "Random seed", SEEDS, option="--seed")

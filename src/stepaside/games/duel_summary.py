@@ -1,10 +1,8 @@
 """Summary of a duel."""
 
-from dataclasses import asdict, dataclass, field
-from typing import Any
+from dataclasses import dataclass, field
 
-from .sight_summary import SEEING, SIGHT, PerceptionSummary, SightSummary, lift
-from .summary_parsing import check_object, parse_summary
+from .sight_summary import PerceptionSummary, SightSummary
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,10 +79,7 @@ class DuelSummary:
     person on the axis of the trunk.
 
     Attributes:
-        outcome: How the duel ended.
-        message: Reason for the end, as text.
         seed: Seed of every random draw.
-        duration_s: Simulated time, in [s].
         start: Initial poses.
         triggered_at_s: Time at which the evader began to evade, in [s].
         triggered_at_distance_m: True distance between the reference points
@@ -111,13 +106,9 @@ class DuelSummary:
         touched: Names of the bodies in contact, if contact ended the duel.
         notes: Remarks, such as that the configuration does not repeat the
             run.
-        run_folder: Path of the run folder, if one was written.
     """
 
-    outcome: str
-    message: str
     seed: int
-    duration_s: float
     start: StartSummary
     triggered_at_s: float | None
     triggered_at_distance_m: float | None
@@ -137,38 +128,3 @@ class DuelSummary:
     touched: list[str] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     captured_at_s: float | None = None
-    run_folder: str | None = None
-
-    def to_json(self) -> dict[str, Any]:
-        """Return plain values by name, as printed by ``--json``."""
-        plain = asdict(self)
-        both = {"pursuer": self.pursuer, "evader": self.evader}
-        for name, player in both.items():
-            del plain[name]["sight"]
-            if player.sight is not None:
-                plain[name] |= player.sight.to_json()
-        plain |= plain.pop("sight") or {}
-        if self.run_folder is None:
-            del plain["run_folder"]
-        for name in ("touched", "notes"):
-            if not plain[name]:
-                del plain[name]
-        return plain
-
-    @classmethod
-    def from_json(cls, plain: Any, source: str) -> "DuelSummary":
-        """Parse the output of :meth:`to_json`.
-
-        Args:
-            plain: Plain values by name.
-            source: Origin of the values, for messages.
-
-        Raises:
-            ConfigurationError: If an entry is missing or of the wrong type;
-                names the entry.
-        """
-        entries = lift(check_object(plain, source), SEEING)
-        for name in ("pursuer", "evader"):
-            if isinstance(entries.get(name), dict):
-                entries[name] = lift(entries[name], SIGHT)
-        return parse_summary(cls, entries, source)

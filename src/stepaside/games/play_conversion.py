@@ -1,11 +1,9 @@
 """Conversion of the rows recorded by a player at a robot into a run."""
 
-import json
 from pathlib import Path
 
 import numpy as np
 
-from ..core.atomic_output import atomic_draft
 from ..core.poses import Array
 from ..drivers.joint.safety import RobotState
 from ..drivers.row_file import HEADER, ROWS
@@ -13,26 +11,23 @@ from ..drivers.velocity.velocity_loop import DrivingState
 from ..robots.description import load_robot
 from ..theory.unicycle.circle_fit import fit_circle
 from .array_checks import check_times, check_tracks
-from .checksums import write_checksums
 from .duel_circle import cycle_mean, distance_between
 from .duel_settings import PLAYERS
 from .outcome import Outcome
 from .play_joint_path import OdometryPath
 from .play_rows import NOTES, PlayedRows, read_played
-from .play_run import PlayRun
 from .play_settings import PlaySettings
 from .play_sightings import sight_table, sightings_in, track_of_other
 from .play_summary import Change, PlaySummary
-from .run_header import FORMAT, RunHeader
+from .run import PlayRun
 from .trajectory import Trajectory
 
 MAX_CHANGES = 2000  # of state, in a summary
 MIN_TURN = 0.5  # of a path to which a circle can be fitted, in [rad]
-SUMMARY, TRAJECTORIES = "summary.json", "trajectories.npz"
 CUT_OFF = "the record was cut off"
 
 
-def is_play(folder: Path) -> bool:
+def has_play_rows(folder: Path) -> bool:
     """Return whether a folder holds rows of a player, finished or not."""
     return all((folder / name).is_file() for name in (HEADER, ROWS, NOTES))
 
@@ -75,39 +70,8 @@ def run_of_play(
         duration=float(times[-1]),
         times=times,
         tracks=tracks,
-        summary=_summary(rows, settings, times, tracks, outcome, message),
+        summary=_summary(rows, settings, times, tracks),
     )
-
-
-def seal_play(
-    folder: Path, settings: PlaySettings, outcome: Outcome, message: str
-) -> PlayRun:
-    """Complete the run folder of a player that has ended.
-
-    Summary, trajectories and checksums are added. No figure is drawn, as the
-    computer of a robot need not have matplotlib.
-
-    Args:
-        folder: Folder of the rows and the configuration.
-        settings: Settings of the player.
-        outcome: How the play ended.
-        message: Reason for the end, as text.
-
-    Raises:
-        ConfigurationError: If there are no valid rows.
-        OSError: If the folder cannot be written.
-        OutputError: Likewise.
-    """
-    run = run_of_play(folder, settings, outcome, message)
-    with atomic_draft(folder / TRAJECTORIES) as draft:
-        np.savez_compressed(draft, allow_pickle=False, **run.arrays())
-    head = RunHeader(FORMAT, run.game, run.players)
-    summary = {**head.to_json(), **run.summary.to_json()}
-    text = json.dumps(summary, indent=2, allow_nan=False) + "\n"
-    with atomic_draft(folder / SUMMARY) as draft:
-        draft.write_text(text, encoding="utf-8")
-    write_checksums(folder)
-    return run
 
 
 def _own(rows: PlayedRows, settings: PlaySettings, sight: Array) -> Trajectory:
@@ -131,8 +95,6 @@ def _summary(
     settings: PlaySettings,
     times: Array,
     tracks: dict[str, Trajectory],
-    outcome: Outcome,
-    message: str,
 ) -> PlaySummary:
     states = RobotState if rows.moves_joints else DrivingState
     walking = rows.columns["state"] == list(states).index(states.WALKING)
@@ -154,11 +116,8 @@ def _summary(
         spent = begun[~np.isnan(begun[:, 5]), 5]
     nearest = rows.columns["sighting"][seen, 2]
     return PlaySummary(
-        outcome=outcome.value,
-        message=message,
         role=settings.role,
         language=settings.language,
-        duration_s=float(times[-1]),
         walking_s=walked,
         steps=steps,
         way_m=float(np.hypot(*np.diff(smooth, axis=0).T).sum()),

@@ -11,8 +11,13 @@ from numpy.typing import NDArray
 from ..core.errors import ConfigurationError
 from ..core.poses import Array
 from ..drivers.row_file import HEADER, ROWS, columns_in
-from .archive_reader import MAX_ARRAY_BYTES, read_bytes, read_json
-from .summary_parsing import check_object, parse_summary
+from .archive_reader import (
+    MAX_ARRAY_BYTES,
+    check_object,
+    parse_object,
+    read_bytes,
+    read_json,
+)
 
 NOTES = "play.json"
 PERIOD = 0.02  # approximate smallest period of the samples of a run, in [s]
@@ -114,7 +119,7 @@ def read_played(folder: Path) -> PlayedRows:
     found = columns_in(read_bytes(folder / ROWS, MAX_ARRAY_BYTES), columns)
     if not len(found["times_s"]):
         raise ConfigurationError(f"{ROWS} of {name} has no rows")
-    notes = parse_summary(
+    notes = parse_object(
         PlayNotes, read_json(folder / NOTES), f"{NOTES} of {name}"
     )
     return PlayedRows(found, one_clock(found["times_s"]), notes.changes)

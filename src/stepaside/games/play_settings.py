@@ -1,6 +1,7 @@
 """Settings of a player at a robot."""
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 from ..core.brief_repr import brief_repr
 from ..core.setting import check_settings, setting
@@ -20,6 +21,7 @@ LANGUAGES = LOLA, NAOQI, ROS2 = ("lola", "naoqi", "ros2")
 class PlaySettings:
     """Settings of one player at one robot."""
 
+    game: ClassVar[str] = "play"
     __repr__ = brief_repr
 
     role: str = setting(EVADER, "Role of the player", names=PLAYERS)

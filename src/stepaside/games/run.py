@@ -1,74 +1,39 @@
-"""Recorded game as a value: settings, trajectories and summary."""
+"""Recorded game as a value: settings, outcome, trajectories and summary."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Protocol
+from math import degrees, isfinite
+from typing import (
+    TYPE_CHECKING,
+    Generic,
+    NamedTuple,
+    TypeAlias,
+    TypeGuard,
+    TypeVar,
+)
 
 import numpy as np
 
 from ..arena import Room
 from ..core.poses import Array
-from ..planning import GaitSettings
-from ..sim.body_settings import BodySettings
 from ..sim.camera_settings import RoomObject
-from ..sim.physics_settings import PhysicsSettings
-from .duel_circle import angle_between, distance_between
-from .duel_settings import RobotSettings
+from .duel_circle import angle_between, circle_of_theory, distance_between
+from .duel_settings import EVADER, PURSUER, DuelSettings
+from .duel_summary import DuelSummary
 from .outcome import Outcome
+from .play_settings import PlaySettings
+from .play_summary import PlaySummary
 from .trajectory import Trajectory
+from .walk_settings import WALKER, WalkSettings
+from .walk_summary import WalkSummary
 
 if TYPE_CHECKING:
     from .sight_evaluation import EvaluatedImage
 
-
-class GameSettings(Protocol):
-    """Settings that every game has."""
-
-    @property
-    def seed(self) -> int:
-        """Seed of every random draw."""
-
-    @property
-    def robot(self) -> str:
-        """Name of a robot or folder of its description."""
-
-    @property
-    def gait(self) -> GaitSettings:
-        """Gait of its robots."""
-
-    def robot_of(self, player: str) -> RobotSettings:
-        """Return robot, gait and control of a player."""
-
-    @property
-    def cycle(self) -> float:
-        """Duration of a gait cycle of the slowest robot, in [s]."""
-
-    @property
-    def physics(self) -> PhysicsSettings:
-        """Physics, floor and clock."""
-
-    @property
-    def body(self) -> BodySettings:
-        """Deviations of its bodies from ideal ones."""
-
-
-class GameSummary(Protocol):
-    """Values that the summary of every game has."""
-
-    @property
-    def outcome(self) -> str:
-        """How the game ended."""
-
-    @property
-    def message(self) -> str:
-        """Reason for the end, as text."""
-
-    @property
-    def duration_s(self) -> float:
-        """Simulated time, in [s]."""
-
-    def to_json(self) -> dict[str, Any]:
-        """Return plain values by name."""
+GameSettings: TypeAlias = DuelSettings | WalkSettings | PlaySettings
+GameSummary: TypeAlias = DuelSummary | WalkSummary | PlaySummary
+SettingsT = TypeVar("SettingsT", bound=GameSettings, covariant=True)
+SummaryT = TypeVar("SummaryT", bound=GameSummary, covariant=True)
 
 
 class SafetyArea(NamedTuple):
@@ -83,34 +48,64 @@ class SafetyArea(NamedTuple):
     radius: float
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Run:
-    """Recorded game.
+class TheoryLevels(NamedTuple):
+    """Values on the circle of theory.
+
+    Attributes:
+        radius_m: Radius of the evader's circle, in [m].
+        distance_m: Distance between the players, in [m].
+        angle_deg: Angle between their headings, in [deg].
+    """
+
+    radius_m: float
+    distance_m: float
+    angle_deg: float
+
+
+class CircleInWorld(NamedTuple):
+    """Circle in the world.
+
+    Attributes:
+        x: First coordinate of the center in the world, in [m].
+        y: Second coordinate of the center in the world, in [m].
+        radius: Radius, in [m].
+    """
+
+    x: float
+    y: float
+    radius: float
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class GameRun(Generic[SettingsT, SummaryT]):
+    """Recorded game of any number of players.
+
+    Trajectories are in the world; those of a play are in the player's own
+    odometry. There the opponent is at its last sighting and is drawn as a
+    template that faces the player, as its heading is unknown.
 
     Attributes:
         name: Name of the run; that of its folder if it was read from one.
-        settings: Settings of the game.
+        settings: Settings of the game, with the initial poses filled in.
         outcome: How the game ended.
         message: Reason for the end, as text.
-        duration: Simulated time, in [s].
+        duration: Simulated or recorded time, in [s].
         times: Times of the samples, in [s]. Shape (n,).
         tracks: Trajectory of each player, by name, in the order in which
             the players act.
-        summary: Summary of the game.
+        summary: Values measured in the game.
         stills: Example images of robots with cameras, by robot and camera;
             not stored on disk.
     """
 
-    game: ClassVar[str] = "game"  # name of the game
-
     name: str
-    settings: GameSettings
+    settings: SettingsT
     outcome: Outcome
     message: str
     duration: float
     times: Array
     tracks: Mapping[str, Trajectory]
-    summary: GameSummary
+    summary: SummaryT
     stills: "Mapping[str, Mapping[str, list[EvaluatedImage]]]" = field(
         default_factory=dict
     )
@@ -118,19 +113,22 @@ class Run:
     def __repr__(self) -> str:
         """Describe the run in one line."""
         return (
-            f"{type(self).__name__}({self.name!r}, {self.message!r}, "
+            f"{self.game.capitalize()}Run({self.name!r}, {self.message!r}, "
             f"{len(self.times)} samples of {' and '.join(self.players)})"
         )
 
     @property
-    def plan(self) -> Room | None:
-        """Room of the game; None on an open floor."""
-        return None
+    def game(self) -> str:
+        """Name of the game: "duel", "walk" or "play"."""
+        return self.settings.game
 
     @property
     def title(self) -> str:
         """Title, for figures and pages."""
-        return f"{self.game.capitalize()}, seed {self.settings.seed}"
+        settings = self.settings
+        if isinstance(settings, PlaySettings):
+            return f"Play of the {settings.role} over {settings.language}"
+        return f"{self.game.capitalize()}, seed {settings.seed}"
 
     @property
     def players(self) -> tuple[str, ...]:
@@ -139,13 +137,32 @@ class Run:
 
     @property
     def robots(self) -> tuple[str, ...]:
-        """Names of the players whose joint angles are recorded."""
+        """Names of the players that are robots."""
+        if isinstance(self.settings, DuelSettings):
+            return self.settings.robots
         return tuple(n for n, t in self.tracks.items() if t.qpos is not None)
 
     @property
     def persons(self) -> tuple[str, ...]:
         """Names of the players that are drawn as persons."""
+        if not isinstance(self.settings, DuelSettings):
+            return ()
         return tuple(n for n in self.players if n not in self.robots)
+
+    @property
+    def pursuer(self) -> Trajectory:
+        """Trajectory of the pursuer."""
+        return self.tracks[PURSUER]
+
+    @property
+    def evader(self) -> Trajectory:
+        """Trajectory of the evader."""
+        return self.tracks[EVADER]
+
+    @property
+    def walker(self) -> Trajectory:
+        """Trajectory of the robot of a walk."""
+        return self.tracks[WALKER]
 
     @property
     def pair(self) -> tuple[Trajectory, Trajectory] | None:
@@ -156,48 +173,102 @@ class Run:
         return first, second
 
     @property
-    def distance(self) -> Array | None:
-        """Distance between the first two players, in [m]. Shape (n,).
+    def distance(self) -> Array:
+        """Distance between the reference points of the first two, in [m].
 
-        It is measured between their reference points; None with one player.
+        NaN with one player. Shape (n,).
         """
         if self.pair is None:
-            return None
+            return np.full(len(self.times), np.nan)
         first, second = self.pair
         return distance_between(first.unicycle, second.unicycle)
 
     @property
-    def orientation(self) -> Array | None:
-        """Angle between the first two headings, in [deg]. Shape (n,).
+    def has_orientation(self) -> bool:
+        """Whether the headings of two players are known; not in a play."""
+        in_play = isinstance(self.settings, PlaySettings)
+        return self.pair is not None and not in_play
 
-        None with one player.
+    @property
+    def orientation(self) -> Array:
+        """Angle between the headings of the first two, in [deg].
+
+        NaN where it is unknown, see ``has_orientation``. Shape (n,).
         """
-        if self.pair is None:
-            return None
+        if self.pair is None or not self.has_orientation:
+            return np.full(len(self.times), np.nan)
         first, second = self.pair
-        angle: Array = angle_between(first.unicycle, second.unicycle)
+        angle = angle_between(first.unicycle, second.unicycle)
         in_degrees: Array = np.degrees(angle)
         return in_degrees
 
     @property
-    def theory(self) -> tuple[float, float, float] | None:
-        """Radius [m], distance [m] and angle [deg] on the circle of theory."""
-        return None
+    def theory(self) -> TheoryLevels | None:
+        """Values on the circle of theory.
+
+        None if the game has no circle, or the forecast was contact before it.
+        """
+        settings, summary = self.settings, self.summary
+        if not (
+            isinstance(settings, DuelSettings)
+            and isinstance(summary, DuelSummary)
+        ):
+            return None
+        circle = circle_of_theory(settings)
+        expects_contact = summary.theory.expected == "contact"
+        if not circle.exists or (
+            expects_contact and summary.converged_at_s is None
+        ):
+            return None
+        return TheoryLevels(
+            circle.radius_evader_m,
+            circle.distance_m,
+            degrees(circle.headings_apart_rad),
+        )
 
     @property
-    def circle(self) -> tuple[float, float, float] | None:
-        """Center (x, y) and radius of the circle of theory, in [m]."""
-        return None
+    def circle(self) -> CircleInWorld | None:
+        """Circle of theory, centered where the players walked in the end.
+
+        None if the players did not converge to it.
+        """
+        theory, summary = self.theory, self.summary
+        if theory is None or not isinstance(summary, DuelSummary):
+            return None
+        if summary.converged_at_s is None:
+            return None
+        tail = self.times >= summary.converged_at_s
+        centers = [
+            track.unicycle[tail, :2].mean(axis=0)
+            for track in self.tracks.values()
+        ]
+        x, y = np.mean(centers, axis=0).tolist()
+        return CircleInWorld(x, y, theory.radius_m)
 
     @property
     def safety(self) -> SafetyArea | None:
-        """Safety area of a player, if there is one."""
-        return None
+        """Safety area of an evader; None if it always evades."""
+        settings = self.settings
+        if isinstance(settings, WalkSettings):
+            return None
+        if isinstance(settings, PlaySettings) and settings.role != EVADER:
+            return None
+        radius = settings.strategy.area
+        return SafetyArea(EVADER, radius) if isfinite(radius) else None
+
+    @property
+    def plan(self) -> Room | None:
+        """Room of the game; None on an open floor."""
+        if not isinstance(self.settings, DuelSettings):
+            return None
+        return self.settings.room.plan
 
     @property
     def things(self) -> tuple[RoomObject, ...]:
         """Objects in the room."""
-        return ()
+        if not isinstance(self.settings, DuelSettings):
+            return ()
+        return tuple(self.settings.room.things)
 
     def index_at(self, time: float) -> int:
         """Return the index of the first sample at or after a time, in [s]."""
@@ -212,15 +283,6 @@ class Run:
         last = index >= len(self.times) - 1
         complete = (Outcome.COMPLETED, Outcome.INTERRUPTED)
         return last and self.outcome not in complete
-
-    def words(self, index: int) -> str:
-        """Describe the state of the game at a sample, for captions."""
-        if self.has_ended_at(index):
-            return self.message
-        pushed = self.pushed_at(float(self.times[index]))
-        if pushed:
-            return f"{' and '.join(pushed)} is pushed"
-        return f"{' and '.join(self.players)} in motion"
 
     def pushed_at(self, time: float) -> tuple[str, ...]:
         """Return the players pushed in the last second before a time [s]."""
@@ -238,3 +300,24 @@ class Run:
         for name, track in self.tracks.items():
             found |= track.arrays(name)
         return found
+
+
+Run: TypeAlias = GameRun[GameSettings, GameSummary]
+DuelRun: TypeAlias = GameRun[DuelSettings, DuelSummary]
+WalkRun: TypeAlias = GameRun[WalkSettings, WalkSummary]
+PlayRun: TypeAlias = GameRun[PlaySettings, PlaySummary]
+
+
+def is_duel(run: Run) -> TypeGuard[DuelRun]:
+    """Return whether a run is one of a duel."""
+    return isinstance(run.settings, DuelSettings)
+
+
+def is_walk(run: Run) -> TypeGuard[WalkRun]:
+    """Return whether a run is one of a walk."""
+    return isinstance(run.settings, WalkSettings)
+
+
+def is_play(run: Run) -> TypeGuard[PlayRun]:
+    """Return whether a run is one of a play at a robot."""
+    return isinstance(run.settings, PlaySettings)

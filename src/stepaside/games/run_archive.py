@@ -1,37 +1,50 @@
 """Run folders: a recorded game on disk."""
 
 import json
+import re
+from collections.abc import Collection
+from dataclasses import asdict, dataclass
+from hashlib import sha256
 from pathlib import Path
-from typing import Any, TypeVar, overload
+from typing import Any, Literal, NamedTuple, overload
 from zipfile import BadZipFile
 from zlib import error as DeflateError
 
 import numpy as np
 
+from ..core.atomic_output import atomic_draft
 from ..core.errors import AnyPath, ConfigurationError, as_path
 from ..core.poses import Array
-from .archive_reader import read_arrays, read_json, read_text
+from .archive_reader import (
+    MAX_ARRAY_BYTES,
+    check_object,
+    parse_object,
+    read_arrays,
+    read_bytes,
+    read_json,
+    read_text,
+)
 from .array_checks import check_times, check_tracks
-from .checksums import check_checksums
 from .configuration_file import dump_configuration, read_settings
-from .duel_run import DuelRun
+from .duel_settings import DuelSettings
+from .duel_summary import DuelSummary
 from .outcome import Outcome
-from .play_conversion import is_play, run_of_play
-from .play_run import PlayRun
+from .play_conversion import has_play_rows, run_of_play
 from .play_settings import PlaySettings
-from .run import Run
-from .run_header import FORMAT, RunHeader, read_head
-from .summary_parsing import check_object
-from .trajectory import FIELDS, Trajectory, tracks_in
-from .walk_run import WalkRun
+from .play_summary import PlaySummary
+from .run import DuelRun, GameRun, PlayRun, Run, WalkRun
+from .trajectory import FIELDS, tracks_in
+from .walk_settings import WalkSettings
+from .walk_summary import WalkSummary
 
-R = TypeVar("R", bound=Run)
-
+FORMAT = 4  # of a run folder
 CONFIGURATION = "configuration.toml"
 SUMMARY = "summary.json"
 TRAJECTORIES = "trajectories.npz"
-RUN_CLASSES: dict[str, type[DuelRun] | type[WalkRun] | type[PlayRun]]
-RUN_CLASSES = {run.game: run for run in (DuelRun, WalkRun, PlayRun)}
+CHECKSUMS = "checksums.txt"
+MAX_PLAYERS = 6
+PLAYER_NAME = re.compile(r"[a-z][a-z0-9-]{0,31}")
+CHECKSUM_LINE = re.compile(r"([0-9a-f]{64})  ([\w.-]+)")
 READ_ERRORS = (  # raised for damaged files
     ValueError,
     OSError,
@@ -45,36 +58,119 @@ READ_ERRORS = (  # raised for damaged files
 )
 
 
+class GameKind(NamedTuple):
+    """Types of one game.
+
+    Attributes:
+        settings: Type of its settings.
+        summary: Type of its summary.
+    """
+
+    settings: type[Any]
+    summary: type[Any]
+
+
+GAMES = {
+    "duel": GameKind(DuelSettings, DuelSummary),
+    "walk": GameKind(WalkSettings, WalkSummary),
+    "play": GameKind(PlaySettings, PlaySummary),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class RunHeader:
+    """Entries that the summary of every game has.
+
+    Attributes:
+        format: Format of the folder.
+        game: Name of the game.
+        players: Names of the players, in the order in which they act.
+        outcome: How the game ended.
+        message: Reason for the end, as text.
+        duration_s: Simulated or recorded time, in [s].
+    """
+
+    format: int
+    game: str
+    players: tuple[str, ...]
+    outcome: str
+    message: str
+    duration_s: float
+
+
+def results_of(run: Run) -> dict[str, Any]:
+    """Return outcome and summary as plain values, as ``--json`` prints them.
+
+    Args:
+        run: The run.
+    """
+    return {
+        "outcome": run.outcome.value,
+        "message": run.message,
+        "duration_s": run.duration,
+        **asdict(run.summary),
+    }
+
+
 def write_run_files(folder: Path, run: Run) -> None:
     """Write configuration, summary and trajectories into a folder.
 
     Args:
-        folder: Existing folder without a run.
+        folder: Existing folder. Each file appears when it is complete.
         run: The run.
     """
-    (folder / CONFIGURATION).write_text(
-        dump_configuration(run.settings), encoding="utf-8"
-    )
-    head = RunHeader(FORMAT, run.game, run.players)
-    summary = {**head.to_json(), **run.summary.to_json()}
-    (folder / SUMMARY).write_text(
-        json.dumps(summary, indent=2) + "\n", encoding="utf-8"
-    )
-    np.savez_compressed(
-        folder / TRAJECTORIES, allow_pickle=False, **run.arrays()
-    )
+    configuration = dump_configuration(run.settings)
+    header = {"format": FORMAT, "game": run.game, "players": run.players}
+    summary = json.dumps(header | results_of(run), indent=2, allow_nan=False)
+    for name, text in (
+        (CONFIGURATION, configuration),
+        (SUMMARY, summary + "\n"),
+    ):
+        with atomic_draft(folder / name) as draft:
+            draft.write_text(text, encoding="utf-8")
+    with atomic_draft(folder / TRAJECTORIES) as draft:
+        np.savez_compressed(draft, allow_pickle=False, **run.arrays())
+
+
+def complete_play(
+    folder: Path, settings: PlaySettings, outcome: Outcome, message: str
+) -> PlayRun:
+    """Complete the run folder of a player that has ended.
+
+    Summary, trajectories and checksums are added. No figure is drawn, as the
+    computer of a robot need not have matplotlib.
+
+    Args:
+        folder: Folder of the rows and the configuration.
+        settings: Settings of the player.
+        outcome: How the play ended.
+        message: Reason for the end, as text.
+
+    Raises:
+        ConfigurationError: If there are no valid rows.
+        OSError: If the folder cannot be written.
+        OutputError: Likewise.
+    """
+    run = run_of_play(folder, settings, outcome, message)
+    write_run_files(folder, run)
+    write_checksums(folder)
+    return run
 
 
 @overload
 def load_run(folder: AnyPath) -> Run: ...
 @overload
-def load_run(folder: AnyPath, kind: type[R]) -> R: ...
-def load_run(folder: AnyPath, kind: type[Run] = Run) -> Run:
+def load_run(folder: AnyPath, game: Literal["duel"]) -> DuelRun: ...
+@overload
+def load_run(folder: AnyPath, game: Literal["walk"]) -> WalkRun: ...
+@overload
+def load_run(folder: AnyPath, game: Literal["play"]) -> PlayRun: ...
+def load_run(folder: AnyPath, game: str | None = None) -> GameRun[Any, Any]:
     """Read a run folder.
 
     Args:
         folder: The run folder.
-        kind: Required class of the run; by default that of any game.
+        game: Required game, "duel", "walk" or "play"; by default any.
 
     Returns:
         The run.
@@ -84,57 +180,49 @@ def load_run(folder: AnyPath, kind: type[Run] = Run) -> Run:
             another game, or of another format.
     """
     folder = as_path(folder, "folder")
-    if not (folder / SUMMARY).exists() and is_play(folder):
-        _check_game(PlayRun, folder, kind)
-        return _load_unfinished_play(folder)
-    for name in (CONFIGURATION, SUMMARY, TRAJECTORIES):
+    try:
+        if not (folder / SUMMARY).exists() and has_play_rows(folder):
+            _check_game("play", folder, game)
+            text = read_text(folder / CONFIGURATION)
+            source = str(folder / CONFIGURATION)
+            settings = read_settings(PlaySettings, text, source)
+            return run_of_play(folder, settings)
+        return _load_complete_run(folder, game)
+    except ConfigurationError:
+        raise
+    except READ_ERRORS as error:
+        raise ConfigurationError(
+            f"run {folder} cannot be read: {error or type(error).__name__}"
+        ) from error
+
+
+def _load_complete_run(folder: Path, game: str | None) -> Run:
+    files = (CONFIGURATION, SUMMARY, TRAJECTORIES)
+    for name in files:
         if not (folder / name).is_file():
             raise ConfigurationError(
                 f"run must be a folder with {CONFIGURATION}, {SUMMARY} and "
                 f"{TRAJECTORIES}; {folder} has no {name}"
             )
     name = folder.resolve().name
-    try:
-        check_checksums(folder, (CONFIGURATION, SUMMARY, TRAJECTORIES))
-        plain = read_json(folder / SUMMARY)
-        text = read_text(folder / CONFIGURATION)
-        head = read_head(plain, name, tuple(RUN_CLASSES))
-        known = {f"{n}_{key}" for n in head.players for key in FIELDS}
-        known.add("times_s")
-        arrays = read_arrays(folder / TRAJECTORIES, frozenset(known))
-    except ConfigurationError:
-        raise
-    except READ_ERRORS as error:
-        raise ConfigurationError(
-            f"run {folder} cannot be read: {error or type(error).__name__}"
-        ) from error
-    run_class = RUN_CLASSES[head.game]
-    _check_game(run_class, folder, kind)
+    check_checksums(folder, files)
+    plain = read_json(folder / SUMMARY)
+    text = read_text(folder / CONFIGURATION)
+    header = read_header(plain, name)
+    known = {f"{n}_{key}" for n in header.players for key in FIELDS}
+    known.add("times_s")
+    arrays = read_arrays(folder / TRAJECTORIES, frozenset(known))
+    _check_game(header.game, folder, game)
     source = str(folder / CONFIGURATION)
-    settings = read_settings(run_class.settings_kind, text, source)
+    settings = read_settings(GAMES[header.game].settings, text, source)
     return read_record(name, settings, plain, arrays)
 
 
-def _check_game(run_class: type[Run], folder: Path, kind: type[Run]) -> None:
-    if not issubclass(run_class, kind):
+def _check_game(found: str, folder: Path, game: str | None) -> None:
+    if game not in (None, found):
         raise ConfigurationError(
-            f"run {folder} must be one of a {kind.game}, got one of a "
-            f"{run_class.game}"
+            f"run {folder} must be one of a {game}, got one of a {found}"
         )
-
-
-def _load_unfinished_play(folder: Path) -> PlayRun:
-    """Read a play that was cut off or is still running."""
-    file = folder / CONFIGURATION
-    try:
-        settings = read_settings(PlaySettings, read_text(file), str(file))
-        return run_of_play(folder, settings)
-    except ConfigurationError:
-        raise
-    except READ_ERRORS as error:
-        raise ConfigurationError(
-            f"run {folder} cannot be read: {error or type(error).__name__}"
-        ) from error
 
 
 def read_record(
@@ -151,53 +239,118 @@ def read_record(
     Raises:
         ConfigurationError: If the content is invalid, or of another format.
     """
-    head = read_head(plain, name, tuple(RUN_CLASSES))
-    times, tracks = _times(arrays, name), _tracks(arrays, name, head)
+    header = read_header(plain, name)
+    try:
+        times = arrays["times_s"]
+        tracks = tracks_in(arrays, header.players)
+    except KeyError as error:
+        raise ConfigurationError(
+            f"{TRAJECTORIES} of run {name} has no array {error}; arrays are "
+            f"times_s and, of each player, {', '.join(FIELDS)}"
+        ) from error
     check_times(times, name)
     check_tracks(tracks, len(times), name)
-    source = f"{SUMMARY} of run {name}"
-    entries = head.without(check_object(plain, source))
-    run_class: Any = RUN_CLASSES[head.game]
-    summary = run_class.summary_kind.from_json(entries, source)
-    run: Run = run_class(
+    summary = parse_object(
+        GAMES[header.game].summary, plain, f"{SUMMARY} of run {name}"
+    )
+    return GameRun(
         name=name,
         settings=settings,
-        outcome=_outcome(summary.outcome, name),
-        message=summary.message,
-        duration=summary.duration_s,
+        outcome=Outcome(header.outcome),
+        message=header.message,
+        duration=header.duration_s,
         times=times,
         tracks=tracks,
         summary=summary,
     )
-    return run
 
 
-def _outcome(value: str, name: str) -> Outcome:
-    try:
-        return Outcome(value)
-    except ValueError as error:
-        known = ", ".join(outcome.value for outcome in Outcome)
+def read_header(plain: Any, run: str) -> RunHeader:
+    """Parse the entries that the summary of every game has.
+
+    Args:
+        plain: Summary, as JSON.
+        run: Name of the run, for messages.
+
+    Raises:
+        ConfigurationError: If an entry is missing or invalid.
+    """
+    source = f"{SUMMARY} of run {run}"
+    entries = check_object(plain, source)
+    outcomes = [outcome.value for outcome in Outcome]
+    for key, known in (
+        ("format", [FORMAT]),
+        ("game", [*GAMES]),
+        ("outcome", outcomes),
+    ):
+        value = entries.get(key)
+        if type(value) is not type(known[0]) or value not in known:
+            options = ", ".join(map(str, known))
+            rule = f"one of {options}" if len(known) > 1 else options
+            raise ConfigurationError(
+                f"{key} of run {run} must be {rule}, got {value!r:.40}"
+            )
+    if not _are_player_names(entries.get("players")):
         raise ConfigurationError(
-            f"outcome of run {name} must be one of {known}, got {value!r}"
-        ) from error
-
-
-def _times(arrays: dict[str, Array], name: str) -> Array:
-    if "times_s" not in arrays:
-        raise ConfigurationError(
-            f"{TRAJECTORIES} of run {name} has no array times_s"
+            f"players of run {run} must be 1 to {MAX_PLAYERS} unique names in "
+            f"lower case, got {entries.get('players')!r:.80}"
         )
-    return arrays["times_s"]
+    return parse_object(RunHeader, entries, source)
 
 
-def _tracks(
-    arrays: dict[str, Array], name: str, head: RunHeader
-) -> dict[str, Trajectory]:
-    """Return the trajectories of all players."""
-    try:
-        return tracks_in(arrays, head.players)
-    except KeyError as error:
-        raise ConfigurationError(
-            f"{TRAJECTORIES} of run {name} has no array {error}; arrays of a "
-            f"player are {', '.join(FIELDS)}"
-        ) from error
+def _are_player_names(players: Any) -> bool:
+    return (
+        isinstance(players, list)
+        and all(
+            isinstance(n, str) and PLAYER_NAME.fullmatch(n) for n in players
+        )
+        and len(set(players)) == len(players)
+        and 1 <= len(players) <= MAX_PLAYERS
+    )
+
+
+def write_checksums(folder: Path) -> None:
+    """Write the SHA-256 checksums of all files of a folder.
+
+    The file has the format of ``sha256sum --check``.
+
+    Args:
+        folder: Run folder whose other files are complete.
+    """
+    lines = [
+        f"{sha256(file.read_bytes()).hexdigest()}  {file.name}\n"
+        for file in sorted(folder.iterdir())
+        if file.name != CHECKSUMS
+    ]
+    (folder / CHECKSUMS).write_text("".join(lines), encoding="utf-8")
+
+
+def check_checksums(folder: Path, names: Collection[str]) -> None:
+    """Check the files of a run folder against its checksums.
+
+    A folder without checksums was edited by hand and is not checked.
+
+    Args:
+        folder: Run folder.
+        names: Names of the files that will be read.
+
+    Raises:
+        ConfigurationError: If a file has another checksum, or none.
+        ValueError: If a file is not a regular file, or too long.
+        OSError: If a file cannot be read.
+    """
+    if not (folder / CHECKSUMS).exists():
+        return
+    found = dict.fromkeys(names, "")
+    for line in read_text(folder / CHECKSUMS).splitlines():
+        entry = CHECKSUM_LINE.fullmatch(line)
+        if entry is not None and entry[2] in found:
+            found[entry[2]] = entry[1]
+    for name, recorded in found.items():
+        content = read_bytes(folder / name, MAX_ARRAY_BYTES)
+        if sha256(content).hexdigest() != recorded:
+            raise ConfigurationError(
+                f"{name} of run {folder} was modified: its checksum differs "
+                f"from that in {CHECKSUMS}; delete {CHECKSUMS} to read the "
+                "folder unchecked"
+            )

@@ -7,13 +7,14 @@ from typing import Any, NamedTuple
 from ..core.errors import ConfigurationError
 from ..drivers.lola.nao_joints import TICK
 from .duel import Duel, make_duel_run
-from .duel_run import DuelRun
 from .duel_settings import DuelSettings
 from .lockstep import Lockstep, RobotServer
 from .match import Match, Progress, play
 from .player import Player
 from .recorder import Recorder
 from .robot_offers import Offer
+from .run import DuelRun
+from .run_archive import results_of
 from .served_player import ServedPlayer
 from .walker import SimulatedPlayer
 
@@ -35,7 +36,7 @@ class ServedDuel(NamedTuple):
 
     def to_json(self) -> dict[str, Any]:
         """Return the summary of the duel and the timing, as plain values."""
-        return self.run.summary.to_json() | {
+        return results_of(self.run) | {
             "late_ticks": self.late_ticks,
             "lateness_ms": self.lateness_ms,
             "unanswered_frames": self.unanswered,

@@ -1,8 +1,8 @@
 """Summaries of the perception of robots with cameras."""
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, fields
-from typing import Any, NamedTuple
+from dataclasses import dataclass
+from typing import NamedTuple
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,13 +41,6 @@ class SightSummary:
     lost_s: float
     depth_detection_rate: float | None = None
 
-    def to_json(self) -> dict[str, Any]:
-        """Return plain values by name, without rates that are unknown."""
-        plain = asdict(self)
-        if self.depth_detection_rate is None:
-            del plain["depth_detection_rate"]
-        return plain
-
 
 @dataclass(frozen=True, slots=True)
 class PerceptionSummary:
@@ -76,19 +69,3 @@ class SightReport(NamedTuple):
 
     all: PerceptionSummary
     each: Mapping[str, SightSummary]
-
-
-SEEING = frozenset(field.name for field in fields(PerceptionSummary))
-SIGHT = frozenset(field.name for field in fields(SightSummary))
-
-
-def lift(plain: dict[str, Any], names: frozenset[str]) -> dict[str, Any]:
-    """Move the entries of a perception summary under the key ``sight``.
-
-    Args:
-        plain: Plain values by name.
-        names: Names of the entries to move.
-    """
-    sight = {key: value for key, value in plain.items() if key in names}
-    rest = {key: value for key, value in plain.items() if key not in names}
-    return rest | {"sight": sight or None}

@@ -76,7 +76,6 @@ class StepCounts(NamedTuple):
 def summarise_walk(
     settings: WalkSettings,
     outcome: Outcome,
-    message: str,
     duration: float,
     times: Array,
     track: Trajectory,
@@ -87,7 +86,6 @@ def summarise_walk(
     Args:
         settings: Settings of the walk.
         outcome: How it ended.
-        message: Reason for the end, as text.
         duration: Simulated time, in [s].
         times: Times of the samples, in [s]. Shape (n,).
         track: Trajectory with foot states and estimates; without samples if
@@ -99,13 +97,11 @@ def summarise_walk(
         mask = upright_samples(times, outcome)
         in_foot = express_in_support_foot(times, track)
         columns = {name: values[mask] for name, values in in_foot.items()}
-    return figures_of(settings, outcome, message, duration, columns, counted)
+    return summarise_columns(settings, duration, columns, counted)
 
 
-def figures_of(
+def summarise_columns(
     settings: WalkSettings,
-    outcome: Outcome,
-    message: str,
     duration: float,
     columns: dict[str, Array],
     counted: StepCounts,
@@ -114,8 +110,6 @@ def figures_of(
 
     Args:
         settings: Settings of the walk.
-        outcome: How it ended.
-        message: Reason for the end, as text.
         duration: Simulated time, in [s].
         columns: Evenly spaced samples, by the names of ``COLUMNS``.
         counted: Values that are not in the columns.
@@ -124,10 +118,7 @@ def figures_of(
     a = {name: values[steady] for name, values in columns.items()}
     pace = _pace(a, 2.0 * settings.gait.step_duration)
     return WalkSummary(
-        outcome=outcome.value,
-        message=message,
         seed=settings.seed,
-        duration_s=round(duration, 9),
         steps=counted.steps,
         adapted_steps=counted.adapted,
         method=settings.control.method,

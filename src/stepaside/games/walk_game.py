@@ -17,8 +17,8 @@ from ..strategies import Walk
 from .match import Match, MatchObserver, Progress, play
 from .outcome import Outcome
 from .recorder import Recorder
+from .run import WalkRun
 from .walk_evaluation import StepCounts, summarise_walk
-from .walk_run import WalkRun
 from .walk_settings import WALKER, WalkSettings
 from .walker import SimulatedPlayer
 from .walker_factory import place_walker
@@ -133,7 +133,6 @@ class WalkGame(Match):
         summary = summarise_walk(
             self.settings,
             outcome,
-            self.message,
             self.world.time,
             times,
             tracks[WALKER],
@@ -151,7 +150,7 @@ class WalkGame(Match):
             settings=self.settings,
             outcome=outcome,
             message=self.message,
-            duration=summary.duration_s,
+            duration=round(self.world.time, 9),
             times=times,
             tracks=tracks,
             summary=summary,

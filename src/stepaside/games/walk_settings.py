@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from math import pi
+from typing import ClassVar
 
 from ..core.brief_repr import brief_repr
 from ..core.ranges import (
@@ -25,6 +26,7 @@ WALKER = "walker"
 class WalkSettings:
     """Settings of a walk."""
 
+    game: ClassVar[str] = "walk"
     __repr__ = brief_repr
 
     seed: int = setting(1, "Random seed", SEEDS, option="--seed")

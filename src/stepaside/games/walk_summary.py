@@ -1,9 +1,6 @@
 """Summary of a walk."""
 
-from dataclasses import asdict, dataclass
-from typing import Any
-
-from .summary_parsing import parse_summary
+from dataclasses import dataclass
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,10 +66,7 @@ class WalkSummary:
     after the first three seconds.
 
     Attributes:
-        outcome: How the walk ended.
-        message: Reason for the end, as text.
         seed: Seed of every random draw.
-        duration_s: Simulated time, in [s].
         steps: Footsteps begun.
         adapted_steps: Footsteps that feedback adapted.
         method: Method that gives the CoM of the plans.
@@ -90,13 +84,9 @@ class WalkSummary:
             of its support polygon, in [m]; None if the robot did not walk.
         qp: Performance of the solver of the MPC, if there was one.
         real_time_factor: Simulated time over computing time.
-        run_folder: Path of the run folder, if one was written.
     """
 
-    outcome: str
-    message: str
     seed: int
-    duration_s: float
     steps: int
     adapted_steps: int
     method: str
@@ -113,26 +103,3 @@ class WalkSummary:
     min_zmp_margin_m: float | None
     qp: SolverSummary | None
     real_time_factor: float
-    run_folder: str | None = None
-
-    def to_json(self) -> dict[str, Any]:
-        """Return plain values by name, as printed by ``--json``."""
-        plain = asdict(self)
-        plain["push_impulse_n_s"] = list(self.push_impulse_n_s)
-        if self.run_folder is None:
-            del plain["run_folder"]
-        return plain
-
-    @classmethod
-    def from_json(cls, plain: Any, source: str) -> "WalkSummary":
-        """Parse the output of :meth:`to_json`.
-
-        Args:
-            plain: Plain values by name.
-            source: Origin of the values, for messages.
-
-        Raises:
-            ConfigurationError: If an entry is missing or of the wrong type;
-                names the entry.
-        """
-        return parse_summary(cls, plain, source)

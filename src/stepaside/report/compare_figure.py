@@ -21,7 +21,7 @@ def draw_comparison(runs: Sequence[Run], file: AnyPath) -> None:
         runs: The runs; each has its own line style.
         file: Figure to write.
     """
-    turned = any(run.orientation is not None for run in runs)
+    turned = any(run.has_orientation for run in runs)
     if not turned:
         figure = new_figure(9.5, 4.2)
         axes = figure.subplot_mosaic([["path", "distance"]])
@@ -50,7 +50,7 @@ def draw_comparison(runs: Sequence[Run], file: AnyPath) -> None:
             ("distance", run.distance),
             ("angle", run.orientation),
         ):
-            if values is None:
+            if key not in axes:
                 continue
             axes[key].plot(
                 run.times,
@@ -86,10 +86,11 @@ def _draw_theories(axes: Any, runs: Sequence[Run]) -> None:
         if key not in axes:
             continue
         levels: dict[float, int] = {}
-        for number, run in enumerate(runs):
-            if run.theory is not None:
-                levels.setdefault(round(run.theory[column], 6), number)
-        shared = len(levels) == 1 and all(run.theory for run in runs)
+        theories = [run.theory for run in runs]
+        for number, theory in enumerate(theories):
+            if theory is not None:
+                levels.setdefault(round(theory[column], 6), number)
+        shared = len(levels) == 1 and all(theories)
         low, high = axes[key].get_ylim()
         near = 0.08 * (max(high, *levels, low) - min(low, *levels, high))
         for level, number in levels.items():

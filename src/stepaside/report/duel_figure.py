@@ -6,8 +6,7 @@ import numpy as np
 
 from ..core.errors import AnyPath
 from ..core.poses import Array
-from ..games.duel_run import DuelRun
-from ..games.run import Run
+from ..games.run import Run, is_duel
 from .cycle_means import whole_cycles
 from .figure_sizes import sheet
 from .figure_style import (
@@ -164,7 +163,7 @@ def _draw_over_time(figure: Any, run: Run) -> None:
     """Draw distance and angle between headings with the theory's values."""
     times = run.times
     theory_distance = theory_angle = None
-    if isinstance(run, DuelRun):
+    if is_duel(run):
         theory = run.summary.theory
         theory_distance = theory.distance_m
         theory_angle = theory.relative_orientation_deg

@@ -165,7 +165,7 @@ def closest_time(run: Run) -> float | None:
     Returns:
         The time; None for a run of one player.
     """
-    if run.distance is None:
+    if run.pair is None:
         return None
     return float(run.times[int(np.argmin(run.distance))])
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from ..core.poses import Array
 from ..games.run import Run
+from ..games.run_captions import describe_state
 from ..perception.images import Pixels
 from .film_camera import HEIGHT, CameraView
 from .palette import PALETTES, colours_in
@@ -74,7 +75,7 @@ def caption(
             y = 0.5 * height * (1.0 - projected[1]) + 0.6 * size
             draw_label(pen, text, (x, y), colour, round(0.9 * size))
     values = f"{run.times[index]:.1f} s"
-    if run.distance is not None:
+    if run.pair is not None:
         values += f"   distance {run.distance[index]:.2f} m"
     if abs(speed - 1.0) > 1e-3:
         values += f"   {speed:.3g} x real time"
@@ -84,7 +85,7 @@ def caption(
     pen.text((size, baseline), values, LIGHT.ink, _font(size), "lm")
     left = pen.textlength(values, _font(size)) + 3 * size
     available = width - left - size
-    state = visible(run.words(index))
+    state = visible(describe_state(run, index))
     while state and pen.textlength(state, _font(size)) > available:
         state = state[:-2].rstrip(" .") + "\u2026" if len(state) > 3 else ""
     pen.text((width - size, baseline), state, LIGHT.ink, _font(size), "rm")
@@ -106,8 +107,9 @@ def ring_labels(run: Run, index: int) -> list[tuple[str, Array, str]]:
         colour = colours_in("light", run.players)[player]
         position = np.array([x + radius * dx, y + radius * dy, 0.0])
         labels.append((f"safety radius {radius:.2g} m", position, colour))
-    if run.circle is not None:
-        x, y, radius = run.circle
+    circle = run.circle
+    if circle is not None:
+        x, y, radius = circle
         position = np.array([x - radius * dx, y - radius * dy, 0.0])
         text = f"theoretical circle, radius {radius:.2g} m"
         labels.append((text, position, LIGHT.theory))

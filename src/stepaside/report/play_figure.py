@@ -5,7 +5,8 @@ from typing import Any
 
 import numpy as np
 
-from ..games.play_run import PlayRun
+from ..games.run import PlayRun
+from ..games.trajectory import Trajectory
 from .duel_figure import draw_paths
 from .figure_style import MEAN, SWAY, THEORY, colours_of, new_figure, save
 from .text_escaping import for_figure
@@ -26,7 +27,7 @@ def draw_play(run: PlayRun, path: Path) -> None:
     upper, middle, lower = right.subplots(3, 1)
     _draw_distance(upper, run)
     _draw_bearing(middle, run)
-    if run.player.command is not None:
+    if _own(run).command is not None:
         _draw_command(lower, run)
     else:
         _draw_balance(lower, run)
@@ -36,7 +37,7 @@ def draw_play(run: PlayRun, path: Path) -> None:
 
 def _draw_distance(axes: Any, run: PlayRun) -> None:
     """Draw the measured distance of the opponent and the safety radius."""
-    sight = run.player.sight
+    sight = _own(run).sight
     if sight is not None:
         axes.plot(sight[:, 0], sight[:, 2], color=MEAN, lw=1.2)
     if run.safety is not None:
@@ -47,7 +48,7 @@ def _draw_distance(axes: Any, run: PlayRun) -> None:
 
 
 def _draw_bearing(axes: Any, run: PlayRun) -> None:
-    sight = run.player.sight
+    sight = _own(run).sight
     if sight is not None:
         axes.plot(sight[:, 0], np.degrees(sight[:, 1]), color=MEAN, lw=1.2)
     _mark_changes(axes, run)
@@ -56,7 +57,7 @@ def _draw_bearing(axes: Any, run: PlayRun) -> None:
 
 def _draw_command(axes: Any, run: PlayRun) -> None:
     """Draw the desired velocity and the command that was sent."""
-    command = run.player.command
+    command = _own(run).command
     assert command is not None
     colour = colours_of(run.players)[run.settings.role]
     turns = axes.twinx()
@@ -72,7 +73,7 @@ def _draw_command(axes: Any, run: PlayRun) -> None:
 
 def _draw_balance(axes: Any, run: PlayRun) -> None:
     """Draw CoM and ZMP during the last steps of the walk, leftward."""
-    track, times = run.player, run.times
+    track, times = _own(run), run.times
     landings = track.landings
     last = times[-1]
     if landings is not None and len(landings):
@@ -96,6 +97,11 @@ def _draw_balance(axes: Any, run: PlayRun) -> None:
     axes.margins(x=0.0)
     axes.set_title("last steps, measured and estimated", pad=18)
     axes.legend(ncols=4, loc="lower center", bbox_to_anchor=(0.5, 0.97))
+
+
+def _own(run: PlayRun) -> Trajectory:
+    """Return the trajectory of the player itself."""
+    return run.tracks[run.settings.role]
 
 
 def _mark_changes(axes: Any, run: PlayRun) -> None:

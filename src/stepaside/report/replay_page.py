@@ -13,6 +13,7 @@ from ..core.atomic_output import atomic_draft
 from ..core.errors import AnyPath, ConfigurationError, as_path
 from ..core.poses import Array
 from ..games.run import Run
+from ..games.run_captions import describe_state
 from ..robots.description import load_robot
 from .cycle_means import whole_cycles
 from .palette import PALETTES, colours_in
@@ -98,11 +99,14 @@ def _page_data(run: Run) -> dict[str, Any]:
         scene.put(int(index))
         positions[row] = scene.data.xpos[bodies]
         quaternions[row] = np.rint(32767.0 * scene.data.xquat[bodies])
-    messages = [visible(run.words(int(index))) for index in samples]
+    messages = [visible(describe_state(run, int(index))) for index in samples]
     distinct = list(dict.fromkeys(messages))
     low, high = _extent(run)
     heights = BodyHeights(geoms)
     sole = run.settings.gait.sole
+    theory, circle = run.theory, run.circle
+    distance = run.distance if run.pair is not None else None
+    angle = run.orientation if run.has_orientation else None
     return {
         "times": np.round(run.times[samples], 3).tolist(),
         "positions": b64encode(positions.tobytes()).decode("ascii"),
@@ -115,14 +119,14 @@ def _page_data(run: Run) -> dict[str, Any]:
             _player_data(run, scene, name, samples, heights)
             for name in run.players
         ],
-        "distance": _series(run.distance, samples, 3),
-        "angle": _series(run.orientation, samples, 1),
+        "distance": _series(distance, samples, 3),
+        "angle": _series(angle, samples, 1),
         "means": {
-            "distance": _means(run, run.distance, samples, 3),
-            "angle": _means(run, run.orientation, samples, 1),
+            "distance": _means(run, distance, samples, 3),
+            "angle": _means(run, angle, samples, 1),
         },
-        "theory": None if run.theory is None else list(run.theory),
-        "circle": run.circle and [round(v, 3) for v in run.circle],
+        "theory": theory and list(theory),
+        "circle": circle and [round(v, 3) for v in circle],
         "safety": run.safety and run.safety.radius,
         "safety_player": run.safety and run.players.index(run.safety.player),
         "messages": distinct,

@@ -13,11 +13,9 @@ from ..core.atomic_output import (
     remove_stale_drafts,
 )
 from ..core.errors import AnyPath, OutputError, as_path
-from ..games.checksums import write_checksums
 from ..games.outcome import Outcome
-from ..games.play_run import PlayRun
-from ..games.run import Run
-from ..games.run_archive import write_run_files
+from ..games.run import Run, is_play
+from ..games.run_archive import write_checksums, write_run_files
 
 SIGHT = "sight.png"
 
@@ -54,7 +52,7 @@ def draw_run(run: Run, file: Path) -> None:
         file: Figure to write; its suffix gives the format.
     """
     # Imported here: checking a folder must not wait for Matplotlib.
-    if isinstance(run, PlayRun):
+    if is_play(run):
         from .play_figure import draw_play
 
         draw_play(run, file)

@@ -1,9 +1,9 @@
 """Report on why a duel did not reach its circle."""
 
 from ..games.duel_circle import circle_of_theory
-from ..games.duel_run import DuelRun
 from ..games.duel_settings import DuelSettings
 from ..games.outcome import Outcome
+from ..games.run import DuelRun
 
 
 def settling_time(settings: DuelSettings) -> float | None:

@@ -8,8 +8,7 @@ import cv2
 import numpy as np
 
 from ..core.poses import Array, wrap_angles
-from ..games.duel_run import DuelRun
-from ..games.run import Run
+from ..games.run import Run, is_duel
 from ..games.sight_evaluation import EvaluatedImage
 from ..games.trajectory import Trajectory
 from ..perception.images import ColourImage, DepthImage, Pixels
@@ -185,7 +184,7 @@ def _draw_errors(figure: Any, grid: Any, run: Run) -> None:
     ):
         axes.axhline(0.0, color=THEORY, lw=0.6)
         axes.set(ylabel=label, ylim=(-limit, limit))
-    since = run.summary.triggered_at_s if isinstance(run, DuelRun) else None
+    since = run.summary.triggered_at_s if is_duel(run) else None
     if since is not None:
         upper.axvline(
             since, color=THEORY, ls=":", lw=1.0, label="evasion begins"

@@ -17,8 +17,8 @@ from ..core.poses import Pose
 from ..core.random_streams import named_generator
 from ..core.worker_pool import cancel_pending
 from ..games.duel import run_duel
-from ..games.duel_run import DuelRun
 from ..games.duel_settings import DuelSettings
+from ..games.run import DuelRun
 from ..games.strategy_objects import check_strategy_names
 from ..robots.jit import prefer_for_duration
 from ..strategies.registry import file_of
@@ -75,9 +75,9 @@ def play_record(settings: DuelSettings) -> Record:
     summary = run.summary
     record = {
         "seed": settings.seed,
-        "outcome": summary.outcome,
-        "message": summary.message,
-        "duration_s": summary.duration_s,
+        "outcome": run.outcome.value,
+        "message": run.message,
+        "duration_s": run.duration,
         "start_distance_m": run.settings.start.distance,
         "pursuer_radius_m": summary.pursuer.radius_m,
         "evader_radius_m": summary.evader.radius_m,

@@ -8,9 +8,9 @@ import numpy as np
 
 from ..arena import RoomRecipe, generate_room
 from ..games.duel import run_duel
-from ..games.duel_run import DuelRun
 from ..games.duel_settings import PLAYERS, DuelSettings
 from ..games.outcome import Outcome
+from ..games.run import DuelRun
 from ..sim.camera_settings import SceneSettings
 from ..strategies.step_game import StepGame, StepOutcome, StepTrack
 from .claims import Readings

@@ -146,10 +146,11 @@ def encounters(
 def meet(encounter: Encounter) -> tuple[str, Record]:
     """Play an encounter and return its key and record."""
     settings = encounter.settings
-    summary = run_duel(settings).summary
+    run = run_duel(settings)
+    summary = run.summary
     return encounter.key, {
-        "outcome": summary.outcome,
-        "duration_s": summary.duration_s,
+        "outcome": run.outcome.value,
+        "duration_s": run.duration,
         "triggered_at_s": summary.triggered_at_s,
         "triggered_at_distance_m": summary.triggered_at_distance_m,
         "closest_m": summary.min_distance_m,

@@ -10,9 +10,9 @@ import numpy as np
 from ..arena import ObstacleSet, Room
 from ..control.clearance.map_settings import MapSettings
 from ..core.poses import Array, Pose, wrap_angles
-from ..games.duel_run import DuelRun
 from ..games.duel_settings import PLAYERS, DuelSettings
 from ..games.outcome import Outcome
+from ..games.run import DuelRun
 from ..games.trajectory import Trajectory
 from ..robots.description import load_robot
 from ..sim.camera_settings import SceneSettings

@@ -21,7 +21,7 @@ from .record_store import RecordStore
 from .tournament_settings import HUMANOIDS, TournamentSettings
 
 if TYPE_CHECKING:
-    from ..games.duel_run import DuelRun
+    from ..games.run import DuelRun
     from .physics_game import DuelPaths
 
 Record = dict[str, Any]

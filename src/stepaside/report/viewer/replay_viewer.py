@@ -10,6 +10,7 @@ import viser
 
 from ...core.poses import Array
 from ...games.run import Run
+from ...games.run_captions import describe_state
 from ..figure_style import EVADER, PURSUER, PUSHED, THEORY, colours_of
 from ..palette import THEMES
 from ..scene import RunScene
@@ -114,13 +115,10 @@ class ReplayPage:
         """Add plots of distance and angle with the theory's values."""
         run = self._run
         _, distance, angle = run.theory or (None, None, None)
-        shown = (
-            (TITLES[0], run.distance, distance, PURSUER),
-            (TITLES[1], run.orientation, angle, EVADER),
-        )
-        for title, values, level, colour in shown:
-            if values is not None:
-                self._add_plot(title, values, level, colour)
+        if run.pair is not None:
+            self._add_plot(TITLES[0], run.distance, distance, PURSUER)
+        if run.has_orientation:
+            self._add_plot(TITLES[1], run.orientation, angle, EVADER)
 
     def _add_plot(
         self, title: str, values: Array, level: float | None, colour: str
@@ -197,13 +195,14 @@ class ReplayPage:
         self._play.label = "Pause" if self._playing else "Play"
         text = (
             f"**{for_markdown(run.name)}**: "
-            f"{for_markdown(run.words(index))}\n\n{run.times[index]:.2f} s"
+            f"{for_markdown(describe_state(run, index))}\n\n"
+            f"{run.times[index]:.2f} s"
         )
-        distance, angle = run.distance, run.orientation
-        if distance is not None:
-            text += f", distance {distance[index]:.2f} m"
-        if angle is not None:
-            text += f", angle between the headings {angle[index]:.0f}\u00b0"
+        if run.pair is not None:
+            text += f", distance {run.distance[index]:.2f} m"
+        if run.has_orientation:
+            angle = run.orientation[index]
+            text += f", angle between the headings {angle:.0f}\u00b0"
         if self._status.content != text:
             self._status.content = text
 
@@ -225,6 +224,7 @@ class ReplayPage:
         if run.pair is not None:
             sight = [[*t.torso[index, :2], 0.25] for t in run.pair]
             layers.draw("line of sight", "both", np.array([sight]), THEORY)
-        if run.circle is not None:
-            circle = ring(*run.circle, HEIGHTS["theoretical circle"])
+        theoretical = run.circle
+        if theoretical is not None:
+            circle = ring(*theoretical, HEIGHTS["theoretical circle"])
             layers.draw("theoretical circle", "both", circle, THEORY)
