@@ -15,7 +15,7 @@ def loads(code: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "module", ["lola_connection", "lola_server", "sight_offer"]
+    "module", ["lola_connection", "lola_server", "sight_socket"]
 )
 def test_lola_loads_without_a_simulator(module: str) -> None:
     loads(f"import stepaside.drivers.lola.{module}")

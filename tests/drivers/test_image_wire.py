@@ -15,8 +15,7 @@ from stepaside.drivers.cameras.image_wire import (
     pack_image,
 )
 from stepaside.drivers.guardian_process import SessionLost
-from stepaside.drivers.lola.camera_channel import CameraChannel
-from stepaside.drivers.lola.camera_offer import CameraOffer
+from stepaside.drivers.lola.camera_socket import CameraClient, CameraServer
 from stepaside.drivers.lola.lola_address import LolaAddress
 from stepaside.drivers.lola.lola_server import LolaServer
 from stepaside.perception.camera_model import CameraModel
@@ -77,8 +76,8 @@ def test_an_invalid_image_is_refused(field: int, value: object) -> None:
 def test_images_come_with_the_frame_that_they_belong_to(
     tmp_path: Path,
 ) -> None:
-    offer = CameraOffer(LolaAddress(str(tmp_path / "c")))
-    channel = CameraChannel(LolaAddress(str(tmp_path / "c")))
+    offer = CameraServer(LolaAddress(str(tmp_path / "c")))
+    channel = CameraClient(LolaAddress(str(tmp_path / "c")))
     seen = measured(1.0, ColourImage(0.952, MODEL, PIXELS))
     offer.send(seen, 40)
     offer.send(seen, 41)  # the same tick again: nothing new
@@ -95,8 +94,8 @@ def test_images_come_with_the_frame_that_they_belong_to(
 def test_images_are_dropped_for_a_client_that_does_not_read(
     tmp_path: Path,
 ) -> None:
-    offer = CameraOffer(LolaAddress(str(tmp_path / "c")))
-    channel = CameraChannel(LolaAddress(str(tmp_path / "c")))
+    offer = CameraServer(LolaAddress(str(tmp_path / "c")))
+    channel = CameraClient(LolaAddress(str(tmp_path / "c")))
     large = CameraModel(640, 480, 500.0, 500.0)
     pixels = np.zeros((480, 640, 3), np.uint8)
     for tick in range(20):
@@ -110,8 +109,8 @@ def test_images_are_dropped_for_a_client_that_does_not_read(
 
 
 def test_a_channel_that_brings_garbage_is_silent(tmp_path: Path) -> None:
-    offer = CameraOffer(LolaAddress(str(tmp_path / "c")))
-    channel = CameraChannel(LolaAddress(str(tmp_path / "c")))
+    offer = CameraServer(LolaAddress(str(tmp_path / "c")))
+    channel = CameraClient(LolaAddress(str(tmp_path / "c")))
     offer.send(measured(0.0), 0)
     offer._send(b"x" * 200)
     assert channel.percepts(0, 0.0, 0.012) == []
@@ -125,10 +124,10 @@ def test_a_robot_without_cameras_offers_no_images(tmp_path: Path) -> None:
     server = LolaServer(place, MadeUpRobot(), JOINTS)
     assert place.cameras is not None
     with pytest.raises(SessionLost, match="no camera at"):
-        CameraChannel(place.cameras)
+        CameraClient(place.cameras)
     server.close()
     server = LolaServer(place, MadeUpRobot(), JOINTS, cameras=True)
-    CameraChannel(place.cameras).close()
+    CameraClient(place.cameras).close()
     server.close()
     assert list(tmp_path.iterdir()) == []
 

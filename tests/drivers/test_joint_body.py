@@ -22,8 +22,11 @@ from stepaside.drivers.lola.conventions import CODEC, joint_frame_of
 from stepaside.drivers.lola.lights import COLOURS
 from stepaside.drivers.lola.lola_frames import pack_sensors
 from stepaside.drivers.lola.nao_joints import LEGS, NAMES, NAO_MOTORS, TICK
-from stepaside.drivers.lola.sight_channel import SightChannel
-from stepaside.drivers.lola.sight_message import SightMessage, pack_sight
+from stepaside.drivers.lola.sight_socket import (
+    SightClient,
+    SightMessage,
+    pack_sight,
+)
 from stepaside.perception.measurement import Sighting
 
 FINE = pack_sensors(sensor_frame())
@@ -365,7 +368,7 @@ def test_a_world_in_lock_step_may_think_for_seconds() -> None:
 def test_sightings_come_with_their_frame_and_with_their_age() -> None:
     clock = Clock()
     messages = FakeLink(clock)
-    body, link, _ = walking(4 * [FINE], sight=SightChannel(messages))
+    body, link, _ = walking(4 * [FINE], sight=SightClient(messages))
     begun = 101  # the frame that was walked first
     messages.queue = [
         pack_sight(SightMessage(begun + 1, 0.05, 0.3, 0.9)),

@@ -20,7 +20,7 @@ from stepaside.drivers.lola.lola_frames import (
 from stepaside.drivers.lola.lola_server import LolaServer
 from stepaside.drivers.lola.nao_joints import TICK
 from stepaside.drivers.lola.served_joints import FADING, SETTLED, SILENT
-from stepaside.drivers.lola.sight_message import MESSAGE, unpack_sight
+from stepaside.drivers.lola.sight_socket import MESSAGE, unpack_sight
 from stepaside.drivers.lola.socket_link import SocketLink, connect
 from stepaside.drivers.lola.wire import SENSOR_BYTES
 from stepaside.perception.measurement import Sighting

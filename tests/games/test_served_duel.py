@@ -15,7 +15,7 @@ from stepaside.drivers.joint.joint_body import JointBody
 from stepaside.drivers.joint.joint_loop import JointLoop, JointTick
 from stepaside.drivers.joint.safety import RobotState
 from stepaside.drivers.joint.session_options import SessionOptions
-from stepaside.drivers.lola.camera_channel import CameraChannel
+from stepaside.drivers.lola.camera_socket import CameraClient
 from stepaside.drivers.lola.lola_address import LolaAddress
 from stepaside.drivers.lola.lola_connection import open_lola
 from stepaside.drivers.scheme_factory import control_scheme_factory
@@ -45,9 +45,9 @@ def client(
 ) -> None:
     """Play one player until its robot disconnects."""
 
-    def open_eyes() -> CameraChannel:
+    def open_eyes() -> CameraClient:
         assert address.cameras is not None
-        return CameraChannel(address.cameras)
+        return CameraClient(address.cameras)
 
     def open_body(scheme: object) -> JointBody:
         kinematics = scheme.kinematics  # type: ignore[attr-defined]

@@ -101,10 +101,10 @@ def open_camera_body(
 
 def _simulated_camera(robot: "LolaAddress | None") -> "ImageSource":
     """Return the camera channel next to the socket of a simulated robot."""
-    from ..drivers.lola.camera_channel import CameraChannel
+    from ..drivers.lola.camera_socket import CameraClient
 
     if robot is None or robot.cameras is None:
         raise click.UsageError(
             "--images is required: a robot at HOST:PORT has no camera channel"
         )
-    return CameraChannel(robot.cameras)
+    return CameraClient(robot.cameras)

@@ -18,8 +18,7 @@ from .lights import lights_for
 from .lola_address import LolaAddress
 from .lola_frames import ActuatorFrame, pack_actuators
 from .nao_joints import NAO_MOTORS, TICK
-from .sight_channel import SightChannel
-from .sight_message import MESSAGE
+from .sight_socket import MESSAGE, SightClient
 from .socket_link import SocketLink, connect
 from .wire import SENSOR_BYTES
 
@@ -77,7 +76,7 @@ def open_lola(
 
 def _sight_and_link(
     address: LolaAddress, *, sees: bool
-) -> tuple[SightChannel | None, SocketLink]:
+) -> tuple[SightClient | None, SocketLink]:
     """Connect to the line of sight first, as servers offer it first."""
     sight = None if sees else _ideal_sight(address)
     try:
@@ -91,12 +90,12 @@ def _sight_and_link(
     return sight, link
 
 
-def _ideal_sight(address: LolaAddress) -> SightChannel | None:
+def _ideal_sight(address: LolaAddress) -> SightClient | None:
     """Connect to the ground truth channel of a simulator, if there is one."""
     if address.sight is None:
         return None
     try:
-        return SightChannel(connect(address.sight, MESSAGE.size))
+        return SightClient(connect(address.sight, MESSAGE.size))
     except SessionLost:
         return None
 

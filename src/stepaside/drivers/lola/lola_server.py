@@ -7,12 +7,12 @@ from typing import Any
 import msgpack
 
 from ...core.poses import Array
-from .camera_offer import CameraOffer
+from .camera_socket import CameraServer
 from .listener import ClientListener
 from .lola_address import LolaAddress
 from .lola_frames import ActuatorFrame, pack_sensors, take_actuators
 from .served_joints import ServedJointRobot, ServedJoints
-from .sight_offer import SightOffer
+from .sight_socket import SightServer
 from .wire import LIMITS, LONGEST_ANSWER, WireError
 
 
@@ -98,12 +98,12 @@ class LolaServer:
         self._joints = ServedJoints(robot, joint_names)
         self._lock_step = lock_step
         # First, so that a client that finds the robot finds them, too.
-        self._channels: list[SightOffer | CameraOffer] = []
+        self._channels: list[SightServer | CameraServer] = []
         try:
             if ideal_sight and address.sight is not None:
-                self._channels.append(SightOffer(address.sight))
+                self._channels.append(SightServer(address.sight))
             if cameras and address.cameras is not None:
-                self._channels.append(CameraOffer(address.cameras))
+                self._channels.append(CameraServer(address.cameras))
             self._listener = ClientListener(address)
         except BaseException:
             self._close_channels()
