@@ -4,9 +4,10 @@ from collections.abc import Callable, Iterator
 from types import SimpleNamespace
 from typing import Any
 
+import numpy as np
 import pytest
 
-from stepaside.core.poses import Pose
+from stepaside.core.poses import Array, Pose
 from stepaside.games import match as loop
 from stepaside.games.match import Match
 from stepaside.games.outcome import Outcome
@@ -24,12 +25,13 @@ class FakeTruth:
     reach = 0.4
 
     def __init__(self, x: float, y: float) -> None:
-        self.position, self.heading = (x, y), 0.0
+        self.position_torso_in_world, self.heading_in_world = (x, y), 0.0
 
     @property
-    def place(self) -> tuple[float, float]:
+    def position_reference_in_world(self) -> tuple[float, float]:
         """What stands for it: a hand's breadth to the left."""
-        return self.position[0], self.position[1] + 0.1
+        x, y = self.position_torso_in_world
+        return x, y + 0.1
 
 
 class FakeWorld:
@@ -62,6 +64,31 @@ class FakeWorld:
         return self.contacts
 
 
+class FakeLog:
+    """Samples of what a player was told to be seen as."""
+
+    def __init__(self, player: "FakePlayer") -> None:
+        self._player = player
+        self._seen: list[Snapshot] = []
+
+    def add(self) -> None:
+        """Take a sample."""
+        self._seen.append(self._player.snapshot())
+
+    def truncate(self, count: int) -> None:
+        """Keep the first samples."""
+        del self._seen[count:]
+
+    def arrays(self) -> dict[str, Array]:
+        """Return what every player has."""
+        return {
+            name: np.array(
+                [getattr(seen, name) for seen in self._seen], dtype=float
+            ).reshape(-1, 3)
+            for name in ("com", "place", "torso")
+        }
+
+
 class FakePlayer:
     """Does what it is told at a tick; its ticks are told to its world."""
 
@@ -90,13 +117,17 @@ class FakePlayer:
 
     def snapshot(self) -> Snapshot:
         """What was told to be seen, of a place if nothing else."""
-        x, y = self.truth.position
+        x, y = self.truth.position_torso_in_world
         values: dict[str, Any] = {
-            "place": Pose(x, y + 0.1, self.truth.heading),
-            "torso": Pose(x, y, self.truth.heading),
+            "place": Pose(x, y + 0.1, self.truth.heading_in_world),
+            "torso": Pose(x, y, self.truth.heading_in_world),
             "com": (x, y, 0.3),
         } | self.seen
         return Snapshot(self.name, self.world.time, **values)
+
+    def motion_log(self, *, closely: bool) -> FakeLog:
+        """Return an empty log."""
+        return FakeLog(self)
 
     def push(self, *pushes: Push) -> None:
         """Stand like a rock."""

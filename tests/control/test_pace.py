@@ -148,10 +148,10 @@ def test_a_calm_walk_walks(pace: float) -> None:
     walker.scheme.decisions.adopt(Walk(pace=pace))
     while walking.world.time < 2.5:
         assert walking.tick() is not Outcome.FALL
-    x, began = walker.truth.place[0], walking.world.time
+    x, began = walker.truth.position_reference_in_world[0], walking.world.time
     while walking.world.time < began + 6.4:
         assert walking.tick() is not Outcome.FALL
-    way = walker.truth.place[0] - x
+    way = walker.truth.position_reference_in_world[0] - x
     assert way / 6.4 == pytest.approx(pace * FAST.speed, rel=0.05)
 
 

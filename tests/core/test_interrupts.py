@@ -2,7 +2,6 @@
 
 import signal
 from time import sleep
-from typing import Any
 
 import pytest
 
@@ -13,9 +12,9 @@ from stepaside.core.interrupts import (
     interruptible,
 )
 from stepaside.games.outcome import Outcome
-from stepaside.games.recorder import PlayerRecord
 from stepaside.games.walk_game import run_walk
 from stepaside.games.walk_settings import WalkSettings
+from stepaside.games.walker_log import WalkerLog
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
@@ -98,16 +97,16 @@ def test_an_interrupted_record_has_complete_samples(
     times: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Ctrl-C arrives once or twice within a sample."""
-    add = PlayerRecord.add
+    add = WalkerLog.add
     count = iter(range(100))
 
-    def add_and_interrupt(record: PlayerRecord, sample: Any) -> None:
-        add(record, sample)
+    def add_and_interrupt(log: WalkerLog) -> None:
+        add(log)
         if next(count) == 5:
             for _ in range(times):
                 signal.raise_signal(signal.SIGINT)
 
-    monkeypatch.setattr(PlayerRecord, "add", add_and_interrupt)
+    monkeypatch.setattr(WalkerLog, "add", add_and_interrupt)
     run = run_walk(WalkSettings(duration=0.5))
     assert run.outcome is Outcome.INTERRUPTED and 3 < len(run.times) < 9
     lengths = {

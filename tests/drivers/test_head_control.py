@@ -115,8 +115,9 @@ def test_players_with_cameras_detect_each_other_and_walk() -> None:
         tick = wires[name].tick
         assert abs(tick.velocity.forward) > 0.05, name
         assert tick.sighting is not None
-        (x, y), (u, v) = own.place, seen.place
-        toward = wrap_angle(atan2(v - y, u - x) - own.heading)
+        x, y = own.position_reference_in_world
+        u, v = seen.position_reference_in_world
+        toward = wrap_angle(atan2(v - y, u - x) - own.heading_in_world)
         off = wrap_angle(tick.sighting.bearing - toward)
         assert abs(off) < 0.1, name
         assert abs(tick.sighting.distance - hypot(u - x, v - y)) < 0.1, name

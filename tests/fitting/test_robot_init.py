@@ -184,7 +184,9 @@ def test_the_place_of_a_torso_is_midway_between_its_hips(
     mujoco.mj_kinematics(model, data)
     state = TrueRobotState(model, data, "chest", place=robot.place)
     hips = [data.body(f"{s}_spin_link").xpos[:2] for s, _ in stranger.SIDES]
-    np.testing.assert_allclose(state.position, np.mean(hips, axis=0))
+    np.testing.assert_allclose(
+        state.position_torso_in_world, np.mean(hips, axis=0)
+    )
 
 
 def test_a_missing_mesh_is_removed_and_reported(

@@ -44,10 +44,14 @@ def test_robots_begin_at_the_poses_of_the_start() -> None:
     assert [player.name for player in duel.players] == ["pursuer", "evader"]
     assert duel.player("evader") is duel.players[1]
     assert duel.distance == pytest.approx(1.3, abs=1e-6)
-    assert pursuer.heading == pytest.approx(0.4)
-    assert abs(evader.heading) == pytest.approx(pi - 0.2)
-    np.testing.assert_allclose(pursuer.place, [0.0, 0.0], atol=1e-6)
-    np.testing.assert_allclose(evader.place, [1.3, 0.0], atol=1e-6)
+    assert pursuer.heading_in_world == pytest.approx(0.4)
+    assert abs(evader.heading_in_world) == pytest.approx(pi - 0.2)
+    np.testing.assert_allclose(
+        pursuer.position_reference_in_world, [0.0, 0.0], atol=1e-6
+    )
+    np.testing.assert_allclose(
+        evader.position_reference_in_world, [1.3, 0.0], atol=1e-6
+    )
     assert duel.settings.start == START
     assert duel.min_distance == torsos_apart(pursuer, evader)
     assert duel.triggered_at is None and duel.triggered_distance is None

@@ -91,7 +91,13 @@ def test_values_returned_by_a_duel_do_not_change_later(
         if ticks % 25 == 0:
             kept.keep("snapshot", walker.snapshot())
             kept.keep("posture", robot.posture)
-            kept.keep("truth", (robot.truth.position, robot.truth.place))
+            kept.keep(
+                "truth",
+                (
+                    robot.truth.position_torso_in_world,
+                    robot.truth.position_reference_in_world,
+                ),
+            )
             kept.keep("plan", walker.scheme.state.plan)
         if ticks == 300:
             kept.keep("tracks", duel.recorder.tracks())

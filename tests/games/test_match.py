@@ -153,7 +153,7 @@ def test_closest_approach_and_first_motion_of_the_evader_are_recorded() -> (
     others = []
 
     def stand(x: float, *, moves: bool) -> None:
-        players[1].truth.position = (x, 0.0)
+        players[1].truth.position_torso_in_world = (x, 0.0)
         players[2].is_moving = moves
         assert match.tick() is None
         others.append(match.min_distance)

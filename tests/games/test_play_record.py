@@ -12,7 +12,7 @@ from click.testing import CliRunner
 
 from stepaside.cli.main import main
 from stepaside.core.errors import ConfigurationError
-from stepaside.core.poses import Pose, wrap_angle
+from stepaside.core.poses import Array, Pose, wrap_angle
 from stepaside.drivers.joint.joint_loop import JointTick
 from stepaside.drivers.joint.safety import RobotState
 from stepaside.drivers.play_log import PlayLog
@@ -25,6 +25,7 @@ from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.outcome import Outcome
 from stepaside.games.play_rows import one_clock
 from stepaside.games.play_settings import PlaySettings
+from stepaside.games.player import Snapshot
 from stepaside.games.run_archive import complete_play, load_run
 from stepaside.games.run_captions import describe_state
 from stepaside.games.walker import SimulatedPlayer
@@ -88,12 +89,14 @@ class Walked:
         evader = duel.players[1]
         assert isinstance(evader, SimulatedPlayer)
         look_at(log, evader)
-        self.true: list[Any] = []
+        self.true: list[tuple[Snapshot, Array]] = []
         self.others: list[tuple[float, float]] = []
         self.frame = evader.frame
         while duel.world.time < 4.0:
-            self.true.append(evader.snapshot())
-            self.others.append(duel.players[0].truth.place)
+            self.true.append((evader.snapshot(), evader.robot.posture))
+            self.others.append(
+                duel.players[0].truth.position_reference_in_world
+            )
             assert duel.tick() is None
         duel.close()
         log.close()
@@ -114,13 +117,13 @@ def test_the_replayed_path_is_the_true_one_up_to_slip(
     true = walked.true[:: round(float(run.times[1]) / 0.012)]
     assert len(run.times) in (len(true), len(true) + 1)
     assert run.summary.steps and run.summary.steps >= 4
-    for own, snapshot in zip(run.evader.torso, true, strict=False):
-        wanted = frame.compose(snapshot.torso)
+    for own, (seen, _) in zip(run.evader.torso, true, strict=False):
+        wanted = frame.compose(seen.torso)
         assert hypot(own[0] - wanted.x, own[1] - wanted.y) < 0.01
         assert abs(wrap_angle(own[2] - wanted.theta)) < 0.02
     qpos = run.evader.qpos
     assert qpos is not None
-    truly = np.array([s.posture for s in true])[: len(qpos)]
+    truly = np.array([posture for _, posture in true])[: len(qpos)]
     off = np.abs(qpos[: len(truly)] - truly)
     own = load_tree(load_robot("nao"))
     coupled = [own.joints.index(name) for name in own.followers]
@@ -140,7 +143,7 @@ def test_the_opponent_is_at_its_sightings(walked: Walked) -> None:
         assert off < 0.03  # at 0.1 m/s a sighting is some ticks old
     closest = min(
         hypot(x - s.place.x, y - s.place.y)
-        for (x, y), s in zip(walked.others, walked.true, strict=True)
+        for (x, y), (s, _) in zip(walked.others, walked.true, strict=True)
     )
     assert run.summary.closest_m == pytest.approx(closest, abs=0.01)
 

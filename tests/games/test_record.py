@@ -1,7 +1,6 @@
 """Test that each recorded array holds the quantity of its name."""
 
 from math import pi
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -18,21 +17,14 @@ FRAMES = (Pose(0.0, 0.0, 0.0), Pose(1.0, 2.0, pi / 2))
 NAMES = ("a", "b")
 
 
-def tell(player: FakePlayer, number: int, row: int = 0) -> None:
+def tell(player: FakePlayer, number: int) -> None:
     """Give a player values that identify player and quantity."""
     base = 100.0 * number
-    walk = SimpleNamespace(
-        reference=SimpleNamespace(com=(base + 8.0, base + 9.0, 0.3)),
-        zmp_reference=(base + 10.0, base + 11.0),
-    )
     player.seen = {
         "com": (base + 1.0, base + 2.0, base + 3.0),
         "torso": Pose(base + 4.0, base + 5.0, 0.5 * number),
         "place": Pose(base + 14.0, base + 15.0, 0.5 * number),
         "frame": FRAMES[number],
-        "walk": walk,
-        "zmp": (base + 6.0, base + 7.0),
-        "posture": np.arange(3.0) + 3.0 * number + 0.5 * row,
     }
 
 
@@ -58,59 +50,16 @@ def arrays_of(made: Recorder) -> dict[str, Array]:
     return found
 
 
-def test_a_record_holds_each_quantity_under_its_name() -> None:
-    """References are in odometry, whose frame is rotated for the second."""
-    made, match, world, players = recorder()
+def test_a_record_holds_the_samples_of_each_player() -> None:
+    made, match, world, _ = recorder()
     made.before(match)
     world.ticks = 5
-    for number, player in enumerate(players):
-        tell(player, number, row=1)
     made.before(match)
     arrays = arrays_of(made)
     np.testing.assert_array_equal(arrays["times_s"], [0.0, 0.02])
     for number, name in enumerate(NAMES):
-        base = 100.0 * number
-        for row in (0, 1):
-            np.testing.assert_allclose(
-                arrays[f"{name}_com"][row], base + np.array([1, 2, 3])
-            )
-            np.testing.assert_allclose(
-                arrays[f"{name}_torso"][row],
-                [base + 4.0, base + 5.0, 0.5 * number],
-            )
-            np.testing.assert_allclose(
-                arrays[f"{name}_place"][row],
-                [base + 14.0, base + 15.0, 0.5 * number],
-            )
-            np.testing.assert_allclose(
-                arrays[f"{name}_zmp"][row], [base + 6.0, base + 7.0]
-            )
-            posture = np.arange(3.0) + 3.0 * number + 0.5 * row
-            np.testing.assert_array_equal(arrays[f"{name}_qpos"][row], posture)
-    np.testing.assert_allclose(arrays["a_com_reference"][0], [8, 9])
-    np.testing.assert_allclose(arrays["a_zmp_reference"][0], [10, 11])
-    np.testing.assert_allclose(
-        arrays["b_com_reference"][0], [1 - 109, 2 + 108]
-    )
-    np.testing.assert_allclose(
-        arrays["b_zmp_reference"][0], [1 - 111, 2 + 110]
-    )
-    assert arrays["a_qpos"].dtype == np.float32
-    assert set(arrays) == {"times_s"} | {
-        f"{name}_{key}"
-        for name in NAMES
-        for key in (
-            *(
-                "com",
-                "torso",
-                "place",
-                "com_reference",
-                "zmp_reference",
-                "zmp",
-            ),
-            *("qpos", "landings"),
-        )
-    }
+        seen = 100.0 * number + np.array([1.0, 2.0, 3.0])
+        np.testing.assert_array_equal(arrays[f"{name}_com"], [seen, seen])
 
 
 def test_landings_are_in_the_world_with_their_side() -> None:
@@ -169,59 +118,18 @@ def test_headings_are_unwrapped() -> None:
 
 
 def test_an_empty_record_has_the_usual_shapes() -> None:
-    made, match, _, _ = recorder()
+    made, _, _, _ = recorder()
     assert made.times.shape == (0,)
     for track in made.tracks().values():
         assert track.com.shape == track.torso.shape == (0, 3)
-        assert track.com_reference is None and track.landings is None
-    sample(made, match)
-    assert arrays_of(made)["a_landings"].shape == (0, 5)
+        assert track.landings is not None and track.landings.shape == (0, 5)
 
 
-def test_missing_quantities_are_none_in_a_trajectory() -> None:
-    """A person has no plan; arrays are not filled with NaN."""
+def test_a_player_without_odometry_has_no_landings() -> None:
     made, match, _, players = recorder()
-    players[0].seen = {}
-    for _ in range(3):
-        sample(made, match)
-    person, robot = (made.tracks()[name] for name in NAMES)
-    assert set(person.arrays("a")) == {"a_com", "a_torso", "a_place"}
-    np.testing.assert_array_equal(person.com, [[0.0, 0.0, 0.3]] * 3)
-    np.testing.assert_array_equal(person.torso, np.zeros((3, 3)))
-    assert robot.qpos is not None and robot.qpos.shape == (3, 3)
-
-
-@pytest.mark.parametrize(
-    ("lacking", "arrays"),
-    [
-        ("posture", {"qpos"}),
-        ("zmp", {"zmp"}),
-        ("walk", {"com_reference", "zmp_reference"}),
-        ("frame", {"landings"}),
-    ],
-)
-def test_a_robot_without_plans_lacks_only_its_references(
-    lacking: str, arrays: set[str]
-) -> None:
-    made, match, _, players = recorder()
-    del players[1].seen[lacking]
-    for _ in range(2):
-        sample(made, match)
-    whole, part = (made.tracks()[name] for name in NAMES)
-    missing = whole.arrays("").keys() - part.arrays("").keys()
-    assert missing == {f"_{name}" for name in arrays}
-    for name in ("zmp", "com_reference"):
-        value = getattr(part, name)
-        assert value is None or value.shape == (2, 2)
-
-
-def test_the_zmp_in_flight_is_nan_in_the_record() -> None:
-    made, match, _, players = recorder()
+    del players[0].seen["frame"]
     sample(made, match)
-    players[0].seen["zmp"] = (np.nan, np.nan)
-    sample(made, match)
-    zmp = arrays_of(made)["a_zmp"]
-    assert np.isfinite(zmp[0]).all() and np.isnan(zmp[1]).all()
+    assert made.tracks()["a"].landings is None
 
 
 def test_returned_trajectories_do_not_change_later() -> None:

@@ -103,8 +103,10 @@ def test_players_begin_at_the_starts_of_the_room() -> None:
     room = replace(FULL, starts=STARTS)
     duel = Duel(placed(room))
     for player, start in zip(duel.players, STARTS, strict=True):
-        np.testing.assert_allclose(player.truth.place, start[:2], atol=1e-6)
-        assert player.truth.heading == pytest.approx(start.theta)
+        np.testing.assert_allclose(
+            player.truth.position_reference_in_world, start[:2], atol=1e-6
+        )
+        assert player.truth.heading_in_world == pytest.approx(start.theta)
     told = duel.settings.start
     assert told.distance == pytest.approx(2.0)
     assert told.pursuer_offset == pytest.approx(0.8 - pi / 2)

@@ -158,9 +158,9 @@ def test_a_person_nearby_is_one_track_and_not_lost() -> None:
         if duel.world.time < 1.0:
             continue
         assert seen is not None
-        x, y = truth.position
-        u, v = duel.players[0].truth.position
-        bearing = atan2(v - y, u - x) - truth.heading
+        x, y = truth.position_torso_in_world
+        u, v = duel.players[0].truth.position_torso_in_world
+        bearing = atan2(v - y, u - x) - truth.heading_in_world
         errors.append(degrees(abs(wrap_angle(seen.bearing - bearing))))
         ranges.append(abs(seen.distance - hypot(u - x, v - y)))
     assert np.median(errors) < 5.0 and max(errors) < 15.0
@@ -180,11 +180,11 @@ def test_the_estimated_camera_pose_is_true_while_walking() -> None:
         body = perception.body
         assert body is not None
         if start is None:
-            start = truth.heading - body.torso.theta
+            start = truth.heading_in_world - body.torso.theta
         # The body is a tick older than the truth.
         true = duel.world.data.xpos[head]
         heights.append(body.head_place[2] - true[2])
-        headings.append(truth.heading - body.torso.theta - start)
+        headings.append(truth.heading_in_world - body.torso.theta - start)
     assert np.abs(heights).max() < 0.01
     # Soles slip a little on each step.
     assert np.abs(np.degrees(headings)).max() < 6.0
@@ -293,4 +293,4 @@ def test_sonars_detect_an_obstacle_in_front_of_the_chest() -> None:
     for echo in echoes:
         assert echo.distance is not None
         assert 0.4 < echo.distance < 0.62
-    assert hypot(*duel.players[0].truth.position) < 0.05
+    assert hypot(*duel.players[0].truth.position_torso_in_world) < 0.05

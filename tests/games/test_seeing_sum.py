@@ -183,8 +183,14 @@ def test_each_robot_with_cameras_is_evaluated() -> None:
         judge = witness.judges[own.name]
         assert judge._robot is own.robot
         assert judge._perception is own.scheme.senses.perception
-        assert judge._other.position == other.truth.position
-        assert own.truth.position != other.truth.position
+        assert (
+            judge._other.position_torso_in_world
+            == other.truth.position_torso_in_world
+        )
+        assert (
+            own.truth.position_torso_in_world
+            != other.truth.position_torso_in_world
+        )
     duel.close()
 
 

@@ -28,8 +28,9 @@ class Truth:
     """True state set by a test."""
 
     def __init__(self, x: float, y: float, heading: float, z: float) -> None:
-        self.position, self.heading = (x, y), heading
-        self.com = np.array([x, y, z])
+        self.position_torso_in_world = x, y
+        self.heading_in_world = heading
+        self.position_com_in_world = np.array([x, y, z])
 
 
 def thoughtless() -> Any:
@@ -78,8 +79,8 @@ class Scene:
         axes = self.frame @ mount.axes
         eye = self.place + self.frame @ mount.place
         point = eye + axes @ (away * np.array([cos(azimuth), sin(azimuth), 0]))
-        self.other.position = float(point[0]), float(point[1])
-        self.other.com = point
+        self.other.position_torso_in_world = float(point[0]), float(point[1])
+        self.other.position_com_in_world = point
 
     def believe(self, bearing: float, away: float = 1.0) -> None:
         """Set the sighting of the robot."""
@@ -124,7 +125,7 @@ def test_time_with_a_large_bearing_error_is_misled_time() -> None:
 
 def test_bearing_errors_are_wrapped() -> None:
     scene = Scene()
-    scene.own.heading = radians(-175.0) + atan2(0.2, 1.2)
+    scene.own.heading_in_world = radians(-175.0) + atan2(0.2, 1.2)
     for i, belief in enumerate((172.0, 178.0, -178.0)):
         scene.believe(radians(belief))
         scene.judge.sample(i * PERIOD)
@@ -146,7 +147,7 @@ def test_a_searching_robot_is_lost_even_with_a_sighting() -> None:
 
 def test_samples_hold_sightings_and_the_truth() -> None:
     scene = Scene()
-    scene.own.heading = 0.5
+    scene.own.heading_in_world = 0.5
     scene.judge.sample(1.0)
     scene.believe(-0.1, 1.4)
     scene.judge.sample(1.1)
@@ -247,12 +248,12 @@ def test_the_center_of_the_opponent_must_be_in_view() -> None:
     scene = Scene()
     scene.stand(TOP, 0.0, 1.0)
     for lift, shown in ((0.38, 1), (0.46, 0), (-0.37, 1), (-0.46, 0)):
-        level = scene.other.com.copy()
-        scene.other.com[2] += lift
+        level = scene.other.position_com_in_world.copy()
+        scene.other.position_com_in_world[2] += lift
         before = scene.judge.colour.shown
         show(scene, colour())
         assert scene.judge.colour.shown - before == shown
-        scene.other.com = level
+        scene.other.position_com_in_world = level
 
 
 def test_objects_are_no_false_detections_of_the_depth_camera() -> None:

@@ -81,9 +81,9 @@ def test_odometry_is_where_the_robot_is(
     for robot in walked[:2]:
         state = robot.state()
         x, y, heading = robot.frame.compose(state.pose)
-        u, v = robot.truth.place
+        u, v = robot.truth.position_reference_in_world
         assert hypot(x - u, y - v) < 0.02
-        assert abs(wrap_angle(heading - robot.truth.heading)) < 0.05
+        assert abs(wrap_angle(heading - robot.truth.heading_in_world)) < 0.05
 
 
 def test_the_served_sighting_is_in_odometry(
@@ -93,8 +93,8 @@ def test_the_served_sighting_is_in_odometry(
     state = own.state()
     assert state.sighting is not None
     _, bearing, distance, *_ = state.sighting
-    u, v = other.truth.place
-    x, y = own.truth.place
+    u, v = other.truth.position_reference_in_world
+    x, y = own.truth.position_reference_in_world
     assert distance == pytest.approx(hypot(u - x, v - y), abs=0.01)
     there = own.frame.compose(state.pose).inverse()
     ahead, left, _ = there.compose(Pose(u, v, 0.0))
@@ -132,7 +132,7 @@ def test_a_hardware_like_robot_turns_by_its_command() -> None:
     headings = np.zeros(2)
     learnt, cycles = round(12.0 / 0.012), round(14 * STEP / 0.012)
     for tick in range(learnt + cycles):
-        now = np.array([player.truth.heading for player in players])
+        now = np.array([player.truth.heading_in_world for player in players])
         if tick > learnt:
             turned += [wrap_angle(a) for a in now - headings]
         headings = now
@@ -156,10 +156,10 @@ def test_a_served_sighting_is_relative_to_the_heading_of_its_time() -> None:
     checked = 0
     for _ in range(420):
         for i, (robot, frame) in enumerate(players):
-            other = players[1 - i][0].truth.place
+            other = players[1 - i][0].truth.position_reference_in_world
             state = robot.state()
             pose = frame.compose(state.pose)
-            own = robot.truth.place
+            own = robot.truth.position_reference_in_world
             sight = atan2(other[1] - own[1], other[0] - own[0])
             poses[i][round(1000 * state.time)] = pose, sight
             seen = state.sighting

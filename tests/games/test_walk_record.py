@@ -64,7 +64,7 @@ def test_a_walk_is_expressed_in_the_frame_of_the_support_foot(
     foot = walker.scheme.locomotion.step(walking.world.time).swing.other
     assert seen["support"] == foot.value
     truth = walker.robot.truth
-    heading = truth.heading
+    heading = truth.heading_in_world
     assert abs(heading) > 0.2
     assert seen["heading"] == pytest.approx(heading)
     assert seen["asked_heading"] == pytest.approx(
@@ -72,7 +72,7 @@ def test_a_walk_is_expressed_in_the_frame_of_the_support_foot(
     )
     assert seen["asked_heading"] == pytest.approx(heading, abs=0.05)
     np.testing.assert_allclose(
-        [seen["world_x"], seen["world_y"]], truth.com[:2]
+        [seen["world_x"], seen["world_y"]], truth.position_com_in_world[:2]
     )
     np.testing.assert_allclose(
         [seen["asked_x"], seen["asked_y"]],
@@ -107,7 +107,9 @@ def test_vectors_are_rotated_and_points_transformed(
     frame = Pose(place.xpos[0], place.xpos[1], float(heading))
     assert (seen["foot_x"], seen["foot_y"]) == (frame.x, frame.y)
     com = frame.transform_points([[seen["com_x"], seen["com_y"]]])[0]
-    np.testing.assert_allclose(com, walker.robot.truth.com[:2])
+    np.testing.assert_allclose(
+        com, walker.robot.truth.position_com_in_world[:2]
+    )
     zmp = frame.transform_points([[seen["zmp_x"], seen["zmp_y"]]])[0]
     np.testing.assert_allclose(zmp, walker.robot.measured_zmp())
     model = walking.world.model

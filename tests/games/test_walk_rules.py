@@ -26,10 +26,10 @@ from stepaside.strategies import Walk
 def way(bearing: float, *, backward: bool = False) -> tuple[float, float]:
     """Return forward and leftward displacement after 3.5 s, in [m]."""
     walking = WalkGame(WalkSettings(bearing=bearing, backward=backward))
-    x, y = walking.walker.truth.position
+    x, y = walking.walker.truth.position_torso_in_world
     while walking.world.time < 3.5:
         assert walking.tick() is None
-    u, v = walking.walker.truth.position
+    u, v = walking.walker.truth.position_torso_in_world
     return u - x, v - y
 
 
@@ -51,7 +51,7 @@ def test_the_settings_decide_the_direction() -> None:
         wanted = Direction.BACKWARD if backward else Direction.FORWARD
         assert strategy == Walk(0.3, wanted)
     walking = WalkGame(WalkSettings())
-    assert abs(walking.walker.truth.heading) < 1e-9
+    assert abs(walking.walker.truth.heading_in_world) < 1e-9
     walking.tick()
     sighting = walking.walker.scheme.sighting
     assert sighting is not None and sighting.distance == inf

@@ -21,7 +21,9 @@ def test_an_ideal_body_walks_its_plan(backward: bool, bearing: float) -> None:
     while walking.world.time < settings.duration - 1e-9:
         assert walking.tick() is None, walking.message
         truth = walking.walker.truth
-        been.append((*truth.place, truth.heading))
+        been.append(
+            (*truth.position_reference_in_world, truth.heading_in_world)
+        )
     ticks = cycle / walking.world.physics.tick
     span, first = round(CYCLES * ticks), round(ticks)
     rows = np.array(been[-span - first :])

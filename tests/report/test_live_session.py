@@ -181,7 +181,7 @@ def test_a_push_changes_the_run() -> None:
         way: list[float] = []
 
         def record_command(duel: Duel, way: list[float] = way) -> None:
-            way.append(float(duel.players[0].truth.com[1]))
+            way.append(float(duel.players[0].truth.position_com_in_world[1]))
 
         look_on(made.duel, record_command)
         made.push(0, impulse, pi / 2)

@@ -44,10 +44,12 @@ def test_a_person_walks_on_in_a_step(session: LiveSession) -> None:
     assert isinstance(person, PersonPlayer) and isinstance(
         evader, SimulatedPlayer
     )
-    began = np.array(person.truth.position)
+    began = np.array(person.truth.position_torso_in_world)
     stepped(session, 1.0)
     assert session.duel.world.time == pytest.approx(1.0)
-    way = float(np.hypot(*(np.array(person.truth.position) - began)))
+    way = float(
+        np.hypot(*(np.array(person.truth.position_torso_in_world) - began))
+    )
     assert way == pytest.approx(0.15, rel=0.01)  # a second at its pace
     assert phases_of(session.duel) == (Phase.WALKING, Phase.STANDING)
     assert len(session.trail.history) == 9
@@ -105,7 +107,7 @@ def test_nobody_drives_a_person(session: LiveSession) -> None:
         stepped(session, 0.5)
         panel.show(session.duel.world.time, 1.0)
         assert score.content == "" and session.error is None
-        ways.append(session.duel.players[0].truth.position)
+        ways.append(session.duel.players[0].truth.position_torso_in_world)
         gui["Stop driving"].press()
         stepped(session, 0.01)
     assert ways[0] == ways[1]
@@ -132,7 +134,9 @@ def test_of_a_person_only_its_way_is_drawn(session: LiveSession) -> None:
         *("CoM trace", "ZMP trace", "pushes", "safety radius"),
         *("planned path", "footsteps", "support polygon"),
     }
-    places = [player.truth.position for player in session.duel.players]
+    places = [
+        player.truth.position_torso_in_world for player in session.duel.players
+    ]
     (sight,) = drawn["line of sight", "both"]
     np.testing.assert_allclose(sight[:, :2], places)
     assert len(drawn["theoretical circle", "both"]) == 0

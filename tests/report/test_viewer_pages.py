@@ -78,9 +78,9 @@ def test_a_session_notes_every_tenth_of_a_second(session: LiveSession) -> None:
     assert duel.world.time == pytest.approx(0.5)
     robots = [walker(session, number).robot for number in (0, 1)]
     pursuer, evader = (robot.truth for robot in robots)
-    apart = abs(wrap_angle(evader.heading - pursuer.heading))
+    apart = abs(wrap_angle(evader.heading_in_world - pursuer.heading_in_world))
     distance = duel.distance
-    coms = [tuple(robot.truth.com[:2]) for robot in robots]
+    coms = [tuple(robot.truth.position_com_in_world[:2]) for robot in robots]
     zmps = [robot.measured_zmp() for robot in robots]
     played(session, 1)
     assert len(trail.history) == 5
@@ -227,7 +227,7 @@ def test_a_push_acts_now_on_the_robot_that_is_meant(
     played(session, 40)
     pursuer, evader = (walker(session, number).robot for number in (0, 1))
     assert pursuer.pusher is None and evader.pusher is not None
-    heading = evader.truth.heading + pi / 2
+    heading = evader.truth.heading_in_world + pi / 2
     np.testing.assert_allclose(
         evader.pusher.impulse,
         [0.4 * np.cos(heading), 0.4 * np.sin(heading)],

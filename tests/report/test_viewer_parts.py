@@ -366,7 +366,7 @@ def test_every_layer_of_the_present_moment_is_drawn(
 ) -> None:
     duel, trail = played
     found = drawn(told(duel, trail))
-    places = [player.truth.position for player in duel.players]
+    places = [player.truth.position_torso_in_world for player in duel.players]
     assert [name for name, _, _ in walks(duel)] == list(COLOURS)
     for name, walk, frame in walks(duel):
         for layer, wanted, colour in (

@@ -35,20 +35,27 @@ def put(
 
 def test_position_heading_and_com_are_those_of_the_torso() -> None:
     truth = put(1.0, -2.0, 0.0, 0.0, 130.0)
-    assert truth.position == (1.0, -2.0)
-    assert truth.heading == pytest.approx(radians(130.0))
-    np.testing.assert_allclose(truth.com, (1.0, -2.0, 0.6))
-    assert put(0, 0, 20.0, 0.0, -50.0).heading == pytest.approx(radians(-50))
+    assert truth.position_torso_in_world == (1.0, -2.0)
+    assert truth.heading_in_world == pytest.approx(radians(130.0))
+    np.testing.assert_allclose(truth.position_com_in_world, (1.0, -2.0, 0.6))
+    assert put(0, 0, 20.0, 0.0, -50.0).heading_in_world == pytest.approx(
+        radians(-50)
+    )
 
 
 @pytest.mark.parametrize("yaw", [0.0, 90.0, -130.0])
 def test_the_reference_point_is_behind_the_com(yaw: float) -> None:
     truth = put(1.0, -2.0, 0.0, 0.0, yaw, com_forward=0.02)
-    turned = Pose(*truth.place, truth.heading).compose(Pose(0.02, 0.0, 0.0))
-    np.testing.assert_allclose(turned[:2], truth.com[:2], atol=1e-12)
+    turned = Pose(
+        *truth.position_reference_in_world, truth.heading_in_world
+    ).compose(Pose(0.02, 0.0, 0.0))
+    np.testing.assert_allclose(
+        turned[:2], truth.position_com_in_world[:2], atol=1e-12
+    )
     lean = put(1.0, -2.0, 0.0, 30.0, yaw, com_forward=0.0)
-    np.testing.assert_allclose(lean.place, lean.com[:2])
-    assert hypot(lean.place[0] - 1.0, lean.place[1] + 2.0) > 0.05
+    x, y = lean.position_reference_in_world
+    np.testing.assert_allclose((x, y), lean.position_com_in_world[:2])
+    assert hypot(x - 1.0, y + 2.0) > 0.05
 
 
 @pytest.mark.parametrize("sign", [-1.0, 1.0])

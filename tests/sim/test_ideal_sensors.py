@@ -11,8 +11,12 @@ from stepaside.perception.measurement import Sighting
 from stepaside.sim.ideal_sensors import IdealLineOfSight
 from stepaside.sim.physics_settings import SightSettings
 
-OWN: Any = SimpleNamespace(place=(1.0, 2.0), heading=2.5)
-OTHER: Any = SimpleNamespace(place=(-0.5, 1.6), heading=0.0)
+OWN: Any = SimpleNamespace(
+    position_reference_in_world=(1.0, 2.0), heading_in_world=2.5
+)
+OTHER: Any = SimpleNamespace(
+    position_reference_in_world=(-0.5, 1.6), heading_in_world=0.0
+)
 TICK = 0.004
 
 

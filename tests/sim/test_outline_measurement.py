@@ -79,8 +79,8 @@ def test_a_walking_body_stays_within_its_outline_by_the_margin() -> None:
             )
             # Odometry drifts; who knows a room is told its place in it.
             truth = player.truth
-            x, y, _ = truth.com.tolist()
-            at = Pose(x, y, truth.heading)
+            x, y, _ = truth.position_com_in_world.tolist()
+            at = Pose(x, y, truth.heading_in_world)
             odometry = at.compose(Pose(*body.com[:2], body.heading).inverse())
             planned = (odometry.transform_points(corners) @ AROUND.T).max(0)
             beyond.append(float((reach_of(duel, player.name) - planned).max()))

@@ -154,7 +154,7 @@ def test_a_child_can_be_the_pursuer() -> None:
     start = StartSettings(2.0, 0.0, 0.0)
     settings = DuelSettings(pursuer="person", person=person, start=start)
     duel = Duel(settings)
-    assert duel.players[0].truth.com[2] == pytest.approx(0.7)
+    assert duel.players[0].truth.position_com_in_world[2] == pytest.approx(0.7)
     duel.close()
     with pytest.raises(ConfigurationError, match="adult, child, got 'dog'"):
         PersonSettings(figure="dog")
@@ -235,7 +235,9 @@ def test_a_person_walks_leg_by_leg_towards_the_evader() -> None:
     assert way == pytest.approx(0.5 * STEP)
     assert data.mocap_pos[trunk, :2] == pytest.approx((1.03 + way, 2.0))
     assert data.mocap_quat[leg, 2] == pytest.approx(sin(0.07))
-    assert person.truth.position == pytest.approx((1.03 + way, 2.0))
+    assert person.truth.position_torso_in_world == pytest.approx(
+        (1.03 + way, 2.0)
+    )
 
 
 def test_a_recorded_person_is_where_the_end_of_the_tick_says(
@@ -249,17 +251,19 @@ def test_a_recorded_person_is_where_the_end_of_the_tick_says(
     person = PersonBody(world, "her", motion)
     world.time = 2.0
     person.step((4.0, 0.0))
-    assert person.truth.position == pytest.approx((2.0 + TICK, 0.0))
+    assert person.truth.position_torso_in_world == pytest.approx(
+        (2.0 + TICK, 0.0)
+    )
 
 
 def test_the_true_state_of_a_person_is_that_of_the_walk() -> None:
     model, data = figure()
     motion = PersonMotion(PersonSettings("steer"), Pose(1, 2, 0.7), (4.0, 2.0))
     truth = PersonBody(world_of(model, data), "her", motion).truth
-    assert truth.heading == 0.7
-    assert truth.com.tolist() == [1.0, 2.0, 1.0]
+    assert truth.heading_in_world == 0.7
+    assert truth.position_com_in_world.tolist() == [1.0, 2.0, 1.0]
     assert truth.has_fallen is False
-    other: Any = SimpleNamespace(position=(4.0, -2.0))
+    other: Any = SimpleNamespace(position_torso_in_world=(4.0, -2.0))
     assert torsos_apart(truth, other) == 5.0
 
 
@@ -270,13 +274,13 @@ def test_a_person_has_no_robot_quantities() -> None:
     world = world_of(model, data)
     world.time = 1.5
     person = PersonBody(world, "her", motion)
-    other: Any = SimpleNamespace(position=(4.0, 2.0))
+    other: Any = SimpleNamespace(position_torso_in_world=(4.0, 2.0))
     player = PersonPlayer(person, other)
     seen = player.snapshot()
     assert (seen.name, seen.time) == ("her", 1.5)
     assert seen.torso == (1.0, 2.0, 0.7) and seen.com == (1.0, 2.0, 1.0)
-    unknown = (seen.frame, seen.walk, seen.zmp, seen.posture)
-    assert unknown == (None,) * 4
+    unknown = (seen.frame, seen.walk, seen.zmp)
+    assert unknown == (None,) * 3
     assert player.truth is person.truth
     assert player.begun is None and player.reports == ()
     assert player.is_moving is True and player.has_fallen is False
@@ -288,7 +292,7 @@ def test_a_person_has_no_robot_quantities() -> None:
 def test_a_person_cannot_be_pushed() -> None:
     model, data = figure()
     motion = PersonMotion(PersonSettings("steer"), STANDING, (4.0, 2.0))
-    other: Any = SimpleNamespace(position=(4.0, 2.0))
+    other: Any = SimpleNamespace(position_torso_in_world=(4.0, 2.0))
     player = PersonPlayer(
         PersonBody(world_of(model, data), "her", motion), other
     )
@@ -302,13 +306,13 @@ def test_a_person_steers_at_the_current_evader_position() -> None:
     motion = PersonMotion(
         PersonSettings("steer", 0.5, 2.0), STANDING, (4.0, 0.0)
     )
-    other: Any = SimpleNamespace(position=(0.0, 4.0))
+    other: Any = SimpleNamespace(position_torso_in_world=(0.0, 4.0))
     player = PersonPlayer(PersonBody(world, "her", motion), other)
     for side in (1.0, -1.0):
-        other.position = (0.0, 4.0 * side)
-        before = player.truth.heading
+        other.position_torso_in_world = (0.0, 4.0 * side)
+        before = player.truth.heading_in_world
         player.tick()
-        assert side * (player.truth.heading - before) > 0.01
+        assert side * (player.truth.heading_in_world - before) > 0.01
 
 
 WITH = DuelSettings(pursuer="person")
@@ -348,12 +352,15 @@ def test_a_person_starts_at_the_pursuer_pose() -> None:
             evader, SimulatedPlayer
         )
         assert (person.name, evader.name) == ("pursuer", "evader")
-        assert person.truth.position == (0.0, 0.0)
+        assert person.truth.position_torso_in_world == (0.0, 0.0)
         aside = np.arctan2(miss, 2.0)
-        assert person.truth.heading == pytest.approx(aside, abs=1e-6)
-        assert person._other.position == evader.truth.position
+        assert person.truth.heading_in_world == pytest.approx(aside, abs=1e-6)
+        assert (
+            person._other.position_torso_in_world
+            == evader.truth.position_torso_in_world
+        )
         sighting = evader.robot.read().sighting
         assert sighting is not None  # and the evader knows the person
         assert sighting.distance == pytest.approx(duel.distance)
         assert duel.tick() is None
-        assert person.truth.position[0] > 0.0
+        assert person.truth.position_torso_in_world[0] > 0.0

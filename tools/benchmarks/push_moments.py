@@ -126,7 +126,7 @@ def follow(trial: RobustnessTrial) -> dict[str, float | str | bool]:
         if now <= push.time + PUSH:
             force[:2] -= push.impulse / PUSH * heading
         before = velocity
-        com = robot.truth.com
+        com = robot.truth.position_com_in_world
         ankle = data.site_xpos[stands]
         pivot = com[:2] - com[2] * force[:2] / force[2] - ankle[:2]
         zmp, share = ground(model, data, swings)

@@ -67,7 +67,9 @@ class StrainGauge:
             walker = match.players[0]
             assert isinstance(walker, SimulatedPlayer)
             height = walker.scheme.state.reference.com[2]
-            self._sags.append(height - float(walker.truth.com[2]))
+            self._sags.append(
+                height - float(walker.truth.position_com_in_world[2])
+            )
         self._walking = np.maximum(self._walking, loads)
 
     def ended(self, match: Match, outcome: Outcome) -> None:

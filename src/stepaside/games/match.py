@@ -88,6 +88,10 @@ class Match:
         self.message = ""
         self.touched: tuple[str, ...] = ()
         self._has_things = has_things
+        self._pairs = [
+            (one.truth, other.truth, one.truth.reach + other.truth.reach)
+            for one, other in combinations(self.players, 2)
+        ]
         self.min_distance = self.torsos_apart
         self.captured_at: float | None = None
         self.started_at: float | None = None
@@ -99,16 +103,19 @@ class Match:
         """True distance between the first two reference points, in [m]."""
         if len(self.players) < 2:
             return None
-        (x, y), (u, v) = (player.truth.place for player in self.players[:2])
+        (x, y), (u, v) = (
+            player.truth.position_reference_in_world
+            for player in self.players[:2]
+        )
         return hypot(u - x, v - y)
 
     @property
     def torsos_apart(self) -> float | None:
         """True distance between the first two torsos, in [m]."""
-        if len(self.players) < 2:
+        if not self._pairs:
             return None
-        first, second = self.players[:2]
-        return torsos_apart(first.truth, second.truth)
+        first, second, _ = self._pairs[0]
+        return torsos_apart(first, second)
 
     def player(self, name: str) -> Player:
         """Return the player with a name.
@@ -171,19 +178,24 @@ class Match:
         if fallen:
             self.message = f"{' and '.join(fallen)} fell at {now:.2f} s"
             return Outcome.FALL
-        if self._can_touch() and self.world.robots_touch():
+        if self._can_touch(apart) and self.world.robots_touch():
             self.touched = self.world.touching()
             self.message = f"{' and '.join(self.touched)} touched at "
             self.message += f"{now:.2f} s"
             return Outcome.CONTACT
         return None
 
-    def _can_touch(self) -> bool:
-        """Return whether a contact is possible at the present distances."""
-        return self._has_things or any(
-            torsos_apart(one.truth, other.truth)
-            < one.truth.reach + other.truth.reach
-            for one, other in combinations(self.players, 2)
+    def _can_touch(self, apart: float | None) -> bool:
+        """Return whether a contact is possible.
+
+        Args:
+            apart: Distance between the first two torsos, in [m].
+        """
+        if self._has_things or apart is None:
+            return self._has_things
+        return apart < self._pairs[0][2] or any(
+            torsos_apart(one, other) < reach
+            for one, other, reach in self._pairs[1:]
         )
 
     def close(self) -> None:

@@ -9,7 +9,7 @@ from ..locomotion.walk_snapshots import StepStarted
 from ..sim.ground_truth import GroundTruth
 from ..sim.person_body import PersonBody
 from ..sim.push import Push
-from .player import Snapshot
+from .player import Snapshot, TruthLog
 
 if TYPE_CHECKING:
     from ..perception.frame_report import FrameReport
@@ -46,19 +46,25 @@ class PersonPlayer:
 
     def tick(self) -> None:
         """Advance the motion by one tick."""
-        self.person.step(self._other.position)
+        self.person.step(self._other.position_torso_in_world)
 
     def snapshot(self) -> Snapshot:
         """Return the state at this instant."""
         truth = self.truth
-        x, y, z = truth.com.tolist()
+        x, y, z = truth.position_com_in_world.tolist()
         return Snapshot(
             name=self.name,
             time=self.person.world.time,
-            place=Pose(*truth.place, truth.heading),
-            torso=Pose(*truth.position, truth.heading),
+            place=Pose(
+                *truth.position_reference_in_world, truth.heading_in_world
+            ),
+            torso=Pose(*truth.position_torso_in_world, truth.heading_in_world),
             com=(x, y, z),
         )
+
+    def motion_log(self, *, closely: bool) -> TruthLog:
+        """Return an empty log of its motion; a person has no estimates."""
+        return TruthLog(self.truth)
 
     def push(self, *pushes: Push) -> None:
         """Reject pushes.

@@ -5,10 +5,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
 from ..core.poses import Array, Pose
+from ..core.row_table import RowTable
 from ..locomotion.walk_snapshots import StepStarted, WalkState
 from ..sim.ground_truth import GroundTruth
 from ..sim.push import Push, ScheduledPush
-from ..sim.true_stance import TrueStance
 
 if TYPE_CHECKING:
     from ..perception.frame_report import FrameReport
@@ -32,9 +32,6 @@ class Snapshot:
         frame: Pose of its odometry in the world.
         walk: State of its walk: plan, references and estimates.
         zmp: Center of its foot forces in the world, in [m]; NaN in flight.
-        posture: Position and quaternion of the torso in the world, then all
-            joint angles, in [m] and [rad]. Shape (7 + joints,).
-        stance: True state of torso and feet.
         pushes: Pushes that have been applied or scheduled.
     """
 
@@ -46,8 +43,6 @@ class Snapshot:
     frame: Pose | None = None
     walk: WalkState | None = None
     zmp: tuple[float, float] | None = None
-    posture: Array | None = None
-    stance: TrueStance | None = None
     pushes: tuple[ScheduledPush, ...] = ()
 
 
@@ -65,20 +60,63 @@ def snapshot_of(
         walk: State of its walk, if known.
     """
     truth = robot.truth
-    x, y, z = truth.com.tolist()
+    x, y, z = truth.position_com_in_world.tolist()
     return Snapshot(
         name=robot.name,
         time=robot.world.time,
-        place=Pose(*truth.place, truth.heading),
-        torso=Pose(*truth.position, truth.heading),
+        place=Pose(*truth.position_reference_in_world, truth.heading_in_world),
+        torso=Pose(*truth.position_torso_in_world, truth.heading_in_world),
         com=(x, y, z),
         frame=frame,
         walk=walk,
         zmp=robot.measured_zmp(),
-        posture=robot.posture,
-        stance=robot.stance,
         pushes=robot.pushes,
     )
+
+
+class MotionLog(Protocol):
+    """Samples of the motion of a player."""
+
+    def add(self) -> None:
+        """Sample the present state."""
+
+    def truncate(self, count: int) -> None:
+        """Keep only the first samples."""
+
+    def arrays(self) -> dict[str, Array]:
+        """Return arrays by their name in :class:`Trajectory`."""
+
+
+class TruthLog:
+    """Samples of the true state of a player without a simulated body."""
+
+    def __init__(self, truth: GroundTruth) -> None:
+        """Begin without samples."""
+        self._truth = truth
+        self._table = RowTable(8)
+
+    def add(self) -> None:
+        """Sample the present state."""
+        truth = self._truth
+        self._table.append()[:] = (
+            *truth.position_com_in_world,
+            *truth.position_reference_in_world,
+            *truth.position_torso_in_world,
+            truth.heading_in_world,
+        )
+
+    def truncate(self, count: int) -> None:
+        """Keep only the first samples."""
+        self._table.truncate(count)
+
+    def arrays(self) -> dict[str, Array]:
+        """Return CoM, reference point and torso."""
+        rows = self._table.rows
+        return {
+            "com": rows[:, :3].copy(),
+            "place": rows[:, [3, 4, 7]],
+            "torso": rows[:, 5:].copy(),
+        }
 
 
 class Player(Protocol):
@@ -130,6 +168,13 @@ class Player(Protocol):
 
     def snapshot(self) -> Snapshot:
         """Return the state at this instant."""
+
+    def motion_log(self, *, closely: bool) -> MotionLog:
+        """Return an empty log of its motion.
+
+        Args:
+            closely: Whether to include foot states and estimates.
+        """
 
     def push(self, *pushes: Push) -> None:
         """Schedule pushes, now or later.

@@ -11,6 +11,7 @@ from ..locomotion.walk_snapshots import StepStarted
 from ..perception.measurement import Measurement
 from ..sim.ground_truth import GroundTruth
 from ..sim.push import Push
+from ..sim.robot_state_log import RobotStateLog
 from ..sim.simulated_robot import SimulatedRobot
 from .player import Snapshot, snapshot_of
 
@@ -141,6 +142,10 @@ class ServedPlayer:
     def snapshot(self) -> Snapshot:
         """Return the state at this instant, without plans."""
         return snapshot_of(self.robot)
+
+    def motion_log(self, *, closely: bool) -> RobotStateLog:
+        """Return an empty log of its motion; estimates are unknown."""
+        return self.robot.state_log()
 
     def push(self, *pushes: Push) -> None:
         """Schedule pushes of the torso, now or later."""

@@ -117,7 +117,9 @@ class SightEvaluator:
         if isinstance(percept, ColourImage) and percept.low:
             mount = self._head.bottom or mount
         position, axes = self._camera(mount)
-        target = np.array([*self._other.position, self._height()])
+        target = np.array(
+            [*self._other.position_torso_in_world, self._height()]
+        )
         point = axes.T @ (target - position)
         shown = percept.camera.sees(point)
         shown &= self._wears_trim or not is_colour
@@ -160,9 +162,9 @@ class SightEvaluator:
     def sample(self, now: float) -> None:
         """Record the present sighting and the truth."""
         own, other = self._robot.truth, self._other
-        x, y = own.position
-        u, v = other.position
-        bearing = wrap_angle(atan2(v - y, u - x) - own.heading)
+        x, y = own.position_torso_in_world
+        u, v = other.position_torso_in_world
+        bearing = wrap_angle(atan2(v - y, u - x) - own.heading_in_world)
         distance = torsos_apart(own, other)
         sighting = self._perception.sighting
         estimated = (np.nan, np.nan)
@@ -206,7 +208,7 @@ class SightEvaluator:
         return place, axes @ mount.axes
 
     def _height(self) -> float:
-        return float(self._other.com[2])
+        return float(self._other.position_com_in_world[2])
 
     @staticmethod
     def _azimuth(point: Array) -> float:

@@ -11,6 +11,7 @@ from ..sim.ground_truth import GroundTruth
 from ..sim.push import Push
 from ..sim.simulated_robot import SimulatedRobot
 from .player import Snapshot, snapshot_of
+from .walker_log import WalkerLog
 
 if TYPE_CHECKING:
     from ..perception.frame_report import FrameReport
@@ -82,6 +83,10 @@ class SimulatedPlayer:
         """Return the state at this instant."""
         walk = self.scheme.state
         return snapshot_of(self.robot, frame=self.frame, walk=walk)
+
+    def motion_log(self, *, closely: bool) -> WalkerLog:
+        """Return an empty log of its motion."""
+        return WalkerLog(self.robot, self.scheme, self.frame, closely=closely)
 
     def push(self, *pushes: Push) -> None:
         """Schedule pushes of the torso, now or later."""

@@ -5,7 +5,7 @@ from typing import Protocol
 
 import mujoco
 
-from ..core.poses import Array
+from ..core.poses import Array, Pose
 from ..robots.description_types import ReferencePoint
 
 FALLEN = cos(radians(45.0))  # upward component of the torso's axis
@@ -19,20 +19,20 @@ class GroundTruth(Protocol):
         """Radius around the torso that contains the whole body, in [m]."""
 
     @property
-    def com(self) -> Array:
-        """CoM, or an equivalent point, in the world, in [m]. Shape (3,)."""
+    def position_com_in_world(self) -> Array:
+        """CoM, or an equivalent point, in [m]. Shape (3,)."""
 
     @property
-    def position(self) -> tuple[float, float]:
-        """Position of the torso in the world, in [m]."""
+    def position_torso_in_world(self) -> tuple[float, float]:
+        """Horizontal position of the torso, in [m]."""
 
     @property
-    def place(self) -> tuple[float, float]:
-        """Reference point of the player in the world, in [m]."""
+    def position_reference_in_world(self) -> tuple[float, float]:
+        """Reference point of the player, in [m]."""
 
     @property
-    def heading(self) -> float:
-        """Heading in the world, in [rad]."""
+    def heading_in_world(self) -> float:
+        """Heading of the torso, in [rad]."""
 
     @property
     def has_fallen(self) -> bool:
@@ -41,7 +41,8 @@ class GroundTruth(Protocol):
 
 def torsos_apart(one: GroundTruth, other: GroundTruth) -> float:
     """Return the horizontal distance between two torsos, in [m]."""
-    (x, y), (u, v) = one.position, other.position
+    (x, y) = one.position_torso_in_world
+    (u, v) = other.position_torso_in_world
     return hypot(u - x, v - y)
 
 
@@ -53,7 +54,12 @@ class TrueRobotState:
     its position follows from the posture with the CoM over the feet.
 
     Attributes:
-        com: CoM of the robot in the world, in [m], as a view. Shape (3,).
+        position_com_in_world: CoM of the robot, in [m], as a view. Shape
+            (3,).
+        origin_torso_in_world: Origin of the torso body, in [m], as a view.
+            Shape (3,).
+        axes_torso_in_world: Axes of the torso body, as a view. Shape (9,),
+            rows of the rotation matrix.
         reach: Radius around the torso that contains the whole robot, in [m].
     """
 
@@ -79,35 +85,62 @@ class TrueRobotState:
         """
         self._com_forward = com_forward
         place = place or ReferencePoint()
-        self._forward, self.reach = place.forward, place.reach
+        self._hips_forward, self.reach = place.forward, place.reach
         root = model.body(torso).id
-        self._position: Array = data.xpos[root]
-        self._frame: Array = data.xmat[root]
-        self.com: Array = data.subtree_com[root]
+        self.origin_torso_in_world: Array = data.xpos[root]
+        self.axes_torso_in_world: Array = data.xmat[root]
+        self.position_com_in_world: Array = data.subtree_com[root]
 
     @property
-    def position(self) -> tuple[float, float]:
-        """Point midway between the hips in the world, in [m]."""
-        x, y, _ = self._position.tolist()
-        ahead = self._forward
-        if ahead == 0.0:
-            return x, y
-        axis = self._frame
-        return x + ahead * float(axis[0]), y + ahead * float(axis[3])
+    def position_torso_in_world(self) -> tuple[float, float]:
+        """Point midway between the hips, in [m]."""
+        return self._between_hips(
+            self.origin_torso_in_world.tolist(),
+            self.axes_torso_in_world.tolist(),
+        )
 
     @property
-    def place(self) -> tuple[float, float]:
-        """Reference point in the world, in [m]."""
-        x, y, _ = self.com.tolist()
-        ahead, heading = self._com_forward, self.heading
-        return x - ahead * cos(heading), y - ahead * sin(heading)
+    def position_reference_in_world(self) -> tuple[float, float]:
+        """Reference point, in [m]."""
+        return self._below_com(
+            self.position_com_in_world.tolist(), self.heading_in_world
+        )
 
     @property
-    def heading(self) -> float:
-        """Heading of the torso in the world, in [rad]."""
-        return atan2(self._frame[3], self._frame[0])
+    def heading_in_world(self) -> float:
+        """Heading of the torso, in [rad]."""
+        axes = self.axes_torso_in_world
+        return atan2(axes.item(3), axes.item(0))
 
     @property
     def has_fallen(self) -> bool:
         """Whether the torso leans by more than 45 degrees."""
-        return bool(self._frame[8] < FALLEN)
+        return self.axes_torso_in_world.item(8) < FALLEN
+
+    def poses_at(
+        self, com: list[float], origin: list[float], axes: list[float]
+    ) -> tuple[Pose, Pose]:
+        """Return the poses of reference point and torso in the world.
+
+        Args:
+            com: Recorded value of ``position_com_in_world``.
+            origin: Recorded value of ``origin_torso_in_world``.
+            axes: Recorded value of ``axes_torso_in_world``.
+        """
+        heading = atan2(axes[3], axes[0])
+        return (
+            Pose(*self._below_com(com, heading), heading),
+            Pose(*self._between_hips(origin, axes), heading),
+        )
+
+    def _between_hips(
+        self, origin: list[float], axes: list[float]
+    ) -> tuple[float, float]:
+        ahead = self._hips_forward
+        return origin[0] + ahead * axes[0], origin[1] + ahead * axes[3]
+
+    def _below_com(
+        self, com: list[float], heading: float
+    ) -> tuple[float, float]:
+        ahead = self._com_forward
+        return com[0] - ahead * cos(heading), com[1] - ahead * sin(heading)

@@ -48,9 +48,9 @@ class IdealLineOfSight:
         return self._latest
 
     def _measure(self, now: float) -> Sighting:
-        x, y = self._own.place
-        u, v = self._opponent.place
-        bearing = atan2(v - y, u - x) - self._own.heading
+        x, y = self._own.position_reference_in_world
+        u, v = self._opponent.position_reference_in_world
+        bearing = atan2(v - y, u - x) - self._own.heading_in_world
         distance = hypot(u - x, v - y)
         settings = self._settings
         if settings.bearing_noise > 0.0:
@@ -72,5 +72,5 @@ class IdealPose:
 
     def read(self) -> Pose:
         """Return the CoM on the floor, [m], and the torso heading, [rad]."""
-        x, y, _ = self._own.com.tolist()
-        return Pose(x, y, self._own.heading)
+        x, y, _ = self._own.position_com_in_world.tolist()
+        return Pose(x, y, self._own.heading_in_world)

@@ -111,23 +111,23 @@ class PersonTruth:
         self.reach = REACH * figure.size
 
     @property
-    def com(self) -> Array:
-        """Middle of the trunk in the world, in [m]. Shape (3,)."""
+    def position_com_in_world(self) -> Array:
+        """Middle of the trunk, in [m]. Shape (3,)."""
         return np.array([*self._motion.pose[:2], self._size])
 
     @property
-    def position(self) -> tuple[float, float]:
-        """Position of the axis of the trunk in the world, in [m]."""
+    def position_torso_in_world(self) -> tuple[float, float]:
+        """Position of the axis of the trunk, in [m]."""
         return self._motion.pose[:2]
 
     @property
-    def place(self) -> tuple[float, float]:
-        """Reference point: the axis of the trunk in the world, in [m]."""
-        return self.position
+    def position_reference_in_world(self) -> tuple[float, float]:
+        """Reference point: the axis of the trunk, in [m]."""
+        return self.position_torso_in_world
 
     @property
-    def heading(self) -> float:
-        """Heading of the person in the world, in [rad]."""
+    def heading_in_world(self) -> float:
+        """Heading of the person, in [rad]."""
         return self._motion.pose.theta
 
     @property

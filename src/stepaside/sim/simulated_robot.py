@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from math import nan
 from typing import TYPE_CHECKING
 
 import mujoco
@@ -19,6 +18,7 @@ from .ground_truth import TrueRobotState
 from .ideal_sensors import IdealLineOfSight, IdealPose
 from .push import Push, ScheduledPush
 from .push_forces import PushApplier
+from .robot_state_log import RobotStateLog, centers_of_pressure
 from .sensor_errors import AveragedImu, SensorErrors
 from .servos import IdealServos, RealisticServos
 from .true_stance import StanceWatch, TrueStance
@@ -233,14 +233,20 @@ class SimulatedRobot:
 
     def measured_zmp(self) -> tuple[float, float]:
         """Return the centre of pressure in the world, [m]; NaN in flight."""
-        data = self.world.data
         forces = self._sensordata.take(self._force_addresses)
-        total = float(forces.sum())
-        if total <= 0.0:
-            return nan, nan
-        corners = data.site_xpos[self._corner_sites]
-        x, y, _ = (forces @ corners / total).tolist()
+        corners = self.world.data.site_xpos[self._corner_sites]
+        x, y = centers_of_pressure(forces[None], corners[None])[0].tolist()
         return x, y
+
+    def state_log(self) -> RobotStateLog:
+        """Return an empty log of the true state."""
+        return RobotStateLog(
+            self.world.data,
+            self.truth,
+            self.qpos_slice,
+            self._force_addresses,
+            self._corner_sites,
+        )
 
     def close(self) -> None:
         """Release the graphics of the cameras."""

@@ -205,7 +205,10 @@ class World:
 
     def robots_touch(self) -> bool:
         """Return whether robots touch each other or an object."""
-        return bool(self._touching().any())
+        # Geom 0 is the floor, and most contacts are of feet with it.
+        return any(self.data.contact.geom1.tolist()) and bool(
+            self._touching().any()
+        )
 
     def touching(self) -> tuple[str, ...]:
         """Return the sorted names of players and objects in contact."""
@@ -216,9 +219,8 @@ class World:
 
     def _touching(self) -> NDArray[np.bool_]:
         """Return the mask of contacts between owners. Shape (ncon,)."""
-        if self.data.ncon == 0:
-            return np.zeros(0, dtype=bool)
-        owners = self._owner_of_geom[self.data.contact.geom]
+        geoms = self.data.contact.geom
+        owners = self._owner_of_geom[geoms]
         apart = owners[:, 0] != owners[:, 1]
         touching: NDArray[np.bool_] = apart & (owners.min(axis=1) > 0)
         return touching
