@@ -10,7 +10,7 @@ import pytest
 from click.testing import CliRunner, Result
 
 from stepaside.cli.main import main
-from stepaside.cli.options.settings_builder import changed
+from stepaside.cli.options.settings_command import changed
 from stepaside.cli.plan_settings import PlanSettings
 from stepaside.games.configuration_file import (
     dump_configuration,

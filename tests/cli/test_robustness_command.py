@@ -160,15 +160,6 @@ def test_gait_and_robot_are_part_of_the_trial_key(tmp_path: Path) -> None:
     assert pushes["settings"]["robot"] == "nao"
 
 
-def test_former_name_of_a_kind_is_accepted() -> None:
-    asked = ("--method", "mpc", "--seeds", "1", "--json")
-    old, new = (
-        json.loads(run("--kind", kind, *asked))
-        for kind in ("play", "backlash")
-    )
-    assert old == new and old["planned"]["trials"] > 0
-
-
 def test_changed_body_is_called_own() -> None:
     asked = ("--kind", "backlash", "--method", "mpc", "--seeds", "1", "--json")
     own = json.loads(run(*asked, "--stiffness", "0.5"))

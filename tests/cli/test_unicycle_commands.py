@@ -11,6 +11,7 @@ from click.testing import CliRunner, Result
 
 from stepaside.cli.circle import circle
 from stepaside.cli.circle_tables import print_circles
+from stepaside.cli.main import main
 from stepaside.cli.map import map as map_command
 from stepaside.cli.unicycles import unicycles
 from stepaside.report import unicycle_ratios, unicycle_sweep
@@ -29,7 +30,7 @@ MAP += "--facing 30deg --grid 5 --distances 2 --step 0.1 --duration 60"
 
 
 def run(command: Any, words: str) -> Result:
-    return CliRunner().invoke(command, words.split())
+    return CliRunner().invoke(main, [command.name, *words.split()])
 
 
 def loads(command: Any, words: str) -> dict[str, Any]:
@@ -171,7 +172,7 @@ def test_map_names_the_worst_start() -> None:
 @pytest.mark.parametrize(
     ("words", "got"),
     [
-        ("--speed 0", "'0'"),
+        ("--speed 0", "0.0"),
         ("--gain nan", "'nan'"),
         ("--angle 200deg", "3.49"),
         ("--angle north", "'north'"),

@@ -6,8 +6,8 @@ import click
 import pytest
 
 from stepaside.cli.main import all_commands
-from stepaside.cli.options.declaration import DeclaredOption
-from stepaside.cli.value_types import NumberType
+from stepaside.cli.options.parameter_types import NumberType
+from stepaside.cli.options.setting_options import SettingOption
 from stepaside.core.errors import StepAsideError
 from stepaside.core.ranges import Range, check_count
 from stepaside.core.setting import check_settings, ranges_of, settings_of
@@ -46,7 +46,7 @@ def numbers_of(name: str) -> list[click.Parameter]:
     return [
         param
         for param in all_commands()[name].params
-        if not (isinstance(param, DeclaredOption) and param.sets_settings)
+        if not isinstance(param, SettingOption)
     ]
 
 

@@ -125,8 +125,8 @@ def test_passers_are_part_of_configurations(tmp_path: Any) -> None:
     ("given", "message"),
     [
         ("0.8@3", "SPEED@DISTANCE:BEARING"),
-        ("fast@3:0", "speed must be a finite number [m/s], got 'fast'"),
-        ("0.8@3:0:inf", "miss must be a finite number [m], got 'inf'"),
+        ("fast@3:0", "must be a number [m/s], got 'fast'"),
+        ("0.8@3:0:inf", "passer miss must lie in [-20, 20] [m], got inf"),
         ("9@3:0", "passer speed must lie in"),
         ("0.8@3:x", "must be an angle"),
     ],

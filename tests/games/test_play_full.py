@@ -10,6 +10,7 @@ from typing import Any
 
 import pytest
 
+from stepaside.cli.connection_settings import ConnectionSettings
 from stepaside.cli.play_record import PlayRecord
 from stepaside.core.errors import OutputError
 from stepaside.core.poses import Pose
@@ -20,12 +21,7 @@ from stepaside.games.outcome import Outcome
 from stepaside.games.run_archive import load_run
 from tools.fuzz.places import full, room_in, short_of, taken
 
-OPTIONS = {
-    "role": "evader",
-    "robot": "ros2:/nao",
-    "description": "nao",
-    "dry_run": False,
-}
+CONNECTION = ConnectionSettings("evader", "ros2:/nao")
 REST = VelocityCommand(0.0, 0.0)
 AS_IT_GOES = {"columns.json", "rows.f64", "play.json", "configuration.toml"}
 TICKS = 200  # more than reach the disk at once
@@ -61,7 +57,7 @@ def play(folder: Path, strike: Callable[[], None]) -> None:
     with ExitStack() as stack:
         # Before the test is over: what tells of it may be a file, too.
         stack.callback(resource.setrlimit, resource.RLIMIT_FSIZE, limits)
-        record = PlayRecord(folder, DuelSettings(), dict(OPTIONS))
+        record = PlayRecord(folder, DuelSettings(), CONNECTION)
         stack.push(record.leave)
         for number in range(TICKS):
             if number == TICKS // 2:

@@ -200,7 +200,7 @@ def test_walk_prints_its_summary() -> None:
     ("arguments", "message"),
     [
         (("--push", "1@2"), "IMPULSE@TIME:DIRECTION"),
-        (("--push", "x@2:0"), "impulse must be a finite number [N s]"),
+        (("--push", "x@2:0"), "must be a number [N s], got 'x'"),
         (("--push", "-1@2:0"), "push impulse must lie in"),
         (("--method", "measured", "--open-loop"), "needs feedback"),
         (("--friction", "0"), "friction must lie in"),

@@ -6,7 +6,7 @@ import click
 import pytest
 from click.core import ParameterSource
 
-from stepaside.cli.feedback_default import with_feedback
+from stepaside.cli.connection_settings import with_feedback
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.locomotion.zmp.control_settings import (
     OPEN_LOOP,

@@ -38,13 +38,12 @@ def people(store: Store, file: Path) -> None:
 
 def survival_on_hardware(store: Store, file: Path) -> None:
     """Draw survival over the strength of each disturbance."""
-    from stepaside.cli.robustness import OLD_KINDS
     from stepaside.report.robustness_figure import draw_survival
     from stepaside.studies.robustness_campaign import UNITS
 
     rows = [
-        # Older results have former names of kinds.
-        row | {"kind": OLD_KINDS.get(row["kind"], row["kind"])}
+        # This result has a former name of backlash.
+        row | {"kind": {"play": "backlash"}.get(row["kind"], row["kind"])}
         for row in store.result("survival-hardware")["survival"]
     ]
     draw_survival(rows, UNITS, file)

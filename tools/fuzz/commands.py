@@ -10,12 +10,15 @@ from typing import Any
 import click
 
 from stepaside.cli.main import all_commands
-from stepaside.cli.options.declaration import DeclaredOption
-from stepaside.cli.options.value_kinds import NameType, WordOrValueType
-from stepaside.cli.value_types import UNITS, AngleType, NumberType
+from stepaside.cli.options.parameter_types import (
+    UNITS,
+    AngleType,
+    NameType,
+    NumberType,
+    WordOrValueType,
+)
+from stepaside.cli.options.setting_options import SettingOption
 from stepaside.core.ranges import Range
-from stepaside.core.setting import ranges_of
-from tools.documents.tables.settings import all_settings
 
 from .case import Case
 from .invoking import command_case
@@ -140,11 +143,8 @@ def range_of(option: click.Option) -> Range | None:
     kind: Any = option.type
     if isinstance(kind, WordOrValueType):
         kind = kind.kind
-    if isinstance(option, DeclaredOption) and option.sets_settings:
-        setting = all_settings().get(option.declaration.path)
-        if setting is None:
-            return None
-        return ranges_of(setting.kind).get(setting.name)
+    if isinstance(option, SettingOption):
+        return option.entry.setting.range
     if isinstance(kind, NumberType):
         return kind.range
     if isinstance(kind, AngleType):
@@ -165,7 +165,7 @@ def must_be_refused(option: click.Option, text: str) -> bool:
             return False
         kind = kind.kind
     if isinstance(kind, NameType):
-        return text not in kind.choices and text != "play"  # an old name
+        return text not in kind.choices
     allowed = range_of(option)
     if allowed is None:
         return False

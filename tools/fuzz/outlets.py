@@ -11,7 +11,7 @@ import click
 
 from published_humanoid import mjcf
 from stepaside.cli.main import all_commands
-from stepaside.cli.options.value_kinds import OutputFile
+from stepaside.cli.options.parameter_types import OutputFile
 from stepaside.fitting.requirements import RequirementCheck
 from stepaside.fitting.robot_verification import VerificationReport
 

@@ -8,6 +8,8 @@ import numpy as np
 from ..core.errors import ConfigurationError, check_within
 from ..core.poses import Array, Pose
 from ..core.random_streams import named_generator
+from ..core.ranges import Range
+from ..core.setting import check_settings, setting
 from .initial_pose_checks import BODY_RADIUS
 from .obstacles import Obstacle, clearance_between
 from .polygon_checks import check_coordinate
@@ -20,50 +22,59 @@ MAX_DRAWS = 2000  # of one obstacle, before a room counts as full
 # Clearance of a body at its initial pose, in [m]: the radius of the tightest
 # turn by (2).
 TURN_CLEARANCE = 0.16
+COUNT = Range(0, MAX_COUNT, "1", "more take too long", whole=True)
+SIDE = Range(SMALLEST, LARGEST, "m", "of a room", also=(None,))
+RADIUS = Range(0.01, LARGEST, "m", "from a post to the largest room")
 NEAREST, FARTHEST = 0.6, 1.5  # initial distance, as in a duel, in [m]
 
 
 @dataclass(frozen=True, slots=True)
 class RoomRecipe:
-    """Size of random rooms and number of obstacles in them.
+    """Size of random rooms and number of obstacles in them."""
 
-    Attributes:
-        width: Width of the floor, along x, in [m]; None for no walls.
-        depth: Depth of the floor, along y, in [m]; None for no walls.
-        discs: Number of discs.
-        boxes: Number of boxes.
-        polygons: Number of polygons of three to six corners.
-        doors: Number of doors.
-        smallest: Least radius of an obstacle, of its circumcircle for boxes
-            and polygons, in [m].
-        largest: Largest radius of an obstacle, in [m].
-        door_width: Width of a door, in [m].
-    """
-
-    width: float | None = 3.0
-    depth: float | None = 3.0
-    discs: int = 0
-    boxes: int = 0
-    polygons: int = 0
-    doors: int = 0
-    smallest: float = 0.1
-    largest: float = 0.25
-    door_width: float = 0.6
+    width: float | None = setting(
+        3.0, "Width of the floor, along x; none for no walls", SIDE
+    )
+    depth: float | None = setting(
+        3.0, "Depth of the floor, along y; none for no walls", SIDE
+    )
+    discs: int = setting(0, "Number of discs", COUNT, option="--discs")
+    boxes: int = setting(0, "Number of boxes", COUNT, option="--boxes")
+    polygons: int = setting(
+        0,
+        "Number of polygons with three to six corners",
+        COUNT,
+        option="--polygons",
+    )
+    doors: int = setting(
+        0, "Number of doors in the walls", COUNT, option="--doors"
+    )
+    smallest: float = setting(
+        0.1,
+        "Minimum radius of an obstacle",
+        RADIUS,
+        option="--smallest",
+    )
+    largest: float = setting(
+        0.25,
+        "Maximum radius of an obstacle, of its circumcircle for boxes and "
+        "polygons",
+        RADIUS,
+        option="--largest",
+    )
+    door_width: float = setting(
+        0.6,
+        "Width of a door",
+        Range(SMALLEST / 2, LARGEST, "m", "from a body to the largest room"),
+        option="--door-width",
+    )
 
     def __post_init__(self) -> None:
         """Validate sizes and numbers."""
+        check_settings(self)
         Room(self.width, self.depth)
-        for name in ("discs", "boxes", "polygons", "doors"):
-            value = getattr(self, name)
-            if type(value) is not int:
-                raise ERROR(f"{name} must be an integer [1], got {value!r}")
-            check_within(value, 0, MAX_COUNT, name, "1", ERROR)
-        check_within(self.smallest, 0.01, LARGEST, "smallest", "m", ERROR)
         check_within(
             self.largest, self.smallest, LARGEST, "largest", "m", ERROR
-        )
-        check_within(
-            self.door_width, SMALLEST / 2, LARGEST, "door_width", "m", ERROR
         )
         if self.doors and self.width is None:
             raise ERROR("a room must have walls for its doors")

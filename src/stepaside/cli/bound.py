@@ -12,21 +12,23 @@ from .bound_tables import (
     print_bound,
 )
 from .effort_estimate import CELLS, announce_effort
-from .options.common_options import FIGURE, figure_width, json_option
-from .options.declaration import OptionDeclaration
-from .options.value_kinds import NameType, OutputFile
+from .options.common_options import figure_option, figure_width, json_option
+from .options.parameter_types import (
+    METERS,
+    SECONDS,
+    NameType,
+    NumberType,
+    OutputFile,
+)
 from .output_files import attempt, writes_files
 from .progress import show_progress
-from .value_types import METERS, SECONDS, NumberType, print_json
+from .terminal import print_json
 
 if TYPE_CHECKING:
     from ..theory.bound import Bound, BoundGame, DiscretisationScheme, Grid
     from ..theory.bound.grid_refinement import Refinement
 
 SPEED, RATE = NumberType("m/s"), NumberType("rad/s")
-TABLE = OptionDeclaration(
-    "--output", "Write the table (.npz).", kind=OutputFile(".npz")
-)
 AGAINST = ("pursuit", "any")
 
 
@@ -130,8 +132,10 @@ def _schemes() -> tuple[str, ...]:
     show_default=True,
     help="Number of random games simulated to check the table.",
 )
-@TABLE.option()
-@FIGURE.option()
+@click.option(
+    "--output", type=OutputFile(".npz"), help="Write the table (.npz)."
+)
+@figure_option()
 @figure_width
 @json_option
 @writes_files

@@ -1,10 +1,10 @@
 """Camera connections of ``stepaside play``."""
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
-from .naoqi_options import mover_factory
+from .connection_settings import ConnectionSettings
 
 if TYPE_CHECKING:
     from ..drivers.cameras.image_source import ImageSource
@@ -18,19 +18,19 @@ V4L2, NAOQI, ROS2 = "v4l2:", "naoqi:", "ros2:"
 def open_cameras(
     settings: "DuelSettings",
     robot: "LolaAddress | None",
-    options: dict[str, Any],
+    connection: ConnectionSettings,
 ) -> "ImageSource":
     """Open the camera that supplies images of the opponent.
 
     Args:
         settings: Settings with optics and latency of the camera.
         robot: LoLA address of the robot; None for other interfaces.
-        options: Options of the command.
+        connection: Connection to the robot.
 
     Raises:
         StepAsideError: If the camera does not exist.
     """
-    camera = options["images"]
+    camera = connection.images
     colour = settings.cameras.colour
     model = colour.model()
     latency = colour.latency + settings.cameras.added_latency
@@ -50,10 +50,11 @@ def open_cameras(
     if camera.startswith(ROS2):
         from ..drivers.ros2.image_messages import TopicCamera
         from ..drivers.ros2.namespaces import parse_namespace
-        from .ros2_hints import join_domain
 
         topic = parse_namespace(camera)
-        return TopicCamera(join_domain(options), topic, model, latency=latency)
+        return TopicCamera(
+            connection.join_domain(), topic, model, latency=latency
+        )
     raise click.BadParameter(
         f"must begin with {V4L2}, {NAOQI} or {ROS2}, got {camera!r}",
         param_hint="--images",
@@ -61,14 +62,14 @@ def open_cameras(
 
 
 def open_camera_body(
-    settings: "DuelSettings", url: str, options: dict[str, Any]
+    settings: "DuelSettings", url: str, connection: ConnectionSettings
 ) -> "VelocityBody":
     """Connect to a NAOqi robot and its camera.
 
     Args:
         settings: Settings with optics and latency of the camera.
         url: Address of the robot.
-        options: Options of the command.
+        connection: Connection to the robot.
 
     Raises:
         StepAsideError: If the robot cannot be reached or has no camera.
@@ -79,20 +80,20 @@ def open_camera_body(
     from ..robots.description import load_robot
     from ..robots.head import load_head
 
-    description = load_robot(options["description"])
+    description = load_robot(connection.description)
     head = load_head(description)
-    perception = build_planar_perception(options["role"], description, PERIOD)
-    dry_run = options["dry_run"]
+    perception = build_planar_perception(connection.role, description, PERIOD)
+    dry_run = connection.dry_run
     body = NaoqiBody(
         url,
         dry_run=dry_run,
         joint_names=perception.forward.tree.motors,
         head=(head.yaw, head.pitch),
-        make_mover=mover_factory(settings, options),
+        make_mover=connection.mover_factory(settings),
     )
-    options = options | {"images": options["images"] or f"{NAOQI}{url}"}
+    connection = connection.with_images(url)
     try:
-        camera = open_cameras(settings, None, options)
+        camera = open_cameras(settings, None, connection)
     except BaseException:
         body.close()
         raise

@@ -9,24 +9,24 @@ from ..theory.unicycle.unicycle_game import Game
 from .circle_tables import describe_circles, describe_remedies, print_circles
 from .effort_estimate import STEPS, announce_effort
 from .options.common_options import (
-    CAPTURE,
-    DELAY,
-    FIGURE,
-    FIRST_SEED,
-    SAMPLE_TIME,
+    capture_option,
+    delay_option,
+    figure_option,
     figure_width,
     json_option,
+    sample_time_option,
+    seed_option,
 )
 from .output_files import OutputFile, attempt, writes_files
 from .progress import show_progress
+from .terminal import print_json
 from .unicycle_options import describe_game, finite, game_options
-from .value_types import print_json
 
 
 @click.command("circle")
 @game_options
-@SAMPLE_TIME.option(default=0.0, show_default=True)
-@DELAY.option(default=0.0, show_default=True)
+@sample_time_option()
+@delay_option()
 @click.option(
     "--sweep",
     type=OutputFile(*FIGURES),
@@ -34,7 +34,7 @@ from .value_types import print_json
     "speed ratio.",
 )
 @figure_width
-@FIGURE.option(
+@figure_option(
     help="Write a map of the reversed circle over gain and speed ratio."
 )
 @click.option(
@@ -45,10 +45,10 @@ from .value_types import print_json
     help="Number of random initial poses simulated to measure the basins of "
     "attraction.",
 )
-@FIRST_SEED.option(
+@seed_option(
     default=0, show_default=True, help="Random seed of the initial poses."
 )
-@CAPTURE.option(default=1e-6, show_default=True)
+@capture_option(default=1e-6, show_default=True)
 @click.option(
     "--remedies/--no-remedies",
     default=False,

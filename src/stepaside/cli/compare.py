@@ -7,10 +7,9 @@ import click
 
 from ..core.atomic_output import FIGURES, free_file
 from ..report.text_escaping import visible
-from .options.common_options import FILE, figure_width, json_option
+from .options.common_options import figure_width, json_option
 from .output_files import OutputFile, attempt, writes_files
-from .terminal import echo
-from .value_types import print_json
+from .terminal import echo, print_json
 
 if TYPE_CHECKING:
     from ..games.run import Run
@@ -46,7 +45,8 @@ COLUMNS = {
     required=True,
     type=click.Path(exists=True, file_okay=False, path_type=Path),
 )
-@FILE.option(
+@click.option(
+    "--output",
     type=OutputFile(*FIGURES),
     help="Figure to write; comparison.png by default, or the first of "
     "comparison-2.png, ... that does not exist.",

@@ -6,16 +6,20 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..core.constants import CAPTURE_DISTANCE
-from .duel_options import duel_options
 from .effort_estimate import SIMULATED, announce_effort
-from .options.common_options import FIGURE, FOLDER, figure_width, json_option
+from .options.common_options import (
+    figure_option,
+    figure_width,
+    folder_option,
+    json_option,
+)
+from .options.duel_options import duel_options
 from .options.settings_command import SettingsCommand
 from .output_files import attempt, writes_files
 from .progress import show_progress
 from .run_output import save_run
 from .tables import print_table
-from .terminal import echo
-from .value_types import print_json
+from .terminal import echo, print_json
 
 if TYPE_CHECKING:
     from ..games.duel_settings import DuelSettings
@@ -24,10 +28,10 @@ if TYPE_CHECKING:
 
 @click.command("duel", cls=SettingsCommand)
 @duel_options()
-@FOLDER.option(
+@folder_option(
     help="Run folder; a new one in runs/ by default, none with --json."
 )
-@FIGURE.option(help="Write a copy of the figure (.png, .svg or .pdf).")
+@figure_option(help="Write a copy of the figure (.png, .svg or .pdf).")
 @figure_width
 @json_option
 @writes_files

@@ -1,6 +1,7 @@
 """``stepaside duels``: a study of duels from many initial poses."""
 
 import re
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,24 +14,21 @@ from .campaign_reports import (
     report_set_aside,
     run_campaign_work,
 )
-from .duel_options import duel_options
 from .effort_estimate import SIMULATED, announce_effort
 from .interruption import exit_interrupted, resume_message
 from .options.common_options import (
-    FIGURE,
-    FOLDER,
-    WORKERS,
+    figure_option,
     figure_width,
+    folder_option,
     json_option,
+    workers_option,
 )
-from .options.declaration import OptionDeclaration
-from .options.game_options import SEED
+from .options.duel_options import duel_options
 from .options.settings_command import SettingsCommand
 from .output_files import attempt, writes_files
 from .progress import show_progress
 from .tables import label_of
-from .terminal import echo
-from .value_types import print_json
+from .terminal import echo, print_json
 
 if TYPE_CHECKING:
     from ..games.duel_settings import DuelSettings
@@ -74,17 +72,19 @@ class SeedsType(click.ParamType[range]):
         return range(first, end)
 
 
-SEEDS = OptionDeclaration(
+seeds_option = partial(
+    click.option,
     "--seeds",
-    "Range of seeds, one duel each; END is excluded.",
-    kind=SeedsType(),
+    type=SeedsType(),
+    show_default=True,
+    help="Range of seeds, one duel each; END is excluded.",
 )
 
 
 @click.command("duels", cls=SettingsCommand)
-@SEEDS.option(default="0:40", show_default=True)
-@duel_options(SEED)
-@WORKERS.option()
+@seeds_option(default="0:40")
+@duel_options("seed")
+@workers_option()
 @click.option(
     "--verify",
     type=click.IntRange(1, 100_000),
@@ -92,11 +92,11 @@ SEEDS = OptionDeclaration(
     help="Repeat N recorded duels. If all results agree, reuse the records "
     "of an older version of the code; otherwise exit with status 1.",
 )
-@FOLDER.option(
+@folder_option(
     help="Folder of results; an interrupted study in it is continued. "
     "runs/duels by default, none with --json."
 )
-@FIGURE.option(help="Write a copy of the figure (.png, .svg or .pdf).")
+@figure_option(help="Write a copy of the figure (.png, .svg or .pdf).")
 @figure_width
 @json_option
 @writes_files

@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import NoReturn
 
-from .options.common_options import INTERRUPTED
+from ..core.interrupts import INTERRUPTED
 from .terminal import echo
 
 NOTHING_SAVED = "nothing is saved"

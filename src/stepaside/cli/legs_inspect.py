@@ -9,8 +9,7 @@ import click
 from ..core.errors import PolicyError
 from .options.common_options import json_option
 from .tables import print_table
-from .terminal import echo
-from .value_types import print_json
+from .terminal import echo, print_json
 
 if TYPE_CHECKING:
     from ..locomotion.policy.contract_reader import ContractReading

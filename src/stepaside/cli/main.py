@@ -10,9 +10,8 @@ import click
 from .. import __version__
 from ..core.errors import StepAsideError, shorten_words
 from ..core.extras import install_hint
-from ..core.interrupts import interruptible
+from ..core.interrupts import INTERRUPTED, interruptible
 
-INTERRUPTED = 130  # exit status
 COMMANDS = {
     "duel": "Simulate a duel of two humanoids in physics.",
     "duels": "Run a study of many duels on all cores.",

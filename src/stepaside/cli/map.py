@@ -8,17 +8,18 @@ import click
 from ..theory.unicycle.unicycle_game import Game
 from .effort_estimate import STEPS, announce_effort
 from .options.common_options import (
-    CAPTURE,
-    FIGURE,
-    GAME_TIME,
+    capture_option,
+    figure_option,
     figure_width,
+    game_time_option,
     json_option,
 )
+from .options.parameter_types import ANGLE, METERS, NumberType
 from .output_files import attempt, writes_files
 from .progress import show_progress
 from .tables import print_table, table_rows
+from .terminal import print_json
 from .unicycle_options import describe_game, finite, game_options
-from .value_types import ANGLE, METERS, NumberType, print_json
 
 if TYPE_CHECKING:
     from ..theory.unicycle.start_maps import StartBox, StartMap, WorstStart
@@ -52,7 +53,7 @@ TIME = NumberType("s")
     help="Maximum initial bearing of the pursuer in the evader's frame "
     "[rad].  [default: pi]",
 )
-@CAPTURE.option(help="Capture distance {unit}.  [default: 0.1 v/k]")
+@capture_option(help="Capture distance [m].  [default: 0.1 v/k]")
 @click.option(
     "--grid",
     type=click.IntRange(2, 400),
@@ -67,11 +68,11 @@ TIME = NumberType("s")
     show_default=True,
     help="Grid points along the distance.",
 )
-@GAME_TIME.option(help="Duration of each game {unit}.  [default: 30/k]")
+@game_time_option(help="Duration of each game [s].  [default: 30/k]")
 @click.option(
     "--step", type=TIME, help="Integration step [s].  [default: 0.01/k]"
 )
-@FIGURE.option()
+@figure_option()
 @figure_width
 @json_option
 @writes_files

@@ -12,11 +12,12 @@ import click
 from ..core.atomic_output import check_file
 from ..core.errors import ConfigurationError, OutputError
 from .interruption import NOTHING_SAVED, exit_interrupted
-from .options.declaration import OptionDeclaration
-from .options.value_kinds import OutputFile
+from .options.parameter_types import OutputFile
 
-OVERWRITE = OptionDeclaration(
-    "--overwrite/--no-overwrite", "Replace existing files."
+overwrite_option = click.option(
+    "--overwrite/--no-overwrite",
+    default=False,
+    help="Replace existing files.",
 )
 FAILED = "stepaside.core.atomic_output.failed"
 
@@ -28,7 +29,7 @@ def writes_files(function: Callable[..., Any]) -> Callable[..., Any]:
     :func:`attempt`.
     """
 
-    @OVERWRITE.option(default=False)
+    @overwrite_option
     @wraps(function)
     def command(overwrite: bool, **values: Any) -> Any:
         context = click.get_current_context()

@@ -1,84 +1,38 @@
 """``stepaside plan``: one maneuver as a table, a figure or JSON."""
 
-from collections.abc import Collection
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
-from .options.common_options import FIGURE, figure_width, json_option
-from .options.declaration import OptionDeclaration, OptionGroup
-from .options.gait_options import BEARING, GAIT, HORIZON
-from .options.settings_command import SettingsCommand, takes_settings
+from .options.common_options import figure_option, figure_width, json_option
+from .options.duel_options import GAIT
+from .options.settings_command import (
+    OptionGroup,
+    SettingsCommand,
+    takes_settings,
+)
 from .output_files import attempt, writes_files
-from .terminal import echo
-from .value_types import print_json
-
-if TYPE_CHECKING:
-    from .plan_settings import PlanSettings
-
-
-def _plan_settings() -> "type[PlanSettings]":
-    from .plan_settings import PlanSettings
-
-    return PlanSettings
-
-
-def _roles() -> Collection[str]:
-    from .plan_settings import ROLES
-
-    return tuple(ROLES)
-
-
-def _feet() -> Collection[str]:
-    from .plan_settings import FEET
-
-    return tuple(FEET)
-
-
-def _others() -> Collection[str]:
-    from .plan_settings import entries_of_others
-
-    return entries_of_others()
-
+from .plan_settings import ENTRIES_OF_GAMES, FEET, ROLES, PlanSettings
+from .terminal import echo, print_json
 
 MANEUVER = OptionGroup(
-    "Maneuver",
-    (
-        OptionDeclaration(
-            "--role",
-            "The pursuer walks forward, the evader backward.",
-            "role",
-            registry=_roles,
-        ),
-        BEARING,
-        OptionDeclaration(
-            "--steps", "Number of footsteps.", "steps", kind=click.INT
-        ),
-        OptionDeclaration(
-            "--first-foot",
-            "Foot that lands first.",
-            "first_foot",
-            registry=_feet,
-        ),
-        OptionDeclaration(
-            "--saturated/--no-saturated",
-            "Turn by eq. (6) instead of eq. (8).",
-            "saturated",
-        ),
-    ),
+    "Maneuver", ("role", "bearing", "steps", "first_foot", "saturated")
 )
 
 
 @click.command("plan", cls=SettingsCommand)
 @takes_settings(
-    _plan_settings, MANEUVER, GAIT.without(HORIZON), ignored=_others
+    PlanSettings,
+    MANEUVER,
+    GAIT,
+    without=("gait.horizon",),
+    ignored=ENTRIES_OF_GAMES,
 )
-@FIGURE.option()
+@figure_option()
 @figure_width
 @json_option
 @writes_files
-def plan(settings: "PlanSettings", figure: str | None, as_json: bool) -> None:
+def plan(settings: PlanSettings, figure: str | None, as_json: bool) -> None:
     """Plan one maneuver from standing: path, footsteps, ZMP and CoM.
 
     --role and --bearing are required. The gait may come from the
@@ -87,7 +41,6 @@ def plan(settings: "PlanSettings", figure: str | None, as_json: bool) -> None:
     import numpy as np
 
     from ..planning import ManeuverPlanner
-    from .plan_settings import FEET, ROLES
 
     role, bearing, gait = settings.role, settings.bearing, settings.gait
     for name, value in (("--role", role), ("--bearing", bearing)):

@@ -1,13 +1,13 @@
 """Settings of one maneuver."""
 
-from collections.abc import Collection
 from dataclasses import dataclass, fields, replace
 from math import pi
 
 from ..core.errors import PlanError
 from ..core.ranges import Range
 from ..core.setting import check_settings, setting
-from ..games.duel_settings import GAIT_HELP
+from ..games.duel_settings import GAIT_HELP, DuelSettings
+from ..games.walk_settings import WalkSettings
 from ..planning import PRESETS, Direction, Foot, GaitSettings
 
 ROLES = {"pursuer": Direction.FORWARD, "evader": Direction.BACKWARD}
@@ -68,11 +68,9 @@ class PlanSettings:
         return None
 
 
-def entries_of_others() -> Collection[str]:
-    """Return the configuration entries of walks and duels."""
-    from ..games.duel_settings import DuelSettings
-    from ..games.walk_settings import WalkSettings
-
-    return {
-        f.name for kind in (DuelSettings, WalkSettings) for f in fields(kind)
-    }
+# Entries of walks and duels, which the file of a plan may contain.
+ENTRIES_OF_GAMES = frozenset(
+    field.name
+    for kind in (DuelSettings, WalkSettings)
+    for field in fields(kind)
+)

@@ -4,33 +4,25 @@ import logging
 import sys
 from collections.abc import Callable
 from contextlib import ExitStack
-from pathlib import Path
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from .duel_options import duel_settings_class
-from .options.body_options import CONTROL
-from .options.connection_options import (
-    BY,
-    DOMAIN,
-    MAX_SPEED,
-    MAX_TURN,
-    NETWORK,
-    SIM_TIME,
+from ..games.duel_settings import DuelSettings
+from .connection_settings import ConnectionSettings, with_feedback
+from .options.duel_options import CONTROL, GAIT, STRATEGY
+from .options.setting_options import takes
+from .options.settings_command import (
+    OptionGroup,
+    SettingsCommand,
+    takes_settings,
 )
-from .options.gait_options import GAIT
-from .options.game_options import SENSES, STRATEGY
-from .options.settings_command import SettingsCommand, takes_settings
-from .options.value_kinds import NameType
-from .value_types import SECONDS, NumberType
 
 if TYPE_CHECKING:
     from ..drivers.joint.joint_loop import JointLoop
     from ..drivers.velocity.velocity_loop import VelocityLoop
-    from ..games.duel_settings import DuelSettings
 
-ROLES = ("pursuer", "evader")
 CONNECTING = 6.0  # longest time that connecting takes, in [s]
 PAUSE = 0.3  # between two attempts, in [s]
 TIME_IS_UP = "played long enough"
@@ -38,77 +30,18 @@ INTERRUPTED = "interrupted"
 
 
 @click.command("play", cls=SettingsCommand)
-@takes_settings(duel_settings_class, STRATEGY, GAIT, CONTROL, SENSES)
-@click.option(
-    "--role",
-    type=NameType(lambda: ROLES),
-    required=True,
-    help="Role of the robot.",
+@takes_settings(
+    DuelSettings,
+    STRATEGY,
+    GAIT,
+    CONTROL,
+    OptionGroup(
+        "Sensing",
+        ("sensing", "cameras.added_latency", "cameras.colour.optics"),
+    ),
 )
-@click.option(
-    "--robot",
-    required=True,
-    help="Address of the robot: lola:PATH, lola:HOST:PORT or lola: (on the "
-    "robot itself); naoqi:tcp://HOST:PORT; ros2:/NAMESPACE.",
-)
-@click.option(
-    "--description",
-    default="nao",
-    show_default=True,
-    help="Name of a robot, or folder of its description.",
-)
-@click.option(
-    "--delay-ticks",
-    type=click.IntRange(0, 20),
-    default=3,
-    show_default=True,
-    help="Delay from command to motion, in ticks of 12 ms.",
-)
-@click.option(
-    "--images",
-    help="Source of images for --sensing cameras: v4l2:DEVICE, "
-    "naoqi:tcp://HOST:PORT or ros2:/TOPIC; the camera channel of a simulated "
-    "robot by default.",
-)
-@BY.option()
-@MAX_SPEED.option()
-@MAX_TURN.option()
-@DOMAIN.option()
-@NETWORK.option(default=False)
-@SIM_TIME.option(default=False)
-@click.option(
-    "--duration", type=SECONDS, help="Walk for this time, then rest [s]."
-)
-@click.option(
-    "--wait",
-    type=NumberType("s", allow_zero=True),
-    default=10.0,
-    show_default=True,
-    help="Maximum time to wait for the first connection [s].",
-)
-@click.option(
-    "--reconnect",
-    type=SECONDS,
-    help="Try to reconnect for this time after a lost session [s]; joint "
-    "control only.",
-)
-@click.option(
-    "--record",
-    type=click.Path(file_okay=False, path_type=Path),
-    help="Record all measurements, targets and state changes to a run folder "
-    "for stepaside replay.",
-)
-@click.option(
-    "--dry-run/--no-dry-run",
-    default=False,
-    help="Connect, measure and plan, but do not move: only set LEDs.",
-)
-def play(
-    settings: "DuelSettings",
-    duration: float | None,
-    reconnect: float | None,
-    **options: Any,
-) -> None:
+@takes(ConnectionSettings, "connection")
+def play(settings: DuelSettings, connection: ConnectionSettings) -> None:
     """Control a robot in a game over LoLA, NAOqi or ROS 2.
 
     \b
@@ -129,40 +62,44 @@ def play(
     )
     from ..drivers.guardian_process import SessionLost
     from ..drivers.status_line import StatusLine
-    from .feedback_default import with_feedback
-    from .naoqi_options import check_mover, moves_joints
     from .robot_connections import open_joints, open_velocity
 
-    check_mover(options)
-    folder = options.pop("record")
-    joints = moves_joints(options)
+    joints = connection.moves_joints
     with ExitStack() as stack:
         line = StatusLine(sys.stderr)
         stack.callback(line.close)
         observers: list[Any] = [line]
         record = None
-        if folder is not None:
+        if connection.record is not None:
             from .play_record import PlayRecord
 
             used = with_feedback(settings) if joints else settings
-            record = PlayRecord(folder, used, options)
+            record = PlayRecord(connection.record, used, connection)
             stack.push(record.leave)
             observers.append(record)
+        wait = connection.wait
 
         def session() -> str:
-            session_options = options | {}
-            options["wait"] = 0.0  # later sessions wait by --reconnect
-            with ExitStack() as connection:
+            nonlocal wait
+            now = replace(connection, wait=wait)
+            wait = 0.0  # later sessions wait by --reconnect
+            with ExitStack() as opened:
                 if joints:
-                    joint_loop = open_joints(settings, session_options)
-                    connection.callback(joint_loop.body.close)
-                    return _run_joints(joint_loop, observers, duration)
-                velocity_loop = open_velocity(settings, session_options)
-                connection.callback(velocity_loop.body.close)
-                return _run_velocity(velocity_loop, observers, duration)
+                    joint_loop = open_joints(settings, now)
+                    opened.callback(joint_loop.body.close)
+                    return _run_joints(
+                        joint_loop, observers, connection.duration
+                    )
+                velocity_loop = open_velocity(settings, now)
+                opened.callback(velocity_loop.body.close)
+                return _run_velocity(
+                    velocity_loop, observers, connection.duration
+                )
 
         try:
-            ended = _run_sessions(session, reconnect if joints else None)
+            ended = _run_sessions(
+                session, connection.reconnect if joints else None
+            )
             if record is not None:
                 record.ended = ended
         except SessionLost as error:

@@ -2,9 +2,10 @@
 
 import logging
 import tempfile
+from dataclasses import asdict, replace
 from pathlib import Path
 from types import TracebackType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..core.atomic_output import free_file, reason_of
 from ..core.errors import OutputError, StepAsideError
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from ..drivers.joint.joint_loop import JointTick
     from ..drivers.velocity.velocity_loop import VelocityTick
     from ..games.duel_settings import DuelSettings
+    from .connection_settings import ConnectionSettings
 
 
 class PlayRecord:
@@ -35,21 +37,26 @@ class PlayRecord:
     """
 
     def __init__(
-        self, folder: Path, settings: "DuelSettings", options: dict[str, Any]
+        self,
+        folder: Path,
+        settings: "DuelSettings",
+        connection: "ConnectionSettings",
     ) -> None:
         """Create the folder.
 
         Args:
             folder: Run folder; must not exist or must be empty.
             settings: Settings of the player.
-            options: Options of the command.
+            connection: Player and connection.
 
         Raises:
             ConfigurationError: If the folder cannot be written.
         """
-        self._settings = settings_of_play(settings, options)
+        self._settings = settings_of_play(settings, connection)
         spelled = json_settings(self._settings)
-        about = options | {k: spelled[k] for k in ("gait", "control")}
+        about = asdict(replace(connection, record=None)) | {
+            name: spelled[name] for name in ("gait", "control")
+        }
         text = dump_configuration(self._settings)
         self.log = PlayLog(folder, about, {CONFIGURATION: text})
         self.ended = ""
@@ -115,23 +122,22 @@ class PlayRecord:
 
 
 def settings_of_play(
-    settings: "DuelSettings", options: dict[str, Any]
+    settings: "DuelSettings", connection: "ConnectionSettings"
 ) -> PlaySettings:
     """Return the settings of the player from settings and options."""
-    role = options["role"]
     return PlaySettings(
-        role=role,
-        language=options["robot"].partition(":")[0],
-        robot=options["description"],
+        role=connection.role,
+        language=connection.robot.partition(":")[0],
+        robot=connection.description,
         plays=describe_strategy(
             settings.evader_strategy
-            if role == EVADER
+            if connection.role == EVADER
             else settings.pursuer_strategy
         ),
         strategy=settings.strategy,
         gait=settings.gait,
         control=settings.control,
-        dry_run=options["dry_run"],
+        dry_run=connection.dry_run,
     )
 
 

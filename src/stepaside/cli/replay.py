@@ -12,23 +12,20 @@ from ..core.atomic_output import FIGURES, reason_of
 from ..core.errors import OutputError
 from .effort_estimate import IMAGES, announce_effort
 from .options.common_options import (
-    BROWSER,
-    PORT,
-    SERVE_FOR,
+    browser_option,
     figure_width,
     json_option,
+    port_option,
+    serve_for_option,
 )
-from .options.value_kinds import NameType
+from .options.parameter_types import POSITIVE, SECONDS, NameType, NumberType
 from .output_files import OutputFile, attempt, writes_files
 from .progress import show_progress
-from .terminal import echo
-from .value_types import POSITIVE, SECONDS, NumberType, print_json
+from .terminal import echo, print_json
 
 if TYPE_CHECKING:
     from ..games.run import Run
     from ..report.film import FilmSettings
-
-OLD_VIEWS = {"following": "follow"}  # current names by former ones
 
 
 def _views() -> tuple[str, ...]:
@@ -83,7 +80,7 @@ def _views() -> tuple[str, ...]:
 )
 @click.option(
     "--camera",
-    type=NameType(_views, OLD_VIEWS),
+    type=NameType(_views),
     default="fixed",
     show_default=True,
     help="View of the video: fixed view of the whole run, following the "
@@ -108,9 +105,9 @@ def _views() -> tuple[str, ...]:
     help="Draw trajectories and plans in the video.",
 )
 @figure_width
-@PORT.option(default=8080, show_default=True)
-@BROWSER.option(default=True)
-@SERVE_FOR.option()
+@port_option()
+@browser_option()
+@serve_for_option()
 @json_option
 @writes_files
 def replay(run: Path, as_json: bool, **options: Any) -> None:

@@ -11,14 +11,18 @@ from ..core.errors import OutputError
 from .campaign_reports import report_set_aside
 from .effort_estimate import announce_effort
 from .interruption import exit_interrupted, resume_message
-from .options.common_options import FIRST_SEED, FOLDER, WORKERS, json_option
+from .options.common_options import (
+    folder_option,
+    json_option,
+    seed_option,
+    workers_option,
+)
 from .progress import show_progress
-from .terminal import echo
-from .value_types import print_json
+from .terminal import echo, print_json
 
 
 @click.command("reproduce")
-@FIRST_SEED.option(
+@seed_option(
     default=1,
     show_default=True,
     help="Random seed of the first run; later runs increment it.",
@@ -30,8 +34,8 @@ from .value_types import print_json
     show_default=True,
     help="Number of runs of each claim that is measured in physics.",
 )
-@WORKERS.option()
-@FOLDER.option(
+@workers_option()
+@folder_option(
     default=Path("runs/reproduce"),
     show_default=True,
     help="Folder of the report. Measurements in it are reused if code, "

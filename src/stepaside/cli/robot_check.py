@@ -5,12 +5,11 @@ from typing import TYPE_CHECKING
 
 import click
 
-from .options.common_options import FIGURE, WORKERS, json_option
+from .options.common_options import figure_option, json_option, workers_option
 from .output_files import attempt, writes_files
 from .progress import show_progress
 from .tables import print_table
-from .terminal import echo
-from .value_types import print_json
+from .terminal import echo, print_json
 
 if TYPE_CHECKING:
     from ..fitting.robot_verification import VerificationReport
@@ -19,8 +18,8 @@ if TYPE_CHECKING:
 
 @click.command("check")
 @click.argument("folder")
-@WORKERS.option()
-@FIGURE.option(help="Write an image of the standing robot with its soles.")
+@workers_option()
+@figure_option(help="Write an image of the standing robot with its soles.")
 @json_option
 @writes_files
 def check(

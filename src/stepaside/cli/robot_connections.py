@@ -4,7 +4,13 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from .naoqi_options import mover_factory
+from .connection_settings import (
+    LOLA,
+    NAOQI,
+    ROS2,
+    ConnectionSettings,
+    with_feedback,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -16,55 +22,39 @@ if TYPE_CHECKING:
     from ..drivers.velocity.velocity_body import VelocityBody
     from ..drivers.velocity.velocity_loop import VelocityLoop
     from ..games.duel_settings import DuelSettings
-    from ..strategies import Strategy
-
-LOLA, NAOQI, ROS2 = "lola:", "naoqi:", "ros2:"
-
-
-def strategy_of(settings: "DuelSettings", role: str) -> "Strategy":
-    """Load the strategy of a role."""
-    from ..strategies import load_strategy
-
-    names = {
-        "pursuer": settings.pursuer_strategy,
-        "evader": settings.evader_strategy,
-    }
-    return load_strategy(names[role], settings.strategy)
 
 
 def open_joints(
-    settings: "DuelSettings", options: dict[str, Any]
+    settings: "DuelSettings", connection: ConnectionSettings
 ) -> "JointLoop":
     """Connect to a robot for joint control."""
     from ..drivers.joint.joint_loop import JointLoop
     from ..drivers.lola.nao_joints import NAO_MOTORS
     from ..drivers.scheme_factory import control_scheme_factory
     from ..robots.description import load_robot
-    from .feedback_default import with_feedback
 
     settings = with_feedback(settings)
-    role, dry_run = options["role"], options["dry_run"]
-    strategy = strategy_of(settings, role)
+    strategy = connection.strategy(settings)
     sees = settings.sensing == "cameras"
-    open_robot = _joints_of(settings, options, sees=sees)
+    open_robot = _joints_of(settings, connection, sees=sees)
 
     def open_body(scheme: "ControlScheme") -> "JointBody":
         kinematics = scheme.kinematics
         return open_robot(kinematics.joint_names, scheme.joint_targets)
 
     make = control_scheme_factory(
-        load_robot(options["description"]),
+        load_robot(connection.description),
         settings.gait,
         settings.control,
         tick=NAO_MOTORS.tick,
-        delay_ticks=options["delay_ticks"],
-        sees_as=role if sees else None,
+        delay_ticks=connection.delay_ticks,
+        sees_as=connection.role if sees else None,
     )
-    return JointLoop(open_body, strategy, make, dry_run=dry_run)
+    return JointLoop(open_body, strategy, make, dry_run=connection.dry_run)
 
 
 def _joints_of(
-    settings: "DuelSettings", options: dict[str, Any], *, sees: bool
+    settings: "DuelSettings", connection: ConnectionSettings, *, sees: bool
 ) -> "Callable[[Sequence[str], Array], JointBody]":
     """Return a function that connects, given joint names and stance."""
     from functools import partial
@@ -72,20 +62,20 @@ def _joints_of(
     from ..drivers.joint.session_options import SessionOptions
     from .camera_connections import open_cameras
 
-    robot = options["robot"]
+    robot = connection.robot
     session: dict[str, Any] = {
-        "dry_run": options["dry_run"],
+        "dry_run": connection.dry_run,
         "guarded": True,
-        "patience": options["wait"],
+        "patience": connection.wait,
     }
     if robot.startswith(NAOQI):
         from ..drivers.naoqi.joint_connection import open_joints as open_naoqi
         from ..drivers.naoqi.naoqi_url import parse_url
 
         url = parse_url(robot)
-        options = options | {"images": options["images"] or f"{NAOQI}{url}"}
+        connection = connection.with_images(url)
         camera = (
-            partial(open_cameras, settings, None, options) if sees else None
+            partial(open_cameras, settings, None, connection) if sees else None
         )
         how = SessionOptions(**session, open_eyes=camera)
         return partial(open_naoqi, url, how=how)
@@ -94,14 +84,14 @@ def _joints_of(
 
     address = parse_address(robot)
     camera = (
-        partial(open_cameras, settings, address, options) if sees else None
+        partial(open_cameras, settings, address, connection) if sees else None
     )
     how = SessionOptions(**session, open_eyes=camera)
     return partial(open_lola, address, how=how)
 
 
 def open_velocity(
-    settings: "DuelSettings", options: dict[str, Any]
+    settings: "DuelSettings", connection: ConnectionSettings
 ) -> "VelocityLoop":
     """Connect to a robot with its own walking controller."""
     from math import inf
@@ -111,21 +101,21 @@ def open_velocity(
     from ..drivers.velocity.velocity_loop import VelocityLoop
     from ..drivers.velocity.watchdog import WatchSettings
 
-    strategy = strategy_of(settings, options["role"])
-    speed = options["max_speed"] or inf
-    limits = VelocityLimits(speed, speed, options["max_turn"] or inf)
-    watch = WatchSettings(paced=not options["sim_time"])
+    strategy = connection.strategy(settings)
+    speed = connection.max_speed or inf
+    limits = VelocityLimits(speed, speed, connection.max_turn or inf)
+    watch = WatchSettings(paced=not connection.sim_time)
     return VelocityLoop(
-        _guarded(settings, options),
+        _guarded(settings, connection),
         lambda: TemplateController(strategy, settings.gait),
         limits,
         watch,
-        dry_run=options["dry_run"],
+        dry_run=connection.dry_run,
     )
 
 
 def _guarded(
-    settings: "DuelSettings", options: dict[str, Any]
+    settings: "DuelSettings", connection: ConnectionSettings
 ) -> "VelocityBody":
     """Connect to a robot, with a guardian process if it can move."""
     from ..drivers.guardian_process import open_with_retries
@@ -134,12 +124,12 @@ def _guarded(
         fork_velocity_guardian,
     )
 
-    open_once, join = _velocity_connection(settings, options)
+    open_once, join = _velocity_connection(settings, connection)
 
     def open_body() -> "VelocityBody":
-        return open_with_retries(open_once, options["wait"])
+        return open_with_retries(open_once, connection.wait)
 
-    if options["dry_run"] or options["sim_time"]:
+    if connection.dry_run or connection.sim_time:
         return open_body()
     # Fork before connecting, which starts threads.
     guardian = fork_velocity_guardian(join)
@@ -152,10 +142,10 @@ def _guarded(
 
 def _velocity_connection(
     settings: "DuelSettings",
-    options: dict[str, Any],
+    connection: ConnectionSettings,
 ) -> "tuple[Callable[[], VelocityBody], Callable[[], Callable[[], None]]]":
     """Return functions that connect to a robot, and that make it rest."""
-    robot, dry_run = options["robot"], options["dry_run"]
+    robot, dry_run = connection.robot, connection.dry_run
     sees = settings.sensing == "cameras"
     if sees and not robot.startswith(NAOQI):
         raise click.UsageError(
@@ -167,13 +157,12 @@ def _velocity_connection(
         from ..drivers.ros2.namespaces import parse_namespace
 
         namespace = parse_namespace(robot)
-        domain, beyond = options["domain"], options["network"]
+        domain, beyond = connection.domain, connection.network
 
         def open_ros2() -> "VelocityBody":
             from ..drivers.ros2.ros2_body import Ros2Body
-            from .ros2_hints import join_domain
 
-            dds = join_domain(options)
+            dds = connection.join_domain()
             return Ros2Body(dds, namespace, dry_run=dry_run)
 
         def join_ros2() -> "Callable[[], None]":
@@ -194,13 +183,13 @@ def _velocity_connection(
             if sees:
                 from .camera_connections import open_camera_body
 
-                return open_camera_body(settings, url, options)
+                return open_camera_body(settings, url, connection)
             from ..drivers.naoqi.naoqi_body import NaoqiBody
 
             return NaoqiBody(
                 url,
                 dry_run=dry_run,
-                make_mover=mover_factory(settings, options),
+                make_mover=connection.mover_factory(settings),
             )
 
         def join_naoqi() -> "Callable[[], None]":

@@ -7,18 +7,17 @@ import click
 
 from ..core.atomic_output import atomic_draft, check_file, check_folder
 from ..core.errors import StepAsideError
-from .options.common_options import FOLDER, json_option
-from .output_files import OVERWRITE
+from .options.common_options import folder_option, json_option
+from .output_files import overwrite_option
 from .tables import print_table
-from .terminal import echo
-from .value_types import print_json
+from .terminal import echo, print_json
 
 
 @click.command("init")
 @click.argument(
     "model", type=click.Path(exists=True, dir_okay=False, path_type=Path)
 )
-@FOLDER.option(
+@folder_option(
     help="Folder for the description; a new folder with the name of the "
     "model by default."
 )
@@ -29,7 +28,7 @@ from .value_types import print_json
     help="Folder with mesh files; repeatable. The folder of the model by "
     "default.",
 )
-@OVERWRITE.option(default=False)
+@overwrite_option
 @json_option
 def init(
     model: Path,

@@ -5,11 +5,11 @@ from pathlib import Path
 import click
 
 from ..core.atomic_output import atomic_draft
-from .options.common_options import FILE, json_option
+from .options.common_options import json_option
+from .options.parameter_types import OutputFile
 from .output_files import writes_files
 from .tables import print_table, table_rows
-from .terminal import echo
-from .value_types import print_json
+from .terminal import echo, print_json
 
 
 @click.command("show")
@@ -19,7 +19,11 @@ from .value_types import print_json
     default=False,
     help="Write the MuJoCo model (MJCF) only.",
 )
-@FILE.option(help="File for the model; standard output by default.")
+@click.option(
+    "--output",
+    type=OutputFile(),
+    help="File for the model; standard output by default.",
+)
 @click.option(
     "--compile/--no-compile",
     "stores",

@@ -7,11 +7,10 @@ import click
 
 from ..core.atomic_output import atomic_draft
 from .interruption import exit_interrupted, resume_message
-from .options.common_options import WORKERS, json_option
+from .options.common_options import json_option, workers_option
 from .progress import show_progress
 from .tables import print_table
-from .terminal import echo
-from .value_types import print_json
+from .terminal import echo, print_json
 
 if TYPE_CHECKING:
     from ..fitting.gait_search import RatedCandidate, SearchResult
@@ -24,7 +23,7 @@ RECORDS = "tune.jsonl"
 @click.argument(
     "folder", type=click.Path(exists=True, file_okay=False, path_type=Path)
 )
-@WORKERS.option()
+@workers_option()
 @json_option
 def tune(folder: Path, workers: int | None, as_json: bool) -> None:
     """Find the steadiest gait of the robot in FOLDER and store it.

@@ -2,28 +2,28 @@
 
 from collections.abc import Collection
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
 from ..core.atomic_output import check_folder
 from ..core.errors import OutputError
+from ..games.duel_settings import SENSING
+from ..games.walk_settings import WalkSettings
 from .campaign_reports import CampaignOutcome
 from .interruption import exit_interrupted, resume_message
-from .options.body_options import BODY, CONTROL, FEEDBACK, METHOD, PHYSICS
 from .options.common_options import (
-    FIGURE,
-    FOLDER,
-    WORKERS,
+    figure_option,
     figure_width,
+    folder_option,
     json_option,
+    workers_option,
 )
-from .options.gait_options import GAIT, WALK
-from .options.game_options import DURATION, RUN, SEED
-from .options.push_type import PUSHES
+from .options.duel_options import WALK
+from .options.parameter_types import NameType
 from .options.settings_command import SettingsCommand, takes_settings
-from .options.value_kinds import NameType
 from .output_files import attempt, writes_files
+from .plan_settings import ENTRIES_OF_GAMES
 from .robustness_people import meet_people, print_people, write_people
 from .robustness_walks import (
     CampaignRequest,
@@ -32,11 +32,7 @@ from .robustness_walks import (
     summarise_walks,
     write_walks,
 )
-from .terminal import echo
-from .value_types import print_json
-
-if TYPE_CHECKING:
-    from ..games.walk_settings import WalkSettings
+from .terminal import echo, print_json
 
 
 def progress_text(answer: dict[str, Any]) -> str:
@@ -91,7 +87,6 @@ def _print_limits(
 
 
 PERSON = "person"
-OLD_KINDS = {"play": "backlash"}  # current names by former ones
 
 
 def _kinds() -> Collection[str]:
@@ -100,35 +95,17 @@ def _kinds() -> Collection[str]:
     return KINDS
 
 
-def _senses() -> Collection[str]:
-    from ..games.duel_settings import SENSING
-
-    return SENSING
-
-
 def _methods() -> Collection[str]:
     from ..studies.robustness_campaign import METHODS
 
     return METHODS
 
 
-def _walk() -> "type[WalkSettings]":
-    from ..games.walk_settings import WalkSettings
-
-    return WalkSettings
-
-
-def _others() -> Collection[str]:
-    from .plan_settings import entries_of_others
-
-    return entries_of_others()
-
-
 @click.command("robustness", cls=SettingsCommand)
 @click.option(
     "--kind",
     "kinds",
-    type=NameType(_kinds, OLD_KINDS),
+    type=NameType(_kinds),
     multiple=True,
     help="Disturbance; repeatable. All except person by default. For pushes, "
     "search the largest impulse survived, to 0.1 N s for NAO (scaled by "
@@ -138,7 +115,7 @@ def _others() -> Collection[str]:
 @click.option(
     "--sensing",
     "sensings",
-    type=NameType(_senses),
+    type=NameType(lambda: SENSING),
     multiple=True,
     default=("ideal",),
     help="Sensing of people, with --kind person; repeatable.  "
@@ -166,33 +143,29 @@ def _others() -> Collection[str]:
     show_default=True,
     help="Number of walks for each disturbance other than pushes.",
 )
-@WORKERS.option()
-@FOLDER.option(
+@workers_option()
+@folder_option(
     help="Folder of results; an interrupted campaign in it is continued. "
     "runs/robustness-BODY by default, none with --json."
 )
-@FIGURE.option(
+@figure_option(
     help="Write a copy of the survival figure (.png, .svg or .pdf)."
 )
 @figure_width
 @json_option
 @writes_files
 @takes_settings(
-    _walk,
-    RUN.without(DURATION),
-    WALK.without(PUSHES),
-    GAIT,
-    BODY,
-    CONTROL.without(METHOD, FEEDBACK),
-    PHYSICS,
-    ignored=_others,
-    help_texts={
-        SEED: "Random seed of the first walk; later walks increment it. "
-        "Pushes use this seed only."
+    WalkSettings,
+    *WALK,
+    without=("duration", "pushes", "control.method", "control.feedback"),
+    ignored=ENTRIES_OF_GAMES,
+    meanings={
+        "seed": "Random seed of the first walk; later walks increment it. "
+        "Pushes use this seed only"
     },
 )
 def robustness(
-    settings: "WalkSettings",
+    settings: WalkSettings,
     kinds: tuple[str, ...],
     sensings: tuple[str, ...],
     methods: tuple[str, ...],
@@ -259,7 +232,7 @@ def robustness(
 
 
 def _run_disturbed_walks(
-    settings: "WalkSettings",
+    settings: WalkSettings,
     request: CampaignRequest,
     output: Path | None,
     workers: int | None,

@@ -1,17 +1,22 @@
 """``stepaside room``: generation of random rooms, and metrics of a room."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import click
 
-from .options.arena_options import BOXES, DISCS, POLYGONS, SIZE
-from .options.common_options import FIGURE, FILE, FIRST_SEED, json_option
-from .options.room_options import DOOR_WIDTH, DOORS, LARGEST, SMALLEST
-from .options.value_kinds import OutputFile
+from ..arena import RoomRecipe
+from .options.common_options import (
+    figure_option,
+    json_option,
+    seed_option,
+)
+from .options.parameter_types import OutputFile, SizeType
+from .options.setting_options import takes
 from .output_files import attempt, writes_files
 from .tables import print_table, table_rows
-from .value_types import print_json
+from .terminal import print_json
 
 
 @click.command("room")
@@ -20,19 +25,21 @@ from .value_types import print_json
     required=False,
     type=click.Path(exists=True, dir_okay=False, path_type=Path),
 )
-@FIRST_SEED.option(default=1, show_default=True)
-@SIZE.option(default="3x3", show_default=True)
-@DISCS.option(default=0, show_default=True)
-@BOXES.option(default=0, show_default=True)
-@POLYGONS.option(default=0, show_default=True)
-@DOORS.option(default=0, show_default=True)
-@SMALLEST.option(default=0.1, show_default=True)
-@LARGEST.option(default=0.25, show_default=True)
-@DOOR_WIDTH.option(default=0.6, show_default=True)
-@FILE.option(
-    type=OutputFile(".toml", ".json"), help="Write the room (.toml or .json)."
+@seed_option(default=1, show_default=True)
+@click.option(
+    "--size",
+    type=SizeType(),
+    default="3x3",
+    show_default=True,
+    help="Width and depth of the room [m]; open for a floor without walls.",
 )
-@FIGURE.option()
+@takes(RoomRecipe, "recipe")
+@click.option(
+    "--output",
+    type=OutputFile(".toml", ".json"),
+    help="Write the room (.toml or .json).",
+)
+@figure_option()
 @json_option
 @writes_files
 def room(
@@ -42,23 +49,19 @@ def room(
     output: str | None,
     figure: str | None,
     as_json: bool,
-    **recipe: Any,
+    recipe: RoomRecipe,
 ) -> None:
     """Generate a random room with initial poses, or inspect a room FILE.
 
     Prints free floor, obstacles and clearances of the room.
     """
-    from ..arena import (
-        RoomRecipe,
-        check_initial_poses,
-        generate_room,
-        load_room,
-    )
+    from ..arena import check_initial_poses, generate_room, load_room
     from ..arena.room_metrics import measure_room
 
     if file is None:
         width, depth = size or (None, None)
-        made = generate_room(RoomRecipe(width, depth, **recipe), seed)
+        recipe = replace(recipe, width=width, depth=depth)
+        made = generate_room(recipe, seed)
     else:
         _refuse_both()
         made = load_room(file)

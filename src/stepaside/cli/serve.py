@@ -7,14 +7,19 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from .duel_options import duel_options
-from .options.common_options import FOLDER, json_option
-from .options.connection_options import DOMAIN, NETWORK
+from .connection_settings import with_feedback
+from .options.common_options import (
+    domain_option,
+    folder_option,
+    json_option,
+    network_option,
+)
+from .options.duel_options import duel_options
+from .options.parameter_types import SECONDS, NameType
 from .options.settings_command import SettingsCommand
-from .options.value_kinds import NameType
 from .run_output import check_run_folder, save_run
 from .tables import format_value, print_table, table_rows
-from .value_types import SECONDS, print_json
+from .terminal import print_json
 
 if TYPE_CHECKING:
     from ..games.duel_settings import DuelSettings
@@ -56,8 +61,8 @@ SIGHTS = ("ideal", "none")
     help="Serve a player's robot with its own walking controller over ROS 2 "
     "topics.",
 )
-@DOMAIN.option()
-@NETWORK.option(default=False)
+@domain_option()
+@network_option()
 @click.option(
     "--sight",
     type=NameType(lambda: SIGHTS),
@@ -77,7 +82,7 @@ SIGHTS = ("ideal", "none")
     show_default=True,
     help="Maximum time to wait until all clients are ready [s].",
 )
-@FOLDER.option(help="Run folder; the run is not saved by default.")
+@folder_option(help="Run folder; the run is not saved by default.")
 @json_option
 def serve(
     settings: "DuelSettings",
@@ -105,7 +110,6 @@ def serve(
     import gc
 
     from ..games.served_duel import serve_duel
-    from .feedback_default import with_feedback
     from .server_options import offers_of
 
     check_run_folder(output)

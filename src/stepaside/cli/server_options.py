@@ -51,9 +51,9 @@ def offers_of(
         from ..drivers.ros2.namespaces import parse_namespace
         from ..drivers.ros2.ros2_server import WorldClock
         from ..games.ros2_offers import Ros2Offer
-        from .ros2_hints import join_domain
+        from .connection_settings import join_domain
 
-        dds = join_domain(options)
+        dds = join_domain(options["domain"], network=options["network"])
         stack.callback(dds.close)
         clock = WorldClock(dds)
         for name, place in _entries("ros2", options["ros2"], offers):

@@ -1,8 +1,22 @@
-"""Output of commands to a terminal, safe against escape sequences."""
+"""Output of commands to a terminal, and JSON on standard output."""
+
+import json
+import os
+import sys
+from collections.abc import Iterator
+from contextlib import (
+    ExitStack,
+    contextmanager,
+    nullcontext,
+    redirect_stdout,
+)
+from typing import Any, TextIO
 
 import click
 
 from ..report.text_escaping import visible
+
+STDOUT, STDERR = 1, 2  # file descriptors
 
 
 def echo(text: str = "", *, err: bool = False, nl: bool = True) -> None:
@@ -17,3 +31,65 @@ def echo(text: str = "", *, err: bool = False, nl: bool = True) -> None:
         nl: Whether to end with a newline.
     """
     click.echo(visible(text, but="\n\t"), err=err, nl=nl)
+
+
+_reserved: list[TextIO] = []  # standard output while reserved for JSON
+
+
+@contextmanager
+def reserve_stdout() -> Iterator[None]:
+    """Reserve standard output for :func:`print_json`.
+
+    All other output, as of user strategies and of processes that they start,
+    is redirected to standard error.
+    """
+    shared = sys.stdout
+    with ExitStack() as stack:
+        stream = shared
+        if _descriptor(shared) == STDOUT:
+            shared.flush()
+            saved = os.dup(STDOUT)
+            stack.callback(os.close, saved)
+            stream = stack.enter_context(
+                open(
+                    os.dup(STDOUT),
+                    "w",
+                    encoding=shared.encoding,
+                    errors=shared.errors,
+                )
+            )
+            stack.callback(os.dup2, saved, STDOUT)
+            stack.callback(shared.flush)
+            os.dup2(_duplicate_stderr(stack), STDOUT)
+        stack.enter_context(redirect_stdout(sys.stderr))
+        _reserved.append(stream)
+        stack.callback(_reserved.pop)
+        yield
+
+
+def _descriptor(stream: TextIO) -> int | None:
+    try:
+        return stream.fileno()
+    except (OSError, ValueError):  # a stream without descriptor
+        return None
+
+
+def _duplicate_stderr(stack: ExitStack) -> int:
+    """Duplicate standard error; open the null device if it is closed."""
+    try:
+        descriptor = os.dup(STDERR)
+    except OSError:
+        descriptor = os.open(os.devnull, os.O_WRONLY)
+    stack.callback(os.close, descriptor)
+    return descriptor
+
+
+def print_json(value: Any) -> None:
+    """Print a value as one JSON object."""
+    write_result(json.dumps(value, allow_nan=False) + "\n")
+
+
+def write_result(text: str) -> None:
+    """Write a result to standard output, even while that is reserved."""
+    with redirect_stdout(_reserved[-1]) if _reserved else nullcontext():
+        echo(text, nl=False)

@@ -1,32 +1,37 @@
 """``stepaside tournament``: evaders against pursuers in random rooms."""
 
+from dataclasses import replace
 from math import pi
 from pathlib import Path
 from typing import Any
 
 import click
 
-from ..core.atomic_output import check_folder
+from ..arena import RoomRecipe
+from ..control.clearance.map_settings import MAPS
+from ..core.atomic_output import FIGURES, check_folder
 from ..core.errors import ConfigurationError, OutputError
 from .campaign_reports import CampaignOutcome, run_campaign_work
-from .duels import SEEDS
+from .duels import seeds_option
 from .effort_estimate import DECISIONS, SIMULATED, announce_effort
 from .interruption import exit_interrupted, resume_message
-from .options.arena_options import BOXES, DISCS, POLYGONS, ArenaType
 from .options.common_options import (
-    FIGURE,
-    FOLDER,
-    GAME_TIME,
-    WORKERS,
+    figure_option,
+    folder_option,
+    game_time_option,
     json_option,
+    workers_option,
 )
-from .options.declaration import OptionDeclaration
-from .options.room_options import MAP
-from .options.value_kinds import NameType, OutputFile
+from .options.parameter_types import (
+    ANGLE,
+    ArenaType,
+    NameType,
+    OutputFile,
+)
+from .options.setting_options import takes
 from .output_files import attempt, writes_files
 from .progress import show_progress
-from .terminal import echo
-from .value_types import ANGLE, print_json
+from .terminal import echo, print_json
 
 
 def print_rows(rows: list[dict[str, Any]]) -> None:
@@ -73,11 +78,8 @@ SOLVES = (
 )
 RECORDS = "games.jsonl"
 SUMMARY = "summary.json"
-PATHS = OptionDeclaration(
-    "--paths",
-    "Write a figure with the worst game of each pairing (.png, .svg or .pdf).",
-    kind=OutputFile(".png", ".svg", ".pdf"),
-)
+# Options of rooms that a tournament does not have.
+OF_ROOMS = ("doors", "smallest", "largest", "door_width")
 
 
 def _levels() -> tuple[str, ...]:
@@ -121,18 +123,15 @@ def _levels() -> tuple[str, ...]:
     help="Width and depth of the room [m], open for a floor without walls, "
     "or a room file.",
 )
-@DISCS.option(default=0, show_default=True)
-@BOXES.option(default=0, show_default=True)
-@POLYGONS.option(default=0, show_default=True)
-@GAME_TIME.option(
+@takes(RoomRecipe, "recipe", without=OF_ROOMS)
+@game_time_option(
     default=180.0,
     show_default=True,
-    help="Duration of a game {unit}: path time (0.4 s per step) for footsteps "
+    help="Duration of a game [s]: path time (0.4 s per step) for footsteps "
     "and unicycles, simulated time for physics.",
 )
-@SEEDS.option(
+@seeds_option(
     default="0:100",
-    show_default=True,
     help="Range of seeds, one room each; END is excluded.",
 )
 @click.option(
@@ -141,21 +140,28 @@ def _levels() -> tuple[str, ...]:
     default=pi / 4,
     help="Evasion angle of the evader alpha [rad].  [default: 45deg]",
 )
-@MAP.option(
+@click.option(
+    "--map",
+    type=NameType(lambda: MAPS),
     default="given",
     show_default=True,
     help="Map that humanoids have of the room: the true map, a map built "
     "from their depth cameras, or none.",
 )
-@WORKERS.option()
-@FOLDER.option(
+@workers_option()
+@folder_option(
     help="Folder of results; an interrupted tournament in it is continued. "
     "None by default."
 )
-@FIGURE.option(
+@figure_option(
     help="Write a figure of closest approach against floor area used."
 )
-@PATHS.option()
+@click.option(
+    "--paths",
+    type=OutputFile(*FIGURES),
+    help="Write a figure with the worst game of each pairing (.png, .svg or "
+    ".pdf).",
+)
 @json_option
 @writes_files
 def tournament(
@@ -163,13 +169,11 @@ def tournament(
     evaders: tuple[str, ...],
     pursuers: tuple[str, ...],
     room: Any,
-    discs: int,
-    boxes: int,
-    polygons: int,
+    recipe: RoomRecipe,
     duration: float,
     seeds: range,
     alpha: float,
-    map__source: str,
+    map: str,  # noqa: A002 (the option)
     workers: int | None,
     output: Path | None,
     figure: str | None,
@@ -186,7 +190,7 @@ def tournament(
     of its row. To continue an interrupted tournament, run it again with the
     same folder.
     """
-    from ..arena import RoomRecipe, load_room
+    from ..arena import load_room
     from ..strategies.step_game import StepGame
     from ..studies.entrants import EVADERS, evader_of, pursuer_of
     from ..studies.tournament_settings import TournamentSettings
@@ -198,17 +202,18 @@ def tournament(
         pursuer_of(name)
     arena: Any
     if isinstance(room, Path):
-        if discs or boxes or polygons:
+        if recipe != RoomRecipe():
             raise ConfigurationError(
                 "discs, boxes and polygons cannot be combined with a room "
-                f"file, got {discs}, {boxes} and {polygons}"
+                f"file, got {recipe.discs}, {recipe.boxes} and "
+                f"{recipe.polygons}"
             )
         arena = load_room(room)
     else:
         width, depth = room or (None, None)
-        arena = RoomRecipe(width, depth, discs, boxes, polygons)
+        arena = replace(recipe, width=width, depth=depth)
     game = StepGame(duration=duration)
-    settings = TournamentSettings(level, arena, game, alpha, map__source)
+    settings = TournamentSettings(level, arena, game, alpha, map)
     settings.arena(seeds[0])  # raises if the room cannot be generated
     if output is not None:
         check_folder(output, new=False)

@@ -1,122 +1,141 @@
 """Options for the parameters of a game of unicycles."""
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import wraps
 from math import pi
 from typing import Any
 
 import click
 
+from ..core.errors import ConfigurationError, check_within
+from ..core.ranges import Range
+from ..core.setting import check_settings, setting
 from ..theory.unicycle.unicycle_game import (
     Game,
     SideRule,
     TurningLaw,
     make_game,
 )
-from .options.declaration import OptionDeclaration
-from .options.value_kinds import NameType
-from .value_types import NumberType
+from .options.parameter_types import positive
+from .options.setting_options import takes
 
 STRATEGIES = {"move-aside": pi / 2, "move-back": 0.0}
+SPEED = positive("m/s", None)
+GAIN = positive("1/s", None)
 
 
-def _number(name: str, help_text: str, unit: str) -> OptionDeclaration:
-    return OptionDeclaration(name, help_text, unit=unit, kind=NumberType(unit))
+@dataclass(frozen=True, slots=True)
+class UnicycleOptions:
+    """Parameters of a game of unicycles, as options."""
 
-
-_OPTIONS = [
-    _number("--speed", "Speed v of both players", "m/s").option(
-        default=1.0, show_default=True
-    ),
-    _number("--gain", "Steering gain k of both players", "1/s").option(
-        default=0.5, show_default=True
-    ),
-    _number(
-        "--pursuer-speed", "Speed of the pursuer, if different", "m/s"
-    ).option(),
-    _number(
-        "--evader-speed", "Speed of the evader, if different", "m/s"
-    ).option(),
-    _number(
-        "--pursuer-gain", "Steering gain of the pursuer, if different", "1/s"
-    ).option(),
-    _number(
-        "--evader-gain", "Steering gain of the evader, if different", "1/s"
-    ).option(),
-    OptionDeclaration(
-        "--angle",
-        "Evasion angle {unit}, like 1.2, 1.2rad or 70deg.  [default: 90deg]",
-        unit="rad",
-    ).option(),
-    OptionDeclaration(
-        "--strategy",
-        "Evasion angle by name: move-aside (90deg) or move-back (0).",
-        kind=NameType(lambda: tuple(STRATEGIES)),
-    ).option(),
-    OptionDeclaration(
-        "--law",
-        "Turning law of the evader: eq. (4) or eq. (6).",
-        kind=NameType(lambda: [law.value for law in TurningLaw]),
-    ).option(default=TurningLaw.PROPORTIONAL.value, show_default=True),
-    OptionDeclaration(
-        "--side-rule",
+    speed: float = setting(
+        1.0, "Speed v of both players", positive("m/s"), option="--speed"
+    )
+    gain: float = setting(
+        0.5,
+        "Steering gain k of both players",
+        positive("1/s"),
+        option="--gain",
+    )
+    pursuer_speed: float | None = setting(
+        None,
+        "Speed of the pursuer, if different",
+        SPEED,
+        option="--pursuer-speed",
+    )
+    evader_speed: float | None = setting(
+        None,
+        "Speed of the evader, if different",
+        SPEED,
+        option="--evader-speed",
+    )
+    pursuer_gain: float | None = setting(
+        None,
+        "Steering gain of the pursuer, if different",
+        GAIN,
+        option="--pursuer-gain",
+    )
+    evader_gain: float | None = setting(
+        None,
+        "Steering gain of the evader, if different",
+        GAIN,
+        option="--evader-gain",
+    )
+    angle: float | None = setting(
+        None,
+        "Evasion angle {unit}, like 1.2, 1.2rad or 70deg",
+        Range(0.0, pi, "rad", "the sign is given by the side", also=(None,)),
+        option="--angle",
+        default_text="90deg",
+    )
+    strategy: str | None = setting(
+        None,
+        "Evasion angle by name: move-aside (90deg) or move-back (0)",
+        names=tuple(STRATEGIES),
+        option="--strategy",
+    )
+    law: str = setting(
+        TurningLaw.PROPORTIONAL.value,
+        "Turning law of the evader: eq. (4) or eq. (6)",
+        names=[law.value for law in TurningLaw],
+        option="--law",
+    )
+    side_rule: str = setting(
+        SideRule.BEHIND.value,
         "Side of the line of sight to which the evader moves: the side "
-        "behind it at every instant (behind), or its initial side (latched).",
-        kind=NameType(lambda: [rule.value for rule in SideRule]),
-    ).option(default=SideRule.BEHIND.value, show_default=True),
-    OptionDeclaration(
-        "--hysteresis",
-        "Angle beyond the evader's axis at which it changes side, with "
-        "--side-rule behind",
-        unit="rad",
-        aliases=("--side-hysteresis", "hysteresis"),
-    ).option(default=0.0, show_default=True),
-]
+        "behind it at every instant (behind), or its initial side (latched)",
+        names=[rule.value for rule in SideRule],
+        option="--side-rule",
+    )
+    hysteresis: float = setting(
+        0.0,
+        "Angle beyond the evader's axis at which it changes side {unit}, "
+        "with --side-rule behind",
+        Range(0.0, pi / 2, "rad", "beyond, it never changes side"),
+        option="--hysteresis",
+        aliases=("--side-hysteresis",),
+    )
+
+    def __post_init__(self) -> None:
+        """Validate ranges and names."""
+        check_settings(self)
+
+    def game(self) -> Game:
+        """Return the game."""
+        angle = self.angle
+        if angle is None:
+            angle = STRATEGIES[self.strategy or "move-aside"]
+        elif self.strategy is not None:
+            raise click.UsageError("--angle and --strategy cannot be combined")
+        check_within(
+            self.hysteresis,
+            0.0,
+            min(angle, pi - angle),
+            "hysteresis",
+            "rad",
+            ConfigurationError,
+        )
+        return make_game(
+            _first(self.pursuer_speed, self.speed),
+            _first(self.evader_speed, self.speed),
+            _first(self.pursuer_gain, self.gain),
+            _first(self.evader_gain, self.gain),
+            angle,
+            self.law,
+            side_rule=self.side_rule,
+            hysteresis=self.hysteresis,
+        )
 
 
 def game_options(function: Callable[..., Any]) -> Callable[..., Any]:
     """Add the options to a command; pass it ``game``."""
 
     @wraps(function)
-    def command(**values: Any) -> Any:
-        game = _take_game(values)
-        return function(game=game, **values)
+    def command(options: UnicycleOptions, **values: Any) -> Any:
+        return function(game=options.game(), **values)
 
-    taken: Callable[..., Any] = command
-    for option in reversed(_OPTIONS):
-        taken = option(taken)
-    return taken
-
-
-def _take_game(values: dict[str, Any]) -> Game:
-    """Remove the game's options from a command's values; return the game."""
-    speed, gain = values.pop("speed"), values.pop("gain")
-    angle, strategy = values.pop("angle"), values.pop("strategy")
-    if angle is not None and strategy is not None:
-        raise click.UsageError("--angle and --strategy cannot be combined")
-    if angle is None:
-        angle = STRATEGIES[strategy or "move-aside"]
-    if not 0.0 <= angle <= pi:
-        raise click.BadParameter(
-            f"must lie in [0, pi] [rad], got {angle}", param_hint="--angle"
-        )
-    hysteresis = values.pop("hysteresis")
-    largest = min(angle, pi - angle)
-    if not 0.0 <= hysteresis <= largest:
-        raise click.BadParameter(
-            f"must lie in [0, {largest:g}] [rad], got {hysteresis}",
-            param_hint="--hysteresis",
-        )
-    return make_game(
-        _first(values.pop("pursuer_speed"), speed),
-        _first(values.pop("evader_speed"), speed),
-        _first(values.pop("pursuer_gain"), gain),
-        _first(values.pop("evader_gain"), gain),
-        angle,
-        values.pop("law"),
-        side_rule=values.pop("side_rule"),
-        hysteresis=hysteresis,
-    )
+    return takes(UnicycleOptions, "options")(command)
 
 
 def _first(value: float | None, otherwise: float) -> float:

@@ -5,6 +5,8 @@ from typing import Any
 
 import click
 
+from ..core.setting import settings_of
+from ..games.duel_settings import DuelSettings
 from ..theory.unicycle.unicycle_game import Game
 from .circle import describe_circle
 from .effort_estimate import (
@@ -14,20 +16,21 @@ from .effort_estimate import (
     announce_effort,
 )
 from .options.common_options import (
-    DELAY,
-    FIGURE,
-    GAME_TIME,
-    SAMPLE_TIME,
+    delay_option,
+    figure_option,
     figure_width,
+    game_time_option,
     json_option,
+    sample_time_option,
 )
-from .options.strategy_type import PURSUER_STRATEGY, UNICYCLE_STRATEGY
+from .options.parameter_types import ANGLE, METERS, StrategyType
 from .output_files import attempt, writes_files
 from .tables import format_value, label_of, print_table, table_rows
+from .terminal import print_json
 from .unicycle_options import describe_game, finite, game_options
 from .unicycle_strategies import check_used, play_named_game, print_named_game
-from .value_types import ANGLE, METERS, print_json
 
+DUEL = settings_of(DuelSettings)
 SHORT = 0.01  # decision period without sampling, in [s]
 
 
@@ -52,11 +55,11 @@ SHORT = 0.01  # decision period without sampling, in [s]
     show_default=True,
     help="Initial bearing of the pursuer in the evader's frame [rad].",
 )
-@GAME_TIME.option(
-    help="Duration of the game {unit}.  [default: until it has settled]"
+@game_time_option(
+    help="Duration of the game [s].  [default: until it has settled]"
 )
-@SAMPLE_TIME.option(default=0.0, show_default=True)
-@DELAY.option(default=0.0, show_default=True)
+@sample_time_option()
+@delay_option()
 @click.option(
     "--capture-distance",
     type=METERS,
@@ -64,9 +67,17 @@ SHORT = 0.01  # decision period without sampling, in [s]
     show_default=True,
     help="Capture distance [m]; ends the game.",
 )
-@UNICYCLE_STRATEGY.option(default=None)
-@PURSUER_STRATEGY.option(default=None)
-@FIGURE.option()
+@click.option(
+    "--evader-strategy",
+    type=StrategyType(),
+    help=f"{DUEL['evader_strategy'].text}  [default: evasion]",
+)
+@click.option(
+    "--pursuer-strategy",
+    type=StrategyType(),
+    help=f"{DUEL['pursuer_strategy'].text}  [default: pursuit]",
+)
+@figure_option()
 @figure_width
 @json_option
 @writes_files

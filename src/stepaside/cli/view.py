@@ -6,33 +6,37 @@ from typing import TYPE_CHECKING
 
 import click
 
-from .duel_options import duel_options
-from .options.common_options import BROWSER, PORT, SERVE_FOR
-from .options.declaration import OptionDeclaration
-from .options.game_options import DURATION
+from .options.common_options import (
+    browser_option,
+    port_option,
+    serve_for_option,
+)
+from .options.duel_options import duel_options
 from .options.settings_command import SettingsCommand
 from .terminal import echo
 
 if TYPE_CHECKING:
     from ..games.duel_settings import DuelSettings
 
-HOST = OptionDeclaration(
-    "--host",
-    "Address of the server. If other machines can reach it, the link "
-    "contains a secret.",
-)
-RUNNING = OptionDeclaration(
-    "--run/--no-run", "Start the simulation immediately, or paused."
-)
-
 
 @click.command("view", cls=SettingsCommand)
-@HOST.option(default="127.0.0.1", show_default=True)
-@PORT.option(default=8080, show_default=True)
-@BROWSER.option(default=True)
-@RUNNING.option(default=True, show_default=True)
-@SERVE_FOR.option(aliases=("--duration",))
-@duel_options(DURATION)
+@click.option(
+    "--host",
+    default="127.0.0.1",
+    show_default=True,
+    help="Address of the server. If other machines can reach it, the link "
+    "contains a secret.",
+)
+@port_option()
+@browser_option()
+@click.option(
+    "--run/--no-run",
+    default=True,
+    show_default=True,
+    help="Start the simulation immediately, or paused.",
+)
+@serve_for_option("--duration")
+@duel_options("duration")
 def view(
     settings: "DuelSettings",
     host: str,

@@ -5,37 +5,29 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from ..games.walk_settings import WalkSettings
 from .effort_estimate import SIMULATED, announce_effort
-from .options.body_options import BODY, CONTROL, PHYSICS
-from .options.common_options import FIGURE, FOLDER, json_option
-from .options.gait_options import GAIT, WALK
-from .options.game_options import RUN
+from .options.common_options import figure_option, folder_option, json_option
+from .options.duel_options import WALK
 from .options.settings_command import SettingsCommand, takes_settings
 from .output_files import attempt, writes_files
 from .progress import show_progress
 from .run_output import check_run_folder, save_run
 from .tables import print_table
-from .value_types import print_json
+from .terminal import print_json
 
 if TYPE_CHECKING:
     from ..games.run import WalkRun
-    from ..games.walk_settings import WalkSettings
-
-
-def _walk_settings() -> "type[WalkSettings]":
-    from ..games.walk_settings import WalkSettings
-
-    return WalkSettings
 
 
 @click.command("walk", cls=SettingsCommand)
-@takes_settings(_walk_settings, RUN, WALK, GAIT, BODY, CONTROL, PHYSICS)
-@FOLDER.option(help="Run folder; the run is not saved by default.")
-@FIGURE.option()
+@takes_settings(WalkSettings, *WALK)
+@folder_option(help="Run folder; the run is not saved by default.")
+@figure_option()
 @json_option
 @writes_files
 def walk(
-    settings: "WalkSettings",
+    settings: WalkSettings,
     output: Path | None,
     figure: str | None,
     as_json: bool,
@@ -68,7 +60,7 @@ def walk(
     saved.exit_if_interrupted(run.outcome)
 
 
-def _walk(settings: "WalkSettings") -> "WalkRun":
+def _walk(settings: WalkSettings) -> "WalkRun":
     """Walk with a progress bar on standard error."""
     from ..games.walk_game import run_walk
 

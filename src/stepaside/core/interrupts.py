@@ -11,6 +11,7 @@ from typing import Any
 # Longest delay of a deferred interrupt, in [s]: far above a tick of a game
 # (a few ms), and short enough that Ctrl-C still seems to act at once.
 LONGEST_DELAY = 0.5
+INTERRUPTED = 130  # exit status of an interrupted command
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 DEFAULT_HANDLERS = (signal.default_int_handler, signal.SIG_DFL)
 

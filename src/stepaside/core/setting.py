@@ -25,7 +25,8 @@ class Setting:
 
     Attributes:
         meaning: What it sets, without final period. ``{unit}`` marks the
-            place of the unit, which otherwise follows at the end.
+            place of the unit, which otherwise follows at the end; counts
+            need none.
         range: Range of a number; None for any other value.
         names: Permitted texts; empty if any is.
         presets: Values by the name that the option takes instead.
@@ -52,7 +53,8 @@ class Setting:
     def text(self) -> str:
         """The meaning with its unit, as a sentence."""
         text = self.meaning
-        if self.range is not None and "{unit}" not in text:
+        counts = self.range is None or self.range.whole
+        if not counts and "{unit}" not in text:
             text += " {unit}"
         unit = f"[{self.range.unit}]" if self.range else ""
         return text.replace("{unit}", unit) + "."

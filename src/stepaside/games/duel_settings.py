@@ -25,6 +25,7 @@ from ..sim.push import MOST_PUSHES, Push, check_pushes
 from ..strategies import Evasion, Strategy
 from ..strategies.registry import (
     OF_EVASION,
+    STRATEGIES,
     check_strategy_name,
     describe_strategy,
     is_described,
@@ -35,6 +36,9 @@ ERROR = ConfigurationError
 SENSING = ("ideal", "cameras")
 PLAYERS = PURSUER, EVADER = ("pursuer", "evader")
 PURSUIT = "pursuit"  # of the paper, like EVASION
+STRATEGY_NAMES = (
+    f"{', '.join(STRATEGIES)}, pursuit-xRATIO, or FILE.py:NAME for your own"
+)
 GAIT_HELP = (
     "Gait preset: the paper's, the paper's with durations as printed, or a "
     "fast one (with feedback unless --open-loop). Other gait options modify it"
@@ -50,8 +54,7 @@ class StartSettings:
 
     distance: float | None = setting(
         None,
-        "Initial distance between the reference points of the players "
-        "{unit}; drawn from the seed by default",
+        "Initial distance between the reference points of the players",
         Range(
             0.0,
             100.0,
@@ -65,7 +68,7 @@ class StartSettings:
     pursuer_offset: float | None = setting(
         None,
         "Heading of the pursuer relative to its line of sight to the evader "
-        "{unit}; drawn up to a right angle by default",
+        "{unit}, drawn up to a right angle to either side",
         Range(-pi, pi, "rad", "half a turn", also=(None,)),
         option="--pursuer-offset",
         words={"drawn": None},
@@ -73,7 +76,7 @@ class StartSettings:
     evader_offset: float | None = setting(
         None,
         "Heading of the evader relative to its line of sight to the pursuer "
-        "{unit}; drawn up to 30 degrees by default",
+        "{unit}, drawn up to 30 degrees to either side",
         Range(-pi, pi, "rad", "half a turn", also=(None,)),
         option="--evader-offset",
         words={"drawn": None},
@@ -137,16 +140,14 @@ class DuelSettings:
     )
     evader_strategy: str | Strategy = setting(
         EVASION,
-        "Strategy of the evader: evasion, deflected, look-ahead, optimal, "
-        "pursuit, pursuit-xRATIO, sharp, herding, lead, optimal-pursuit, "
-        "stand, walk, or FILE.py:NAME for your own",
+        f"Strategy of the evader: {STRATEGY_NAMES}",
         option="--strategy",
         aliases=("--evader-strategy",),
         default_text="evasion",
     )
     pursuer_strategy: str | Strategy = setting(
         PURSUIT,
-        "Strategy of a robot pursuer, by the same names",
+        f"Strategy of a robot pursuer: {STRATEGY_NAMES}",
         option="--pursuer-strategy",
         default_text="pursuit",
     )

@@ -8,9 +8,10 @@ from typing import Any, NamedTuple
 import click
 
 from stepaside.cli.main import all_commands
-from stepaside.cli.options.declaration import DeclaredOption
+from stepaside.cli.options.parameter_types import NumberType
+from stepaside.cli.options.setting_options import SettingOption
 from stepaside.cli.plan_settings import PlanSettings
-from stepaside.cli.value_types import NumberType
+from stepaside.core.ranges import Range
 from stepaside.core.setting import settings_of
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.walk_settings import WalkSettings
@@ -112,13 +113,20 @@ def options(_: Any) -> str:
     found: dict[tuple[str, str, str], list[str]] = {}
     for command, made in all_commands().items():
         for option in _options(made):
-            kind = option.type
-            if isinstance(kind, NumberType):
-                entry = kind.range.words, kind.unit
+            kind: Any = option.type
+            if isinstance(option, SettingOption):
+                known = option.entry.setting.range
+            elif isinstance(kind, NumberType):
+                known = kind.range
             elif isinstance(kind, click.IntRange):
-                entry = f"{kind.min:g} to {kind.max:g}", "1"
+                known = Range(
+                    kind.min or 0, kind.max or 0, "1", "", whole=True
+                )
             else:
+                known = None
+            if known is None:
                 continue
+            entry = known.words, known.unit
             found.setdefault((option.opts[0], *entry), []).append(command)
     rows = [
         (f"`{name}`", words, unit, ", ".join(commands))
@@ -133,5 +141,5 @@ def _options(command: click.Command) -> list[click.Option]:
         param
         for param in command.params
         if isinstance(param, click.Option)
-        and not (isinstance(param, DeclaredOption) and param.sets_settings)
+        and not (isinstance(param, SettingOption) and param.in_file)
     ]

@@ -1,8 +1,8 @@
-"""Options of commands that are not part of any configuration."""
+"""Options that several commands share, outside any configuration."""
 
 from collections.abc import Callable
 from contextlib import nullcontext
-from functools import wraps
+from functools import partial, wraps
 from pathlib import Path
 from typing import Any
 
@@ -10,14 +10,8 @@ import click
 
 from ...core.atomic_output import FIGURES
 from ...report.figure_sizes import SHEETS, figures_on
-from ..value_types import NumberType, reserve_stdout
-from .declaration import OptionDeclaration
-from .value_kinds import NameType, OutputFile
-
-INTERRUPTED = 130  # exit status of an interrupted command
-JSON = OptionDeclaration(
-    "--json/--no-json", "Print one JSON object.", aliases=("as_json",)
-)
+from ..terminal import reserve_stdout
+from .parameter_types import NameType, NumberType, OutputFile
 
 
 def json_option(function: Callable[..., Any]) -> Callable[..., Any]:
@@ -28,70 +22,100 @@ def json_option(function: Callable[..., Any]) -> Callable[..., Any]:
         with reserve_stdout() if values["as_json"] else nullcontext():
             return function(*args, **values)
 
-    return JSON.option(default=False)(command)
+    return click.option(
+        "--json/--no-json",
+        "as_json",
+        default=False,
+        help="Print one JSON object.",
+    )(command)
 
 
-FOLDER = OptionDeclaration(
+folder_option = partial(
+    click.option,
     "--output",
-    "Folder of results.",
-    kind=click.Path(file_okay=False, path_type=Path),
+    type=click.Path(file_okay=False, path_type=Path),
+    help="Folder of results.",
 )
-FILE = OptionDeclaration(
-    "--output",
-    "File to write.",
-    kind=OutputFile(),
-)
-FIGURE = OptionDeclaration(
+figure_option = partial(
+    click.option,
     "--figure",
-    "Write a figure (.png, .svg or .pdf).",
-    kind=OutputFile(*FIGURES),
+    type=OutputFile(*FIGURES),
+    help="Write a figure (.png, .svg or .pdf).",
 )
-WIDTH = OptionDeclaration(
-    "--figure-width",
-    "Figure size and fonts: for a screen, or for the page or one column of a "
-    "two-column paper.",
-    kind=NameType(lambda: SHEETS),
-)
-WORKERS = OptionDeclaration(
+workers_option = partial(
+    click.option,
     "--workers",
-    "Number of worker processes; one per core by default.",
-    kind=click.IntRange(1, 1024),  # more than any machine has cores
+    type=click.IntRange(1, 1024),  # more than any machine has cores
+    help="Number of worker processes; one per core by default.",
 )
-FIRST_SEED = OptionDeclaration(
-    "--seed", "Random seed.", kind=click.IntRange(0, 2**128 - 1)
+seed_option = partial(
+    click.option,
+    "--seed",
+    type=click.IntRange(0, 2**128 - 1),
+    help="Random seed.",
 )
-PORT = OptionDeclaration(
-    "--port", "TCP port of the page.", kind=click.IntRange(1, 65535)
+port_option = partial(
+    click.option,
+    "--port",
+    type=click.IntRange(1, 65535),
+    default=8080,
+    show_default=True,
+    help="TCP port of the page.",
 )
-BROWSER = OptionDeclaration(
-    "--open/--no-open", "Open the page in a browser.", aliases=("opens",)
+browser_option = partial(
+    click.option,
+    "--open/--no-open",
+    "opens",
+    default=True,
+    help="Open the page in a browser.",
 )
-SERVE_FOR = OptionDeclaration(
+serve_for_option = partial(
+    click.option,
     "--serve-for",
-    "Stop the server after this time",
-    unit="s",
-    kind=NumberType("s"),
+    type=NumberType("s"),
+    help="Stop the server after this time [s].",
 )
-CAPTURE = OptionDeclaration(
+capture_option = partial(
+    click.option,
     "--body",
-    "Capture distance",
-    unit="m",
-    kind=NumberType("m"),
+    type=NumberType("m"),
+    help="Capture distance [m].",
 )
-GAME_TIME = OptionDeclaration(
-    "--duration", "Duration of a game", unit="s", kind=NumberType("s")
+game_time_option = partial(
+    click.option,
+    "--duration",
+    type=NumberType("s"),
+    help="Duration of a game [s].",
 )
-SAMPLE_TIME = OptionDeclaration(
+sample_time_option = partial(
+    click.option,
     "--sample-time",
-    "Sampling period; turning rates are held constant in between",
-    unit="s",
-    kind=NumberType("s", allow_zero=True),
+    type=NumberType("s", allow_zero=True),
+    default=0.0,
+    show_default=True,
+    help="Sampling period; turning rates are held constant in between [s].",
 )
-DELAY = OptionDeclaration(
+delay_option = partial(
+    click.option,
     "--delay",
-    "Delay from sensing to turning",
-    unit="s",
-    kind=NumberType("s", allow_zero=True),
+    type=NumberType("s", allow_zero=True),
+    default=0.0,
+    show_default=True,
+    help="Delay from sensing to turning [s].",
+)
+domain_option = partial(
+    click.option,
+    "--domain",
+    type=click.IntRange(0, 232),
+    help="ROS 2 domain; ROS_DOMAIN_ID by default, or 0 if that is not set.",
+)
+network_option = partial(
+    click.option,
+    "--network/--no-network",
+    default=False,
+    help="Make the ROS 2 topics visible to other machines. Without it, ROS 2 "
+    "programs on this machine require "
+    "ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST.",
 )
 
 
@@ -102,9 +126,13 @@ def _choose_sheet(
     context.with_resource(figures_on(name))
 
 
-figure_width = WIDTH.option(
+figure_width = click.option(
+    "--figure-width",
+    type=NameType(lambda: SHEETS),
     default="screen",
     show_default=True,
     callback=_choose_sheet,
     expose_value=False,
+    help="Figure size and fonts: for a screen, or for the page or one column "
+    "of a two-column paper.",
 )

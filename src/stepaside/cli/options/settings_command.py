@@ -5,40 +5,60 @@ such as ``--body``, single options.
 """
 
 from collections.abc import Callable, Collection, Mapping
+from dataclasses import replace
 from functools import wraps
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple, TypeVar
 
 import click
-from click.core import ParameterSource
 
-from ..value_types import write_result
-from .body_options import METHOD
-from .declaration import (
-    DeclaredOption,
-    OptionDeclaration,
-    OptionGroup,
-    SettingsClass,
-)
-from .game_options import SENSING
-from .room_options import with_room
-from .settings_builder import (
-    changed,
+from ...arena import RoomRecipe
+from ...core.setting import Setting
+from ...games.configuration_file import load_entries, parse_settings
+from ...games.robot_settings import with_players, with_robot
+from ...strategies.registry import OF_EVASION
+from ..terminal import write_result
+from .implied_settings import (
+    RECIPE,
     with_control,
+    with_room,
     with_sensing,
     with_trigger,
 )
+from .print_config import commented
+from .setting_options import (
+    OWN,
+    Decorator,
+    Entry,
+    GroupedOption,
+    all_entries,
+    entries_at,
+    given_options,
+)
 
-CONFIG = OptionDeclaration(
-    "--config",
-    "Configuration file (TOML); options override it.",
-    kind=click.Path(exists=True, dir_okay=False, path_type=Path),
+S = TypeVar("S")
+ROOM_SIZE = Entry(
+    f"{RECIPE}.size",
+    Setting(
+        "Width and depth of the room [m]; open for a floor without walls",
+        option="--room-size",
+    ),
+    None,
+    tuple[float, float] | None,
 )
-PRINT_CONFIG = OptionDeclaration(
-    "--print-config/--no-print-config",
-    "Print the resulting configuration with comments, and exit.",
-)
-CONFIGURATION = OptionGroup("Configuration", (CONFIG, PRINT_CONFIG))
+
+
+class OptionGroup(NamedTuple):
+    """Section of options in the help.
+
+    Attributes:
+        title: Title of the section.
+        paths: Entries of the settings, and sections, which stand for all
+            their entries with options.
+    """
+
+    title: str
+    paths: tuple[str, ...]
 
 
 class SettingsCommand(click.Command):
@@ -48,153 +68,106 @@ class SettingsCommand(click.Command):
         self, ctx: click.Context, formatter: click.HelpFormatter
     ) -> None:
         """Write the command's own options first, then each group."""
-        titles: dict[OptionDeclaration, str] = {
-            option: group.title
-            for group in getattr(self.callback, "groups", ())
-            for option in group.options
-        }
-        sections: dict[str, list[tuple[str, str]]] = {}
+        sections: dict[str, list[tuple[str, str]]] = {OWN: []}
         for param in self.get_params(ctx):
             record = param.get_help_record(ctx)
             if record is not None:
-                title = "Options"
-                if isinstance(param, DeclaredOption):
-                    title = titles.get(param.declaration, title)
+                title = getattr(param, "group", OWN)
                 sections.setdefault(title, []).append(record)
-        for title in ("Options", *dict.fromkeys(titles.values())):
-            if title in sections:
-                with formatter.section(title):
-                    formatter.write_dl(sections[title])
+        for title, records in sections.items():
+            with formatter.section(title):
+                formatter.write_dl(records)
 
 
 def takes_settings(
-    settings_class: SettingsClass,
+    kind: type[Any],
     *groups: OptionGroup,
-    ignored: Callable[[], Collection[str]] = tuple,
-    help_texts: Mapping[OptionDeclaration, str] | None = None,
-) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    without: Collection[str] = (),
+    ignored: Collection[str] = (),
+    meanings: Mapping[str, str] | None = None,
+) -> Decorator:
     """Add options and ``--config`` to a command; pass it ``settings``.
 
     Args:
-        settings_class: Returns the class of the settings.
+        kind: Class of the settings.
         groups: Options that set entries of the settings.
-        ignored: Returns top-level entries of a file that belong to other
-            commands.
-        help_texts: Help of options whose meaning differs in this command.
+        without: Entries whose options the command does not have.
+        ignored: Top-level entries of a file that belong to other commands.
+        meanings: Meanings of options that differ in this command, by entry.
 
     Returns:
         Decorator of a command with an argument ``settings``.
     """
-    groups = (*groups, CONFIGURATION)
+    grouped = [
+        (title, entry)
+        for title, paths in groups
+        for path in paths
+        for entry in _entries(kind, path)
+        if entry.setting.option and entry.path not in without
+    ]
+    entries = [entry for _, entry in grouped]
 
     def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
         @wraps(function)
         def command(**values: Any) -> Any:
-            settings = _settings(settings_class, values, ignored)
+            options = given_options(values, entries)
+            file = values.pop("config")
+            settings = _settings(kind, options, file, ignored)
             if values.pop("print_config"):
-                from .print_config import commented
-
                 write_result(commented(settings))
                 return None
             return function(settings=settings, **values)
 
-        wrapped: Callable[..., Any] = command
-        for group in reversed(groups):
-            for declaration in reversed(group.options):
-                text = (help_texts or {}).get(declaration, declaration.help)
-                wrapped = declaration.option(settings_class, help=text)(
-                    wrapped
-                )
-        wrapped.groups = groups  # type: ignore[attr-defined]
+        wrapped: Callable[..., Any] = _CONFIG(_PRINT_CONFIG(command))
+        for title, entry in reversed(grouped):
+            meaning = (meanings or {}).get(entry.path, "")
+            wrapped = entry.option(title, meaning)(wrapped)
         return wrapped
 
     return decorate
 
 
-def _base_settings(
-    settings_class: SettingsClass,
-    given: dict[str, Any],
-    config: Path | None,
-    ignored: Callable[[], Collection[str]],
-) -> tuple[Any, bool]:
-    """Return the settings of the chosen robots, changed by the file.
-
-    Args:
-        settings_class: Returns the class of the settings.
-        given: Options by path; those that choose a player's robot are
-            removed.
-        config: Configuration file; None if there is none.
-        ignored: Returns entries of the file that belong to other commands.
-
-    Returns:
-        The settings, and whether the robot needs feedback.
-    """
-    base, entries = settings_class()(), {}
-    if config is not None:
-        from ...games.configuration_file import load_entries, parse_settings
-
-        entries = load_entries(config)
-    if hasattr(base, "robot"):
-        from ...games.robot_settings import with_players, with_robot
-
-        robot = given.get("robot", entries.get("robot", base.robot))
-        base = with_robot(base, str(robot))
-        players = {}
-        for player in ("pursuer", "evader"):
-            path = f"{player}_robot"
-            if path in given:
-                entries.pop(path, None)
-                players[player] = given.pop(path)
-            elif isinstance(entries.get(path), dict):
-                players[player] = str(entries[path].get("robot", robot))
-        base = with_players(base, players) if players else base
-        entries.pop("robot", None)
-    needed = hasattr(base, "control") and base.control.feedback
-    if config is not None:
-        source = str(config)
-        base = parse_settings(
-            settings_class(), entries, source, aside=ignored(), base=base
-        )
-    return base, needed
+_CONFIG = click.option(
+    "--config",
+    cls=GroupedOption,
+    group="Configuration",
+    type=click.Path(exists=True, dir_okay=False, path_type=Path),
+    help="Configuration file (TOML); options override it.",
+)
+_PRINT_CONFIG = click.option(
+    "--print-config/--no-print-config",
+    cls=GroupedOption,
+    group="Configuration",
+    help="Print the resulting configuration with comments, and exit.",
+)
 
 
-def _in_file(config: Path | None, path: str) -> bool:
-    """Return whether the configuration file sets an entry."""
-    if config is None:
-        return False
-    from ...games.configuration_file import has_entry
-
-    return has_entry(config, path)
+def _entries(kind: type[Any], path: str) -> list[Entry]:
+    """Return the entries at a path; those of a random room are no settings."""
+    if path != RECIPE:
+        return list(entries_at(kind, path))
+    recipe = [e._replace(default=None) for e in all_entries(RoomRecipe, path)]
+    return [ROOM_SIZE, *recipe]
 
 
 def _settings(
-    settings_class: SettingsClass,
-    values: dict[str, Any],
-    ignored: Callable[[], Collection[str]],
+    kind: type[Any],
+    options: list[tuple[Entry, Any]],
+    config: Path | None,
+    ignored: Collection[str],
 ) -> Any:
-    """Remove the options of settings from a command's values; build them."""
-    context = click.get_current_context()
-    given: dict[str, Any] = {}
-    declarations: dict[str, OptionDeclaration] = {}
-    for param in context.command.params:
-        if not isinstance(param, DeclaredOption) or param.name is None:
-            continue
-        declaration = param.declaration
-        if not param.sets_settings:
-            continue
-        value = values.pop(param.name)
-        source = context.get_parameter_source(param.name)
-        if source is not ParameterSource.DEFAULT:
-            given[declaration.path] = value
-            declarations[declaration.path] = declaration
-    config = values.pop("config")
-    settings, needed = _base_settings(settings_class, given, config, ignored)
+    """Return the settings of a command from options and file."""
+    given = {entry.path: value for entry, value in options}
+    file = {} if config is None else load_entries(config)
+    settings, needs_feedback = _base_settings(
+        kind, given, dict(file), str(config), ignored
+    )
     if hasattr(settings, "control"):
         given = with_control(
             given,
             settings.control,
-            needed=needed,
-            method_in_file=_in_file(config, METHOD.path),
+            needed=needs_feedback,
+            method_in_file="method" in file.get("control", {}),
         )
     if hasattr(settings, "pursuer"):
         given = with_trigger(given, settings.pursuer)
@@ -202,26 +175,94 @@ def _settings(
         given = with_sensing(
             given,
             room_in_file=settings.room.plan is not None,
-            sensing_in_file=_in_file(config, SENSING.path),
+            sensing_in_file="sensing" in file,
         )
-    for path in given.keys() & declarations.keys():
-        given[path] = declarations[path].value_of(given[path])
+    for entry, _ in options:
+        if entry.path in given:
+            given[entry.path] = entry.value_of(given[entry.path])
     settings = changed(settings, with_room(given))
     if not getattr(settings, "uses_evasion", True):
-        _refuse_unused(declarations, settings.named().evader_strategy)
+        _refuse_unused(
+            [entry for entry, _ in options], settings.named().evader_strategy
+        )
     return settings
 
 
-def _refuse_unused(
-    declarations: Mapping[str, OptionDeclaration], strategy: str
-) -> None:
-    """Refuse options of the paper's evader if no player uses it."""
-    from ...strategies.registry import OF_EVASION
+def _base_settings(
+    kind: type[Any],
+    given: dict[str, Any],
+    file: dict[str, Any],
+    source: str,
+    ignored: Collection[str],
+) -> tuple[Any, bool]:
+    """Return the settings of the chosen robots, changed by the file.
 
+    Args:
+        kind: Class of the settings.
+        given: Options by path; those that choose a player's robot are
+            removed.
+        file: Entries of the configuration file; those that choose a robot
+            are removed.
+        source: Name of the file.
+        ignored: Entries of the file that belong to other commands.
+
+    Returns:
+        The settings, and whether the robot needs feedback.
+    """
+    base = kind()
+    if hasattr(base, "robot"):
+        robot = given.get("robot", file.pop("robot", base.robot))
+        base = with_robot(base, str(robot))
+        players = {}
+        for player in ("pursuer", "evader"):
+            path = f"{player}_robot"
+            if path in given:
+                file.pop(path, None)
+                players[player] = given.pop(path)
+            elif isinstance(file.get(path), dict):
+                players[player] = str(file[path].get("robot", robot))
+        base = with_players(base, players) if players else base
+    needs_feedback = hasattr(base, "control") and base.control.feedback
+    base = parse_settings(kind, file, source, aside=ignored, base=base)
+    return base, needs_feedback
+
+
+def changed(settings: S, values: Mapping[str, Any]) -> S:
+    """Return settings with new values at some paths.
+
+    Outer sections are replaced before inner ones, and all values of one
+    section at once, because their validity may depend on each other.
+
+    Args:
+        settings: Settings to start from.
+        values: New values by path, like ``physics.friction``.
+
+    Raises:
+        StepAsideError: If a value is invalid.
+    """
+    sections: dict[tuple[str, ...], dict[str, Any]] = {}
+    for path, value in values.items():
+        *section, name = path.split(".")
+        sections.setdefault(tuple(section), {})[name] = value
+    for section_path in sorted(sections, key=len):
+        settings = _put(settings, section_path, sections[section_path])
+    return settings
+
+
+def _put(settings: Any, section: tuple[str, ...], values: Any) -> Any:
+    if not section:
+        return replace(settings, **values)
+    name, *deeper = section
+    inner = _put(getattr(settings, name), tuple(deeper), values)
+    return replace(settings, **{name: inner})
+
+
+def _refuse_unused(given: Collection[Entry], strategy: str) -> None:
+    """Refuse options of the paper's evader if no player uses it."""
     unused = [
-        declaration.name.partition("/")[0]
-        for path, declaration in declarations.items()
-        if path.startswith("strategy.")
+        entry.setting.option.partition("/")[0]
+        for entry in given
+        if entry.path.startswith("strategy.")
     ]
     if unused:
         raise click.UsageError(

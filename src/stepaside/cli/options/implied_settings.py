@@ -1,53 +1,21 @@
-"""Settings with the values of options, and the values that options imply."""
+"""Settings that the options of a command imply."""
 
 from collections.abc import Mapping
-from dataclasses import replace
-from typing import TYPE_CHECKING, Any, TypeVar
+from pathlib import Path
+from typing import Any
 
-from .body_options import BODY_PRESET, FEEDBACK, METHOD
-from .gait_options import PRESET
-from .game_options import SENSING
-from .room_options import MAP, PLAN
+import click
 
-if TYPE_CHECKING:
-    from ...locomotion.zmp.control_settings import ControlSettings
+from ...arena import RoomRecipe, generate_room, load_room
+from ...locomotion.zmp.control_settings import ControlSettings
+from ...planning import STABILISED
 
-S = TypeVar("S")
-
-
-def changed(settings: S, values: Mapping[str, Any]) -> S:
-    """Return settings with new values at some paths.
-
-    Outer sections are replaced before inner ones, and all values of one
-    section at once, because their validity may depend on each other.
-
-    Args:
-        settings: Settings to start from.
-        values: New values by path, like ``physics.friction``.
-
-    Raises:
-        StepAsideError: If a value is invalid.
-    """
-    sections: dict[tuple[str, ...], dict[str, Any]] = {}
-    for path, value in values.items():
-        *section, name = path.split(".")
-        sections.setdefault(tuple(section), {})[name] = value
-    for section_path in sorted(sections, key=len):
-        settings = _put(settings, section_path, sections[section_path])
-    return settings
-
-
-def _put(settings: Any, section: tuple[str, ...], values: Any) -> Any:
-    if not section:
-        return replace(settings, **values)
-    name, *deeper = section
-    inner = _put(getattr(settings, name), tuple(deeper), values)
-    return replace(settings, **{name: inner})
+RECIPE = "recipe"  # section of the options that generate a room
 
 
 def with_control(
     given: Mapping[str, Any],
-    control: "ControlSettings",
+    control: ControlSettings,
     *,
     needed: bool = False,
     method_in_file: bool = False,
@@ -65,16 +33,13 @@ def with_control(
         needed: Whether the robot cannot walk without feedback.
         method_in_file: Whether the configuration file sets the method.
     """
-    from ...planning import STABILISED
-
-    body, method, feedback = (
-        given.get(option.path) for option in (BODY_PRESET, METHOD, FEEDBACK)
-    )
+    body, method = given.get("body"), given.get("control.method")
+    feedback = given.get("control.feedback")
     if feedback and method is None and method_in_file:
         method = control.method
-    if given.get(PRESET.path) in STABILISED and feedback is not False:
+    if given.get("gait") in STABILISED and feedback is not False:
         method = method or "closed-form"
-        return {**given, METHOD.path: method, FEEDBACK.path: True}
+        return {**given, "control.method": method, "control.feedback": True}
     if feedback is None and (method or body) is not None:
         feedback = body not in (None, "ideal") or (
             method not in (None, "closed-form")
@@ -84,7 +49,7 @@ def with_control(
         return dict(given)
     if method is None:
         method = "measured" if feedback else "closed-form"
-    return {**given, METHOD.path: method, FEEDBACK.path: feedback}
+    return {**given, "control.method": method, "control.feedback": feedback}
 
 
 def with_trigger(given: Mapping[str, Any], pursuer: str) -> dict[str, Any]:
@@ -97,11 +62,9 @@ def with_trigger(given: Mapping[str, Any], pursuer: str) -> dict[str, Any]:
         given: Values by path; presets are still names.
         pursuer: Kind of pursuer so far.
     """
-    from ...planning import STABILISED
-
     values = dict(given)
     person = values.get("pursuer", pursuer) == "person"
-    if person and values.get(PRESET.path) in STABILISED:
+    if person and values.get("gait") in STABILISED:
         values.setdefault("strategy.trigger", "time")
     return values
 
@@ -117,7 +80,44 @@ def with_sensing(
         sensing_in_file: Whether the configuration file sets the sensing.
     """
     values = dict(given)
-    if values.get(MAP.path) == "seen" and not sensing_in_file:
-        if room_in_file or values.get(PLAN) is not None:
-            values.setdefault(SENSING.path, "cameras")
+    if values.get("map.source") == "seen" and not sensing_in_file:
+        if room_in_file or values.get("room.plan") is not None:
+            values.setdefault("sensing", "cameras")
+    return values
+
+
+def with_room(given: Mapping[str, Any]) -> dict[str, Any]:
+    """Replace the options that describe a room by the room itself.
+
+    Args:
+        given: Values by path.
+
+    Raises:
+        UsageError: If options generate a room but no seed is given.
+        ConfigurationError: If the room cannot be generated or loaded.
+    """
+    recipe = {
+        path.removeprefix(f"{RECIPE}."): value
+        for path, value in given.items()
+        if path.startswith(f"{RECIPE}.")
+    }
+    values = {
+        path: value
+        for path, value in given.items()
+        if not path.startswith(f"{RECIPE}.")
+    }
+    source = values.get("room.plan")
+    if recipe and not isinstance(source, int):
+        name = next(iter(recipe)).replace("_", "-")
+        option = "--room-size" if name == "size" else f"--{name}"
+        room = "no --room" if source is None else f"the file {source}"
+        raise click.UsageError(
+            f"{option} requires a random room (--room SEED), got {room}"
+        )
+    if isinstance(source, int):
+        size = recipe.pop("size", (3.0, 3.0)) or (None, None)
+        made = RoomRecipe(width=size[0], depth=size[1], **recipe)
+        values["room.plan"] = generate_room(made, source)
+    elif isinstance(source, Path):
+        values["room.plan"] = load_room(source)
     return values

@@ -1,0 +1,198 @@
+"""Options of ``stepaside play``: one player, and the connection to a robot."""
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+from click.core import ParameterSource
+
+from ..core.ranges import Range
+from ..core.setting import REQUIRED, check_settings, setting
+from ..games.duel_settings import EVADER, PLAYERS, DuelSettings
+from ..locomotion.zmp.control_settings import OPEN_LOOP, STABILISED
+from ..strategies import Strategy, load_strategy
+from .options.parameter_types import REASON, positive
+from .terminal import echo
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from ..drivers.naoqi.velocity_mover import Mover
+    from ..drivers.ros2.dds_domain import DdsParticipant
+
+LOLA, NAOQI, ROS2 = "lola:", "naoqi:", "ros2:"
+MOTION_INTERFACES = ("velocity", "footsteps", "joints")
+
+
+@dataclass(frozen=True, slots=True)
+class ConnectionSettings:
+    """Player of ``stepaside play`` and the connection to its robot."""
+
+    role: str = setting(
+        REQUIRED, "Role of the robot", names=PLAYERS, option="--role"
+    )
+    robot: str = setting(
+        REQUIRED,
+        "Address of the robot: lola:PATH, lola:HOST:PORT or lola: (on the "
+        "robot itself); naoqi:tcp://HOST:PORT; ros2:/NAMESPACE",
+        option="--robot",
+    )
+    description: str = setting(
+        "nao",
+        "Name of a robot, or folder of its description",
+        option="--description",
+    )
+    delay_ticks: int = setting(
+        3,
+        "Delay from command to motion, in ticks of 12 ms",
+        Range(0, 20, "ticks", "longer, balance is lost", whole=True),
+        option="--delay-ticks",
+    )
+    images: str | None = setting(
+        None,
+        "Source of images for --sensing cameras: v4l2:DEVICE, "
+        "naoqi:tcp://HOST:PORT or ros2:/TOPIC; the camera channel of a "
+        "simulated robot by default",
+        option="--images",
+    )
+    by: str | None = setting(
+        None,
+        "Commands sent to a robot over NAOqi",
+        names=MOTION_INTERFACES,
+        option="--by",
+        default_text="velocity",
+    )
+    max_speed: float | None = setting(
+        None,
+        "Maximum speed of a robot with velocity commands",
+        positive("m/s", None),
+        option="--max-speed",
+    )
+    max_turn: float | None = setting(
+        None,
+        "Maximum turning rate of a robot with velocity commands",
+        positive("rad/s", None),
+        option="--max-turn",
+    )
+    domain: int | None = setting(
+        None,
+        "ROS 2 domain; ROS_DOMAIN_ID by default, or 0 if that is not set",
+        Range(0, 232, "1", "of ROS 2", whole=True, also=(None,)),
+        option="--domain",
+    )
+    network: bool = setting(
+        False,
+        "Make the ROS 2 topics visible to other machines. Without it, ROS 2 "
+        "programs on this machine require "
+        "ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST",
+        option="--network/--no-network",
+    )
+    sim_time: bool = setting(
+        False,
+        "The robot is simulated: its clock may pause or run at any rate",
+        option="--sim-time/--no-sim-time",
+    )
+    duration: float | None = setting(
+        None,
+        "Walk for this time, then rest",
+        positive("s", None),
+        option="--duration",
+    )
+    wait: float = setting(
+        10.0,
+        "Maximum time to wait for the first connection",
+        Range(1e-9, 1e9, "s", REASON, also=(0.0,)),
+        option="--wait",
+    )
+    reconnect: float | None = setting(
+        None,
+        "Try to reconnect for this time after a lost session {unit}; joint "
+        "control only",
+        positive("s", None),
+        option="--reconnect",
+    )
+    record: Path | None = setting(
+        None,
+        "Record all measurements, targets and state changes to a run folder "
+        "for stepaside replay",
+        option="--record",
+    )
+    dry_run: bool = setting(
+        False,
+        "Connect, measure and plan, but do not move: only set LEDs",
+        option="--dry-run/--no-dry-run",
+    )
+
+    def __post_init__(self) -> None:
+        """Validate ranges, names and combinations of options."""
+        check_settings(self)
+        if self.by is not None and not self.robot.startswith(NAOQI):
+            raise click.UsageError(
+                f"--by requires a robot at {NAOQI}, got {self.robot!r}; LoLA "
+                "accepts joint targets only, ROS 2 velocities only"
+            )
+
+    @property
+    def moves_joints(self) -> bool:
+        """Whether the robot receives joint targets."""
+        return self.by == "joints" or self.robot.startswith(LOLA)
+
+    def strategy(self, settings: DuelSettings) -> Strategy:
+        """Load the strategy of the role."""
+        chosen = (
+            settings.evader_strategy
+            if self.role == EVADER
+            else settings.pursuer_strategy
+        )
+        return load_strategy(chosen, settings.strategy)
+
+    def mover_factory(
+        self, settings: DuelSettings
+    ) -> "Callable[[Any, Callable[[], float]], Mover]":
+        """Return the factory of the mover that sends commands to ALMotion."""
+        from ..drivers.naoqi.velocity_mover import VelocityMover
+
+        if self.by != "footsteps":
+            return VelocityMover
+        from ..drivers.naoqi.footstep_mover import FootstepMover
+
+        return lambda motion, clock: FootstepMover(
+            motion, settings.gait, clock
+        )
+
+    def with_images(self, url: str) -> "ConnectionSettings":
+        """Return the settings with the camera of a NAOqi robot as default."""
+        return replace(self, images=self.images or f"{NAOQI}{url}")
+
+    def join_domain(self) -> "DdsParticipant":
+        """Join the ROS 2 domain; see :func:`join_domain`."""
+        return join_domain(self.domain, network=self.network)
+
+
+def join_domain(domain: int | None, *, network: bool) -> "DdsParticipant":
+    """Join a ROS 2 domain; print what other programs need to discover it.
+
+    Args:
+        domain: Number of the domain; None for that of the environment.
+        network: Whether topics are visible to other machines.
+    """
+    from ..drivers.ros2.dds_domain import LOCAL, DdsParticipant
+
+    dds = DdsParticipant(domain, beyond=network)
+    if not network:
+        echo(f"stepaside: {LOCAL}", err=True)
+    return dds
+
+
+def with_feedback(settings: DuelSettings) -> DuelSettings:
+    """Enable feedback unless options or settings choose the control."""
+    source = click.get_current_context().get_parameter_source
+    chosen = any(
+        source(name) is not ParameterSource.DEFAULT
+        for name in ("control__feedback", "control__method")
+    )
+    learns = settings.control.learn_turns
+    if chosen or replace(settings.control, learn_turns=False) != OPEN_LOOP:
+        return settings
+    return replace(settings, control=replace(STABILISED, learn_turns=learns))

@@ -1,0 +1,385 @@
+"""Click types of options: numbers, names, files, rooms, pushes, strategies."""
+
+import re
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import replace
+from math import isfinite, radians, tau
+from pathlib import Path
+from typing import Any
+
+import click
+
+from ...core.errors import StepAsideError, shown
+from ...core.ranges import Range
+from ...sim.passerby_settings import Passer
+from ...sim.push import Push
+from ...strategies.registry import absolute_name, check_strategy_name
+
+UNITS = {"rad": 1.0, "deg": radians(1.0)}
+REASON = "outside this range squares and ratios overflow a double"
+
+
+def positive(unit: str, *also: float | None) -> Range:
+    """Return the common range of positive numbers.
+
+    Args:
+        unit: Unit of the numbers.
+        also: Further permitted values.
+    """
+    return Range(1e-9, 1e9, unit, REASON, also=also)
+
+
+class AngleType(click.ParamType[float]):
+    """Angle in [rad], written as ``1.2``, ``1.2rad`` or ``70deg``."""
+
+    name = "angle"
+
+    def convert(
+        self,
+        value: Any,
+        param: click.Parameter | None,
+        ctx: click.Context | None,
+    ) -> float:
+        """Parse an angle."""
+        text, scale = str(value).strip(), 1.0
+        for unit, factor in UNITS.items():
+            if text.endswith(unit):
+                text, scale = text[: -len(unit)].strip(), factor
+                break
+        try:
+            angle = float(text) * scale
+        except (ValueError, OverflowError):
+            angle = float("nan")
+        if not -tau <= angle <= tau:
+            self.fail(
+                "must be an angle like 1.2, 1.2rad or 70deg, within one full "
+                f"turn, got {shown(value)}",
+                param,
+                ctx,
+            )
+        return angle
+
+
+class NumberType(click.ParamType[float]):
+    """Number within a range."""
+
+    name = "number"
+
+    def __init__(
+        self, unit: str, *, allow_zero: bool = False, bounded: bool = True
+    ) -> None:
+        """Set unit and range.
+
+        Args:
+            unit: Unit of the number, for messages.
+            allow_zero: Whether zero is allowed, too.
+            bounded: Whether to check the common range 1e-9 to 1e9; entries
+                of settings have their own ranges, which the settings check.
+        """
+        self.unit = unit
+        self.range = positive(unit, *((0.0,) if allow_zero else ()))
+        self.is_bounded = bounded
+
+    def convert(
+        self,
+        value: Any,
+        param: click.Parameter | None,
+        ctx: click.Context | None,
+    ) -> float:
+        """Parse a number."""
+        try:
+            number = float(value)
+        except (ValueError, OverflowError):
+            number = float("nan")
+        if number != number:
+            self.fail(
+                f"must be a number [{self.unit}], got {shown(value)}",
+                param,
+                ctx,
+            )
+        if self.is_bounded and not self.range.holds(number):
+            self.fail(
+                f"must lie in {self.range.text} [{self.unit}], "
+                f"got {shown(value)}",
+                param,
+                ctx,
+            )
+        return number
+
+
+ANGLE = AngleType()
+METERS = NumberType("m")
+SECONDS = NumberType("s")
+POSITIVE = NumberType("1")
+
+
+class NameType(click.ParamType[str]):
+    """Choice from a registry that is imported on first use."""
+
+    name = "choice"
+
+    def __init__(self, registry: Callable[[], Collection[str]]) -> None:
+        """Store the registry, which returns the allowed names."""
+        self.registry = registry
+
+    @property
+    def choices(self) -> tuple[str, ...]:
+        """Allowed names."""
+        return tuple(self.registry())
+
+    def get_metavar(self, param: click.Parameter, ctx: click.Context) -> str:
+        """Return the allowed names for the help."""
+        return f"[{'|'.join(self.choices)}]"
+
+    def convert(
+        self,
+        value: Any,
+        param: click.Parameter | None,
+        ctx: click.Context | None,
+    ) -> str:
+        """Check a name."""
+        return click.Choice(self.choices).convert(value, param, ctx)
+
+
+class WordOrValueType(click.ParamType[Any]):
+    """Value of another type, or a word for a special value."""
+
+    def __init__(
+        self, kind: click.ParamType[Any], words: Mapping[str, Any]
+    ) -> None:
+        """Wrap a type.
+
+        Args:
+            kind: Type of all other values.
+            words: Special values by word.
+        """
+        self.kind, self.words, self.name = kind, words, kind.name
+
+    def convert(
+        self,
+        value: Any,
+        param: click.Parameter | None,
+        ctx: click.Context | None,
+    ) -> Any:
+        """Return the value of a word; convert anything else."""
+        if value in self.words:
+            return self.words[value]
+        return self.kind.convert(value, param, ctx)
+
+
+class OutputFile(click.ParamType[str]):
+    """Output file; a name without suffix gets the default suffix."""
+
+    name = "file"
+
+    def __init__(self, *suffixes: str) -> None:
+        """Store the allowed suffixes, the default first; any if empty."""
+        self.suffixes = suffixes
+
+    def convert(
+        self,
+        value: Any,
+        param: click.Parameter | None,
+        ctx: click.Context | None,
+    ) -> str:
+        """Return the path, with a suffix."""
+        file = Path(value)
+        if self.suffixes and file.name and not file.suffix:
+            return f"{value}{self.suffixes[0]}"
+        return str(value)
+
+
+class SizeType(click.ParamType[tuple[float, float] | None]):
+    """Width and depth of a room in [m], like 2.5x4; ``open`` for no walls."""
+
+    name = "size"
+
+    def get_metavar(self, param: click.Parameter, ctx: click.Context) -> str:
+        """Return the placeholder for the help."""
+        return "[WIDTHxDEPTH|open]"
+
+    def convert(
+        self,
+        value: Any,
+        param: click.Parameter | None,
+        ctx: click.Context | None,
+    ) -> tuple[float, float] | None:
+        """Parse width and depth."""
+        if value is None or value == "open":
+            return None
+        if isinstance(value, tuple):
+            return value
+        try:
+            width, depth = (float(side) for side in str(value).split("x"))
+        except ValueError:
+            width = depth = float("nan")
+        if not (isfinite(width) and isfinite(depth)):
+            self.fail(
+                f"must be like 3x3 or 2.5x4 [m], or open, got {value!r:.60}",
+                param,
+                ctx,
+            )
+        return width, depth
+
+
+class ArenaType(click.ParamType[Any]):
+    """Size like 3x3, ``open``, or a room file."""
+
+    name = "room"
+
+    def get_metavar(self, param: click.Parameter, ctx: click.Context) -> str:
+        """Return the placeholder for the help."""
+        return "[WIDTHxDEPTH|open|FILE]"
+
+    def convert(
+        self,
+        value: Any,
+        param: click.Parameter | None,
+        ctx: click.Context | None,
+    ) -> Any:
+        """Return the path of a room file, else the size."""
+        file = Path(str(value))
+        if file.suffix.lower() in (".toml", ".json"):
+            if not file.is_file():
+                self.fail(f"must be an existing file, got {value!r:.80}")
+            return file
+        return SizeType().convert(value, param, ctx)
+
+
+class RoomType(click.ParamType[int | Path]):
+    """Seed of a random room, or room file."""
+
+    name = "FILE|SEED"
+
+    def convert(
+        self,
+        value: Any,
+        param: click.Parameter | None,
+        ctx: click.Context | None,
+    ) -> int | Path:
+        """Return the seed if there are only digits, else the path."""
+        if isinstance(value, int | Path):
+            return value
+        if str(value).isdecimal():
+            return int(value)
+        if not Path(value).is_file():
+            self.fail(
+                "must be an integer >= 0 or an existing file, got "
+                f"{value!r:.60}",
+                param,
+                ctx,
+            )
+        return Path(value)
+
+
+class StrategyType(click.ParamType[str]):
+    """Strategy: a name of the registry, or FILE.py:NAME."""
+
+    name = "NAME|FILE.py:NAME"
+
+    def convert(
+        self,
+        value: Any,
+        param: click.Parameter | None,
+        ctx: click.Context | None,
+    ) -> str:
+        """Check the syntax; a file is loaded when its strategy is used."""
+        try:
+            check_strategy_name(str(value))
+        except StepAsideError as error:
+            self.fail(str(error), param, ctx)
+        return absolute_name(str(value))
+
+
+NO_VALUE = "none"  # removes the values of the configuration
+
+
+class PushType(click.ParamType[Push | None]):
+    """Push: ``1.2@5:90deg`` is 1.2 N s at 5 s to the left, or ``none``.
+
+    The player may precede it, as in ``pursuer=1.2@5:90deg``.
+    """
+
+    name = "[PLAYER=]IMPULSE@TIME:DIRECTION"
+    syntax = re.compile(
+        r"(?:(?P<player>[a-z]+)=)?(?P<impulse>[^@=]+)@(?P<time>[^:]+):"
+        r"(?P<direction>.+)"
+    )
+
+    def convert(
+        self,
+        value: Any,
+        param: click.Parameter | None,
+        ctx: click.Context | None,
+    ) -> Push | None:
+        """Parse a push."""
+        if value == NO_VALUE:
+            return None
+        parts = self.syntax.fullmatch(str(value))
+        if parts is None:
+            self.fail(
+                "must be IMPULSE@TIME:DIRECTION [N s, s, angle] like "
+                f"1.2@5:90deg, got {value!r}",
+                param,
+                ctx,
+            )
+        try:
+            return Push(
+                IMPULSE.convert(parts["impulse"], param, ctx),
+                TIME.convert(parts["time"], param, ctx),
+                ANGLE.convert(parts["direction"], param, ctx),
+                player=parts["player"] or "",
+            )
+        except StepAsideError as error:
+            self.fail(str(error), param, ctx)
+
+
+class PasserType(click.ParamType[Passer | None]):
+    """Passing pedestrian: ``0.8@3:90deg:1.5``, or ``none``.
+
+    The example walks at 0.8 m/s, starts 3 m to the left of the evader, and
+    passes it at a lateral offset of 1.5 m.
+    """
+
+    name = "SPEED@DISTANCE:BEARING[:MISS]"
+    syntax = re.compile(
+        r"(?P<speed>[^@]+)@(?P<distance>[^:]+):(?P<bearing>[^:]+)"
+        r"(?::(?P<miss>.+))?"
+    )
+
+    def convert(
+        self,
+        value: Any,
+        param: click.Parameter | None,
+        ctx: click.Context | None,
+    ) -> Passer | None:
+        """Parse a pedestrian."""
+        if value == NO_VALUE:
+            return None
+        parts = self.syntax.fullmatch(str(value))
+        if parts is None:
+            self.fail(
+                "must be SPEED@DISTANCE:BEARING[:MISS] [m/s, m, angle, m] "
+                f"like 0.8@3:90deg:1.5, got {value!r}",
+                param,
+                ctx,
+            )
+        try:
+            passer = Passer(
+                SPEED.convert(parts["speed"], param, ctx),
+                LENGTH.convert(parts["distance"], param, ctx),
+                ANGLE.convert(parts["bearing"], param, ctx),
+            )
+            if parts["miss"] is None:
+                return passer
+            miss = LENGTH.convert(parts["miss"], param, ctx)
+            return replace(passer, miss=miss)
+        except StepAsideError as error:
+            self.fail(str(error), param, ctx)
+
+
+# Numbers in pushes and pedestrians, whose settings check the ranges.
+IMPULSE = NumberType("N s", bounded=False)
+TIME = NumberType("s", bounded=False)
+SPEED = NumberType("m/s", bounded=False)
+LENGTH = NumberType("m", bounded=False)
