@@ -7,7 +7,7 @@ import pytest
 
 from stepaside.arena import Disc, Room
 from stepaside.games import DuelSettings
-from stepaside.games.duel import furnisher_of
+from stepaside.games.duel_furnishing import furnishing_of
 from stepaside.sim.passerby_settings import Passer
 
 ALONE = DuelSettings()
@@ -18,7 +18,6 @@ PERSON = DuelSettings(pursuer="person")
 PASSED = replace(PERSON, passers=(Passer(0.8, 3.0), Passer(0.0, 4.0)))
 
 
-@pytest.mark.parametrize("lit", [False, True])
 @pytest.mark.parametrize(
     ("settings", "wanted"),
     [
@@ -35,18 +34,14 @@ PASSED = replace(PERSON, passers=(Passer(0.8, 3.0), Passer(0.0, 4.0)))
     ],
 )
 def test_a_world_has_the_objects_of_its_duel(
-    settings: DuelSettings, wanted: set[str], lit: bool
+    settings: DuelSettings, wanted: set[str]
 ) -> None:
     spec = mujoco.MjSpec()
 
-    def light(spec: mujoco.MjSpec) -> None:
-        spec.worldbody.add_light(name="lamp")
-
-    furnish = furnisher_of(settings, light if lit else None)
+    furnish = furnishing_of(settings)
     if furnish is not None:
         furnish(spec)
     bodies = {body.name for body in spec.bodies} - {"world"}
     assert wanted <= bodies and bool(wanted) == bool(bodies)
-    assert len(spec.lights) == lit
     kinds = {name.partition("/")[0].rstrip(" 1234") for name in bodies}
     assert kinds <= {name.partition("/")[0].rstrip(" 12") for name in wanted}

@@ -16,6 +16,7 @@ from stepaside.core.poses import Pose
 from stepaside.games import camera_duel as seeing
 from stepaside.games.camera_duel import CameraSenses, SightObserver
 from stepaside.games.duel import Duel
+from stepaside.games.duel_furnishing import furnishing_of
 from stepaside.games.duel_settings import PLAYERS, DuelSettings, StartSettings
 from stepaside.games.initial_poses import (
     initial_poses,
@@ -135,8 +136,11 @@ def test_only_the_evader_has_a_depth_camera(
 
     monkeypatch.setattr(seeing, "SensorSuite", open_eyes)
     both, world = prepared(), object()
-    eyes: list[Any] = [both.eyes(world, name) for name in PLAYERS]  # type: ignore[arg-type]
-    assert eyes == ["eyes 1", "eyes 2"]
+    sensing: list[Any] = [both.of_robot(world, name) for name in PLAYERS]  # type: ignore[arg-type]
+    assert sensing == [
+        ("eyes 1", both.perceptions["pursuer"]),
+        ("eyes 2", both.perceptions["evader"]),
+    ]
     assert [(a[0], a[1], a[-1]) for a in opened] == [
         (world, "pursuer", False),
         (world, "evader", True),
@@ -283,11 +287,12 @@ def test_no_wall_is_between_a_robot_and_a_fast_person() -> None:
             cameras=CameraSettings(colour=ColourSettings(renderer="raycast")),
         )
     )
-    seeing = CameraSenses(settings, load_robot("nao"), ("evader",), tick=0.004)
+    furnish = furnishing_of(settings)
+    assert furnish is not None
     spec = mujoco.MjSpec()
     head = load_head(load_robot("nao")).body
     spec.worldbody.add_body(name=f"evader/{head}")
-    seeing.furnish(spec)
+    furnish(spec)
     evader = initial_poses(settings)[1]
     assert evader.x > 5.0
     assert spec.geom("wall 1 0").pos[0] - evader.x == pytest.approx(3.5)

@@ -11,8 +11,14 @@ from stepaside.control.clearance.swept_outline import BodyOutline, lateral_sway
 from stepaside.control.scheme_builder import ClearanceSetup
 from stepaside.core.poses import Pose
 from stepaside.games import walker_factory as standing
-from stepaside.games.walker_factory import clearance_in, fitting
+from stepaside.games.walker_factory import (
+    WalkerSetup,
+    clearance_in,
+    with_body_radius,
+)
+from stepaside.locomotion.zmp.control_settings import ControlSettings
 from stepaside.planning import GaitSettings
+from stepaside.sim.body_settings import BodySettings
 from stepaside.strategies import Evasion
 from stepaside.strategies.look_ahead import LookAhead
 
@@ -20,6 +26,15 @@ GAIT = GaitSettings()
 FRAME = Pose(0.4, -0.2, 0.9)
 PILLAR, UNSEEN = Disc(1.0, 0.0, 0.2), Disc(-1.0, 0.0, 0.3)
 ROOM = Room(4.0, 3.0, (PILLAR,))
+SETUP = WalkerSetup(
+    "evader",
+    "robot",  # type: ignore[arg-type]
+    GAIT,
+    ControlSettings(),
+    BodySettings(),
+    odometry_in_world=FRAME,
+    seed=0,
+)
 MIND: Any = SimpleNamespace(
     floor=SimpleNamespace(
         version=1, taken=lambda: (PILLAR,), unseen=lambda place: (UNSEEN,)
@@ -42,9 +57,7 @@ def known(room: Room | None = ROOM, **settings: Any) -> ClearanceSetup | None:
     return clearance_in(
         room,
         MapSettings(**settings),
-        "robot",  # type: ignore[arg-type]
-        GAIT,
-        FRAME,
+        SETUP,
         MIND if settings.get("source") == "seen" else None,
     )
 
@@ -84,10 +97,10 @@ def test_the_body_radius_of_a_strategy_is_at_least_that_of_the_robot() -> None:
     assert clearance is not None
     needs = 0.25 + 0.07 + lateral_sway(GAIT)
     small, wide = LookAhead(body_radius=0.1), LookAhead(body_radius=0.6)
-    fitted = fitting(small, clearance, GAIT)
+    fitted = with_body_radius(small, clearance, GAIT)
     assert isinstance(fitted, LookAhead)
     assert fitted.body_radius == pytest.approx(needs)
-    assert fitting(wide, clearance, GAIT) is wide
-    assert fitting(small, None, GAIT) is small
+    assert with_body_radius(wide, clearance, GAIT) is wide
+    assert with_body_radius(small, None, GAIT) is small
     law = Evasion()
-    assert fitting(law, clearance, GAIT) is law
+    assert with_body_radius(law, clearance, GAIT) is law

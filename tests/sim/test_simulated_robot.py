@@ -14,7 +14,7 @@ from stepaside.control.sight_sources import CameraSight, MeasuredSight
 from stepaside.core.poses import Array, Pose
 from stepaside.core.random_streams import named_generator
 from stepaside.games.walker import SimulatedPlayer
-from stepaside.games.walker_factory import place_walker
+from stepaside.games.walker_factory import WalkerSetup, place_walker
 from stepaside.locomotion.walk_snapshots import Phase
 from stepaside.locomotion.zmp.control_settings import OPEN_LOOP, STABILISED
 from stepaside.locomotion.zmp.feedback_loop import ClosedLoop, OpenLoop
@@ -43,7 +43,6 @@ def walker(
     *,
     feedback: bool = False,
     sight: Any = None,
-    eyes: Any = None,
     **effects: Any,
 ) -> SimulatedPlayer:
     """The second of two robots in a world."""
@@ -53,17 +52,18 @@ def walker(
     world.data.qpos[:3] = (-9.0, 0.0, 0.33)  # out of the way
     made = place_walker(
         world,
-        "second",
-        NAO,
-        frame,
+        WalkerSetup(
+            "second",
+            NAO,
+            GaitSettings(),
+            STABILISED if feedback else OPEN_LOOP,
+            body,
+            odometry_in_world=frame,
+            seed=5,
+        ),
         Pursuit(),
-        gait=GaitSettings(),
-        control=STABILISED if feedback else OPEN_LOOP,
-        body=body,
-        seed=5,
         sighting=Sighting(0.0, 0.2, 2.0),
         sight=sight,
-        eyes=eyes,
     )
     mujoco.mj_forward(world.model, world.data)
     return made
@@ -325,8 +325,9 @@ def test_sight_and_eyes_are_read_at_the_time_of_the_world() -> None:
             told.append(-1.0)
 
     sense = Sense()
-    made = walker(sight=sense, eyes=sense)
+    made = walker(sight=sense)
     robot = made.robot
+    robot.eyes = sense  # type: ignore[assignment]
     robot.world.ticks = 50
     measured = robot.read()
     assert measured.sighting == measured.percepts == ("seen",)  # type: ignore

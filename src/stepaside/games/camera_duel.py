@@ -20,16 +20,16 @@ from ..robots.description import RobotDescription
 from ..robots.head import load_head
 from ..sim.ground_truth import GroundTruth
 from ..sim.offscreen_rendering import choose_renderer
-from ..sim.room_furnishing import furnisher
 from ..sim.sensor_suite import SensorSuite
 from ..sim.simulated_robot import SimulatedRobot
 from ..sim.world import World
+from .duel_furnishing import uses_lower_cameras
 from .duel_settings import DuelSettings
-from .initial_poses import wall_distance
 from .match import Match
 from .outcome import Outcome
 from .sight_evaluation import EvaluatedImage, SightEvaluator
 from .sight_summary import PerceptionSummary, SightReport
+from .walker_factory import CameraSensing
 
 GLANCES = {"pursuer": SELDOM, "evader": OFTEN}  # between glances for the map
 STILLS = 5  # images that a run stores per camera
@@ -40,7 +40,6 @@ class CameraSenses:
 
     Attributes:
         renderer: Name of the renderer of the colour images.
-        furnish: Adds walls, objects and the depth camera to the world.
         perceptions: Perception of each robot, by name.
     """
 
@@ -69,18 +68,9 @@ class CameraSenses:
         self._settings, self._description = settings, description
         self._head = load_head(description)
         self.renderer = choose_renderer(settings.cameras.colour.renderer)
-        self._people = settings.pursuer == "person"
+        self._low = uses_lower_cameras(settings)
         self._maps = (
             settings.room.plan is not None and settings.map.source == "seen"
-        )
-        # The lower camera serves to detect people and to map the floor.
-        self._low = tuple(names) if self._people or self._maps else ()
-        self.furnish = furnisher(
-            settings.room,
-            "evader",
-            self._head,
-            walls=wall_distance(settings),
-            lower=self._low,
         )
         self.perceptions = {
             name: Perception(
@@ -90,15 +80,16 @@ class CameraSenses:
                 tick=tick,
                 floor=FloorMap() if self._maps else None,
                 glances=GLANCES[name] if self._maps else None,
-                people=self._people,
+                people=settings.pursuer == "person",
                 awaits_start=True,
             )
             for name in names
         }
 
-    def eyes(self, world: World, name: str) -> SensorSuite:
-        """Return the cameras and sonars of a robot of a world."""
-        return SensorSuite(
+    def of_robot(self, world: World, name: str) -> CameraSensing:
+        """Return the cameras and the perception of a robot of a world."""
+        perception = self.perceptions[name]
+        eyes = SensorSuite(
             world,
             name,
             self._description.torso,
@@ -107,10 +98,9 @@ class CameraSenses:
             self.renderer,
             self._settings.seed,
             with_depth=self._maps or name == "evader",
-            looks_low=self.perceptions[name].looks_low
-            if name in self._low
-            else None,
+            looks_low=perception.looks_low if self._low else None,
         )
+        return CameraSensing(eyes, perception)
 
     def judge(
         self, robot: SimulatedRobot, other: GroundTruth, *, wears_trim: bool

@@ -7,8 +7,6 @@ from ..core.brief_repr import brief_repr
 from ..core.setting import check_settings, setting
 from ..locomotion.zmp.control_settings import ControlSettings
 from ..planning import GaitSettings
-from ..sim.body_settings import BodySettings
-from ..sim.physics_settings import PhysicsSettings
 from ..strategies import Evasion
 from ..strategies.registry import check_strategy_name
 from .duel_settings import EVADER, PLAYERS, PURSUER, RobotSettings
@@ -61,18 +59,3 @@ class PlaySettings:
     def cycle(self) -> float:
         """Duration of a gait cycle, two steps, in [s]."""
         return 2.0 * self.gait.step_duration
-
-    @property
-    def seed(self) -> int:
-        """Zero: a play at a robot draws no random numbers."""
-        return 0
-
-    @property
-    def physics(self) -> PhysicsSettings:
-        """Default physics, of which a replay shows the floor."""
-        return PhysicsSettings()
-
-    @property
-    def body(self) -> BodySettings:
-        """Default body, for a replay."""
-        return BodySettings()

@@ -21,7 +21,7 @@ from .run import WalkRun
 from .walk_evaluation import StepCounts, summarise_walk
 from .walk_settings import WALKER, WalkSettings
 from .walker import SimulatedPlayer
-from .walker_factory import place_walker
+from .walker_factory import WalkerSetup, place_walker
 
 
 class WalkTally:
@@ -98,14 +98,16 @@ class WalkGame(Match):
         back, ahead = Direction.BACKWARD, Direction.FORWARD
         self.walker = place_walker(
             world,
-            WALKER,
-            description,
-            Pose(0.0, 0.0, 0.0),
+            WalkerSetup(
+                WALKER,
+                description,
+                settings.gait,
+                settings.control,
+                settings.body,
+                odometry_in_world=Pose(0.0, 0.0, 0.0),
+                seed=settings.seed,
+            ),
             Walk(settings.bearing, back if settings.backward else ahead),
-            gait=settings.gait,
-            control=settings.control,
-            body=settings.body,
-            seed=settings.seed,
             sighting=Sighting(0.0, 0.0, inf),
         )
         mujoco.mj_forward(world.model, world.data)

@@ -1,7 +1,7 @@
 """Construction of a simulated robot with its controller."""
 
 from dataclasses import is_dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from ..arena import Room
 from ..control.clearance.map_settings import MapSettings
@@ -33,34 +33,58 @@ if TYPE_CHECKING:
     from ..sim.sensor_suite import SensorSuite
 
 
-def watch(
-    world: World, name: str, description: RobotDescription, gait: GaitSettings
-) -> TrueRobotState:
-    """Return the true state of a robot of a world."""
-    return TrueRobotState(
-        world.model,
-        world.data,
-        f"{name}/{description.torso}",
-        com_forward=gait.zmp_forward,
-        place=description.place,
-    )
+class WalkerSetup(NamedTuple):
+    """Robot of a game before it stands in the world.
+
+    Attributes:
+        name: Name of the robot in the world.
+        description: Description of the robot.
+        gait: Gait settings.
+        control: Control settings.
+        body: Deviations of the body from an ideal one.
+        odometry_in_world: Initial pose of its odometry in the world.
+        seed: Seed of sensor errors.
+    """
+
+    name: str
+    description: RobotDescription
+    gait: GaitSettings
+    control: ControlSettings
+    body: BodySettings
+    odometry_in_world: Pose
+    seed: int
+
+    def true_state_in(self, world: World) -> TrueRobotState:
+        """Return the true state of the robot in a world that contains it."""
+        return TrueRobotState(
+            world.model,
+            world.data,
+            f"{self.name}/{self.description.torso}",
+            com_forward=self.gait.zmp_forward,
+            place=self.description.place,
+        )
+
+
+class CameraSensing(NamedTuple):
+    """Camera sensing of one robot.
+
+    Attributes:
+        eyes: Cameras and sonars.
+        perception: Perception of their images.
+    """
+
+    eyes: "SensorSuite"
+    perception: "Perception"
 
 
 def place_walker(
     world: World,
-    name: str,
-    description: RobotDescription,
-    frame: Pose,
+    setup: WalkerSetup,
     strategy: Strategy,
     *,
-    gait: GaitSettings,
-    control: ControlSettings,
-    body: BodySettings,
-    seed: int,
     sighting: Sighting | None = None,
     sight: IdealLineOfSight | None = None,
-    eyes: "SensorSuite | None" = None,
-    perception: "Perception | None" = None,
+    cameras: CameraSensing | None = None,
     truth: TrueRobotState | None = None,
     clearance: ClearanceSetup | None = None,
 ) -> SimulatedPlayer:
@@ -68,18 +92,11 @@ def place_walker(
 
     Args:
         world: World that contains the robot.
-        name: Name of the robot in the world.
-        description: Description of the robot.
-        frame: Pose of its odometry in the world.
+        setup: The robot.
         strategy: Strategy of the player.
-        gait: Gait settings.
-        control: Control settings.
-        body: Deviations of the body from an ideal one.
-        seed: Seed of sensor errors.
         sighting: Sighting before the first measurement, if known.
         sight: Ideal sensor of the opponent, with ideal sensing.
-        eyes: Cameras and sonars, with camera sensing.
-        perception: Perception of their images, with camera sensing.
+        cameras: Cameras and perception, with camera sensing.
         truth: True state of the robot, if it exists already.
         clearance: Knowledge of the room and required clearance.
 
@@ -88,41 +105,39 @@ def place_walker(
     """
     tick = world.physics.tick
     scheme = build_scheme(
-        fitting(strategy, clearance, gait),
-        description,
-        gait,
-        control,
+        with_body_radius(strategy, clearance, setup.gait),
+        setup.description,
+        setup.gait,
+        setup.control,
         tick=tick,
-        delay=body.delay_cycles * tick,
+        delay=setup.body.delay_cycles * tick,
         senses=MeasuredSight(sighting)
-        if perception is None
-        else CameraSight(perception, tick=tick),
+        if cameras is None
+        else CameraSight(cameras.perception, tick=tick),
         clearance=clearance,
     )
     robot = SimulatedRobot(
         world,
-        name,
-        description,
+        setup.name,
+        setup.description,
         scheme.kinematics,
-        frame,
-        body,
-        named_generator(seed, f"sensors/{name}"),
+        setup.odometry_in_world,
+        setup.body,
+        named_generator(setup.seed, f"sensors/{setup.name}"),
         sight=sight,
-        eyes=eyes,
-        averages_imu=control.feedback,
-        truth=truth or watch(world, name, description, gait),
+        eyes=None if cameras is None else cameras.eyes,
+        averages_imu=setup.control.feedback,
+        truth=truth or setup.true_state_in(world),
         knows_place=clearance is not None
         and isinstance(clearance.surroundings, KnownRoom),
     )
-    return SimulatedPlayer(robot, scheme, frame)
+    return SimulatedPlayer(robot, scheme, setup.odometry_in_world)
 
 
 def clearance_in(
     room: Room | None,
     known: MapSettings,
-    description: RobotDescription,
-    gait: GaitSettings,
-    frame: Pose,
+    setup: WalkerSetup,
     perception: "Perception | None" = None,
 ) -> ClearanceSetup | None:
     """Return the knowledge that a robot has of its room.
@@ -130,9 +145,7 @@ def clearance_in(
     Args:
         room: Room of the game; None on an open floor.
         known: Settings of the map.
-        description: Description of the robot.
-        gait: Gait settings.
-        frame: Pose of its odometry in the room.
+        setup: The robot; the room is in the world.
         perception: Perception with a map of the floor, if the robot maps the
             room.
 
@@ -141,17 +154,17 @@ def clearance_in(
     """
     if room is None or known.source == "none":
         return None
-    surroundings: Surroundings = KnownRoom(room, frame)
+    surroundings: Surroundings = KnownRoom(room, setup.odometry_in_world)
     if known.source == "seen":
         assert perception is not None and perception.floor is not None
         surroundings = MappedRoom(
             perception.floor, unseen_is_free=known.unseen == "free"
         )
-    outline = measure_outline(description, gait)
+    outline = measure_outline(setup.description, setup.gait)
     return ClearanceSetup(surroundings, outline, known.margin)
 
 
-def fitting(
+def with_body_radius(
     strategy: Strategy, clearance: ClearanceSetup | None, gait: GaitSettings
 ) -> Strategy:
     """Return a strategy whose body radius is at least that of the robot.

@@ -50,8 +50,7 @@ def draw_sight(run: Run, path: Path) -> None:
         _draw_top(axes, run, still.report.image.time)
     _draw_errors(figure, grid, run)
     figure.suptitle(
-        f"Camera images, seed {run.settings.seed}: detections green, "
-        "true bearing magenta",
+        f"{run.title}, camera images: detections green, true bearing magenta",
     )
     save(figure, path)
 

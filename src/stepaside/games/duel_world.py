@@ -1,0 +1,166 @@
+"""World of a duel with its players."""
+
+from typing import TYPE_CHECKING
+
+from ..core.errors import ConfigurationError
+from ..core.poses import Pose
+from ..core.random_streams import named_generator
+from ..robots.description import load_robot
+from ..sim.body_settings import with_control_period
+from ..sim.ground_truth import GroundTruth
+from ..sim.ideal_sensors import IdealLineOfSight
+from ..sim.pedestrian_models import FIGURES
+from ..sim.person_body import PersonBody
+from ..sim.person_motion import PersonMotion
+from ..sim.world import World
+from ..strategies import Strategy, load_strategy
+from .duel_furnishing import furnishing_of, movers_in
+from .duel_settings import EVADER, PLAYERS, PURSUER, DuelSettings
+from .person_player import PersonPlayer
+from .player import Player
+from .walker import SimulatedPlayer
+from .walker_factory import WalkerSetup, clearance_in, place_walker
+
+if TYPE_CHECKING:
+    from .camera_duel import CameraSenses, SightObserver
+
+
+class DuelWorld:
+    """World of a duel with its players.
+
+    Attributes:
+        world: World with robots, people and obstacles.
+        players: Pursuer and evader.
+    """
+
+    def __init__(
+        self,
+        settings: DuelSettings,
+        frames: tuple[Pose, Pose],
+        *,
+        rendered: bool,
+    ) -> None:
+        """Build the world and place the players in it.
+
+        Args:
+            settings: Settings of the duel, with the initial poses filled in.
+            frames: Initial poses of pursuer and evader in the world.
+            rendered: Whether to render the world; cameras do so anyway.
+
+        Raises:
+            StepAsideError: If the settings contradict each other or cannot
+                be met by the robots.
+        """
+        self._settings = settings
+        self._setups = {
+            name: _setup_of(settings, name, frames[PLAYERS.index(name)])
+            for name in settings.robots
+        }
+        physics = with_control_period(settings.physics, settings.body)
+        self._senses = _camera_senses(settings, self._setups, physics.tick)
+        self.world = World(
+            {name: own.description for name, own in self._setups.items()},
+            physics,
+            settings.body,
+            settings.seed,
+            furnishing_of(settings),
+            rendered=rendered or self._senses is not None,
+        )
+        for move in movers_in(settings, self.world.model, self.world.data):
+            move(0.0)
+            self.world.before_step.append(move)
+        person = None
+        if PURSUER not in self._setups:
+            motion = PersonMotion(settings.person, frames[0], frames[1][:2])
+            figure = FIGURES[settings.person.figure]
+            person = PersonBody(self.world, PURSUER, motion, figure)
+        # A player's ideal sensor needs the true state of its opponent.
+        self._robot_truths = {
+            name: setup.true_state_in(self.world)
+            for name, setup in self._setups.items()
+        }
+        self._truths: dict[str, GroundTruth] = {**self._robot_truths}
+        if person is not None:
+            self._truths[PURSUER] = person.truth
+        pursuer: Player = (
+            self._walker(PURSUER, settings.pursuer_strategy)
+            if person is None
+            else PersonPlayer(person, self._truths[EVADER])
+        )
+        evader = self._walker(EVADER, settings.evader_strategy)
+        self.players = (pursuer, evader)
+
+    def _walker(self, name: str, strategy: str | Strategy) -> SimulatedPlayer:
+        """Place a robot in the world, with the sensors of the settings."""
+        settings, setup = self._settings, self._setups[name]
+        sight, cameras = None, None
+        if self._senses is None:
+            other = PURSUER if name == EVADER else EVADER
+            sight = IdealLineOfSight(
+                self._truths[name],
+                self._truths[other],
+                settings.sight,
+                named_generator(settings.seed, f"sight/{name}"),
+            )
+        else:
+            cameras = self._senses.of_robot(self.world, name)
+        return place_walker(
+            self.world,
+            setup,
+            load_strategy(strategy, settings.strategy),
+            sight=sight,
+            cameras=cameras,
+            truth=self._robot_truths[name],
+            clearance=clearance_in(
+                settings.room.plan,
+                settings.map,
+                setup,
+                None if cameras is None else cameras.perception,
+            ),
+        )
+
+    def witness(self, *, every: int) -> "SightObserver | None":
+        """Return the evaluation of perception, if sensing is by cameras."""
+        if self._senses is None:
+            return None
+        from .camera_duel import SightObserver
+
+        judges = {}
+        for own, other in (self.players, self.players[::-1]):
+            if isinstance(own, SimulatedPlayer):
+                judges[own.name] = self._senses.judge(
+                    own.robot,
+                    self._truths[other.name],
+                    wears_trim=not isinstance(other, PersonPlayer),
+                )
+        return SightObserver(judges, self._senses.renderer, every=every)
+
+
+def _setup_of(settings: DuelSettings, name: str, frame: Pose) -> WalkerSetup:
+    own = settings.robot_of(name)
+    return WalkerSetup(
+        name,
+        load_robot(own.robot),
+        own.gait,
+        own.control,
+        settings.body,
+        odometry_in_world=frame,
+        seed=settings.seed,
+    )
+
+
+def _camera_senses(
+    settings: DuelSettings, setups: dict[str, WalkerSetup], tick: float
+) -> "CameraSenses | None":
+    """Return the camera sensing of a duel; None with ideal sight."""
+    if settings.sensing != "cameras":
+        return None
+    from .camera_duel import CameraSenses
+
+    descriptions = [setup.description for setup in setups.values()]
+    if len({d.folder for d in descriptions}) > 1:
+        raise ConfigurationError(
+            "sensing must be ideal for different robots, got 'cameras' for "
+            f"{', '.join(d.name for d in descriptions)}"
+        )
+    return CameraSenses(settings, descriptions[0], tuple(setups), tick=tick)
