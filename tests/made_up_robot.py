@@ -12,10 +12,10 @@ from stepaside.control.sight_sources import MeasuredSight, SightSource
 from stepaside.control.strategy_runner import StrategyRunner
 from stepaside.core.poses import Array, Pose
 from stepaside.locomotion.walk_snapshots import Phase, StepStarted
-from stepaside.locomotion.zmp.feedback_loop import ClosedLoop
+from stepaside.locomotion.zmp.feedback_loop import ClosedLoop, OpenLoop
 from stepaside.perception.measurement import Measurement, Sighting
 from stepaside.planning import Direction, Foot, GaitSettings
-from stepaside.robots.leg_kinematics import BodyReference
+from stepaside.robots.leg_kinematics import BodyReference, LegStates
 from stepaside.strategies import Intent, Knowledge
 
 GAIT = GaitSettings()
@@ -42,6 +42,10 @@ class FakeLegs:
         """Follow anything."""
         self.tracked.append(reference)
         return np.array(reference.com)
+
+    def track_rows(self, references: Array) -> LegStates:
+        """Follow nothing at once: a limit acts at every tick."""
+        return LegStates(np.zeros((1, 7)), np.zeros((0, 3)))
 
 
 @dataclass
@@ -141,10 +145,15 @@ class Run:
     """A scheme on its clock, and the steps that it began."""
 
     def __init__(
-        self, strategy: Any = None, gait: GaitSettings = GAIT, **changes: Any
+        self,
+        strategy: Any = None,
+        gait: GaitSettings = GAIT,
+        legs: Any = None,
+        balance: Any = OpenLoop,
+        **changes: Any,
     ) -> None:
-        legs: Any = FakeLegs()
-        self.legs = legs
+        self.legs = legs = legs or FakeLegs()
+        changes["balance"] = balance(legs)
         self.strategy = strategy or FakeStrategy()
         self.scheme = scheme_of(
             self.strategy, gait, legs, tick=TICK, **changes
@@ -189,7 +198,9 @@ FIRST = GAIT.start_support + STEP  # duration of the first maneuver walked
 
 def feeding(strategy: Any = None) -> tuple[Run, FakeFeedback]:
     feedback: Any = FakeFeedback()
-    return Run(strategy, balance=ClosedLoop(feedback)), feedback
+    return Run(
+        strategy, balance=lambda legs: ClosedLoop(feedback, legs)
+    ), feedback
 
 
 class FakePerception:

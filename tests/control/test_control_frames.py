@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from made_up_robot import FIRST, GAIT, STEP, TICK, FakeStrategy, Run
+from made_up_robot import FIRST, GAIT, STEP, TICK, FakeStrategy, Run, walk_of
 from made_up_state import (
     MEASUREMENT,
     ROW,
@@ -25,7 +25,7 @@ from stepaside.control.clearance.guard import Guard
 from stepaside.control.clearance.surroundings import KnownRoom
 from stepaside.control.clearance.swept_outline import BodyOutline
 from stepaside.control.strategy_runner import StrategyRunner
-from stepaside.core.poses import Pose, wrap_angle
+from stepaside.core.poses import Array, Pose, wrap_angle
 from stepaside.locomotion.walk_snapshots import Phase
 from stepaside.locomotion.zmp.feedback_loop import OpenLoop
 from stepaside.locomotion.zmp.reference_table import (
@@ -414,24 +414,24 @@ def test_the_estimator_gets_the_delayed_command_in_any_frame(
 class Noted(OpenLoop):
     """Open loop that notes what the plan asks for at each tick."""
 
-    def __init__(self) -> None:
-        super().__init__()
+    def __init__(self, legs: Any) -> None:
+        super().__init__(legs)
         self.rows: list[ReferenceSample] = []
 
-    def update(
-        self, measurement: Measurement, sample: ReferenceSample, step: Any
-    ) -> BodyReference:
+    def targets(
+        self, measurement: Measurement, table: ReferenceTable, step: Any
+    ) -> Array:
         """Note it."""
-        self.rows.append(sample)
-        return super().update(measurement, sample, step)
+        self.rows.append(table.at(measurement.time))
+        return super().targets(measurement, table, step)
 
 
 @pytest.mark.parametrize("late", [0, 3])
 def test_a_sighting_is_of_where_the_body_was_then(late: int) -> None:
     """Not to the commanded pose: a command takes effect with a delay."""
-    noted = Noted()
     strategy = FakeStrategy(heading=0.6)
-    run = Run(strategy, delay=late * TICK, balance=noted)
+    run = Run(strategy, delay=late * TICK, balance=Noted)
+    noted: Any = walk_of(run.scheme).balance
     headings = []
     while run.ticks * TICK < FIRST + 3.5 * STEP:
         headings.append(0.01 * (run.ticks % 50))

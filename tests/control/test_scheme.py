@@ -283,7 +283,7 @@ def test_the_state_matches_the_scheme() -> None:
         *("phase", "plan", "plan_frame", "plan_started", "left_foot"),
         *("right_foot", "reference"),
     ):
-        assert getattr(state, name) is getattr(walk_of(scheme), name), name
+        assert getattr(state, name) == getattr(walk_of(scheme), name), name
     assert state.gait is GAIT and state.first_foot is Foot.RIGHT
     assert state.torso_heading == run.legs.torso_heading
     assert (state.estimate, state.solved, state.adapted) == (None, None, 0)

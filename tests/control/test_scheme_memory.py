@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from made_up_robot import GAIT, STEP, TICK, FakeStrategy, Run, measure, walk_of
+from made_up_robot import GAIT, STEP, TICK, FakeStrategy, Run, measure
 from made_up_state import FakeEstimator
 from stepaside.control.sight_sources import CameraSight
 from stepaside.control.state_history import DURATION
@@ -17,7 +17,7 @@ from stepaside.locomotion.zmp.control_settings import (
 )
 from stepaside.locomotion.zmp.feedback_loop import ClosedLoop
 from stepaside.locomotion.zmp.stabiliser import Stabiliser
-from stepaside.robots.leg_kinematics import BodyReference
+from stepaside.robots.leg_kinematics import BodyReference, LegStates
 from weighing import weight
 
 # Four steps are a whole number of ticks: then the gait repeats on its clock.
@@ -34,6 +34,10 @@ class DullLegs:
         return np.array(reference.com)
 
     track = stand
+
+    def track_rows(self, references: Any) -> LegStates:
+        """Follow nothing at once."""
+        return LegStates(np.zeros((1, 7)), np.zeros((0, 3)))
 
 
 class Dull(FakeStrategy):
@@ -84,10 +88,7 @@ class DullJoints:
 
 
 def dull(**changes: Any) -> Run:
-    run = Run(Dull(heading=0.5), **changes)
-    legs: Any = DullLegs()
-    run.legs = walk_of(run.scheme).kinematics = legs
-    return run
+    return Run(Dull(heading=0.5), legs=DullLegs(), **changes)
 
 
 def weights(run: Run, rounds: int, times: int = 4) -> list[int]:
@@ -132,7 +133,7 @@ def test_feedback_memory_is_constant(method: Any) -> None:
         settings, estimator, GAIT, tick=TICK, delay=3 * TICK
     )
     stabiliser.joints = DullJoints()  # type: ignore[assignment]
-    run = dull(balance=ClosedLoop(stabiliser))
+    run = dull(balance=lambda legs: ClosedLoop(stabiliser, legs))
     found = weights(run, rounds=1, times=2)
     assert (run.scheme.state.solved is not None) is (method == "mpc")
     assert run.scheme.state.adapted > 0

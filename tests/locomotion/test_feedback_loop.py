@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from made_up_robot import measure, walk_of
+from made_up_robot import FakeLegs, measure, walk_of
 from stepaside.control.scheme_builder import build_balance, build_scheme
 from stepaside.control.sight_sources import CameraSight, MeasuredSight
 from stepaside.control.turn_calibration import TurnCalibration
@@ -15,6 +15,7 @@ from stepaside.core.poses import Pose
 from stepaside.locomotion.zmp.control_settings import OPEN_LOOP, STABILISED
 from stepaside.locomotion.zmp.feedback_loop import ClosedLoop, OpenLoop
 from stepaside.locomotion.zmp.reference_table import (
+    ReferenceTable,
     resting_sample,
     standing_reference,
 )
@@ -67,14 +68,19 @@ def unasked(*_: Any) -> Any:
     raise AssertionError("nobody needs to know")
 
 
-def test_the_open_loop_passes_everything_on_unchanged() -> None:
-    loop: Any = OpenLoop()
-    measurement = measure(1.0)._replace(joint_positions=np.full(3, 9.0))
-    sample: Any = SimpleNamespace(body=object())
-    assert loop.update(measurement, sample, unasked) is sample.body
-    targets = np.arange(3.0)
-    assert loop.correct(measurement, targets) is targets
-    np.testing.assert_array_equal(targets, [0.0, 1.0, 2.0])
+def resting_table() -> ReferenceTable:
+    table = ReferenceTable(0.004)
+    table.rest(resting_sample(LEFT, RIGHT, GAIT))
+    return table
+
+
+def test_the_open_loop_tracks_the_plan() -> None:
+    legs: Any = FakeLegs()
+    loop: Any = OpenLoop(legs)
+    table = resting_table()
+    targets = loop.targets(measure(1.0), table, unasked)
+    body = table.at(1.0).body
+    assert legs.tracked == [body] and targets.tolist() == list(body.com)
     landed, step = Pose(1.0, 2.0, 0.3), object()
     made: Any = (landed, (0.1, 0.2), (0.3, 0.4))
     assert loop.land(*made, step) == made
@@ -90,10 +96,13 @@ def test_the_open_loop_passes_everything_on_unchanged() -> None:
 
 
 def test_the_open_loop_has_no_estimate_and_is_always_ready() -> None:
-    loop: Any = OpenLoop()
-    assert loop.ready and not loop.has_fallen and loop.adapted == 0
+    legs: Any = FakeLegs()
+    loop: Any = OpenLoop(legs)
+    assert loop.ready and loop.adapted == 0
     assert loop.state is loop.solved is loop.tilt is None
-    assert loop.torso_heading is None
+    assert loop.measured_heading is loop.commanded is None
+    legs.torso_heading = 0.4
+    assert loop.planned_heading == 0.4
 
 
 def test_feedback_adds_the_load_feedforward() -> None:
@@ -111,34 +120,38 @@ def test_feedback_adds_the_load_feedforward() -> None:
         return np.array([0.2, 0.4, 0.6])
 
     loads: Any = SimpleNamespace(added=added)
-    loop = ClosedLoop(fake, loads)
+    legs: Any = SimpleNamespace(track=lambda body: np.ones(3))
+    loop = ClosedLoop(fake, legs, loads)
     measurement = measure(1.0)._replace(joint_positions=np.zeros(3))
-    sample: Any = SimpleNamespace(zmp=(0.3, 0.1))
-    loop.update(measurement, sample, lambda now: "step")  # type: ignore[arg-type,return-value]
-    found = loop.correct(measurement, np.ones(3))
-    np.testing.assert_allclose(found, [2.1, 2.2, 2.3])
+    table: Any = SimpleNamespace(
+        at=lambda now: SimpleNamespace(zmp=(0.3, 0.1))
+    )
+    found = loop.targets(measurement, table, lambda now: "step")  # type: ignore[arg-type,return-value]
+    np.testing.assert_allclose(found, [2.1, 2.2, 2.3])  # type: ignore[arg-type]
     ((body, zmp),) = asked
     assert body == "answer to update" and zmp == pytest.approx((0.31, 0.08))
 
 
 def test_the_closed_loop_asks_its_stabiliser_for_everything() -> None:
     fake = stabiliser()
-    loop: Any = ClosedLoop(fake)
-    measurement = measure(1.25)._replace(joint_positions=np.full(3, 9.0))
     targets = np.arange(3.0)
+    legs: Any = SimpleNamespace(track=lambda body: targets)
+    loop: Any = ClosedLoop(fake, legs)
+    measurement = measure(1.25)._replace(joint_positions=np.full(3, 9.0))
     sample: Any = SimpleNamespace(zmp=(0.0, 0.0))
+    table = SimpleNamespace(at=lambda now: sample)
     asked_for: list[float] = []
 
     def step_at(now: float) -> Any:
         asked_for.append(now)
         return "step"
 
-    assert loop.update(measurement, sample, step_at) == "answer to update"
+    assert loop.targets(measurement, table, step_at) == "answer to update"
+    assert loop.commanded == "answer to update"
     assert asked_for == [1.25]
     (told,) = fake.asked
     assert told[0] == "update" and told[1] is measurement
     assert told[2:] == (sample, "step")
-    assert loop.correct(measurement, targets) == "answer to update"
     (told,) = fake.joints.asked
     assert told[1] is measurement.joint_positions and told[2] is targets
     for name, given in (
@@ -152,16 +165,23 @@ def test_the_closed_loop_asks_its_stabiliser_for_everything() -> None:
 
 def test_the_closed_loop_is_as_its_stabiliser_is() -> None:
     fake = stabiliser()
-    loop: Any = ClosedLoop(fake)
-    assert loop.state is None and not loop.has_fallen
+    legs: Any = SimpleNamespace(
+        track=lambda body: np.ones(3), torso_heading=0.7
+    )
+    loop: Any = ClosedLoop(fake, legs)
+    assert loop.state is None
     assert loop.solved == "solved" and loop.adapted == 5
-    assert loop.tilt == (0.1, 0.2) and loop.torso_heading == 0.3
+    assert loop.tilt == (0.1, 0.2) and loop.measured_heading == 0.3
+    assert loop.planned_heading == 0.7
     assert loop.ready is False
     fake.ready = True
     assert loop.ready is True
+    table = SimpleNamespace(at=lambda now: None)
     for fallen in (False, True):
         fake.state = SimpleNamespace(has_fallen=fallen)
-        assert loop.state is fake.state and loop.has_fallen is fallen
+        assert loop.state is fake.state
+        targets = loop.targets(measure(0.0), table, lambda now: None)
+        assert (targets is None) is fallen
 
 
 def test_settings_open_or_close_the_loop() -> None:
@@ -174,9 +194,8 @@ def test_settings_open_or_close_the_loop() -> None:
     }
     loop = build_balance(NAO, GAIT, OPEN_LOOP, **options)
     assert isinstance(loop, OpenLoop)
-    targets = np.zeros(len(legs.joint_names))
-    loop.update(measure(0.0), resting_sample(LEFT, RIGHT, GAIT), unasked)
-    assert np.abs(loop.correct(measure(0.0), targets)).max() > 1e-4
+    targets = loop.targets(measure(0.0), resting_table(), unasked)
+    assert np.abs(targets - legs.joint_targets).max() > 1e-4
     closed = build_balance(NAO, GAIT, STABILISED, **options)
     assert isinstance(closed, ClosedLoop)
     made = closed.stabiliser

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from stepaside.robots.description import load_robot
+from stepaside.robots.ik_step import GREATEST_MOVE
 from stepaside.robots.leg_joints import LegJoints
 from stepaside.robots.leg_kinematics import (
-    GREATEST_MOVE,
     BodyReference,
     LegKinematics,
 )

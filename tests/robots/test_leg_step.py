@@ -91,7 +91,7 @@ def test_the_rows_are_the_derivative_of_their_errors(name: str) -> None:
         )
     legs.stand(stance)
     legs.track(stance)
-    arguments = np.array(legs._arguments(stance))
+    arguments = np.array(legs._arguments(legs._row(stance)))
     solver = solver_of(description, load_tree(description))
     error, jacobian = solver.linearise(*arguments.tolist())
     assert np.abs(error).max() < 1e-8

@@ -11,11 +11,7 @@ from ..locomotion.zmp.current_step import (
     resting_step,
 )
 from ..locomotion.zmp.feedback_loop import Balance, OpenLoop
-from ..locomotion.zmp.reference_table import (
-    ReferenceSample,
-    ReferenceTable,
-    resting_sample,
-)
+from ..locomotion.zmp.reference_table import ReferenceTable, resting_sample
 from ..perception.measurement import Measurement
 from ..planning import CenterState, Foot, GaitSettings, ManeuverPlan
 from ..planning.steady_gait import landing_state
@@ -43,7 +39,6 @@ class ManeuverWalk:
         plan: Maneuver being walked; None while standing.
         plan_frame: Pose of its frame in odometry.
         plan_started: When it began, in [s].
-        reference: Body reference of this tick, in odometry.
         left_foot: Last stance pose of the left foot, in odometry.
         right_foot: Last stance pose of the right foot, likewise.
         begun: Step that began at this tick; None if none did.
@@ -78,11 +73,10 @@ class ManeuverWalk:
         """
         self.gait = gait
         self.kinematics = kinematics
-        self.balance: Balance = OpenLoop() if balance is None else balance
+        self.balance: Balance = (
+            OpenLoop(kinematics) if balance is None else balance
+        )
         self.phase = Phase.STANDING
-        self.reference: BodyReference
-        self._resting: ReferenceSample
-        self._sample: ReferenceSample
         self.plan: ManeuverPlan | None = None
         self.plan_frame = Pose(0.0, 0.0, 0.0)
         self.plan_started = self._blocked_until = self._plan_ends = 0.0
@@ -94,6 +88,7 @@ class ManeuverWalk:
         self._delay, self._pace = delay, 1.0
         self._maneuvers = ManeuverSelection(gait, self.balance, guard)
         self._first_foot = first_foot
+        self._now = 0.0
         self._table = ReferenceTable(tick)
         self._stand()
         self.joint_targets: Array = kinematics.stand(self.reference)
@@ -107,18 +102,23 @@ class ManeuverWalk:
     @property
     def torso_heading(self) -> float:
         """Heading of the torso, as measured if feedback does so, in [rad]."""
-        measured = self.balance.torso_heading
-        return self.kinematics.torso_heading if measured is None else measured
+        measured = self.balance.measured_heading
+        return self.balance.planned_heading if measured is None else measured
 
     @property
     def heading_delay(self) -> float:
         """Time until the torso has that heading, in [s]."""
-        return self._delay if self.balance.torso_heading is None else 0.0
+        return self._delay if self.balance.measured_heading is None else 0.0
 
     @property
     def pose(self) -> Pose:
         """Pose of the template unicycle, in odometry."""
-        return self._sample.template
+        return self._table.template(self._now)
+
+    @property
+    def reference(self) -> BodyReference:
+        """Body reference of the last tick, in odometry."""
+        return self.balance.commanded or self._table.at(self._now).body
 
     @property
     def tilt(self) -> tuple[float, float] | None:
@@ -138,8 +138,8 @@ class ManeuverWalk:
             right_foot=self.right_foot,
             first_foot=self._first_foot,
             reference=self.reference,
-            zmp_reference=self._sample.zmp,
-            torso_heading=self.kinematics.torso_heading,
+            zmp_reference=self._table.at(self._now).zmp,
+            torso_heading=self.balance.planned_heading,
             estimate=self.balance.state,
             solved=self.balance.solved,
             adapted=self.balance.adapted,
@@ -157,7 +157,7 @@ class ManeuverWalk:
         self.begun = None
         if self.phase is Phase.FALLEN:
             return self.joint_targets
-        now, balance = measurement.time, self.balance
+        now = measurement.time
         if self._maneuvers.guard is not None:
             surroundings = self._maneuvers.guard.surroundings
             surroundings.note(measurement, self.reference)
@@ -165,23 +165,20 @@ class ManeuverWalk:
             self._wait(now, decisions)
         elif now >= self._plan_ends - 1e-9:
             self._finish(self.plan, decisions)
-        sample = self._resting if self.plan is None else self._table.at(now)
-        self._sample = sample
-        self.reference = balance.update(measurement, sample, self.step)
-        if balance.has_fallen:
+        self._now = now
+        targets = self.balance.targets(measurement, self._table, self.step)
+        if targets is None:
             self.phase, self.plan = Phase.FALLEN, None
             return self.joint_targets
-        targets = self.kinematics.track(self.reference)
-        self.joint_targets = balance.correct(measurement, targets)
-        return self.joint_targets
+        self.joint_targets = targets
+        return targets
 
     def _stand(self) -> None:
         """Come to rest midway between the feet."""
         self.phase, self.plan = Phase.STANDING, None
-        self._resting = self._sample = resting_sample(
-            self.left_foot, self.right_foot, self.gait
+        self._table.rest(
+            resting_sample(self.left_foot, self.right_foot, self.gait)
         )
-        self.reference = self._resting.body
 
     def _wait(self, now: float, decisions: IntentSource) -> None:
         """Stand until the player requests motion."""

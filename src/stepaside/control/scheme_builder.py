@@ -50,7 +50,7 @@ def build_balance(
             kinematics, zmp_forward=gait.zmp_forward, tick=tick
         )
     if not control.feedback:
-        return OpenLoop(loads)
+        return OpenLoop(kinematics, loads)
     forward = forward or ForwardKinematics(description)
     estimator = StateEstimator(
         forward, forward.force_sensors(), gait.eta, tick
@@ -64,6 +64,7 @@ def build_balance(
             delay=delay,
             lean=description.lean,
         ),
+        kinematics,
         loads,
     )
 

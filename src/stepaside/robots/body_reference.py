@@ -1,5 +1,6 @@
 """Whole-body reference for inverse kinematics."""
 
+from collections.abc import Sequence
 from math import cos, remainder, sin, tau
 from typing import NamedTuple
 
@@ -21,6 +22,23 @@ class BodyReference(NamedTuple):
     right_foot: tuple[float, float, float, float]
     left_tilt: tuple[float, float] = (0.0, 0.0)
     right_tilt: tuple[float, float] = (0.0, 0.0)
+
+    def row(self) -> tuple[float, ...]:
+        """Return the 15 numbers of the fields, one after the other."""
+        com, left, right, left_tilt, right_tilt = self
+        return (*com, *left, *right, *left_tilt, *right_tilt)
+
+    @classmethod
+    def from_row(cls, row: Sequence[float]) -> "BodyReference":
+        """Return the reference of a row; see :meth:`row`."""
+        x, y, z, a, b, c, d, e, f, g, h, *tilts = row
+        return cls(
+            (x, y, z),
+            (a, b, c, d),
+            (e, f, g, h),
+            (tilts[0], tilts[1]),
+            (tilts[2], tilts[3]),
+        )
 
     @property
     def heading(self) -> float:

@@ -12,9 +12,14 @@ import re
 from collections import Counter
 from collections.abc import Callable, Sequence
 from math import cos, sin
+from typing import Any, NamedTuple
 
-from .jit import function_of
+import numpy as np
 
+from ..core.poses import Array
+from .jit import Function, Kernel, function_of, kernel_of
+
+RowFunction = Callable[..., tuple[Array | float, ...]]
 DEPTH = 12  # nesting of an expression before it is assigned to a variable
 
 
@@ -132,6 +137,54 @@ class TracedNumber:
         return self._trace.make(name, (self,), function(self.hint))
 
 
+class Formula(NamedTuple):
+    """Generated function of floats, as source.
+
+    Attributes:
+        name: Name of the function.
+        text: Its definition.
+    """
+
+    name: str
+    text: str
+
+    def function(self) -> Function:
+        """Compile the function; see :func:`.jit.function_of`."""
+        return function_of(self.name, self.text)
+
+    def row_function(self) -> RowFunction:
+        """Return the function for arguments that are columns of rows.
+
+        It computes each row with the bits of :meth:`function`: NumPy rounds
+        sums, products and quotients as Python does, but not its sines.
+        """
+        namespace: dict[str, Any] = {"sin": sines, "cos": cosines}
+        exec(compile(self.text, f"<{self.name}>", "exec"), namespace)
+        function: RowFunction = namespace[self.name]
+        return function
+
+    def kernel(self, name: str, loop: str, arguments: str) -> Kernel | None:
+        """Compile a loop over rows that calls the function.
+
+        Args:
+            name: Name of the loop.
+            loop: Its definition.
+            arguments: See :func:`.jit.kernel_of`.
+        """
+        text = f"@formula\n{self.text}\n\n{loop}"
+        return kernel_of(name, text, arguments)
+
+
+def sines(angles: Array) -> Array:
+    """Return the sines of angles, in [rad], with the bits of ``math.sin``."""
+    return np.array([sin(angle) for angle in angles.tolist()])
+
+
+def cosines(angles: Array) -> Array:
+    """Return their cosines with the bits of ``math.cos``."""
+    return np.array([cos(angle) for angle in angles.tolist()])
+
+
 class ExpressionTrace:
     """Expression graph of a function and its arguments."""
 
@@ -186,14 +239,16 @@ class ExpressionTrace:
         head = f"def {name}({', '.join(self._names)}):"
         return "\n".join([head, *_reuse_variables(lines), ""])
 
-    def function(
-        self, name: str, results: Sequence[Number]
-    ) -> Callable[..., tuple[float, ...]]:
-        """Compile the function that computes ``results``.
+    def formula(self, name: str, results: Sequence[Number]) -> Formula:
+        """Return the function that computes ``results``, not compiled yet.
 
         Its arguments are the variables, in the order of their definition.
         """
-        return function_of(name, self.source(name, results))
+        return Formula(name, self.source(name, results))
+
+    def function(self, name: str, results: Sequence[Number]) -> Function:
+        """Compile the function that computes ``results``."""
+        return self.formula(name, results).function()
 
 
 Number = TracedNumber | float

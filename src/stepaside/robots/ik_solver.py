@@ -7,8 +7,8 @@ import numpy as np
 from ..core.poses import Array
 from .description import RobotDescription
 from .ik_residuals import trace_residuals
-from .ik_step import trace_step
-from .jit import Function, preferred
+from .ik_step import step_kernel, trace_step
+from .jit import Function, Kernel, preferred
 from .leg_joints import BASE, FIXED_ROWS, LegJoints
 from .robot_tree import RobotTree
 
@@ -25,11 +25,14 @@ class LegSolver(NamedTuple):
             :func:`.ik_residuals.trace_residuals`.
         newton_step: Undamped Newton step; see :func:`.ik_step.trace_step`.
             None for legs other than six hinges each.
+        track_rows: Steps of many ticks as machine code, if it is used; see
+            :func:`.ik_step.step_kernel`.
     """
 
     legs: LegJoints
     residuals: Function
     newton_step: Function | None
+    track_rows: Kernel | None
 
     def linearise(self, *arguments: float) -> tuple[Array, Array]:
         """Evaluate residuals and Jacobian in the level torso frame.
@@ -48,7 +51,8 @@ class LegSolver(NamedTuple):
         return numbers[:rows], numbers[rows:].reshape(rows, -1)
 
 
-_cache: dict[tuple[object, ...], tuple[Function, Function | None]] = {}
+_Formulas = tuple[Function, Function | None, Kernel | None]
+_cache: dict[tuple[object, ...], _Formulas] = {}
 
 
 def solver_of(description: RobotDescription, tree: RobotTree) -> LegSolver:
@@ -60,10 +64,12 @@ def solver_of(description: RobotDescription, tree: RobotTree) -> LegSolver:
     if key not in _cache:
         if len(_cache) >= CACHE_SIZE:
             _cache.clear()
-        step = trace_step(legs, hints) if legs.is_plain else None
-        _cache[key] = trace_residuals(legs, hints), step
-    residuals, step = _cache[key]
-    return LegSolver(legs, residuals, step)
+        step = kernel = None
+        if legs.is_plain:
+            formula = trace_step(legs, hints)
+            step, kernel = formula.function(), step_kernel(formula, legs)
+        _cache[key] = trace_residuals(legs, hints), step, kernel
+    return LegSolver(legs, *_cache[key])
 
 
 def move_within(

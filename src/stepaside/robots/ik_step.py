@@ -6,12 +6,12 @@ rows: the CoM, and equality of the joint that both legs share or, without
 such a joint, the torso heading.
 """
 
-from collections.abc import Callable
 from typing import NamedTuple
 
-from .expression_tracing import Number
+from .expression_tracing import Formula, Number
 from .ik_residuals import HEADING, UP, TracedLegs
-from .leg_joints import LegJoints
+from .jit import Kernel
+from .leg_joints import BASE, LegJoints
 from .link_poses import motion_of
 from .scalar_algebra import (
     LuFactors,
@@ -23,6 +23,41 @@ from .scalar_algebra import (
     scale,
     subtract,
 )
+
+# Motion of the torso in a tick beyond which the undamped step is rejected,
+# in [m] or [rad].
+GREATEST_MOVE = 0.1
+LOOP = """\
+def track_rows(references, states, limits, slowest):
+    n = limits.shape[0]
+    for i in range(references.shape[0]):
+        step = leg_step({arguments})
+        for j in range(4):
+            if not abs(step[j]) < {greatest_move}:
+                return i
+        most = least = step[4]
+        for j in range(5, n + 4):
+            most = max(most, step[j])
+            least = min(least, step[j])
+        greatest = max(most, -least)
+        margin = states[i, n + 5] - greatest
+        if not (greatest <= slowest and margin >= 0.0):
+            margin = 1e300
+            for j in range(n):
+                move, angle = step[4 + j], step[n + 8 + j]
+                reach, low, high = limits[j, 0], limits[j, 1], limits[j, 2]
+                if not (-reach <= move <= reach and low <= angle <= high):
+                    return i
+                margin = min(margin, angle - low, high - angle)
+        for j in range(n):
+            states[i + 1, j] = step[n + 8 + j]
+        for j in range(4):
+            states[i + 1, n + j] = step[n + 4 + j]
+        states[i + 1, n + 4] = states[i, n + 3]
+        states[i + 1, n + 5] = margin
+        states[i + 1, n + 6] = references[i, 15]
+    return references.shape[0]
+"""
 
 
 class _EliminatedLeg(NamedTuple):
@@ -42,9 +77,7 @@ class _EliminatedLeg(NamedTuple):
     rows: Matrix
 
 
-def trace_step(
-    legs: LegJoints, hints: dict[str, float]
-) -> Callable[..., tuple[float, ...]]:
+def trace_step(legs: LegJoints, hints: dict[str, float]) -> Formula:
     """Generate the function of one Newton step.
 
     Args:
@@ -93,7 +126,33 @@ def trace_step(
             assert column is not None
             moves[column] = move
     after = [*traced.torso.moved(torso), *add(traced.free, moves)]
-    return traced.trace.function("leg_step", [*torso, *moves, *after])
+    return traced.trace.formula("leg_step", [*torso, *moves, *after])
+
+
+def step_kernel(formula: Formula, legs: LegJoints) -> Kernel | None:
+    """Compile the steps of many ticks, up to one that meets a limit.
+
+    Args:
+        formula: The step, of :func:`trace_step`.
+        legs: Leg joints.
+
+    Returns:
+        Function of the references, rows of :meth:`.BodyReference.row` with
+        the roll of the torso; the states, rows of :class:`.LegStates` of
+        which the first is given; reach in a tick, lower and upper limit of
+        the free joints, shape (free, 3); and the least reach. It fills the
+        states and returns how many ticks keep to all limits. None without
+        machine code.
+    """
+    n = len(legs.free)
+    states = [f"states[i, {j}]" for j in range(n + BASE)]
+    columns = 15 + (legs.lean > 0.0)
+    references = [f"references[i, {j}]" for j in range(columns)]
+    loop = LOOP.format(
+        arguments=", ".join([*states, *references]),
+        greatest_move=GREATEST_MOVE,
+    )
+    return formula.kernel("track_rows", loop, "2220")
 
 
 def _eliminate_leg(traced: TracedLegs, side: int) -> _EliminatedLeg:

@@ -19,6 +19,14 @@ from tempfile import NamedTemporaryFile
 from typing import Any
 
 Function = Callable[..., tuple[float, ...]]
+Kernel = Callable[..., Any]
+HEAD = "from math import cos, sin"
+KERNEL_HEAD = f"""\
+{HEAD}
+
+from numba import njit
+
+formula = njit(error_model="numpy")"""
 
 
 class JitPreference(IntEnum):
@@ -69,7 +77,7 @@ def function_of(name: str, text: str) -> Function:
     if _preference is not JitPreference.PLAIN:
         # A broken cache or Numba is no error: fall back to plain Python.
         with suppress(Exception):
-            machine_code = _machine_code(name, text)
+            machine_code: Function | None = _machine_code(name, text)
             if machine_code is not None:
                 return machine_code
     namespace: dict[str, Any] = {"sin": sin, "cos": cos}
@@ -78,15 +86,38 @@ def function_of(name: str, text: str) -> Function:
     return plain
 
 
+def kernel_of(name: str, text: str, arguments: str) -> Kernel | None:
+    """Compile a loop over the rows of arrays.
+
+    Divisions by zero give inf or NaN, which the loop has to reject.
+
+    Args:
+        name: Name of the function.
+        text: Source that defines it and the functions of floats it calls.
+        arguments: One digit for each argument: its number of dimensions.
+
+    Returns:
+        The function as machine code; None if that is not preferred or not
+        available: the same formulas then run as plain Python.
+    """
+    if _preference is JitPreference.PLAIN:
+        return None
+    with suppress(Exception):  # as above
+        return _machine_code(name, text, arguments)
+    return None
+
+
 def folder() -> Path:
     """Return the cache folder; ``XDG_CACHE_HOME`` is respected."""
     base = os.environ.get("XDG_CACHE_HOME")
     return (Path(base) if base else Path.home() / ".cache") / "stepaside"
 
 
-def _machine_code(name: str, text: str) -> Function | None:
+def _machine_code(
+    name: str, text: str, arguments: str | None = None
+) -> Any | None:
     """Load the machine code of a source, or compile it if preferred."""
-    content = f"from math import cos, sin\n\n\n{text}"
+    content = f"{HEAD if arguments is None else KERNEL_HEAD}\n\n\n{text}"
     digest = sha256(content.encode()).hexdigest()[:16]
     path = folder() / f"{name}_{digest}.py"
     stored = path.is_file() and path.read_text(encoding="utf-8") == content
@@ -102,9 +133,12 @@ def _machine_code(name: str, text: str) -> Function | None:
     sys.modules[spec.name] = module  # Numba's cache looks it up there
     spec.loader.exec_module(module)
     plain = getattr(module, name)
-    floats = (numba.float64,) * plain.__code__.co_argcount
-    machine_code: Function = numba.njit([floats], cache=True)(plain)
-    return machine_code
+    if arguments is None:
+        floats = (numba.float64,) * plain.__code__.co_argcount
+        return numba.njit([floats], cache=True)(plain)
+    types = [numba.float64, numba.float64[::1], numba.float64[:, ::1]]
+    signature = tuple(types[int(digit)] for digit in arguments)
+    return numba.njit([signature], cache=True, error_model="numpy")(plain)
 
 
 def _write(path: Path, content: str) -> None:

@@ -6,22 +6,60 @@ torques follow from the link positions at three consecutive ticks.
 """
 
 from math import cos, sin
+from typing import NamedTuple
 
 import numpy as np
 
 from ..core.constants import GRAVITY
 from ..core.poses import Array
 from .body_reference import BodyReference
-from .expression_tracing import ExpressionTrace, Number
-from .jit import Function, preferred
+from .expression_tracing import (
+    ExpressionTrace,
+    Number,
+    RowFunction,
+    cosines,
+    sines,
+)
+from .jit import Function, Kernel, preferred
 from .leg_joints import LegJoints
 from .leg_kinematics import LegKinematics
-from .link_poses import place_links
+from .link_poses import LinkPoses, place_links
 from .scalar_algebra import Vector, add, cross, dot, scale, subtract, turn
 
 LIFTED = 1e-6  # height above which a foot carries no load, in [m]
 ZERO: Vector = (0.0, 0.0, 0.0)
 CACHE_SIZE = 16  # robots whose formulas are cached
+
+
+LOOP = """\
+def load_rows(states, contacts, points, torques, rate, calls):
+    n, motors = states.shape[1] - 7, torques.shape[1]
+    for i in range(torques.shape[0]):
+        factor = rate if calls + i > 1.0 else 0.0
+        c, s = cos(states[i + 1, n + 3]), sin(states[i + 1, n + 3])
+        results = loads({arguments})
+        for j in range(motors):
+            torques[i, j] = results[j]
+        for j in range(points.shape[1]):
+            points[i + 2, j] = results[motors + j]
+"""
+
+
+class LoadFormulas(NamedTuple):
+    """Generated torque formulas of one robot.
+
+    Attributes:
+        loads: Torques of the leg motors and mass positions at one tick; see
+            :func:`_trace_loads`.
+        points: Mass positions of many ticks, from columns.
+        rows: Torques of many ticks, from columns.
+        kernel: The same as machine code, if it is used.
+    """
+
+    loads: Function
+    points: RowFunction
+    rows: RowFunction
+    kernel: Kernel | None
 
 
 class LegLoads:
@@ -46,10 +84,9 @@ class LegLoads:
         motors = legs.tree.motors
         self._leg_motors = [motors.index(name) for name in _motors(legs)]
         self._number_of_motors = len(motors)
-        self._evaluate = _load_formulas(legs)
-        points = (0.0,) * (3 * len(_lumped_masses(legs)[1]))
-        self._points_before_last = points
-        self._points_last = points
+        self._formulas = _load_formulas(legs)
+        # Mass positions two ticks ago and one tick ago, then of the last rows.
+        self._points = np.zeros((2, 3 * len(_lumped_masses(legs)[1])))
         self._calls = 0
 
     def torques(
@@ -68,46 +105,110 @@ class LegLoads:
             Torques of all motors, in [N m]. Shape (joints,).
         """
         position, heading, free, roll = self._kinematics.stance
-        results = self._evaluate(
+        before, last = self._points[-2:].tolist()
+        results = self._formulas.loads(
             *free,
             *position,
             cos(heading),
             sin(heading),
-            *self._points_before_last,
-            *self._points_last,
+            *before,
+            *last,
             self._rate if self._calls > 1 else 0.0,
             *self._ground_contact(reference, zmp),
             *self._kinematics.legs.roll_argument(roll),
         )
         count = len(self._leg_motors)
-        self._points_before_last = self._points_last
-        self._points_last = results[count:]
+        self._points = np.array([last, results[count:]])
         self._calls += 1
         torques = np.zeros(self._number_of_motors)
         torques[self._leg_motors] = results[:count]
         return torques
 
+    def torque_rows(
+        self, states: Array, references: Array, zmp: Array
+    ) -> Array:
+        """Return the torques of consecutive ticks, as :meth:`torques` does.
+
+        Args:
+            states: States of the kinematics, the one before the first tick
+                included; see :class:`.LegStates`.
+            references: References of the ticks, rows of
+                :meth:`.BodyReference.row`. Shape (ticks, 15).
+            zmp: ZMP of the plan, in [m]. Shape (ticks, 2).
+
+        Returns:
+            Torques of all motors, in [N m]. Shape (ticks, joints).
+        """
+        ticks, n = len(references), states.shape[1] - 7
+        points = np.empty((ticks + 2, self._points.shape[1]))
+        points[:2] = self._points[-2:]
+        contacts = self._ground_contacts(references, zmp)
+        legs = np.empty((ticks, len(self._leg_motors)))
+        kernel = self._formulas.kernel
+        if kernel is not None:
+            calls = float(self._calls)
+            kernel(states, contacts, points, legs, self._rate, calls)
+        else:
+            after = states[1:].T
+            headings = after[n + 3].tolist()
+            posture = [
+                *after[: n + 3],
+                np.array([cos(heading) for heading in headings]),
+                np.array([sin(heading) for heading in headings]),
+            ]
+            roll = self._kinematics.legs.roll_arguments(after[n + 6])
+            results = self._formulas.points(*posture, *roll)
+            points[2:] = np.column_stack(results)
+            rate = np.where(
+                self._calls + np.arange(ticks) > 1, self._rate, 0.0
+            )
+            results = self._formulas.rows(
+                *posture,
+                *points[:-2].T,
+                *points[1:-1].T,
+                rate,
+                *contacts.T,
+                *roll,
+            )
+            for column, result in zip(legs.T, results, strict=True):
+                column[:] = result
+        self._points = points
+        self._calls += ticks
+        torques = np.zeros((ticks, self._number_of_motors))
+        torques[:, self._leg_motors] = legs
+        return torques
+
+    def rewind(self, ticks: int) -> None:
+        """Return to the state after the first ``ticks`` of the last rows."""
+        self._calls -= len(self._points) - 2 - ticks
+        self._points = self._points[ticks : ticks + 2]
+
     def _ground_contact(
         self, reference: BodyReference, zmp: tuple[float, float]
-    ) -> tuple[float, ...]:
+    ) -> list[float]:
         """Return the anchors of both feet and the load fraction of the left.
 
         Anchors are in the frame of the reference, in [m].
         """
-        x, y, z, yaw = reference.left_foot
-        u, v, w, turned = reference.right_foot
+        row = np.array([reference.row()])
+        contact: list[float] = self._ground_contacts(row, np.array([zmp]))[
+            0
+        ].tolist()
+        return contact
+
+    def _ground_contacts(self, references: Array, zmp: Array) -> Array:
+        """Return :meth:`_ground_contact` of rows. Shape (ticks, 7)."""
+        x, y, z, yaw, u, v, w, turned = references[:, 3:11].T
         forward = self._zmp_forward
-        x, y = x + forward * cos(yaw), y + forward * sin(yaw)
-        u, v = u + forward * cos(turned), v + forward * sin(turned)
-        if z > LIFTED:
-            fraction = 0.0
-        elif w > LIFTED:
-            fraction = 1.0
-        else:
-            fraction = (zmp[0] - u) * (x - u) + (zmp[1] - v) * (y - v)
-            fraction /= (x - u) * (x - u) + (y - v) * (y - v)
-            fraction = min(max(fraction, 0.0), 1.0)
-        return x, y, z, u, v, w, fraction
+        x, y = x + forward * cosines(yaw), y + forward * sines(yaw)
+        u, v = u + forward * cosines(turned), v + forward * sines(turned)
+        fraction = (zmp[:, 0] - u) * (x - u) + (zmp[:, 1] - v) * (y - v)
+        fraction /= (x - u) * (x - u) + (y - v) * (y - v)
+        fraction = np.where(fraction < 0.0, 0.0, fraction)
+        fraction = np.where(fraction > 1.0, 1.0, fraction)
+        fraction = np.where(w > LIFTED, 1.0, fraction)
+        fraction = np.where(z > LIFTED, 0.0, fraction)
+        return np.column_stack([x, y, z, u, v, w, fraction])
 
 
 def _motors(legs: LegJoints) -> list[str]:
@@ -136,10 +237,10 @@ def _carrier(legs: LegJoints, joints: list[int], link: int) -> int:
     return joints.index(above[-1]) if above else len(joints)
 
 
-_cache: dict[tuple[object, ...], Function] = {}
+_cache: dict[tuple[object, ...], LoadFormulas] = {}
 
 
-def _load_formulas(legs: LegJoints) -> Function:
+def _load_formulas(legs: LegJoints) -> LoadFormulas:
     """Return the torque formulas of a robot, cached by tree."""
     key = (
         legs.tree,
@@ -152,85 +253,173 @@ def _load_formulas(legs: LegJoints) -> Function:
     if key not in _cache:
         if len(_cache) >= CACHE_SIZE:
             _cache.clear()
-        _cache[key] = _trace_loads(legs)
+        _cache[key] = _make_formulas(legs)
     return _cache[key]
 
 
-def _trace_loads(legs: LegJoints) -> Function:
-    """Generate the function of motor torques and mass positions.
+def _make_formulas(legs: LegJoints) -> LoadFormulas:
+    traced = TracedMasses.of(legs)
+    torques = traced.torques()
+    loads = traced.trace.formula("loads", [*torques, *traced.points])
+    # Without the variables of the loads, which these do not depend on.
+    alone = TracedMasses.of(legs, loaded=False)
+    points = alone.trace.formula("mass_points", alone.points)
+    rows = traced.trace.formula("load_columns", torques)
+    n, masses = len(legs.free), len(traced.points)
+    arguments = [
+        *(f"states[i + 1, {j}]" for j in range(n + 3)),
+        *("c", "s"),
+        *(f"points[i, {j}]" for j in range(masses)),
+        *(f"points[i + 1, {j}]" for j in range(masses)),
+        "factor",
+        *(f"contacts[i, {j}]" for j in range(7)),
+        *([f"states[i + 1, {n + 6}]"] if legs.lean > 0.0 else []),
+    ]
+    loop = LOOP.format(arguments=", ".join(arguments))
+    return LoadFormulas(
+        loads.function(),
+        points.row_function(),
+        rows.row_function(),
+        loads.kernel("load_rows", loop, "222200"),
+    )
 
-    Arguments: free joints; position of the torso, cosine and sine of its
-    heading; mass positions two ticks ago and one tick ago; factor of their
-    second difference; anchors of both feet; load fraction of the left one;
-    roll of a torso that leans.
+
+class TracedMasses(NamedTuple):
+    """Traced point masses of the links of both legs, the torso's last.
+
+    The arguments of the trace: free joints; position of the torso, cosine
+    and sine of its heading; then, of :meth:`torques`, mass positions two
+    ticks ago and one tick ago; factor of their second difference; anchors of
+    both feet; load fraction of the left one; and the roll of a torso that
+    leans.
+
+    Attributes:
+        legs: Leg joints.
+        trace: The trace.
+        links: Poses of all links.
+        masses: Lumped masses, in [kg].
+        turn: Cosine and sine of the heading of the torso.
+        position: Position of the torso, in [m].
+        points: Positions of the masses, one coordinate after the other.
+        load: Variables of the loads; none if they are not traced.
     """
-    trace = ExpressionTrace()
-    tree = legs.tree
 
-    def variables(name: str, count: int) -> list[Number]:
-        return [trace.variable(f"{name}{i}") for i in range(count)]
+    legs: LegJoints
+    trace: ExpressionTrace
+    links: LinkPoses
+    masses: list[float]
+    turn: list[Number]
+    position: list[Number]
+    points: list[Number]
+    load: dict[str, list[Number]]
 
-    joints, masses = _lumped_masses(legs)
-    free = variables("q", len(legs.free))
-    position = variables("p", 3)
-    c, s = variables("t", 2)
-    before = variables("b", 3 * len(masses))
-    last = variables("l", 3 * len(masses))
-    (rate,) = variables("r", 1)
-    anchors = (variables("a", 3), variables("o", 3))
-    (fraction,) = variables("w", 1)
-    fractions = (fraction, 1.0 - fraction)
+    @classmethod
+    def of(cls, legs: LegJoints, *, loaded: bool = True) -> "TracedMasses":
+        """Trace the positions of the masses.
 
-    def to_world(a: Vector) -> list[Number]:
-        """Rotate a vector from the torso to the world frame."""
-        return [c * a[0] - s * a[1], s * a[0] + c * a[1], a[2]]
+        Args:
+            legs: Leg joints.
+            loaded: Whether to add the variables of the loads.
+        """
+        trace = ExpressionTrace()
 
-    axes = legs.torso_axes(trace)
-    links = place_links(tree, legs.angles(free), axes)
-    firsts: list[Vector] = [ZERO] * len(masses)
-    for i, described in enumerate(tree.links):
-        com = add(links.positions[i], turn(links.axes[i], described.com))
-        carrier = _carrier(legs, joints, i)
-        firsts[carrier] = add(firsts[carrier], scale(described.mass, com))
-    points: list[Number] = []
-    forces: list[Vector] = []
-    moments: list[Vector] = []
-    for i, (first, mass) in enumerate(zip(firsts, masses, strict=True)):
-        # Of several hinges in one body all but the last have no mass.
-        inverse_mass = 1.0 / mass if mass > 0.0 else 0.0
-        point = add(position, to_world(scale(inverse_mass, first)))
-        old, older = last[3 * i : 3 * i + 3], before[3 * i : 3 * i + 3]
-        difference = add(subtract(point, scale(2.0, old)), older)
-        force = scale(mass, add(scale(rate, difference), (0.0, 0.0, GRAVITY)))
-        points += point
-        forces.append(force)
-        moments.append(cross(point, force))
-    total, total_moment = _sum(forces), _sum(moments)
-    zmp = add(scale(fractions[0], anchors[0]), scale(fractions[1], anchors[1]))
-    torques: dict[str, Number] = {}
-    row = 0
-    for side in (0, 1):
-        lever = subtract(anchors[side], zmp)
-        ground_force = scale(fractions[side], total)
-        ground_moment = scale(
-            fractions[side], add(total_moment, cross(lever, total))
+        def variables(name: str, count: int) -> list[Number]:
+            return [trace.variable(f"{name}{i}") for i in range(count)]
+
+        joints, masses = _lumped_masses(legs)
+        free = variables("q", len(legs.free))
+        position = variables("p", 3)
+        cosine_and_sine = variables("t", 2)
+        load = {}
+        if loaded:
+            for name, count in (
+                *(("b", 3 * len(masses)), ("l", 3 * len(masses))),
+                *(("r", 1), ("a", 3), ("o", 3), ("w", 1)),
+            ):
+                load[name] = variables(name, count)
+        axes = legs.torso_axes(trace)
+        links = place_links(legs.tree, legs.angles(free), axes)
+        firsts: list[Vector] = [ZERO] * len(masses)
+        for i, described in enumerate(legs.tree.links):
+            com = add(links.positions[i], turn(links.axes[i], described.com))
+            carrier = _carrier(legs, joints, i)
+            firsts[carrier] = add(firsts[carrier], scale(described.mass, com))
+        points: list[Number] = []
+        for first, mass in zip(firsts, masses, strict=True):
+            # Of several hinges in one body all but the last have no mass.
+            inverse_mass = 1.0 / mass if mass > 0.0 else 0.0
+            lever = _turned(cosine_and_sine, scale(inverse_mass, first))
+            points += add(position, lever)
+        return cls(
+            *(legs, trace, links, masses, cosine_and_sine, position),
+            *(points, load),
         )
-        # From the foot up: loads below a joint less the ground reaction.
-        force, moment = scale(-1.0, ground_force), scale(-1.0, ground_moment)
-        chain = legs.chain(side)
-        for k in range(len(chain) - 1, -1, -1):
-            link = chain[k]
-            force = add(force, forces[row + k])
-            moment = add(moment, moments[row + k])
-            at = add(position, to_world(links.positions[link]))
-            axis = to_world(turn(links.axes[link], tree.links[link].axis))
-            joint = tree.links[link].joint
-            motor = tree.followers.get(joint, joint)
-            torque = dot(axis, subtract(moment, cross(at, force)))
-            torques[motor] = torques.get(motor, 0.0) + torque
-        row += len(chain)
-    results = [torques[name] for name in _motors(legs)]
-    return trace.function("loads", [*results, *points])
+
+    def torques(self) -> list[Number]:
+        """Return the torques of the leg motors, in [N m]."""
+        forces: list[Vector] = []
+        moments: list[Vector] = []
+        (rate,) = self.load["r"]
+        for i, mass in enumerate(self.masses):
+            at = slice(3 * i, 3 * i + 3)
+            point = self.points[at]
+            old, older = self.load["l"][at], self.load["b"][at]
+            difference = add(subtract(point, scale(2.0, old)), older)
+            acceleration = scale(rate, difference)
+            force = scale(mass, add(acceleration, (0.0, 0.0, GRAVITY)))
+            forces.append(force)
+            moments.append(cross(point, force))
+        total, total_moment = _sum(forces), _sum(moments)
+        anchors = (self.load["a"], self.load["o"])
+        (fraction,) = self.load["w"]
+        fractions = (fraction, 1.0 - fraction)
+        zmp = add(
+            scale(fractions[0], anchors[0]), scale(fractions[1], anchors[1])
+        )
+        torques: dict[str, Number] = {}
+        row = 0
+        for side in (0, 1):
+            lever = subtract(anchors[side], zmp)
+            ground_moment = scale(
+                fractions[side], add(total_moment, cross(lever, total))
+            )
+            # From the foot up: loads below a joint less the ground reaction.
+            force = scale(-1.0, scale(fractions[side], total))
+            moment = scale(-1.0, ground_moment)
+            chain = self.legs.chain(side)
+            for k in range(len(chain) - 1, -1, -1):
+                force = add(force, forces[row + k])
+                moment = add(moment, moments[row + k])
+                motor, torque = self._torque(chain[k], force, moment)
+                torques[motor] = torques.get(motor, 0.0) + torque
+            row += len(chain)
+        return [torques[name] for name in _motors(self.legs)]
+
+    def _torque(
+        self, link: int, force: Vector, moment: Vector
+    ) -> tuple[str, Number]:
+        """Return the motor of a link's joint, and its torque, in [N m].
+
+        Args:
+            link: Index of the link.
+            force: Force on the leg from this joint on, in [N].
+            moment: Its moment about the origin, in [N m].
+        """
+        tree, links = self.legs.tree, self.links
+        at = add(self.position, _turned(self.turn, links.positions[link]))
+        axis = turn(links.axes[link], tree.links[link].axis)
+        joint = tree.links[link].joint
+        lever = subtract(moment, cross(at, force))
+        return (
+            tree.followers.get(joint, joint),
+            dot(_turned(self.turn, axis), lever),
+        )
+
+
+def _turned(cosine_and_sine: Vector, a: Vector) -> list[Number]:
+    """Rotate a vector from the torso to the world frame."""
+    c, s = cosine_and_sine
+    return [c * a[0] - s * a[1], s * a[0] + c * a[1], a[2]]
 
 
 def _sum(vectors: list[Vector]) -> Vector:

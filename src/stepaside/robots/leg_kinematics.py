@@ -6,9 +6,11 @@ both feet and the CoM. Independent hip yaws add one unknown, and one row: the
 torso heading equals the mean heading of the feet.
 """
 
+from collections.abc import Sequence
 from functools import cached_property
 from math import cos, inf, remainder, sin, tau
 from operator import itemgetter
+from typing import NamedTuple
 
 import numpy as np
 
@@ -18,6 +20,7 @@ from .body_reference import BodyReference, Posture
 from .com_reach import ReachableHeights
 from .description import RobotDescription
 from .ik_solver import move_within, solver_of
+from .ik_step import GREATEST_MOVE
 from .joint_configuration import Configuration
 from .leg_joints import BASE, FIXED_ROWS
 from .tree_cache import load_tree
@@ -27,15 +30,34 @@ __all__ = ["ROWS", "BodyReference", "LegKinematics"]
 STAND_STEP = 0.3  # joint motion per iteration while standing, in [rad]
 TOLERANCE = 1e-4  # residual at which a posture counts as reached
 GREATEST_ERROR = 0.5  # residual that is refused, in [m] or [rad]
-# Motion of the torso in a tick beyond which the undamped step is rejected,
-# in [m] or [rad].
-GREATEST_MOVE = 0.1
 ROWS = (
     *(f"left foot {c}" for c in ("x", "y", "z", "roll", "pitch", "yaw")),
     *(f"right foot {c}" for c in ("x", "y", "z", "roll", "pitch", "yaw")),
     *(f"CoM {c}" for c in ("x", "y", "z")),
     "torso heading",
 )
+
+
+class LegStates(NamedTuple):
+    """Postures of the legs at consecutive ticks.
+
+    Attributes:
+        rows: Angles of the free joints, in [rad]; position (x, y, z) of the
+            torso, in [m], and its heading, in [rad], in the frame of the
+            reference; its heading a tick earlier; lower bound of the distance
+            to any joint limit; roll of the torso, all in [rad]. The first
+            row is the posture before the first tick. Shape (ticks + 1,
+            free + 7).
+        targets: Joint targets, in [rad]. Shape (ticks, joints).
+    """
+
+    rows: Array
+    targets: Array
+
+    @property
+    def torso_headings(self) -> list[float]:
+        """:attr:`LegKinematics.torso_heading` after each tick, in [rad]."""
+        return [remainder(x, tau) for x in self.rows[1:, -3].tolist()]
 
 
 class LegKinematics:
@@ -63,14 +85,8 @@ class LegKinematics:
         self._solver = solver_of(description, tree)
         self.legs = legs = self._solver.legs
         self._reach = legs.speeds * tick
-        self._limits = list(
-            zip(
-                self._reach.tolist(),
-                legs.low.tolist(),
-                legs.high.tolist(),
-                strict=True,
-            )
-        )
+        self._limits = np.column_stack([self._reach, legs.low, legs.high])
+        self._limit_rows = self._limits.tolist()
         self._slowest = float(self._reach.min())
         self._range_margin = 0.0  # lower bound of the distance to any limit
         self._start = tuple(
@@ -95,6 +111,8 @@ class LegKinematics:
         if self._leg_motors == list(range(first, last)):
             self._leg_motors = slice(first, last)  # much faster
         self._to_motors = itemgetter(*moved.values())
+        self._leg_columns = list(moved.values())
+        self._states: LegStates
 
     @property
     def joint_targets(self) -> Array:
@@ -214,7 +232,7 @@ class LegKinematics:
         Raises:
             ReachError: If a residual is too large; names the worst row.
         """
-        if self._step_freely(reference):
+        if self._step_freely(self._row(reference)):
             return self.joint_targets
         self._step(reference, self._reach)
         error = self._error
@@ -227,7 +245,69 @@ class LegKinematics:
             )
         return self.joint_targets
 
-    def _step_freely(self, reference: BodyReference) -> bool:
+    def track_rows(self, references: Array) -> LegStates:
+        """Track references tick by tick, up to a tick that meets a limit.
+
+        The targets are those of :meth:`track` called for each of them; from
+        the tick after the last, where a limit acts, only that follows them.
+
+        Args:
+            references: Rows of :meth:`.BodyReference.row`. Shape (ticks, 15).
+
+        Returns:
+            States and targets of the ticks that keep to all limits.
+        """
+        lean, rolls = self.legs.lean, np.zeros(len(references))
+        if lean > 0.0:
+            bodies = map(BodyReference.from_row, references.tolist())
+            rolls[:] = [body.roll(lean) for body in bodies]
+        references = np.column_stack([references, rolls])
+        rows = np.empty((len(references) + 1, len(self._free) + 7))
+        rows[0] = self._state
+        kernel = self._solver.track_rows
+        count = 0
+        if kernel is not None:
+            count = kernel(references, rows, self._limits, self._slowest)
+            self._resume(rows[count])
+        else:
+            for row in references.tolist():
+                if not self._step_freely(row):
+                    break
+                count += 1
+                rows[count] = self._state
+        targets = np.tile(self._fixed_targets, (count, 1))
+        targets[:, self._leg_motors] = rows[1 : count + 1, self._leg_columns]
+        self._states = LegStates(rows[: count + 1], targets)
+        return self._states
+
+    def rewind(self, ticks: int) -> None:
+        """Return to the posture after the first ``ticks`` of the last rows."""
+        self._resume(self._states.rows[ticks])
+
+    @property
+    def _state(self) -> tuple[float, ...]:
+        """Row of :class:`LegStates`."""
+        return (
+            *self._free,
+            *self._position,
+            self._heading,
+            self._last_heading,
+            self._range_margin,
+            self._roll,
+        )
+
+    def _resume(self, state: Array) -> None:
+        """Take the posture of a row of :class:`LegStates`."""
+        *free, x, y, z, heading, last, margin, roll = state.tolist()
+        self._free, self._position = tuple(free), (x, y, z)
+        self._heading, self._last_heading = heading, last
+        self._range_margin, self._roll = margin, roll
+
+    def _row(self, reference: BodyReference) -> tuple[float, ...]:
+        """Return the row of a reference, and the roll of the torso."""
+        return (*reference.row(), reference.roll(self.legs.lean))
+
+    def _step_freely(self, reference: Sequence[float]) -> bool:
         """Take the undamped step if it meets all limits.
 
         Near singularities it is too long and rejected: there the damped
@@ -266,7 +346,7 @@ class LegKinematics:
             return True
         margin = inf
         for angle, move, (reach, low, high) in zip(
-            moved, moves, self._limits, strict=True
+            moved, moves, self._limit_rows, strict=True
         ):
             if not (-reach <= move <= reach and low <= angle <= high):
                 return False
@@ -274,14 +354,12 @@ class LegKinematics:
         self._range_margin = margin
         return True
 
-    def _arguments(self, reference: BodyReference) -> tuple[float, ...]:
+    def _arguments(self, reference: Sequence[float]) -> tuple[float, ...]:
         """Return the arguments of the generated functions."""
-        com, left, right, left_tilt, right_tilt = reference
-        feet = (*left, *right, *left_tilt, *right_tilt)
-        self._roll = reference.roll(self.legs.lean)
-        torso = (*self._position, self._heading)
-        roll = self.legs.roll_argument(self._roll)
-        return (*self._free, *torso, *com, *feet, *roll)
+        self._roll = reference[15]
+        if self.legs.lean == 0.0:
+            reference = reference[:15]
+        return (*self._free, *self._position, self._heading, *reference)
 
     def _step(self, reference: BodyReference, reach: Array) -> None:
         """Take one damped Newton step, and store the residuals before it.
@@ -290,7 +368,8 @@ class LegKinematics:
         an unlimited step would land on the other branch of the leg.
         """
         legs = self.legs
-        error, jacobian = self._solver.linearise(*self._arguments(reference))
+        row = self._row(reference)
+        error, jacobian = self._solver.linearise(*self._arguments(row))
         angles = np.array(self._free)
         low = np.clip(legs.low - angles, -reach, reach)
         high = np.clip(legs.high - angles, -reach, reach)

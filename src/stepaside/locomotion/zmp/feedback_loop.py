@@ -3,29 +3,33 @@
 from collections.abc import Callable
 from typing import Protocol
 
+import numpy as np
+
 from ...core.poses import Array, Pose
 from ...perception.measurement import Measurement
 from ...planning import CenterState, ManeuverPlan
-from ...robots.leg_kinematics import BodyReference
+from ...robots.leg_kinematics import BodyReference, LegKinematics
 from .current_step import CurrentStep
 from .feedforward import LoadFeedforward
 from .mpc import MpcResult
-from .reference_table import ReferenceSample
+from .reference_table import ReferenceTable
 from .stabiliser import Stabiliser
 from .state_estimator import BodyState
 
+STANDING_TICKS = 64  # computed at once
 Vector = tuple[float, float]
 PlanFrom = Callable[[CenterState], ManeuverPlan]
 StepAt = Callable[[float], CurrentStep]
 
 
 class Balance(Protocol):
-    """Balance control between the plan and the joints.
+    """Joint targets that keep balance along the references of a plan.
 
     Attributes:
         state: Last estimate of the body's state, if any.
         solved: Result of the MPC at this tick, if it ran.
         adapted: Number of footsteps moved so far.
+        commanded: Body reference of the last tick, if feedback changes it.
     """
 
     @property
@@ -41,34 +45,41 @@ class Balance(Protocol):
         """Number of footsteps moved so far."""
 
     @property
-    def ready(self) -> bool:
-        """Whether the robot may begin to walk."""
+    def commanded(self) -> BodyReference | None:
+        """Body reference of the last tick, if feedback changes it."""
 
     @property
-    def has_fallen(self) -> bool:
-        """Whether the estimate detects a fall."""
+    def ready(self) -> bool:
+        """Whether the robot may begin to walk."""
 
     @property
     def tilt(self) -> Vector | None:
         """Roll and pitch of the torso, in [rad]; None without an estimate."""
 
     @property
-    def torso_heading(self) -> float | None:
+    def measured_heading(self) -> float | None:
         """Measured heading of the torso in odometry, in [rad]."""
 
-    def update(
-        self, measurement: Measurement, sample: ReferenceSample, step: StepAt
-    ) -> BodyReference:
-        """Return the body reference of one tick.
+    @property
+    def planned_heading(self) -> float:
+        """Heading of the torso of the last targets, in [rad]."""
+
+    def targets(
+        self, measurement: Measurement, table: ReferenceTable, step: StepAt
+    ) -> Array | None:
+        """Return the joint targets of one tick.
 
         Args:
             measurement: Measurement of the tick.
-            sample: Reference of the plan.
+            table: References of the plan.
             step: Function from a time, in [s], to the step in progress.
-        """
 
-    def correct(self, measurement: Measurement, targets: Array) -> Array:
-        """Return corrected joint targets, in [rad]."""
+        Returns:
+            Joint targets, in [rad], shape (joints,); None after a fall.
+
+        Raises:
+            ReachError: If the legs cannot follow the reference.
+        """
 
     def land(
         self,
@@ -88,42 +99,96 @@ class Balance(Protocol):
 class OpenLoop:
     """Open loop: the plan as it is, on stiff joints.
 
+    The targets of a whole step are computed at once. Where a joint limit
+    acts, they are computed tick by tick.
+
     Attributes:
         state: None.
         solved: None.
         adapted: 0.
+        commanded: None.
         ready: True.
-        has_fallen: False.
         tilt: None.
-        torso_heading: None.
+        measured_heading: None.
     """
 
     state: BodyState | None = None
     solved: MpcResult | None = None
     adapted = 0
+    commanded: BodyReference | None = None
     ready = True
-    has_fallen = False
     tilt: Vector | None = None
-    torso_heading: float | None = None
+    measured_heading: float | None = None
 
-    def __init__(self, feedforward: LoadFeedforward | None = None) -> None:
+    def __init__(
+        self,
+        kinematics: LegKinematics,
+        feedforward: LoadFeedforward | None = None,
+    ) -> None:
         """Prepare the open loop, with load feedforward if given."""
+        self._kinematics = kinematics
         self._feedforward = feedforward
-        self._sample: ReferenceSample | None = None
+        self._references: Array | None = None  # of the computed ticks
+        self._targets: list[Array] = []
+        self._headings: list[float] = []
+        self._used = 0  # number of the computed ticks that were used
+        self._index = 0  # of the last tick in the table
 
-    def update(
-        self, measurement: Measurement, sample: ReferenceSample, step: StepAt
-    ) -> BodyReference:
-        """Return the reference of the plan."""
-        self._sample = sample
-        return sample.body
+    def targets(
+        self, measurement: Measurement, table: ReferenceTable, step: StepAt
+    ) -> Array:
+        """Return the targets of the plan."""
+        index, used = table.index(measurement.time), self._used
+        if (
+            used == len(self._targets)
+            or index != self._index + 1
+            or table.references is not self._references
+        ):
+            self._compute(table, index)
+            used = 0
+        self._index, self._used = index, used + 1
+        return self._targets[used]
 
-    def correct(self, measurement: Measurement, targets: Array) -> Array:
-        """Return the targets with the load feedforward, if any."""
-        if self._feedforward is None or self._sample is None:
-            return targets
-        body, zmp = self._sample.body, self._sample.zmp
-        return targets + self._feedforward.added(body, zmp)
+    @property
+    def planned_heading(self) -> float:
+        """Heading of the torso of the last targets, in [rad]."""
+        if not self._headings:
+            return self._kinematics.torso_heading
+        return self._headings[self._used - 1]
+
+    def _compute(self, table: ReferenceTable, index: int) -> None:
+        """Compute the targets from a tick on, up to one that meets a limit."""
+        kinematics, feedforward = self._kinematics, self._feedforward
+        if self._used < len(self._targets):
+            kinematics.rewind(self._used)
+            if feedforward is not None:
+                feedforward.rewind(self._used)
+        self._references, self._targets, self._used = table.references, [], 0
+        last = len(table.references) - 1
+        rows = slice(min(index, last), last + 1)
+        references, zmp = table.references[rows], table.zmp[rows]
+        if last == 0:  # standing
+            references = np.repeat(references, STANDING_TICKS, axis=0)
+            zmp = np.repeat(zmp, STANDING_TICKS, axis=0)
+        states = kinematics.track_rows(references)
+        count = len(states.targets)
+        if count > 0:
+            targets = states.targets
+            self._headings = states.torso_headings
+        else:
+            body = BodyReference.from_row(references[0].tolist())
+            self._headings = []
+            targets = kinematics.track(body)[None]
+        if feedforward is None:
+            self._targets = list(targets)
+        elif count > 0:
+            offsets = feedforward.offset_rows(
+                states.rows, references[:count], zmp[:count]
+            )
+            self._targets = list(targets + offsets)
+        else:
+            x, y = zmp[0].tolist()
+            self._targets = list(targets + feedforward.added(body, (x, y)))
 
     def land(
         self,
@@ -147,17 +212,20 @@ class ClosedLoop:
 
     Attributes:
         stabiliser: The stabiliser.
+        commanded: Body reference of the last tick.
     """
 
     def __init__(
         self,
         stabiliser: Stabiliser,
+        kinematics: LegKinematics,
         feedforward: LoadFeedforward | None = None,
     ) -> None:
         """Prepare the closed loop, with load feedforward if given."""
         self.stabiliser = stabiliser
+        self._kinematics = kinematics
         self._feedforward = feedforward
-        self._commanded: tuple[BodyReference, Vector] | None = None
+        self.commanded: BodyReference | None = None
 
     @property
     def state(self) -> BodyState | None:
@@ -180,39 +248,42 @@ class ClosedLoop:
         return self.stabiliser.ready
 
     @property
-    def has_fallen(self) -> bool:
-        """Whether the torso leans too far to come back."""
-        state = self.stabiliser.state
-        return state is not None and state.has_fallen
-
-    @property
     def tilt(self) -> Vector | None:
         """Roll and pitch of the torso, in [rad]."""
         return self.stabiliser.estimator.tilt
 
     @property
-    def torso_heading(self) -> float | None:
+    def measured_heading(self) -> float | None:
         """Heading of the torso over the loaded foot, in [rad]."""
         return self.stabiliser.estimator.torso_heading
 
-    def update(
-        self, measurement: Measurement, sample: ReferenceSample, step: StepAt
-    ) -> BodyReference:
-        """Return the stabilised reference; see :class:`Stabiliser`."""
-        current = step(measurement.time)
-        body = self.stabiliser.update(measurement, sample, current)
-        (x, y), (u, v) = sample.zmp, self.stabiliser.zmp_shift
-        self._commanded = body, (x + u, y + v)
-        return body
+    @property
+    def planned_heading(self) -> float:
+        """Heading of the torso of the last targets, in [rad]."""
+        return self._kinematics.torso_heading
 
-    def correct(self, measurement: Measurement, targets: Array) -> Array:
-        """Add the joint correction and the load feedforward."""
+    def targets(
+        self, measurement: Measurement, table: ReferenceTable, step: StepAt
+    ) -> Array | None:
+        """Return the targets of the stabilised reference.
+
+        See :class:`Stabiliser`.
+        """
+        stabiliser, sample = self.stabiliser, table.at(measurement.time)
+        body = stabiliser.update(measurement, sample, step(measurement.time))
+        self.commanded = body
+        if stabiliser.state is not None and stabiliser.state.has_fallen:
+            return None
         angles = measurement.joint_positions
-        corrected = self.stabiliser.joints.update(angles, targets)
-        if self._feedforward is None or self._commanded is None:
+        targets = self._kinematics.track(body)
+        corrected = stabiliser.joints.update(angles, targets)
+        if self._feedforward is None:
             return corrected
-        share = self.stabiliser.settings.stabiliser.load_share
-        return corrected + share * self._feedforward.added(*self._commanded)
+        (x, y), (u, v) = sample.zmp, stabiliser.zmp_shift
+        share = stabiliser.settings.stabiliser.load_share
+        return corrected + share * self._feedforward.added(
+            body, (x + u, y + v)
+        )
 
     def land(
         self,

@@ -3,10 +3,20 @@
 import numpy as np
 
 from ...core.poses import Array
+from ...robots.jit import kernel_of
 from ...robots.joint_loads import LegLoads
 from ...robots.leg_kinematics import BodyReference, LegKinematics
 
 BOUND = 0.03  # of the feedforward, in [rad]: a lost leg reference jumps
+
+
+LOOP = """\
+def offset_rows(soon, offsets, gain, memory):
+    for i in range(soon.shape[0]):
+        for j in range(soon.shape[1]):
+            held = memory[j] * offsets[i, j]
+            offsets[i + 1, j] = gain[j] * soon[i, j] + held
+"""
 
 
 class LoadFeedforward:
@@ -35,8 +45,10 @@ class LoadFeedforward:
         )
         lead = damping * self._compliance / tick
         self._gain, self._memory = 1.0 / (1.0 + lead), lead / (1.0 + lead)
-        self._offset = np.zeros(stiffness.size)
-        self._deflection: Array | None = None
+        # Before the present tick, then of the last rows.
+        self._offsets = np.zeros((1, stiffness.size))
+        self._deflections: Array | None = None
+        self._kernel = kernel_of("offset_rows", LOOP, "2211")
 
     def added(
         self, reference: BodyReference, zmp: tuple[float, float]
@@ -47,10 +59,48 @@ class LoadFeedforward:
             reference: Body reference of the present posture.
             zmp: ZMP of the plan in odometry, in [m].
         """
-        deflection = self._compliance * self._loads.torques(reference, zmp)
-        last = deflection if self._deflection is None else self._deflection
-        self._deflection = deflection
-        soon = 2.0 * deflection - last
+        torques = self._loads.torques(reference, zmp)
+        offsets: Array = self._filtered(torques[None])[0]
+        return offsets
+
+    def offset_rows(
+        self, states: Array, references: Array, zmp: Array
+    ) -> Array:
+        """Return the offsets of consecutive ticks, as :meth:`added` does.
+
+        Args:
+            states: States of the legs; see :class:`.LegStates`.
+            references: References of the ticks, rows of
+                :meth:`.BodyReference.row`. Shape (ticks, 15).
+            zmp: ZMP of the plan in odometry, in [m]. Shape (ticks, 2).
+
+        Returns:
+            Offsets, in [rad]. Shape (ticks, joints).
+        """
+        return self._filtered(self._loads.torque_rows(states, references, zmp))
+
+    def rewind(self, ticks: int) -> None:
+        """Return to the state after the first ``ticks`` of the last rows."""
+        assert self._deflections is not None
+        self._loads.rewind(ticks)
+        self._offsets = self._offsets[: ticks + 1]
+        self._deflections = self._deflections[:ticks]
+
+    def _filtered(self, torques: Array) -> Array:
+        """Return the offsets for torques, in [N m]. Shapes (n, joints)."""
+        deflections = self._compliance * torques
+        last = self._deflections
+        before = np.empty_like(deflections)
+        before[0] = deflections[0] if last is None else last[-1]
+        before[1:] = deflections[:-1]
+        soon = 2.0 * deflections - before
         soon.clip(-BOUND, BOUND, out=soon)
-        self._offset = self._gain * soon + self._memory * self._offset
-        return self._offset
+        offsets = np.empty((len(soon) + 1, soon.shape[1]))
+        offsets[0] = self._offsets[-1]
+        if self._kernel is not None:
+            self._kernel(soon, offsets, self._gain, self._memory)
+        else:
+            for i, row in enumerate(self._gain * soon):
+                offsets[i + 1] = row + self._memory * offsets[i]
+        self._offsets, self._deflections = offsets, deflections
+        return offsets[1:]

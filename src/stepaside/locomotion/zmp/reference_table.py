@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...core.poses import Pose, wrap_angle
+from ...core.poses import Array, Pose, wrap_angle
 from ...planning import GaitSettings, ManeuverPlan
 from ...planning.schedule import Sampler, Schedule
 from ...planning.template_path import (
@@ -70,17 +70,26 @@ def _anchor(foot: Pose, settings: GaitSettings) -> tuple[float, float]:
 
 
 class ReferenceTable:
-    """References at every tick of the current plan.
+    """References at every tick of the current plan, or of a standing body.
 
     Plans begin when a step ends, which need not be on a tick: the plan is
     sampled at the ticks, so that gait time is exact.
+
+    Attributes:
+        references: Rows of :meth:`.BodyReference.row`. Shape (ticks, 15).
+        zmp: ZMP references, in [m]. Shape (ticks, 2).
     """
+
+    references: Array
+    zmp: Array
 
     def __init__(self, tick: float) -> None:
         """Begin empty, for a control period in [s]."""
         self._tick = tick
         self._first = 0
-        self._rows: list[ReferenceSample] = []
+        self._dcm: Array
+        self._reaction: Array
+        self._templates: list[Pose] = []
         self._samplers: dict[tuple[Schedule, int, int], Sampler] = {}
 
     def load(
@@ -124,37 +133,52 @@ class ReferenceTable:
         )
         points = points @ turn
         points += plan_frame[:2]
-        reaction = [(0.0, 0.0)] * count
+        self._reaction = np.zeros((count, 2))
         if plan.schedule.has_swing_reaction:
-            reaction = ((samples.zmp - samples.pivot) @ turn).tolist()
-        com, left, right, zmp, dcm, position = points.reshape(
-            6, count, 2
-        ).tolist()
+            self._reaction = (samples.zmp - samples.pivot) @ turn
+        com, left, right, zmp, dcm, position = points.reshape(6, count, 2)
         theta = plan_frame.theta
+        self.references = np.zeros((count, 15))
+        self.references[:, 0:2] = com
+        self.references[:, 2] = settings.com_height
+        self.references[:, 3:5] = left
+        self.references[:, 5] = samples.left_height
+        self.references[:, 6] = samples.left_foot[:, 2] + theta
+        self.references[:, 7:9] = right
+        self.references[:, 9] = samples.right_height
+        self.references[:, 10] = samples.right_foot[:, 2] + theta
+        self.zmp, self._dcm = zmp, dcm
         heading = (template[:, 2] + theta).tolist()
-        left_yaw = (samples.left_foot[:, 2] + theta).tolist()
-        right_yaw = (samples.right_foot[:, 2] + theta).tolist()
-        left_height = samples.left_height.tolist()
-        right_height = samples.right_height.tolist()
-        self._rows = [
-            ReferenceSample(
-                BodyReference(
-                    (com[i][0], com[i][1], settings.com_height),
-                    (left[i][0], left[i][1], left_height[i], left_yaw[i]),
-                    (right[i][0], right[i][1], right_height[i], right_yaw[i]),
-                ),
-                (zmp[i][0], zmp[i][1]),
-                (dcm[i][0], dcm[i][1]),
-                Pose(position[i][0], position[i][1], heading[i]),
-                (reaction[i][0], reaction[i][1]),
-            )
-            for i in range(count)
+        self._templates = [
+            Pose(x, y, turned)
+            for (x, y), turned in zip(position.tolist(), heading, strict=True)
         ]
+
+    def rest(self, sample: ReferenceSample) -> None:
+        """Load the references of a standing body."""
+        self._first = 0
+        self.references = np.array([sample.body.row()])
+        self.zmp, self._dcm = np.array([sample.zmp]), np.array([sample.dcm])
+        self._reaction = np.array([sample.reaction])
+        self._templates = [sample.template]
+
+    def index(self, now: float) -> int:
+        """Return the index of a tick; it may be beyond the last row."""
+        return round(now / self._tick) - self._first
+
+    def template(self, now: float) -> Pose:
+        """Return the pose of the template at a tick, in odometry."""
+        return self._templates[min(self.index(now), len(self._templates) - 1)]
 
     def at(self, now: float) -> ReferenceSample:
         """Return the references at a tick; after the last one, the last."""
-        index = round(now / self._tick) - self._first
-        return self._rows[min(index, len(self._rows) - 1)]
+        i = min(self.index(now), len(self._templates) - 1)
+        (x, y), (u, v) = self.zmp[i].tolist(), self._dcm[i].tolist()
+        p, q = self._reaction[i].tolist()
+        body = BodyReference.from_row(self.references[i].tolist())
+        return ReferenceSample(
+            body, (x, y), (u, v), self._templates[i], (p, q)
+        )
 
     def _sampler(
         self, schedule: Schedule, offset: float, count: int

@@ -1,0 +1,122 @@
+"""Test that rows of ticks have the bits of single ticks."""
+
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+
+import stepaside.robots.jit as machine
+from stepaside.core.poses import Array
+from stepaside.locomotion.zmp.feedforward import LoadFeedforward
+from stepaside.robots.description import load_robot
+from stepaside.robots.jit import JitPreference
+from stepaside.robots.leg_kinematics import BodyReference, LegKinematics
+
+NAO = load_robot("nao")
+TICK = 0.004
+TICKS = 150
+
+
+@pytest.fixture(params=[JitPreference.PLAIN, JitPreference.COMPILED])
+def preference(
+    request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch
+) -> Iterator[JitPreference]:
+    """Run as plain Python, then as machine code."""
+    if request.param is JitPreference.COMPILED:
+        pytest.importorskip("numba")
+    monkeypatch.setattr(machine, "_preference", request.param)
+    yield request.param
+
+
+def references(seed: int, jump: float) -> list[BodyReference]:
+    """Random smooth references, and a jump that meets speed limits."""
+    generator = np.random.default_rng(seed)
+    time = TICK * np.arange(TICKS)[:, None]
+    rates = generator.uniform(1.0, 6.0, 11)
+    spans = np.array([0.01, 0.02, 0.003, *4 * [0.01], *4 * [0.01]])
+    row = np.array(
+        [0.02, 0.0, 0.26, 0.0, 0.05, 0.0, 0.1, 0.01, -0.05, 0.0, -0.05]
+    )
+    rows = row + spans * np.sin(rates * time) * generator.uniform(-1, 1, 11)
+    rows[:, [5, 9]] = np.maximum(rows[:, [5, 9]], 0.0)
+    rows[TICKS // 2 :, 0] += jump
+    return [
+        BodyReference(tuple(r[:3]), tuple(r[3:7]), tuple(r[7:]))
+        for r in rows.tolist()
+    ]
+
+
+def legs() -> tuple[LegKinematics, LoadFeedforward]:
+    kinematics = LegKinematics(NAO, tick=TICK)
+    kinematics.stand(references(0, 0.0)[0])
+    return kinematics, LoadFeedforward(kinematics, zmp_forward=0.01, tick=TICK)
+
+
+def tick_by_tick(bodies: list[BodyReference], zmp: Array) -> list[Array]:
+    kinematics, loads = legs()
+    found = []
+    for body, (x, y) in zip(bodies, zmp.tolist(), strict=True):
+        targets = kinematics.track(body)
+        found.append(targets + loads.added(body, (x, y)))
+    return found
+
+
+def row_by_row(
+    bodies: list[BodyReference], zmp: Array, *, used: int
+) -> tuple[list[Array], int]:
+    """Targets of blocks, of which only the first ticks are used.
+
+    Returns:
+        The targets, and how many ticks met a limit.
+    """
+    kinematics, loads = legs()
+    rows = np.array([body.row() for body in bodies])
+    found: list[Array] = []
+    limited = 0
+    while len(found) < len(bodies):
+        at = len(found)
+        states = kinematics.track_rows(rows[at:])
+        count = len(states.targets)
+        if count == 0:
+            limited += 1
+            x, y = zmp[at].tolist()
+            targets = kinematics.track(bodies[at])
+            found.append(targets + loads.added(bodies[at], (x, y)))
+            continue
+        offsets = loads.offset_rows(
+            states.rows, rows[at : at + count], zmp[at : at + count]
+        )
+        kept = min(count, used)
+        found += list((states.targets + offsets)[:kept])
+        kinematics.rewind(kept)
+        loads.rewind(kept)
+    return found, limited
+
+
+@pytest.mark.parametrize("used", [TICKS, 7])
+@pytest.mark.parametrize(("seed", "jump"), [(1, 0.0), (2, 0.02), (3, -0.03)])
+def test_rows_have_the_bits_of_single_ticks(
+    preference: JitPreference, seed: int, jump: float, used: int
+) -> None:
+    """Also where joint limits act, and after a return to an earlier tick."""
+    bodies = references(seed, jump)
+    generator = np.random.default_rng(seed)
+    zmp = np.array([body.com[:2] for body in bodies])
+    zmp += 0.01 * generator.standard_normal(zmp.shape)
+    expected = tick_by_tick(bodies, zmp)
+    found, limited = row_by_row(bodies, zmp, used=used)
+    np.testing.assert_array_equal(found, expected)
+    assert (limited > 0) is (jump != 0.0)
+
+
+def test_machine_code_has_the_bits_of_python(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    pytest.importorskip("numba")
+    bodies = references(4, 0.01)
+    zmp = np.array([body.com[:2] for body in bodies])
+    found = []
+    for preference in (JitPreference.PLAIN, JitPreference.COMPILED):
+        monkeypatch.setattr(machine, "_preference", preference)
+        found.append(row_by_row(bodies, zmp, used=TICKS)[0])
+    np.testing.assert_array_equal(found[0], found[1])
