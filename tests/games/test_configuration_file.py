@@ -106,7 +106,8 @@ def test_physics_settings_have_ranges(
         PhysicsSettings(time_step=min(value, 0.01), tick=value)
     for value in (0.9 * low, 1.1 * high):
         with pytest.raises(ConfigurationError, match=name):
-            replace(PhysicsSettings(time_step=1e-5, tick=0.1), **{name: value})
+            changed: dict[str, Any] = {name: value}
+            replace(PhysicsSettings(time_step=1e-5, tick=0.1), **changed)
 
 
 @pytest.mark.parametrize(

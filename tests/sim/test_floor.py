@@ -1,6 +1,7 @@
 """Test the floor: slope, unevenness and random heights."""
 
 from math import cos, pi, sin
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -11,7 +12,7 @@ from stepaside.sim.floor import add_floor, tilt_gravity
 from stepaside.sim.physics_settings import PhysicsSettings
 
 
-def floor(seed: int = 1, **changes: float) -> mujoco.MjModel:
+def floor(seed: int = 1, **changes: Any) -> mujoco.MjModel:
     spec = mujoco.MjSpec()
     physics = PhysicsSettings(**changes)
     tilt_gravity(spec, physics)

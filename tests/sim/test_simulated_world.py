@@ -103,6 +103,8 @@ def test_the_physics_has_its_settings(
     option = build_model(TWO, PhysicsSettings(time_step=0.001)).opt
     assert option.timestep == 0.001
     assert option.integrator == mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    discrete = build_model(TWO, PhysicsSettings(integrator="discrete")).opt
+    assert discrete.integrator == mujoco.mjtIntegrator.mjINT_DISCRETE
     assert option.solver == mujoco.mjtSolver.mjSOL_NEWTON
     assert option.cone == mujoco.mjtCone.mjCONE_PYRAMIDAL
 

@@ -100,7 +100,7 @@ def test_each_kind_changes_what_it_is_named_after_and_nothing_else() -> None:
         walk = settings_of(replace(TRIAL, kind=kind, strength=x))
         wanted: Any = replace(hardware, **body)  # type: ignore[arg-type]
         assert walk.body == wanted
-        assert walk.physics == replace(physics, **floor)
+        assert walk.physics == replace(physics, **floor)  # type: ignore[arg-type]
         assert (walk.seed, walk.duration, walk.pushes) == (5, 20.0, ())
         assert walk.control == control_of("measured")
 

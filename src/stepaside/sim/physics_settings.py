@@ -7,6 +7,8 @@ from ..core.errors import ConfigurationError
 from ..core.ranges import Range
 from ..core.setting import check_settings, setting
 
+INTEGRATORS = ("implicitfast", "discrete")  # of MuJoCo
+
 
 @dataclass(frozen=True, slots=True)
 class PhysicsSettings:
@@ -23,6 +25,13 @@ class PhysicsSettings:
         "Control period {unit}; an integer multiple of the time step",
         Range(1e-5, 0.1, "s", "balance needs more than ten cycles a second"),
         option="--tick",
+    )
+    integrator: str = setting(
+        "implicitfast",
+        "Integrator of the physics; discrete is as accurate at twice the "
+        "time step and then takes half the time",
+        names=INTEGRATORS,
+        option="--integrator",
     )
     friction: float = setting(
         0.8,

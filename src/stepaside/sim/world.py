@@ -50,7 +50,9 @@ def build_model(
     spec = mujoco.MjSpec()
     spec.compiler.discardvisual = not rendered
     spec.option.timestep = physics.time_step
-    spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    spec.option.integrator = getattr(
+        mujoco.mjtIntegrator, f"mjINT_{physics.integrator.upper()}"
+    )
     spec.option.solver = mujoco.mjtSolver.mjSOL_NEWTON
     spec.option.cone = mujoco.mjtCone.mjCONE_PYRAMIDAL
     spec.visual.global_.offwidth = 1920
