@@ -20,6 +20,7 @@ from .options.parameter_types import (
     NumberType,
     OutputFile,
 )
+from .options.setting_options import refuse_options
 from .output_files import attempt, writes_files
 from .progress import show_progress
 from .terminal import print_json
@@ -164,6 +165,8 @@ def bound(
     """
     from ..theory.bound import DiscretisationScheme
 
+    if against == "pursuit":
+        refuse_options({"pursuer_turn"}, "--against any, got pursuit")
     turn = pi * pursuer_gain if pursuer_turn is None else pursuer_turn
     problem = _BoundProblem(
         _game_of(

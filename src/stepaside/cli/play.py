@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..games.duel_settings import DuelSettings
-from .connection_settings import ConnectionSettings, with_feedback
+from ..games.duel_settings import EVADER, PURSUER, DuelSettings
+from ..strategies.registry import OF_EVASION
+from .connection_settings import ROS2, ConnectionSettings, with_feedback
 from .options.duel_options import CONTROL, GAIT, STRATEGY
-from .options.setting_options import takes
+from .options.setting_options import entries_at, refuse_options, takes
 from .options.settings_command import (
     OptionGroup,
     SettingsCommand,
@@ -64,6 +65,7 @@ def play(settings: DuelSettings, connection: ConnectionSettings) -> None:
     from ..drivers.status_line import StatusLine
     from .robot_connections import open_joints, open_velocity
 
+    _refuse_unused(settings, connection)
     joints = connection.moves_joints
     with ExitStack() as stack:
         line = StatusLine(sys.stderr)
@@ -104,6 +106,41 @@ def play(settings: DuelSettings, connection: ConnectionSettings) -> None:
                 record.ended = ended
         except SessionLost as error:
             raise click.ClickException(str(error)) from error
+
+
+def _refuse_unused(
+    settings: DuelSettings, connection: ConnectionSettings
+) -> None:
+    """Refuse options that have no effect with this role and robot."""
+    evades = connection.role == EVADER
+    other = "pursuer_strategy" if evades else "evader_strategy"
+    refuse_options(
+        {other},
+        f"--role {PURSUER if evades else EVADER}, got {connection.role}",
+    )
+    strategy = (
+        settings.evader_strategy if evades else settings.pursuer_strategy
+    )
+    if strategy not in OF_EVASION:
+        refuse_options(
+            {e.name for e in entries_at(DuelSettings, "strategy")},
+            f"the strategy {' or '.join(OF_EVASION)}, got {strategy}",
+        )
+    if connection.moves_joints:
+        refuse_options(
+            {"max_speed", "max_turn", "sim_time"},
+            "a robot with velocity commands",
+        )
+    else:
+        refuse_options(
+            {"delay_ticks", "reconnect"}
+            | {e.name for e in entries_at(DuelSettings, "control")},
+            "joint control",
+        )
+    if settings.sensing != "cameras":
+        refuse_options({"images"}, "--sensing cameras, got ideal")
+    if not f"{connection.robot} {connection.images}".count(ROS2):
+        refuse_options({"domain", "network"}, f"a robot or images at {ROS2}")
 
 
 def _run_sessions(session: Callable[[], str], reconnect: float | None) -> str:

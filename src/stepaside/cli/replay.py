@@ -19,6 +19,7 @@ from .options.common_options import (
     serve_for_option,
 )
 from .options.parameter_types import POSITIVE, SECONDS, NameType, NumberType
+from .options.setting_options import refuse_options
 from .output_files import OutputFile, attempt, writes_files
 from .progress import show_progress
 from .terminal import echo, print_json
@@ -26,6 +27,13 @@ from .terminal import echo, print_json
 if TYPE_CHECKING:
     from ..games.run import Run
     from ..report.film import FilmSettings
+
+
+FILM = (  # options of films
+    *("begin", "duration", "rate", "speed", "width", "height", "camera"),
+    *("slow", "words", "title", "layers"),
+)
+PAGE = ("port", "opens", "serve_for")  # options of the live page
 
 
 def _views() -> tuple[str, ...]:
@@ -118,6 +126,11 @@ def replay(run: Path, as_json: bool, **options: Any) -> None:
     """
     from ..games.run_archive import load_run
 
+    films = [options[kind] for kind in ("video", "gif", "strip")]
+    if films == [None, None, None]:
+        refuse_options(FILM, "--video, --gif or --strip")
+    if options["html"] or any(films):
+        refuse_options(PAGE, "a live page, without output files")
     loaded = load_run(run)
     written: dict[str, Any] = {}
     html, video, gif, strip = (

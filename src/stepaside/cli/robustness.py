@@ -21,6 +21,7 @@ from .options.common_options import (
 )
 from .options.duel_options import WALK
 from .options.parameter_types import NameType
+from .options.setting_options import refuse_options
 from .options.settings_command import SettingsCommand, takes_settings
 from .output_files import attempt, writes_files
 from .plan_settings import ENTRIES_OF_GAMES
@@ -185,6 +186,10 @@ def robustness(
     from ..studies.settings_diff import changes_of
 
     kinds = _unique(kinds) or tuple(k for k in _kinds() if k != PERSON)
+    if PERSON not in kinds:
+        refuse_options({"sensings"}, f"--kind {PERSON}")
+    if "push" not in kinds:
+        refuse_options({"phases"}, "--kind push")
     body, changes = changes_of(settings)
     if output is None and not as_json:
         output = Path("runs") / f"robustness-{body}"

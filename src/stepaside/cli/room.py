@@ -13,7 +13,7 @@ from .options.common_options import (
     seed_option,
 )
 from .options.parameter_types import OutputFile, SizeType
-from .options.setting_options import takes
+from .options.setting_options import refuse_options, takes
 from .output_files import attempt, writes_files
 from .tables import print_table, table_rows
 from .terminal import print_json
@@ -84,15 +84,12 @@ def room(
 
 def _refuse_both() -> None:
     """Refuse options that generate a room if a file is given."""
-    context = click.get_current_context()
-    for param in context.command.params:
-        own = param.name in ("file", "output", "figure", "as_json")
-        source = context.get_parameter_source(param.name or "")
-        if not own and source is click.core.ParameterSource.COMMANDLINE:
-            raise click.UsageError(
-                f"{param.opts[0]} generates a room and cannot be combined "
-                "with a room file"
-            )
+    own = {"file", "output", "figure", "as_json", "overwrite"}
+    params = click.get_current_context().command.params
+    refuse_options(
+        {param.name or "" for param in params} - own,
+        "a random room, got a room file",
+    )
 
 
 def _write(made: Any, file: Path) -> None:

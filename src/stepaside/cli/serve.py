@@ -16,6 +16,7 @@ from .options.common_options import (
 )
 from .options.duel_options import duel_options
 from .options.parameter_types import SECONDS, NameType
+from .options.setting_options import refuse_options
 from .options.settings_command import SettingsCommand
 from .run_output import check_run_folder, save_run
 from .tables import format_value, print_table, table_rows
@@ -112,6 +113,8 @@ def serve(
     from ..games.served_duel import serve_duel
     from .server_options import offers_of
 
+    if not languages["ros2"]:
+        refuse_options({"domain", "network"}, "--ros2")
     check_run_folder(output)
     with ExitStack() as stack:
         offers = offers_of(languages, stack, ideal_sight=sight == "ideal")

@@ -28,7 +28,7 @@ from .options.parameter_types import (
     NameType,
     OutputFile,
 )
-from .options.setting_options import takes
+from .options.setting_options import refuse_options, takes
 from .output_files import attempt, writes_files
 from .progress import show_progress
 from .terminal import echo, print_json
@@ -196,6 +196,10 @@ def tournament(
     from ..studies.tournament_settings import TournamentSettings
 
     evaders, pursuers = evaders or tuple(EVADERS), pursuers or ("pure",)
+    if "alpha" not in evaders:
+        refuse_options({"alpha"}, "--evader alpha")
+    if level != "physics":
+        refuse_options({"map"}, f"--level physics, got {level}")
     for name in evaders:
         evader_of(name, alpha)
     for name in pursuers:

@@ -18,7 +18,7 @@ from ..theory.unicycle.unicycle_game import (
     make_game,
 )
 from .options.parameter_types import positive
-from .options.setting_options import takes
+from .options.setting_options import refuse_options, takes
 
 STRATEGIES = {"move-aside": pi / 2, "move-back": 0.0}
 SPEED = positive("m/s", None)
@@ -108,6 +108,8 @@ class UnicycleOptions:
             angle = STRATEGIES[self.strategy or "move-aside"]
         elif self.strategy is not None:
             raise click.UsageError("--angle and --strategy cannot be combined")
+        if self.side_rule != SideRule.BEHIND.value:
+            refuse_options({"hysteresis"}, "--side-rule behind, got latched")
         check_within(
             self.hysteresis,
             0.0,

@@ -37,6 +37,9 @@ class Setting:
         default_text: What the help shows as default instead of the value.
         option_help: Meaning of the option, where it takes something else
             than the setting, like the name of a preset.
+        needs: Path and value of another setting without which this one, or
+            this section, has no effect; an empty value stands for any but
+            None.
     """
 
     meaning: str
@@ -48,6 +51,7 @@ class Setting:
     words: Mapping[str, Any] | None = None
     default_text: str = ""
     option_help: str = ""
+    needs: tuple[str, str] | None = None
 
     @property
     def text(self) -> str:
@@ -82,6 +86,7 @@ def setting(
     words: Mapping[str, T] | None = None,
     default_text: str = "",
     option_help: str = "",
+    needs: tuple[str, str] | None = None,
 ) -> T:
     """Declare a field of a dataclass of settings.
 
@@ -96,6 +101,7 @@ def setting(
         words: Words for special values.
         default_text: Default shown in the help.
         option_help: Meaning of the option.
+        needs: Condition.
     """
     described = Setting(
         meaning,
@@ -107,6 +113,7 @@ def setting(
         words,
         default_text,
         option_help,
+        needs,
     )
     kind: dict[str, Any] = {"default": default}
     if isinstance(default, list):

@@ -159,7 +159,9 @@ class DuelSettings:
         aliases=("--preset",),
         option_help=GAIT_HELP,
     )
-    sight: SightSettings = setting(SightSettings(), "Errors of ideal sensing")
+    sight: SightSettings = setting(
+        SightSettings(), "Errors of ideal sensing", needs=("sensing", "ideal")
+    )
     physics: PhysicsSettings = setting(
         PhysicsSettings(), "Physics, floor and clock"
     )
@@ -182,19 +184,25 @@ class DuelSettings:
         option="--sensing",
     )
     cameras: CameraSettings = setting(
-        CameraSettings(), "Cameras and sonars, with camera sensing"
+        CameraSettings(),
+        "Cameras and sonars, with camera sensing",
+        needs=("sensing", "cameras"),
     )
     room: SceneSettings = setting(
         SceneSettings(), "Room, and what the cameras see of it"
     )
     map: MapSettings = setting(
-        MapSettings(), "Map of the room that robots have"
+        MapSettings(),
+        "Map of the room that robots have",
+        needs=("room.plan", ""),
     )
     pursuer: str = setting(
         "robot", "Kind of pursuer", names=PURSUERS, option="--pursuer"
     )
     person: PersonSettings = setting(
-        PersonSettings(), "Motion of a person as pursuer"
+        PersonSettings(),
+        "Motion of a person as pursuer",
+        needs=("pursuer", "person"),
     )
     pursuer_robot: RobotSettings | None = setting(
         None,

@@ -69,6 +69,7 @@ class Evasion:
             "below a millimetre there is contact; 1e9 m means always",
         ),
         option="--safety-radius",
+        needs=("strategy.trigger", "distance"),
     )
     release_distance: float = setting(
         inf,
@@ -76,6 +77,7 @@ class Evasion:
         Range(1e-3, 1e9, "m", "and above safety_radius", also=(inf,)),
         option="--release-distance",
         words={"never": inf},
+        needs=("strategy.trigger", "distance"),
     )
     side_hysteresis: float = setting(
         radians(20.0),
@@ -85,6 +87,7 @@ class Evasion:
         Range(0.0, pi, "rad", "half a turn"),
         option="--side-hysteresis",
         aliases=("--hysteresis",),
+        needs=("strategy.trigger", "distance"),
     )
     trigger: Trigger = setting(
         "distance",
@@ -99,12 +102,14 @@ class Evasion:
         "trigger time; 1.5 times as much ends it",
         Range(0.1, 60.0, "s", "a step takes longer than 0.1 s"),
         option="--contact-time",
+        needs=("strategy.trigger", "time"),
     )
     clearance: float = setting(
         0.7,
         "Distance that counts as contact {unit}, with the trigger time",
         Range(0.1, 10.0, "m", "the bodies have a width"),
         option="--clearance",
+        needs=("strategy.trigger", "time"),
     )
     calmest: float = setting(
         1.0,
@@ -112,6 +117,7 @@ class Evasion:
         "trigger time: the slowest that leaves enough clearance is chosen",
         Range(0.5, 1.0, "1", "steps at a lower pace take too long"),
         option="--calmest",
+        needs=("strategy.trigger", "time"),
     )
 
     def __post_init__(self) -> None:

@@ -79,12 +79,14 @@ class Entry(NamedTuple):
         setting: Description.
         default: Default value.
         hint: Type of the field.
+        needs: Conditions of the setting and of its sections.
     """
 
     path: str
     setting: Setting
     default: Any
     hint: Any
+    needs: tuple[tuple[str, str], ...] = ()
 
     def option(
         self, group: str = OWN, meaning: str = "", **extra: Any
@@ -114,6 +116,11 @@ class Entry(NamedTuple):
             group=group,
             **(given | extra),
         )
+
+    @property
+    def flag(self) -> str:
+        """Name of the option, for messages."""
+        return self.setting.option.partition("/")[0]
 
     @property
     def name(self) -> str:
@@ -172,20 +179,22 @@ def entries_at(kind: type[Any], path: str) -> Iterator[Entry]:
         kind: Class of the settings.
         path: Path like ``gait`` or ``control.method``.
     """
-    section = path.rpartition(".")[0]
-    for part in section.split(".") if section else ():
-        kind = next(type(f.default) for f in fields(kind) if f.name == part)
-    for entry in all_entries(kind, section):
+    for entry in all_entries(kind):
         if f"{entry.path}.".startswith(f"{path}."):
             yield entry
 
 
-def all_entries(kind: type[Any], section: str = "") -> Iterator[Entry]:
+def all_entries(
+    kind: type[Any],
+    section: str = "",
+    needs: tuple[tuple[str, str], ...] = (),
+) -> Iterator[Entry]:
     """Yield every entry of settings.
 
     Args:
         kind: Class of the settings.
         section: Path of the section that they are.
+        needs: Conditions of this section.
     """
     described = settings_of(kind)
     for field in fields(kind):
@@ -193,9 +202,11 @@ def all_entries(kind: type[Any], section: str = "") -> Iterator[Entry]:
         if field.default_factory is not MISSING:
             default = field.default_factory()
         path = f"{section}.{field.name}".lstrip(".")
-        yield Entry(path, described[field.name], default, field.type)
+        setting = described[field.name]
+        all_needs = (*needs, setting.needs) if setting.needs else needs
+        yield Entry(path, setting, default, field.type, all_needs)
         if is_dataclass(default):
-            yield from all_entries(type(default), path)
+            yield from all_entries(type(default), path, all_needs)
 
 
 def given_options(
@@ -249,3 +260,20 @@ def takes(
         return wrapped
 
     return decorate
+
+
+def refuse_options(names: Collection[str], requirement: str) -> None:
+    """Refuse options that have no effect in this call.
+
+    Args:
+        names: Names of the command's arguments.
+        requirement: What the options require, for the message.
+
+    Raises:
+        UsageError: If one of them is given.
+    """
+    context = click.get_current_context()
+    for param in context.command.params:
+        source = context.get_parameter_source(param.name or "")
+        if param.name in names and source is ParameterSource.COMMANDLINE:
+            raise click.UsageError(f"{param.opts[0]} requires {requirement}")

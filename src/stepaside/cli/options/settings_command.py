@@ -113,6 +113,8 @@ def takes_settings(
             options = given_options(values, entries)
             file = values.pop("config")
             settings = _settings(kind, options, file, ignored)
+            given = [entry for entry, _ in options]
+            _refuse_unused(given, entries, settings)
             if values.pop("print_config"):
                 write_result(commented(settings))
                 return None
@@ -180,12 +182,7 @@ def _settings(
     for entry, _ in options:
         if entry.path in given:
             given[entry.path] = entry.value_of(given[entry.path])
-    settings = changed(settings, with_room(given))
-    if not getattr(settings, "uses_evasion", True):
-        _refuse_unused(
-            [entry for entry, _ in options], settings.named().evader_strategy
-        )
-    return settings
+    return changed(settings, with_room(given))
 
 
 def _base_settings(
@@ -257,15 +254,37 @@ def _put(settings: Any, section: tuple[str, ...], values: Any) -> Any:
     return replace(settings, **{name: inner})
 
 
-def _refuse_unused(given: Collection[Entry], strategy: str) -> None:
-    """Refuse options of the paper's evader if no player uses it."""
-    unused = [
-        entry.setting.option.partition("/")[0]
-        for entry in given
-        if entry.path.startswith("strategy.")
-    ]
-    if unused:
+def _refuse_unused(
+    given: Collection[Entry], options: Collection[Entry], settings: Any
+) -> None:
+    """Refuse options that have no effect with the other settings.
+
+    Args:
+        given: Entries of the options that are given.
+        options: Entries of all options of the command.
+        settings: Resulting settings.
+    """
+    names = {entry.path: entry.flag for entry in options}
+    for entry in given:
+        for path, needed in entry.needs:
+            value = _value_at(settings, path)
+            if path in names and (
+                value is None if needed == "" else value != needed
+            ):
+                raise click.UsageError(
+                    f"{entry.flag} requires {names[path]} {needed}".rstrip()
+                    + (f", got {value}" if needed else "")
+                )
+    unused = [e.flag for e in given if e.path.startswith("strategy.")]
+    if unused and not settings.uses_evasion:
         raise click.UsageError(
             f"{', '.join(unused)} requires the strategy "
-            f"{' or '.join(OF_EVASION)}, got --strategy {strategy}"
+            f"{' or '.join(OF_EVASION)}, got --strategy "
+            f"{settings.named().evader_strategy}"
         )
+
+
+def _value_at(settings: Any, path: str) -> Any:
+    for name in path.split("."):
+        settings = getattr(settings, name)
+    return settings

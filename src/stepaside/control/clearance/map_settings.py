@@ -32,6 +32,7 @@ class MapSettings:
         "State of map cells that have not been observed",
         names=UNSEEN,
         option="--unseen",
+        needs=("map.source", "seen"),
     )
 
     def __post_init__(self) -> None:

@@ -198,7 +198,11 @@ class ControlSettings:
     stabiliser: StabiliserSettings = setting(
         StabiliserSettings(), "Gains of the feedback"
     )
-    mpc: MpcSettings = setting(MpcSettings(), "Horizon and weights of the MPC")
+    mpc: MpcSettings = setting(
+        MpcSettings(),
+        "Horizon and weights of the MPC",
+        needs=("control.method", "mpc"),
+    )
     learn_turns: bool = setting(
         False,
         "Learn from the gyro which fraction of a commanded turn is achieved, "
