@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from stepaside.report import figure_style as style
-from stepaside.report import robustness_figure
 from stepaside.report.robustness_figure import draw_limits, draw_survival
 
 
@@ -21,7 +20,7 @@ def drawn(monkeypatch: pytest.MonkeyPatch) -> list[Any]:
         figures.append(begin(width, height))
         return figures[-1]
 
-    monkeypatch.setattr(robustness_figure, "new_figure", keep)
+    monkeypatch.setattr(style, "new_figure", keep)
     monkeypatch.setattr(style.plt, "close", lambda figure: None)
     return figures
 

@@ -241,9 +241,10 @@ class DuelSettings:
 
     def __post_init__(self) -> None:
         """Validate ranges, strategies and combinations of settings."""
-        for name, value in resolve_strategies(
+        resolved = resolve_strategies(
             self.strategy, self.evader_strategy, self.pursuer_strategy
-        ).items():
+        )
+        for name, value in resolved._asdict().items():
             object.__setattr__(self, name, value)
         if not (
             isinstance(self.evader_strategy, str)

@@ -1,7 +1,7 @@
 """Strategies given to settings as Python objects."""
 
 from dataclasses import fields
-from typing import Any
+from typing import Any, NamedTuple
 
 from ..core.errors import ConfigurationError, shown
 from ..strategies import STRATEGIES, Evasion, Strategy
@@ -10,9 +10,23 @@ from ..strategies.registry import OF_EVASION
 EVASION = "evasion"
 
 
+class DuelStrategies(NamedTuple):
+    """Strategies of a duel, as its settings hold them.
+
+    Attributes:
+        strategy: Settings of the evasion of the paper.
+        evader_strategy: Name of the evader's strategy, or an object.
+        pursuer_strategy: Name of the pursuer's strategy, or an object.
+    """
+
+    strategy: Evasion
+    evader_strategy: str | Strategy
+    pursuer_strategy: str | Strategy
+
+
 def resolve_strategies(
     strategy: Any, evader: Any, pursuer: Any
-) -> dict[str, Any]:
+) -> DuelStrategies:
     """Replace strategy objects of a duel by names where possible.
 
     An object that equals a strategy of the registry is replaced by its name.
@@ -23,10 +37,6 @@ def resolve_strategies(
         strategy: Settings of the evasion of the paper, or a strategy object.
         evader: Strategy of the evader: a name or an object.
         pursuer: Strategy of a pursuing robot, likewise.
-
-    Returns:
-        Entries ``strategy``, ``evader_strategy`` and ``pursuer_strategy`` of
-        the settings.
 
     Raises:
         ConfigurationError: If a value is not a strategy, or values
@@ -58,11 +68,7 @@ def resolve_strategies(
         evader = _name(evader, strategy) or evader
     if not isinstance(pursuer, str):
         pursuer = _name(pursuer, strategy) or pursuer
-    return {
-        "strategy": strategy,
-        "evader_strategy": evader,
-        "pursuer_strategy": pursuer,
-    }
+    return DuelStrategies(strategy, evader, pursuer)
 
 
 def check_strategy_names(settings: Any) -> None:

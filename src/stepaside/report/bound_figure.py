@@ -6,10 +6,18 @@ from typing import Any
 import numpy as np
 from matplotlib.lines import Line2D
 
+from ..core.poses import Array
 from ..theory.bound import Bound
 from ..theory.bound.barrier import barrier_slice
 from .figure_sizes import sheet
-from .figure_style import EVADER, PURSUER, THEORY, new_figure, save
+from .figure_style import (
+    EVADER,
+    PURSUER,
+    THEORY,
+    add_common_legend,
+    new_figure,
+    save,
+)
 
 HEADINGS = (0.25, 0.5, 0.75, 1.0)  # angles between the motions, in [pi rad]
 POINTS = 161  # along each side of a slice
@@ -28,8 +36,6 @@ def draw_bound(bound: Bound, capture: float, path: str) -> None:
     """
     far = min(bound.grid.far, 1.4 * float(bound.barrier(capture).max()))
     side = np.linspace(-far, far, POINTS)
-    x, y = np.meshgrid(side, side)
-    r, sight = np.hypot(x, y), np.arctan2(y, x)
     lines = 2 if sheet().narrow else 1
     columns = len(HEADINGS) // lines
     figure = new_figure(3.1 * columns + 0.9, 0.9 + 3.2 * lines)
@@ -39,27 +45,7 @@ def draw_bound(bound: Bound, capture: float, path: str) -> None:
     axes = grid.ravel()
     image: Any = None
     for ax, share in zip(axes, HEADINGS, strict=True):
-        theta = share * pi
-        values = bound.value(r, sight, sight - theta)
-        values[r > bound.grid.far] = np.nan
-        image = ax.pcolormesh(
-            x, y, values, vmin=0.0, vmax=far, cmap="cividis", rasterized=True
-        )
-        ax.contour(x, y, values, [capture], colors="w", linewidths=1.5)
-        if bound.game.identical:
-            unit = bound.game.unit
-            points, _ = barrier_slice(capture / unit, theta)
-            label = "the same boundary, computed directly"
-            ax.plot(*(unit * points.T), ":", color=THEORY, lw=1.5, label=label)
-        circle = np.linspace(0.0, tau, 100)
-        ring = capture * np.cos(circle), capture * np.sin(circle)
-        label = f"capture distance {capture:.3g} m"
-        ax.plot(*ring, color=PURSUER, lw=0.8, label=label)
-        _arrow(ax, 0.0, 0.0, 0.0, 0.2 * far, PURSUER)
-        _arrow(ax, 0.0, 0.75 * far, theta, 0.2 * far, EVADER)
-        ax.set_title(f"directions {np.rad2deg(theta):.0f}° apart")
-        ax.set_aspect("equal")
-        ax.grid(visible=False)
+        image = _draw_slice(ax, bound, capture, share * pi, side)
     for ax in grid[-1]:
         ax.set_xlabel("ahead of the pursuer [m]")
     for ax in grid[:, 0]:
@@ -70,23 +56,61 @@ def draw_bound(bound: Bound, capture: float, path: str) -> None:
         label="closest approach with optimal play [m]",
         shrink=0.8,
     )
-    handles, labels = axes[0].get_legend_handles_labels()
-    for colour, name in (
-        ("w", "boundary of the initial poses with certain capture"),
-        (PURSUER, "pursuer's direction"),
-        (EVADER, "evader's direction, at any position"),
-    ):
-        handles.append(Line2D([], [], color=colour, lw=2.5))
-        labels.append(name)
-    figure.legend(
-        handles,
-        labels,
-        loc="outside lower center",
+    further = {
+        name: Line2D([], [], color=colour, lw=2.5)
+        for colour, name in (
+            ("w", "boundary of the initial poses with certain capture"),
+            (PURSUER, "pursuer's direction"),
+            (EVADER, "evader's direction, at any position"),
+        )
+    }
+    add_common_legend(
+        figure,
+        axes[:1],
+        further,
         ncols=1 if sheet().narrow else 5,
         frameon=True,
         facecolor="0.82",  # so that the white line is visible
     )
     save(figure, path)
+
+
+def _draw_slice(
+    ax: Any, bound: Bound, capture: float, theta: float, side: Array
+) -> Any:
+    """Draw one slice of the value function; return its image.
+
+    Args:
+        ax: Matplotlib axes.
+        bound: Table to draw.
+        capture: Capture distance whose barrier is drawn, in [m].
+        theta: Angle between the directions of motion, in [rad].
+        side: Coordinates along each side of the slice, in [m].
+    """
+    x, y = np.meshgrid(side, side)
+    r, sight = np.hypot(x, y), np.arctan2(y, x)
+    values = bound.value(r, sight, sight - theta)
+    values[r > bound.grid.far] = np.nan
+    far = float(side[-1])
+    image = ax.pcolormesh(
+        x, y, values, vmin=0.0, vmax=far, cmap="cividis", rasterized=True
+    )
+    ax.contour(x, y, values, [capture], colors="w", linewidths=1.5)
+    if bound.game.identical:
+        unit = bound.game.unit
+        points, _ = barrier_slice(capture / unit, theta)
+        label = "the same boundary, computed directly"
+        ax.plot(*(unit * points.T), ":", color=THEORY, lw=1.5, label=label)
+    circle = np.linspace(0.0, tau, 100)
+    ring = capture * np.cos(circle), capture * np.sin(circle)
+    label = f"capture distance {capture:.3g} m"
+    ax.plot(*ring, color=PURSUER, lw=0.8, label=label)
+    _arrow(ax, 0.0, 0.0, 0.0, 0.2 * far, PURSUER)
+    _arrow(ax, 0.0, 0.75 * far, theta, 0.2 * far, EVADER)
+    ax.set_title(f"directions {np.rad2deg(theta):.0f}° apart")
+    ax.set_aspect("equal")
+    ax.grid(visible=False)
+    return image
 
 
 def _arrow(

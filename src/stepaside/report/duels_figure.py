@@ -6,7 +6,15 @@ from typing import Any
 
 import numpy as np
 
-from .figure_style import COLOURS, LEFT, RIGHT, THEORY, new_figure, save
+from .figure_style import (
+    COLOURS,
+    LEFT,
+    RIGHT,
+    THEORY,
+    add_common_legend,
+    new_figure,
+    save,
+)
 
 # Keys of the records and label of each panel.
 PANELS = (
@@ -24,7 +32,7 @@ DISTRIBUTION = {
 
 
 def draw_duels(
-    groups: Mapping[str, Sequence[dict[str, Any]]],
+    groups: Mapping[str, Sequence[Mapping[str, Any]]],
     summary: Mapping[str, Any],
     file: Path,
 ) -> None:
@@ -48,21 +56,14 @@ def draw_duels(
             if name == last:
                 axis.set_xlabel(label)
         row[0].set_ylabel(f"{name}\n{len(played)} duels".strip())
-    named: dict[str, Any] = {}
-    for axis in axes[0]:
-        handles, labels = axis.get_legend_handles_labels()
-        named |= dict(zip(labels, handles, strict=True))
-    if named:
-        figure.legend(
-            named.values(), named.keys(), loc="outside lower center", ncols=4
-        )
+    add_common_legend(figure, axes[0], ncols=4)
     save(figure, file)
 
 
 def _draw_panel(
     axis: Any,
     keys: Sequence[str],
-    records: Sequence[dict[str, Any]],
+    records: Sequence[Mapping[str, Any]],
     summary: Mapping[str, Any],
 ) -> None:
     every = [r[key] for key in keys for r in records if r[key] is not None]

@@ -1,6 +1,6 @@
 """Common style of all figures: colours, fonts, saving."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from io import BytesIO
 from itertools import cycle
 from typing import Any
@@ -69,6 +69,53 @@ def new_figure(width: float, height: float) -> Any:
         return plt.figure(figsize=(width, height))
     scale = sheet_width / width
     return plt.figure(figsize=(sheet_width, max(scale, scale**0.75) * height))
+
+
+def panel_grid(
+    count: int, width: float, height: float, *, columns: int = 4
+) -> tuple[Any, Any]:
+    """Open a figure with a grid of panels that share their vertical axis.
+
+    Args:
+        count: Number of panels; further places of the grid stay empty.
+        width: Width of one panel, in [inch].
+        height: Height of one panel, in [inch].
+        columns: Greatest number of columns; two on a narrow sheet.
+
+    Returns:
+        Figure and axes of Matplotlib. Shape of the axes (lines, columns).
+    """
+    columns = min(2 if sheet().narrow else columns, count)
+    lines = -(-count // columns)
+    figure = new_figure(width * columns, height * lines)
+    axes = figure.subplots(lines, columns, squeeze=False, sharey=True)
+    for axis in axes.flat[count:]:
+        axis.set_visible(False)
+    return figure, axes
+
+
+def add_common_legend(
+    figure: Any,
+    axes: Iterable[Any],
+    further: Mapping[str, Any] | None = None,
+    **style: Any,
+) -> None:
+    """Add one legend below a figure, with every label of its axes once.
+
+    Args:
+        figure: Figure of Matplotlib.
+        axes: Axes with labels.
+        further: Handles of Matplotlib that are in no axes, by label.
+        style: Further arguments of the legend.
+    """
+    handles: dict[str, Any] = {}
+    for axis in axes:
+        found, labels = axis.get_legend_handles_labels()
+        handles |= dict(zip(labels, found, strict=True))
+    handles |= further or {}
+    if handles:
+        place = "outside lower center"
+        figure.legend(handles.values(), handles.keys(), loc=place, **style)
 
 
 def _set_fonts() -> None:
@@ -171,9 +218,11 @@ __all__ = [
     "RIGHT",
     "SWAY",
     "THEORY",
+    "add_common_legend",
     "colours_of",
     "mark_level",
     "new_figure",
+    "panel_grid",
     "plt",
     "save",
 ]

@@ -1,15 +1,15 @@
 """Polar plot of the closest approach of people by direction and speed."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from math import radians
 from pathlib import Path
 from typing import Any
 
-from .figure_style import THEORY, new_figure, plt, save
+from .figure_style import THEORY, add_common_legend, new_figure, plt, save
 
 
 def draw_people(
-    rows: Sequence[dict[str, Any]], clearance: float, file: Path
+    rows: Sequence[Mapping[str, Any]], clearance: float, file: Path
 ) -> None:
     """Draw the closest approach by direction, with a colour for each speed.
 
@@ -70,15 +70,5 @@ def draw_people(
             "closest approach [m] over the direction of approach\n"
             f"(0°: from ahead, 90°: from the left); sensing: {sensing}"
         )
-    named: dict[str, Any] = {}
-    for axis in axes.flat:
-        handles, labels = axis.get_legend_handles_labels()
-        named |= dict(zip(labels, handles, strict=True))
-    figure.legend(
-        named.values(),
-        named.keys(),
-        title="speed of the person",
-        loc="outside lower center",
-        ncols=3,
-    )
+    add_common_legend(figure, axes.flat, title="speed of the person", ncols=3)
     save(figure, file)

@@ -47,35 +47,17 @@ def draw_plan(plan: ManeuverPlan, role: str, path: AnyPath) -> None:
         f"{role}: desired heading {np.degrees(plan.bearing):.1f}°", pad=18
     )
     above.legend(loc="lower center", bbox_to_anchor=(0.5, 0.985), ncols=2)
-    for index, (axes, name) in enumerate(
-        zip(over_time, ("x", "y"), strict=True)
-    ):
-        axes.plot(
-            samples.times,
-            samples.zmp[:, index],
-            color=THEORY,
-            lw=0.9,
-            label="ZMP",
-        )
-        axes.plot(
-            samples.times,
-            samples.dcm[:, index],
-            color=MEAN,
-            lw=0.9,
-            ls="--",
-            label="DCM",
-        )
-        axes.plot(
-            samples.times,
-            samples.com[:, index],
-            color=colour,
-            lw=1.8,
-            label="CoM",
-        )
-        axes.set_ylabel(f"{name} [m]")
-        axes.set_xlabel("time [s]" if index else "")
-        if index == 0:
-            axes.legend(
-                ncols=3, loc="lower center", bbox_to_anchor=(0.5, 0.985)
-            )
+    lines = (
+        ("ZMP", samples.zmp, {"color": THEORY, "lw": 0.9}),
+        ("DCM", samples.dcm, {"color": MEAN, "lw": 0.9, "ls": "--"}),
+        ("CoM", samples.com, {"color": colour, "lw": 1.8}),
+    )
+    for index, axes in enumerate(over_time):
+        for label, points, look in lines:
+            axes.plot(samples.times, points[:, index], label=label, **look)
+        axes.set_ylabel(f"{'xy'[index]} [m]")
+    over_time[0].legend(
+        ncols=3, loc="lower center", bbox_to_anchor=(0.5, 0.985)
+    )
+    over_time[-1].set_xlabel("time [s]")
     save(figure, path)

@@ -1,6 +1,6 @@
 """Figures of a robustness campaign: survival rates and largest pushes."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.patches import Patch
 
 from .figure_sizes import sheet
-from .figure_style import THEORY, new_figure, save
+from .figure_style import THEORY, add_common_legend, panel_grid, save
 
 METHOD_STYLES = {
     "open-loop": ("#8a8a8a", "o", ":"),
@@ -24,7 +24,7 @@ BOUNDS = (  # column, label, width of the line
 
 
 def draw_survival(
-    rows: Sequence[dict[str, Any]], units: dict[str, str], file: Path
+    rows: Sequence[Mapping[str, Any]], units: dict[str, str], file: Path
 ) -> None:
     """Draw survival rates with 95 % intervals by kind and direction.
 
@@ -34,46 +34,12 @@ def draw_survival(
         file: Figure to write.
     """
     panels = list(dict.fromkeys((r["kind"], r["direction"]) for r in rows))
-    columns = min(2 if sheet().narrow else 4, len(panels))
-    lines = -(-len(panels) // columns)
-    figure = new_figure(3.1 * columns, 2.6 * lines)
-    axes = figure.subplots(lines, columns, squeeze=False, sharey=True)
-    for axis in axes.flat[len(panels) :]:
-        axis.set_visible(False)
+    figure, axes = panel_grid(len(panels), 3.1, 2.6)
     for axis, (kind, direction) in zip(axes.flat, panels, strict=False):
         here = [
             r for r in rows if (r["kind"], r["direction"]) == (kind, direction)
         ]
-        for method in dict.fromkeys(r["method"] for r in here):
-            colour, marker, line = METHOD_STYLES[method]
-            own = sorted(
-                (r for r in here if r["method"] == method),
-                key=lambda r: float(r["strength"]),
-            )
-            x = [r["strength"] for r in own]
-            share = np.array([r["survived"] / r["trials"] for r in own])
-            trials = sorted({r["trials"] for r in own})
-            single = trials == [1]
-            axis.plot(
-                x,
-                100.0 * share,
-                color=colour,
-                marker=marker,
-                # A single trial has an outcome but no rate.
-                linestyle="none" if single else line,
-                markersize=4,
-                label=f"{method}, {_count(trials)}",
-            )
-            if single:
-                continue
-            axis.fill_between(
-                x,
-                [100.0 * r["low"] for r in own],
-                [100.0 * r["high"] for r in own],
-                color=colour,
-                alpha=0.12,
-                linewidth=0,
-            )
+        _draw_rates(axis, here)
         axis.set_title(_title(kind, direction))
         axis.set_xlabel(f"{kind} [{units[kind]}]")
         axis.set_ylim(-4, 104)
@@ -82,19 +48,48 @@ def draw_survival(
         row[0].set_ylabel("" if single else "survived [%]")
         if single:
             row[0].set_yticks([0.0, 100.0], ["fell", "survived"])
-    named: dict[str, Any] = {}
-    for axis in axes.flat:
-        handles, labels = axis.get_legend_handles_labels()
-        named |= dict(zip(labels, handles, strict=True))
-    if not single:
-        named["95 % interval"] = Patch(color=THEORY, alpha=0.12, linewidth=0)
-    figure.legend(
-        named.values(),
-        named.keys(),
-        loc="outside lower center",
+    interval = Patch(color=THEORY, alpha=0.12, linewidth=0)
+    add_common_legend(
+        figure,
+        axes.flat,
+        {} if single else {"95 % interval": interval},
         ncols=2 if sheet().narrow else 4,
     )
     save(figure, file)
+
+
+def _draw_rates(axis: Any, rows: Sequence[Mapping[str, Any]]) -> None:
+    """Draw the survival rate of each method over the strength."""
+    for method in dict.fromkeys(r["method"] for r in rows):
+        colour, marker, line = METHOD_STYLES[method]
+        own = sorted(
+            (r for r in rows if r["method"] == method),
+            key=lambda r: float(r["strength"]),
+        )
+        x = [r["strength"] for r in own]
+        share = np.array([r["survived"] / r["trials"] for r in own])
+        trials = sorted({r["trials"] for r in own})
+        single = trials == [1]
+        axis.plot(
+            x,
+            100.0 * share,
+            color=colour,
+            marker=marker,
+            # A single trial has an outcome but no rate.
+            linestyle="none" if single else line,
+            markersize=4,
+            label=f"{method}, {_count(trials)}",
+        )
+        if single:
+            continue
+        axis.fill_between(
+            x,
+            [100.0 * r["low"] for r in own],
+            [100.0 * r["high"] for r in own],
+            color=colour,
+            alpha=0.12,
+            linewidth=0,
+        )
 
 
 def _title(kind: str, direction: str) -> str:
@@ -112,7 +107,7 @@ def _count(trials: Sequence[int]) -> str:
     return f"{low} to {high} trials per point"
 
 
-def draw_limits(rows: Sequence[dict[str, Any]], file: Path) -> None:
+def draw_limits(rows: Sequence[Mapping[str, Any]], file: Path) -> None:
     """Draw the largest push survived over the gait phase, with bounds.
 
     Args:
@@ -120,12 +115,7 @@ def draw_limits(rows: Sequence[dict[str, Any]], file: Path) -> None:
         file: Figure to write.
     """
     directions = list(dict.fromkeys(r["direction"] for r in rows))
-    columns = min(2 if sheet().narrow else 8, len(directions))
-    lines = -(-len(directions) // columns)
-    figure = new_figure(3.1 * columns, 0.4 + 2.6 * lines)
-    axes = figure.subplots(lines, columns, squeeze=False, sharey=True)
-    for axis in axes.flat[len(directions) :]:
-        axis.set_visible(False)
+    figure, axes = panel_grid(len(directions), 3.1, 3.0, columns=8)
     for axis, direction in zip(axes.flat, directions, strict=False):
         here = [r for r in rows if r["direction"] == direction]
         for method in dict.fromkeys(r["method"] for r in here):
@@ -158,9 +148,5 @@ def draw_limits(rows: Sequence[dict[str, Any]], file: Path) -> None:
     axes.flat[0].set_ylim(bottom=0.0)
     for row in axes:
         row[0].set_ylabel("largest push survived [N s]")
-    figure.legend(
-        *axes.flat[0].get_legend_handles_labels(),
-        loc="outside lower center",
-        ncols=2 if sheet().narrow else 6,
-    )
+    add_common_legend(figure, axes.flat[:1], ncols=2 if sheet().narrow else 6)
     save(figure, file)

@@ -1,6 +1,6 @@
 """Figures of a tournament: closest approach over floor used, worst games."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from math import ceil
 from typing import Any, Protocol
 
@@ -25,7 +25,7 @@ class GamePaths(Protocol):
         """Of the evader. Shape (n, 3)."""
 
 
-def draw_front(rows: Sequence[dict[str, Any]], path: str) -> None:
+def draw_front(rows: Sequence[Mapping[str, Any]], path: str) -> None:
     """Draw closest approach over floor used, with a mark for each pairing.
 
     Args:

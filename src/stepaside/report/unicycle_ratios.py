@@ -7,7 +7,7 @@ import numpy as np
 from ..theory.unicycle.ratio_map import RatioMap, map_ratios
 from ..theory.unicycle.unicycle_game import Game, TurningLaw
 from .figure_sizes import sheet
-from .figure_style import EVADER, new_figure, save
+from .figure_style import EVADER, add_common_legend, new_figure, save
 
 _COUNT = 121
 _SPEEDS = (0.8, 4.0)  # pursuer's over evader's
@@ -59,16 +59,7 @@ def draw_ratios(game: Game, path: str, *, count: int = _COUNT) -> RatioMap:
         label="distance between the players on that circle\n"
         "[evader's speed / pursuer's gain]",
     )
-    named: dict[str, Any] = {}
-    for ax in axes:
-        handles, labels = ax.get_legend_handles_labels()
-        named |= dict(zip(labels, handles, strict=True))
-    figure.legend(
-        named.values(),
-        named.keys(),
-        loc="outside lower center",
-        ncols=2 if narrow else 4,
-    )
+    add_common_legend(figure, axes, ncols=2 if narrow else 4)
     degrees = np.rad2deg(game.angle)
     figure.suptitle(
         "Coloured: a second stable circle, in the opposite direction; "

@@ -1,11 +1,13 @@
 """Figure of a walk: path, torso tilt, CoM error and balance."""
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..core.poses import Array
 from ..games.run import Run
 from ..games.support_foot_columns import express_in_support_foot
 from ..games.trajectory import Trajectory
@@ -79,7 +81,7 @@ def _while_shown(run: Run, track: Trajectory) -> tuple[NDArray[np.bool_], str]:
     return shown, f"the push at {first:.1f} s"
 
 
-def _cut(track: Trajectory, show: NDArray[np.bool_]) -> dict[str, Any]:
+def _cut(track: Trajectory, show: NDArray[np.bool_]) -> dict[str, Array]:
     """Return heading, ZMP and CoM with their references at some samples."""
     assert track.com_reference is not None
     assert track.zmp_reference is not None and track.zmp is not None
@@ -93,7 +95,7 @@ def _cut(track: Trajectory, show: NDArray[np.bool_]) -> dict[str, Any]:
 
 
 def _draw_balance(
-    axes: Any, times: Any, cut: dict[str, Any], forward: bool
+    axes: Any, times: Any, cut: Mapping[str, Array], forward: bool
 ) -> None:
     """Draw CoM and ZMP, leftward or forward.
 
