@@ -1,7 +1,11 @@
 """The control scheme of one robot (paper, Fig. 4)."""
 
 from ..core.poses import Array, Pose
-from ..locomotion.locomotion import Locomotion, MotionRequest
+from ..locomotion.locomotion import (
+    Locomotion,
+    MotionRequest,
+    PlannedLocomotion,
+)
 from ..locomotion.walk_snapshots import Phase, StepStarted, WalkState
 from ..perception.measurement import Measurement, Sighting
 from ..planning import Foot, GaitSettings
@@ -10,7 +14,7 @@ from .sight_sources import SightSource
 from .strategy_runner import StrategyRunner
 
 
-class ControlScheme:
+class LocomotionScheme:
     """Control of one robot: sense, decide, walk.
 
     The locomotion asks for a decision when it can use one: at every tick
@@ -108,6 +112,30 @@ class ControlScheme:
         return self.locomotion.joint_targets
 
     @property
+    def gait(self) -> GaitSettings:
+        """Gait of the robot."""
+        return self.locomotion.gait
+
+
+class ControlScheme(LocomotionScheme):
+    """Control of one robot that walks by maneuvers (paper, Fig. 4).
+
+    Attributes:
+        locomotion: Locomotion, from decisions to joint targets.
+    """
+
+    locomotion: PlannedLocomotion
+
+    def __init__(
+        self,
+        decisions: StrategyRunner,
+        locomotion: PlannedLocomotion,
+        senses: SightSource,
+    ) -> None:
+        """Begin standing; see :class:`LocomotionScheme`."""
+        super().__init__(decisions, locomotion, senses)
+
+    @property
     def kinematics(self) -> LegKinematics:
         """Joints of the robot."""
         return self.locomotion.kinematics
@@ -116,8 +144,3 @@ class ControlScheme:
     def state(self) -> WalkState:
         """Plan and references of the last tick."""
         return self.locomotion.state
-
-    @property
-    def gait(self) -> GaitSettings:
-        """Gait of the robot."""
-        return self.locomotion.state.gait

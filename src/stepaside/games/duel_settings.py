@@ -14,6 +14,7 @@ from ..core.ranges import (
     check_count,
 )
 from ..core.setting import check_settings, setting
+from ..locomotion.policy.legs_settings import LegsSettings
 from ..locomotion.zmp.control_settings import ControlSettings
 from ..planning import PRESETS, GaitSettings
 from ..sim.body_settings import BODIES, BodySettings
@@ -116,6 +117,7 @@ class RobotSettings:
     )
     gait: GaitSettings = setting(GaitSettings(), "Gait")
     control: ControlSettings = setting(ControlSettings(), "Walking control")
+    legs: LegsSettings = setting(LegsSettings(), "Learned legs")
 
 
 @dataclass(frozen=True, slots=True)
@@ -175,6 +177,10 @@ class DuelSettings:
     control: ControlSettings = setting(
         ControlSettings(),
         "Walking control of each player without a robot of its own",
+    )
+    legs: LegsSettings = setting(
+        LegsSettings(),
+        "Learned legs of each player without a robot of its own",
     )
     sensing: str = setting(
         "ideal",
@@ -271,6 +277,12 @@ class DuelSettings:
                     "sensing must be 'cameras' with map.source = 'seen', "
                     f"got {self.sensing!r}"
                 )
+        if any(self.robot_of(name).legs.walks for name in self.robots):
+            if self.sensing != "ideal" or self.room.plan is not None:
+                raise ConfigurationError(
+                    "legs.network must be empty with sensing by cameras and "
+                    f"in rooms, got {self.legs.network!r}"
+                )
         check_count(self.pushes, MOST_PUSHES, "pushes")
         check_pushes(self.pushes, self.robots)
         check_count(self.passers, MOST_PASSERS, "passers")
@@ -287,7 +299,9 @@ class DuelSettings:
             player: "pursuer" or "evader".
         """
         own = self.pursuer_robot if player == PURSUER else self.evader_robot
-        return own or RobotSettings(self.robot, self.gait, self.control)
+        return own or RobotSettings(
+            self.robot, self.gait, self.control, self.legs
+        )
 
     def named(self) -> "DuelSettings":
         """Return the settings with a text for each strategy object."""

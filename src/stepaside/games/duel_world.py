@@ -6,7 +6,7 @@ from ..core.errors import ConfigurationError
 from ..core.poses import Pose
 from ..core.random_streams import named_generator
 from ..robots.description import load_robot
-from ..sim.body_settings import with_control_period
+from ..sim.body_settings import at_tick, with_control_period
 from ..sim.ground_truth import GroundTruth
 from ..sim.ideal_sensors import IdealLineOfSight
 from ..sim.pedestrian_models import FIGURES
@@ -56,7 +56,9 @@ class DuelWorld:
             name: _setup_of(settings, name, frames[PLAYERS.index(name)])
             for name in settings.robots
         }
-        physics = with_control_period(settings.physics, settings.body)
+        physics = settings.physics
+        if not any(settings.robot_of(n).legs.walks for n in self._setups):
+            physics = with_control_period(physics, settings.body)
         self._senses = _camera_senses(settings, self._setups, physics.tick)
         self.world = World(
             {name: own.description for name, own in self._setups.items()},
@@ -90,7 +92,7 @@ class DuelWorld:
         evader = self._walker(EVADER, settings.evader_strategy)
         self.players = (pursuer, evader)
 
-    def _walker(self, name: str, strategy: str | Strategy) -> SimulatedPlayer:
+    def _walker(self, name: str, strategy: str | Strategy) -> Player:
         """Place a robot in the world, with the sensors of the settings."""
         settings, setup = self._settings, self._setups[name]
         sight, cameras = None, None
@@ -104,10 +106,23 @@ class DuelWorld:
             )
         else:
             cameras = self._senses.of_robot(self.world, name)
+        played = load_strategy(strategy, settings.strategy)
+        legs = settings.robot_of(name).legs
+        if legs.walks:
+            from .policy_player import place_policy_player
+
+            return place_policy_player(
+                self.world,
+                setup,
+                legs,
+                played,
+                sight=sight,
+                truth=self._robot_truths[name],
+            )
         return place_walker(
             self.world,
             setup,
-            load_strategy(strategy, settings.strategy),
+            played,
             sight=sight,
             cameras=cameras,
             truth=self._robot_truths[name],
@@ -137,13 +152,15 @@ class DuelWorld:
 
 
 def _setup_of(settings: DuelSettings, name: str, frame: Pose) -> WalkerSetup:
-    own = settings.robot_of(name)
+    own, body = settings.robot_of(name), settings.body
+    if any(settings.robot_of(each).legs.walks for each in settings.robots):
+        body = at_tick(body, settings.physics.tick)
     return WalkerSetup(
         name,
         load_robot(own.robot),
         own.gait,
         own.control,
-        settings.body,
+        body,
         odometry_in_world=frame,
         seed=settings.seed,
     )

@@ -5,6 +5,7 @@ from dataclasses import dataclass, fields, replace
 from typing import Any, TypeVar
 
 from ..core.errors import ConfigurationError, check_positive
+from ..locomotion.policy.legs_settings import LegsSettings
 from ..locomotion.zmp.control_settings import ControlSettings
 from ..planning import GaitSettings
 from ..robots.description import FILE, RobotDescription, load_robot
@@ -12,6 +13,16 @@ from .configuration_file import parse_settings
 from .duel_settings import DuelSettings, RobotSettings, StartSettings
 
 S = TypeVar("S")
+# Template of learned legs: speed [m/s], gain [1/s], and 0.4 s from decision to
+# decision, in path time as in gait time. Their CoM is over the feet.
+LEGS_GAIT: Mapping[str, float] = {
+    "speed": 0.5,
+    "gain": 0.4,
+    "stride": 0.2,
+    "single_support": 0.3,
+    "double_support": 0.1,
+    "zmp_forward": 0.0,
+}
 UNITS = {"push_unit": "N s", "force_unit": "N"}  # other fields are in [m]
 
 
@@ -67,6 +78,10 @@ def settings_from_description(description: RobotDescription) -> RobotSettings:
     """Return gait and control from a description."""
     source = str(description.folder / FILE)
     gait: dict[str, Any] = dict(description.gait)
+    network = description.locomotion.get("network", "")
+    if network:
+        network = str(description.path_of(network))
+        gait |= LEGS_GAIT
     if description.sole:
         gait["sole"] = dict(description.sole)
     return RobotSettings(
@@ -75,7 +90,23 @@ def settings_from_description(description: RobotDescription) -> RobotSettings:
         parse_settings(
             ControlSettings, dict(description.control), f"{source}, control"
         ),
+        LegsSettings(network),
     )
+
+
+def with_legs(settings: S, network: str) -> S:
+    """Return settings for a walking policy and its usual game.
+
+    Args:
+        settings: Settings of a game with a gait and legs.
+        network: ONNX file of the policy.
+    """
+    changed: S = replace(
+        settings,  # type: ignore[type-var]
+        gait=replace(settings.gait, **LEGS_GAIT),  # type: ignore[attr-defined]
+        legs=LegsSettings(network),
+    )
+    return changed
 
 
 def game_settings_from_description(

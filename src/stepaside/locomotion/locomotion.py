@@ -4,7 +4,7 @@ from typing import NamedTuple, Protocol
 
 from ..core.poses import Array, Pose
 from ..perception.measurement import Measurement
-from ..planning import Direction, Foot
+from ..planning import Direction, Foot, GaitSettings
 from ..robots.leg_kinematics import LegKinematics
 from ..strategies.knowledge import Intent
 from .walk_snapshots import Phase, StepStarted, WalkState
@@ -72,7 +72,7 @@ class Locomotion(Protocol):
     Poses are in odometry: the frame midway between the feet at the start.
 
     Attributes:
-        kinematics: Joints of the robot, in the standing posture at first.
+        gait: Speed, steering gain and timing of its template.
         phase: Phase of motion.
         begun: Step that began at the last tick; None if none did.
         joint_targets: Joint targets of the last tick, in [rad]. Shape
@@ -83,7 +83,7 @@ class Locomotion(Protocol):
         pose_delay: Likewise for ``pose``, from the tick that set it, in [s].
     """
 
-    kinematics: LegKinematics
+    gait: GaitSettings
     phase: Phase
     begun: StepStarted | None
     joint_targets: Array
@@ -112,15 +112,8 @@ class Locomotion(Protocol):
     def tilt(self) -> tuple[float, float] | None:
         """Roll and pitch of the torso, in [rad]; None without an estimate."""
 
-    @property
-    def state(self) -> WalkState:
-        """Plan and references of the last tick."""
-
     def step(self, now: float) -> CurrentStep:
         """Return the step in progress at a time, in [s]."""
-
-    def lead_with(self, foot: Foot) -> None:
-        """Choose the foot of the first step, if the robot stands."""
 
     def update(
         self, measurement: Measurement, decisions: IntentSource
@@ -138,3 +131,20 @@ class Locomotion(Protocol):
             ReachError: If the legs cannot follow the reference.
             StrategyError: If the strategy returns no intent.
         """
+
+
+class PlannedLocomotion(Locomotion, Protocol):
+    """Locomotion that plans maneuvers.
+
+    Attributes:
+        kinematics: Joints of the robot, in the standing posture at first.
+    """
+
+    kinematics: LegKinematics
+
+    @property
+    def state(self) -> WalkState:
+        """Plan and references of the last tick."""
+
+    def lead_with(self, foot: Foot) -> None:
+        """Choose the foot of the first step, if the robot stands."""

@@ -186,6 +186,26 @@ BODIES = {
 }
 
 
+def at_tick(body: BodySettings, tick: float) -> BodySettings:
+    """Return a body with the same delays, counted in control ticks.
+
+    A walking policy has its own period, of which the tick is a fraction, and
+    does not follow the control period of the body.
+
+    Args:
+        body: Settings of the body.
+        tick: Control period of the physics settings, in [s].
+    """
+    if body.cycle == 0.0:
+        return body
+    return replace(
+        body,
+        cycle=0.0,
+        delay_cycles=round(body.delay_cycles * body.cycle / tick),
+        imu_delay_cycles=round(body.imu_delay_cycles * body.cycle / tick),
+    )
+
+
 def with_control_period(
     physics: PhysicsSettings, body: BodySettings
 ) -> PhysicsSettings:

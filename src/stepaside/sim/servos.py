@@ -1,12 +1,40 @@
 """Servo models between joint targets and actuators."""
 
 from collections import deque
+from collections.abc import Mapping, Sequence
 
 import mujoco
 import numpy as np
 
 from ..core.poses import Array
 from .body_settings import BodySettings
+
+JointGains = Mapping[str, tuple[float, float]]
+"""Stiffness [N m/rad] and damping [N m s/rad] by joint."""
+
+
+def set_joint_gains(
+    model: mujoco.MjModel,
+    actuators: np.ndarray,
+    names: Sequence[str],
+    gains: JointGains,
+) -> None:
+    r"""Set the gains of the torque :math:`k_p (q^* - q) - k_d \dot q`.
+
+    MuJoCo evaluates it at every physics step and limits it to the torque
+    limits of the actuators.
+
+    Args:
+        model: Compiled model; changed in place.
+        actuators: Indices of the actuators.
+        names: Names of their joints, in the same order.
+        gains: Gains by joint; joints that are absent keep theirs.
+    """
+    for actuator, name in zip(actuators.tolist(), names, strict=True):
+        if name in gains:
+            stiffness, damping = gains[name]
+            model.actuator_gainprm[actuator, 0] = stiffness
+            model.actuator_biasprm[actuator, 1:3] = -stiffness, -damping
 
 
 class IdealServos:
@@ -23,6 +51,8 @@ class IdealServos:
         actuators: np.ndarray,
         speed_limits: Array,
         cycle: float,
+        *,
+        feedforward: bool = True,
     ) -> None:
         """Drive consecutive actuators of a model.
 
@@ -32,6 +62,8 @@ class IdealServos:
             actuators: Indices of the actuators, without gaps.
             speed_limits: Speed limits of their joints, in [rad/s].
             cycle: Control period, in [s].
+            feedforward: Whether targets are limited in speed and their
+                velocity is fed forward; else each is sent as it is.
         """
         self._data = data
         self._ctrl = slice(int(actuators[0]), int(actuators[-1]) + 1)
@@ -39,6 +71,9 @@ class IdealServos:
         gains = model.actuator_gainprm[actuators, 0]
         self._lead = -model.actuator_biasprm[actuators, 2] / gains / cycle
         self._reach = speed_limits * cycle
+        if not feedforward:
+            self._lead = np.zeros(actuators.size)
+            self._reach = np.full(actuators.size, np.inf)
         self._back = -self._reach
         self._target = np.zeros(actuators.size)
         self._range = model.actuator_forcerange[self._ctrl]
@@ -86,6 +121,8 @@ class RealisticServos(IdealServos):
         cycle: float,
         body: BodySettings,
         backlash: Array,
+        *,
+        feedforward: bool = True,
     ) -> None:
         """Drive consecutive actuators; see :class:`IdealServos`.
 
@@ -97,10 +134,18 @@ class RealisticServos(IdealServos):
             cycle: Control period, in [s].
             body: Settings of the body.
             backlash: Width of the dead zone of each joint, in [rad].
+            feedforward: As of :class:`IdealServos`.
         """
         model.actuator_gainprm[actuators, 0] *= body.servo_gain
         model.actuator_biasprm[actuators, 1] *= body.servo_gain
-        super().__init__(model, data, actuators, speed_limits, cycle)
+        super().__init__(
+            model,
+            data,
+            actuators,
+            speed_limits,
+            cycle,
+            feedforward=feedforward,
+        )
         joints = model.actuator_trnid[actuators, 0]
         self._qpos = model.jnt_qposadr[joints]
         self._dofs = model.jnt_dofadr[joints]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import mujoco
 import numpy as np
@@ -12,7 +12,6 @@ from ..core.errors import ModelError
 from ..core.poses import Array, Pose
 from ..perception.measurement import Measurement
 from ..robots.description import REMEDY, RobotDescription
-from ..robots.leg_kinematics import LegKinematics
 from .body_settings import BodySettings
 from .ground_truth import TrueRobotState
 from .ideal_sensors import IdealLineOfSight, IdealPose
@@ -20,7 +19,12 @@ from .push import Push, ScheduledPush
 from .push_forces import PushApplier
 from .robot_state_log import RobotStateLog, centers_of_pressure
 from .sensor_errors import AveragedImu, SensorErrors
-from .servos import IdealServos, RealisticServos
+from .servos import (
+    IdealServos,
+    JointGains,
+    RealisticServos,
+    set_joint_gains,
+)
 from .true_stance import StanceWatch, TrueStance
 from .world import World, transform_free_joint
 
@@ -46,6 +50,22 @@ def motor_of(model: mujoco.MjModel, joint: int) -> int:
     return int(found[0])
 
 
+class JointPosture(Protocol):
+    """Joints of a robot, with the posture in which it begins."""
+
+    @property
+    def joint_targets(self) -> Array:
+        """Targets of the actuated joints, in [rad]. Shape (joints,)."""
+
+    @property
+    def posture(self) -> Array:
+        """Position and quaternion of the torso, then all joint angles."""
+
+    @property
+    def joint_names(self) -> tuple[str, ...]:
+        """Names of the actuated joints."""
+
+
 class SimulatedRobot:
     """Robot in a world, with its sensors and servos.
 
@@ -63,7 +83,7 @@ class SimulatedRobot:
         world: World,
         name: str,
         description: RobotDescription,
-        kinematics: LegKinematics,
+        kinematics: JointPosture,
         pose: Pose,
         body: BodySettings | None = None,
         generator: np.random.Generator | None = None,
@@ -73,6 +93,7 @@ class SimulatedRobot:
         averages_imu: bool = False,
         truth: TrueRobotState | None = None,
         knows_place: bool = False,
+        gains: JointGains | None = None,
     ) -> None:
         """Place a robot in the posture of its kinematics.
 
@@ -90,6 +111,8 @@ class SimulatedRobot:
                 ones do, instead of sampling.
             truth: True state, if it exists already.
             knows_place: Whether it has an ideal sensor of its pose.
+            gains: Gains of a body that is driven by joint torques; by default
+                its position servos.
         """
         body = body or BodySettings()
         self.world = world
@@ -103,13 +126,32 @@ class SimulatedRobot:
         self._qpos = np.array([j.qposadr[0] for j in joints])
         ids = np.array([motor_of(model, j.id) for j in joints])
         speeds = np.array([description.speed_limits[n] for n in names])
+        if gains is not None:
+            set_joint_gains(model, ids, names, gains)
+        self._dofs = (
+            None if gains is None else np.array([j.dofadr[0] for j in joints])
+        )
         self.servos: IdealServos
         if body.has_ideal_servos:
-            self.servos = IdealServos(model, data, ids, speeds, self.tick)
+            self.servos = IdealServos(
+                model,
+                data,
+                ids,
+                speeds,
+                self.tick,
+                feedforward=gains is None,
+            )
         else:
             legs = np.array([n in description.legs for n in names])
             servos = RealisticServos(
-                model, data, ids, speeds, self.tick, body, body.backlash * legs
+                model,
+                data,
+                ids,
+                speeds,
+                self.tick,
+                body,
+                body.backlash * legs,
+                feedforward=gains is None,
             )
             world.before_step.append(servos.before_step)
             self.servos = servos
@@ -154,7 +196,7 @@ class SimulatedRobot:
         return slice(int(found.adr[0]), int(found.adr[0] + found.dim[0]))
 
     def _place_in_world(
-        self, kinematics: LegKinematics, pose: Pose, at: int
+        self, kinematics: JointPosture, pose: Pose, at: int
     ) -> None:
         posture = kinematics.posture
         qpos = self.world.data.qpos
@@ -196,6 +238,9 @@ class SimulatedRobot:
             sighting,
             percepts,
             place,
+            None
+            if self._dofs is None
+            else self.world.data.qvel.take(self._dofs),
         )
 
     def write(self, joint_targets: Array) -> None:

@@ -27,6 +27,7 @@ DUEL = (
     OptionGroup("Room", ("room.plan", RECIPE, "map")),
     STRATEGY,
     GAIT,
+    OptionGroup("Learned legs (docs/legs.md)", ("legs",)),
     BODY,
     CONTROL,
     PHYSICS,

@@ -15,7 +15,7 @@ import click
 from ...arena import RoomRecipe
 from ...core.setting import Setting
 from ...games.configuration_file import load_entries, parse_settings
-from ...games.robot_settings import with_players, with_robot
+from ...games.robot_settings import with_legs, with_players, with_robot
 from ...strategies.registry import OF_EVASION
 from ..terminal import write_result
 from .implied_settings import (
@@ -219,6 +219,10 @@ def _base_settings(
             elif isinstance(file.get(path), dict):
                 players[player] = str(file[path].get("robot", robot))
         base = with_players(base, players) if players else base
+        in_file = file.get("legs", {}).get("network", "")
+        network = given.get("legs.network", in_file)
+        if network and hasattr(base, "legs"):
+            base = with_legs(base, network)
     needs_feedback = hasattr(base, "control") and base.control.feedback
     base = parse_settings(kind, file, source, aside=ignored, base=base)
     return base, needs_feedback

@@ -11,6 +11,7 @@ from ...perception.measurement import Measurement
 from ...robots.description import RobotDescription
 from ...robots.forward_kinematics import ForwardKinematics
 from .contract import CommandRanges, PolicyContract
+from .initial_posture import InitialPosture
 from .leg_odometry import LegOdometry
 from .network import PolicyNetwork
 from .runner import BodyMotion, PolicyRunner
@@ -31,6 +32,7 @@ class PolicyLegs:
     Attributes:
         contract: Contract of the network.
         response: Response of the legs to commands.
+        standing: Posture in which the robot begins.
         odometry: Odometry of the robot.
         joint_targets: Joint targets of this tick, in [rad], in the order of
             the motors. Shape (joints,).
@@ -70,16 +72,15 @@ class PolicyLegs:
             )
         self._every, self._tick = round(ratio), tick
         self.contract = contract
-        self._ideal = response is None
         self.response = response or VelocityResponse.ideal(
             contract.command_ranges
         )
         forward = ForwardKinematics(description)
         motors = forward.tree.motors
         self._joints = np.array([motors.index(n) for n in contract.joints])
-        standing = [description.standing.get(name, 0.0) for name in motors]
-        self.joint_targets: Array = np.array(standing)
-        self.joint_targets[self._joints] = contract.default_posture
+        angles = zip(contract.joints, contract.default_posture, strict=True)
+        self.standing = InitialPosture(forward, dict(angles))
+        self.joint_targets = self.standing.joint_targets
         self._runner = PolicyRunner(contract, network)
         self._attitude = AttitudeFilter(CORRECTION, 0.0)
         self.odometry = LegOdometry(forward)
@@ -97,7 +98,13 @@ class PolicyLegs:
     @property
     def pose(self) -> Pose:
         """Pose of the torso in odometry."""
-        return self.odometry.pose
+        x, y, theta = self.odometry.pose
+        return Pose(x, y, theta + self._turned)
+
+    @property
+    def tilt(self) -> tuple[float, float]:
+        """Roll and pitch of the torso, in [rad]."""
+        return self._attitude.roll, self._attitude.pitch
 
     @property
     def limits(self) -> CommandRanges:

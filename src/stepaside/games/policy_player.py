@@ -1,0 +1,167 @@
+"""Player that is a simulated robot on learned legs."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from ..control.scheme import LocomotionScheme
+from ..control.sight_sources import MeasuredSight
+from ..control.strategy_runner import StrategyRunner
+from ..core.errors import PolicyError
+from ..core.poses import Pose
+from ..core.random_streams import named_generator
+from ..locomotion.policy.legs_loader import load_legs
+from ..locomotion.policy.legs_settings import LegsSettings
+from ..locomotion.policy.policy_legs import PolicyLegs
+from ..locomotion.policy.policy_walk import PolicyWalk
+from ..locomotion.walk_snapshots import Phase, StepStarted
+from ..sim.ground_truth import GroundTruth, TrueRobotState
+from ..sim.ideal_sensors import IdealLineOfSight
+from ..sim.push import Push
+from ..sim.simulated_robot import SimulatedRobot
+from ..sim.world import World
+from ..strategies import Strategy
+from .player import MotionLog, Snapshot, snapshot_of
+from .walker_factory import WalkerSetup
+
+if TYPE_CHECKING:
+    from ..perception.frame_report import FrameReport
+
+AT_ONCE = 1.0  # a fall until then is one of the policy, in [s]
+
+
+class PolicyPlayer:
+    """Simulated robot that walks by a policy.
+
+    Attributes:
+        name: Name of the player.
+        robot: Simulated robot.
+        scheme: Controller.
+        frame: Pose of its odometry in the world.
+        truth: True state.
+        begun: None: a policy plans no steps.
+        reports: Empty: it has no cameras.
+        is_ready: True: it scans no room.
+    """
+
+    begun: StepStarted | None = None
+    reports: "Sequence[FrameReport]" = ()
+    is_ready = True
+
+    def __init__(
+        self, robot: SimulatedRobot, scheme: LocomotionScheme, frame: Pose
+    ) -> None:
+        """Combine a robot and its controller."""
+        self.name = robot.name
+        self.robot, self.scheme, self.frame = robot, scheme, frame
+        self.truth: GroundTruth = robot.truth
+
+    @property
+    def is_moving(self) -> bool:
+        """Whether it has left its standing state."""
+        return self.scheme.phase is not Phase.STANDING
+
+    @property
+    def has_fallen(self) -> bool:
+        """Whether it has fallen.
+
+        Raises:
+            PolicyError: If it fell before it could walk.
+        """
+        now, fallen = self.robot.world.time, self.truth.has_fallen
+        if fallen and now <= AT_ONCE:
+            raise PolicyError(
+                f"legs: {self.name} fell at {now:.2f} s, while it was to "
+                "stand: the contract does not fit the network"
+            )
+        return fallen
+
+    def start(self) -> None:
+        """Do nothing: it begins with the simulation."""
+
+    def tick(self) -> None:
+        """Read the sensors, decide, and send joint targets."""
+        self.robot.write(self.scheme.update(self.robot.read()))
+
+    def snapshot(self) -> Snapshot:
+        """Return the state at this instant."""
+        return snapshot_of(self.robot, frame=self.frame)
+
+    def motion_log(self, *, closely: bool) -> MotionLog:
+        """Return an empty log of its motion."""
+        return self.robot.state_log()
+
+    def push(self, *pushes: Push) -> None:
+        """Schedule pushes of the torso, now or later."""
+        self.robot.push(*pushes)
+
+    def close(self) -> None:
+        """Release its resources."""
+        self.robot.close()
+
+
+def place_on_legs(
+    world: World,
+    setup: WalkerSetup,
+    legs: PolicyLegs,
+    *,
+    sight: IdealLineOfSight | None = None,
+    truth: TrueRobotState | None = None,
+) -> SimulatedRobot:
+    """Place a robot in a world, driven by the torques of its policy.
+
+    Args:
+        world: World that contains the robot.
+        setup: Robot with its settings.
+        legs: Learned legs of the robot.
+        sight: Ideal sensor of the opponent.
+        truth: True state of the robot, if it exists already.
+    """
+    contract = legs.contract
+    gains = zip(contract.stiffness, contract.damping, strict=True)
+    return SimulatedRobot(
+        world,
+        setup.name,
+        setup.description,
+        legs.standing,
+        setup.odometry_in_world,
+        setup.body,
+        named_generator(setup.seed, f"sensors/{setup.name}"),
+        sight=sight,
+        averages_imu=True,
+        truth=truth,
+        gains=dict(zip(contract.joints, gains, strict=True)),
+    )
+
+
+def place_policy_player(
+    world: World,
+    setup: WalkerSetup,
+    legs: LegsSettings,
+    strategy: Strategy,
+    *,
+    sight: IdealLineOfSight | None,
+    truth: TrueRobotState,
+) -> PolicyPlayer:
+    """Place one robot on learned legs in a world, with its controller.
+
+    Args:
+        world: World that contains the robot.
+        setup: Robot with its settings; the gait has speed, steering gain and
+            decision interval of its template.
+        legs: Walking policy.
+        strategy: Strategy of the player.
+        sight: Ideal sensor of the opponent.
+        truth: True state of the robot.
+
+    Raises:
+        PolicyError: If the network cannot run on the robot.
+    """
+    tick = world.physics.tick
+    policy = load_legs(legs, setup.description, tick=tick)
+    robot = place_on_legs(world, setup, policy, sight=sight, truth=truth)
+    scheme = LocomotionScheme(
+        StrategyRunner(strategy, setup.gait, tick),
+        PolicyWalk(policy, setup.gait),
+        MeasuredSight(),
+    )
+    return PolicyPlayer(robot, scheme, setup.odometry_in_world)

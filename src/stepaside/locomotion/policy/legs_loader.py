@@ -1,0 +1,57 @@
+"""Learned legs of a robot, from its settings and files."""
+
+from pathlib import Path
+
+from ...robots.description import RobotDescription
+from ...robots.tree_cache import load_tree
+from .contract import PolicyContract
+from .contract_checks import check_contract
+from .contract_reader import read_contract
+from .legs_settings import LegsSettings
+from .network import PolicyNetwork
+from .policy_legs import PolicyLegs
+from .response_file import load_response
+
+
+def load_policy(
+    legs: LegsSettings, description: RobotDescription
+) -> tuple[PolicyContract, PolicyNetwork]:
+    """Load a network with its contract for one robot.
+
+    Raises:
+        PolicyError: If the network cannot run on the robot.
+    """
+    network = PolicyNetwork(Path(legs.network))
+    motors = load_tree(description).motors
+    reading = read_contract(
+        network,
+        motors=motors,
+        legs=description.legs,
+        entries=description.locomotion,
+        convention=legs.contract,
+    )
+    return check_contract(reading, network, motors), network
+
+
+def load_legs(
+    legs: LegsSettings, description: RobotDescription, *, tick: float
+) -> PolicyLegs:
+    """Build learned legs, with their measured response if there is one.
+
+    Args:
+        legs: Settings of the legs.
+        description: Description of the robot.
+        tick: Control period, in [s].
+
+    Raises:
+        PolicyError: If the network cannot run on the robot.
+    """
+    contract, network = load_policy(legs, description)
+    return PolicyLegs(
+        contract,
+        network,
+        description,
+        tick=tick,
+        response=load_response(description.folder, network.path),
+        learns_turns=legs.learn_turns,
+    )

@@ -1,0 +1,36 @@
+"""Settings of learned legs."""
+
+from dataclasses import dataclass
+
+from ...core.setting import check_settings, setting
+
+
+@dataclass(frozen=True, slots=True)
+class LegsSettings:
+    """Walking policy of a robot, in place of the paper's walk."""
+
+    network: str = setting(
+        "",
+        "ONNX file of a walking policy; empty for the paper's walk",
+        option="--legs",
+    )
+    contract: str = setting(
+        "",
+        "Convention of the policy's trainer, as in docs/legs.md; empty to "
+        "recognise it",
+        option="--legs-contract",
+    )
+    learn_turns: bool = setting(
+        True,
+        "Correct the turning rate of a walking policy by the gyro",
+        option="--legs-learn-turns/--no-legs-learn-turns",
+    )
+
+    def __post_init__(self) -> None:
+        """Check the ranges."""
+        check_settings(self)
+
+    @property
+    def walks(self) -> bool:
+        """Whether the robot walks by a policy."""
+        return bool(self.network)

@@ -1,0 +1,118 @@
+"""Locomotion by a walking policy: decisions in, joint targets out."""
+
+from ...core.poses import Array, Pose
+from ...perception.measurement import Measurement
+from ...planning import Foot, GaitSettings
+from ..locomotion import IntentSource, MotionRequest, VelocityBounds
+from ..walk_snapshots import Phase, StepStarted
+from ..zmp.current_step import CurrentStep, resting_step
+from .policy_legs import PolicyLegs
+from .velocity_response import STILL, BodyVelocity
+
+
+def template_velocity(
+    request: MotionRequest, gait: GaitSettings
+) -> BodyVelocity:
+    """Return the velocity of the template unicycle, (3) and (8).
+
+    Args:
+        request: Decision of the player.
+        gait: Speed and steering gain of the template.
+    """
+    intent = request.intent
+    if not intent.walks:
+        return STILL
+    speed = request.direction.value * gait.speed * intent.speed_factor
+    return BodyVelocity(
+        speed * intent.pace, 0.0, gait.gain * intent.heading * intent.pace
+    )
+
+
+class PolicyWalk:
+    """Walk of one robot by a policy, with decisions at fixed intervals.
+
+    Attributes:
+        gait: Speed, steering gain and decision interval of the template.
+        legs: Learned legs.
+        phase: Phase of motion.
+        begun: None: a policy plans no steps.
+        joint_targets: Joint targets of the last tick, in [rad]. Shape
+            (joints,).
+        heading_delay: 0: the heading is measured.
+        pose_delay: 0: the pose is measured.
+    """
+
+    begun: StepStarted | None = None
+    heading_delay = 0.0
+    pose_delay = 0.0
+
+    def __init__(self, legs: PolicyLegs, gait: GaitSettings) -> None:
+        """Begin standing.
+
+        Args:
+            legs: Learned legs of the robot.
+            gait: Speed and steering gain of the template; the duration of its
+                step is the interval between decisions.
+        """
+        self.legs, self.gait = legs, gait
+        self.phase = Phase.STANDING
+        self.joint_targets = legs.joint_targets
+        self._velocity = STILL
+        self._next_decision = 0.0
+
+    @property
+    def velocity_bounds(self) -> VelocityBounds:
+        """Greatest velocities that it delivers."""
+        ahead, aside, turn = self.legs.limits
+        return VelocityBounds(ahead[1], aside[1], turn[1])
+
+    @property
+    def torso_heading(self) -> float:
+        """Heading of the torso in odometry, in [rad]."""
+        return self.legs.pose.theta
+
+    @property
+    def pose(self) -> Pose:
+        """Pose of the torso, which is that of the template."""
+        return self.legs.pose
+
+    @property
+    def tilt(self) -> tuple[float, float] | None:
+        """Roll and pitch of the torso, in [rad]."""
+        return self.legs.tilt
+
+    def step(self, now: float) -> CurrentStep:
+        """Return a step that does not move: no step is planned."""
+        return resting_step(self._support, Foot.RIGHT)
+
+    @property
+    def _support(self) -> Pose:
+        """Left foot of a robot that stands at the present pose."""
+        half = 0.5 * self.gait.foot_spacing
+        return self.legs.pose.compose(Pose(0.0, half, 0.0))
+
+    def update(
+        self, measurement: Measurement, decisions: IntentSource
+    ) -> Array:
+        """Run one control tick; see :class:`.locomotion.Locomotion`."""
+        now = measurement.time
+        if self.phase is Phase.STANDING:
+            if self.legs.ready and decisions.starts(now):
+                self._decide(now, decisions)
+        elif now >= self._next_decision - 1e-9:
+            self._decide(now, decisions)
+        self.joint_targets = self.legs.update(measurement, self._velocity)
+        return self.joint_targets
+
+    def _decide(self, now: float, decisions: IntentSource) -> None:
+        """Ask for a decision, and walk as it says until the next one."""
+        moving = self.phase is not Phase.STANDING
+        request = decisions.decide(
+            now, self._support, Foot.LEFT, moving=moving
+        )
+        self._velocity = (
+            STILL if request is None else template_velocity(request, self.gait)
+        )
+        walks = self._velocity != STILL
+        self.phase = Phase.WALKING if walks else Phase.STANDING
+        self._next_decision = now + self.gait.step_duration

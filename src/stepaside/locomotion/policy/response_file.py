@@ -1,0 +1,78 @@
+"""Measured response of legs, in a file beside the robot description."""
+
+import hashlib
+import tomllib
+from pathlib import Path
+from typing import Any
+
+from ...core.errors import PolicyError
+from .velocity_response import (
+    AXES,
+    AxisResponse,
+    BodyVelocity,
+    VelocityResponse,
+)
+
+
+def response_path(folder: Path, network: Path) -> Path:
+    """Return the file of the response of a network on a robot."""
+    return folder / f"legs-{network.stem}.toml"
+
+
+def digest_of(network: Path) -> str:
+    """Return the SHA-256 digest of a network, to tell networks apart."""
+    return hashlib.sha256(network.read_bytes()).hexdigest()
+
+
+def response_entries(
+    response: VelocityResponse, network: Path
+) -> dict[str, Any]:
+    """Return a response as entries of its file."""
+    axes = zip(AXES, response.axes, strict=True)
+    return {
+        "network": digest_of(network),
+        **{
+            name: {
+                "commands": list(axis.commands),
+                "delivered": [list(row) for row in axis.delivered],
+                "rise_time": axis.rise_time,
+            }
+            for name, axis in axes
+        },
+    }
+
+
+def load_response(folder: Path, network: Path) -> VelocityResponse | None:
+    """Load the response of a network on a robot.
+
+    Returns:
+        The response; None if it was not measured, or of another network of
+        this name.
+
+    Raises:
+        PolicyError: If the file is malformed.
+    """
+    path = response_path(folder, network)
+    if not path.is_file():
+        return None
+    try:
+        entries = tomllib.loads(path.read_text(encoding="utf-8"))
+        if entries["network"] != digest_of(network):
+            return None
+        axes = [
+            AxisResponse(
+                tuple(map(float, entries[name]["commands"])),
+                tuple(
+                    BodyVelocity(*map(float, row))
+                    for row in entries[name]["delivered"]
+                ),
+                float(entries[name]["rise_time"]),
+            )
+            for name in AXES
+        ]
+    except (ValueError, KeyError, TypeError) as error:
+        raise PolicyError(
+            f"{path} is not a response of legs: `stepaside legs measure` "
+            "writes it anew"
+        ) from error
+    return VelocityResponse((axes[0], axes[1], axes[2]))
