@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from stepaside.arena import (
     Disc,
     Obstacle,
+    ObstacleSet,
     Room,
     RoomRecipe,
     draw_initial_poses,
@@ -147,8 +148,10 @@ def test_path_around_obstacles_rotates_with_the_frame(
     solids = (Disc(0.0, 0.1, 0.3), Disc(0.4, -0.9, 0.2))
     moved = tuple(Disc(*transform(s.centre), s.radius) for s in solids)
     start, end = (-1.0, 0.0), (1.0, 0.05)
-    first = first_waypoint(solids, start, end, 0.2)
-    other = first_waypoint(moved, transform(start), transform(end), 0.2)
+    first = first_waypoint(ObstacleSet(solids), start, end, 0.2)
+    other = first_waypoint(
+        ObstacleSet(moved), transform(start), transform(end), 0.2
+    )
     # Same side only: corners around a disc lie at fixed angles.
     back = frame.inverse().compose(Pose(*other, 0.0))
     assert first != end and first[1] * back.y > 0.0

@@ -28,7 +28,9 @@ def path(
 ) -> list[Point]:
     points = [start]
     while points[-1] != end:
-        points.append(first_waypoint(solids, points[-1], end, RADIUS))
+        points.append(
+            first_waypoint(ObstacleSet(solids), points[-1], end, RADIUS)
+        )
         assert len(points) < 50
     return points
 
@@ -39,8 +41,11 @@ def length(points: list[Point]) -> float:
 
 
 def test_free_path_is_straight() -> None:
-    assert first_waypoint((), (0.0, 0.0), (1.0, 2.0), RADIUS) == (1.0, 2.0)
-    beside = (Disc(0.5, 0.31, 0.1),)
+    assert first_waypoint(NO_OBSTACLES, (0.0, 0.0), (1.0, 2.0), RADIUS) == (
+        1.0,
+        2.0,
+    )
+    beside = ObstacleSet((Disc(0.5, 0.31, 0.1),))
     assert first_waypoint(beside, (0.0, 0.0), (1.0, 0.0), RADIUS) == (1.0, 0.0)
 
 
@@ -93,7 +98,9 @@ def test_without_a_path_the_waypoint_is_the_goal() -> None:
             (0.0, -0.6, 1.3, 0.1),
         )
     )
-    assert first_waypoint(cage, (0.0, 0.0), (2.0, 0.0), RADIUS) == (2.0, 0.0)
+    assert first_waypoint(
+        ObstacleSet(cage), (0.0, 0.0), (2.0, 0.0), RADIUS
+    ) == (2.0, 0.0)
 
 
 @pytest.mark.parametrize("side", [1, -1])
@@ -102,7 +109,9 @@ def test_pursuer_goes_around_a_pillar(side: int) -> None:
     pillar = Disc(0.6, -0.02 * side, 0.15)
     here = Pose(0.3, -0.2, 0.7)
     placed = pillar.moved(here)
-    known = Knowledge(0.0, 0.0, 1.5, LIMITS, pose=here, obstacles=(placed,))
+    known = Knowledge(
+        0.0, 0.0, 1.5, LIMITS, pose=here, obstacles=ObstacleSet((placed,))
+    )
     intent, _ = Pursuit().decide(known, None)
     assert side * intent.heading > 0.3
     free = Knowledge(0.0, 0.4, 1.5, LIMITS, pose=here)
@@ -113,9 +122,13 @@ def test_pursuer_turns_at_its_full_rate_around_a_pillar() -> None:
     """By (2) it would walk into the pillar."""
     pillar = Disc(0.6, 0.02, 0.15)
     here = Pose(0.0, 0.0, 0.0)
-    known = Knowledge(0.0, 0.0, 1.5, LIMITS, pose=here, obstacles=(pillar,))
+    known = Knowledge(
+        0.0, 0.0, 1.5, LIMITS, pose=here, obstacles=ObstacleSet((pillar,))
+    )
     intent, _ = Pursuit().decide(known, None)
-    corner = first_waypoint((pillar,), (0.0, 0.0), (1.5, 0.0), RADIUS)
+    corner = first_waypoint(
+        ObstacleSet((pillar,)), (0.0, 0.0), (1.5, 0.0), RADIUS
+    )
     turn = LIMITS.gain * LIMITS.stride / LIMITS.speed * intent.heading
     assert atan2(corner[1], corner[0]) < -0.3
     assert turn == pytest.approx(-0.08 * pi / 2)
@@ -126,11 +139,15 @@ def test_pursuer_with_a_free_line_of_sight_avoids_a_pillar_ahead() -> None:
     pillar = Disc(0.45, 0.0, 0.15)
     here = Pose(0.0, 0.0, 0.0)
     other = atan2(-1.0, 0.1)
-    shut = Knowledge(0.0, other, 1.0, LIMITS, pose=here, obstacles=(pillar,))
+    shut = Knowledge(
+        0.0, other, 1.0, LIMITS, pose=here, obstacles=ObstacleSet((pillar,))
+    )
     intent, _ = Pursuit().decide(shut, None)
     assert intent.heading == pytest.approx(-pi / 2)
     away = Disc(0.55, 0.0, 0.15)
-    free = Knowledge(0.0, other, 1.0, LIMITS, pose=here, obstacles=(away,))
+    free = Knowledge(
+        0.0, other, 1.0, LIMITS, pose=here, obstacles=ObstacleSet((away,))
+    )
     assert Pursuit().decide(free, None)[0].heading == other
 
 
@@ -152,7 +169,7 @@ def test_path_is_equivariant_under_transformations_and_mirroring(
     turn, beside = random.uniform(-0.2, 0.2, 2).tolist()
     walls = (Box(0.0, beside, 0.1, 1.0, turn), Box(0.8, -0.4, 0.3, 0.4))
     start, end = (-1.0, 0.1), (1.6, -0.05)
-    found = first_waypoint(walls, start, end, RADIUS, side)
+    found = first_waypoint(ObstacleSet(walls), start, end, RADIUS, side)
     frame = Pose(*random.uniform(-3.0, 3.0, 3).tolist())
 
     def transform(point: Point) -> Point:
@@ -161,12 +178,12 @@ def test_path_is_equivariant_under_transformations_and_mirroring(
 
     moved = tuple(wall.moved(frame) for wall in walls)
     again = first_waypoint(
-        moved, transform(start), transform(end), RADIUS, side
+        ObstacleSet(moved), transform(start), transform(end), RADIUS, side
     )
     assert again == pytest.approx(transform(found), abs=1e-9)
     mirrored = (Box(0.0, -beside, 0.1, 1.0, -turn), Box(0.8, 0.4, 0.3, 0.4))
     ends = (start[0], -start[1]), (end[0], -end[1])
-    x, y = first_waypoint(mirrored, *ends, RADIUS, -side)
+    x, y = first_waypoint(ObstacleSet(mirrored), *ends, RADIUS, -side)
     assert (x, -y) == pytest.approx(found, abs=1e-9)
 
 
@@ -179,6 +196,6 @@ def test_path_takes_the_preferred_side(side: int, turn: float) -> None:
     for beside, preferred in ((0.05, True), (0.3, False)):
         wall = Box(0.5, side * beside, 0.1, 1.0).moved(here)
         start, end = (here.x, here.y), (goal.x, goal.y)
-        corner = first_waypoint((wall,), start, end, RADIUS, side)
+        corner = first_waypoint(ObstacleSet((wall,)), start, end, RADIUS, side)
         ahead = here.inverse().transform_points([corner])[0]
         assert bool(side * ahead[1] > 0.0) is preferred

@@ -154,7 +154,7 @@ def test_knowledge_has_poses_in_the_room_and_velocities_in_its_frame(
         assert one[:2] == pytest.approx(other[:2], abs=1e-9)
         off = wrap_angle(one.theta - other.theta)
         assert off == pytest.approx(0.0, abs=1e-9)
-    assert known.obstacles == plain.obstacles != ()
+    assert known.obstacles == plain.obstacles and known.obstacles
     for name in (
         "distance",
         "age",

@@ -39,7 +39,7 @@ def test_knowledge_is_in_the_frame_of_the_template() -> None:
     (known,) = made.memory
     assert known.bearing == pytest.approx(0.4 + 0.2 - 0.5)
     assert known.time == 3.0 and known.age == 0.5 and known.distance == 1.5
-    assert known.pose == PLACE and known.moving and known.obstacles == ()
+    assert known.pose == PLACE and known.moving and not known.obstacles
     limits = known.limits
     assert (limits.speed, limits.gain) == (GAIT.speed, GAIT.gain)
     assert (limits.stride, limits.step_duration) == (GAIT.stride, STEP)

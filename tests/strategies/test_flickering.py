@@ -10,6 +10,7 @@ from made_up_robot import GAIT
 from stepaside.arena import (
     Disc,
     Obstacle,
+    ObstacleSet,
     Polygon,
     Room,
     RoomRecipe,
@@ -56,7 +57,7 @@ class Flickering:
                 points = middle + away + off * np.sign(away)
                 shown.append(Polygon(tuple(map(tuple, points.tolist()))))
         known = replace(
-            known, obstacles=tuple(shown), map_error=self.map_error
+            known, obstacles=ObstacleSet(shown), map_error=self.map_error
         )
         intent, memory = self.inner.decide(known, memory)
         self.headings.append(intent.heading)
@@ -103,7 +104,7 @@ def test_a_map_that_is_exact_is_taken_at_its_word(
         0.1,
         0.6,
         LIMITS,
-        obstacles=(Disc(2.0, 2.0, 0.1),),
+        obstacles=ObstacleSet((Disc(2.0, 2.0, 0.1),)),
         map_error=map_error,
     )
     strategy.decide(known, strategy.begin())

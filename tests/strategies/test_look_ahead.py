@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from stepaside.arena import Disc, Room, RoomRecipe, generate_room
+from stepaside.arena import Disc, ObstacleSet, Room, RoomRecipe, generate_room
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.strategies import (
@@ -147,12 +147,17 @@ def test_it_knows_the_map_in_its_own_odometry() -> None:
     mind, disc = LookAhead(), Disc(-0.5, 0.03, 0.2)
     here = know(0.1, 0.8, Pose(0.0, 0.0, 0.0), 0.0)
     frame = Pose(2.0, -1.0, 1.3)
-    there = replace(here, pose=frame, obstacles=(disc.moved(frame),))
-    one, _ = mind.decide(replace(here, obstacles=(disc,)), mind.begin())
+    there = replace(
+        here, pose=frame, obstacles=ObstacleSet((disc.moved(frame),))
+    )
+    one, _ = mind.decide(
+        replace(here, obstacles=ObstacleSet((disc,))), mind.begin()
+    )
     other, _ = mind.decide(there, mind.begin())
     assert other.heading == pytest.approx(one.heading, abs=1e-9)
     free, _ = mind.decide(
-        replace(here, obstacles=(Disc(9.0, 0.0, 0.1),)), mind.begin()
+        replace(here, obstacles=ObstacleSet((Disc(9.0, 0.0, 0.1),))),
+        mind.begin(),
     )
     assert free.heading != pytest.approx(one.heading, abs=0.1)
 
@@ -303,7 +308,9 @@ def test_a_walker_looks_ahead_from_where_its_step_begins() -> None:
     mind = LookAhead()
     here, begins = Pose(0.0, 0.0, 0.2), Pose(-0.02, -0.003, 0.33)
     late = 0.1
-    known = replace(know(-0.2, 0.7, here, 1.0), obstacles=(disc,), age=late)
+    known = replace(
+        know(-0.2, 0.7, here, 1.0), obstacles=ObstacleSet((disc,)), age=late
+    )
     walker = replace(known, moving=True, begins=begins)
     # The pursuer is at (0.7, 0) and looks here: along -x.
     on = 0.7 - NAO.stride * (0.5 + late / NAO.step_duration)

@@ -5,7 +5,7 @@ from math import pi
 import numpy as np
 import pytest
 
-from stepaside.arena import Disc
+from stepaside.arena import Disc, ObstacleSet
 from stepaside.core.poses import Pose
 from stepaside.strategies import (
     Knowledge,
@@ -20,7 +20,7 @@ MIND = LookAhead(pieces=(2, 3), turns=3, tail=6, tight=0.0)
 
 
 def seen(distance: float, *solids: Disc, time: float = 0.0) -> Knowledge:
-    return Knowledge(time, 0.3, distance, NAO, obstacles=solids)
+    return Knowledge(time, 0.3, distance, NAO, obstacles=ObstacleSet(solids))
 
 
 @pytest.mark.parametrize("distance", [0.4, 0.6])
@@ -55,7 +55,7 @@ def test_knowledge_defaults_to_unknown() -> None:
     """A body that says no more stands, alone on an open floor."""
     known = Knowledge(1.0, 0.3, 2.0, NAO)
     assert known.pose == Pose(0.0, 0.0, 0.0) and not known.moving
-    assert known.obstacles == () and known.begins is None
+    assert not known.obstacles and known.begins is None
     assert (known.bearing_rate, known.closing_speed) == (None, None)
     assert known.velocity is None
     assert known.age == known.spread == 0.0

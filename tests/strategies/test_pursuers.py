@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.arena import Disc, Room, wall_between
+from stepaside.arena import Disc, ObstacleSet, Room, wall_between
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.strategies import (
     DeflectedEvasion,
@@ -184,7 +184,7 @@ def test_a_wall_turns_it_along_and_a_far_one_does_not() -> None:
     near = Knowledge(
         *(0.0, 0.0, 1.0, NAO),
         pose=Pose(0.0, 0.0, 0.9),
-        obstacles=(wall.moved(turn),),
+        obstacles=ObstacleSet((wall.moved(turn),)),
     )
     turned, _ = back.decide(near, back.begin())
     push = back.strength * (1.0 / 0.3 - 1.0 / back.reach)
@@ -195,6 +195,6 @@ def test_a_wall_turns_it_along_and_a_far_one_does_not() -> None:
     far = wall_between((-5.0, -2.0), (5.0, -2.0))
     room = Room(obstacles=(far, Disc(0.0, 3.0, 0.1)))
     away = Knowledge(
-        0.0, 0.0, 1.0, NAO, pose=Pose(0.0, 0.0, 0.5), obstacles=room.solids
+        0.0, 0.0, 1.0, NAO, pose=Pose(0.0, 0.0, 0.5), obstacles=room.solid_set
     )
     assert back.decide(away, back.begin())[0] == straight

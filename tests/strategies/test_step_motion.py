@@ -9,9 +9,11 @@ import pytest
 
 from stepaside.arena import (
     NO_OBSTACLES,
+    Box,
+    Disc,
+    ObstacleSet,
     RoomRecipe,
     generate_room,
-    obstacle_set,
 )
 from stepaside.core.poses import Pose
 from stepaside.planning import Direction
@@ -24,8 +26,13 @@ from stepaside.strategies.search import (
     PlayerPair,
     StepRules,
 )
+from stepaside.strategies.search.distance_field import (
+    DistanceField,
+    clearance_at,
+    distance_field,
+    field_clearance,
+)
 from stepaside.strategies.search.maneuver_rollout import judge, law_turn
-from stepaside.strategies.search.packed_obstacles import clearance_at
 from stepaside.strategies.search.step_motion import half_turn, step_both
 from stepaside.strategies.search.turn_search import look_ahead
 from stepaside.strategies.search.value_lookup import value_at
@@ -34,13 +41,20 @@ from stepaside.theory.bound import Bound, Grid, fixed_pursuit_game
 FACED = Pose(1.0, 1.0, 3.9)
 RULES = StepRules(0.04, 0.08, 0.04, 0.08)
 ROOM = generate_room(RoomRecipe(discs=3, boxes=2, polygons=2, doors=1), 4)
-PACKED, NOTHING = obstacle_set(ROOM.solids).packed, NO_OBSTACLES.packed
+PACKED, NOTHING = ROOM.solid_set.packed, NO_OBSTACLES.packed
 
 
 def place(evader: Pose, pursuer: Pose) -> PlayerPair:
     e, p = evader, pursuer
     heading = cos(e.theta), sin(e.theta), p.x, p.y, cos(p.theta), sin(p.theta)
     return PlayerPair(e.x, e.y, *heading)
+
+
+def field_of(
+    packed: Any, aims: ManeuverObjective, both: PlayerPair
+) -> DistanceField:
+    """Return the field that a search from a state uses."""
+    return distance_field(packed, aims.clearance, both.ex, both.ey, 1.0)
 
 
 @pytest.mark.parametrize("turn", [0.0, 1e-9, 0.251, -0.251, 0.8])
@@ -87,6 +101,28 @@ def test_packed_clearance_is_that_of_the_room() -> None:
     assert clearance_at(NOTHING, 0.0, 0.0, 0.3) == 0.3
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_the_distance_field_is_a_safe_and_tight_bound(seed: int) -> None:
+    """Within its cells and beyond, also where a cell has many neighbours."""
+    room = generate_room(RoomRecipe(discs=3, boxes=2, polygons=2), seed)
+    heap = [Box(0.6 + 0.02 * n, 0.6, 0.05, 0.05, 0.1 * n) for n in range(20)]
+    solids = ObstacleSet((*room.solids, *heap))
+    enough = 0.3
+    field = distance_field(solids.packed, enough, 0.2, -0.1, 1.2)
+    random = np.random.default_rng(seed)
+    points = random.uniform(-1.7, 1.7, (1500, 2))
+    exact = np.minimum(solids.clearance(points), enough)
+    found = [field_clearance(field, x, y) for x, y in points.tolist()]
+    np.testing.assert_allclose(found, exact, atol=1e-12)
+    cells = np.floor((points - (field.x, field.y)) / field.cell).astype(int)
+    inside = np.all((cells >= 0) & (cells < len(field.bounds)), axis=1)
+    assert 200 < inside.sum() < 1400
+    bounds = field.bounds[tuple(cells[inside].T)]
+    diagonal = field.cell * 2.0**0.5
+    assert np.all(bounds <= exact[inside] + 1e-12)
+    assert np.all(bounds >= exact[inside] - diagonal - 1e-12)
+
+
 @pytest.fixture(scope="module")
 def bound() -> Bound:
     """A table of anything; nothing is solved."""
@@ -123,7 +159,7 @@ def brute(
     law: bool = True,
 ) -> float:
     """Best score of all sequences and of the law, without leaving any out."""
-    best = -inf
+    best, field = -inf, field_of(packed, aims, both)
     pieces = maneuvers.pieces.tolist()
     sequences = [
         [u for u, n in zip(each, pieces, strict=True) for _ in range(n)]
@@ -140,7 +176,7 @@ def brute(
                 side = side or (-1.0 if left > 0.0 else 1.0)
                 u = law_turn(here, side, maneuvers.angle, RULES.evader_share)
             here = step_both(here, *half_turn(0.5 * u), RULES)
-            score = judge(here, score, aims, packed)
+            score = judge(here, score, aims, field)
         if table.values.size:
             score = min(score, value_at(table, here))
         best = max(best, score)
@@ -166,10 +202,10 @@ def test_the_search_matches_brute_force(
     found = look_ahead(both, (), maneuvers, RULES, aims, packed, table)
     expected = brute(both, maneuvers, aims, packed, table)
     assert found.score == pytest.approx(expected, abs=1e-7)
-    score, here = aims.enough, both
+    score, here, field = aims.enough, both, field_of(packed, aims, both)
     for turn in found.turns:
         here = step_both(here, *half_turn(0.5 * turn), RULES)
-        score = judge(here, score, aims, packed)
+        score = judge(here, score, aims, field)
     if valued:
         score = min(score, value_at(table, here))
     assert score == pytest.approx(expected, abs=1e-7)
@@ -205,19 +241,18 @@ def test_a_tie_keeps_the_plan() -> None:
 
 def test_missing_clearance_and_lost_sight_are_penalised() -> None:
     both = place(Pose(0.0, 0.0, 0.0), Pose(1.0, 1.0, 0.0))
-    packed = obstacle_set(
-        generate_room(RoomRecipe(discs=1), 1).obstacles
-    ).packed
-    x, y, radius = packed.discs[0]
+    x, y, radius = 0.4, -0.3, 0.15
+    disc = ObstacleSet((Disc(x, y, radius),)).packed
     near = both._replace(
         ex=x + radius + 0.15, ey=y, px=x + radius + 1.15, py=y
     )
     aims = ManeuverObjective(0.9, 0.2, 3.0)
-    assert judge(near, 0.9, aims, packed) == pytest.approx(0.9 - 3.0 * 0.05)
-    behind = both._replace(px=cos(2.5), py=sin(2.5))
-    blind = judge(
-        behind, 0.9, ManeuverObjective(0.9, sight=2.0, blindness=0.2), NOTHING
+    assert judge(near, 0.9, aims, field_of(disc, aims, near)) == pytest.approx(
+        0.9 - 3.0 * 0.05
     )
+    behind = both._replace(px=cos(2.5), py=sin(2.5))
+    aims = ManeuverObjective(0.9, sight=2.0, blindness=0.2)
+    blind = judge(behind, 0.9, aims, field_of(NOTHING, aims, behind))
     assert blind == pytest.approx(0.9 - 0.2 * 0.5)
     assert atan2(behind.py, behind.px) == pytest.approx(2.5)
 
@@ -234,12 +269,13 @@ def test_it_turns_on_the_spot_first_only_if_that_is_better(seed: int) -> None:
     )
     aims = ManeuverObjective(0.8, penalty=60.0, tight=inf)
     best = brute(both, maneuvers, aims, packed, NO_VALUE)
+    field = field_of(packed, aims, both)
     still = RULES._replace(evader_stride=0.05 * RULES.evader_stride)
     for side in (-0.25, 0.25):
         here, score = both, aims.enough
         for n in range(4):
             here = step_both(here, *half_turn(0.5 * side), still)
-            score = judge(here, score, aims, packed)
+            score = judge(here, score, aims, field)
             if n % 2:
                 behind = brute(
                     here,
@@ -257,7 +293,7 @@ def test_it_turns_on_the_spot_first_only_if_that_is_better(seed: int) -> None:
     for n, turn in enumerate(found.turns):
         rules = still if n < found.spot else RULES
         here = step_both(here, *half_turn(0.5 * turn), rules)
-        score = judge(here, score, aims, packed)
+        score = judge(here, score, aims, field)
     assert score == pytest.approx(found.score, abs=1e-9)
 
 

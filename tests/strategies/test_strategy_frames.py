@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from stepaside.arena import Box, Disc, Obstacle, Polygon, Room
+from stepaside.arena import Box, Disc, Obstacle, ObstacleSet, Polygon, Room
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.strategies import (
     DeflectedEvasion,
@@ -82,7 +82,7 @@ def asked(strategy: Any, frame: Pose, solids: Any = ()) -> list[Intent]:
     """Intents in a game whose odometry lies somewhere else."""
     memory, intents = strategy.begin(), []
     own, other = Pose(0.2, -0.1, 0.4), Pose(1.3, 0.3, 2.2)
-    stands = tuple(moved(solid, frame) for solid in solids)
+    stands = ObstacleSet(moved(solid, frame) for solid in solids)
     for i in range(5):
         velocity = Pose(0.0, 0.0, -own.theta).compose(
             Pose(0.06 * cos(other.theta), 0.06 * sin(other.theta), 0.0)
@@ -284,7 +284,7 @@ def test_a_player_knows_the_opponents_velocity_in_its_own_frame(
 ) -> None:
     """Of the other on the floor, however the own body moves and turns."""
     strategy: Any = Noting()
-    player = TemplatePlayer(strategy, LIMITS, SOLIDS)
+    player = TemplatePlayer(strategy, LIMITS, ObstacleSet(SOLIDS))
     for i in range(6):
         time = STEP * i
         here = own.compose(Pose(-0.03 * i, 0.0, 0.3 * i))
@@ -293,7 +293,7 @@ def test_a_player_knows_the_opponents_velocity_in_its_own_frame(
         player.decide(time, here, atan2(y, x), hypot(x, y))
     first, last = strategy.told[0], strategy.told[-1]
     assert first.velocity is None and last.pose == here
-    assert last.obstacles == SOLIDS and last.age == 0.0
+    assert last.obstacles.shapes == SOLIDS and last.age == 0.0
     turned = Pose(0.0, 0.0, -here.theta).compose(Pose(u, v, 0.0))
     assert last.velocity == pytest.approx(turned[:2], abs=1e-6)
     assert last.moving and not first.moving

@@ -102,7 +102,7 @@ def knowledge(
     limits = Limits(GAIT.speed, GAIT.gain, GAIT.stride, GAIT.step_duration)
     bearing = wrap_angle(atan2(y, x) - here.theta)
     return Knowledge(
-        0.0, bearing, hypot(x, y), limits, pose=here, obstacles=solids.shapes
+        0.0, bearing, hypot(x, y), limits, pose=here, obstacles=solids
     )
 
 

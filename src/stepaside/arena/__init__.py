@@ -7,7 +7,6 @@ from .obstacles import (
     Obstacle,
     ObstacleSet,
     clearance_between,
-    obstacle_set,
 )
 from .reachability import path_exists
 from .room import OPEN_FLOOR, Door, Room
@@ -40,7 +39,6 @@ __all__ = [
     "hull",
     "load_room",
     "generate_room",
-    "obstacle_set",
     "room_to_entries",
     "room_from_entries",
     "room_to_toml",

@@ -13,12 +13,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..core.convex import half_planes
 from ..core.poses import Array
 
 DIRECTION_COUNT = 64  # uniform directions; the nearest is within 3 degrees
 BLOCK_SIZE = 2**14  # points times edges in one block of arrays
 Flags = NDArray[np.bool_]
+Indices = NDArray[np.int64]
 
 
 class RoundedHull(NamedTuple):
@@ -26,20 +26,15 @@ class RoundedHull(NamedTuple):
 
     Attributes:
         points: Corners, counter-clockwise, in [m]. Shape (m, 2).
-        normals: Outward unit normals of the edges. A single point has one
-            edge of zero length whose half plane is empty. Shape (m, 2).
-        offsets: Inside is ``normals @ p <= offsets``, in [m]. Shape (m,).
         radius: Radius by which the hull is grown, in [m].
     """
 
     points: Array
-    normals: Array
-    offsets: Array
     radius: float
 
 
 def rounded_hull(points: ArrayLike, radius: float = 0.0) -> RoundedHull:
-    """Return the hull of corners, grown by a radius; arrays are read-only.
+    """Return the hull of corners, grown by a radius; the array is read-only.
 
     Args:
         points: Corners of a convex polygon, counter-clockwise, in [m], or
@@ -47,19 +42,23 @@ def rounded_hull(points: ArrayLike, radius: float = 0.0) -> RoundedHull:
         radius: Radius, in [m]; 0 unless there is a single point.
     """
     corners = np.array(points, dtype=np.float64)
-    normals, offsets = np.zeros((1, 2)), np.array([-inf])
-    if len(corners) > 1:
-        normals, offsets = half_planes(corners)
-    for each in (corners, normals, offsets):
-        each.setflags(write=False)
-    return RoundedHull(corners, normals, offsets, radius)
+    corners.setflags(write=False)
+    return RoundedHull(corners, radius)
 
 
 class HullSet:
-    """Rounded hulls in one frame.
+    """Rounded hulls in one frame, with the edges of all in one array.
 
     Attributes:
-        hulls: The hulls.
+        radii: Radius of each hull, in [m]. Shape (hulls,).
+        firsts: Index of the first edge of each hull. Shape (hulls,).
+        hull_of_edge: Index of the hull of each edge. Shape (edges,).
+        points: Start of each edge, in [m]. Shape (edges, 2).
+        edges: Vector to its end, in [m]. A single point has one edge of zero
+            length, whose half plane is empty. Shape (edges, 2).
+        normals: Outward unit normals of the edges. Shape (edges, 2).
+        offsets: Inside a hull is ``normals @ p <= offsets``, in [m]. Shape
+            (edges,).
     """
 
     def __init__(self, hulls: Iterable[RoundedHull]) -> None:
@@ -68,22 +67,44 @@ class HullSet:
         Args:
             hulls: Hulls in one frame.
         """
-        self.hulls = tuple(hulls)
-        counts = [len(h.points) for h in self.hulls]
-        pairs = np.zeros((0, 2))
-        points = [h.points for h in self.hulls]
-        ends = [np.roll(each, -1, axis=0) for each in points]
-        self._edge_starts: Array = np.concatenate([pairs, *points])
-        self._edges: Array = np.concatenate([pairs, *ends]) - self._edge_starts
-        self._normals: Array = np.concatenate(
-            [pairs, *(h.normals for h in self.hulls)]
+        parts = [(hull.points, hull.radius) for hull in hulls]
+        counts = np.array([len(points) for points, _ in parts], dtype=np.int64)
+        ends = np.cumsum(counts)
+        self.radii: Array = np.array([radius for _, radius in parts])
+        self.firsts = ends - counts
+        self.hull_of_edge = np.repeat(np.arange(len(counts)), counts)
+        self.points: Array = np.concatenate(
+            [np.zeros((0, 2)), *(points for points, _ in parts)]
         )
-        self._offsets: Array = np.concatenate(
-            [np.zeros(0), *(h.offsets for h in self.hulls)]
+        after = np.arange(1, len(self.points) + 1)
+        after[ends - 1] = self.firsts
+        self.edges: Array = self.points[after] - self.points
+        lengths = np.hypot(self.edges[:, 0], self.edges[:, 1])
+        with np.errstate(invalid="ignore"):
+            normals = self.edges[:, ::-1] * (1.0, -1.0) / lengths[:, None]
+        single = lengths == 0.0
+        self.normals: Array = np.where(single[:, None], 0.0, normals)
+        self.offsets: Array = np.where(
+            single, -inf, (self.normals * self.points).sum(axis=1)
         )
-        self._radii = np.array([h.radius for h in self.hulls])
-        self._hull_of_edge = np.repeat(np.arange(len(counts)), counts)
-        self._first_edges = np.cumsum([0, *counts])[:-1].astype(np.int64)
+
+    def __len__(self) -> int:
+        """Return the number of hulls."""
+        return len(self.firsts)
+
+    @cached_property
+    def circles(self) -> Array:
+        """Centre x, y and radius of a circle around each hull, in [m].
+
+        Shape (hulls, 3).
+        """
+        if not len(self):
+            return np.zeros((0, 3))
+        counts = np.diff([*self.firsts, len(self.points)])
+        centres = np.add.reduceat(self.points, self.firsts) / counts[:, None]
+        reach = np.hypot(*(self.points - centres[self.hull_of_edge]).T)
+        farthest = np.maximum.reduceat(reach, self.firsts) + self.radii
+        return np.column_stack([centres, farthest])
 
     def clearances(self, points: ArrayLike) -> Array:
         """Return the signed distances from each hull, negative inside.
@@ -95,13 +116,13 @@ class HullSet:
             Distances, in [m]. Shape (n, hulls).
         """
         queries = np.asarray(points, dtype=np.float64)
-        if not self.hulls:
+        if not len(self):
             return np.zeros((len(queries), 0))
-        heights = queries @ self._normals.T - self._offsets
-        beyond = np.maximum.reduceat(heights, self._first_edges, axis=1)
+        heights = queries @ self.normals.T - self.offsets
+        beyond = np.maximum.reduceat(heights, self.firsts, axis=1)
         distances = np.hypot(*self._offsets_from_edges(queries))
-        nearest = np.minimum.reduceat(distances, self._first_edges, axis=1)
-        signed: Array = np.where(beyond <= 0.0, beyond, nearest) - self._radii
+        nearest = np.minimum.reduceat(distances, self.firsts, axis=1)
+        signed: Array = np.where(beyond <= 0.0, beyond, nearest) - self.radii
         return signed
 
     def clearance(self, points: ArrayLike) -> Array:
@@ -115,8 +136,8 @@ class HullSet:
         """
         queries = np.asarray(points, dtype=np.float64)
         least: Array = np.full(len(queries), inf)
-        rows = max(1, BLOCK_SIZE // max(1, len(self._edges)))
-        for begin in range(0, len(queries) if self.hulls else 0, rows):
+        rows = max(1, BLOCK_SIZE // max(1, len(self.edges)))
+        for begin in range(0, len(queries) if len(self) else 0, rows):
             block = slice(begin, begin + rows)
             least[block] = self.clearances(queries[block]).min(axis=1)
         return least
@@ -132,15 +153,16 @@ class HullSet:
             Shape (n, hulls, 2).
         """
         queries = np.asarray(points, dtype=np.float64)
-        heights = queries @ self._normals.T - self._offsets
+        heights = queries @ self.normals.T - self.offsets
         away = np.stack(self._offsets_from_edges(queries), axis=-1)
         distances = np.hypot(away[..., 0], away[..., 1])
         rows = np.arange(len(queries))
-        vectors = np.zeros((len(queries), len(self.hulls), 2))
-        for n, first in enumerate(self._first_edges.tolist()):
-            own = slice(first, first + len(self.hulls[n].points))
+        vectors = np.zeros((len(queries), len(self), 2))
+        ends = [*self.firsts[1:].tolist(), len(self.points)]
+        for n, first in enumerate(self.firsts.tolist()):
+            own = slice(first, ends[n])
             outside = away[rows, first + distances[:, own].argmin(axis=1)]
-            inside = self._normals[first + heights[:, own].argmax(axis=1)]
+            inside = self.normals[first + heights[:, own].argmax(axis=1)]
             beyond = heights[:, own].max(axis=1, keepdims=True) > 0.0
             vectors[:, n] = np.where(beyond, outside, inside)
         lengths = np.hypot(vectors[..., 0], vectors[..., 1])[..., None]
@@ -160,38 +182,39 @@ class HullSet:
         """
         start = np.asarray(starts, dtype=np.float64)
         end = np.asarray(ends, dtype=np.float64)
-        if not self.hulls:
-            return np.zeros((len(end), 0), dtype=np.bool_)
-        distances = np.minimum.reduceat(
-            _segment_distances(self._edge_starts, start, end),
-            self._first_edges,
-            axis=1,
+        from_centres = self._distances_from_centres(start, end)
+        distances = self._segment_distances(
+            start, end, self.radii, from_centres
         )
-        near: Flags = distances <= self._radii
-        return self._segments_cross_interior(start, end) | near
+        hit: Flags = distances <= self.radii
+        return hit
 
     def segments_keep_clear(
-        self, allowed: Array, start: Array, ends: Array
+        self, allowed: Array, starts: Array, ends: Array
     ) -> Flags:
         """Return whether line segments keep a distance from every hull.
 
         Args:
-            allowed: Required distance from each hull, in [m]; start and ends
+            allowed: Required distance from each hull, in [m]; starts and ends
                 must satisfy it. Shape (hulls,).
-            start: Common start point, in [m]. Shape (2,).
+            starts: Start points, in [m]. Shape (n, 2), or (1, 2) for a
+                common start.
             ends: End points, in [m]. Shape (n, 2).
 
         Returns:
             True where the whole segment keeps the distances. Shape (n,).
         """
-        starts = start[None]
-        least = (self._radii + allowed)[self._hull_of_edge]
-        distances = _segment_distances(self._edge_starts, starts, ends)
-        free: Flags = np.all(distances >= least, axis=1)
-        if self.hulls:
-            free[free] &= ~np.any(
-                self._segments_cross_interior(starts, ends[free]), axis=1
-            )
+        least = self.radii + allowed
+        from_centres = self._distances_from_centres(starts, ends)
+        free: Flags = np.all(from_centres >= least, axis=1)
+        # The centre lies inside its hull: few segments are left to measure.
+        distances = self._segment_distances(
+            starts if len(starts) == 1 else starts[free],
+            ends[free],
+            least,
+            from_centres[free],
+        )
+        free[free] = np.all(distances >= least, axis=1)
         return free
 
     def swept_clearances(self, corners: Array) -> Array:
@@ -213,7 +236,7 @@ class HullSet:
             if they may touch, inf without hulls. Shape (instants - 1,), or
             (1,) for one instant.
         """
-        if not self.hulls:
+        if not len(self):
             return np.full(max(1, len(corners) - 1), inf)
         directions, nearest = self._separations
         reach = (corners @ directions).max(axis=1)
@@ -232,56 +255,117 @@ class HullSet:
         angles = np.arange(DIRECTION_COUNT) * (tau / DIRECTION_COUNT)
         even = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
         # The distance from a long wall is exact only along its own normals.
-        sides = self._normals[np.isfinite(self._offsets)]
+        sides = self.normals[np.isfinite(self.offsets)]
         around = np.concatenate([even, -sides])
         directions: Array = np.unique(np.round(around, 12), axis=0).T
         directions /= np.hypot(*directions)
-        nearest = np.array(
-            [
-                (h.points @ directions).min(axis=0) - h.radius
-                for h in self.hulls
-            ]
-        )
+        along = self.points @ directions
+        nearest = np.minimum.reduceat(along, self.firsts)
+        nearest -= self.radii[:, None]
         return directions, nearest
 
     def _offsets_from_edges(self, points: Array) -> tuple[Array, Array]:
         """Return x and y from the nearest point of each edge. Shape (n, m)."""
-        away = points[:, None] - self._edge_starts
-        fraction = (away * self._edges).sum(axis=2)
-        fraction /= np.maximum((self._edges**2).sum(axis=1), 1e-300)
-        away -= np.clip(fraction, 0.0, 1.0)[..., None] * self._edges
+        away = points[:, None] - self.points
+        fraction = (away * self.edges).sum(axis=2)
+        fraction /= np.maximum((self.edges**2).sum(axis=1), 1e-300)
+        away -= np.clip(fraction, 0.0, 1.0)[..., None] * self.edges
         return away[..., 0], away[..., 1]
 
-    def _segments_cross_interior(self, starts: Array, ends: Array) -> Flags:
-        """Clip segments by the half planes of each hull (Cyrus-Beck).
+    def _distances_from_centres(self, starts: Array, ends: Array) -> Array:
+        """Return distances of segments from the centre of each hull, in [m].
 
-        Returns whether any part of a segment remains. Shape (n, hulls).
+        Shape (n, hulls).
         """
-        firsts = self._first_edges
-        height = starts @ self._normals.T - self._offsets  # (n, m), [m]
-        slope = (ends - starts) @ self._normals.T
+        return _distances(self.circles[None, :, :2], starts, ends)
+
+    def _segment_distances(
+        self, starts: Array, ends: Array, most: Array, from_centres: Array
+    ) -> Array:
+        """Return distances of segments from the corners of each hull.
+
+        Args:
+            starts: Start points, in [m]. Shape (n, 2) or (1, 2).
+            ends: End points, in [m]. Shape (n, 2).
+            most: Distance of interest from each hull, in [m]. Shape (hulls,).
+            from_centres: Distances from the centres of the hulls, in [m].
+                Shape (n, hulls).
+
+        Returns:
+            Distances without the radius of the hull, in [m]; -inf if the
+            segment crosses the interior, inf at hulls farther than ``most``.
+            Shape (n, hulls).
+        """
+        found = np.full((len(ends), len(self)), inf)
+        reach = self.circles[:, 2] - self.radii + most
+        segment, hull = np.nonzero(from_centres <= reach)
+        if not len(segment):
+            return found
+        counts = np.diff([*self.firsts, len(self.points)])[hull]
+        last = np.cumsum(counts)
+        firsts = last - counts
+        rows = np.repeat(segment, counts)
+        edge = np.arange(len(rows))
+        edge += np.repeat(self.firsts[hull] - firsts, counts)
+        start = starts[rows] if len(starts) > 1 else starts
+        distances = np.minimum.reduceat(
+            _distances(self.points[edge], start, ends[rows]), firsts
+        )
+        crossing = self._crosses_interior(edge, start, ends[rows], firsts)
+        found[segment, hull] = np.where(crossing, -inf, distances)
+        return found
+
+    def _crosses_interior(
+        self, edge: Indices, starts: Array, ends: Array, firsts: Indices
+    ) -> Flags:
+        """Clip segments by the half planes of a hull each (Cyrus-Beck).
+
+        Args:
+            edge: Edges, those of each hull in a row. Shape (m,).
+            starts: Start of the segment that each edge clips, in [m]. Shape
+                (m, 2).
+            ends: Its end, in [m]. Shape (m, 2).
+            firsts: Index of the first edge of each pair of segment and hull.
+                Shape (n,).
+
+        Returns:
+            Whether any part of each segment remains. Shape (n,).
+        """
+        normals = self.normals[edge]
+        height = (starts * normals).sum(axis=1) - self.offsets[edge]  # [m]
+        slope = ((ends - starts) * normals).sum(axis=1)
         parallel = np.abs(slope) < 1e-12  # to the edge
         with np.errstate(divide="ignore", invalid="ignore"):
             fraction = -height / slope
         enters = np.where(~parallel & (slope < 0.0), fraction, 0.0)
         leaves = np.where(~parallel & (slope > 0.0), fraction, 1.0)
-        outside = np.logical_or.reduceat(parallel & (height > 0.0), firsts, 1)
+        outside = np.logical_or.reduceat(parallel & (height > 0.0), firsts)
         crossing: Flags = (
-            np.maximum(np.maximum.reduceat(enters, firsts, axis=1), 0.0)
-            <= np.minimum(np.minimum.reduceat(leaves, firsts, axis=1), 1.0)
+            np.maximum(np.maximum.reduceat(enters, firsts), 0.0)
+            <= np.minimum(np.minimum.reduceat(leaves, firsts), 1.0)
         ) & ~outside
         return crossing
 
 
-def _segment_distances(points: Array, starts: Array, ends: Array) -> Array:
-    """Return distances of points from segments, in [m]. (segments, points)."""
+def _distances(points: Array, starts: Array, ends: Array) -> Array:
+    """Return distances of points from segments, in [m].
+
+    Args:
+        points: Points, in [m]. Shape (n, 2), or (1, m, 2) for each of n
+            segments.
+        starts: Start of each segment, in [m]. Shape (n, 2) or (1, 2).
+        ends: End of each segment, in [m]. Shape (n, 2).
+
+    Returns:
+        Shape (n,), or (n, m).
+    """
     along = ends - starts
-    away_x = points[:, 0] - starts[:, :1]
-    away_y = points[:, 1] - starts[:, 1:]
-    squares = np.maximum((along**2).sum(axis=1), 1e-300)[:, None]
-    fraction = (along[:, :1] * away_x + along[:, 1:] * away_y) / squares
-    fraction = np.clip(fraction, 0.0, 1.0)
-    distances: Array = np.hypot(
-        away_x - fraction * along[:, :1], away_y - fraction * along[:, 1:]
-    )
+    squares = np.maximum((along**2).sum(axis=1), 1e-300)
+    x, y = along.T
+    u, v = starts.T
+    if points.ndim == 3:
+        x, y, u, v, squares = (a[:, None] for a in (x, y, u, v, squares))
+    away_x, away_y = points[..., 0] - u, points[..., 1] - v
+    fraction = np.clip((x * away_x + y * away_y) / squares, 0.0, 1.0)
+    distances: Array = np.hypot(away_x - fraction * x, away_y - fraction * y)
     return distances

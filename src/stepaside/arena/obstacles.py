@@ -1,9 +1,9 @@
 """Obstacles on the floor: the base class of shapes, and sets of them."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property
 from math import pi
 from typing import Any, ClassVar, NamedTuple
 
@@ -28,7 +28,7 @@ class Obstacle(ABC):
     @property
     @abstractmethod
     def hull(self) -> RoundedHull:
-        """The shape as points, half planes and a radius."""
+        """The shape as points and a radius."""
 
     @abstractmethod
     def moved(self, pose: Pose) -> "Obstacle":
@@ -60,7 +60,8 @@ class Obstacle(ABC):
         return signed_area(self.points) + pi * self.hull.radius**2
 
     @cached_property
-    def _hull_set(self) -> HullSet:
+    def hull_set(self) -> HullSet:
+        """The shape alone as a set of hulls."""
         return HullSet((self.hull,))
 
     def clearance(self, points: ArrayLike) -> Array:
@@ -72,7 +73,7 @@ class Obstacle(ABC):
         Returns:
             Distances, negative inside, in [m]. Shape (n,).
         """
-        return self._hull_set.clearances(points)[:, 0]
+        return self.hull_set.clearances(points)[:, 0]
 
 
 def clearance_between(one: Obstacle, other: Obstacle) -> float:
@@ -83,44 +84,44 @@ def clearance_between(one: Obstacle, other: Obstacle) -> float:
     # Disjoint convex sets are separated along the normal of an edge, or
     # between two corners, which the distances of the points of each to the
     # other one cover; so do they for discs, which have no edges.
-    a, b = one.hull, other.hull
+    a, b = one.hull_set, other.hull_set
     overlap = max(
         float((p.points @ q.normals.T - q.offsets).min(axis=0).max())
         for p, q in ((a, b), (b, a))
     )
     if overlap <= 0.0:
         return overlap
-    distance = one.clearance(b.points).min() - b.radius
-    return float(min(distance, other.clearance(a.points).min() - a.radius))
+    distance = a.clearance(b.points).min() - b.radii[0]
+    return float(min(distance, b.clearance(a.points).min() - a.radii[0]))
 
 
 class PackedObstacles(NamedTuple):
     """Discs and convex polygons as arrays, for compiled loops.
 
     Attributes:
-        discs: Centre x, y and radius, in [m]. Shape (n, 3).
+        circles: Centre x, y and radius of a circle around each obstacle, in
+            [m]. Shape (obstacles, 3).
+        firsts: Index of the first edge of each obstacle, and the number of
+            edges. A disc has none: it is its circle. Shape (obstacles + 1,).
         edges: Edges of all polygons, concatenated: outward unit normal,
             offset [m], first corner x, y [m], length [m]. Shape (m, 6).
-        firsts: Index of the first edge of each polygon, and the number of
-            edges. Shape (polygons + 1,).
-        rounds: Centre x, y and radius of a bounding circle of each polygon,
-            in [m]. Shape (polygons, 3).
     """
 
-    discs: Any
-    edges: Any
+    circles: Any
     firsts: Any
-    rounds: Any
+    edges: Any
 
 
 class ObstacleSet(HullSet):
     """Obstacles in one frame, with vectorised distance queries.
 
+    Iteration yields the obstacles.
+
     Attributes:
         shapes: The obstacles.
     """
 
-    def __init__(self, shapes: Iterable[Obstacle]) -> None:
+    def __init__(self, shapes: Iterable[Obstacle] = ()) -> None:
         """Concatenate the edges of the obstacles.
 
         Args:
@@ -129,31 +130,34 @@ class ObstacleSet(HullSet):
         self.shapes = tuple(shapes)
         super().__init__(shape.hull for shape in self.shapes)
 
+    def __iter__(self) -> Iterator[Obstacle]:
+        """Iterate over the obstacles."""
+        return iter(self.shapes)
+
+    def __eq__(self, other: object) -> bool:
+        """Return whether both hold equal obstacles in the same order."""
+        return isinstance(other, ObstacleSet) and self.shapes == other.shapes
+
+    def __hash__(self) -> int:
+        """Return the hash of the obstacles."""
+        return hash(self.shapes)
+
+    def __repr__(self) -> str:
+        """Return the obstacles as text."""
+        return f"ObstacleSet({self.shapes})"
+
     @cached_property
     def packed(self) -> PackedObstacles:
         """The obstacles as arrays for compiled loops."""
-        polygons = [s for s in self.shapes if len(s.points) > 1]
-        rounds = [
-            (*s.centre, np.hypot(*(s.points - s.centre).T).max())
-            for s in polygons
-        ]
-        lengths = np.hypot(self._edges[:, 0], self._edges[:, 1])
+        lengths = np.hypot(self.edges[:, 0], self.edges[:, 1])
         edges = np.column_stack(
-            [self._normals, self._offsets, self._edge_starts, lengths]
+            [self.normals, self.offsets, self.points, lengths]
         )
-        sides = np.isfinite(self._offsets)
-        return PackedObstacles(
-            np.column_stack(
-                [self._edge_starts, self._radii[self._hull_of_edge]]
-            )[~sides],
-            edges[sides],
-            np.cumsum([0, *(len(s.points) for s in polygons)]),
-            np.array(rounds, dtype=np.float64).reshape(-1, 3),
-        )
+        sides = lengths > 0.0
+        counts = np.bincount(self.hull_of_edge[sides], minlength=len(self))
+        firsts = np.cumsum([0, *counts])
+        return PackedObstacles(self.circles, firsts, edges[sides])
 
 
-obstacle_set = lru_cache(maxsize=64)(ObstacleSet)
-"""Return the set of a tuple of obstacles, cached."""
-
-NO_OBSTACLES = ObstacleSet(())
+NO_OBSTACLES = ObstacleSet()
 """Obstacle set of an open floor."""

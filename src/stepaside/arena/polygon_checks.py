@@ -1,16 +1,15 @@
 """Validation of coordinates and of the corners of polygons."""
 
 from collections.abc import Sequence
-
-import numpy as np
+from math import atan2, hypot, tau
 
 from ..core.errors import ConfigurationError, check_finite, check_within
-from ..core.poses import Array
 
 ERROR = ConfigurationError
 FARTHEST = 1000.0  # largest magnitude of a coordinate, in [m]
 SMALLEST = 1e-3  # least radius or edge, in [m]
 MOST_CORNERS = 64
+Corners = tuple[tuple[float, float], ...]
 
 
 def check_coordinate(value: float, name: str) -> None:
@@ -19,7 +18,7 @@ def check_coordinate(value: float, name: str) -> None:
     check_within(value, -FARTHEST, FARTHEST, name, "m", ERROR)
 
 
-def parse_corners(corners: object) -> tuple[tuple[float, float], ...]:
+def parse_corners(corners: object) -> Corners:
     """Return corners as pairs of finite numbers, or raise."""
     if not isinstance(corners, Sequence) or isinstance(corners, str):
         raise ERROR(f"polygon corners must be a list, got {corners!r:.40}")
@@ -43,28 +42,49 @@ def parse_corners(corners: object) -> tuple[tuple[float, float], ...]:
     return tuple((float(x), float(y)) for x, y in corners)
 
 
-def crosses_itself(points: Array) -> bool:
-    """Return whether two edges that are not adjacent intersect."""
-    count = len(points)
-    for i in range(count):
-        for j in range(i + 2, count):
-            if (j + 1) % count == i:
-                continue
-            a, b = points[i], points[(i + 1) % count]
-            c, d = points[j], points[(j + 1) % count]
-            if _side(a, b, c) * _side(a, b, d) <= 0.0 and (
-                _side(c, d, a) * _side(c, d, b) <= 0.0
-            ):
-                return True
-    return False
+def check_convex(corners: Corners) -> Corners:
+    """Return the corners of a convex polygon, counter-clockwise.
+
+    The exterior angles of a polygon that does not cross itself add up to one
+    turn; those of a convex one have the same sign.
+
+    Args:
+        corners: Corners (x, y) in order along the edge, in [m].
+
+    Raises:
+        ConfigurationError: If the polygon crosses itself, is not convex, or
+            has no inside.
+    """
+    edges = [
+        (after[0] - before[0], after[1] - before[1])
+        for before, after in zip(
+            corners, (*corners[1:], corners[0]), strict=True
+        )
+    ]
+    pairs = list(zip(edges, (*edges[1:], edges[0]), strict=True))
+    crosses = [a * d - b * c for (a, b), (c, d) in pairs]
+    dots = [a * c + b * d for (a, b), (c, d) in pairs]
+    turns = round(sum(map(atan2, crosses, dots)) / tau)
+    if abs(turns) != 1:
+        raise _refusal("not cross itself", corners)
+    lengths = [hypot(*edge) for edge in edges]
+    longest = max(lengths)
+    if min(lengths) < SMALLEST:
+        raise _refusal(f"have edges >= {SMALLEST:g} [m]", corners)
+    if min(turns * cross for cross in crosses) < -1e-9 * longest**2:
+        raise _refusal("be convex", corners)
+    x, y = corners[0]
+    doubled = sum(
+        (u - x) * b - (v - y) * a
+        for (u, v), (a, b) in zip(corners, edges, strict=True)
+    )
+    if turns * doubled < SMALLEST * longest:
+        raise _refusal("have an inside", corners)
+    return corners if turns > 0 else corners[::-1]
 
 
-def _side(a: Array, b: Array, p: Array) -> float:
-    turn = (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
-    return float(np.sign(turn))
-
-
-def format_corners(corners: tuple[tuple[float, float], ...]) -> str:
-    """Return the corners as text for a message, 80 characters at most."""
+def _refusal(rule: str, corners: Corners) -> ConfigurationError:
+    """Return the error for a rule that a polygon breaks."""
     text = ", ".join(f"({x:g}, {y:g})" for x, y in corners)
-    return text if len(text) <= 80 else f"{text[:77]}..."
+    text = text if len(text) <= 80 else f"{text[:77]}..."
+    return ERROR(f"polygon must {rule}, got corners {text}")

@@ -208,7 +208,7 @@ class Room:
             (n,).
         """
         queries = np.asarray(points, dtype=np.float64)
-        shapes = self._obstacle_set if self.is_closed else self._solid_set
+        shapes = self._obstacle_set if self.is_closed else self.solid_set
         least = shapes.clearance(queries)
         if self.is_closed:
             half = 0.5 * np.array([self.width, self.depth])
@@ -227,7 +227,7 @@ class Room:
         """
         hidden: NDArray[np.bool_]
         hidden = np.any(
-            self._solid_set.segments_intersect(starts, ends), axis=1
+            self.solid_set.segments_intersect(starts, ends), axis=1
         )
         return ~hidden
 
@@ -236,7 +236,8 @@ class Room:
         return ObstacleSet(self.obstacles)
 
     @cached_property
-    def _solid_set(self) -> ObstacleSet:
+    def solid_set(self) -> ObstacleSet:
+        """Obstacles at rest and walls, for distance queries."""
         return ObstacleSet(self.solids)
 
 

@@ -8,7 +8,7 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..core.convex import convex_hull, signed_area
+from ..core.convex import convex_hull
 from ..core.errors import check_bearing, check_within
 from ..core.poses import Array, Pose, wrap_angle
 from .hull_set import RoundedHull, rounded_hull
@@ -17,9 +17,8 @@ from .polygon_checks import (
     ERROR,
     FARTHEST,
     SMALLEST,
+    check_convex,
     check_coordinate,
-    crosses_itself,
-    format_corners,
     parse_corners,
 )
 
@@ -85,34 +84,7 @@ class Polygon(Obstacle):
 
     def __post_init__(self) -> None:
         """Validate that the polygon is simple, convex and not degenerate."""
-        corners = parse_corners(self.corners)
-        points = np.array(corners)
-        if crosses_itself(points):
-            raise ERROR(
-                "polygon must not cross itself, got corners "
-                f"{format_corners(corners)}"
-            )
-        if signed_area(points) < 0.0:
-            corners, points = corners[::-1], points[::-1]
-        edges = np.roll(points, -1, axis=0) - points
-        lengths = np.hypot(edges[:, 0], edges[:, 1])
-        if lengths.min() < SMALLEST:
-            raise ERROR(
-                f"polygon must have edges >= {SMALLEST:g} [m], got corners "
-                f"{format_corners(corners)}"
-            )
-        after = np.roll(edges, -1, axis=0)
-        turns = edges[:, 0] * after[:, 1] - edges[:, 1] * after[:, 0]
-        if turns.min() < -1e-9 * lengths.max() ** 2:
-            raise ERROR(
-                "polygon must be convex, got corners "
-                f"{format_corners(corners)}"
-            )
-        if signed_area(points) < 0.5 * SMALLEST * lengths.max():
-            raise ERROR(
-                "polygon must have an inside, got corners "
-                f"{format_corners(corners)}"
-            )
+        corners = check_convex(parse_corners(self.corners))
         object.__setattr__(self, "corners", corners)
 
     @cached_property

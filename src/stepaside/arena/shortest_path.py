@@ -1,13 +1,12 @@
 """Shortest path of a disc around obstacles, by a visibility graph."""
 
-from collections.abc import Sequence
 from functools import lru_cache
-from math import ceil, cos, pi, tau
+from math import pi, tau
 
 import numpy as np
 
 from ..core.poses import Array
-from .obstacles import Obstacle, obstacle_set
+from .obstacles import ObstacleSet
 
 ARC = pi / 8  # of a corner that one edge of a path goes around, in [rad]
 SIDE_PREFERENCE = 0.4  # by which the other side must be shorter, in [m]
@@ -16,7 +15,7 @@ Point = tuple[float, float]
 
 
 def first_waypoint(
-    solids: Sequence[Obstacle],
+    solids: ObstacleSet,
     start: Point,
     end: Point,
     radius: float,
@@ -26,7 +25,9 @@ def first_waypoint(
 
     Paths consist of straight edges between corners, which pass each solid at
     a distance of the radius plus 1 cm and turn by at most 22.5 degrees.
-    The corners form a visibility graph; the search is Dijkstra's.
+    The corners form a visibility graph, which is searched by A* with the
+    straight distance to the goal. Only edges that could shorten the path are
+    tested for obstacles.
 
     Args:
         solids: Obstacles and walls.
@@ -41,96 +42,77 @@ def first_waypoint(
         The goal if the straight line is free, or if there is no path; else
         the first corner of the shortest path.
     """
-    known = tuple(solids)
     ends = np.array([start, end])
-    around = obstacle_set(known)
-    clear = around.clearances(ends).min(axis=0)
+    clear = solids.clearances(ends).min(axis=0)
     allowed = np.minimum(radius, clear - 1e-9)
-    if around.segments_keep_clear(allowed, ends[0], ends[1:])[0]:
+    if solids.segments_keep_clear(allowed, ends[:1], ends[1:])[0]:
         return end
-    graph = _visibility_graph(known, radius)
-    corners = graph.corners
-    count = len(corners)
-    from_start = graph.lengths_from(allowed, ends[0])
+    corners = path_corners(solids, radius)
+    from_start, to_end = (
+        np.where(
+            solids.segments_keep_clear(allowed, point[None], corners),
+            np.hypot(*(corners - point).T),
+            np.inf,
+        )
+        for point in ends
+    )
     (x, y), (u, v) = start, end
     left = (u - x) * (corners[:, 1] - y) - (v - y) * (corners[:, 0] - x)
     best = from_start + np.where(side * left < 0.0, SIDE_PREFERENCE, 0.0)
-    to_end = graph.lengths_from(allowed, ends[1])
-    first = np.arange(count)
-    visited = np.zeros(count, dtype=np.bool_)
-    for _ in range(count):
-        number = int(np.where(visited, np.inf, best).argmin())
-        # A corner beyond the best complete path cannot shorten it.
-        if visited[number] or not best[number] < (best + to_end).min():
+    rest = np.hypot(*(corners - ends[1]).T)  # at least, in [m]
+    required = np.full(len(solids), radius)
+    first = np.arange(len(corners))
+    visited = np.zeros(len(corners), dtype=np.bool_)
+    for _ in range(len(corners)):
+        ahead = np.where(visited, np.inf, best + rest)
+        number = int(ahead.argmin())
+        total = (best + to_end).min()
+        if not ahead[number] < total:
             break
         visited[number] = True
-        through = best[number] + graph.lengths_between(number)
-        shorter = through < best - 1e-12
-        first = np.where(shorter, first[number], first)
-        best = np.where(shorter, through, best)
+        corner = corners[number]
+        through = best[number] + np.hypot(*(corners - corner).T)
+        shorter = (through < best - 1e-12) & (through + rest < total)
+        (after,) = np.nonzero(shorter & ~visited)
+        after = after[
+            solids.segments_keep_clear(required, corner[None], corners[after])
+        ]
+        first[after], best[after] = first[number], through[after]
     total = best + to_end
-    if not count or not np.isfinite(total.min()):
+    if not len(corners) or not np.isfinite(total.min()):
         return end
     x, y = corners[first[int(total.argmin())]].tolist()
     return x, y
 
 
-class _VisibilityGraph:
-    """Corners around solids and the free segments between them.
+@lru_cache(maxsize=16)
+def path_corners(solids: ObstacleSet, radius: float) -> Array:
+    """Return the corners of paths of a disc that keep clear of all solids.
 
-    Attributes:
-        corners: Corners, in [m]. Shape (n, 2).
+    Each corner of a solid is passed along a polygonal chain around the arc
+    from the normal of one edge to that of the next, at a distance of the
+    radius plus 1 cm.
+
+    Args:
+        solids: Obstacles and walls.
+        radius: Radius of the disc, in [m].
+
+    Returns:
+        Corners, in [m]. Shape (n, 2).
     """
-
-    def __init__(self, solids: tuple[Obstacle, ...], radius: float) -> None:
-        """Find the corners for a disc of a radius, in [m]."""
-        self._solids = obstacle_set(solids)
-        corners = _corners(solids, radius)
-        clear = self._solids.clearances(corners) >= radius
-        self.corners: Array = corners[clear.all(axis=1)]
-        self._allowed = np.full(len(solids), radius)
-        self._between: dict[int, Array] = {}
-
-    def lengths_between(self, number: int) -> Array:
-        """Return the lengths of edges from a corner, in [m]. Shape (n,)."""
-        if number not in self._between:
-            corner = self.corners[number]
-            self._between[number] = self.lengths_from(self._allowed, corner)
-        return self._between[number]
-
-    def lengths_from(self, allowed: Array, point: Array) -> Array:
-        """Return the distances of visible corners; inf where hidden."""
-        lengths: Array = np.where(
-            self._solids.segments_keep_clear(allowed, point, self.corners),
-            np.hypot(*(self.corners - point).T),
-            np.inf,
-        )
-        return lengths
-
-
-_visibility_graph = lru_cache(maxsize=16)(_VisibilityGraph)
-
-
-def _corners(solids: tuple[Obstacle, ...], radius: float) -> Array:
-    """Return the corners of paths around each solid, in [m]. Shape (n, 2)."""
-    found = [np.zeros((0, 2))]
-    for solid in solids:
-        away = solid.hull.radius + radius + MARGIN
-        after = np.arctan2(*solid.hull.normals.T[::-1])
-        begins = np.roll(after, 1)
-        turns = (after - begins) % tau if len(after) > 1 else [tau]
-        for corner, begin, turn in zip(
-            solid.points, begins, turns, strict=True
-        ):
-            found.append(corner + _arc(float(begin), float(turn), away))
-    return np.concatenate(found)
-
-
-def _arc(begin: float, turn: float, radius: float) -> Array:
-    """Return corners of a polygonal chain around an arc. Shape (n, 2)."""
-    count = max(1, ceil(turn / ARC - 1e-9))
-    half = 0.5 * turn / count
-    angles = begin + half * (2.0 * np.arange(count) + 1.0)
-    out = radius / cos(half)
-    chain: Array = out * np.stack([np.cos(angles), np.sin(angles)], axis=-1)
-    return chain
+    after = np.arctan2(solids.normals[:, 1], solids.normals[:, 0])
+    before = np.arange(len(after)) - 1
+    before[solids.firsts] = np.append(solids.firsts[1:], len(after)) - 1
+    turns = (after - after[before]) % tau
+    turns[np.isinf(solids.offsets)] = tau  # all around a disc
+    counts = np.maximum(1, np.ceil(turns / ARC - 1e-9)).astype(np.int64)
+    half = 0.5 * turns / counts
+    edge = np.repeat(np.arange(len(after)), counts)
+    number = np.arange(len(edge)) - (np.cumsum(counts) - counts)[edge]
+    angles = after[before][edge] + half[edge] * (2.0 * number + 1.0)
+    away = solids.radii[solids.hull_of_edge] + radius + MARGIN
+    out = (away / np.cos(half))[edge]
+    around = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
+    corners: Array = solids.points[edge] + out[:, None] * around
+    required = np.full(len(solids), radius)
+    return corners[solids.segments_keep_clear(required, corners, corners)]

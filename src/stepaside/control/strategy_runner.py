@@ -179,7 +179,7 @@ class StrategyRunner(DecisionMaker):
             time=sighting.time,
             frame=self._surroundings.frame,
             moving=moving,
-            obstacles=self._surroundings.solids.shapes,
+            obstacles=self._surroundings.solids,
             spread=sighting.spread,
             map_error=self._surroundings.map_error,
         )

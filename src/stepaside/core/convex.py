@@ -1,9 +1,12 @@
 """Convex polygons in the plane: hull, half planes and area."""
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+Point = tuple[float, float]
 
 
 def convex_hull(points: Array, tolerance: float = 0.0) -> Array:
@@ -20,20 +23,40 @@ def convex_hull(points: Array, tolerance: float = 0.0) -> Array:
         Corners, counter-clockwise from the smallest x; the two ends if all
         points lie on a line. Shape (m, 2).
     """
-    ordered = sorted(map(tuple, points.tolist()))
-    hull: list[tuple[float, ...]] = []
-    for chain in (ordered, ordered[::-1]):
-        first = len(hull)
-        for p in chain:
-            while len(hull) >= first + 2:
-                (ax, ay), (bx, by) = hull[-2], hull[-1]
-                turn = (by - ay) * (p[0] - ax) + tolerance
-                if (bx - ax) * (p[1] - ay) > turn:
-                    break
-                hull.pop()
-            hull.append(p)
-        hull.pop()
-    return np.array(hull or ordered)
+    ordered = sorted((x, y) for x, y in points.tolist())
+    lower = lower_hull(ordered, tolerance)
+    upper = lower_hull(ordered[::-1], tolerance)
+    return np.array(lower[:-1] + upper[:-1] or ordered)
+
+
+def lower_hull(
+    ordered: Sequence[Point], tolerance: float = 0.0
+) -> list[Point]:
+    """Return the corners of the lower half of a convex hull.
+
+    Args:
+        ordered: Points (x, y) in ascending order; in descending order they
+            give the upper half.
+        tolerance: See :func:`convex_hull`.
+
+    Returns:
+        Corners from the first point to the last.
+    """
+    hull: list[Point] = []
+    for p in ordered:
+        while len(hull) >= 2:
+            (ax, ay), (bx, by) = hull[-2], hull[-1]
+            turn = (by - ay) * (p[0] - ax) + tolerance
+            if (bx - ax) * (p[1] - ay) > turn:
+                break
+            hull.pop()
+        hull.append(p)
+    return hull
+
+
+def next_corners(polygon: Array) -> Array:
+    """Return the corner after each corner of a polygon. Shape (n, 2)."""
+    return np.concatenate([polygon[1:], polygon[:1]])
 
 
 def half_planes(polygon: Array) -> tuple[Array, Array]:
@@ -47,7 +70,7 @@ def half_planes(polygon: Array) -> tuple[Array, Array]:
         is inside if a p <= b for all, and b - a p is its distance from an
         edge. Shapes (n, 2), (n,).
     """
-    edges = np.roll(polygon, -1, axis=0) - polygon
+    edges = next_corners(polygon) - polygon
     normals = np.column_stack([edges[:, 1], -edges[:, 0]])
     normals /= np.hypot(edges[:, 0], edges[:, 1])[:, None]
     offsets: Array = (normals * polygon).sum(axis=1)
@@ -60,6 +83,6 @@ def signed_area(polygon: Array) -> float:
     Args:
         polygon: Corners, in [m]. Shape (n, 2).
     """
-    after = np.roll(polygon, -1, axis=0)
+    after = next_corners(polygon)
     doubled = polygon[:, 0] * after[:, 1] - polygon[:, 1] * after[:, 0]
     return 0.5 * float(doubled.sum())

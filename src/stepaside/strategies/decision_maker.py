@@ -3,7 +3,7 @@
 from math import cos, sin
 from typing import Any
 
-from ..arena import Obstacle
+from ..arena import NO_OBSTACLES, ObstacleSet
 from ..core.errors import StrategyError
 from ..core.poses import Pose, wrap_angle
 from .foreign_code import evaluate_strategy
@@ -71,7 +71,7 @@ class DecisionMaker:
         time: float,
         frame: Pose = ORIGIN,
         moving: bool,
-        obstacles: tuple[Obstacle, ...] = (),
+        obstacles: ObstacleSet = NO_OBSTACLES,
         spread: float = 0.0,
         map_error: float = 0.0,
     ) -> Knowledge:
@@ -148,7 +148,7 @@ class TemplatePlayer(DecisionMaker):
         self,
         strategy: Strategy,
         limits: Limits,
-        obstacles: tuple[Obstacle, ...] = (),
+        obstacles: ObstacleSet = NO_OBSTACLES,
         *,
         estimates_velocity: bool = True,
     ) -> None:

@@ -3,7 +3,6 @@
 from dataclasses import dataclass, field
 from math import atan2, cos, sin
 
-from ..arena import obstacle_set
 from ..core.errors import ConfigurationError, check_positive
 from ..core.poses import wrap_angle
 from ..planning import Direction
@@ -67,7 +66,7 @@ class DeflectedEvasion:
         x, y = -cos(back), -sin(back)  # it walks backward
         points = [(pose.x, pose.y), (pose.x + STEP, pose.y)]
         points.append((pose.x, pose.y + STEP))
-        clearances = obstacle_set(knowledge.obstacles).clearances(points)
+        clearances = knowledge.obstacles.clearances(points)
         for here, east, north in clearances.T.tolist():
             gap = max(here - self.body_radius, MIN_GAP)
             if gap >= self.reach:

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..arena import Obstacle
+from ..arena import NO_OBSTACLES, ObstacleSet
 from ..core.errors import (
     PlanError,
     check_bearing,
@@ -57,7 +57,8 @@ class Knowledge:
         pose: Pose of the frame in the own odometry, or in the frame of a
             known room.
         moving: Whether the body is walking.
-        obstacles: Known obstacles, walls included, in the frame of ``pose``.
+        obstacles: Known obstacles, walls included, in the frame of ``pose``;
+            iterate over it for single ones.
         velocity: Velocity of the opponent over the floor, components ahead
             and to the left in the frame, in [m/s]; None until it is known.
         begins: Pose at which the decided step begins, in the frame of
@@ -76,7 +77,7 @@ class Knowledge:
     age: float = 0.0
     pose: Pose = Pose(0.0, 0.0, 0.0)
     moving: bool = False
-    obstacles: tuple[Obstacle, ...] = ()
+    obstacles: ObstacleSet = NO_OBSTACLES
     velocity: tuple[float, float] | None = None
     begins: Pose | None = None
     spread: float = 0.0

@@ -7,7 +7,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..arena import NO_OBSTACLES, obstacle_set
 from ..core.errors import (
     ConfigurationError,
     check_not_negative,
@@ -27,7 +26,6 @@ from .search import (
     StepRules,
 )
 from .search.candidate_maneuvers import DEEPEST
-from .search.packed_obstacles import clearance_at
 from .search.step_motion import half_turn, step_both
 
 
@@ -222,15 +220,11 @@ class LookAhead:
         if knowledge.begins is not None:
             both = predict_poses(both, knowledge, knowledge.begins)
         bounded = bool(knowledge.obstacles)
-        obstacles = (
-            obstacle_set(knowledge.obstacles) if bounded else NO_OBSTACLES
-        )
-        packed = obstacles.packed
         table = NO_VALUE
         if not bounded and self.cells and self.pieces:
             table = pursuit_table(self.cells, limits.speed / limits.gain)
         map_error = max(knowledge.map_error, GAIN)
-        aims = ManeuverObjective(
+        objective = ManeuverObjective(
             self.enough if bounded else inf,
             self.body_radius + MARGIN,
             min(PENALTY, MAP_ERROR_COST / map_error),
@@ -244,8 +238,8 @@ class LookAhead:
             plan,
             self._maneuvers(limits, valued=table is not NO_VALUE),
             rules,
-            aims,
-            packed,
+            objective,
+            knowledge.obstacles.packed,
             table,
             planned=spot,
         )
@@ -286,11 +280,10 @@ class LookAhead:
     ) -> bool:
         """Return whether a step touches an obstacle and standing does not."""
         after = step_both(both, *half_turn(0.5 * turn), rules)
-        packed = obstacle_set(knowledge.obstacles).packed
-        radius = self.body_radius
-        now = clearance_at(packed, both.ex, both.ey, radius)
-        then = clearance_at(packed, after.ex, after.ey, radius)
-        return then < radius and then < now
+        now, then = knowledge.obstacles.clearance(
+            [(both.ex, both.ey), (after.ex, after.ey)]
+        )
+        return bool(then < min(self.body_radius, now))
 
 
 def step_rules(limits: Limits, lead: float = 0.0) -> StepRules:

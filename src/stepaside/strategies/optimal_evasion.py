@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, field, replace
 
+from ..arena import NO_OBSTACLES
 from ..planning import Direction
 from .knowledge import Intent, Knowledge
 from .look_ahead import LookAhead, LookAheadMemory
@@ -46,4 +47,6 @@ class OptimalEvasion:
         self, knowledge: Knowledge, memory: LookAheadMemory
     ) -> tuple[Intent, LookAheadMemory]:
         """Take the step with the largest value."""
-        return self.step.decide(replace(knowledge, obstacles=()), memory)
+        return self.step.decide(
+            replace(knowledge, obstacles=NO_OBSTACLES), memory
+        )

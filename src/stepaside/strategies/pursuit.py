@@ -5,7 +5,7 @@ from math import atan2, cos, inf, pi, sin
 
 import numpy as np
 
-from ..arena import BODY_RADIUS, obstacle_set
+from ..arena import BODY_RADIUS
 from ..arena.shortest_path import first_waypoint
 from ..core.poses import wrap_angle
 from ..core.ranges import Range
@@ -86,9 +86,7 @@ class Pursuit:
         x, y, theta = knowledge.pose
         ahead = FREE_STRIDES * knowledge.limits.stride
         path = [(x, y), (x + ahead * cos(theta), y + ahead * sin(theta))]
-        now, after = obstacle_set(knowledge.obstacles).clearances(
-            np.array(path)
-        )
+        now, after = knowledge.obstacles.clearances(np.array(path))
         nearer = after < np.minimum(self.body_radius, now - 1e-9)
         return bool(nearer.any())
 

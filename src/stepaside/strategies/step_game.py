@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..arena import OPEN_FLOOR, Obstacle, Room, obstacle_set
+from ..arena import NO_OBSTACLES, OPEN_FLOOR, ObstacleSet, Room
 from ..core.brief_repr import brief_repr
 from ..core.constants import CAPTURE_DISTANCE
 from ..core.errors import check_bearing, check_positive, check_within
@@ -16,7 +16,7 @@ from ..core.poses import Array, Pose, wrap_angle
 from ..planning import Direction
 from .decision_maker import TemplatePlayer
 from .knowledge import Intent, Limits
-from .search.packed_obstacles import clearance_at
+from .search.distance_field import clearance_at
 from .strategy import Strategy
 
 
@@ -144,7 +144,7 @@ class _StepPlayer:
         strategy: Strategy,
         pose: Pose,
         game: StepGame,
-        solids: tuple[Obstacle, ...],
+        solids: ObstacleSet,
     ) -> None:
         self.strategy, self.pose, self.game = strategy, pose, game
         self._player = TemplatePlayer(
@@ -213,10 +213,10 @@ def play_steps(
     """
     game = game or StepGame()
     # A pursuer that walks through obstacles plans no detours.
-    stops = room.solids if game.solid_pursuer else ()
+    stops = room.solid_set if game.solid_pursuer else NO_OBSTACLES
     hunter = _StepPlayer(pursuer, starts[0], game, stops)
-    prey = _StepPlayer(evader, starts[1], game, room.solids)
-    packed = obstacle_set(room.solids).packed
+    prey = _StepPlayer(evader, starts[1], game, room.solid_set)
+    packed = room.solid_set.packed
     ways: list[tuple[Pose, Pose]] = [(hunter.pose, prey.pose)]
     bearings = [prey.bearing_of(hunter.pose)]
     clearances = [clearance_at(packed, prey.pose.x, prey.pose.y, inf)]

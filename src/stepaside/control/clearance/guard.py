@@ -190,7 +190,7 @@ class Guard:
             standing: Whether the robot stands; inside the margin it may then
                 move out of it.
         """
-        if not self.surroundings.solids.shapes:
+        if not self.surroundings.solids:
             return True
         clearance = self.evaluate(plan, support)
         if clearance.least >= self.margin:

@@ -2,7 +2,7 @@
 
 from typing import Protocol
 
-from ...arena import NO_OBSTACLES, ObstacleSet, Room, obstacle_set
+from ...arena import NO_OBSTACLES, ObstacleSet, Room
 from ...core.poses import Pose
 from ...perception.floor_map import CELL, FloorMap
 from ...perception.measurement import Measurement
@@ -76,7 +76,7 @@ class KnownRoom:
             start: Initial pose of the own odometry in the room.
         """
         self._room, self._next = room, 0.0
-        self.solids = obstacle_set(room.solids_at(0.0, AHEAD))
+        self.solids = ObstacleSet(room.solids_at(0.0, AHEAD))
         self.frame = start
 
     def note(self, measurement: Measurement, body: BodyReference) -> None:
@@ -88,7 +88,7 @@ class KnownRoom:
         now = measurement.time
         if self._room.moving and now >= self._next - 1e-9:
             self._next = now + REFRESH_PERIOD
-            self.solids = obstacle_set(self._room.solids_at(now, AHEAD))
+            self.solids = ObstacleSet(self._room.solids_at(now, AHEAD))
 
 
 class MappedRoom:
@@ -124,4 +124,4 @@ class MappedRoom:
         known = self._floor.taken()
         if not self._unseen_is_free:
             known += self._floor.unseen(body.com[:2])
-        self.solids = obstacle_set(known)
+        self.solids = ObstacleSet(known)

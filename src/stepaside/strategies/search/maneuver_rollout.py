@@ -2,17 +2,16 @@
 
 from math import atan2, pi
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
-from ...arena.obstacles import PackedObstacles
 from ...theory.unicycle.compilation import (
     compiled,
     forget_stale,
     inlined,
     load_numba,
 )
-from .candidate_maneuvers import ManeuverObjective
-from .packed_obstacles import clearance_at
+from .candidate_maneuvers import CandidateManeuvers, ManeuverObjective
+from .distance_field import DistanceField, field_clearance
 from .step_motion import PlayerPair, StepRules, half_turn, step_both
 from .value_lookup import ValueTable, value_at
 
@@ -22,29 +21,48 @@ if load_numba() is not None:
     forget_stale(_HERE, [*_HERE.glob("*.py"), *_UNICYCLE.glob("*.py")])
 
 
+class SearchProblem(NamedTuple):
+    """What a search decides on.
+
+    Attributes:
+        maneuvers: Candidate maneuvers.
+        objective: Objective that ranks them.
+        rules: Rules of a step.
+        spot_rules: Rules of a step on the spot.
+        field: Distance from obstacles.
+        table: Value table after the horizon.
+    """
+
+    maneuvers: CandidateManeuvers
+    objective: ManeuverObjective
+    rules: StepRules
+    spot_rules: StepRules
+    field: DistanceField
+    table: ValueTable
+
+
 @inlined
 def judge(
     both: PlayerPair,
     score: float,
-    aims: ManeuverObjective,
-    packed: PackedObstacles,
+    objective: ManeuverObjective,
+    field: DistanceField,
 ) -> float:
     """Return the score after one more step, given the score before it."""
     dx, dy = both.px - both.ex, both.py - both.ey
-    reward = min((dx * dx + dy * dy) ** 0.5, aims.enough)
+    reward = min((dx * dx + dy * dy) ** 0.5, objective.enough)
     if reward < score:
         score = reward
-    missing = aims.clearance - clearance_at(
-        packed, both.ex, both.ey, aims.clearance
-    )
-    if aims.sight < pi:
+    missing = objective.clearance - field_clearance(field, both.ex, both.ey)
+    if objective.sight < pi:
         psi = abs(
             atan2(both.ec * dy - both.es * dx, both.ec * dx + both.es * dy)
         )
-        if psi > aims.sight:
-            score = min(score, reward - aims.blindness * (psi - aims.sight))
+        if psi > objective.sight:
+            beyond = psi - objective.sight
+            score = min(score, reward - objective.blindness * beyond)
     if missing > 0.0:
-        score = min(score, reward - aims.penalty * missing)
+        score = min(score, reward - objective.penalty * missing)
     return score
 
 
@@ -68,40 +86,32 @@ def follow(
     both: PlayerPair,
     score: float,
     turns: Any,
-    count: int,
+    given: int,
     spot: int,
-    still: StepRules,
-    horizon: int,
-    best: float,
-    angle: float,
-    rules: StepRules,
-    aims: ManeuverObjective,
-    packed: PackedObstacles,
-    table: ValueTable,
+    worst: float,
+    problem: SearchProblem,
 ) -> tuple[float, int]:
     """Roll out a maneuver: given turns, then the law.
 
     Args:
         both: Initial state of both players.
         score: Score so far.
-        turns: Turn of each step; those of the law are appended in place.
-        count: Number of given turns.
+        turns: Turn of each step; those of the law are filled in. Shape
+            (steps,).
+        given: Number of given turns.
         spot: Number of initial steps on the spot.
-        still: Rules of a step on the spot.
-        horizon: Total number of steps.
-        best: Score at or below which the rollout is aborted.
-        angle: Strategy alpha of the law, in [rad].
-        rules: Rules of a step.
-        aims: Objective.
-        packed: Obstacles.
-        table: Value table after the horizon.
+        worst: Score at or below which the rollout is aborted.
+        problem: Maneuvers, objective and rules.
 
     Returns:
         Score, and number of steps rolled out.
     """
+    rules, objective = problem.rules, problem.objective
+    field, spot_rules = problem.field, problem.spot_rules
+    angle, table = problem.maneuvers.angle, problem.table
     side = 0.0
-    for n in range(horizon):
-        if n >= count:
+    for n in range(len(turns)):
+        if n >= given:
             if side == 0.0:
                 dx, dy = both.px - both.ex, both.py - both.ey
                 left = both.ec * dy - both.es * dx
@@ -109,12 +119,12 @@ def follow(
             turns[n] = law_turn(both, side, angle, rules.evader_share)
         c, s, ratio = half_turn(0.5 * turns[n])
         if n < spot:
-            both = step_both(both, c, s, ratio, still)
+            both = step_both(both, c, s, ratio, spot_rules)
         else:
             both = step_both(both, c, s, ratio, rules)
-        score = judge(both, score, aims, packed)
-        if score <= best:
+        score = judge(both, score, objective, field)
+        if score <= worst:
             return score, n + 1
     if table.values.shape[0] > 0:
-        score = min(score, min(value_at(table, both), aims.enough))
-    return score, horizon
+        score = min(score, min(value_at(table, both), objective.enough))
+    return score, len(turns)

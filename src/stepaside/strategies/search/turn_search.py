@@ -22,7 +22,8 @@ from .candidate_maneuvers import (
     CandidateManeuvers,
     ManeuverObjective,
 )
-from .maneuver_rollout import follow, judge
+from .distance_field import distance_field
+from .maneuver_rollout import SearchProblem, follow, judge
 from .step_motion import PlayerPair, StepRules, half_turn, step_both
 from .value_lookup import ValueTable
 
@@ -34,11 +35,7 @@ def descend(
     first: int,
     made: int,
     best: float,
-    maneuvers: CandidateManeuvers,
-    rules: StepRules,
-    aims: ManeuverObjective,
-    packed: PackedObstacles,
-    table: ValueTable,
+    problem: SearchProblem,
     chosen: Any,
     work: Any,
 ) -> tuple[float, int]:
@@ -50,11 +47,7 @@ def descend(
         first: Number of steps before the root; their turns are in ``work``.
         made: Number of steps rolled out before.
         best: Best score so far.
-        maneuvers: Candidate maneuvers.
-        rules: Rules of a step.
-        aims: Objective.
-        packed: Obstacles.
-        table: Value table after the horizon.
+        problem: Maneuvers, objective and rules.
         chosen: Output: turns of the best maneuver, if better. Shape
             (horizon + spots,).
         work: Scratch array of the same shape.
@@ -62,6 +55,8 @@ def descend(
     Returns:
         Best score, and total number of steps rolled out.
     """
+    maneuvers, objective = problem.maneuvers, problem.objective
+    rules, field = problem.rules, problem.field
     pieces, turns = maneuvers.pieces, maneuvers.turns
     last, level = len(pieces) - 1, 0
     index = np.zeros(DEEPEST, dtype=np.int64)
@@ -83,12 +78,12 @@ def descend(
         c, s, ratio = half_turn(0.5 * u)
         for n in range(pieces[level]):
             here = step_both(here, c, s, ratio, rules)
-            score = judge(here, score, aims, packed)
+            score = judge(here, score, objective, field)
             work[at + n] = u
             made += 1
-            if score <= best + aims.gain:
+            if score <= best + objective.gain:
                 break
-        if score <= best + aims.gain:
+        if score <= best + objective.gain:
             continue
         at += pieces[level]
         if level < last:
@@ -97,28 +92,64 @@ def descend(
             for i in range(8):
                 states[level, i] = here[i]
             continue
+        rest = work[at : first + maneuvers.horizon]
         score, more = follow(
-            here,
-            score,
-            work[at:],
-            0,
-            0,
-            rules,
-            first + maneuvers.horizon - at,
-            best + aims.gain,
-            maneuvers.angle,
-            rules,
-            aims,
-            packed,
-            table,
+            here, score, rest, 0, 0, best + objective.gain, problem
         )
         made += more
-        if score > best + aims.gain:
+        if score > best + objective.gain:
             best = score
             chosen[:] = work
             if best >= start:
                 break
     return best, made
+
+
+@compiled
+def search_on_spot(
+    both: PlayerPair,
+    best: float,
+    made: int,
+    spot: int,
+    problem: SearchProblem,
+    chosen: Any,
+    work: Any,
+) -> tuple[float, int, int]:
+    """Try sequences behind turns on the spot, by the sharpest turn.
+
+    Args:
+        both: State of both players.
+        best: Best score so far.
+        made: Number of steps rolled out before.
+        spot: Number of initial steps on the spot of the best maneuver.
+        problem: Maneuvers, objective and rules.
+        chosen: Turns of the best maneuver; replaced by better ones.
+        work: Scratch array of the same shape.
+
+    Returns:
+        Best score, number of steps rolled out, and number of initial steps
+        on the spot.
+    """
+    maneuvers, objective = problem.maneuvers, problem.objective
+    most = np.abs(maneuvers.turns).max()
+    for side in (-1.0, 1.0):
+        here, score = both, objective.enough
+        c, s, ratio = half_turn(0.5 * side * most)
+        for n in range(maneuvers.spots):
+            here = step_both(here, c, s, ratio, problem.spot_rules)
+            score = judge(here, score, objective, problem.field)
+            work[n] = side * most
+            made += 1
+            if score <= best + objective.gain:
+                break
+            if n % 2 == 0:
+                continue
+            found, made = descend(
+                here, score, n + 1, made, best, problem, chosen, work
+            )
+            if found > best:
+                best, spot = found, n + 1
+    return best, made, spot
 
 
 @compiled
@@ -128,128 +159,57 @@ def search(
     planned: int,
     maneuvers: CandidateManeuvers,
     rules: StepRules,
-    aims: ManeuverObjective,
+    objective: ManeuverObjective,
     packed: PackedObstacles,
     table: ValueTable,
-    chosen: Any,
-    work: Any,
-) -> tuple[float, int, int]:
+) -> tuple[float, int, int, Any]:
     """Find the best maneuver; see :func:`look_ahead`.
 
-    Args:
-        both: State of both players.
-        plan: Turns of the previously planned steps. Shape (n,).
-        planned: Number of initial planned steps on the spot.
-        maneuvers: Candidate maneuvers.
-        rules: Rules of a step.
-        aims: Objective.
-        packed: Obstacles.
-        table: Value table after the horizon.
-        chosen: Output: turns of the best maneuver. Shape (horizon +
-            spots,).
-        work: Scratch array of the same shape.
-
     Returns:
-        Its score, the number of steps rolled out, and the number of initial
-        steps on the spot.
+        Its score, the number of steps rolled out, the number of initial
+        steps on the spot, and the turn of each step.
     """
-    horizon, angle = maneuvers.horizon, maneuvers.angle
-    start, spot = aims.enough, 0
-    still = StepRules(
-        rules.evader_stride * maneuvers.still,
+    horizon = maneuvers.horizon
+    chosen = np.zeros(horizon + maneuvers.spots)
+    work = np.zeros(len(chosen))
+    spot_rules = StepRules(
+        maneuvers.still * rules.evader_stride,
         rules.evader_share,
         rules.pursuer_stride,
         rules.pursuer_share,
         rules.lead,
     )
-    best, made = follow(
-        both,
-        start,
-        chosen,
-        0,
-        0,
-        still,
-        horizon,
-        -inf,
-        angle,
-        rules,
-        aims,
-        packed,
-        table,
+    reach = len(chosen) * rules.evader_stride
+    field = distance_field(
+        packed, objective.clearance, both.ex, both.ey, reach
     )
+    problem = SearchProblem(
+        maneuvers, objective, rules, spot_rules, field, table
+    )
+    start, spot = objective.enough, 0
+    best, made = follow(both, start, chosen[:horizon], 0, 0, -inf, problem)
     if len(plan) > 0:
-        for n in range(len(plan)):
-            work[n] = plan[n]
+        work[: len(plan)] = plan
         # A tie keeps the plan.
+        worst = best - objective.gain
         score, more = follow(
-            both,
-            start,
-            work,
-            len(plan),
-            planned,
-            still,
-            horizon,
-            best - aims.gain,
-            angle,
-            rules,
-            aims,
-            packed,
-            table,
+            both, start, work[:horizon], len(plan), planned, worst, problem
         )
         made += more
-        if score > best - aims.gain:
+        if score > worst:
             best, spot = score, planned
             chosen[:] = work
-    if len(maneuvers.pieces) == 0 or best >= start:
-        return best, made, spot
-    found, made = descend(
-        both,
-        start,
-        0,
-        made,
-        best,
-        maneuvers,
-        rules,
-        aims,
-        packed,
-        table,
-        chosen,
-        work,
-    )
-    if found > best:
-        best, spot = found, 0
-    if best >= aims.tight:
-        return best, made, spot
-    most = np.abs(maneuvers.turns).max()
-    for side in (-1.0, 1.0):
-        here, score = both, start
-        c, s, ratio = half_turn(0.5 * side * most)
-        for n in range(maneuvers.spots):
-            here = step_both(here, c, s, ratio, still)
-            score = judge(here, score, aims, packed)
-            work[n] = side * most
-            made += 1
-            if score <= best + aims.gain:
-                break
-            if n % 2 == 0:
-                continue
-            found, made = descend(
-                here,
-                score,
-                n + 1,
-                made,
-                best,
-                maneuvers,
-                rules,
-                aims,
-                packed,
-                table,
-                chosen,
-                work,
+    if len(maneuvers.pieces) > 0 and best < start:
+        found, made = descend(
+            both, start, 0, made, best, problem, chosen, work
+        )
+        if found > best:
+            best, spot = found, 0
+        if best < objective.tight:
+            best, made, spot = search_on_spot(
+                both, best, made, spot, problem, chosen, work
             )
-            if found > best:
-                best, spot = found, n + 1
-    return best, made, spot
+    return best, made, spot, chosen
 
 
 def look_ahead(
@@ -257,7 +217,7 @@ def look_ahead(
     plan: tuple[float, ...],
     maneuvers: CandidateManeuvers,
     rules: StepRules,
-    aims: ManeuverObjective,
+    objective: ManeuverObjective,
     packed: PackedObstacles,
     table: ValueTable,
     *,
@@ -275,23 +235,20 @@ def look_ahead(
         plan: Turns of the previously planned steps to come, in [rad].
         maneuvers: Candidate maneuvers.
         rules: Rules of a step.
-        aims: Objective.
+        objective: Objective that ranks the maneuvers.
         packed: Obstacles.
         table: Value table after the horizon.
         planned: Number of initial planned steps on the spot.
     """
     horizon = maneuvers.horizon
-    chosen = np.zeros(horizon + maneuvers.spots)
-    score, steps, spot = search(
+    score, steps, spot, turns = search(
         both,
         np.array(plan[:horizon], dtype=np.float64),
         min(planned, horizon),
         maneuvers,
         rules,
-        aims,
+        objective,
         packed,
         table,
-        chosen,
-        np.zeros_like(chosen),
     )
-    return BestManeuver(score, chosen[: horizon + spot], steps, spot)
+    return BestManeuver(score, turns[: horizon + spot], steps, spot)

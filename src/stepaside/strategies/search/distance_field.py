@@ -1,0 +1,167 @@
+"""Distance from obstacles in compiled loops, from a field of lower bounds.
+
+A search asks for the clearance at thousands of points, most of them far from
+all obstacles or in the same few places. So the plane is divided into cells.
+When a cell is first asked for, its clearance is bounded from below, and the
+obstacles that matter within it are listed: clearance changes by no more than
+the distance between two points, so the bound is the clearance at the centre
+minus half the diagonal of a cell. Where the bound does not suffice, the
+listed obstacles give the exact distance.
+"""
+
+from math import inf, isnan, sqrt
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ...arena.obstacles import PackedObstacles
+from ...theory.unicycle.compilation import inlined
+
+CELL = 0.1  # side of a cell, in [m]; 0.05 and 0.2 take longer
+LISTED = 12  # obstacles that a cell can list; with more all are measured
+
+
+class DistanceField(NamedTuple):
+    """Lower bounds of the clearance, and the obstacles near each cell.
+
+    Attributes:
+        packed: All obstacles.
+        enough: Largest distance of interest, in [m].
+        x: Least x of the cells, in [m].
+        y: Least y of the cells, in [m].
+        cell: Side of a cell, in [m].
+        bounds: Lower bound of the clearance in each cell, in [m]; NaN until
+            it is asked for. Shape (columns, rows).
+        nearby: Number of obstacles near each cell, -1 for more than 12, and
+            their indices. Shape (columns, rows, 13).
+    """
+
+    packed: PackedObstacles
+    enough: float
+    x: float
+    y: float
+    cell: float
+    bounds: Any
+    nearby: Any
+
+
+@inlined
+def distance_field(
+    packed: PackedObstacles, enough: float, x: float, y: float, reach: float
+) -> DistanceField:
+    """Return a field that is filled when it is used.
+
+    Args:
+        packed: Obstacles.
+        enough: Largest distance of interest, in [m].
+        x: Centre of the cells, in [m].
+        y: Likewise.
+        reach: Half the side of the square of cells, in [m]; beyond it all
+            obstacles are measured.
+    """
+    side = 2 * int(reach / CELL + 1.0)
+    return DistanceField(
+        packed,
+        enough,
+        x - 0.5 * side * CELL,
+        y - 0.5 * side * CELL,
+        CELL,
+        np.full((side, side), np.nan),
+        np.empty((side, side, LISTED + 1), dtype=np.int64),
+    )
+
+
+@inlined
+def hull_clearance(
+    packed: PackedObstacles, k: int, x: float, y: float, nearest: float
+) -> float:
+    """Return the clearance of a point from one hull, at most ``nearest``."""
+    edges, firsts, circles = packed.edges, packed.firsts, packed.circles
+    dx, dy = x - circles[k, 0], y - circles[k, 1]
+    reach = nearest + circles[k, 2]
+    square = dx * dx + dy * dy
+    if reach <= 0.0 or square > reach * reach:
+        return nearest
+    if firsts[k] == firsts[k + 1]:
+        disc: float = min(nearest, sqrt(square) - circles[k, 2])
+        return disc
+    beyond = -inf
+    for i in range(firsts[k], firsts[k + 1]):
+        height = edges[i, 0] * x + edges[i, 1] * y - edges[i, 2]
+        if height > beyond:
+            beyond = height
+            if beyond >= nearest:
+                return nearest
+    if beyond > 0.0:
+        square = inf
+        for i in range(firsts[k], firsts[k + 1]):
+            # The edge runs to the left of its normal.
+            dx, dy = x - edges[i, 3], y - edges[i, 4]
+            along = dy * edges[i, 0] - dx * edges[i, 1]
+            along = min(max(along, 0.0), edges[i, 5])
+            dx += along * edges[i, 1]
+            dy -= along * edges[i, 0]
+            square = min(square, dx * dx + dy * dy)
+        beyond = sqrt(square)
+    return min(nearest, beyond)
+
+
+@inlined
+def clearance_at(
+    packed: PackedObstacles, x: float, y: float, enough: float
+) -> float:
+    """Return the clearance of a point, measured to every obstacle.
+
+    Args:
+        packed: Obstacles.
+        x: Coordinate of the point, in [m].
+        y: Coordinate of the point, in [m].
+        enough: Largest distance of interest, in [m].
+
+    Returns:
+        Signed distance, negative inside, at most ``enough``, in [m].
+    """
+    nearest = enough
+    for k in range(packed.circles.shape[0]):
+        nearest = hull_clearance(packed, k, x, y, nearest)
+    return nearest
+
+
+@inlined
+def bound_cell(field: DistanceField, i: int, j: int) -> None:
+    """Bound the clearance in a cell, and list the obstacles near it."""
+    x = field.x + (i + 0.5) * field.cell
+    y = field.y + (j + 0.5) * field.cell
+    half = field.cell * sqrt(0.5)
+    limit = field.enough + half
+    least, count = limit, 0
+    for k in range(field.packed.circles.shape[0]):
+        clear = hull_clearance(field.packed, k, x, y, limit)
+        if clear < limit:
+            least = min(least, clear)
+            count += 1
+            if count < field.nearby.shape[2]:
+                field.nearby[i, j, count] = k
+    field.bounds[i, j] = least - half
+    field.nearby[i, j, 0] = -1 if count >= field.nearby.shape[2] else count
+
+
+@inlined
+def field_clearance(field: DistanceField, x: float, y: float) -> float:
+    """Return the clearance of a point; see :func:`clearance_at`."""
+    u, v = (x - field.x) / field.cell, (y - field.y) / field.cell
+    columns, rows = field.bounds.shape
+    if not (0.0 <= u < columns and 0.0 <= v < rows):
+        return clearance_at(field.packed, x, y, field.enough)
+    i, j = int(u), int(v)
+    if field.bounds[i, j] >= field.enough:
+        return field.enough
+    if isnan(field.bounds[i, j]):
+        bound_cell(field, i, j)
+    nearest, count = field.enough, field.nearby[i, j, 0]
+    if count < 0:
+        return clearance_at(field.packed, x, y, nearest)
+    for n in range(1, count + 1):
+        k = field.nearby[i, j, n]
+        nearest = hull_clearance(field.packed, k, x, y, nearest)
+    return nearest
