@@ -57,7 +57,7 @@ OTHER := cli/test_main cli/test_options core/test_errors core/test_interrupts \
 	planning/test_footsteps planning/test_path planning/test_plan \
 	planning/test_swing planning/test_zmp robots/test_description \
 	robots/test_kinematics robots/test_scalar_algebra \
-	studies/test_record_store theory/test_laws
+	studies/test_result_store theory/test_laws
 other: other-setup other-test
 
 other-setup:

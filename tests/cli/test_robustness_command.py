@@ -1,40 +1,36 @@
 """The command ``stepaside robustness``, with simulated walks replaced."""
 
 import json
-from dataclasses import replace
+import shutil
 from pathlib import Path
 from typing import Any
 
 import pytest
 from click.testing import CliRunner
 
-from stepaside.cli import robustness as command
-from stepaside.cli.campaign_reports import CampaignOutcome
+from inline_executor import InlineExecutor
 from stepaside.cli.main import main
-from stepaside.studies.push_limits import next_strength, outcomes_of
+from stepaside.core import worker_pool as pools
+from stepaside.studies import push_limits
+from stepaside.studies import robustness_campaign as campaign
 from stepaside.studies.result_files import read_result
 from stepaside.studies.robustness_campaign import MODULES
+from stepaside.studies.robustness_trial import RobustnessTrial
 from stepaside.studies.survival import bound_at
 
 ASKED = "--kind backlash --kind push --method mpc --seeds 3 --phases 1".split()
 
 
-def survive_a_newton_second(
-    grid: list[Any], cases: list[Any], *_: Any
-) -> tuple[dict[str, bool], CampaignOutcome]:
+def survive_a_newton_second(trial: RobustnessTrial) -> dict[str, Any]:
     """Every push up to 1 N s is survived, and every other disturbance."""
-    results = {trial.key: True for trial in grid}
-    for case, outcomes in outcomes_of(cases, {}).items():
-        while (strength := next_strength(outcomes)) is not None:
-            outcomes[strength] = strength <= 1.0
-            key = replace(case, strength=strength).key
-            results[key] = outcomes[strength]
-    return results, CampaignOutcome()
+    return {"survived": trial.kind != "push" or trial.strength <= 1.0}
 
 
 @pytest.fixture(autouse=True)
 def no_walks(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(command, "run_walks", survive_a_newton_second)
+    monkeypatch.setattr(campaign, "run_trial", survive_a_newton_second)
+    monkeypatch.setattr(push_limits, "run_trial", survive_a_newton_second)
+    monkeypatch.setattr(pools, "worker_pool", lambda _: InlineExecutor())
 
 
 def run(*arguments: str) -> str:
@@ -113,23 +109,23 @@ def test_interrupted_campaign_overwrites_no_result(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     run(*ASKED, "--output", str(tmp_path))
-    before = {file: file.read_bytes() for file in tmp_path.iterdir()}
+    before = {f: f.read_bytes() for f in tmp_path.iterdir() if f.is_file()}
     assert {f.name for f in before} > {"pushes.json", "survival.json"}
+    shutil.rmtree(tmp_path / "records")
+    left = iter(range(7))
 
-    def stopped(
-        grid: list[Any], cases: list[Any], *_: Any
-    ) -> tuple[dict[str, bool], CampaignOutcome]:
-        return survive_a_newton_second(grid[:7], cases[:1])[
-            0
-        ], CampaignOutcome(stopped=True)
+    def stopped(trial: RobustnessTrial) -> dict[str, Any]:
+        if next(left, None) is None:
+            raise KeyboardInterrupt
+        return survive_a_newton_second(trial)
 
-    monkeypatch.setattr(command, "run_walks", stopped)
+    monkeypatch.setattr(campaign, "run_trial", stopped)
     asked = ("robustness", *ASKED, "--output", str(tmp_path))
     result = CliRunner().invoke(main, asked)
     assert result.exit_code == 130
-    assert "7 of 15 trials and 1 of 4 push limits" in result.stderr
+    assert "7 of 15 trials and 0 of 4 push limits" in result.stderr
     assert f"are saved in {tmp_path}; run the same" in result.stderr
-    assert before == {file: file.read_bytes() for file in tmp_path.iterdir()}
+    assert before == {file: file.read_bytes() for file in before}
 
 
 def test_help_explains_the_seeds_of_walks() -> None:

@@ -28,6 +28,7 @@ from stepaside.robots.description import (
     RobotDescription,
     load_robot,
 )
+from stepaside.studies.result_store import ResultStore
 
 CALM = JointStrain(0.1, "knee", 0.4, "hip", 0.0, 0.001)
 
@@ -165,7 +166,9 @@ def search(
         return walked(trial, off, falls=trial.control.feedback)
 
     monkeypatch.setattr(tuning, "walk_trial", walk)
-    return GaitSearch(own, InlineExecutor(), kept).run(), len(walks)
+    return GaitSearch(
+        own, None, None if kept is None else ResultStore(kept)
+    ).run(), len(walks)
 
 
 def test_a_search_combines_helpful_changes(
@@ -194,7 +197,7 @@ def test_a_search_escapes_from_falls(
         return walked(trial, 0.1, falls=falls)
 
     monkeypatch.setattr(tuning, "walk_trial", walk)
-    found = GaitSearch(own, InlineExecutor(), None).run()
+    found = GaitSearch(own, None, None).run()
     assert found.before.unsteadiness > found.best.unsteadiness
     assert found.best.unsteadiness == pytest.approx(0.1)
     best = found.best.candidate
@@ -217,7 +220,7 @@ def test_a_candidate_that_cannot_win_is_stopped(
         return walked(trial, 0.3 if same else 0.5)
 
     monkeypatch.setattr(tuning, "walk_trial", walk)
-    found = GaitSearch(own, InlineExecutor(), None).run()
+    found = GaitSearch(own, None, None).run()
     assert found.best == found.before
     assert begun[0.5] == begun[0.75] == 1
 
@@ -225,11 +228,12 @@ def test_a_candidate_that_cannot_win_is_stopped(
 def test_a_search_continues_from_stored_results(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    own, kept = described(tmp_path), tmp_path / "tune.jsonl"
+    own, kept = described(tmp_path), tmp_path / "tune"
     first, walks = search(own, monkeypatch, kept)
     assert walks > 20
-    lines = kept.read_text().splitlines()
-    kept.write_text("\n".join(lines[: len(lines) // 2]) + "\n")
+    files = sorted(kept.iterdir())
+    for file in files[len(files) // 2 :]:
+        file.unlink()
     second, rest = search(own, monkeypatch, kept)
     assert second == first
     assert 0 < rest < walks

@@ -1,7 +1,6 @@
 """Test the campaign of claims: verdicts, stored readings, command, page."""
 
 import json
-from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from dataclasses import replace
 from multiprocessing import get_context
@@ -16,6 +15,8 @@ from stepaside.cli.main import main
 from stepaside.core import worker_pool as workers
 from stepaside.report.claims_page import markdown_page
 from stepaside.studies import claim_campaign as reproduce
+from stepaside.studies.campaign import CodeStamp
+from stepaside.studies.claim_campaign import ClaimTrial
 from stepaside.studies.claim_jobs import JOBS
 from stepaside.studies.claims import (
     Claim,
@@ -26,7 +27,7 @@ from stepaside.studies.claims import (
 )
 from stepaside.studies.code_version import code_version
 from stepaside.studies.paper_figures import paper_figures
-from stepaside.studies.reading_store import ReadingStore
+from stepaside.studies.result_store import ResultStore
 
 NAN, INF = float("nan"), float("inf")
 
@@ -129,7 +130,7 @@ def bench(monkeypatch: pytest.MonkeyPatch) -> Bench:
 def again(bench: Bench, folder: Path, *seeds: int) -> list[tuple[str, int]]:
     """Run the campaign on a folder; return what it measured."""
     bench.measured.clear()
-    reproduce.reproduce(folder, seeds)
+    reproduce.reproduce(ResultStore(folder), seeds)
     return sorted(bench.measured)
 
 
@@ -139,16 +140,13 @@ ALL = [("once", 0), ("seeded", 1), ("seeded", 2)]
 def test_stored_reading_is_not_measured_again(
     bench: Bench, tmp_path: Path
 ) -> None:
-    reports: list[tuple[int, int]] = []
-    rows = reproduce.reproduce(
-        tmp_path, (1, 2), report=lambda *numbers: reports.append(numbers)
-    )
+    store = ResultStore(tmp_path)
+    rows = reproduce.reproduce(store, (1, 2))
     assert sorted(bench.measured) == ALL
-    assert reports == [(0, 3), (1, 3), (2, 3), (3, 3)]
     assert [row["name"] for row in rows] == ["seeded.it", "once.it"]
     assert [row["runs"] for row in rows] == [2, 1]
     assert again(bench, tmp_path, 1, 2) == []
-    assert reproduce.reproduce(tmp_path, (1, 2)) == rows
+    assert reproduce.reproduce(store, (1, 2)) == rows
     assert again(bench, tmp_path, 1, 2, 3) == [("seeded", 3)]
     assert reproduce.reproduce(None, (1, 2)) == rows
 
@@ -157,74 +155,25 @@ def test_changed_module_affects_only_jobs_that_depend_on_it(
     bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     versions = {("planning",): "a", ("theory/unicycle",): "b"}
-    monkeypatch.setattr(reproduce, "code_version", versions.__getitem__)
+    monkeypatch.setattr(
+        reproduce,
+        "code_stamp",
+        lambda modules, libraries: CodeStamp(versions[modules], {}),
+    )
     assert again(bench, tmp_path, 1, 2) == ALL
     versions["planning",] = "c"
     assert again(bench, tmp_path, 1, 2) == [("seeded", 1), ("seeded", 2)]
-    rows = reproduce.reproduce(tmp_path, (1, 2))
+    rows = reproduce.reproduce(ResultStore(tmp_path), (1, 2))
     assert [row["version"] for row in rows] == ["c", "b"]
 
 
-def test_changed_settings_or_libraries_are_measured_again(
-    bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+def test_changed_settings_are_measured_again(
+    bench: Bench, tmp_path: Path
 ) -> None:
     assert again(bench, tmp_path, 1, 2) == ALL
     bench.settings = "others"
     assert again(bench, tmp_path, 1, 2) == [("seeded", 1), ("seeded", 2)]
-    monkeypatch.setattr(
-        reproduce, "library_versions", lambda names: dict.fromkeys(names, "9")
-    )
-    assert again(bench, tmp_path, 1, 2) == ALL
     assert again(bench, tmp_path, 1, 2) == []
-
-
-@pytest.mark.parametrize(
-    "corrupt",
-    [
-        lambda text: text[: len(text) // 2],
-        lambda text: "[]",
-        lambda text: "{}",
-        lambda text: "",
-        lambda text: text.replace('"it": 1.01', '"it": "1.01"'),
-        lambda text: text.replace('"it": 1.01', '"other": 1.01'),
-        lambda text: text.replace('"key"', '"lock"'),
-    ],
-)
-def test_invalid_file_is_set_aside(
-    bench: Bench, tmp_path: Path, corrupt: Callable[[str], str]
-) -> None:
-    assert again(bench, tmp_path, 1, 2) == ALL
-    file = tmp_path / "seeded-seed1.json"
-    corrupted = corrupt(file.read_text())
-    assert corrupted != file.read_text()
-    file.write_text(corrupted)
-    assert again(bench, tmp_path, 1, 2) == [("seeded", 1)]
-    assert (tmp_path / "seeded-seed1.json.aside").read_text() == corrupted
-    assert again(bench, tmp_path, 1, 2) == []
-
-
-@pytest.mark.parametrize(
-    ("ours", "others"),
-    [
-        ('"seed": 1', '"seed": 2'),
-        ('"version": "', '"version": "0'),
-        ('"settings": "as they are"', '"settings": "as they were"'),
-    ],
-)
-def test_file_of_another_version_is_replaced_without_a_copy(
-    bench: Bench, tmp_path: Path, ours: str, others: str
-) -> None:
-    again(bench, tmp_path, 1, 2)
-    file = tmp_path / "seeded-seed1.json"
-    original = file.read_text()
-    older = json.loads(
-        original.replace(ours, others).replace('"it"', '"it_was"')
-    )
-    assert original.replace(ours, others) != original
-    ReadingStore(tmp_path).store(file.stem, older["key"], older["readings"])
-    assert again(bench, tmp_path, 1, 2) == [("seeded", 1)]
-    assert file.read_text() == original
-    assert not list(tmp_path.glob("*.aside"))
 
 
 def test_interrupted_campaign_keeps_finished_readings(
@@ -232,7 +181,7 @@ def test_interrupted_campaign_keeps_finished_readings(
 ) -> None:
     bench.stop_at = 2
     with pytest.raises(KeyboardInterrupt):
-        reproduce.reproduce(tmp_path, (1, 2, 3))
+        reproduce.reproduce(ResultStore(tmp_path), (1, 2, 3))
     assert bench.measured == [("once", 0), ("seeded", 1)]
     bench.stop_at = None
     assert again(bench, tmp_path, 1, 2, 3) == [("seeded", 2), ("seeded", 3)]
@@ -244,7 +193,7 @@ def test_missing_reading_stays_missing_and_fails(
     job = replace(bench.jobs["once"], measure=lambda _: {"it": NAN})
     monkeypatch.setattr(reproduce, "JOBS", {"once": job})
     for _ in range(2):
-        (row,) = reproduce.reproduce(tmp_path, (1,))
+        (row,) = reproduce.reproduce(ResultStore(tmp_path), (1,))
         assert (row["verdict"], row["measured"]) == ("fails", None)
 
 
@@ -254,16 +203,16 @@ def test_worker_process_measures_the_same(
     monkeypatch.setattr(reproduce, "JOBS", {"path": JOBS["path"]})
     here = reproduce.reproduce(None, (1,))
     with ProcessPoolExecutor(1, get_context("spawn")) as executor:
-        there = reproduce.reproduce(tmp_path, (1,), executor)
+        there = reproduce.reproduce(ResultStore(tmp_path), (1,), executor)
     assert there == here
-    assert (tmp_path / "path-seed0.json").exists()
 
 
 def test_keys_of_a_job_are_unique() -> None:
     for name, job in JOBS.items():
         keys = [claim.key for claim in job.claims]
         assert len(set(keys)) == len(keys) > 0, name
-        assert reproduce.key_of(reproduce.ClaimTrial(name, 1), job)["version"]
+        seeds = [reproduce.key_of(ClaimTrial(name, s)) for s in (1, 2)]
+        assert seeds[0] != seeds[1]
 
 
 def test_settings_of_a_physical_job_contain_seed_and_gait() -> None:

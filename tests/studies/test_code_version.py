@@ -123,9 +123,8 @@ PLAYED = """
 import sys
 from dataclasses import replace
 from stepaside.games.duel_settings import DuelSettings
-from stepaside.studies import duel_campaign as duels
+from stepaside.studies import duel_record as duels
 from stepaside.strategies.registry import STRATEGIES
-duels.play_record.__globals__["_stamp"] = dict  # of the version itself
 for settings in (
     DuelSettings(duration=0.1),
     DuelSettings(duration=0.1, evader_strategy="look-ahead"),

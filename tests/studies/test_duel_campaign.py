@@ -6,7 +6,7 @@ import signal
 import subprocess
 import sys
 from collections.abc import Iterator
-from concurrent.futures import Executor, Future, ThreadPoolExecutor
+from concurrent.futures import Executor, Future
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -21,26 +21,21 @@ from stepaside.core import worker_pool as workers
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.sim.push import Push
 from stepaside.strategies import Evasion
-from stepaside.studies import duel_campaign as study
-from stepaside.studies.duel_campaign import (
-    key_of,
-    play_record,
-    run_duels,
-    settings_hash,
-    verify_duels,
-    versions_of,
-)
+from stepaside.studies import duel_campaign as campaign
+from stepaside.studies import duel_record
+from stepaside.studies.campaign import CodeStamp, run_study
+from stepaside.studies.duel_campaign import duel_study, versions_of
+from stepaside.studies.duel_record import FIELDS, play_record, settings_hash
 from stepaside.studies.duel_statistics import (
-    FIELDS,
     certificate_row,
     share,
     summarise_duels,
     value_row,
 )
-from stepaside.studies.record_store import RecordStore
+from stepaside.studies.result_store import ResultStore
 
 SETTINGS = DuelSettings(duration=120.0)
-NOW = {"version": "new", "libraries": {"mujoco": "1"}}
+NOW = CodeStamp("new", {"mujoco": "1"})
 
 
 def made(seed: int, **changes: Any) -> dict[str, Any]:
@@ -61,7 +56,7 @@ def made(seed: int, **changes: Any) -> dict[str, Any]:
             "certified_m": None,
             "digest": f"d{seed}",
             "wall_s": 1.0,
-            **NOW,
+            **NOW._asdict(),
         }
         | changes
     )
@@ -75,7 +70,7 @@ class Here(Executor):
 
     def submit(self, fn: Any, /, *args: Any, **kwargs: Any) -> Future[Any]:
         """Play now."""
-        self.seeds.append(args[0].seed)
+        self.seeds += args[1]
         future: Future[Any] = Future()
         future.set_result(fn(*args, **kwargs))
         return future
@@ -84,8 +79,8 @@ class Here(Executor):
 @pytest.fixture
 def quick(monkeypatch: pytest.MonkeyPatch) -> Iterator[Here]:
     """Nothing is played: a duel's record is made from its seed."""
-    monkeypatch.setattr(study, "play_record", lambda s: made(s.seed))
-    monkeypatch.setattr(study, "_stamp", lambda: NOW)
+    monkeypatch.setattr(duel_record, "play_record", lambda s: made(s.seed))
+    monkeypatch.setattr(campaign, "code_stamp", lambda *_: NOW)
     yield Here()
 
 
@@ -120,31 +115,16 @@ def test_only_a_certified_start_has_a_certified_distance() -> None:
         assert record["certified_m"] is None
 
 
+def key_of(settings: DuelSettings) -> str:
+    return duel_study(settings, [settings.seed]).key_of(settings.seed)
+
+
 def test_recorded_duels_are_not_repeated(quick: Here, tmp_path: Path) -> None:
-    file = RecordStore(tmp_path / "r.jsonl")
-    run_duels(SETTINGS, range(3), file, quick)
-    told: list[int] = []
-    found = run_duels(SETTINGS, range(5), file, quick, told.append)
-    assert quick.seeds == [0, 1, 2, 3, 4]
-    assert told[0] == 3 and told[-1] == 5
-    assert [r["seed"] for r in found.values()] == [0, 1, 2, 3, 4]
-
-
-@pytest.mark.parametrize(
-    "change",
-    [
-        {"version": "old"},
-        {"libraries": {"mujoco": "0"}},
-        {"verified": {**NOW, "version": "older"}},
-    ],
-)
-def test_records_of_other_versions_are_replaced(
-    quick: Here, tmp_path: Path, change: dict[str, Any]
-) -> None:
-    file = RecordStore(tmp_path / "r.jsonl")
-    file.append(key_of(replace(SETTINGS, seed=1)), made(1, **change))
-    run_duels(SETTINGS, range(1, 2), file, quick)
-    assert quick.seeds == [1]
+    store = ResultStore(tmp_path)
+    run_study(duel_study(SETTINGS, range(3)), store, quick)
+    run = run_study(duel_study(SETTINGS, range(5)), store, quick)
+    assert quick.seeds == [0, 1, 2, 3, 4] and run.reused == 3
+    assert [r["seed"] for r in run.records()] == [0, 1, 2, 3, 4]
 
 
 def test_an_edited_strategy_file_changes_the_key(tmp_path: Path) -> None:
@@ -166,69 +146,27 @@ def test_an_edited_strategy_file_changes_the_key(tmp_path: Path) -> None:
 def test_the_key_of_a_default_duel_is_that_of_its_records() -> None:
     """So that committed records are found by their settings."""
     results = Path(__file__).parents[2] / "docs" / "results"
-    records = (results / "duels-ideal.jsonl").read_text("utf-8")
-    key = json.loads(records.splitlines()[0])["key"]
-    assert key.split("/")[1] == settings_hash(DuelSettings())
+    keys = ResultStore(results / "duels-ideal").read().keys()
+    assert key_of(DuelSettings(seed=3)) in keys
 
 
 def test_records_of_other_settings_are_not_these(
     quick: Here, tmp_path: Path
 ) -> None:
-    file = RecordStore(tmp_path / "r.jsonl")
-    run_duels(replace(SETTINGS, duration=60.0), [1], file, quick)
-    run_duels(SETTINGS, [1], file, quick)
+    store = ResultStore(tmp_path)
+    for settings in (replace(SETTINGS, duration=60.0), SETTINGS):
+        run_study(duel_study(settings, [1]), store, quick)
     assert quick.seeds == [1, 1]
-    assert len(file.read()) == 2
+    assert len(store.read()) == 2
 
 
-def test_older_records_are_verified_if_duels_repeat(
-    quick: Here, tmp_path: Path
-) -> None:
-    file = RecordStore(tmp_path / "r.jsonl")
-    for seed in range(6):
-        one = replace(SETTINGS, seed=seed)
-        file.append(key_of(one), made(seed, version="old", wall_s=9.0))
-    played, differ = verify_duels(SETTINGS, file, 3, quick)
-    assert len(played) == 3 and differ == []
-    quick.seeds.clear()
-    found = run_duels(SETTINGS, range(6), file, quick)
-    assert quick.seeds == []
-    stamps = versions_of(found.values())
-    assert stamps["version"] == "old"
-    assert stamps["verified"] == {**NOW, "replayed": 3}
-
-
-def test_older_records_are_not_verified_if_duels_differ(
-    quick: Here, tmp_path: Path
-) -> None:
-    file = RecordStore(tmp_path / "r.jsonl")
-    for seed in range(3):
-        one = replace(SETTINGS, seed=seed)
-        file.append(key_of(one), made(seed, version="old"))
-    altered = made(1, version="old", digest="another")
-    file.append(key_of(replace(SETTINGS, seed=1)), altered)
-    _, differ = verify_duels(SETTINGS, file, 3, quick)
-    assert differ == [1]
-    assert all("verified" not in r for r in file.read().values())
-
-
-def test_only_older_records_can_vouch_for_older_ones(
-    quick: Here, tmp_path: Path
-) -> None:
-    """Current records come out the same; that says nothing of the others."""
-    file = RecordStore(tmp_path / "r.jsonl")
-    for seed in range(12):
-        one = replace(SETTINGS, seed=seed)
-        wrong = {"version": "old", "digest": "wrong"} if seed < 2 else {}
-        file.append(key_of(one), made(seed, **wrong))
-    played, differ = verify_duels(SETTINGS, file, 3, quick)
-    assert sorted(played) == differ == [0, 1]
-
-
-def test_any_executor_serves(quick: Here) -> None:
-    with ThreadPoolExecutor(2) as pool:
-        found = run_duels(SETTINGS, range(7), None, pool)
-    assert [r["seed"] for r in found.values()] == list(range(7))
+def test_versions_of_records_name_those_that_were_verified() -> None:
+    old = CodeStamp("old", {"mujoco": "0"})
+    verified = {**NOW._asdict(), "replayed": 3}
+    records = [made(s, **old._asdict(), verified=verified) for s in (1, 2)]
+    stamps = versions_of(records)
+    assert stamps["version"] == "old" and stamps["verified"] == verified
+    assert versions_of([*records, made(3)])["version"] == ["old", "new"]
 
 
 def test_mean_interval_and_worst_seed_are_known_ones() -> None:
@@ -237,7 +175,7 @@ def test_mean_interval_and_worst_seed_are_known_ones() -> None:
     assert row is not None
     assert row["mean"] == pytest.approx(1.0)
     assert row["deviation"] == pytest.approx(0.2645751)
-    half = 1.96 * 0.2645751 / np.sqrt(3.0)
+    half = 1.959964 * 0.2645751 / np.sqrt(3.0)
     assert row["mean_high"] == pytest.approx(1.0 + half)
     assert row["mean_low"] == pytest.approx(1.0 - half)
     assert (row["least"], row["median"], row["greatest"]) == (0.8, 0.9, 1.3)
@@ -321,14 +259,14 @@ def test_the_command_writes_records_summary_and_figure(
     found = json.loads(answer.stdout)
     assert found["seeds"] == "5:7" and found["summary"]["duels"] == 2
     assert found == json.loads((folder / "summary.json").read_text())
-    assert len(RecordStore(folder / "duels.jsonl").read()) == 2
+    assert len(ResultStore(folder / "records").read()) == 2
     assert (folder / "duels.png").stat().st_size > 1000
     table = CliRunner().invoke(duels, [*line, "--output", str(folder)])
     assert "completed" in table.output and "2 of 2" in table.output
 
 
 @pytest.mark.parametrize(
-    "bad", ["", "a", "-1:3", "3:3", "5:2", "0:1000000", "1:2:3", "1.5"]
+    "bad", ["", "a", "-1:3", "3:3", "5:2", "0:99999999", "1:2:3", "1.5"]
 )
 def test_invalid_seeds_are_refused(bad: str) -> None:
     answer = CliRunner().invoke(duels, ["--seeds", bad, "--json"])
@@ -346,20 +284,20 @@ def test_verifying_nothing_is_refused(tmp_path: Path) -> None:
 def test_nothing_is_played_when_verified_duels_differ(
     quick: Here, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    file = RecordStore(tmp_path / "duels.jsonl")
-    for seed in range(3):
-        one = replace(SETTINGS, seed=seed)
-        digest = "another" if seed else "d0"
-        file.append(key_of(one), made(seed, version="old", digest=digest))
+    with ResultStore(tmp_path / "records").writer() as writer:
+        for seed in range(3):
+            digest = "another" if seed else "d0"
+            old = made(seed, version="old", digest=digest)
+            writer.append([(key_of(replace(SETTINGS, seed=seed)), old)])
     monkeypatch.setattr(workers, "worker_pool", lambda _: quick)
     line = ["duels", "--seeds", "0:9", "--verify", "3", "--json"]
     line += ["--duration", "120", "--output", str(tmp_path)]
     answer = CliRunner().invoke(main, line)
     assert answer.exit_code == 1, answer.output
-    assert "1 of 3 repeated duels agree" in answer.stderr
-    assert "seeds 1, 2" in answer.stderr
+    assert "1 of 3 repeated cases agree" in answer.stderr
+    assert "results of 1, 2 differ" in answer.stderr
     assert answer.stdout == "" and len(quick.seeds) == 3
-    assert [f.name for f in tmp_path.iterdir()] == ["duels.jsonl"]
+    assert [f.name for f in tmp_path.iterdir()] == ["records"]
 
 
 CHILD = """

@@ -19,11 +19,8 @@ from stepaside.core.atomic_output import (
     draft_prefix,
     remove_stale_drafts,
 )
-from stepaside.core.errors import OutputError
 from stepaside.core.interrupts import interruptible
 from stepaside.core.worker_pool import worker_pool
-from stepaside.studies.reading_store import ReadingStore
-from stepaside.studies.record_store import RecordStore
 from tools.fuzz.case import complaint_of
 from tools.fuzz.moments import SIGNALS, moment_case
 
@@ -76,33 +73,6 @@ def test_sigterm_is_ctrl_c_while_a_command_runs() -> None:
     with pytest.raises(KeyboardInterrupt), interruptible():
         signal.raise_signal(signal.SIGTERM)
     assert signal.getsignal(signal.SIGTERM) == before
-
-
-def test_a_record_behind_a_torn_one_is_not_lost(tmp_path: Path) -> None:
-    file = RecordStore(tmp_path / "records.jsonl")
-    file.append("a", {"x": 1})
-    with file.path.open("a") as out:
-        out.write('{"key": "b", "rec')  # its writer was killed
-    file.append("c", {"x": 3})
-    again = RecordStore(file.path)
-    assert again.read() == {"a": {"x": 1}, "c": {"x": 3}}
-    assert again.aside == 1
-
-
-def test_readings_that_were_altered_are_set_aside_by_name(
-    tmp_path: Path,
-) -> None:
-    told: list[Path] = []
-    kept = ReadingStore(tmp_path, told.append)
-    kept.store("one", {"seed": 1}, {"x": 0.25})
-    file = tmp_path / "one.json"
-    assert kept.load("one", {"seed": 1}, ["x"]) == {"x": 0.25}
-    for spoilt in (file.read_text().replace("0.25", "0.26"), "[" * 100_000):
-        kept.store("one", {"seed": 1}, {"x": 0.25})
-        file.write_text(spoilt)
-        assert kept.load("one", {"seed": 1}, ["x"]) is None
-        assert told == [tmp_path / "one.json.aside"] and not file.exists()
-        told.pop().unlink()
 
 
 def test_a_figure_is_trusted_by_what_it_holds(
@@ -169,49 +139,3 @@ def test_the_package_is_a_command_too() -> None:
         check=True,
     )
     assert "stepaside" in said.stdout and not said.stderr
-
-
-def test_what_lies_aside_already_stays(tmp_path: Path) -> None:
-    """It may be an earlier one, or a file of somebody else."""
-    kept = ReadingStore(tmp_path)
-    (tmp_path / "one.json.aside").write_text("mine")
-    (tmp_path / "one.json").write_text("torn")
-    assert kept.load("one", {}, ["x"]) is None
-    found = {file.read_text() for file in tmp_path.iterdir()}
-    assert found == {"mine", "torn"}
-
-
-def test_an_empty_file_that_was_there_stays_where_room_runs_out(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    for made_before in (True, False):
-        file = RecordStore(tmp_path / f"{made_before}.jsonl")
-        if made_before:
-            file.path.touch()
-        with monkeypatch.context() as patch:
-            patch.setattr(Path, "open", lambda path, *w, **k: Full(path))
-            with pytest.raises(OutputError):
-                file.append("a", {})
-        assert file.path.exists() is made_before
-
-
-class Full:
-    """A file that takes nothing."""
-
-    def __init__(self, path: Path) -> None:
-        """Make the file."""
-        path.touch()
-
-    def __enter__(self) -> "Full":
-        return self
-
-    def __exit__(self, *words: object) -> None:
-        pass
-
-    def seek(self, *words: int) -> int:
-        """Place of the end."""
-        return 0
-
-    def write(self, data: bytes) -> int:
-        """Run out of room."""
-        raise OSError(28, "No space left on device")

@@ -11,16 +11,16 @@ import pytest
 from click.testing import CliRunner
 
 from stepaside.cli.main import main
+from stepaside.core import worker_pool as pools
 from stepaside.core.poses import wrap_angle
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.planning import PRESETS
 from stepaside.report.people_figure import draw_people
-from stepaside.studies import people_campaign as study
-from stepaside.studies.people_campaign import (
-    Encounter,
-    encounters,
-    run_encounters,
-)
+from stepaside.studies import encounters as study
+from stepaside.studies import people_campaign as campaign
+from stepaside.studies.campaign import CodeStamp, run_study
+from stepaside.studies.encounters import Encounter, encounters
+from stepaside.studies.people_campaign import people_study
 from stepaside.studies.people_statistics import (
     origin_rows,
     passing_rows,
@@ -28,6 +28,7 @@ from stepaside.studies.people_statistics import (
     theory_room,
 )
 from stepaside.studies.result_files import read_result
+from stepaside.studies.result_store import ResultStore
 
 WALK = WalkSettings(seed=3, gait=PRESETS["fast"])
 FEW: dict[str, Any] = {"speeds": (0.5, 1.0), "bearings": (0, -90)}
@@ -52,6 +53,21 @@ def record(**changes: Any) -> dict[str, Any]:
         "theory_closest_m": 0.95,
         **changes,
     }
+
+
+@pytest.mark.parametrize("speed", [0.3, 0.8, 1.4])
+def test_people_of_any_speed_leave_the_same_time_before_evasion(
+    speed: float,
+) -> None:
+    """The robot stands for 1.5 s before the time to contact is reached."""
+    (each,) = encounters(
+        WALK, ("ideal",), seeds=1, speeds=(speed,), bearings=(0,),
+        offsets=(0.0,),
+    )  # fmt: skip
+    start, strategy = each.settings.start, each.settings.strategy
+    assert start.distance is not None
+    until_contact = (start.distance - strategy.clearance) / speed
+    assert until_contact - strategy.contact_time == pytest.approx(1.5)
 
 
 @pytest.mark.parametrize("bearing", [0, 45, -90, 180])
@@ -89,46 +105,50 @@ def test_keys_tell_everything_apart() -> None:
     assert keys >= {each.key for each in grid(seeds=1)}
 
 
-def test_an_interrupted_campaign_continues(
+def test_recorded_encounters_are_not_repeated(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     met: list[str] = []
 
-    def meet(each: Encounter) -> tuple[str, dict[str, Any]]:
+    def meet(each: Encounter) -> dict[str, Any]:
         met.append(each.key)
-        return each.key, record(closest_m=each.speed)
+        return record(closest_m=each.speed)
 
-    monkeypatch.setattr(study, "meet", meet)
-    told: list[int] = []
-    file = tmp_path / "people.jsonl"
-    with ThreadPoolExecutor(1) as executor:
-        first = run_encounters(grid(seeds=1), file, executor, told.append)
-        again = run_encounters(grid(seeds=2), file, executor)
-    assert len(first) == 8 and told == list(range(9))
+    monkeypatch.setattr(campaign, "meet", meet)
+    store = ResultStore(tmp_path)
+    first = run_study(people_study(grid(seeds=1)), store)
+    again = run_study(people_study(grid(seeds=2)), store)
+    assert len(first) == 8 and again.reused == 8
     assert len(again) == 16 == len(met) and len(set(met)) == 16
-    assert {key: again[key] for key in first} == first
-    monkeypatch.setattr(study, "stamp", lambda: {"version": "another"})
-    with ThreadPoolExecutor(1) as executor:
-        run_encounters(grid(seeds=1), file, executor)
+    other = CodeStamp("another", {})
+    monkeypatch.setattr(campaign, "code_stamp", lambda *_: other)
+    run_study(people_study(grid(seeds=1)), store)
     assert len(met) == 24
+
+
+def results_of(
+    records: dict[str, dict[str, Any]],
+) -> list[tuple[Encounter, dict[str, Any]]]:
+    """Encounters of the grid that have a record."""
+    return [(e, records[e.key]) for e in grid() if e.key in records]
 
 
 def test_contacts_and_clearance_are_tabulated_by_speed() -> None:
     results = {each.key: record() for each in grid()}
     touched = next(e for e in grid() if e.speed == 1.0 and not e.passes)
     results[touched.key] = record(outcome="contact", closest_m=0.3)
-    slow, quick = people_rows(grid(), results)
+    slow, quick = people_rows(results_of(results))
     assert (slow["speed_m_s"], slow["number"], slow["contacts"]) == (0.5, 4, 0)
     assert (quick["contacts"], quick["closest_m"]) == (1, 0.3)
     assert quick["mean_closest_m"] == pytest.approx((0.3 + 3 * 0.9) / 4)
     assert quick["contacts_low"] < 0.25 < quick["contacts_high"]
     assert quick["triggered_at_m"] == 4.0 and quick["triggered"] == 4
     assert quick["theory_room_m"] == theory_room(PRESETS["fast"], 1.0) > 0.1
-    origins = origin_rows(grid(), results)
+    origins = origin_rows(results_of(results))
     assert len(origins) == 4
     assert sum(row["contacts"] for row in origins) == 1
     half = {e.key: results[e.key] for e in grid() if e.speed == 0.5}
-    assert len(people_rows(grid(), half)) == 1
+    assert len(people_rows(results_of(half))) == 1
 
 
 def test_evading_people_who_pass_is_a_false_trigger() -> None:
@@ -136,33 +156,27 @@ def test_evading_people_who_pass_is_a_false_trigger() -> None:
         each.key: record(triggered_at_s=None if each.passes else 2.0)
         for each in grid()
     }
-    (row,) = passing_rows(grid(), results)
+    (row,) = passing_rows(results_of(results))
     assert (row["number"], row["false_triggers"]) == (8, 0)
     passing = [each for each in grid() if each.passes]
     for each in passing[:2]:
         results[each.key] = record()
-    (row,) = passing_rows(grid(), results)
+    (row,) = passing_rows(results_of(results))
     assert row["hours"] == pytest.approx(8 * 36.0 / 3600.0)
     assert row["false_triggers_per_hour"] == pytest.approx(2 / 0.08)
 
 
 def test_the_map_has_a_point_for_each_direction(tmp_path: Path) -> None:
     results = {each.key: record() for each in grid()}
-    draw_people(origin_rows(grid(), results), 0.7, tmp_path / "map.png")
+    draw_people(origin_rows(results_of(results)), 0.7, tmp_path / "map.png")
     assert (tmp_path / "map.png").read_bytes()[:4] == b"\x89PNG"
 
 
 def test_the_command_writes_table_and_map(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def played(
-        those: list[Encounter], file: Any, executor: Any, *more: Any
-    ) -> dict[str, Any]:
-        more[1].update({each.key: record() for each in those})
-        done: dict[str, Any] = more[1]
-        return done
-
-    monkeypatch.setattr(study, "run_encounters", played)
+    monkeypatch.setattr(campaign, "meet", lambda each: record())
+    monkeypatch.setattr(pools, "worker_pool", ThreadPoolExecutor)
     line = "robustness --kind person --gait fast --seeds 1 --workers 1"
     told = CliRunner().invoke(
         main, [*line.split(), "--output", str(tmp_path / "found")]

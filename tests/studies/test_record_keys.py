@@ -1,6 +1,5 @@
 """Test the keys of records: whatever decides a result changes its key."""
 
-from concurrent.futures import Executor, Future
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -22,13 +21,14 @@ from stepaside.sim.body_settings import BODIES
 from stepaside.sim.camera_settings import RoomObject
 from stepaside.sim.passerby_settings import Passer
 from stepaside.sim.push import Push
-from stepaside.studies.duel_campaign import key_of, settings_hash
-from stepaside.studies.people_campaign import encounters
+from stepaside.studies.duel_campaign import duel_study
+from stepaside.studies.duel_record import settings_hash
+from stepaside.studies.encounters import encounters
 from stepaside.studies.push_results import pushes_result
-from stepaside.studies.record_store import RecordStore
-from stepaside.studies.robustness_campaign import RobustnessTrial
+from stepaside.studies.result_store import ResultStore
+from stepaside.studies.robustness_trial import RobustnessTrial
 from stepaside.studies.settings_diff import changed_walk, changes_of
-from stepaside.studies.tournament_campaign import key_of as game_key
+from stepaside.studies.tournament_campaign import tournament_study
 from stepaside.studies.tournament_settings import TournamentSettings
 
 FEEDBACK = ControlSettings(feedback=True)  # with which methods differ
@@ -62,14 +62,15 @@ FALLEN = WalkTrialResult(
 )
 
 
-class Here(Executor):
-    """Does work at once, in this process."""
+def key_of(settings: DuelSettings) -> str:
+    return duel_study(settings, [settings.seed]).key_of(settings.seed)
 
-    def submit(self, fn: Any, /, *args: Any, **kwargs: Any) -> Future[Any]:
-        """Do it."""
-        future: Future[Any] = Future()
-        future.set_result(fn(*args, **kwargs))
-        return future
+
+def game_key(
+    settings: TournamentSettings, pairing: tuple[str, str], seed: int
+) -> str:
+    study = tournament_study(settings, [pairing], [seed])
+    return study.key_of(study.cases[0])
 
 
 @pytest.mark.parametrize(
@@ -200,9 +201,9 @@ def test_every_part_of_a_description_names_the_walks_of_a_search(
     monkeypatch.setattr(tuning, "ROUNDS", 0)
 
     def keys_of(description: Any, name: str) -> set[str]:
-        file = tmp_path / f"{name}.jsonl"
-        GaitSearch(description, Here(), file).run()
-        return set(RecordStore(file).read())
+        store = ResultStore(tmp_path / name)
+        GaitSearch(description, None, store).run()
+        return set(store.read())
 
     changes: dict[str, Any] = {
         "standing": own.standing | {"LKneePitch": 0.9},

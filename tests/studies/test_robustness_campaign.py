@@ -1,7 +1,6 @@
 """Campaigns: what each trial asks for, and results that are not made twice."""
 
 from collections.abc import Callable
-from concurrent.futures import Executor, Future
 from dataclasses import replace
 from math import pi
 from pathlib import Path
@@ -14,29 +13,23 @@ from stepaside.locomotion.zmp.control_settings import ControlSettings
 from stepaside.planning import GaitSettings
 from stepaside.sim.body_settings import BODIES
 from stepaside.sim.physics_settings import PhysicsSettings
-from stepaside.studies import (
-    push_limits as limits,
-)
-from stepaside.studies import (
-    robustness_campaign as robustness,
-)
-from stepaside.studies import (
-    robustness_campaign as trial_results,
-)
-from stepaside.studies.code_version import code_version
+from stepaside.studies import push_limits as limits
+from stepaside.studies import robustness_campaign as robustness
+from stepaside.studies.campaign import CodeStamp, run_study
 from stepaside.studies.push_limits import (
     limit_of,
     next_strength,
+    outcomes_of,
     push_cases,
-    search_limits,
 )
-from stepaside.studies.robustness_campaign import (
+from stepaside.studies.result_store import ResultStore
+from stepaside.studies.robustness_campaign import push_study, robustness_study
+from stepaside.studies.robustness_trial import (
     DIRECTIONS,
     STRENGTHS,
     RobustnessTrial,
     control_of,
     push_time,
-    run_campaign,
     settings_of,
     trials,
     with_noise,
@@ -46,30 +39,15 @@ TRIAL = RobustnessTrial("friction", 0.3, "", 0.0, 5, "measured", "hardware")
 PUSH = RobustnessTrial("push", 1.2, "left", 0.25, 5, "closed-form", "ideal")
 
 
-class Inline(Executor):
-    """Runs at once, in this process."""
-
-    def submit(
-        self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any
-    ) -> Future[Any]:
-        """Run it."""
-        future: Future[Any] = Future()
-        try:
-            future.set_result(fn(*args, **kwargs))
-        except BaseException as error:
-            future.set_exception(error)
-        return future
-
-
 def survives(
     monkeypatch: pytest.MonkeyPatch, rule: Callable[[RobustnessTrial], bool]
 ) -> list[RobustnessTrial]:
     """Replace walks by a rule; return those that were asked for."""
     asked: list[RobustnessTrial] = []
 
-    def run(trial: RobustnessTrial) -> tuple[str, bool]:
+    def run(trial: RobustnessTrial) -> dict[str, Any]:
         asked.append(trial)
-        return trial.key, rule(trial)
+        return {"survived": rule(trial)}
 
     monkeypatch.setattr(robustness, "run_trial", run)
     monkeypatch.setattr(limits, "run_trial", run)
@@ -166,68 +144,31 @@ def test_cases_cover_methods_directions_and_phases() -> None:
     assert {case.strength for case in cases} == {0.0}
 
 
-def test_an_interrupted_campaign_continues(
+def test_recorded_trials_are_not_repeated(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     asked = survives(monkeypatch, lambda trial: trial.strength < 1.5)
     grid = list(trials(["backlash"], ["mpc"], "ideal", seeds=2))
-    file, told = tmp_path / "trials.jsonl", list[int]()
-    first = run_campaign(grid[:4], file, Inline())
+    store = ResultStore(tmp_path)
+    run_study(robustness_study(grid[:4]), store)
     assert asked == grid[:4]
-    with file.open("a") as out:
-        out.write('["cut off')  # as by a power cut
-    file.write_text(file.read_text() + "\n")
-    both = run_campaign(grid, file, Inline(), told.append)
-    assert asked == grid
-    assert first.items() <= both.items() and len(both) == len(grid)
-    assert told[0] == 4 and told[-1] == len(grid)
-    assert [both[trial.key] for trial in grid] == [
-        trial.strength < 1.5 for trial in grid
-    ]
-    assert run_campaign(grid, None, Inline()) == both
+    run = run_study(robustness_study(grid), store)
+    assert asked == grid and run.reused == 4
+    for trial, record in run.items():
+        assert record["survived"] is (trial.strength < 1.5)
 
 
 def test_results_of_other_code_are_made_again(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     asked = survives(monkeypatch, lambda trial: True)
-    file = tmp_path / "trials.jsonl"
-    run_campaign([TRIAL], file, Inline())
-    run_campaign([TRIAL], file, Inline())
-    assert len(asked) == 1
-    monkeypatch.setattr(trial_results, "code_version", lambda rooms: "other")
-    run_campaign([TRIAL], file, Inline())
+    store = ResultStore(tmp_path)
+    for stamp in ("1", "1", "2"):
+        monkeypatch.setattr(
+            robustness, "code_stamp", lambda *_, v=stamp: CodeStamp(v, {})
+        )
+        run_study(robustness_study([TRIAL]), store)
     assert len(asked) == 2
-    assert list(trial_results.read_results(file)) == [TRIAL.key]
-
-
-@pytest.mark.parametrize(
-    ("name", "other"),
-    [
-        ("library_versions", lambda: {"mujoco": "0", "numpy": "0"}),
-        (
-            "code_version",
-            lambda rooms: (
-                "edited"
-                if "studies/robustness_campaign" in rooms
-                else code_version(rooms)
-            ),
-        ),
-    ],
-)
-def test_libraries_and_walk_modules_invalidate_a_result(
-    monkeypatch: pytest.MonkeyPatch,
-    tmp_path: Path,
-    name: str,
-    other: Callable[..., object],
-) -> None:
-    file = tmp_path / "trials.jsonl"
-    trial_results.append_result(file, TRIAL.key, True)
-    assert trial_results.read_results(file) == {TRIAL.key: True}
-    monkeypatch.setattr(trial_results, name, other, raising=False)
-    assert trial_results.read_results(file) == {}
-    trial_results.append_result(file, TRIAL.key, False)
-    assert trial_results.read_results(file) == {TRIAL.key: False}
 
 
 @pytest.mark.parametrize(
@@ -260,59 +201,35 @@ def test_search_finds_every_limit_to_a_tenth_with_few_walks(
         monkeypatch, lambda t: t.strength <= truth[t.direction] + 1e-9
     )
     cases = list(push_cases(["mpc"], "ideal", phases=1))
-    file, told = tmp_path / "trials.jsonl", list[int]()
-    found = search_limits(cases, file, Inline(), told.append)
-    for case, outcomes in limits.outcomes_of(cases, found).items():
+    store = ResultStore(tmp_path)
+    found = run_study(push_study(cases), store)
+    for case, record in found.items():
         limit = truth[case.direction]
-        assert limit - 0.1 < limit_of(outcomes) <= limit + 1e-9
-    assert told[-1] == len(cases)
+        assert limit - 0.1 < limit_of(outcomes_of(record)) <= limit + 1e-9
     number = len(asked)
-    assert number == len(found) < 8 * len(cases)
-    assert search_limits(cases, file, Inline()) == found
+    assert number < 8 * len(cases)
+    again = run_study(push_study(cases), store)
+    assert list(again.records()) == list(found.records())
     assert len(asked) == number  # nothing was walked again
 
 
-def test_a_search_gives_back_what_it_was_asked_for_alone(
+def test_one_store_holds_trials_and_searches_of_all_kinds(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    """One folder holds other methods, seeds and kinds beside it."""
-    survives(monkeypatch, lambda t: t.strength < 1.0)
-    file = tmp_path / "trials.jsonl"
+    asked = survives(monkeypatch, lambda t: t.strength < 1.0)
+    store = ResultStore(tmp_path)
     cases = list(push_cases(["mpc"], "ideal", phases=1))
-    alone = search_limits(cases, None, Inline())
-    search_limits(
-        [
-            *push_cases(["measured"], "ideal", phases=1),
-            *push_cases(["mpc"], "ideal", phases=2, seed=2),
-        ],
-        file,
-        Inline(),
-    )
-    run_campaign([TRIAL], file, Inline())
-    assert search_limits(cases, file, Inline()) == alone
-    assert search_limits(cases, file, Inline()) == alone
-    done = {TRIAL.key: True}
-    found = search_limits(cases, file, Inline(), None, done)
-    assert found == alone | {TRIAL.key: True}
-
-
-def test_a_search_that_was_stopped_ends_as_one_that_was_not(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
-    cases = list(push_cases(["mpc"], "ideal", phases=2))
-    survives(monkeypatch, lambda t: t.strength < 1.0 + t.phase)
-    whole = search_limits(cases, None, Inline())
-    file = tmp_path / "trials.jsonl"
-
-    def fails(trial: RobustnessTrial) -> bool:
-        if trial.strength > 0.9:
-            raise KeyboardInterrupt
-        return trial.strength < 1.0 + trial.phase
-
-    survives(monkeypatch, fails)
-    partly: dict[str, bool] = {}
-    with pytest.raises(KeyboardInterrupt):
-        search_limits(cases, file, Inline(), None, partly)
-    assert 0 < len(partly) < len(whole) and partly.items() <= whole.items()
-    survives(monkeypatch, lambda t: t.strength < 1.0 + t.phase)
-    assert search_limits(cases, file, Inline()) == whole
+    run_study(push_study(cases), store)
+    number = len(asked)
+    others = [
+        *push_cases(["measured"], "ideal", phases=1),
+        *push_cases(["mpc"], "ideal", phases=2, seed=2),
+    ]
+    run_study(push_study(others), store)
+    run_study(robustness_study([TRIAL, PUSH]), store)
+    assert {t.method for t in asked[number:]} == {
+        "measured",
+        "mpc",
+        *(TRIAL.method, PUSH.method),
+    }
+    assert run_study(push_study(cases), store).reused == len(cases)

@@ -1,6 +1,5 @@
 """Test strategies that are given as Python objects."""
 
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -31,8 +30,8 @@ from stepaside.strategies import (
     LookAhead,
     OptimalEvasion,
 )
-from stepaside.studies.duel_campaign import digest_of, run_duels
-from stepaside.studies.record_store import RecordStore
+from stepaside.studies.duel_campaign import duel_study
+from stepaside.studies.duel_record import digest_of
 
 SHORT = DuelSettings(duration=1.2, start=StartSettings(distance=0.7))
 OWN = """
@@ -187,13 +186,10 @@ def test_an_object_that_does_not_answer_is_refused() -> None:
         run_duel(replace(SHORT, evader_strategy=Mute()))  # type: ignore[arg-type]
 
 
-def test_records_are_kept_of_named_strategies_alone(tmp_path: Path) -> None:
-    file = RecordStore(tmp_path / "records.jsonl")
+def test_records_are_kept_of_named_strategies_alone() -> None:
     own = replace(SHORT, evader_strategy=Own())
-    with ThreadPoolExecutor(1) as pool:
-        with pytest.raises(ConfigurationError, match="a Python object, Own"):
-            run_duels(own, [1], file, pool)
-        assert len(run_duels(own, [1], None, pool)) == 1
+    with pytest.raises(ConfigurationError, match="a Python object, Own"):
+        duel_study(own, [1])
 
 
 @pytest.mark.parametrize("strategy", ["look-ahead", "stand", "own"])

@@ -14,7 +14,7 @@ from stepaside.planning import GaitSettings
 from stepaside.studies.push_limits import push_cases
 from stepaside.studies.push_results import pushes_result
 from stepaside.studies.result_files import HEADER
-from stepaside.studies.robustness_campaign import (
+from stepaside.studies.robustness_trial import (
     DIRECTIONS,
     STRENGTHS,
     RobustnessTrial,
@@ -71,8 +71,9 @@ def test_survival_is_counted_over_the_seeds_of_each_strength() -> None:
         for x in (1.0, 2.0)
         for seed in range(4)
     ]
-    results = {t.key: t.strength + t.seed < 4.5 for t in grid[:-1]}
-    one, two = survival_rows(grid, results)
+    one, two = survival_rows(
+        (t, {"survived": t.strength + t.seed < 4.5}) for t in grid[:-1]
+    )
     assert (one["strength"], one["survived"], one["trials"]) == (1.0, 4, 4)
     assert (two["strength"], two["survived"], two["trials"]) == (2.0, 3, 3)
     assert (one["low"], one["high"]) == wilson(4, 4)
@@ -90,11 +91,10 @@ def test_survival_of_pushes_is_the_share_of_phases_with_that_limit() -> None:
 
 def test_limit_is_the_largest_push_survived_with_all_smaller_ones() -> None:
     """One survived above a failure does not count."""
-    [case, other] = list(push_cases(["mpc"], "ideal", phases=2))[:2]
+    case = next(push_cases(["mpc"], "ideal", phases=2))
     tried = {0.4: True, 0.8: False, 1.2: True, 0.6: True, 0.7: False}
-    results = {replace(case, strength=s).key: ok for s, ok in tried.items()}
-    results[replace(other, strength=0.4).key] = True  # not known yet
-    [found] = limit_rows([case, other], results)
+    record = {"strengths": [*tried], "survived": [*tried.values()]}
+    [found] = limit_rows([(case, record)])
     assert found["limit_n_s"] == 0.6
     assert found["bound_n_s"] == bound_at(case.direction, case.phase)
     assert found["ratio"] == 0.6 / found["bound_n_s"]

@@ -19,15 +19,14 @@ from stepaside.core.poses import Pose, wrap_angles
 from stepaside.games.outcome import Outcome
 from stepaside.strategies import StepGame
 from stepaside.strategies import bound_cache as tables
-from stepaside.studies import tournament_campaign as studied
+from stepaside.studies import tournament_campaign as campaign
+from stepaside.studies import tournament_record as studied
+from stepaside.studies.campaign import CodeStamp, run_study
 from stepaside.studies.floor_used import floor_used
 from stepaside.studies.physics_game import outcome_of, players_touched
-from stepaside.studies.record_store import RecordStore
-from stepaside.studies.tournament_campaign import (
-    play_record,
-    play_tournament,
-    play_track,
-)
+from stepaside.studies.result_store import ResultStore
+from stepaside.studies.tournament_campaign import tournament_study
+from stepaside.studies.tournament_record import play_record, play_track
 from stepaside.studies.tournament_rows import tournament_rows
 from stepaside.studies.tournament_settings import TournamentSettings
 
@@ -136,22 +135,21 @@ def test_the_bound_is_that_of_the_start() -> None:
 def test_recorded_games_are_not_repeated(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    file = RecordStore(tmp_path / "games.jsonl")
-    numbers: list[int] = []
-    first = play_tournament(SETTINGS, PAIRINGS, range(2), file)
+    store = ResultStore(tmp_path)
+    first = run_study(tournament_study(SETTINGS, PAIRINGS, range(2)), store)
+    study = tournament_study(SETTINGS, PAIRINGS, range(3))
     with ThreadPoolExecutor(2) as executor:
-        again = play_tournament(
-            SETTINGS, PAIRINGS, range(3), file, executor, numbers.append
-        )
-    assert numbers[0] == 4 and numbers[-1] == 6 == len(again)
-    assert {key: again[key] for key in first} == first
-    assert list(again) == sorted(again, key=lambda k: k.split("/")[1:3])
-    other = replace(SETTINGS, angle=0.5)
-    assert not set(play_tournament(other, PAIRINGS[:1], [0])) & set(again)
-    monkeypatch.setattr(studied, "_stamp", lambda *_: {"version": "another"})
-    anew: list[int] = []
-    play_tournament(SETTINGS, PAIRINGS[:1], [0], file, None, anew.append)
-    assert anew == [0, 1]
+        again = run_study(study, store, executor)
+    assert again.reused == 4 and len(again) == 6
+    assert list(first.records()) == [
+        record for (_, seed), record in again.items() if seed < 2
+    ]
+    other = tournament_study(replace(SETTINGS, angle=0.5), PAIRINGS, [0])
+    assert run_study(other, store).reused == 0
+    stamp = CodeStamp("another", {})
+    monkeypatch.setattr(campaign, "code_stamp", lambda *_: stamp)
+    once_more = tournament_study(SETTINGS, PAIRINGS[:1], [0])
+    assert run_study(once_more, store).reused == 0
 
 
 def record(**changes: Any) -> dict[str, Any]:
@@ -251,12 +249,14 @@ def test_the_command_plays_draws_and_goes_on(tmp_path: Path) -> None:
     rows = json.loads(one.stdout)["rows"]
     assert [row["evader"] for row in rows] == ["aside", "look-ahead"]
     assert all(row["games"] == 2 for row in rows)
-    kept = (folder / "games.jsonl").read_text("utf-8").splitlines()
+    kept = ResultStore(folder / "records").read()
+    assert len(kept) == 4
     paths = tmp_path / "worst.png"
     two = call(*words, "--seeds", "0:3", "--paths", str(paths))
     assert two.exit_code == 0 and "look-ahead" in two.output
-    lines = (folder / "games.jsonl").read_text("utf-8").splitlines()
-    assert lines[: len(kept)] == kept and len(lines) == 6
+    entries = list(ResultStore(folder / "records").entries())
+    assert len(entries) == 6  # two games were added
+    assert kept.items() <= {e.key: e.record for e in entries}.items()
     assert figure.stat().st_size > 0 and paths.stat().st_size > 0
     summary = json.loads((folder / "summary.json").read_text("utf-8"))
     assert summary["rows"][0]["games"] == 3
@@ -422,7 +422,7 @@ def test_a_duel_that_is_stopped_is_no_game_and_stops_the_others(
 
     monkeypatch.setattr("stepaside.games.duel.run_duel", cut_short)
     settings = replace(SETTINGS, level="physics", game=StepGame(duration=1.0))
-    file = RecordStore(tmp_path / "games.jsonl")
-    with pytest.raises(KeyboardInterrupt):
-        play_tournament(settings, [("aside", "pure")], [3, 4], file)
-    assert len(played) == 1 and not file.read()
+    study = tournament_study(settings, [("aside", "pure")], [3, 4])
+    store = ResultStore(tmp_path)
+    assert run_study(study, store).interrupted
+    assert len(played) == 1 and not store.read()

@@ -15,23 +15,18 @@ from dataclasses import replace
 from pathlib import Path
 
 from asking import ask, seeds_of
-from tqdm import tqdm
+from gathering import complete
 
-from stepaside.core.worker_pool import worker_pool
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.locomotion.zmp.control_settings import ControlSettings
 from stepaside.planning import PRESETS
 from stepaside.sim.body_settings import BODIES
 from stepaside.sim.person_settings import PersonSettings
 from stepaside.strategies import Evasion
-from stepaside.studies.duel_campaign import (
-    MODULES,
-    Record,
-    run_duels,
-    verify_duels,
-)
-from stepaside.studies.record_store import RecordStore
+from stepaside.studies.duel_campaign import MODULES, duel_study
+from stepaside.studies.records import Record
 from stepaside.studies.result_files import header, write_result
+from stepaside.studies.result_store import ResultStore
 
 FAST = DuelSettings(
     duration=16.0,
@@ -88,26 +83,12 @@ def main() -> None:
     parser.add_argument("--verify", type=int)
     parser.add_argument("--workers", type=int)
     asked = parser.parse_args()
-    asked.records.mkdir(parents=True, exist_ok=True)
     rows: list[Record] = []
-    every = len(asked.seeds) * len(asked.kinds)
-    with (
-        worker_pool(asked.workers) as executor,
-        tqdm(total=every, unit="duel", disable=None) as bar,
-    ):
-        for kind in asked.kinds:
-            file = RecordStore(asked.records / f"{kind}.jsonl")
-            if asked.verify is not None:
-                taken = KINDS[kind], file, asked.verify, executor
-                print(f"{kind}: otherwise: seeds {verify_duels(*taken)[1]}")
-            before = len(rows) * len(asked.seeds)
-
-            def report(number: int, before: int = before) -> None:
-                bar.n = before + number
-                bar.refresh()
-
-            found = run_duels(KINDS[kind], asked.seeds, file, executor, report)
-            rows.append(row_of(kind, list(found.values())))
+    for kind in asked.kinds:
+        study = duel_study(KINDS[kind], asked.seeds)
+        store = ResultStore(asked.records / kind)
+        run = complete(study, store, asked.workers, verify=asked.verify)
+        rows.append(row_of(kind, list(run.records())))
     seeds = [asked.seeds.start, asked.seeds.stop]
     libraries = ["mujoco", "numpy", "opencv-python-headless"]
     head = header({"seeds": seeds}, modules=MODULES, libraries=libraries)

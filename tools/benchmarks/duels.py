@@ -1,7 +1,7 @@
 """Run many duels of one kind for docs/duels.md.
 
-Like ``stepaside duels``, but with the records next to the file of results, so
-that more seeds can be added later::
+Like ``stepaside duels``, but with the records in a folder next to the file of
+results, so that more seeds can be added later::
 
     python tools/benchmarks/duels.py ideal --seeds 0:1000
     python tools/benchmarks/duels.py hardware --seeds 0:200
@@ -18,22 +18,22 @@ from pathlib import Path
 from typing import Any
 
 from asking import ask, seeds_of
-from tqdm import tqdm
+from gathering import complete
 
-from stepaside.core.worker_pool import worker_pool
 from stepaside.games.configuration_file import json_settings
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.locomotion.zmp.control_settings import ControlSettings
 from stepaside.sim.body_settings import BODIES
-from stepaside.studies.duel_campaign import (
-    run_duels,
-    settings_hash,
-    verify_duels,
-    versions_of,
-)
+from stepaside.studies.duel_campaign import duel_study, versions_of
+from stepaside.studies.duel_record import settings_hash
 from stepaside.studies.duel_statistics import summarise_duels
-from stepaside.studies.record_store import RecordStore
 from stepaside.studies.result_files import header, read_result, write_result
+from stepaside.studies.result_store import (
+    MERGED,
+    SUFFIX,
+    ResultStore,
+    merge_stores,
+)
 
 KINDS = {
     "ideal": DuelSettings(),
@@ -59,14 +59,22 @@ def summarise(output: Path, settings: DuelSettings) -> None:
         settings: Settings of its duels.
     """
     result = read_result(output)
-    file = RecordStore(output.with_suffix(".jsonl"))
-    found, kind = file.read(), result["records"]["settings"]
+    store = ResultStore(output.with_suffix(""))
+    found, kind = store.read(), result["records"]["settings"]
     seeds = range(*result["settings"]["seeds"])
     records = [found[f"{seed}/{kind}"] for seed in seeds]
     if digest_of(records) != result["records"]["digest"]:
-        raise SystemExit(f"{file.path} holds other duels than {output}")
+        raise SystemExit(f"{store.folder} holds other duels than {output}")
     summary = summarise_duels(settings, records)
     write_result(output, result | {"summary": summary})
+
+
+def compact(store: ResultStore) -> None:
+    """Join the files of a store, to which nothing else writes."""
+    merge_stores([store], store)
+    for file in store.folder.glob(f"*{SUFFIX}"):
+        if file.name != MERGED:
+            file.unlink()
 
 
 def main() -> None:
@@ -83,28 +91,18 @@ def main() -> None:
     if asked.summarise:
         summarise(output, settings)
         return
-    file = RecordStore(output.with_suffix(".jsonl"))
-    with (
-        worker_pool(asked.workers) as executor,
-        tqdm(total=len(seeds), unit="duel", disable=None) as bar,
-    ):
-        if asked.verify is not None:
-            _, differ = verify_duels(settings, file, asked.verify, executor)
-            print(f"came out otherwise: seeds {differ}")
-
-        def report(number: int) -> None:
-            bar.n = number
-            bar.refresh()
-
-        found = run_duels(settings, seeds, file, executor, report)
-    records = list(found.values())
+    store = ResultStore(output.with_suffix(""))
+    study = duel_study(settings, seeds)
+    run = complete(study, store, asked.workers, verify=asked.verify)
+    records = list(run.records())
+    compact(store)
     entries = json_settings(settings) | {"seeds": [seeds.start, seeds.stop]}
     write_result(
         output,
         header(entries),
         played_by=versions_of(records),
         records={
-            "file": file.path.name,
+            "folder": store.folder.name,
             "settings": settings_hash(settings),
             "digest": digest_of(records),
         },

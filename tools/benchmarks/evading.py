@@ -14,11 +14,12 @@ from typing import Any
 from asking import ask, machine, seeds_of
 
 from stepaside.arena import RoomRecipe
-from stepaside.core.worker_pool import worker_pool
+from stepaside.studies.campaign import run_study
 from stepaside.studies.entrants import EVADERS
-from stepaside.studies.record_store import RecordStore
+from stepaside.studies.executors import open_engine
 from stepaside.studies.result_files import header, write_result
-from stepaside.studies.tournament_campaign import play_tournament
+from stepaside.studies.result_store import ResultStore
+from stepaside.studies.tournament_campaign import tournament_study
 from stepaside.studies.tournament_rows import tournament_rows
 from stepaside.studies.tournament_settings import MODULES, TournamentSettings
 
@@ -47,15 +48,18 @@ def main() -> None:
     asked.add_argument("--workers", type=int)
     asked.add_argument("--records", type=Path)
     arguments = asked.parse_args()
-    file = arguments.records and RecordStore(arguments.records / "games.jsonl")
-    with worker_pool(arguments.workers) as executor:
+    store = arguments.records and ResultStore(arguments.records)
+    with open_engine(workers=arguments.workers) as engine:
 
         def rows(
             recipe: RoomRecipe, pairings: list[tuple[str, str]], seeds: range
         ) -> list[dict[str, Any]]:
             settings = TournamentSettings(room=recipe)
-            found = play_tournament(settings, pairings, seeds, file, executor)
-            return tournament_rows(list(found.values()), settings.game)
+            study = tournament_study(settings, pairings, seeds)
+            run = run_study(study, store, engine)
+            if not run.completed:
+                raise run.failure or KeyboardInterrupt
+            return tournament_rows(list(run.records()), settings.game)
 
         pure = [(name, "pure") for name in EVADERS]
         worlds = {

@@ -1,9 +1,9 @@
 """Parallel jobs that can be interrupted and continued."""
 
-import json
+import shutil
 import sys
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import Future, ThreadPoolExecutor, as_completed
+from functools import partial
 from hashlib import sha256
 from pathlib import Path
 from typing import Any, TypeVar
@@ -11,11 +11,69 @@ from typing import Any, TypeVar
 import numpy as np
 from tqdm import tqdm
 
-from stepaside.core.worker_pool import cancel_pending, worker_pool
-from stepaside.studies.record_store import RecordStore
+from stepaside.studies.campaign import (
+    CodeStamp,
+    Progress,
+    Study,
+    StudyRun,
+    run_study,
+    verify_study,
+)
+from stepaside.studies.executors import Engine, open_engine
+from stepaside.studies.result_store import ResultStore
 
 Row = dict[str, Any]
 Job = TypeVar("Job")
+C = TypeVar("C")
+
+
+def complete(
+    study: Study[C],
+    store: ResultStore | None,
+    workers: int | None = None,
+    *,
+    verify: int | None = None,
+) -> StudyRun[C]:
+    """Run a study to its end, with a progress bar.
+
+    Args:
+        study: Study.
+        store: Store of its records; None for a temporary one.
+        workers: Number of processes; all cores by default, 0 for this one.
+        verify: Number of older records to repeat first; if all agree, the
+            older records are reused.
+
+    Raises:
+        KeyboardInterrupt: After Ctrl-C; finished cases are stored.
+        OutputError: If a record cannot be stored.
+    """
+    if workers == 0:
+        return _complete(study, store, Engine.of(None), verify)
+    with open_engine(workers=workers) as engine:
+        return _complete(study, store, engine, verify)
+
+
+def _complete(
+    study: Study[C],
+    store: ResultStore | None,
+    engine: Engine,
+    verify: int | None,
+) -> StudyRun[C]:
+    if verify is not None and store is not None:
+        differing = verify_study(study, store, verify, engine).differing
+        print(f"different results: {differing}")
+    with tqdm(total=len(study.cases), disable=None) as bar:
+
+        def report(progress: Progress) -> None:
+            bar.initial, bar.n = progress.reused, progress.finished
+            bar.refresh()
+
+        run = run_study(study, store, engine, report)
+    if run.failure is not None:
+        raise run.failure
+    if run.interrupted:
+        raise KeyboardInterrupt
+    return run
 
 
 def gather(
@@ -29,66 +87,49 @@ def gather(
 
     Args:
         output: File of results to be written. Finished jobs are recorded in a
-            file with the suffix ``.part``. They are reused if job, version,
+            folder with the suffix ``.part``. They are reused if job, version,
             libraries and the code of the command are the same, and deleted by
             :func:`finished`.
         head: Header of the results.
         jobs: Arguments by name; their ``repr`` must be unique.
         do: Runs one job; a module-level function, as it runs in other
             processes.
-        workers: Number of processes; all cores by default, 0 for a thread of
-            this process.
+        workers: Number of processes; all cores by default, 0 for this one.
 
     Returns:
         Results in the order of the jobs.
     """
-    file = RecordStore(part_of(output))
-    mark = {key: head[key] for key in ("version", "libraries")}
-    mark["script"] = sha256(Path(sys.argv[0]).read_bytes()).hexdigest()
-    own = json.dumps(mark, sort_keys=True)
-    keys = {
-        f"{name}/{sha256(f'{job!r}{own}'.encode()).hexdigest()[:12]}": name
-        for name, job in jobs.items()
-    }
-    done = {keys[key]: row for key, row in file.read().items() if key in keys}
-    missing = {key: name for key, name in keys.items() if name not in done}
-    with (
-        tqdm(total=len(missing), disable=None) as bar,
-        ThreadPoolExecutor(1)
-        if workers == 0
-        else worker_pool(workers) as pool,
-    ):
-        futures = {
-            pool.submit(do, jobs[name]): key for key, name in missing.items()
-        }
+    script = Path(sys.argv[0]).read_bytes()
+    stamp = CodeStamp(head["version"], head["libraries"])
 
-        def keep(future: Future[Row]) -> None:
-            key, row = futures[future], future.result()
-            done[keys[key]] = row
-            file.append(key, row)
+    def key_of(case: tuple[str, Job]) -> str:
+        name, job = case
+        digest = sha256(script + repr(job).encode()).hexdigest()[:12]
+        return f"{name}/{digest}"
 
-        try:
-            for future in as_completed(futures):
-                keep(future)
-                bar.update()
-        except BaseException:
-            cancel_pending(pool, futures)
-            for future, key in futures.items():
-                over = future.done() and not future.cancelled()
-                new = keys[key] not in done
-                if over and new and not future.exception():
-                    keep(future)
-            raise
-    return {name: done[name] for name in jobs}
+    study = Study(
+        "jobs",
+        list(jobs.items()),
+        partial(_do, do),
+        key_of,
+        lambda case: stamp,
+        ("row",),
+    )
+    run = complete(study, ResultStore(part_of(output)), workers)
+    return {name: record["row"] for (name, _), record in run.items()}
+
+
+def _do(do: Callable[[Job], Row], case: tuple[str, Job]) -> Row:
+    return {"row": do(case[1])}
 
 
 def finished(output: Path) -> None:
     """Delete the records of finished jobs, once the results are written."""
-    part_of(output).unlink(missing_ok=True)
+    shutil.rmtree(part_of(output), ignore_errors=True)
 
 
 def part_of(output: Path) -> Path:
-    """Return the file of the records."""
+    """Return the folder of the records."""
     return output.with_suffix(".part")
 
 

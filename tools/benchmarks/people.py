@@ -12,14 +12,14 @@ from argparse import Namespace
 from dataclasses import replace
 
 from asking import ask, seeds_of
-from gathering import Row, finished, gather
+from gathering import finished, gather
 
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.locomotion.zmp.control_settings import STABILISED
 from stepaside.planning import PRESETS
 from stepaside.sim.body_settings import BODIES
 from stepaside.sim.camera_settings import CameraSettings, ColourSettings
-from stepaside.studies.people_campaign import Encounter, encounters, meet
+from stepaside.studies.encounters import Encounter, encounters, meet
 from stepaside.studies.people_statistics import passing_rows, people_rows
 from stepaside.studies.result_files import header, write_result
 
@@ -28,11 +28,6 @@ BEHIND = (135, -135, 180)
 AIMED = (0.0, 0.3)  # lateral offset of the path from the robot, in [m]
 BY = (1.2, -1.2)
 CAMERAS = CameraSettings(colour=ColourSettings(renderer="raycast", rate=2.0))
-
-
-def play(encounter: Encounter) -> Row:
-    """Return the outcome of one encounter."""
-    return meet(encounter)[1]
 
 
 def grid(
@@ -92,12 +87,16 @@ def main() -> None:
     head = header(
         settings, modules=("studies/people_statistics",), libraries=libraries
     )
-    rows = gather(output, head, jobs, play, arguments.workers)
+    rows = gather(output, head, jobs, meet, arguments.workers)
+    found = {
+        name: [(each, rows[each.key]) for each in group]
+        for name, group in groups.items()
+    }
     came = [
-        {"from": name, **people_rows(groups[name], rows)[0]}
+        {"from": name, **people_rows(found[name])[0]}
         for name in ("ahead", "behind")
     ]
-    passed = passing_rows(groups["past"], rows)[0]
+    passed = passing_rows(found["past"])[0]
     each = [
         {
             "bearing_deg": who.bearing,

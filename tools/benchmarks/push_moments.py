@@ -30,7 +30,7 @@ from stepaside.planning.capturability import push_bound
 from stepaside.planning.steady_gait import steady_plan
 from stepaside.studies.push_results import MODULES
 from stepaside.studies.result_files import header, read_result, write_result
-from stepaside.studies.robustness_campaign import (
+from stepaside.studies.robustness_trial import (
     DIRECTIONS,
     RobustnessTrial,
     settings_of,

@@ -6,18 +6,14 @@ Like ``stepaside robustness --body hardware``, into a file of results::
 """
 
 from asking import ask
-from gathering import Row, finished, part_of
+from gathering import Row, complete, finished, part_of
 
-from stepaside.core.worker_pool import worker_pool
-from stepaside.studies.push_limits import push_cases, search_limits
+from stepaside.studies.push_limits import push_cases
 from stepaside.studies.push_results import MODULES
 from stepaside.studies.result_files import header, write_result
-from stepaside.studies.robustness_campaign import (
-    METHODS,
-    STRENGTHS,
-    run_campaign,
-    trials,
-)
+from stepaside.studies.result_store import ResultStore
+from stepaside.studies.robustness_campaign import push_study, robustness_study
+from stepaside.studies.robustness_trial import METHODS, STRENGTHS, trials
 from stepaside.studies.survival import (
     limit_rows,
     push_survival_rows,
@@ -58,16 +54,16 @@ def main() -> None:
         "phases": arguments.phases,
     }
     head = header(settings, modules=MODULES)
-    part = part_of(arguments.output)
-    with worker_pool(arguments.workers) as executor:
-        results = run_campaign(grid, part, executor)
-        results = results | search_limits(cases, part, executor)
-    limits = limit_rows(cases, results)
-    rows = survival_rows(grid, results) + push_survival_rows(limits)
+    part = ResultStore(part_of(arguments.output))
+    walks = complete(robustness_study(grid), part, arguments.workers)
+    searches = complete(push_study(cases), part, arguments.workers)
+    limits = limit_rows(searches.items())
+    pushed = sum(len(record["strengths"]) for record in searches.records())
+    rows = survival_rows(walks.items()) + push_survival_rows(limits)
     write_result(
         arguments.output,
         head,
-        trials=len(results),
+        trials=len(walks) + pushed,
         by=by_strength(rows),
         survival=rows,
         limits=limits,

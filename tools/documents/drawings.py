@@ -39,7 +39,7 @@ def people(store: Store, file: Path) -> None:
 def survival_on_hardware(store: Store, file: Path) -> None:
     """Draw survival over the strength of each disturbance."""
     from stepaside.report.robustness_figure import draw_survival
-    from stepaside.studies.robustness_campaign import UNITS
+    from stepaside.studies.robustness_trial import UNITS
 
     rows = [
         # This result has a former name of backlash.
@@ -52,14 +52,16 @@ def survival_on_hardware(store: Store, file: Path) -> None:
 def many_duels(store: Store, file: Path) -> None:
     """Draw the distributions of the values of many duels, by kind."""
     from stepaside.report.duels_figure import draw_duels
-    from stepaside.studies.record_store import RecordStore
+    from stepaside.studies.result_store import ResultStore
 
     groups = {}
     for kind in ("ideal", "hardware", "cameras"):
         result = store.result(f"duels-{kind}")
         seeds = range(*result["settings"]["seeds"])
         own = "/" + result["records"]["settings"]
-        records = RecordStore(store.folder / result["records"]["file"]).read()
+        records = ResultStore(
+            store.folder / result["records"]["folder"]
+        ).read()
         groups[kind] = [
             record
             for key, record in records.items()

@@ -17,8 +17,8 @@ from stepaside.core.atomic_output import DRAFT
 from stepaside.core.errors import StepAsideError
 from stepaside.games.outcome import Outcome
 from stepaside.games.run_archive import load_run
-from stepaside.studies.duel_campaign import digest_of
-from stepaside.studies.record_store import _parse
+from stepaside.studies.duel_record import digest_of
+from stepaside.studies.result_store import parse_line
 
 from .case import Case
 from .groups import Worked
@@ -205,8 +205,8 @@ def unwhole(folder: Path, *, killed: bool) -> str:
             except ValueError:
                 return f"not whole: {file.name}"
         elif file.suffix == ".jsonl":
-            lines = file.read_text().splitlines()
-            if not killed and not all(map(_parse, lines)):
+            lines = file.read_bytes().splitlines()
+            if not killed and not all(map(parse_line, lines)):
                 return f"not whole: {file.name}"
         elif file.suffix == ".png":
             raw = file.read_bytes()

@@ -6,7 +6,7 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
-from stepaside.studies.record_store import RecordStore
+from stepaside.studies.result_store import ResultStore
 
 from .again import survivors_of, write_noticed
 from .campaign import record_reach, try_faults
@@ -59,7 +59,7 @@ def main() -> None:
     if options.tests:
         own = sha256(" ".join(chosen).encode()).hexdigest()[:12]
         name += f"-{own}"
-    records = RecordStore(root / WORK / f"{name}.jsonl")
+    records = ResultStore(root / WORK / name)
     # Computed first: the code may change before the run ends.
     where_from = head(
         sample=options.sample, seed=options.seed, cap=options.cap
@@ -134,7 +134,7 @@ def _drawn(
 
 def _try(
     root: Path,
-    records: RecordStore,
+    records: ResultStore,
     faults: list[Fault],
     texts: dict[str, str],
     tests: list[str],
@@ -142,7 +142,7 @@ def _try(
 ) -> None:
     """Try all faults without a record."""
     warm_up(root)
-    work = records.path.parent
+    work = records.folder.parent
     work.mkdir(parents=True, exist_ok=True)
     known = records.read()
     todo = [fault for fault in faults if fault.key not in known]
@@ -154,9 +154,10 @@ def _try(
     ]
     index = Index(root, record_reach(root, trees, tests, work))
     trials = try_faults(todo, texts, index, trees, options.cap)
-    for number, row in enumerate(trials, 1):
-        records.append(row["key"], row)
-        print(f"{number}/{len(todo)} {_told(row)}", flush=True)
+    with records.writer() as writer:
+        for number, row in enumerate(trials, 1):
+            writer.append([(row["key"], row)])
+            print(f"{number}/{len(todo)} {_told(row)}", flush=True)
 
 
 def _told(row: dict[str, Any]) -> str:

@@ -1,104 +1,131 @@
-"""Execution of campaigns, with messages about records and effort."""
+"""Execution of campaigns, with progress and messages about records."""
 
-import tempfile
-from collections.abc import Callable, Mapping
+from contextlib import nullcontext
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, TypeVar
 
-from ..core.atomic_output import free_file
-from ..core.errors import OutputError
-from .effort_estimate import SIMULATED, announce_effort
+import click
+
+from .campaign_options import CampaignOptions
+from .interruption import exit_interrupted, resume_message
+from .progress import show_progress
 from .terminal import echo
 
-WALK = 20.0  # duration of a trial, in [s]
-PUSHES = 8  # typical number of walks in the search for one push limit
+if TYPE_CHECKING:
+    from ..studies.campaign import Progress, Study, StudyRun
+    from ..studies.executors import Engine
+    from ..studies.result_store import ResultStore
+
+C = TypeVar("C")
 
 
-class CampaignOutcome(NamedTuple):
-    """How a campaign ended.
-
-    Attributes:
-        stopped: Whether Ctrl-C interrupted it.
-        failed: Error on recording a result; None if there was none.
-    """
-
-    stopped: bool = False
-    failed: OutputError | None = None
-
-    @property
-    def completed(self) -> bool:
-        """Whether all work is done and recorded."""
-        return not self.stopped and self.failed is None
-
-
-def run_campaign_work(
-    work: Callable[[], object],
-    file: Path | None,
-    records: Callable[[], Mapping[str, dict[str, Any]]],
-) -> CampaignOutcome:
-    """Run a campaign until it is complete, interrupted or cannot be recorded.
-
-    If a result cannot be recorded, as on a full disk, later results could
-    not be either. The finished results are then written to the folder for
-    temporary files, and a message names it.
+def run_campaign(
+    study: "Study[C]",
+    campaign: CampaignOptions,
+    unit: str,
+    *,
+    few: int = 0,
+) -> "StudyRun[C]":
+    """Run a study, or one shard of it, with progress on standard error.
 
     Args:
-        work: Runs the campaign; appends each result to the record file.
-        file: Record file; None if nothing is recorded.
-        records: Returns the finished records, by key.
+        study: Study.
+        campaign: Options of the campaign.
+        unit: Unit of the progress, like ``duels``.
+        few: Number of cases that take less time than starting worker
+            processes, and are measured in this process.
+
+    Returns:
+        The results; see :func:`finish_campaign`.
     """
-    try:
-        work()
-    except KeyboardInterrupt:
-        return CampaignOutcome(stopped=True)
-    except OutputError as error:
-        if file is not None:
-            _save_elsewhere(file, records())
-        return CampaignOutcome(failed=error)
-    return CampaignOutcome()
+    from ..studies.campaign import run_study
+    from ..studies.executors import POOL, Engine, open_engine
+    from ..studies.result_table import write_table
+
+    if campaign.shard is not None:
+        study = study.shard(*campaign.shard)
+    store = campaign.store
+    with (
+        show_progress(study.name, len(study.cases), unit) as bar,
+        nullcontext(Engine.of(None))
+        if campaign.executor == POOL
+        and (len(study.cases) <= few or (few and campaign.workers == 1))
+        else open_engine(campaign.executor, campaign.workers) as engine,
+    ):
+        if campaign.verify is not None:
+            _verify(study, campaign, engine)
+
+        def report(progress: "Progress") -> None:
+            bar.initial, bar.n = progress.reused, progress.finished
+            bar.refresh()
+
+        run = run_study(study, store, engine, report, report_loss)
+    report_invalid_lines(run.store)
+    if campaign.table is not None and run.failure is None:
+        write_table(run.records(), campaign.table)
+    return run
 
 
-def _save_elsewhere(file: Path, done: Mapping[str, dict[str, Any]]) -> None:
-    from ..studies.record_store import RecordStore
+def finish_campaign(
+    run: "StudyRun[C]", campaign: CampaignOptions, unit: str
+) -> None:
+    """End a command whose campaign could not be completed.
 
-    folder = file.parent
-    spare = free_file(Path(tempfile.gettempdir()) / f"stepaside-{folder.name}")
-    try:
-        RecordStore(spare / file.name).write(dict(done))
-    except OutputError:
-        return
-    echo(
-        f"stepaside: cannot write to {folder}; finished results are saved in "
-        f"{spare}",
-        err=True,
-    )
-
-
-def report_set_aside(file: Path) -> None:
-    """Report that invalid records were moved to a file."""
-    echo(
-        f"stepaside: incomplete or foreign records are moved to {file} and "
-        "computed again",
-        err=True,
-    )
+    Raises:
+        OutputError: If a record could not be written.
+        SystemExit: After Ctrl-C, with status 130.
+    """
+    if run.failure is not None:
+        raise run.failure
+    if run.interrupted:
+        done = f"{run.finished} of {len(run.study.cases)} {unit}"
+        exit_interrupted(
+            resume_message(done, campaign.output and campaign.records)
+        )
 
 
-def check_records(file: Path | None) -> None:
-    """Move incomplete and foreign records out of a file, with a message."""
-    from ..studies.record_store import RecordStore
-
-    if file is not None:
-        records = RecordStore(file)
-        records.read()
-        if records.aside:
-            report_set_aside(file.with_name(file.name + ".aside"))
+def report_loss(message: str) -> None:
+    """Print that a worker was lost."""
+    echo(f"stepaside: {message}", err=True)
 
 
-def announce_campaign(trials: int, limits: int, workers: int | None) -> None:
-    """Print how many walks are planned and how long they take."""
-    walks = trials + PUSHES * limits
-    announce_effort(
-        f"about {walks} walks of {WALK:g} s, fewer if some are recorded",
-        walks * WALK / SIMULATED,
-        workers,
-    )
+def report_invalid_lines(store: "ResultStore") -> None:
+    """Print which files have lines that are no records."""
+    for file, number in store.invalid_lines.items():
+        echo(
+            f"stepaside: {number} incomplete or foreign "
+            f"{'line' if number == 1 else 'lines'} of {file} ignored; the "
+            "records are computed again",
+            err=True,
+        )
+
+
+def has_records(folder: Path) -> bool:
+    """Return whether an output folder holds records."""
+    return any(folder.glob("*.jsonl"))
+
+
+def _verify(
+    study: "Study[C]", campaign: CampaignOptions, engine: "Engine"
+) -> None:
+    """Repeat recorded cases; exit if results differ."""
+    from ..studies.campaign import verify_study
+
+    store = campaign.store
+    if store is None or not has_records(campaign.records):
+        raise click.UsageError(
+            f"--verify requires an --output with records, got "
+            f"{campaign.output}"
+        )
+    assert campaign.verify is not None
+    found = verify_study(study, store, campaign.verify, engine)
+    same = len(found.repeated) - len(found.differing)
+    echo(f"{same} of {len(found.repeated)} repeated cases agree", err=True)
+    if found.differing:
+        cases = ", ".join(map(str, found.differing))
+        echo(
+            f"stepaside: the results of {cases} differ; no record was "
+            "reused, no further case run",
+            err=True,
+        )
+        raise SystemExit(1)

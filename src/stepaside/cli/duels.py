@@ -7,34 +7,24 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..core.atomic_output import check_folder
-from ..core.errors import OutputError
-from .campaign_reports import (
-    CampaignOutcome,
-    report_set_aside,
-    run_campaign_work,
-)
+from .campaign_options import CampaignOptions, campaign_options
+from .campaign_reports import finish_campaign, run_campaign
 from .effort_estimate import SIMULATED, announce_effort
-from .interruption import exit_interrupted, resume_message
 from .options.common_options import (
     figure_option,
     figure_width,
-    folder_option,
     json_option,
-    workers_option,
 )
 from .options.duel_options import duel_options
 from .options.settings_command import SettingsCommand
 from .output_files import attempt, writes_files
-from .progress import show_progress
 from .tables import label_of
 from .terminal import echo, print_json
 
 if TYPE_CHECKING:
     from ..games.duel_settings import DuelSettings
 
-LARGEST = 100_000  # number of duels of one study
-RECORDS = "duels.jsonl"
+LARGEST = 10_000_000  # number of duels of one study
 SUMMARY = "summary.json"
 FIGURE_NAME = "duels.png"
 
@@ -84,17 +74,9 @@ seeds_option = partial(
 @click.command("duels", cls=SettingsCommand)
 @seeds_option(default="0:40")
 @duel_options("seed")
-@workers_option()
-@click.option(
-    "--verify",
-    type=click.IntRange(1, 100_000),
-    metavar="N",
-    help="Repeat N recorded duels. If all results agree, reuse the records "
-    "of an older version of the code; otherwise exit with status 1.",
-)
-@folder_option(
-    help="Folder of results; an interrupted study in it is continued. "
-    "runs/duels by default, none with --json."
+@campaign_options(
+    "Folder of results; an interrupted study in it is continued. runs/duels "
+    "by default, none with --json."
 )
 @figure_option(help="Write a copy of the figure (.png, .svg or .pdf).")
 @figure_width
@@ -103,9 +85,7 @@ seeds_option = partial(
 def duels(
     settings: "DuelSettings",
     seeds: range,
-    workers: int | None,
-    verify: int | None,
-    output: Path | None,
+    campaign: CampaignOptions,
     figure: str | None,
     as_json: bool,
 ) -> None:
@@ -116,31 +96,28 @@ def duels(
     which `stepaside duel --seed` repeats. To continue an interrupted study,
     run it again with the same folder.
     """
-    if output is None and not as_json:
-        output = Path("runs") / "duels"
-    if output is not None:
-        check_folder(output, new=False)
-    if verify is not None:
-        _verify(settings, output, verify, workers)
-    duration = settings.duration
-    announce_effort(
-        f"{len(seeds)} duels of {duration:g} s, fewer if some are recorded",
-        len(seeds) * duration / SIMULATED,
-        workers,
-    )
-    records, ended = _run(settings, seeds, output, workers)
-    result = _result(settings, seeds, records)
-    failed = ended.failed
-    if output is not None and records and failed is None:
-        from ..studies.result_files import write_result
+    from ..studies.duel_campaign import duel_study
+    from ..studies.result_files import write_result
 
-        try:
-            result = write_result(output / SUMMARY, result)
-            if ended.completed:
-                _draw(records, result, output / FIGURE_NAME)
-        except OutputError as error:
-            failed = error
-    if figure is not None and records and ended.completed:
+    if not as_json:
+        campaign = campaign.with_default(Path("runs") / "duels")
+    duration, number = settings.duration, campaign.share(len(seeds))
+    announce_effort(
+        f"{number} duels of {duration:g} s, fewer if some are recorded",
+        number * duration / SIMULATED,
+        campaign.workers,
+    )
+    run = run_campaign(duel_study(settings, seeds), campaign, "duels")
+    records = list(run.records())
+    result = _result(settings, seeds, records)
+    output = campaign.output
+    if output is not None and records and campaign.is_whole:
+        summary = output / SUMMARY
+        attempt(lambda: result.update(write_result(summary, result)))
+        if run.completed:
+            drawn = output / FIGURE_NAME
+            attempt(lambda: _draw(records, result, drawn))
+    if figure is not None and run.completed:
         copy = Path(figure)
         attempt(lambda: _draw(records, result, copy))
     if as_json:
@@ -148,11 +125,7 @@ def duels(
     else:
         _print(result["summary"])
         echo(f"\nresults: {output}")
-    if failed is not None:
-        raise failed
-    if ended.stopped:
-        done = f"{len(records)} of {len(seeds)} duels"
-        exit_interrupted(resume_message(done, output and output / RECORDS))
+    finish_campaign(run, campaign, "duels")
 
 
 def _draw(
@@ -161,72 +134,6 @@ def _draw(
     from ..report.duels_figure import draw_duels  # Matplotlib takes a second
 
     draw_duels({"": records}, result["summary"], file)
-
-
-def _record_store(output: Path | None) -> Any:
-    from ..studies.record_store import RecordStore
-
-    return None if output is None else RecordStore(output / RECORDS)
-
-
-def _verify(
-    settings: "DuelSettings",
-    output: Path | None,
-    number: int,
-    workers: int | None,
-) -> None:
-    """Validate older records; exit with the seeds that differ, if any."""
-    from ..core.worker_pool import worker_pool
-    from ..studies.duel_campaign import verify_duels
-
-    if output is None or not (output / RECORDS).exists():
-        raise click.UsageError(
-            f"--verify requires an --output with records, got {output}"
-        )
-    with worker_pool(workers) as executor:
-        repeated, differ = verify_duels(
-            settings, _record_store(output), number, executor
-        )
-    same = len(repeated) - len(differ)
-    echo(f"{same} of {len(repeated)} repeated duels agree", err=True)
-    if differ:
-        echo(
-            f"stepaside: the results of seeds {', '.join(map(str, differ))} "
-            "differ; no record was reused, no further duel run",
-            err=True,
-        )
-        raise SystemExit(1)
-
-
-def _run(
-    settings: "DuelSettings",
-    seeds: range,
-    output: Path | None,
-    workers: int | None,
-) -> tuple[list[dict[str, Any]], CampaignOutcome]:
-    """Run the duels with a progress bar; return records and outcome."""
-    from ..core.worker_pool import worker_pool
-    from ..studies.duel_campaign import run_duels
-
-    file = _record_store(output)
-    done: dict[str, dict[str, Any]] = {}
-    with (
-        show_progress("duels", len(seeds), "duels") as bar,
-        worker_pool(workers) as executor,
-    ):
-
-        def report(number: int) -> None:
-            bar.n = number
-            bar.refresh()
-
-        ended = run_campaign_work(
-            lambda: run_duels(settings, seeds, file, executor, report, done),
-            None if file is None else file.path,
-            lambda: done,
-        )
-    if file is not None and file.aside:
-        report_set_aside(file.path.with_name(file.path.name + ".aside"))
-    return sorted(done.values(), key=lambda r: int(r["seed"])), ended
 
 
 def _result(

@@ -6,18 +6,16 @@ from typing import Any
 
 import click
 
-from ..core.atomic_output import atomic_draft, check_folder
+from ..core.atomic_output import atomic_draft
 from ..core.errors import OutputError
-from .campaign_reports import report_set_aside
+from .campaign_options import CampaignOptions, campaign_options
+from .campaign_reports import finish_campaign, run_campaign
 from .effort_estimate import announce_effort
 from .interruption import exit_interrupted, resume_message
 from .options.common_options import (
-    folder_option,
     json_option,
     seed_option,
-    workers_option,
 )
-from .progress import show_progress
 from .terminal import echo, print_json
 
 
@@ -34,16 +32,13 @@ from .terminal import echo, print_json
     show_default=True,
     help="Number of runs of each claim that is measured in physics.",
 )
-@workers_option()
-@folder_option(
-    default=Path("runs/reproduce"),
-    show_default=True,
-    help="Folder of the report. Measurements in it are reused if code, "
-    "settings and libraries are the same.",
+@campaign_options(
+    "Folder of the report. Measurements in it are reused if code, settings "
+    "and libraries are the same.  [default: runs/reproduce]"
 )
 @json_option
 def reproduce(
-    seed: int, runs: int, workers: int | None, output: Path, as_json: bool
+    seed: int, runs: int, campaign: CampaignOptions, as_json: bool
 ) -> None:
     """Measure every claim of the paper and write a report.
 
@@ -51,27 +46,35 @@ def reproduce(
     interrupted reproduction can be continued with the same command. The exit
     status is 1 if a claim fails.
     """
-    check_folder(output, new=False)
+    from ..studies.claim_campaign import claim_rows, claim_study
+
+    campaign = campaign.with_default(Path("runs/reproduce"))
+    assert campaign.output is not None
+    output = campaign.output
     announce_effort(
         f"every claim of the paper, {runs} runs of those in physics",
-        60.0 + 120.0 * runs,
-        workers,
+        campaign.share(60 + 120 * runs),
+        campaign.workers,
     )
-    lost: list[OutputError] = []
-    seeds = range(seed, seed + runs)
-    rows = _measure(output / "rows", seeds, workers, lost)
+    study = claim_study(range(seed, seed + runs))
+    run = run_campaign(study, campaign, "runs")
+    finish_campaign(run, campaign, "runs")
+    if not campaign.is_whole:
+        echo(f"results: {output}", err=as_json)
+        return
+    rows = claim_rows(run)
     page: Path | None = None
+    lost: OutputError | None = None
     try:
-        if not lost:
-            page = _write_all(output, seed, runs, rows)
+        page = _write_all(output, seed, runs, rows)
     except KeyboardInterrupt:
         done = "all runs and completed figures"
         exit_interrupted(resume_message(done, output))
     except OutputError as error:
-        lost.append(error)
+        lost = error
     _tell(rows, page, as_json)
-    for failed in lost:
-        raise failed
+    if lost is not None:
+        raise lost
     if any(row["verdict"] != "holds" for row in rows):
         raise SystemExit(1)
 
@@ -107,36 +110,3 @@ def _tell(
     echo(f"\n{held} of {len(rows)} hold")
     if page is not None:
         echo(f"page: {page}")
-
-
-def _measure(
-    folder: Path,
-    seeds: range,
-    workers: int | None,
-    lost: list[OutputError],
-) -> list[dict[str, Any]]:
-    """Measure on all cores, with a progress bar.
-
-    Even a single worker is a separate process: a duel that Ctrl-C interrupts
-    in this process would be stored as if it were complete.
-    """
-    from ..core.worker_pool import worker_pool
-    from ..studies.claim_campaign import reproduce as measure
-
-    with (
-        show_progress("claims", unit="runs") as bar,
-        worker_pool(workers) as executor,
-    ):
-
-        def report(number: int, total: int) -> None:
-            bar.total, bar.n = total, number
-            bar.refresh()
-
-        try:
-            return measure(
-                folder, seeds, executor, report, report_set_aside, lost.append
-            )
-        except KeyboardInterrupt:
-            exit_interrupted(
-                resume_message(f"{bar.n} of {bar.total} runs", folder)
-            )

@@ -5,6 +5,8 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
+DRAWN_WITH = ("matplotlib", "mujoco", "numpy")
+
 
 def draw_figures(
     folder: Path, seed: int, *, duration: float = 120.0, marks: int = 7
@@ -22,9 +24,9 @@ def draw_figures(
         Caption and file name of each figure.
     """
     from ..studies.code_version import code_version, library_versions
-    from ..studies.reading_store import ReadingStore
+    from ..studies.result_store import ResultStore
     from ..studies.unicycle_claims import FIG_2, START
-    from .campaign_reports import report_set_aside
+    from .campaign_options import RECORDS
 
     games = f"{FIG_2!r}; {START!r}"
     figures: list[tuple[str, str, Callable[[Path], None], Any, Any]] = [
@@ -51,20 +53,21 @@ def draw_figures(
             ("games/duel", "report/duel_figure"),
         ),
     ]
-    kept = ReadingStore(folder / "rows", report_set_aside)
-    for name, _, draw, settings, rooms in figures:
-        key = {
-            "figure": name,
-            "settings": settings,
-            "version": code_version(rooms),
-            "libraries": library_versions(("matplotlib", "mujoco", "numpy")),
-        }
-        stamp = f"figure-{name.removesuffix('.png')}"
-        found = key | {"picture": _fingerprint(folder / name)}
-        if kept.load(stamp, found, ()) is None:
-            draw(folder / name)
-            found["picture"] = _fingerprint(folder / name)
-            kept.store(stamp, found, {})
+    store = ResultStore(folder / RECORDS)
+    recorded = store.read()
+    with store.writer() as writer:
+        for name, _, draw, settings, modules in figures:
+            key = f"figure/{name}"
+            inputs = {
+                "settings": settings,
+                "version": code_version(modules),
+                "libraries": library_versions(DRAWN_WITH),
+            }
+            picture = {"picture": _fingerprint(folder / name)}
+            if recorded.get(key) != inputs | picture:
+                draw(folder / name)
+                picture = {"picture": _fingerprint(folder / name)}
+                writer.append([(key, inputs | picture)])
     return [(caption, name) for name, caption, *_ in figures]
 
 

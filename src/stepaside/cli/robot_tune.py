@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..core.atomic_output import atomic_draft
+from .campaign_options import executor_option
 from .interruption import exit_interrupted, resume_message
 from .options.common_options import json_option, workers_option
 from .progress import show_progress
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
     from ..fitting.gait_search import RatedCandidate, SearchResult
     from ..robots.description import RobotDescription
 
-RECORDS = "tune.jsonl"
+RECORDS = "tune"
 
 
 @click.command("tune")
@@ -24,21 +25,24 @@ RECORDS = "tune.jsonl"
     "folder", type=click.Path(exists=True, file_okay=False, path_type=Path)
 )
 @workers_option()
+@executor_option()
 @json_option
-def tune(folder: Path, workers: int | None, as_json: bool) -> None:
+def tune(
+    folder: Path, workers: int | None, executor: str, as_json: bool
+) -> None:
     """Find the steadiest gait of the robot in FOLDER and store it.
 
     Varies servo gains, support durations, stride, foot spacing, lean, ZMP
     position, CoM height and feedback in short simulated walks on all cores.
     The best gait is written to the description with its measurements. Walks
-    are recorded in FOLDER/tune.jsonl, so that an interrupted search can be
+    are recorded in FOLDER/tune, so that an interrupted search can be
     continued with the same command.
     """
     from ..fitting.description_edit import rewrite_description
     from ..robots.description import FILE, load_robot
 
     description = load_robot(folder)
-    tuned = _search(description, folder / RECORDS, workers)
+    tuned = _search(description, folder / RECORDS, workers, executor)
     best = tuned.best.candidate.applied(description)
     assert best is not None
     changed = tuned.best.candidate != tuned.before.candidate
@@ -67,14 +71,19 @@ def tune(folder: Path, workers: int | None, as_json: bool) -> None:
 
 
 def _search(
-    description: "RobotDescription", records: Path, workers: int | None
+    description: "RobotDescription",
+    records: Path,
+    workers: int | None,
+    executor: str,
 ) -> "SearchResult":
     """Search with a progress bar on standard error."""
-    from ..core.worker_pool import worker_pool
     from ..fitting.gait_search import GaitSearch
+    from ..studies.executors import open_engine
+    from ..studies.result_store import ResultStore
 
+    store = ResultStore(records)
     with (
-        worker_pool(workers) as executor,
+        open_engine(executor, workers) as engine,
         show_progress("tune", unit="gaits") as bar,
     ):
 
@@ -83,7 +92,7 @@ def _search(
             bar.set_postfix_str(f"unsteadiness {least:.2f}")
 
         try:
-            return GaitSearch(description, executor, records, report).run()
+            return GaitSearch(description, engine, store, report).run()
         except KeyboardInterrupt:
             exit_interrupted(resume_message(f"{bar.n} gaits", records))
 

@@ -2,22 +2,18 @@
 
 from collections.abc import Collection
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..core.atomic_output import check_folder
-from ..core.errors import OutputError
 from ..games.duel_settings import SENSING
 from ..games.walk_settings import WalkSettings
-from .campaign_reports import CampaignOutcome
+from .campaign_options import CampaignOptions, campaign_options
 from .interruption import exit_interrupted, resume_message
 from .options.common_options import (
     figure_option,
     figure_width,
-    folder_option,
     json_option,
-    workers_option,
 )
 from .options.duel_options import WALK
 from .options.parameter_types import NameType
@@ -35,6 +31,9 @@ from .robustness_walks import (
 )
 from .terminal import echo, print_json
 
+if TYPE_CHECKING:
+    from ..studies.campaign import StudyRun
+
 
 def progress_text(answer: dict[str, Any]) -> str:
     """Return how much of a campaign is finished."""
@@ -47,7 +46,7 @@ def progress_text(answer: dict[str, Any]) -> str:
 
 def print_campaign(answer: dict[str, Any]) -> None:
     """Print survival rates, then push limits."""
-    from ..studies.robustness_campaign import UNITS
+    from ..studies.robustness_trial import UNITS
 
     head = ("method", "disturbance", "strength", "survived", "95 %")
     echo("{:<12} {:<16} {:>10} {:>9}  {}".format(*head))
@@ -91,13 +90,13 @@ PERSON = "person"
 
 
 def _kinds() -> Collection[str]:
-    from ..studies.robustness_campaign import KINDS
+    from ..studies.robustness_trial import KINDS
 
     return KINDS
 
 
 def _methods() -> Collection[str]:
-    from ..studies.robustness_campaign import METHODS
+    from ..studies.robustness_trial import METHODS
 
     return METHODS
 
@@ -144,9 +143,8 @@ def _methods() -> Collection[str]:
     show_default=True,
     help="Number of walks for each disturbance other than pushes.",
 )
-@workers_option()
-@folder_option(
-    help="Folder of results; an interrupted campaign in it is continued. "
+@campaign_options(
+    "Folder of results; an interrupted campaign in it is continued. "
     "runs/robustness-BODY by default, none with --json."
 )
 @figure_option(
@@ -172,8 +170,7 @@ def robustness(
     methods: tuple[str, ...],
     phases: int,
     seeds: int,
-    workers: int | None,
-    output: Path | None,
+    campaign: CampaignOptions,
     figure: str | None,
     as_json: bool,
 ) -> None:
@@ -191,10 +188,9 @@ def robustness(
     if "push" not in kinds:
         refuse_options({"phases"}, "--kind push")
     body, changes = changes_of(settings)
-    if output is None and not as_json:
-        output = Path("runs") / f"robustness-{body}"
-    if output is not None:
-        check_folder(output, new=False)
+    if not as_json:
+        campaign = campaign.with_default(Path("runs") / f"robustness-{body}")
+    output = campaign.output
     request = CampaignRequest(
         kinds=tuple(kind for kind in kinds if kind != PERSON),
         methods=_unique(methods),
@@ -204,8 +200,15 @@ def robustness(
         seed=settings.seed,
         changes=changes,
     )
-    answer, ended = _run_disturbed_walks(settings, request, output, workers)
-    if PERSON in kinds and ended.completed:
+    answer: dict[str, Any] = {}
+    last: StudyRun[Any] | None = None
+    if request.kinds:
+        walks = run_walks(*plan_walks(request), campaign)
+        answer, last = summarise_walks(settings, body, walks), walks.last
+        if output is not None and last.completed and campaign.is_whole:
+            folder = output
+            attempt(lambda: write_walks(folder, settings, request, answer))
+    if PERSON in kinds and (last is None or last.completed):
         people = {
             "kind": PERSON,
             "sensings": _unique(sensings),
@@ -214,47 +217,22 @@ def robustness(
             "seed": settings.seed,
             **({"changes": changes} if changes else {}),
         }
-        file = None if output is None else output / "encounters.jsonl"
-        found, ended = meet_people(
-            settings, _unique(sensings), seeds, file, workers
-        )
+        found, last = meet_people(settings, _unique(sensings), seeds, campaign)
         answer["person"] = found
-        if output is not None and ended.completed:
-            try:
-                write_people(output, people, found)
-            except OutputError as error:
-                ended = CampaignOutcome(failed=error)
-    if figure is not None and not ended.stopped and "survival" in answer:
+        if output is not None and last.completed and campaign.is_whole:
+            folder = output
+            attempt(lambda: write_people(folder, people, found))
+    assert last is not None
+    if figure is not None and last.completed and "survival" in answer:
         from ..report.robustness_figure import draw_survival
-        from ..studies.robustness_campaign import UNITS
+        from ..studies.robustness_trial import UNITS
 
         attempt(lambda: draw_survival(answer["survival"], UNITS, Path(figure)))
-    _print_all(answer, output, stopped=ended.stopped, as_json=as_json)
-    if ended.failed is not None:
-        raise ended.failed
+    _print_all(answer, output, stopped=last.interrupted, as_json=as_json)
+    if last.failure is not None:
+        raise last.failure
     if not as_json:
         echo(f"\nresults: {output}")
-
-
-def _run_disturbed_walks(
-    settings: WalkSettings,
-    request: CampaignRequest,
-    output: Path | None,
-    workers: int | None,
-) -> tuple[dict[str, Any], CampaignOutcome]:
-    """Run the walks of a campaign; return results and outcome."""
-    if not request.kinds:
-        return {}, CampaignOutcome()
-    grid, cases = plan_walks(request)
-    file = None if output is None else output / "trials.jsonl"
-    results, ended = run_walks(grid, cases, file, workers)
-    answer = summarise_walks(settings, request.body, grid, cases, results)
-    if output is not None and ended.completed:
-        try:
-            write_walks(output, settings, request, answer)
-        except OutputError as error:
-            return answer, CampaignOutcome(failed=error)
-    return answer, ended
 
 
 def _print_all(

@@ -3,66 +3,51 @@
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .campaign_reports import CampaignOutcome, run_campaign_work
-from .progress import show_progress
+from .campaign_options import CampaignOptions
+from .campaign_reports import run_campaign
 from .terminal import echo
 
 if TYPE_CHECKING:
     from ..games.walk_settings import WalkSettings
+    from ..studies.campaign import StudyRun
 
 
 def meet_people(
     settings: "WalkSettings",
     sensings: tuple[str, ...],
     seeds: int,
-    file: Path | None,
-    workers: int | None,
-) -> tuple[dict[str, Any], CampaignOutcome]:
+    campaign: CampaignOptions,
+) -> "tuple[dict[str, Any], StudyRun[Any]]":
     """Simulate encounters with people, with a progress bar.
 
     Args:
         settings: Settings of the robot; its seed is the first one.
         sensings: Kinds of sensing.
         seeds: Number of encounters of each kind.
-        file: Record file; None records nothing.
-        workers: Number of processes; all cores if None.
+        campaign: Options of the campaign.
 
     Returns:
-        The results so far, and how the campaign ended.
+        The results so far, and the run of the study.
     """
-    from ..core.worker_pool import worker_pool
-    from ..studies.people_campaign import encounters, run_encounters
+    from ..studies.encounters import encounters
+    from ..studies.people_campaign import people_study
     from ..studies.people_statistics import (
         origin_rows,
         passing_rows,
         people_rows,
     )
-    from ..studies.robustness_campaign import stamp
 
     grid = list(encounters(settings, sensings, seeds=seeds))
-    done: dict[str, Any] = {}
-    with (
-        show_progress("people", len(grid), "games") as bar,
-        worker_pool(workers) as executor,
-    ):
-
-        def report(number: int) -> None:
-            bar.n = number
-            bar.refresh()
-
-        ended = run_campaign_work(
-            lambda: run_encounters(grid, file, executor, report, done),
-            file,
-            lambda: {key: record | stamp() for key, record in done.items()},
-        )
+    run = run_campaign(people_study(grid), campaign, "games")
+    found = list(run.items())
     return {
-        "planned": len(grid),
-        "done": len(done),
+        "planned": len(run.study.cases),
+        "done": run.finished,
         "clearance_m": grid[0].base.strategy.clearance,
-        "people": people_rows(grid, done),
-        "passers_by": passing_rows(grid, done),
-        "origins": origin_rows(grid, done),
-    }, ended
+        "people": people_rows(found),
+        "passers_by": passing_rows(found),
+        "origins": origin_rows(found),
+    }, run
 
 
 def write_people(

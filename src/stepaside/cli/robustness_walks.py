@@ -3,16 +3,16 @@
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from .campaign_reports import (
-    CampaignOutcome,
-    announce_campaign,
-    check_records,
-    run_campaign_work,
-)
-from .progress import show_progress
+from .campaign_options import CampaignOptions
+from .campaign_reports import run_campaign
+from .effort_estimate import SIMULATED, announce_effort
 
 if TYPE_CHECKING:
     from ..games.walk_settings import WalkSettings
+    from ..studies.campaign import StudyRun
+
+WALK = 20.0  # duration of a trial, in [s]
+PUSHES = 8  # typical number of walks in the search for one push limit
 
 
 class CampaignRequest(NamedTuple):
@@ -34,7 +34,7 @@ class CampaignRequest(NamedTuple):
 def plan_walks(request: CampaignRequest) -> tuple[list[Any], list[Any]]:
     """Return all trials, and the push cases whose limit is searched."""
     from ..studies.push_limits import push_cases
-    from ..studies.robustness_campaign import trials
+    from ..studies.robustness_trial import trials
 
     grid = trials(
         request.kinds,
@@ -56,19 +56,31 @@ def plan_walks(request: CampaignRequest) -> tuple[list[Any], list[Any]]:
     return list(grid), list(cases)
 
 
+class WalkRuns(NamedTuple):
+    """Results of the walks of a campaign.
+
+    Attributes:
+        trials: Run of the trials.
+        limits: Run of the searches for push limits.
+    """
+
+    trials: "StudyRun[Any]"
+    limits: "StudyRun[Any]"
+
+    @property
+    def last(self) -> "StudyRun[Any]":
+        """The run that ended the campaign."""
+        return self.limits if self.trials.completed else self.trials
+
+
 def summarise_walks(
-    settings: "WalkSettings",
-    body: str,
-    grid: list[Any],
-    cases: list[Any],
-    results: dict[str, bool],
+    settings: "WalkSettings", body: str, runs: WalkRuns
 ) -> dict[str, Any]:
     """Return the results so far, with planned and finished numbers.
 
     The number of walks in the search for push limits is not known ahead.
     """
-    from ..studies.push_limits import outcomes_of
-    from ..studies.robustness_campaign import mass_of, push_scale
+    from ..studies.robustness_trial import mass_of, push_scale
     from ..studies.survival import (
         limit_rows,
         push_survival_rows,
@@ -76,20 +88,24 @@ def summarise_walks(
         survival_rows,
     )
 
-    limits = limit_rows(cases, results)
+    limits = limit_rows(runs.limits.items())
     scale = push_scale(settings.robot)
-    walks = sum(map(len, outcomes_of(cases, results).values()))
     return {
         "body": body,
         "robot": settings.robot,
         "mass_kg": mass_of(settings.robot),
-        "planned": {"trials": len(grid), "push_limits": len(cases)},
-        "done": {
-            "trials": sum(trial.key in results for trial in grid),
-            "push_limits": len(limits),
-            "push_walks": walks,
+        "planned": {
+            "trials": len(runs.trials.study.cases),
+            "push_limits": len(runs.limits.study.cases),
         },
-        "survival": survival_rows(grid, results)
+        "done": {
+            "trials": runs.trials.finished,
+            "push_limits": runs.limits.finished,
+            "push_walks": sum(
+                len(record["strengths"]) for record in runs.limits.records()
+            ),
+        },
+        "survival": survival_rows(runs.trials.items())
         + push_survival_rows(limits, scale),
         "limits": limits,
         "limits_by_method": summarise_limits(limits),
@@ -106,7 +122,8 @@ def write_walks(
     from ..report.robustness_figure import draw_limits, draw_survival
     from ..studies.push_results import pushes_result
     from ..studies.result_files import header, write_result
-    from ..studies.robustness_campaign import MODULES, UNITS
+    from ..studies.robustness_campaign import MODULES
+    from ..studies.robustness_trial import UNITS
 
     head = header(request.settings(), modules=MODULES)
     write_result(output / "survival.json", head, **answer)
@@ -126,37 +143,21 @@ def write_walks(
 
 
 def run_walks(
-    grid: list[Any], cases: list[Any], file: Path | None, workers: int | None
-) -> tuple[dict[str, bool], CampaignOutcome]:
-    """Run the walks with a progress bar; return survival and outcome."""
-    from ..core.worker_pool import worker_pool
-    from ..studies.push_limits import search_limits
-    from ..studies.robustness_campaign import record_of, run_campaign
+    grid: list[Any], cases: list[Any], campaign: CampaignOptions
+) -> WalkRuns:
+    """Run the trials and the searches for push limits, with progress."""
+    from ..studies.campaign import StudyRun
+    from ..studies.result_store import ResultStore
+    from ..studies.robustness_campaign import push_study, robustness_study
 
-    check_records(file)
-    announce_campaign(len(grid), len(cases), workers)
-    done: dict[str, bool] = {}
-    with (
-        show_progress("robustness", len(grid) + len(cases), "jobs") as bar,
-        worker_pool(workers) as executor,
-    ):
-
-        def report(number: int) -> None:
-            bar.n = number
-            bar.refresh()
-
-        def work() -> None:
-            run_campaign(grid, file, executor, report, done)
-            search_limits(
-                cases,
-                file,
-                executor,
-                lambda number: report(len(grid) + number),
-                done,
-            )
-
-        return done, run_campaign_work(
-            work,
-            file,
-            lambda: {key: record_of(done[key]) for key in done},
-        )
+    walks = campaign.share(len(grid) + PUSHES * len(cases))
+    announce_effort(
+        f"about {walks} walks of {WALK:g} s, fewer if some are recorded",
+        walks * WALK / SIMULATED,
+        campaign.workers,
+    )
+    trials = run_campaign(robustness_study(grid), campaign, "walks")
+    searches = push_study(cases)
+    if trials.completed:
+        return WalkRuns(trials, run_campaign(searches, campaign, "limits"))
+    return WalkRuns(trials, StudyRun(searches, ResultStore.temporary()))

@@ -3,24 +3,22 @@
 from dataclasses import replace
 from math import pi
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from ..arena import RoomRecipe
 from ..control.clearance.map_settings import MAPS
-from ..core.atomic_output import FIGURES, check_folder
-from ..core.errors import ConfigurationError, OutputError
-from .campaign_reports import CampaignOutcome, run_campaign_work
+from ..core.atomic_output import FIGURES
+from ..core.errors import ConfigurationError
+from .campaign_options import CampaignOptions, campaign_options
+from .campaign_reports import finish_campaign, run_campaign
 from .duels import seeds_option
 from .effort_estimate import DECISIONS, SIMULATED, announce_effort
-from .interruption import exit_interrupted, resume_message
 from .options.common_options import (
     figure_option,
-    folder_option,
     game_time_option,
     json_option,
-    workers_option,
 )
 from .options.parameter_types import (
     ANGLE,
@@ -30,8 +28,11 @@ from .options.parameter_types import (
 )
 from .options.setting_options import refuse_options, takes
 from .output_files import attempt, writes_files
-from .progress import show_progress
 from .terminal import echo, print_json
+
+if TYPE_CHECKING:
+    from ..studies.campaign import StudyRun
+    from ..studies.tournament_campaign import Game
 
 
 def print_rows(rows: list[dict[str, Any]]) -> None:
@@ -76,8 +77,8 @@ SOLVES = (
     "stepaside: computing the bound table first, once per machine; about "
     "half a minute"
 )
-RECORDS = "games.jsonl"
 SUMMARY = "summary.json"
+FEW = 20  # games of unicycles that need no worker processes
 # Options of rooms that a tournament does not have.
 OF_ROOMS = ("doors", "smallest", "largest", "door_width")
 
@@ -148,10 +149,9 @@ def _levels() -> tuple[str, ...]:
     help="Map that humanoids have of the room: the true map, a map built "
     "from their depth cameras, or none.",
 )
-@workers_option()
-@folder_option(
-    help="Folder of results; an interrupted tournament in it is continued. "
-    "None by default."
+@campaign_options(
+    "Folder of results; an interrupted tournament in it is continued. None "
+    "by default."
 )
 @figure_option(
     help="Write a figure of closest approach against floor area used."
@@ -174,8 +174,7 @@ def tournament(
     seeds: range,
     alpha: float,
     map: str,  # noqa: A002 (the option)
-    workers: int | None,
-    output: Path | None,
+    campaign: CampaignOptions,
     figure: str | None,
     paths: str | None,
     as_json: bool,
@@ -219,32 +218,28 @@ def tournament(
     game = StepGame(duration=duration)
     settings = TournamentSettings(level, arena, game, alpha, map)
     settings.arena(seeds[0])  # raises if the room cannot be generated
-    if output is not None:
-        check_folder(output, new=False)
     pairings = [(e, p) for p in pursuers for e in evaders]
-    number = len(pairings) * len(seeds)
+    number = campaign.share(len(pairings) * len(seeds))
     steps = duration * game.speed / game.stride / DECISIONS
     announce_effort(
         f"{number} games of {duration:g} s, fewer if some are recorded",
         number * (duration / SIMULATED if level == "physics" else steps),
-        workers,
+        campaign.workers,
     )
-    records, ended = _run(settings, pairings, seeds, output, workers)
-    result = _result(settings, seeds, records)
-    failed = ended.failed
-    if output is not None and records and failed is None:
+    run = _run(settings, pairings, seeds, campaign)
+    result = _result(settings, seeds, list(run.records()))
+    output = campaign.output
+    if output is not None and len(run) and campaign.is_whole:
         from ..studies.result_files import write_result
 
-        try:
-            result = write_result(output / SUMMARY, result)
-        except OutputError as error:
-            failed = error
-    if figure is not None and records and ended.completed:
+        summary = output / SUMMARY
+        attempt(lambda: result.update(write_result(summary, result)))
+    if figure is not None and run.completed:
         from ..report.tournament_figure import draw_front
 
         if attempt(lambda: draw_front(result["rows"], figure)):
             result["figure"] = figure
-    if paths is not None and records and ended.completed:
+    if paths is not None and run.completed:
         from ..report.tournament_figure import draw_worst
 
         games = _worst(settings, result["rows"])
@@ -254,56 +249,25 @@ def tournament(
         print_json(result)
     else:
         print_rows(result["rows"])
-    if failed is not None:
-        raise failed
-    if ended.stopped:
-        done = f"{len(records)} of {number} games"
-        exit_interrupted(resume_message(done, output and output / RECORDS))
+    finish_campaign(run, campaign, "games")
 
 
 def _run(
     settings: Any,
     pairings: list[tuple[str, str]],
     seeds: range,
-    output: Path | None,
-    workers: int | None,
-) -> tuple[list[dict[str, Any]], CampaignOutcome]:
-    """Run all games with a progress bar; return records and outcome."""
-    from contextlib import nullcontext
-
-    from ..core.worker_pool import worker_pool
+    campaign: CampaignOptions,
+) -> "StudyRun[Game]":
+    """Run all games with a progress bar."""
     from ..strategies.bound_cache import is_pursuit_bound_cached
-    from ..studies.record_store import RecordStore
-    from ..studies.tournament_campaign import CELLS, play_tournament
+    from ..studies.tournament_campaign import tournament_study
+    from ..studies.tournament_record import CELLS
 
     if not is_pursuit_bound_cached(CELLS):
         echo(SOLVES, err=True)
-    file = None if output is None else RecordStore(output / RECORDS)
-    total = len(seeds) * len(pairings)
-    # Starting a pool takes longer than a few games.
-    alone = workers == 1 or total <= 2 * settings.block
-    done: dict[str, dict[str, Any]] = {}
-    with (
-        show_progress("tournament", total, "games") as bar,
-        nullcontext() if alone else worker_pool(workers) as executor,
-    ):
-
-        def report(number: int) -> None:
-            bar.n = number
-            bar.refresh()
-
-        ended = run_campaign_work(
-            lambda: play_tournament(
-                settings, pairings, seeds, file, executor, report, done
-            ),
-            None if file is None else file.path,
-            lambda: done,
-        )
-    order = {pairing: number for number, pairing in enumerate(pairings)}
-    return sorted(
-        done.values(),
-        key=lambda r: (order[r["evader"], r["pursuer"]], r["seed"]),
-    ), ended
+    study = tournament_study(settings, pairings, seeds)
+    few = 0 if settings.level == "physics" else FEW
+    return run_campaign(study, campaign, "games", few=few)
 
 
 def _result(
@@ -322,7 +286,7 @@ def _result(
 
 def _worst(settings: Any, rows: list[dict[str, Any]]) -> list[Any]:
     """Return title, room and trajectory of the worst game of each row."""
-    from ..studies.tournament_campaign import play_paths
+    from ..studies.tournament_record import play_paths
 
     games = []
     for row in rows:

@@ -51,6 +51,10 @@ class OutputError(StepAsideError, OSError):
     """A result could not be written."""
 
 
+class CampaignError(StepAsideError, RuntimeError):
+    """A campaign cannot go on: its workers are lost or do not fit."""
+
+
 def shorten_words(text: str) -> str:
     """Return a text with overlong words cut, like a number of 1,000 digits."""
     if len(text) <= LONGEST_WORD:

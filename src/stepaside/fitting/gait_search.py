@@ -7,17 +7,21 @@ first, until its first fall or until it cannot beat the best one.
 """
 
 import json
-from collections.abc import Callable, Iterable
-from concurrent.futures import Executor, as_completed
+from collections.abc import Callable, Sequence
+from concurrent.futures import Executor
 from dataclasses import asdict, replace
+from functools import partial
 from hashlib import sha256
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from ..robots.description import RobotDescription
 from ..robots.tree_cache import digest_of
-from ..studies.code_version import code_version, library_versions
-from ..studies.record_store import RecordStore
+from ..studies.campaign import Study, code_stamp, run_study
+from ..studies.code_version import LIBRARIES
+from ..studies.executors import Engine
+from ..studies.records import Record
+from ..studies.result_store import ResultStore
 from .gait_candidates import Candidate
 from .walk_trials import FALLEN, PATHS, WalkTrialResult, walk_trial
 
@@ -71,8 +75,8 @@ class GaitSearch:
     def __init__(
         self,
         description: RobotDescription,
-        executor: Executor,
-        store: Path | None,
+        executor: Executor | Engine | None,
+        store: ResultStore | None,
         report: Callable[[int, int, float], None] | None = None,
     ) -> None:
         """Load the results of an earlier search for the same robot.
@@ -80,18 +84,15 @@ class GaitSearch:
         Args:
             description: Robot description.
             executor: Executor of the walks.
-            store: File of results; None to store nothing.
+            store: Store of the ratings; None to store nothing.
             report: Called with the number of candidates that are rated, the
                 number by the end of the round, and the least unsteadiness so
                 far.
         """
         self._own, self._executor = description, executor
         self._report = report
-        self._store = None if store is None else RecordStore(store)
-        self._stamp = _stamp_of(description)
-        self._records: dict[str, dict[str, Any]] = {}
-        if self._store is not None:
-            self._records = self._store.read(["walks"])
+        self._store = store or ResultStore.temporary()
+        self._digest = _digest_of(description)
         self._rated: dict[Candidate, RatedCandidate] = {}
         self._expected = 1
 
@@ -134,23 +135,28 @@ class GaitSearch:
                 break
         return best
 
-    def _rate(self, candidates: Iterable[Candidate], bound: float) -> None:
-        """Rate candidates, each until its score exceeds a bound."""
-        futures = {}
-        for candidate in candidates:
-            key = self._key(candidate)
-            record = self._records.get(key)
-            if record is not None:
-                self._add(candidate, record["walks"])
-                continue
-            futures[
-                self._executor.submit(_walk_all, candidate, self._own, bound)
-            ] = candidate
-        for future in as_completed(futures):
-            candidate, walks = futures[future], future.result()
-            if self._store is not None:
-                self._store.append(self._key(candidate), {"walks": walks})
-            self._add(candidate, walks)
+    def _rate(self, candidates: Sequence[Candidate], bound: float) -> None:
+        """Rate candidates, each until its score exceeds a bound.
+
+        Raises:
+            OutputError: If a rating cannot be stored.
+            KeyboardInterrupt: After Ctrl-C.
+        """
+        study = Study(
+            "tune",
+            candidates,
+            partial(_walk_all, self._own, bound),
+            self._key,
+            lambda candidate: code_stamp(MODULES, LIBRARIES),
+            ("walks",),
+        )
+        run = run_study(study, self._store, self._executor)
+        for candidate, record in run.items():
+            self._add(candidate, record["walks"])
+        if run.failure is not None:
+            raise run.failure
+        if run.interrupted:
+            raise KeyboardInterrupt
 
     def _add(self, candidate: Candidate, walks: list[dict[str, Any]]) -> None:
         rated = RatedCandidate(candidate, _unsteadiness(walks), tuple(walks))
@@ -161,12 +167,12 @@ class GaitSearch:
             self._report(number, max(number, self._expected), least)
 
     def _key(self, candidate: Candidate) -> str:
-        return json.dumps([self._stamp, candidate.to_json()], sort_keys=True)
+        return json.dumps([self._digest, candidate.to_json()], sort_keys=True)
 
 
 def _walk_all(
-    candidate: Candidate, own: RobotDescription, bound: float
-) -> list[dict[str, Any]]:
+    own: RobotDescription, bound: float, candidate: Candidate
+) -> Record:
     """Walk along all paths, until a fall or a score beyond a bound."""
     walks: list[dict[str, Any]] = []
     for trial in candidate.trials(own):
@@ -175,7 +181,7 @@ def _walk_all(
         score = result.unsteadiness + candidate.cost
         if not result.completed or score > bound:
             break
-    return walks
+    return {"walks": walks}
 
 
 def _unsteadiness(walks: list[dict[str, Any]]) -> float:
@@ -196,14 +202,10 @@ def _record(result: WalkTrialResult) -> dict[str, Any]:
     return record | {"unsteadiness": result.unsteadiness}
 
 
-def _stamp_of(description: RobotDescription) -> str:
+def _digest_of(description: RobotDescription) -> str:
     """Return a digest of all that the walks of a robot depend on."""
     # Folder and name of a robot do not influence its walks.
     plain = replace(description, folder=Path(), name="", game={})
-    inputs = (
-        digest_of(description),
-        asdict(plain),  # in full: the text of a description is abridged
-        code_version(MODULES),
-        library_versions(),
-    )
+    # In full: the text of a description is abridged.
+    inputs = digest_of(description), asdict(plain)
     return sha256(repr(inputs).encode()).hexdigest()[:16]

@@ -1,6 +1,7 @@
 """Fingerprints of the code and the libraries that a result depends on."""
 
 import ast
+import sys
 from collections.abc import Iterable
 from functools import cache
 from hashlib import sha256
@@ -54,6 +55,25 @@ def library_versions(
         except PackageNotFoundError:
             found[name] = None
     return found
+
+
+@cache
+def installation() -> str:
+    """Return what identifies the package and its libraries in a process.
+
+    Unlike :func:`code_version` it covers all files as they are, and takes
+    milliseconds.
+    """
+    digest = sha256()
+    for file in sorted(ROOT.rglob("*")):
+        if file.is_file() and "__pycache__" not in file.parts:
+            digest.update(str(file.relative_to(ROOT).as_posix()).encode())
+            digest.update(file.read_bytes())
+    python = ".".join(map(str, sys.version_info[:2]))
+    libraries = library_versions(("mujoco", "numba", "numpy", "scipy"))
+    versions = {"python": python} | libraries
+    words = " ".join(f"{name} {value}" for name, value in versions.items())
+    return f"code {digest.hexdigest()[:DIGITS]} {words}"
 
 
 def _substance(file: Path) -> bytes:

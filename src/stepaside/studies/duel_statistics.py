@@ -10,26 +10,6 @@ from ..games.duel_circle import circle_of_theory
 from ..games.duel_settings import DuelSettings
 from .survival import CONFIDENCE, wilson
 
-FIELDS = (  # of every record
-    "seed",
-    "outcome",
-    "message",
-    "duration_s",
-    "start_distance_m",
-    "pursuer_radius_m",
-    "evader_radius_m",
-    "distance_m",
-    "relative_orientation_deg",
-    "converged_at_s",
-    "min_distance_m",
-    "triggered_at_s",
-    "triggered_at_distance_m",
-    "min_zmp_margin_m",
-    "max_com_velocity_jump_m_s",
-    "evading_min_distance_m",
-    "certified_m",
-    "digest",
-)
 Record = dict[str, Any]
 BEFORE = 2.0 / 3.0  # of a duel; means are taken over the rest
 OUTCOMES = ("completed", "fall", "contact")  # reported even if there are none
@@ -65,7 +45,7 @@ def summarise_duels(
     Args:
         settings: Settings of the duels.
         records: Records of
-            :func:`~stepaside.studies.duel_campaign.play_record`.
+            :func:`~stepaside.studies.duel_record.play_record`.
     """
     theory = _theory(settings)
     played = [r for r in records if r["outcome"] == "completed"]

@@ -16,7 +16,7 @@ from ..strategies.step_game import StepGame, StepOutcome, StepTrack
 from .claims import Readings
 from .evading_claims import DURATION
 from .physics_game import clearance, outcome_of, players_touched
-from .tournament_campaign import bound_of, play_track
+from .tournament_record import bound_of, play_track
 from .tournament_settings import TournamentSettings
 
 GAMES_PER_SEED = 5  # of each evader in each setting

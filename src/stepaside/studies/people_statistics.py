@@ -1,25 +1,25 @@
 """Statistics of encounters with people: contacts, clearance, false alarms."""
 
 from collections import defaultdict
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable
 from math import pi
 
 from ..planning import GaitSettings
 from ..theory.unicycle.side_step import side_clearance
-from .people_campaign import Encounter, Record
+from .encounters import Encounter
+from .records import Record
 from .survival import wilson
 
 SEEN_AT = 3.5  # distance at which a depth camera detects people, in [m]
 
 
 def people_rows(
-    grid: Sequence[Encounter], results: Mapping[str, Record]
+    results: Iterable[tuple[Encounter, Record]],
 ) -> list[Record]:
     """Tabulate people who approach the robot, by sensing and speed.
 
     Args:
-        grid: Encounters.
-        results: Records by key.
+        results: Encounters and their records.
 
     Returns:
         For each row: number, contacts with their 95 % interval, falls, least
@@ -28,10 +28,11 @@ def people_rows(
         person who is detected at 3.5 m.
     """
     groups: dict[tuple[str, float], list[Record]] = defaultdict(list)
-    for each in grid:
-        if each.key in results and not each.passes:
-            groups[each.sensing, each.speed].append(results[each.key])
-    gait = grid[0].base.gait if grid else GaitSettings()
+    gait = GaitSettings()
+    for each, record in results:
+        gait = each.base.gait  # the same in all encounters
+        if not each.passes:
+            groups[each.sensing, each.speed].append(record)
     rows = []
     for (sensing, speed), found in groups.items():
         contacts = sum(row["outcome"] == "contact" for row in found)
@@ -70,22 +71,21 @@ def people_rows(
 
 
 def passing_rows(
-    grid: Sequence[Encounter], results: Mapping[str, Record]
+    results: Iterable[tuple[Encounter, Record]],
 ) -> list[Record]:
     """Tabulate the false triggers by people who only pass.
 
     Args:
-        grid: Encounters.
-        results: Records by key.
+        results: Encounters and their records.
 
     Returns:
         For each kind of sensing: number, false triggers, hours, and false
         triggers per hour.
     """
     groups: dict[str, list[Record]] = defaultdict(list)
-    for each in grid:
-        if each.key in results and each.passes:
-            groups[each.sensing].append(results[each.key])
+    for each, record in results:
+        if each.passes:
+            groups[each.sensing].append(record)
     rows = []
     for sensing, found in groups.items():
         false = sum(row["triggered_at_s"] is not None for row in found)
@@ -104,14 +104,14 @@ def passing_rows(
 
 
 def origin_rows(
-    grid: Sequence[Encounter], results: Mapping[str, Record]
+    results: Iterable[tuple[Encounter, Record]],
 ) -> list[Record]:
     """Tabulate closest approaches by sensing, speed and bearing."""
     groups: dict[tuple[str, float, int], list[Record]] = defaultdict(list)
-    for each in grid:
-        if each.key in results and not each.passes:
+    for each, record in results:
+        if not each.passes:
             group = each.sensing, each.speed, each.bearing
-            groups[group].append(results[each.key])
+            groups[group].append(record)
     return [
         {
             "sensing": sensing,

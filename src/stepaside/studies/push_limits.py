@@ -1,21 +1,12 @@
 """Search for the largest push that a walk survives, by bisection."""
 
-import json
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from pathlib import Path
 
-from ..core.worker_pool import cancel_pending
-from .robustness_campaign import (
-    DIRECTIONS,
-    RobustnessTrial,
-    append_result,
-    read_results,
-    run_trial,
-)
+from .records import Record
+from .robustness_trial import DIRECTIONS, RobustnessTrial, run_trial
 
-# In [N s] for NAO; see :func:`.robustness_campaign.push_scale`.
+# In [N s] for NAO; see :func:`.robustness_trial.push_scale`.
 RESOLUTION = 0.1  # to which a limit is found
 STRIDE = 0.4  # between pushes before bisection
 LARGEST = 8.0
@@ -75,79 +66,26 @@ def next_strength(outcomes: Mapping[float, bool]) -> float | None:
     return round(limit + parts // 2 * RESOLUTION, 6)
 
 
-def outcomes_of(
-    cases: Sequence[RobustnessTrial], results: Mapping[str, bool]
-) -> dict[RobustnessTrial, dict[float, bool]]:
-    """Return the outcome of each strength that was tried, by case."""
-    outcomes: dict[RobustnessTrial, dict[float, bool]] = {
-        case: {} for case in cases
-    }
-    for key, survived in results.items():
-        case, strength = _case_of(key)
-        if case in outcomes:
-            outcomes[case][strength] = survived
-    return outcomes
-
-
-def _case_of(key: str) -> tuple[RobustnessTrial, float]:
-    """Return the case of a key, and its strength."""
-    trial = RobustnessTrial(*json.loads(key))
-    return replace(trial, strength=0.0), trial.strength
-
-
-def search_limits(
-    cases: Sequence[RobustnessTrial],
-    file: Path | None,
-    executor: Executor,
-    report: Callable[[int], None] | None = None,
-    done: dict[str, bool] | None = None,
-) -> dict[str, bool]:
-    """Run trials until the limit of every case is known.
+def search_limit(case: RobustnessTrial) -> Record:
+    """Run trials until the largest push that a walk survives is known.
 
     Args:
-        cases: Trials with strength 0.
-        file: Results so far, extended by each trial; None to store nothing.
-            Results of other cases are ignored.
-        executor: Any executor of ``concurrent.futures``.
-        report: Called with the number of finished cases.
-        done: Dictionary that receives the results as they arrive, and holds
-            them if the campaign is interrupted.
+        case: Trial with strength 0.
 
     Returns:
-        Whether each trial was survived, by key, including the entries of
-        ``done``.
+        ``strengths`` that were tried, in [N s] for NAO, and ``survived``,
+        whether the walk survived each.
     """
-    results: dict[str, bool] = {} if done is None else done
-    requested = set(cases)
-    results.update(
-        (key, survived)
-        for key, survived in read_results(file).items()
-        if _case_of(key)[0] in requested
-    )
-    outcomes = outcomes_of(cases, results)
-    running: dict[Future[tuple[str, bool]], tuple[RobustnessTrial, float]] = {}
+    outcomes: dict[float, bool] = {}
+    while (strength := next_strength(outcomes)) is not None:
+        trial = replace(case, strength=strength)
+        outcomes[strength] = run_trial(trial)["survived"]
+    return {
+        "strengths": list(outcomes),
+        "survived": list(outcomes.values()),
+    }
 
-    def start(case: RobustnessTrial) -> None:
-        strength = next_strength(outcomes[case])
-        if strength is not None:
-            trial = replace(case, strength=strength)
-            running[executor.submit(run_trial, trial)] = case, strength
 
-    try:
-        for case in cases:
-            start(case)
-        while running:
-            if report is not None:
-                report(len(cases) - len(running))
-            for future in wait(running, return_when=FIRST_COMPLETED).done:
-                case, strength = running.pop(future)
-                key, survived = future.result()
-                results[key] = outcomes[case][strength] = survived
-                append_result(file, key, survived)
-                start(case)
-    except BaseException:
-        cancel_pending(executor, running)
-        raise
-    if report is not None:
-        report(len(cases))
-    return results
+def outcomes_of(record: Record) -> dict[float, bool]:
+    """Return the outcome of each strength that was tried."""
+    return dict(zip(record["strengths"], record["survived"], strict=True))

@@ -7,7 +7,7 @@ from typing import Any
 from ..games.walk_settings import WalkSettings
 from .push_limits import RESOLUTION
 from .result_files import header
-from .robustness_campaign import mass_of
+from .robustness_trial import mass_of
 from .settings_diff import changes_of
 from .survival import DEFAULT, PUSH, summarise_limits, walking_reach
 

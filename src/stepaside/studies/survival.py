@@ -1,7 +1,7 @@
 """Survival statistics of a robustness campaign, and bounds on pushes."""
 
 from collections import defaultdict
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from functools import cache
 from math import radians, sqrt
 from typing import Any
@@ -12,8 +12,9 @@ from ..games.walk_settings import WalkSettings
 from ..planning import Direction, Foot, ManeuverPlanner
 from ..planning.capturability import FootReach, push_bound
 from ..planning.steady_gait import steady_plan
-from .push_limits import limit_of, next_strength, outcomes_of
-from .robustness_campaign import (
+from .push_limits import limit_of, outcomes_of
+from .records import Record
+from .robustness_trial import (
     DIRECTIONS,
     STRENGTHS,
     RobustnessTrial,
@@ -22,7 +23,7 @@ from .robustness_campaign import (
     walk_of,
 )
 
-CONFIDENCE = 1.96  # standard deviations of a 95 % interval
+CONFIDENCE = 1.959964  # standard deviations of a 95 % interval
 PUSH = 0.1  # duration of a push, in [s]
 DEFAULT = WalkSettings()
 
@@ -40,14 +41,17 @@ def wilson(survived: int, number: int) -> tuple[float, float]:
 
 
 def survival_rows(
-    grid: Sequence[RobustnessTrial], results: Mapping[str, bool]
+    results: Iterable[tuple[RobustnessTrial, Record]],
 ) -> list[dict[str, Any]]:
-    """Tabulate survival by method, kind, direction and strength."""
+    """Tabulate survival by method, kind, direction and strength.
+
+    Args:
+        results: Finished trials and their records.
+    """
     groups: dict[tuple[str, str, str, float], list[bool]] = defaultdict(list)
-    for trial in grid:
-        if trial.key in results:
-            group = trial.method, trial.kind, trial.direction, trial.strength
-            groups[group].append(results[trial.key])
+    for trial, record in results:
+        group = trial.method, trial.kind, trial.direction, trial.strength
+        groups[group].append(record["survived"])
     return [_survival_row(*group, groups[group]) for group in groups]
 
 
@@ -59,7 +63,7 @@ def push_survival_rows(
     Args:
         limits: Rows of :func:`limit_rows`.
         scale: Factor on the strengths for another robot than NAO; see
-            :func:`~.robustness_campaign.push_scale`.
+            :func:`~.robustness_trial.push_scale`.
     """
     groups: dict[tuple[str, str], list[float]] = defaultdict(list)
     for row in limits:
@@ -99,18 +103,17 @@ def _survival_row(
 
 
 def limit_rows(
-    cases: Sequence[RobustnessTrial], results: Mapping[str, bool]
+    results: Iterable[tuple[RobustnessTrial, Record]],
 ) -> list[dict[str, Any]]:
     """Tabulate the largest survived pushes with their bounds.
 
-    Cases whose limit is not known yet are left out.
+    Args:
+        results: Push cases and the records of their searches.
     """
     rows = []
-    for case, outcomes in outcomes_of(cases, results).items():
-        if next_strength(outcomes) is not None:
-            continue
+    for case, record in results:
         walk = walk_of(case)
-        limit = limit_of(outcomes) * push_scale(walk.robot)
+        limit = limit_of(outcomes_of(record)) * push_scale(walk.robot)
         bound = bound_at(case.direction, case.phase, walk)
         rows.append(
             {

@@ -1,270 +1,49 @@
-"""Tournament of evaders and pursuers: one record per game."""
+"""Campaign of evaders against pursuers: one record per game."""
 
-from collections.abc import Callable, Sequence
-from concurrent.futures import Executor, Future, as_completed
-from dataclasses import asdict
-from functools import cache
-from math import atan2, hypot, isfinite, pi
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from functools import partial
 
-import numpy as np
-
-from ..arena import Room
-from ..core.poses import Array, wrap_angle, wrap_angles
-from ..core.worker_pool import cancel_pending
 from ..strategies.bound_cache import pursuit_bound
-from ..strategies.step_game import StepGame, StepTrack, play_steps
-from .code_version import code_version, library_versions
-from .entrants import SIGHT, evader_of, pursuer_of
-from .floor_used import floor_used
-from .record_store import RecordStore
-from .tournament_settings import HUMANOIDS, TournamentSettings
+from . import tournament_record as games
+from .campaign import Study, code_stamp
+from .grid import Grid
+from .records import Record
+from .tournament_record import FIELDS, Pairing, play_record
+from .tournament_settings import TournamentSettings
 
-if TYPE_CHECKING:
-    from ..games.run import DuelRun
-    from .physics_game import DuelPaths
-
-Record = dict[str, Any]
-FIELDS = (  # of every record
-    "evader",
-    "pursuer",
-    "seed",
-    "outcome",
-    "survived_s",
-    "closest_m",
-    "bound_m",
-    "floor_m2",
-    "walked_m",
-    "turning_rad_s",
-    "unseen",
-    "decision_s",
-    "longest_decision_s",
-)
-CELLS = 64  # of the value table of the bound
-FEEDBACK = 8  # decisions per step at level "unicycles"
-
-Pairing = tuple[str, str]
-"""Names of an evader and of a pursuer."""
+Game = tuple[Pairing, int]
+"""Names of evader and pursuer, and the seed of a game."""
 
 
-def play_paths(
-    settings: TournamentSettings, pairing: Pairing, seed: int
-) -> "tuple[Room, StepTrack | DuelPaths]":
-    """Play one game of a tournament; return its room and both paths."""
-    if settings.level != HUMANOIDS:
-        return play_track(settings, pairing, seed)
-    from .physics_game import paths_of
-
-    room, run = _play_humanoids(settings, pairing, seed)
-    return room, paths_of(run)
-
-
-def _play_humanoids(
-    settings: TournamentSettings, pairing: Pairing, seed: int
-) -> "tuple[Room, DuelRun]":
-    """Play one game in physics.
-
-    Raises:
-        KeyboardInterrupt: If it was interrupted; it is not recorded then.
-    """
-    from ..games.duel import run_duel
-    from ..games.outcome import Outcome
-    from .physics_game import duel_settings
-
-    room, starts = settings.arena(seed)
-    run = run_duel(
-        duel_settings(
-            pairing,
-            room,
-            starts,
-            seed=seed,
-            duration=settings.game.duration,
-            angle=settings.angle,
-            source=settings.map,
-        )
-    )
-    if run.outcome is Outcome.INTERRUPTED:
-        raise KeyboardInterrupt
-    return room, run
-
-
-def play_track(
-    settings: TournamentSettings, pairing: Pairing, seed: int
-) -> tuple[Room, StepTrack]:
-    """Play one game at level "steps" or "unicycles"; return its track."""
-    room, starts = settings.arena(seed)
-    unicycles = settings.level == "unicycles"
-    values = asdict(settings.game)
-    game = StepGame(**values | {"decisions": FEEDBACK if unicycles else 1})
-    track = play_steps(
-        pursuer_of(pairing[1]),
-        evader_of(pairing[0], settings.angle),
-        starts,
-        room=room,
-        game=game,
-    )
-    return room, track
-
-
-def play_record(
-    settings: TournamentSettings, pairing: Pairing, seed: int
-) -> Record:
-    """Play one game of a tournament and return its record.
-
-    Returns:
-        Values in SI units, and the versions of code and libraries.
-    """
-    play = _humanoid_values if settings.level == HUMANOIDS else _step_values
-    return {
-        "evader": pairing[0],
-        "pursuer": pairing[1],
-        "seed": seed,
-        **play(settings, pairing, seed),
-    } | _stamp(*settings.depends)
-
-
-def _step_values(
-    settings: TournamentSettings, pairing: Pairing, seed: int
-) -> Record:
-    """Play a game at level "steps" or "unicycles" and return its values."""
-    _, track = play_track(settings, pairing, seed)
-    game = settings.game
-    distances = track.distances
-    turns = wrap_angles(np.diff(track.evader[:, 2]))
-    moved = np.diff(track.evader[:, :2], axis=0)
-    seconds = (len(distances) - 1) * game.period
-    seconds /= FEEDBACK if settings.level == "unicycles" else 1
-    clear = float(track.clearances.min())
-    return {
-        "outcome": str(track.outcome),
-        "survived_s": seconds,
-        "closest_m": float(distances.min()),
-        "bound_m": bound_of(track.pursuer[0], track.evader[0], game),
-        "clearance_m": clear if isfinite(clear) else None,
-        "floor_m2": floor_used(track.evader[:, :2], game.body_radius),
-        "walked_m": float(np.hypot(*moved.T).sum()),
-        "turning_rad_s": float(np.abs(turns).sum()) / max(seconds, 1e-9),
-        "unseen": float((np.abs(track.bearings) > SIGHT).mean()),
-        "decision_s": track.decision,
-        "longest_decision_s": track.longest_decision,
-    }
-
-
-def _humanoid_values(
-    settings: TournamentSettings, pairing: Pairing, seed: int
-) -> Record:
-    """Play a game in physics and return its values."""
-    from .physics_game import record_values_of
-
-    _, run = _play_humanoids(settings, pairing, seed)
-    pursuer, evader = (
-        track.unicycle[0] for track in (run.pursuer, run.evader)
-    )
-    found = record_values_of(run, settings.game.body_radius)
-    return found | {"bound_m": bound_of(pursuer, evader, settings.game)}
-
-
-def bound_of(pursuer: Array, evader: Array, game: StepGame) -> float:
-    """Return the value of the game on an open floor from two poses.
-
-    Returns:
-        Closest approach under optimal play, in [m].
-    """
-    x, y = (evader[:2] - pursuer[:2]).tolist()
-    sight, unit = atan2(y, x), game.speed / game.gain
-    value = pursuit_bound(CELLS).value(
-        hypot(x, y) / unit,
-        wrap_angle(sight - float(pursuer[2])),
-        wrap_angle(sight + pi - float(evader[2])),
-    )
-    return unit * float(value)
-
-
-def key_of(settings: TournamentSettings, pairing: Pairing, seed: int) -> str:
-    """Return the key of a game among records."""
-    return f"{settings.fingerprint()}/{'/'.join(pairing)}/{seed}"
-
-
-def play_tournament(
+def tournament_study(
     settings: TournamentSettings,
     pairings: Sequence[Pairing],
     seeds: Sequence[int],
-    file: RecordStore | None = None,
-    executor: Executor | None = None,
-    report: Callable[[int], None] | None = None,
-    done: dict[str, Record] | None = None,
-) -> dict[str, Record]:
-    """Play the games that are not in a file of records yet.
+) -> Study[Game]:
+    """Return the study of every pairing with every seed.
 
     Args:
         settings: Settings of every game.
         pairings: Evader and pursuer of each pairing.
         seeds: Seeds of the games of each pairing.
-        file: Record store, extended by each game. Records of another
-            version of the code are replaced.
-        executor: Any executor of ``concurrent.futures``; None to play in
-            this process.
-        report: Called with the number of finished games.
-        done: Dictionary that receives the records as they arrive, and holds
-            them if the campaign is interrupted.
-
-    Returns:
-        Records by key, by pairing and then by seed.
     """
-    requested = {
-        key_of(settings, pairing, seed): (pairing, seed)
-        for pairing in pairings
-        for seed in seeds
-    }
-    results: dict[str, Record] = {} if done is None else done
-    if file is not None:
-        for key, record in file.read(FIELDS).items():
-            now = _stamp(*settings.depends)
-            stamp = {name: record.get(name) for name in now}
-            if key in requested and stamp == now:
-                results[key] = record
-    missing = [key for key in requested if key not in results]
-    pursuit_bound(CELLS)  # solved once here, not in each worker
+    own = settings.fingerprint()
+    pursuit_bound(games.CELLS)  # solved once here, not in each worker
 
-    def add(keys: list[str], records: list[Record]) -> None:
-        for key, record in zip(keys, records, strict=True):
-            results[key] = record
-            if file is not None:
-                file.append(key, record)
-        if report is not None:
-            report(len(results))
+    def key_of(game: Game) -> str:
+        pairing, seed = game
+        return f"{own}/{'/'.join(pairing)}/{seed}"
 
-    add([], [])
-    size = settings.block
-    blocks = [missing[i : i + size] for i in range(0, len(missing), size)]
-    if executor is None:
-        for keys in blocks:
-            add(keys, _play_block(settings, [requested[key] for key in keys]))
-    else:
-        futures: dict[Future[list[Record]], list[str]] = {
-            executor.submit(
-                _play_block, settings, [requested[key] for key in keys]
-            ): keys
-            for keys in blocks
-        }
-        try:
-            for future in as_completed(futures):
-                add(futures[future], future.result())
-        except BaseException:
-            cancel_pending(executor, futures)
-            raise
-    return {key: results[key] for key in requested}
+    return Study(
+        "tournament",
+        Grid(pairings, seeds),
+        partial(_play, settings),
+        key_of,
+        lambda game: code_stamp(*settings.depends),
+        FIELDS,
+        ("decision_s", "longest_decision_s"),
+    )
 
 
-def _play_block(
-    settings: TournamentSettings, games: list[tuple[Pairing, int]]
-) -> list[Record]:
-    return [play_record(settings, pairing, seed) for pairing, seed in games]
-
-
-@cache
-def _stamp(modules: tuple[str, ...], libraries: tuple[str, ...]) -> Record:
-    return {
-        "version": code_version(modules),
-        "libraries": library_versions(libraries),
-    }
+def _play(settings: TournamentSettings, game: Game) -> Record:
+    return play_record(settings, *game)

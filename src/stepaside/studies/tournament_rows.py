@@ -9,10 +9,9 @@ import numpy as np
 from ..strategies.step_game import StepGame
 from ..theory.unicycle.circle_equations import find_circle
 from .entrants import gain_ratio_of
-from .survival import wilson
+from .survival import CONFIDENCE, wilson
 
 Record = dict[str, Any]
-NORMAL = 1.959964  # standard deviations of a 95 % interval
 
 
 def tournament_rows(
@@ -22,7 +21,7 @@ def tournament_rows(
 
     Args:
         records: Records of
-            :func:`~stepaside.studies.tournament_campaign.play_record`.
+            :func:`~stepaside.studies.tournament_record.play_record`.
         game: Rules of the games.
 
     Returns:
@@ -126,4 +125,4 @@ def _half_interval(values: Any) -> float:
     """Return half of the 95 % interval of a mean."""
     if len(values) < 2:
         return 0.0
-    return NORMAL * float(values.std(ddof=1)) / sqrt(len(values))
+    return CONFIDENCE * float(values.std(ddof=1)) / sqrt(len(values))

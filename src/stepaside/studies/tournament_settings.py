@@ -21,8 +21,7 @@ ERROR = ConfigurationError
 HUMANOIDS = "physics"
 LEVELS = ("steps", "unicycles", HUMANOIDS)
 MAPS = ("given", "seen", "none")
-MODULES = ("studies/tournament_campaign",)  # which play and record a game
-BLOCK = 10  # games per task of a worker process
+MODULES = ("studies/tournament_record",)  # which play and record a game
 
 
 @dataclass(frozen=True)
@@ -95,11 +94,6 @@ class TournamentSettings:
         if self.level == HUMANOIDS:
             return MODULES, ("mujoco", "numba", "numpy")
         return MODULES, ("numba", "numpy")
-
-    @property
-    def block(self) -> int:
-        """Number of games per task of a worker process."""
-        return 1 if self.level == HUMANOIDS else BLOCK
 
     def fingerprint(self) -> str:
         """Return a fingerprint of all settings."""

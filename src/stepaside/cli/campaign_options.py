@@ -1,0 +1,186 @@
+"""Options of campaigns: workers, executor, shard, output."""
+
+import re
+from collections.abc import Callable
+from functools import partial, wraps
+from pathlib import Path
+from typing import Any, NamedTuple, TypeVar
+
+import click
+
+from ..core.atomic_output import check_file, check_folder
+from ..studies.executors import POOL, SPECIFICATIONS, check_executor
+from ..studies.result_store import ResultStore
+from ..studies.result_table import TABLES
+from .options.common_options import workers_option
+
+RECORDS = "records"  # folder of the records in an output folder
+C = TypeVar("C")
+
+
+class ShardType(click.ParamType[tuple[int, int]]):
+    """Part of the cases of a campaign: ``2/4`` for the second of four."""
+
+    name = "I/N"
+
+    def convert(
+        self,
+        value: Any,
+        param: click.Parameter | None,
+        ctx: click.Context | None,
+    ) -> tuple[int, int]:
+        """Parse the number of a shard and of all shards."""
+        if isinstance(value, tuple):
+            return value
+        found = re.fullmatch(r"(\d{1,6})/(\d{1,6})", str(value).strip())
+        if found is None or not 1 <= int(found[1]) <= int(found[2]):
+            self.fail(
+                "must be I/N with integers 1 <= I <= N [1] like 1/4, "
+                f"got {value!r}",
+                param,
+                ctx,
+            )
+        return int(found[1]), int(found[2])
+
+
+class ExecutorType(click.ParamType[str]):
+    """Specification of an executor."""
+
+    name = "EXECUTOR"
+
+    def convert(
+        self,
+        value: Any,
+        param: click.Parameter | None,
+        ctx: click.Context | None,
+    ) -> str:
+        """Refuse a specification of no executor."""
+        check_executor(str(value))
+        return str(value)
+
+
+executor_option = partial(
+    click.option,
+    "--executor",
+    type=ExecutorType(),
+    default=POOL,
+    show_default=True,
+    help=f"Where cases run: {SPECIFICATIONS}; see docs/campaigns.md.",
+)
+shard_option = partial(
+    click.option,
+    "--shard",
+    type=ShardType(),
+    help="Run every N-th case only, from the I-th; `stepaside merge` joins "
+    "the outputs.",
+)
+verify_option = partial(
+    click.option,
+    "--verify",
+    type=click.IntRange(1, 100_000),
+    metavar="N",
+    help="Repeat N recorded cases. If all results agree, reuse the records "
+    "of an older version of the code; otherwise exit with status 1.",
+)
+
+
+class CampaignOptions(NamedTuple):
+    """Where a campaign runs, which part of it, and where results go.
+
+    Attributes:
+        workers: Number of processes; all cores if None.
+        executor: Specification of the executor; see
+            :func:`~stepaside.studies.executors.open_engine`.
+        shard: Number of the shard, from 1, and number of shards.
+        verify: Number of recorded cases to repeat.
+        output: Folder of results; None to store nothing.
+        table: File of the table of all records.
+    """
+
+    workers: int | None = None
+    executor: str = POOL
+    shard: tuple[int, int] | None = None
+    verify: int | None = None
+    output: Path | None = None
+    table: Path | None = None
+
+    @property
+    def store(self) -> ResultStore | None:
+        """Store of the records; None if nothing is stored."""
+        return None if self.output is None else ResultStore(self.records)
+
+    @property
+    def records(self) -> Path:
+        """Folder of the records."""
+        assert self.output is not None
+        return self.output / RECORDS
+
+    def with_default(self, output: Path) -> "CampaignOptions":
+        """Return the options with an output folder if there was none.
+
+        Raises:
+            ConfigurationError: If it cannot be written to.
+        """
+        if self.output is not None:
+            return self
+        check_folder(output, new=False)
+        return self._replace(output=output)
+
+    @property
+    def is_whole(self) -> bool:
+        """Whether this is the whole campaign."""
+        return self.shard is None
+
+    def share(self, cases: int) -> int:
+        """Return how many of some cases are in the shard, about."""
+        return cases if self.shard is None else -(-cases // self.shard[1])
+
+
+def campaign_options(
+    output_help: str,
+) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """Add the options of a campaign, passed as ``campaign``.
+
+    Args:
+        output_help: First sentences of the help of ``--output``.
+    """
+
+    def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
+        @wraps(function)
+        def command(
+            *args: Any,
+            workers: int | None,
+            executor: str,
+            shard: tuple[int, int] | None,
+            verify: int | None,
+            output: Path | None,
+            **values: Any,
+        ) -> Any:
+            table = None
+            if output is not None and output.suffix.lower() in TABLES:
+                table, output = output, output.with_suffix("")
+                check_file(table, overwrite=True)
+            if output is not None:
+                check_folder(output, new=False)
+            campaign = CampaignOptions(
+                workers, executor, shard, verify, output, table
+            )
+            return function(*args, campaign=campaign, **values)
+
+        output_option = click.option(
+            "--output",
+            type=click.Path(path_type=Path),
+            help=f"{output_help} With the suffix {' or '.join(TABLES)}: file "
+            "of a table of all records, beside such a folder.",
+        )
+        for option in (
+            output_option,
+            verify_option(),
+            shard_option(),
+            executor_option(),
+            workers_option(),
+        ):
+            command = option(command)
+        return command
+
+    return decorate

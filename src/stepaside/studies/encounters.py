@@ -1,0 +1,154 @@
+"""Encounters with approaching people."""
+
+import json
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from hashlib import sha256
+from math import radians
+
+from ..core.poses import wrap_angle
+from ..games.configuration_file import settings_entries
+from ..games.duel import run_duel
+from ..games.duel_settings import DuelSettings, StartSettings
+from ..games.outcome import Outcome
+from ..games.walk_settings import WalkSettings
+from ..sim.person_settings import PersonSettings
+from ..strategies import Evasion
+from .records import Record
+
+SPEEDS = (0.3, 0.6, 1.0, 1.4)  # of people, in [m/s]
+BEARINGS = (0, 45, -90, 135, 180)  # from which they approach, in [deg]
+OFFSETS = (0.0, 0.3, -0.3, 1.2)  # lateral, of their path, in [m]
+PASSING = 1.0  # least offset of people who only pass, in [m]
+STANDING = 1.5  # time before a person can trigger evasion, in [s]
+WALL_CLEARANCE = 4.0  # from the person to the walls with cameras, in [m]
+PAST = 2.5  # distance that they walk on behind the robot, in [m]
+FIELDS = (  # of every record
+    "outcome",
+    "duration_s",
+    "triggered_at_s",
+    "triggered_at_distance_m",
+    "closest_m",
+    "theory_closest_m",
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Encounter:
+    """Encounter with one approaching person.
+
+    Attributes:
+        speed: Speed of the person, in [m/s].
+        bearing: Bearing of the person at first in the frame of the robot,
+            in [deg].
+        offset: Lateral offset of the path from the robot, to its left, in
+            [m].
+        sensing: Sensing of the robot, as in :class:`DuelSettings`.
+        seed: Seed of the game.
+        base: All other settings of the game.
+    """
+
+    speed: float
+    bearing: int
+    offset: float
+    sensing: str
+    seed: int
+    base: DuelSettings
+
+    @property
+    def key(self) -> str:
+        """Key among records."""
+        text = json.dumps(settings_entries(self.base), sort_keys=True)
+        digest = sha256(text.encode()).hexdigest()[:12]
+        path = (self.speed, self.bearing, self.offset, self.sensing)
+        return json.dumps([*path, self.seed, digest])
+
+    @property
+    def passes(self) -> bool:
+        """Whether the person would pass a robot that does not move."""
+        return abs(self.offset) >= PASSING
+
+    @property
+    def settings(self) -> DuelSettings:
+        """Settings of the game, with the person far enough away at first."""
+        strategy = self.base.strategy
+        ahead = strategy.contact_time + STANDING
+        distance = strategy.clearance + self.speed * ahead
+        room = self.base.room
+        if self.sensing == "cameras":
+            # A near wall would be detected before the person.
+            room = replace(room, walls=distance + WALL_CLEARANCE)
+        return replace(
+            self.base,
+            seed=self.seed,
+            duration=(distance + PAST) / self.speed,
+            sensing=self.sensing,
+            room=room,
+            person=PersonSettings("straight", self.speed, miss=self.offset),
+            start=StartSettings(
+                distance, 0.0, wrap_angle(-radians(self.bearing))
+            ),
+        )
+
+
+def base_of(walk: WalkSettings) -> DuelSettings:
+    """Return the game settings of a campaign.
+
+    Args:
+        walk: Robot, gait, physics, body and control.
+    """
+    return DuelSettings(
+        robot=walk.robot,
+        gait=walk.gait,
+        physics=walk.physics,
+        body=walk.body,
+        control=walk.control,
+        pursuer="person",
+        strategy=Evasion(trigger="time"),
+    )
+
+
+def encounters(
+    walk: WalkSettings,
+    sensings: Sequence[str],
+    *,
+    seeds: int,
+    speeds: Sequence[float] = SPEEDS,
+    bearings: Sequence[int] = BEARINGS,
+    offsets: Sequence[float] = OFFSETS,
+) -> Iterator[Encounter]:
+    """Yield the encounters of a grid.
+
+    Args:
+        walk: Settings of the robot; its seed is the first one.
+        sensings: Kinds of sensing, as in :class:`DuelSettings`.
+        seeds: Number of seeds for each combination.
+        speeds: Speeds of people, in [m/s].
+        bearings: Initial bearings of people, in [deg].
+        offsets: Lateral offsets of their paths, in [m].
+    """
+    base = base_of(walk)
+    for sensing in sensings:
+        for speed in speeds:
+            for bearing in bearings:
+                for offset in offsets:
+                    for seed in range(walk.seed, walk.seed + seeds):
+                        yield Encounter(
+                            speed, bearing, offset, sensing, seed, base
+                        )
+
+
+def meet(encounter: Encounter) -> Record:
+    """Play an encounter and return its record."""
+    run = run_duel(encounter.settings)
+    if run.outcome is Outcome.INTERRUPTED:
+        raise KeyboardInterrupt
+    summary = run.summary
+    return {
+        "outcome": run.outcome.value,
+        "duration_s": run.duration,
+        "triggered_at_s": summary.triggered_at_s,
+        "triggered_at_distance_m": summary.triggered_at_distance_m,
+        "closest_m": summary.min_distance_m,
+        "theory_closest_m": summary.theory.closest_approach_m,
+    }

@@ -1,0 +1,174 @@
+"""Games of a tournament, and the record of each."""
+
+from dataclasses import asdict
+from math import atan2, hypot, isfinite, pi
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..arena import Room
+from ..core.poses import Array, wrap_angle, wrap_angles
+from ..strategies.bound_cache import pursuit_bound
+from ..strategies.step_game import StepGame, StepTrack, play_steps
+from .entrants import SIGHT, evader_of, pursuer_of
+from .floor_used import floor_used
+from .records import Record
+from .tournament_settings import HUMANOIDS, TournamentSettings
+
+if TYPE_CHECKING:
+    from ..games.run import DuelRun
+    from .physics_game import DuelPaths
+
+FIELDS = (  # of every record
+    "evader",
+    "pursuer",
+    "seed",
+    "outcome",
+    "survived_s",
+    "closest_m",
+    "bound_m",
+    "floor_m2",
+    "walked_m",
+    "turning_rad_s",
+    "unseen",
+    "decision_s",
+    "longest_decision_s",
+)
+CELLS = 64  # of the value table of the bound
+FEEDBACK = 8  # decisions per step at level "unicycles"
+
+Pairing = tuple[str, str]
+"""Names of an evader and of a pursuer."""
+
+
+def play_paths(
+    settings: TournamentSettings, pairing: Pairing, seed: int
+) -> "tuple[Room, StepTrack | DuelPaths]":
+    """Play one game of a tournament; return its room and both paths."""
+    if settings.level != HUMANOIDS:
+        return play_track(settings, pairing, seed)
+    from .physics_game import paths_of
+
+    room, run = _play_humanoids(settings, pairing, seed)
+    return room, paths_of(run)
+
+
+def _play_humanoids(
+    settings: TournamentSettings, pairing: Pairing, seed: int
+) -> "tuple[Room, DuelRun]":
+    """Play one game in physics.
+
+    Raises:
+        KeyboardInterrupt: If it was interrupted; it is not recorded then.
+    """
+    from ..games.duel import run_duel
+    from ..games.outcome import Outcome
+    from .physics_game import duel_settings
+
+    room, starts = settings.arena(seed)
+    run = run_duel(
+        duel_settings(
+            pairing,
+            room,
+            starts,
+            seed=seed,
+            duration=settings.game.duration,
+            angle=settings.angle,
+            source=settings.map,
+        )
+    )
+    if run.outcome is Outcome.INTERRUPTED:
+        raise KeyboardInterrupt
+    return room, run
+
+
+def play_track(
+    settings: TournamentSettings, pairing: Pairing, seed: int
+) -> tuple[Room, StepTrack]:
+    """Play one game at level "steps" or "unicycles"; return its track."""
+    room, starts = settings.arena(seed)
+    unicycles = settings.level == "unicycles"
+    values = asdict(settings.game)
+    game = StepGame(**values | {"decisions": FEEDBACK if unicycles else 1})
+    track = play_steps(
+        pursuer_of(pairing[1]),
+        evader_of(pairing[0], settings.angle),
+        starts,
+        room=room,
+        game=game,
+    )
+    return room, track
+
+
+def play_record(
+    settings: TournamentSettings, pairing: Pairing, seed: int
+) -> Record:
+    """Play one game of a tournament and return its record.
+
+    Returns:
+        Values in SI units.
+    """
+    play = _humanoid_values if settings.level == HUMANOIDS else _step_values
+    return {
+        "evader": pairing[0],
+        "pursuer": pairing[1],
+        "seed": seed,
+        **play(settings, pairing, seed),
+    }
+
+
+def _step_values(
+    settings: TournamentSettings, pairing: Pairing, seed: int
+) -> Record:
+    """Play a game at level "steps" or "unicycles" and return its values."""
+    _, track = play_track(settings, pairing, seed)
+    game = settings.game
+    distances = track.distances
+    turns = wrap_angles(np.diff(track.evader[:, 2]))
+    moved = np.diff(track.evader[:, :2], axis=0)
+    seconds = (len(distances) - 1) * game.period
+    seconds /= FEEDBACK if settings.level == "unicycles" else 1
+    clear = float(track.clearances.min())
+    return {
+        "outcome": str(track.outcome),
+        "survived_s": seconds,
+        "closest_m": float(distances.min()),
+        "bound_m": bound_of(track.pursuer[0], track.evader[0], game),
+        "clearance_m": clear if isfinite(clear) else None,
+        "floor_m2": floor_used(track.evader[:, :2], game.body_radius),
+        "walked_m": float(np.hypot(*moved.T).sum()),
+        "turning_rad_s": float(np.abs(turns).sum()) / max(seconds, 1e-9),
+        "unseen": float((np.abs(track.bearings) > SIGHT).mean()),
+        "decision_s": track.decision,
+        "longest_decision_s": track.longest_decision,
+    }
+
+
+def _humanoid_values(
+    settings: TournamentSettings, pairing: Pairing, seed: int
+) -> Record:
+    """Play a game in physics and return its values."""
+    from .physics_game import record_values_of
+
+    _, run = _play_humanoids(settings, pairing, seed)
+    pursuer, evader = (
+        track.unicycle[0] for track in (run.pursuer, run.evader)
+    )
+    found = record_values_of(run, settings.game.body_radius)
+    return found | {"bound_m": bound_of(pursuer, evader, settings.game)}
+
+
+def bound_of(pursuer: Array, evader: Array, game: StepGame) -> float:
+    """Return the value of the game on an open floor from two poses.
+
+    Returns:
+        Closest approach under optimal play, in [m].
+    """
+    x, y = (evader[:2] - pursuer[:2]).tolist()
+    sight, unit = atan2(y, x), game.speed / game.gain
+    value = pursuit_bound(CELLS).value(
+        hypot(x, y) / unit,
+        wrap_angle(sight - float(pursuer[2])),
+        wrap_angle(sight + pi - float(evader[2])),
+    )
+    return unit * float(value)
