@@ -91,9 +91,10 @@ def test_other_jobs_of_the_same_names_are_done(tmp_path: Path) -> None:
 def test_a_line_that_was_cut_off_is_done_again(tmp_path: Path) -> None:
     output, work = tmp_path / "x.json", Work()
     whole = run(output, Work())
-    text = part_of(output).read_text()
+    (file,) = part_of(output).iterdir()
+    text = file.read_text()
     lost = JOBS[json.loads(text.splitlines()[-1])["key"][0]]
-    part_of(output).write_text(text[:-5])
+    file.write_text(text[:-5])
     assert run(output, work) == whole
     assert work.done == [lost]
     work.done.clear()

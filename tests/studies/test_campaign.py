@@ -14,15 +14,15 @@ import pytest
 from stepaside.core.errors import CampaignError, ConfigurationError
 from stepaside.studies import campaign as campaigns
 from stepaside.studies.campaign import (
+    CampaignProgress,
     CodeStamp,
-    Progress,
     Study,
     StudyRun,
     run_study,
     verify_study,
 )
+from stepaside.studies.case_grid import CaseGrid
 from stepaside.studies.executors import open_engine
-from stepaside.studies.grid import Grid
 from stepaside.studies.records import Record
 from stepaside.studies.result_store import ResultStore, merge_stores
 
@@ -59,7 +59,7 @@ EXPECTED = [n * n for n in range(12)]
 
 def test_cases_are_measured_once(tmp_path: Path) -> None:
     store = ResultStore(tmp_path)
-    told: list[Progress] = []
+    told: list[CampaignProgress] = []
     first = run_study(study_of(range(5)), store)
     run = run_study(study_of(), store, None, told.append)
     assert squares(run) == EXPECTED and run.completed
@@ -247,7 +247,7 @@ def test_current_records_are_repeated_if_there_are_no_older_ones(
 
 
 def test_a_grid_is_a_product_in_the_order_of_nested_loops() -> None:
-    grid = Grid("ab", range(2), (0.5,))
+    grid = CaseGrid("ab", range(2), (0.5,))
     items = [("a", 0, 0.5), ("a", 1, 0.5), ("b", 0, 0.5), ("b", 1, 0.5)]
     assert list(grid) == items and len(grid) == 4
     assert list(grid[1::2]) == items[1::2]
@@ -255,7 +255,7 @@ def test_a_grid_is_a_product_in_the_order_of_nested_loops() -> None:
     assert grid[-1] == items[-1]
     with pytest.raises(IndexError):
         grid[4]
-    assert len(Grid(range(1000), range(1000))) == 10**6
+    assert len(CaseGrid(range(1000), range(1000))) == 10**6
 
 
 # --- processes ---------------------------------------------------------------

@@ -12,8 +12,8 @@ import numpy as np
 from tqdm import tqdm
 
 from stepaside.studies.campaign import (
+    CampaignProgress,
     CodeStamp,
-    Progress,
     Study,
     StudyRun,
     run_study,
@@ -64,7 +64,7 @@ def _complete(
         print(f"different results: {differing}")
     with tqdm(total=len(study.cases), disable=None) as bar:
 
-        def report(progress: Progress) -> None:
+        def report(progress: CampaignProgress) -> None:
             bar.initial, bar.n = progress.reused, progress.finished
             bar.refresh()
 

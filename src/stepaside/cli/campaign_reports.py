@@ -12,7 +12,7 @@ from .progress import show_progress
 from .terminal import echo
 
 if TYPE_CHECKING:
-    from ..studies.campaign import Progress, Study, StudyRun
+    from ..studies.campaign import CampaignProgress, Study, StudyRun
     from ..studies.executors import Engine
     from ..studies.result_store import ResultStore
 
@@ -55,7 +55,7 @@ def run_campaign(
         if campaign.verify is not None:
             _verify(study, campaign, engine)
 
-        def report(progress: "Progress") -> None:
+        def report(progress: "CampaignProgress") -> None:
             bar.initial, bar.n = progress.reused, progress.finished
             bar.refresh()
 

@@ -67,7 +67,7 @@ class Study(Generic[C]):
         name: Name of the study, one word.
         cases: Cases in the order of the results. Each is a value that can be
             pickled. A long list need not be in memory: a ``range`` or a
-            :class:`~stepaside.studies.grid.Grid` computes its items.
+            :class:`~stepaside.studies.case_grid.CaseGrid` computes its items.
         measure: Function from a case to its record, importable in a worker
             process. It must not depend on other cases nor on the executor.
         key_of: Returns the key of a case: a text that tells apart all cases
@@ -95,8 +95,8 @@ class Study(Generic[C]):
         return replace(self, cases=self.cases[number - 1 :: of])
 
 
-class Progress(NamedTuple):
-    """Progress of a campaign.
+class CampaignProgress(NamedTuple):
+    """CampaignProgress of a campaign.
 
     Attributes:
         finished: Number of cases with a record.
@@ -226,7 +226,7 @@ def run_study(
     study: Study[C],
     store: ResultStore | None = None,
     executor: Executor | Engine | None = None,
-    report: Callable[[Progress], None] | None = None,
+    report: Callable[[CampaignProgress], None] | None = None,
     on_loss: Callable[[str], None] = lambda message: None,
 ) -> StudyRun[C]:
     """Measure the cases of a study that have no record in a store yet.
@@ -268,7 +268,7 @@ class _Campaign(Generic[C]):
         run: StudyRun[C],
         engine: Engine,
         writer: RecordWriter,
-        report: Callable[[Progress], None] | None,
+        report: Callable[[CampaignProgress], None] | None,
         on_loss: Callable[[str], None],
     ) -> None:
         self._run, self._engine, self._writer = run, engine, writer
@@ -368,7 +368,7 @@ class _Campaign(Generic[C]):
         if self._report is not None:
             run = self._run
             total = len(self._cases)
-            self._report(Progress(run.finished, run.reused, total))
+            self._report(CampaignProgress(run.finished, run.reused, total))
 
 
 class Verification(NamedTuple):

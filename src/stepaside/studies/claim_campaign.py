@@ -8,8 +8,8 @@ from math import isfinite, nan
 from typing import Any, NamedTuple
 
 from .campaign import (
+    CampaignProgress,
     CodeStamp,
-    Progress,
     Study,
     StudyRun,
     code_stamp,
@@ -104,7 +104,7 @@ def reproduce(
     store: ResultStore | None,
     seeds: Sequence[int],
     executor: Executor | Engine | None = None,
-    report: Callable[[Progress], None] | None = None,
+    report: Callable[[CampaignProgress], None] | None = None,
 ) -> list[dict[str, Any]]:
     """Measure every claim; readings in the store are reused.
 

@@ -6,7 +6,7 @@ from functools import partial
 from ..strategies.bound_cache import pursuit_bound
 from . import tournament_record as games
 from .campaign import Study, code_stamp
-from .grid import Grid
+from .case_grid import CaseGrid
 from .records import Record
 from .tournament_record import FIELDS, Pairing, play_record
 from .tournament_settings import TournamentSettings
@@ -36,7 +36,7 @@ def tournament_study(
 
     return Study(
         "tournament",
-        Grid(pairings, seeds),
+        CaseGrid(pairings, seeds),
         partial(_play, settings),
         key_of,
         lambda game: code_stamp(*settings.depends),

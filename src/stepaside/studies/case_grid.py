@@ -1,11 +1,11 @@
-"""Grid of cases that are computed when they are asked for."""
+"""CaseGrid of cases that are computed when they are asked for."""
 
 from collections.abc import Sequence
 from math import prod
 from typing import Any, overload
 
 
-class Grid(Sequence[tuple[Any, ...]]):
+class CaseGrid(Sequence[tuple[Any, ...]]):
     """Product of axes, as a sequence that is not in memory.
 
     The last axis changes fastest, as in nested loops. A slice is a grid.
@@ -32,12 +32,12 @@ class Grid(Sequence[tuple[Any, ...]]):
     def __getitem__(self, at: int) -> tuple[Any, ...]: ...
 
     @overload
-    def __getitem__(self, at: slice) -> "Grid": ...
+    def __getitem__(self, at: slice) -> "CaseGrid": ...
 
-    def __getitem__(self, at: int | slice) -> "tuple[Any, ...] | Grid":
+    def __getitem__(self, at: int | slice) -> "tuple[Any, ...] | CaseGrid":
         """Return an item: one value of each axis; or a part of the grid."""
         if isinstance(at, slice):
-            return Grid(*self._axes, numbers=self._numbers[at])
+            return CaseGrid(*self._axes, numbers=self._numbers[at])
         number, values = self._numbers[at], []
         for axis in reversed(self._axes):
             number, i = divmod(number, len(axis))
