@@ -94,7 +94,8 @@ def kernel_of(name: str, text: str, arguments: str) -> Kernel | None:
     Args:
         name: Name of the function.
         text: Source that defines it and the functions of floats it calls.
-        arguments: One digit for each argument: its number of dimensions.
+        arguments: One letter for each argument: the number of dimensions of
+            floats, or "i" for a row of integers.
 
     Returns:
         The function as machine code; None if that is not preferred or not
@@ -136,8 +137,13 @@ def _machine_code(
     if arguments is None:
         floats = (numba.float64,) * plain.__code__.co_argcount
         return numba.njit([floats], cache=True)(plain)
-    types = [numba.float64, numba.float64[::1], numba.float64[:, ::1]]
-    signature = tuple(types[int(digit)] for digit in arguments)
+    types = {
+        "0": numba.float64,
+        "1": numba.float64[::1],
+        "2": numba.float64[:, ::1],
+        "i": numba.int64[::1],
+    }
+    signature = tuple(types[letter] for letter in arguments)
     return numba.njit([signature], cache=True, error_model="numpy")(plain)
 
 

@@ -7,6 +7,7 @@ import mujoco
 import numpy as np
 
 from ..core.poses import Array
+from ..robots.jit import Kernel, kernel_of
 from .body_settings import BodySettings
 
 JointGains = Mapping[str, tuple[float, float]]
@@ -103,6 +104,20 @@ class IdealServos:
         return change
 
 
+LOOP = """\
+def servo_step(qpos, qvel, angles, rates, change, target, lead, half, stall,
+               slope, share, sent, limits):
+    for j in range(target.shape[0]):
+        angle = qpos[angles[j]]
+        error = target[j] + change[j] * share - angle
+        error -= min(max(error, -half[j]), half[j])
+        sent[j] = error + angle + lead[j] * change[j]
+        loss = slope[j] * qvel[rates[j]]
+        limits[j, 1] = min(max(stall[j] - loss, 0.0), stall[j])
+        limits[j, 0] = max(min(-stall[j] - loss, 0.0), -stall[j])
+"""
+
+
 class RealisticServos(IdealServos):
     """Servos with delay, backlash and speed-dependent torque.
 
@@ -147,8 +162,8 @@ class RealisticServos(IdealServos):
             feedforward=feedforward,
         )
         joints = model.actuator_trnid[actuators, 0]
-        self._qpos = model.jnt_qposadr[joints]
-        self._dofs = model.jnt_dofadr[joints]
+        self._qpos = model.jnt_qposadr[joints].astype(np.int64)
+        self._dofs = model.jnt_dofadr[joints].astype(np.int64)
         self._half_backlash = 0.5 * backlash
         fraction = body.efficiency * body.stiffness
         self._stall = model.actuator_forcerange[actuators, 1] * fraction
@@ -163,6 +178,9 @@ class RealisticServos(IdealServos):
         self._cycle, self._time_step = cycle, model.opt.timestep
         self._change = np.zeros(actuators.size)
         self._elapsed = 0.0
+        self._kernel: Kernel | None = None
+        if self._slope is not None:
+            self._kernel = kernel_of("servo_step", LOOP, "11ii111111012")
 
     def soften(self, stiffness: Array) -> None:
         """Limit the torques to fractions of their maximum, 0 to 1."""
@@ -187,8 +205,16 @@ class RealisticServos(IdealServos):
     def before_step(self, time: float) -> None:
         """Set control and torque limits for one physics step."""
         self._elapsed = min(self._elapsed + self._time_step, self._cycle)
-        data = self._data
-        ramp = self._target + self._change * (self._elapsed / self._cycle)
+        data, share = self._data, self._elapsed / self._cycle
+        if self._kernel is not None:
+            self._kernel(
+                *(data.qpos, data.qvel, self._qpos, self._dofs),
+                *(self._change, self._target, self._lead),
+                *(self._half_backlash, self._stall, self._slope, share),
+                *(self._sent, self._range),
+            )
+            return
+        ramp = self._target + self._change * share
         angle = data.qpos[self._qpos]
         error = ramp - angle
         half = self._half_backlash
