@@ -199,7 +199,7 @@ class ManeuverWalk:
 
     def _finish(self, plan: ManeuverPlan, decisions: IntentSource) -> None:
         """End a step: the landed foot becomes the support, then replan."""
-        landed = self.plan_frame.compose(Pose(*plan.placements[2].tolist()))
+        landed = self.plan_frame.compose(plan.landing)
         position, velocity = landing_state(plan)
         landed, position, velocity = self.balance.land(
             landed, position, velocity, self.step(self._plan_ends)
@@ -281,7 +281,7 @@ class ManeuverWalk:
         self._table.load(plan, frame, started, duration)
         landing = plan.schedule.first_step_duration
         landing += started - plan.gait.double_support
-        landed = frame.compose(Pose(*plan.placements[2].tolist()))
+        landed = frame.compose(plan.landing)
         vx, vy = plan.start_velocity.tolist()
         jump = max(abs(vx - state.velocity[0]), abs(vy - state.velocity[1]))
         self.begun = StepStarted(

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from ..core.brief_repr import brief_repr
 from ..core.errors import PlanError, shown
-from ..core.poses import Array
+from ..core.poses import Array, Pose
 from .footsteps import Foot, Footstep
 from .gait_settings import GaitSettings
 from .path import Direction
@@ -86,6 +86,11 @@ class ManeuverPlan:
     def gait(self) -> GaitSettings:
         """Gait at the pace of the plan."""
         return self.schedule.settings
+
+    @property
+    def landing(self) -> Pose:
+        """Pose of the first footstep."""
+        return Pose(*self.placements[2].tolist())
 
     @property
     def correction(self) -> Array:

@@ -46,6 +46,24 @@ def swing_progress(
     return progress
 
 
+def swing_progress_at(
+    phase: float, profile: SwingProfile = "minimum-jerk"
+) -> float:
+    """Return :func:`swing_progress` of one phase, with the same bits.
+
+    Args:
+        phase: Phase of single support.
+        profile: Profile of the motion.
+    """
+    s = min(max(phase, 0.0), 1.0)
+    if profile == "even":
+        near, part = min(s, 1.0 - s), 0.0
+        for coefficient in reversed(_PROGRESS[profile]):
+            part = coefficient + part * near
+        return 1.0 - part if s > 0.5 else part
+    return s**3 * (10.0 + s * (6.0 * s - 15.0))
+
+
 def swing_acceleration(profile: SwingProfile) -> Array:
     """Return the second derivative of the progress, by powers of the phase.
 

@@ -1,5 +1,6 @@
 """Forward kinematics of CoM, feet and head from measured joint angles."""
 
+from collections.abc import Callable
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -9,11 +10,17 @@ from ..core.errors import ModelError
 from ..core.poses import Array
 from .description import REMEDY, RobotDescription
 from .expression_tracing import ExpressionTrace, Number
-from .jit import Function
+from .jit import JitPreference, preferred
 from .link_poses import gather_moments, place_links
 from .robot_tree import RobotTree
 from .tree_cache import load_tree
 
+LOOP = """\
+def posture_row(angles, numbers):
+    found = posture({})
+    for i in range(numbers.shape[0]):
+        numbers[i] = found[i]
+"""
 HEAD_OFFSET = 27  # index of the head in the results: after CoM and feet
 
 
@@ -67,6 +74,7 @@ class ForwardKinematics:
             feet,
             head,
             tuple(sorted(description.standing.items())),
+            preferred(),
         )
         self._feet = [tree.sites[name] for name in feet]
         self._cache_key = b""
@@ -81,7 +89,7 @@ class ForwardKinematics:
         """
         key = joint_positions.tobytes()
         if key != self._cache_key:
-            numbers = np.array(self._evaluate(*joint_positions.tolist()))
+            numbers = self._evaluate(joint_positions)
             posture = MeasuredPosture(
                 numbers[:3],
                 numbers[3:9].reshape(2, 3),
@@ -126,8 +134,17 @@ def _trace_posture(
     feet: tuple[str, str],
     head: str | None,
     standing: tuple[tuple[str, float], ...],
-) -> Function:
-    """Generate the formulas of CoM, feet and head."""
+    preference: JitPreference,
+) -> Callable[[Array], Array]:
+    """Generate the formulas of CoM, feet and head.
+
+    Args:
+        tree: Kinematic tree.
+        feet: Sites of the soles, left and right.
+        head: Body that carries the cameras, if any.
+        standing: Angles of joints without a motor, by name, in [rad].
+        preference: Execution of the formulas; a key of the cache.
+    """
     trace = ExpressionTrace()
     angles: dict[str, Number] = dict(standing)
     for i, name in enumerate(tree.motors):
@@ -148,4 +165,17 @@ def _trace_posture(
     if head is not None:
         results += links.position_of(frames[2])
         results += [x for row in axes[2] for x in row]
-    return trace.function("posture", results)
+    formula = trace.formula("posture", results)
+    angles_of = ", ".join(f"angles[{i}]" for i in range(len(tree.motors)))
+    kernel = formula.kernel("posture_row", LOOP.format(angles_of), "11")
+    if kernel is None:
+        function = formula.function()
+        return lambda angles: np.array(function(*angles.tolist()))
+    count = len(results)
+
+    def evaluate(angles: Array) -> Array:
+        numbers = np.empty(count)
+        kernel(angles, numbers)
+        return numbers
+
+    return evaluate

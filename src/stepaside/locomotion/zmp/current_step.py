@@ -1,11 +1,11 @@
 """Step in progress, and the ZMP shifts and landings that it allows."""
 
-from math import exp, hypot
+from math import cos, exp, hypot, sin
 from typing import NamedTuple
 
 from ...core.poses import Pose
 from ...planning import Foot, GaitSettings, ManeuverPlan
-from ...planning.swing import swing_progress
+from ...planning.swing import swing_progress_at
 from ...robots.leg_kinematics import BodyReference
 from .control_settings import StabiliserSettings
 
@@ -37,13 +37,13 @@ class CurrentStep(NamedTuple):
 
     def to_support(self, x: float, y: float) -> tuple[float, float]:
         """Rotate a vector from odometry to the support foot's axes."""
-        turned = Pose(0.0, 0.0, -self.support.theta).compose(Pose(x, y, 0.0))
-        return turned.x, turned.y
+        c, s = cos(-self.support.theta), sin(-self.support.theta)
+        return c * x - s * y, s * x + c * y
 
     def from_support(self, x: float, y: float) -> tuple[float, float]:
         """Rotate a vector from the support foot's axes to odometry."""
-        turned = Pose(0.0, 0.0, self.support.theta).compose(Pose(x, y, 0.0))
-        return turned.x, turned.y
+        c, s = cos(self.support.theta), sin(self.support.theta)
+        return c * x - s * y, s * x + c * y
 
 
 def resting_step(support: Pose, foot: Foot) -> CurrentStep:
@@ -68,11 +68,9 @@ def first_step_of(
     return CurrentStep(
         frame,
         plan.first_foot,
-        frame.compose(Pose(*plan.placements[2].tolist())),
+        frame.compose(plan.landing),
         gait.single_support - walked,
-        float(
-            swing_progress(walked / gait.single_support, gait.swing_profile)
-        ),
+        swing_progress_at(walked / gait.single_support, gait.swing_profile),
         True,
         plan,
         passed,

@@ -95,11 +95,10 @@ class JointCorrection:
         """
         if len(self._targets) == self._targets.maxlen:
             error = self._targets[0] - measured
-            self._correction = np.clip(
-                self._keep * self._correction + self._gain * error,
-                -self._bound,
-                self._bound,
-            )
+            error *= self._gain
+            error += self._keep * self._correction
+            np.minimum(error, self._bound, out=error)
+            self._correction = np.maximum(error, -self._bound, out=error)
         self._targets.append(targets)
         corrected: Array = targets + self._correction
         return corrected

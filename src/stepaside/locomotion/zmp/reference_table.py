@@ -15,6 +15,7 @@ from ...planning.template_path import (
 )
 from ...robots.leg_kinematics import BodyReference
 
+ZERO = (0.0, 0.0)
 CACHED = 256  # samplers; rational durations need only a few
 
 
@@ -88,7 +89,7 @@ class ReferenceTable:
         self._tick = tick
         self._first = 0
         self._dcm: Array
-        self._reaction: Array
+        self._reaction: Array | None = None
         self._templates: list[Pose] = []
         self._samplers: dict[tuple[Schedule, int, int], Sampler] = {}
 
@@ -133,7 +134,7 @@ class ReferenceTable:
         )
         points = points @ turn
         points += plan_frame[:2]
-        self._reaction = np.zeros((count, 2))
+        self._reaction = None
         if plan.schedule.has_swing_reaction:
             self._reaction = (samples.zmp - samples.pivot) @ turn
         com, left, right, zmp, dcm, position = points.reshape(6, count, 2)
@@ -159,7 +160,7 @@ class ReferenceTable:
         self._first = 0
         self.references = np.array([sample.body.row()])
         self.zmp, self._dcm = np.array([sample.zmp]), np.array([sample.dcm])
-        self._reaction = np.array([sample.reaction])
+        self._reaction = None
         self._templates = [sample.template]
 
     def index(self, now: float) -> int:
@@ -174,11 +175,13 @@ class ReferenceTable:
         """Return the references at a tick; after the last one, the last."""
         i = min(self.index(now), len(self._templates) - 1)
         (x, y), (u, v) = self.zmp[i].tolist(), self._dcm[i].tolist()
-        p, q = self._reaction[i].tolist()
+        reaction = ZERO
+        if self._reaction is not None:
+            p, q = self._reaction[i].tolist()
+            reaction = p, q
         body = BodyReference.from_row(self.references[i].tolist())
-        return ReferenceSample(
-            body, (x, y), (u, v), self._templates[i], (p, q)
-        )
+        template = self._templates[i]
+        return ReferenceSample(body, (x, y), (u, v), template, reaction)
 
     def _sampler(
         self, schedule: Schedule, offset: float, count: int

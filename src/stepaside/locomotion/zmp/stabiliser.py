@@ -21,7 +21,7 @@ from typing import NamedTuple
 
 from ...core.poses import Pose
 from ...perception.measurement import Measurement
-from ...planning import CenterState, GaitSettings, ManeuverPlan
+from ...planning import CenterState, Foot, GaitSettings, ManeuverPlan
 from ...robots.leg_kinematics import BodyReference
 from .control_settings import ControlSettings
 from .current_step import (
@@ -120,6 +120,7 @@ class Stabiliser:
         )
         self._gait, self._tick, self._lean = gait, tick, lean
         self._grow = exp(gait.eta * tick)
+        self._boxes = {foot: zmp_box(foot, gait, gains.edge) for foot in Foot}
         self._ankles = Ankles(gains, tick)
         self._asked: deque[StabiliserTargets] = deque(
             maxlen=max(1, round(delay / tick) + 1)
@@ -228,7 +229,7 @@ class Stabiliser:
     def _adapt(self, error: Vector, step: CurrentStep) -> None:
         """Shift the landing at a bounded rate, which the foot can follow."""
         gains = self.settings.stabiliser
-        box = zmp_box(step.swing, self._gait, gains.edge)
+        box = self._boxes[step.swing]
         goal = adapted_landing(error, step, box, self._gait, gains)
         reach = gains.step_speed * self._tick
         u, v = self.step_shift
@@ -292,8 +293,7 @@ class Stabiliser:
             support: Pose of that frame in odometry.
         """
         plan = plan_from(state)
-        edge = self.settings.stabiliser.edge
-        box = zmp_box(plan.first_foot, self._gait, edge)
+        box = self._boxes[plan.first_foot]
         weight = float(plan.schedule.dcm_start_map[-2])
         x, y = plan.correction.tolist()
         inside = clip_to((x, y), box)

@@ -12,6 +12,7 @@ from ...perception.measurement import Measurement
 from ...robots.forward_kinematics import ForwardKinematics, MeasuredPosture
 from ...robots.leg_kinematics import BodyReference
 
+Vector = tuple[float, float]
 STANDS, TOUCHES = 0.2, 0.02  # least fractions of the weight on the feet
 FALLEN = 0.7  # tilt of the torso that counts as a fall, in [rad]
 
@@ -87,8 +88,8 @@ class StateEstimator:
         self._position_gain = 1.0 - fade * fade
         self._velocity_gain = (1.0 - fade) ** 2 / tick
         self.posture: MeasuredPosture | None = None
-        self._com: Array | None = None
-        self._velocity = np.zeros(2)
+        self._com: Vector | None = None
+        self._velocity: Vector = (0.0, 0.0)
         self._share = 0.5
         self._heading = 0.0
 
@@ -134,16 +135,21 @@ class StateEstimator:
             (c * ax + s * ay, c * ay - s * ax),
             self._tick,
         )
-        weight = self._weigh(measurement.foot_forces)
+        forces = measurement.foot_forces
+        left_force, right_force = _sums(forces)
+        weight = self._weigh(left_force, right_force)
         posture = self._kinematics.posture(measurement.joint_positions)
         self.posture = posture
-        measured, zmp = self._locate(posture, measurement.foot_forces, feet)
-        com = self._observe(
-            measured, zmp - reaction, stands=weight >= STANDS * self._weight
+        measured, (px, py) = self._locate(
+            posture, forces, (left_force, right_force), feet
         )
-        cx, cy = com.tolist()
-        vx, vy = self._velocity.tolist()
-        px, py = zmp.tolist()
+        self._observe(
+            measured,
+            (px - reaction[0], py - reaction[1]),
+            stands=weight >= STANDS * self._weight,
+        )
+        assert self._com is not None
+        (cx, cy), (vx, vy) = self._com, self._velocity
         return BodyState(
             (cx, cy),
             (vx, vy),
@@ -155,9 +161,8 @@ class StateEstimator:
             weight,
         )
 
-    def _weigh(self, forces: Array) -> float:
+    def _weigh(self, left: float, right: float) -> float:
         """Return the force on both feet, in [N]; update the left fraction."""
-        left, right = float(forces[:4].sum()), float(forces[4:].sum())
         weight = left + right
         if weight > TOUCHES * self._weight:
             share = left / weight
@@ -168,12 +173,23 @@ class StateEstimator:
         return weight
 
     def _locate(
-        self, posture: MeasuredPosture, forces: Array, feet: BodyReference
-    ) -> tuple[Array, Array]:
-        """Return CoM and ZMP in odometry, in [m], weighted by foot load."""
+        self,
+        posture: MeasuredPosture,
+        forces: Array,
+        sums: Vector,
+        feet: BodyReference,
+    ) -> tuple[Vector, Vector]:
+        """Return CoM and ZMP in odometry, in [m], weighted by foot load.
+
+        Args:
+            posture: Measured posture.
+            forces: Forces at the corners of the soles, in [N]. Shape (8,).
+            sums: Their sums under the left and the right foot, in [N].
+            feet: Body reference whose feet are used.
+        """
         share = self._share
         level = _level(self._attitude.roll, self._attitude.pitch)
-        com, zmp = np.zeros(2), np.zeros(2)
+        com_x = com_y = zmp_x = zmp_y = 0.0
         for side, load in ((0, share), (1, 1.0 - share)):
             if load == 0.0:
                 continue
@@ -184,48 +200,53 @@ class StateEstimator:
                 self._heading = turn
             c, s = cos(turn), sin(turn)
             lever = level @ (posture.com - posture.feet[side])
-            com[0] += load * (x + c * lever[0] - s * lever[1])
-            com[1] += load * (y + s * lever[0] + c * lever[1])
-            press = forces[4 * side : 4 * side + 4]
-            total = float(press.sum())
+            u, v, _ = lever.tolist()
+            com_x += load * (x + c * u - s * v)
+            com_y += load * (y + s * u + c * v)
+            total = sums[side]
             if total > 0.0:
-                u, v = (
-                    press @ self._sensors[4 * side : 4 * side + 4] / total
-                ).tolist()
+                at = slice(4 * side, 4 * side + 4)
+                u, v = (forces[at] @ self._sensors[at]).tolist()
+                u, v = u / total, v / total
                 c, s = cos(yaw), sin(yaw)
-                zmp[0] += load * (x + c * u - s * v)
-                zmp[1] += load * (y + s * u + c * v)
-        return com, zmp
+                zmp_x += load * (x + c * u - s * v)
+                zmp_y += load * (y + s * u + c * v)
+        return (com_x, com_y), (zmp_x, zmp_y)
 
     def _observe(
-        self, measured: Array, pivot: Array, *, stands: bool
-    ) -> Array:
-        """Update the observer and return its CoM, in [m]. Shape (2,).
+        self, measured: Vector, pivot: Vector, *, stands: bool
+    ) -> None:
+        """Update CoM and velocity of the observer.
 
         Args:
-            measured: CoM by the joints, in [m]. Shape (2,).
-            pivot: Pivot of the pendulum, in [m]. Shape (2,).
+            measured: CoM by the joints, in [m].
+            pivot: Pivot of the pendulum, in [m].
             stands: Whether the floor supports the robot.
         """
-        tick, eta = self._tick, self._eta
-        before = measured if self._com is None else self._com
-        pull = eta * eta * (before - pivot) if stands else np.zeros(2)
-        predicted = before + tick * self._velocity
-        predicted += 0.5 * tick * tick * pull
-        self._velocity = self._velocity + tick * pull
-        error = measured - predicted
-        self._com = predicted + self._position_gain * error
-        self._velocity = self._velocity + self._velocity_gain * error
-        return self._com
+        tick, square = self._tick, self._eta * self._eta
+        com, velocity = [], []
+        for at, rate, found, point in zip(
+            self._com or measured, self._velocity, measured, pivot, strict=True
+        ):
+            pull = square * (at - point) if stands else 0.0
+            predicted = at + tick * rate
+            predicted += 0.5 * tick * tick * pull
+            error = found - predicted
+            com.append(predicted + self._position_gain * error)
+            velocity.append(rate + tick * pull + self._velocity_gain * error)
+        self._com = com[0], com[1]
+        self._velocity = velocity[0], velocity[1]
+
+
+def _sums(forces: Array) -> Vector:
+    """Return the forces under the left and the right foot, in [N]."""
+    a, b, c, d, e, f, g, h = forces.tolist()
+    return a + b + c + d, e + f + g + h
 
 
 def _level(roll: float, pitch: float) -> Array:
     """Return the rotation from the torso to a level frame of its heading."""
     cr, sr, cp, sp = cos(roll), sin(roll), cos(pitch), sin(pitch)
     return np.array(
-        [
-            [cp, sp * sr, sp * cr],
-            [0.0, cr, -sr],
-            [-sp, cp * sr, cp * cr],
-        ]
-    )
+        (cp, sp * sr, sp * cr, 0.0, cr, -sr, -sp, cp * sr, cp * cr)
+    ).reshape(3, 3)

@@ -4,7 +4,7 @@ from typing import Protocol
 
 import numpy as np
 
-from ...planning import GaitSettings
+from ...planning import Foot, GaitSettings
 from .control_settings import ControlSettings
 from .current_step import CurrentStep, clip_to, zmp_box
 from .mpc import IntrinsicallyStableMpc, MpcResult
@@ -43,15 +43,14 @@ class ProportionalFeedback:
     ) -> None:
         """Take a gain above 1 and the distance from the edge, in [m]."""
         self.solved: MpcResult | None = None
-        self._gait, self._gain, self._edge = gait, gain, edge
+        self._gain = gain
+        self._boxes = {foot: zmp_box(foot, gait, edge) for foot in Foot}
 
     def shift(self, step: CurrentStep, dcm: Vector, zmp: Vector) -> Vector:
         """Return the ZMP shift; see :class:`ZmpFeedback`."""
-        box = zmp_box(step.swing, self._gait, self._edge)
         u, v = step.to_support(*dcm)
-        return step.from_support(
-            *clip_to((self._gain * u, self._gain * v), box)
-        )
+        wanted = self._gain * u, self._gain * v
+        return step.from_support(*clip_to(wanted, self._boxes[step.swing]))
 
 
 class MpcFeedback:
