@@ -17,7 +17,7 @@ import pytest
 
 from invented_run import check_same
 from onlooker import look_on
-from stepaside.cli.duel import _print
+from stepaside.cli.duel import print_duel
 from stepaside.core.errors import ConfigurationError
 from stepaside.games.duel import Duel, run_duel
 from stepaside.games.duel_settings import (
@@ -230,7 +230,7 @@ def test_values_are_printed_beside_theory(
     played: Played, capsys: pytest.CaptureFixture[str]
 ) -> None:
     case, run, _ = played
-    _print(results_of(run))
+    print_duel(run, "not reached")
     text = capsys.readouterr().out
     assert f"completed: played {case.duration:.2f} s" in text
     assert ("detection rate" in text) == bool(case.cameras)

@@ -127,7 +127,7 @@ def test_a_played_run_folder_replays(by: str, tmp_path: Path) -> None:
         walked += [RobotState.RESTING, RobotState.LIMP]  # it has not moved yet
         assert states == [state.value for state in walked]
         assert scene.robot.stiffness.max() == 0.0
-        assert run.evader.qpos is not None
+        assert run.pursuer.qpos is not None
         assert run.summary.closest_m == pytest.approx(2.0)
     else:
         assert DrivingState.WALKING.value in states and scene.told

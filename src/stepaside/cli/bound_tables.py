@@ -3,7 +3,7 @@
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
-from .tables import print_table, table_rows
+from .tables import print_table, scalar_rows, table_rows
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -111,10 +111,8 @@ def played_games(table: "Bound", games: int) -> list[dict[str, Any]]:
 
 def print_bound(result: dict[str, Any]) -> None:
     """Print the result in two columns."""
-    names = (n for n, v in result.items() if not isinstance(v, dict | list))
     renamed = {"seconds": "seconds_s"}
-    shown = {renamed.get(name, name): result[name] for name in names}
-    rows = table_rows(shown, shown, 4)
+    rows = scalar_rows({renamed.get(k, k): v for k, v in result.items()}, 4)
     analytic = result.get("analytic", {})
     numbers = (n for n, v in analytic.items() if isinstance(v, int | float))
     found = table_rows(analytic, numbers, 4)

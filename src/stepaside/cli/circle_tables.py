@@ -5,7 +5,7 @@ from typing import Any
 
 from ..theory.unicycle.circle_equations import Circle
 from ..theory.unicycle.unicycle_game import Game
-from .tables import format_value, print_table, table_rows
+from .tables import print_columns, print_table, table_rows
 from .terminal import echo
 from .unicycle_options import finite
 
@@ -141,24 +141,13 @@ def print_circles(result: dict[str, Any]) -> None:
         }
         for circle in result["circles"]
     ]
-    _print_rows(circles, _COLUMNS)
+    if circles:
+        echo()
+        print_columns(circles, _COLUMNS)
     if result["starts"] is not None:
         echo("\n  games that did not end on a circle")
         names = ("captured_share", "unsettled_share")
         print_table(table_rows(result["starts"], names))
-    _print_rows(result.get("remedies", []), _REMEDIES)
-
-
-def _print_rows(rows: list[dict[str, Any]], columns: dict[str, str]) -> None:
-    """Print aligned rows below a header."""
-    if not rows:
-        return
-    cells = [
-        [format_value(name, row[name]) for name in columns] for row in rows
-    ]
-    table = [list(columns.values()), *cells]
-    widths = [max(len(line[i]) for line in table) for i in range(len(columns))]
-    echo()
-    for line in table:
-        pairs = zip(line, widths, strict=True)
-        echo("  " + "  ".join(f"{c:<{w}}" for c, w in pairs).rstrip())
+    if result.get("remedies"):
+        echo()
+        print_columns(result["remedies"], _REMEDIES)

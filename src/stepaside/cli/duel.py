@@ -1,7 +1,7 @@
 """``stepaside duel``: a duel of two humanoids in physics."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
@@ -23,7 +23,9 @@ from .terminal import echo, print_json
 
 if TYPE_CHECKING:
     from ..games.duel_settings import DuelSettings
+    from ..games.duel_summary import DuelSummary
     from ..games.run import DuelRun
+    from ..games.sight_summary import PerceptionSummary
 
 
 @click.command("duel", cls=SettingsCommand)
@@ -65,11 +67,10 @@ def duel(
         from ..report.duel_figure import draw_duel
 
         attempt(lambda: draw_duel(run, Path(figure)))
-    summary = results_of(run) | saved.entries
     if as_json:
-        print_json(summary)
+        print_json(results_of(run) | saved.entries)
     else:
-        _print(summary, explain_missing_circle(run))
+        print_duel(run, explain_missing_circle(run))
         saved.print_paths(figure_name(run))
     saved.raise_failure()
     saved.exit_if_interrupted(run.outcome)
@@ -107,77 +108,72 @@ def _play(settings: "DuelSettings") -> "DuelRun":
     return result
 
 
-def _print(summary: dict[str, Any], unsettled: str = "not reached") -> None:
-    theory, converged = summary["theory"], summary["converged_at_s"]
+def print_duel(run: "DuelRun", unsettled: str) -> None:
+    """Print the summary of a duel beside theory.
 
-    def compared(
-        value: float | None, expected: float | None, unit: str
-    ) -> str:
-        text = "-" if value is None else f"{value:.3f} {unit}"
-        if expected is None:
-            return text
-        return f"{text:<12} theory {expected:.3f}"
-
-    def settled(value: float | None, expected: float | None, unit: str) -> str:
-        """Format a value of the circle; mark it if not yet converged."""
-        text = compared(value, expected, unit)
-        reached = expected is None or converged is not None
-        return text if reached else f"{text}, not converged"
-
-    plans = summary["plan_time_us"]
-    start = summary["start"]
+    Args:
+        run: The duel.
+        unsettled: Why the players are not on a circle.
+    """
+    summary = run.summary
+    converged = summary.converged_at_s
+    plans = summary.plan_time_us
     rows = [
-        ("outcome", f"{summary['outcome']}: {summary['message']}"),
-        ("start distance", f"{start['distance_m']:.3f} m"),
-        ("expected", theory["words"] or "-"),
-        (
-            "pursuer radius",
-            settled(
-                summary["pursuer"]["radius_m"],
-                theory["pursuer_radius_m"],
-                "m",
-            ),
-        ),
-        (
-            "evader radius",
-            settled(summary["evader"]["radius_m"], theory["radius_m"], "m"),
-        ),
-        (
-            "distance",
-            settled(summary["distance_m"], theory["distance_m"], "m"),
-        ),
-        (
-            "angle between headings",
-            settled(
-                summary["relative_orientation_deg"],
-                theory["relative_orientation_deg"],
-                "deg",
-            ),
-        ),
-        (
-            "closest approach",
-            compared(
-                summary["min_distance_m"], theory["closest_approach_m"], "m"
-            ),
-        ),
-        ("captured", _capture_text(summary["captured_at_s"])),
+        ("outcome", f"{run.outcome.value}: {run.message}"),
+        ("start distance", f"{summary.start.distance_m:.3f} m"),
+        ("expected", summary.theory.words or "-"),
+        *_circle_rows(summary),
+        ("captured", _capture_text(summary.captured_at_s)),
         (
             "on the circle",
             unsettled if converged is None else f"since {converged:.1f} s",
         ),
-        ("maneuvers planned", str(summary["replans"])),
+        ("maneuvers planned", str(summary.replans)),
         (
             "planning time",
             "-"
-            if plans["median"] is None
-            else f"{plans['median']:.0f} us median, {plans['p99']:.0f} us p99",
+            if plans.median is None
+            else f"{plans.median:.0f} us median, {plans.p99:.0f} us p99",
         ),
-        ("simulation speed", f"{summary['real_time_factor']:.1f} x real time"),
+        ("simulation speed", f"{summary.real_time_factor:.1f} x real time"),
+        *(("note", note) for note in summary.notes),
     ]
-    rows += [("note", note) for note in summary["notes"]]
-    if summary["sight"] is not None:
-        rows += _sight_rows(summary)
+    if summary.sight is not None:
+        rows += _sight_rows(summary, summary.sight)
     print_table(rows)
+
+
+def _circle_rows(summary: "DuelSummary") -> list[tuple[str, str]]:
+    """Return values beside theory; those of the circle if it is reached."""
+    theory = summary.theory
+    rows = []
+    for name, value, expected, unit in (
+        (
+            "pursuer radius",
+            summary.pursuer.radius_m,
+            theory.pursuer_radius_m,
+            "m",
+        ),
+        ("evader radius", summary.evader.radius_m, theory.radius_m, "m"),
+        ("distance", summary.distance_m, theory.distance_m, "m"),
+        (
+            "angle between headings",
+            summary.relative_orientation_deg,
+            theory.relative_orientation_deg,
+            "deg",
+        ),
+    ):
+        text = _compared(value, expected, unit)
+        if expected is not None and summary.converged_at_s is None:
+            text += ", not converged"
+        rows.append((name, text))
+    closest = _compared(summary.min_distance_m, theory.closest_approach_m, "m")
+    return [*rows, ("closest approach", closest)]
+
+
+def _compared(value: float | None, expected: float | None, unit: str) -> str:
+    text = "-" if value is None else f"{value:.3f} {unit}"
+    return text if expected is None else f"{text:<12} theory {expected:.3f}"
 
 
 def _capture_text(time: float | None) -> str:
@@ -186,29 +182,31 @@ def _capture_text(time: float | None) -> str:
     return f"{text:<12} distance <= {CAPTURE_DISTANCE:.2f} m"
 
 
-def _sight_rows(summary: dict[str, Any]) -> list[tuple[str, str]]:
+def _sight_rows(
+    summary: "DuelSummary", sight: "PerceptionSummary"
+) -> list[tuple[str, str]]:
     """Return the quality of camera sensing, as rows of the table."""
-    sight = summary["sight"]
-    rows = [("camera", sight["camera"])]
-    for name in ("pursuer", "evader"):
-        own = summary[name]["sight"]
-        error = {"median": None} if own is None else own["bearing_error_deg"]
-        if error["median"] is not None:
-            text = f"{error['median']:.2f} deg median, {error['p95']:.2f} p95"
+    rows = [("camera", sight.camera)]
+    for name, player in (
+        ("pursuer", summary.pursuer),
+        ("evader", summary.evader),
+    ):
+        if player.sight and player.sight.bearing_error_deg.median is not None:
+            error = player.sight.bearing_error_deg
+            text = f"{error.median:.2f} deg median, {error.p95:.2f} p95"
             rows.append((f"{name}'s bearing error", text))
-    distance_error = summary["evader"]["sight"]["distance_error_m"]["median"]
-    if distance_error is not None:
-        text = f"{distance_error:.3f} m median"
+    own = summary.evader.sight
+    if own is not None and own.distance_error_m.median is not None:
+        text = f"{own.distance_error_m.median:.3f} m median"
         rows.append(("evader's distance error", text))
-    triggered = summary["triggered_at_distance_m"]
-    rate = sight["detection_rate"]
-    rows += [
+    triggered, rate = summary.triggered_at_distance_m, sight.detection_rate
+    return [
+        *rows,
         (
             "evasion triggered at",
             "never" if triggered is None else f"{triggered:.3f} m",
         ),
         ("detection rate", "-" if rate is None else f"{100.0 * rate:.1f} %"),
-        ("false detections", str(sight["false_detections"])),
-        ("opponent lost for", f"{sight['lost_s']:.1f} s"),
+        ("false detections", str(sight.false_detections)),
+        ("opponent lost for", f"{sight.lost_s:.1f} s"),
     ]
-    return rows

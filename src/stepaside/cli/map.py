@@ -17,7 +17,7 @@ from .options.common_options import (
 from .options.parameter_types import ANGLE, METERS, NumberType
 from .output_files import attempt, writes_files
 from .progress import show_progress
-from .tables import print_table, table_rows
+from .tables import print_table, scalar_rows, table_rows
 from .terminal import print_json
 from .unicycle_options import describe_game, finite, game_options
 
@@ -213,8 +213,7 @@ def _result(
 
 def _print(result: dict[str, Any]) -> None:
     """Print the values, the circles and the worst start."""
-    names = (n for n, v in result.items() if not isinstance(v, dict | list))
-    rows = table_rows(result, names)
+    rows = scalar_rows(result)
     for circle in result["circles"]:
         direction = "main" if circle["direction"] > 0 else "reversed"
         percent = 100.0 * circle["share"]

@@ -1,6 +1,8 @@
 """``stepaside plan``: one maneuver as a table, a figure or JSON."""
 
+from math import degrees
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -14,6 +16,9 @@ from .options.settings_command import (
 from .output_files import attempt, writes_files
 from .plan_settings import ENTRIES_OF_GAMES, FEET, ROLES, PlanSettings
 from .terminal import echo, print_json
+
+if TYPE_CHECKING:
+    from ..planning import ManeuverPlan
 
 MANEUVER = OptionGroup(
     "Maneuver", ("role", "bearing", "steps", "first_foot", "saturated")
@@ -38,8 +43,6 @@ def plan(settings: PlanSettings, figure: str | None, as_json: bool) -> None:
     --role and --bearing are required. The gait may come from the
     configuration of a duel or a walk.
     """
-    import numpy as np
-
     from ..planning import ManeuverPlanner
 
     role, bearing, gait = settings.role, settings.bearing, settings.gait
@@ -55,53 +58,62 @@ def plan(settings: PlanSettings, figure: str | None, as_json: bool) -> None:
         saturated=settings.saturated,
         count=settings.steps,
     )
-    schedule = maneuver.schedule
-    times = np.arange(int(schedule.duration / 0.01 + 1e-9) + 1) * 0.01
-    samples = maneuver.sample(times)
     if as_json:
-        print_json(
-            {
-                "role": role,
-                "bearing_rad": bearing,
-                "preset": settings.preset,
-                "frame": "support foot of the first step",
-                "eta_per_s": gait.eta,
-                "margin_m": maneuver.margin(),
-                "zmp_correction_m": maneuver.correction.tolist(),
-                "phase_starts_s": schedule.starts.tolist(),
-                "footsteps": [
-                    {
-                        "foot": step.foot.name.lower(),
-                        "x": step.x,
-                        "y": step.y,
-                        "theta": step.theta,
-                    }
-                    for step in maneuver.footsteps
-                ],
-                "times_s": samples.times.tolist(),
-                "zmp": samples.zmp.tolist(),
-                "com": samples.com.tolist(),
-                "com_velocity": samples.com_velocity.tolist(),
-                "dcm": samples.dcm.tolist(),
-                "zmp_pieces": {
-                    "durations_s": schedule.durations.tolist(),
-                    "coefficients": maneuver.zmp_coefficients.tolist(),
-                },
-            }
-        )
+        print_json(_to_json(settings, maneuver))
     else:
-        echo("  foot       x [m]     y [m]  theta [deg]")
-        for step in maneuver.footsteps:
-            echo(
-                f"  {step.foot.name.lower():<6} {step.x:9.4f} {step.y:9.4f}"
-                f"  {np.degrees(step.theta):11.2f}"
-            )
-        echo(
-            f"  {schedule.duration:.2f} s; the ZMP stays "
-            f"{1e3 * maneuver.margin():.1f} mm inside the support polygon"
-        )
+        _print(maneuver)
     if figure is not None:
         from ..report.plan_figure import draw_plan
 
         if attempt(lambda: draw_plan(maneuver, role, Path(figure))):
             echo(f"figure: {figure}", err=as_json)
+
+
+def _to_json(settings: PlanSettings, maneuver: "ManeuverPlan") -> Any:
+    """Return all values of a maneuver for JSON."""
+    import numpy as np
+
+    schedule = maneuver.schedule
+    times = np.arange(int(schedule.duration / 0.01 + 1e-9) + 1) * 0.01
+    samples = maneuver.sample(times)
+    return {
+        "role": settings.role,
+        "bearing_rad": settings.bearing,
+        "preset": settings.preset,
+        "frame": "support foot of the first step",
+        "eta_per_s": settings.gait.eta,
+        "margin_m": maneuver.margin(),
+        "zmp_correction_m": maneuver.correction.tolist(),
+        "phase_starts_s": schedule.starts.tolist(),
+        "footsteps": [
+            {
+                "foot": step.foot.name.lower(),
+                "x": step.x,
+                "y": step.y,
+                "theta": step.theta,
+            }
+            for step in maneuver.footsteps
+        ],
+        "times_s": samples.times.tolist(),
+        "zmp": samples.zmp.tolist(),
+        "com": samples.com.tolist(),
+        "com_velocity": samples.com_velocity.tolist(),
+        "dcm": samples.dcm.tolist(),
+        "zmp_pieces": {
+            "durations_s": schedule.durations.tolist(),
+            "coefficients": maneuver.zmp_coefficients.tolist(),
+        },
+    }
+
+
+def _print(maneuver: "ManeuverPlan") -> None:
+    echo("  foot       x [m]     y [m]  theta [deg]")
+    for step in maneuver.footsteps:
+        echo(
+            f"  {step.foot.name.lower():<6} {step.x:9.4f} {step.y:9.4f}"
+            f"  {degrees(step.theta):11.2f}"
+        )
+    echo(
+        f"  {maneuver.schedule.duration:.2f} s; the ZMP stays "
+        f"{1e3 * maneuver.margin():.1f} mm inside the support polygon"
+    )

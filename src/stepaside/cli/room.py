@@ -15,7 +15,7 @@ from .options.common_options import (
 from .options.parameter_types import OutputFile, SizeType
 from .options.setting_options import refuse_options, takes
 from .output_files import attempt, writes_files
-from .tables import print_table, table_rows
+from .tables import print_table, scalar_rows
 from .terminal import print_json
 
 
@@ -78,8 +78,7 @@ def room(
     if as_json:
         print_json(result)
         return
-    names = (n for n, v in result.items() if not isinstance(v, dict | list))
-    print_table(table_rows(result, names, 4))
+    print_table(scalar_rows(result, 4))
 
 
 def _refuse_both() -> None:

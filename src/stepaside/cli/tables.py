@@ -123,6 +123,33 @@ def table_rows(
     ]
 
 
+def scalar_rows(
+    result: Mapping[str, Any], digits: int = 6
+) -> list[tuple[str, str]]:
+    """Return labels and values of the entries without entries of their own."""
+    names = (n for n, v in result.items() if not isinstance(v, dict | list))
+    return table_rows(result, names, digits)
+
+
+def print_columns(
+    rows: Iterable[Mapping[str, Any]], columns: Mapping[str, str]
+) -> None:
+    """Print one line per row, below a header.
+
+    Args:
+        rows: Values by name.
+        columns: Heads of the columns by name of the value.
+    """
+    cells = [
+        [format_value(name, row[name]) for name in columns] for row in rows
+    ]
+    table = [list(columns.values()), *cells]
+    widths = [max(map(len, column)) for column in zip(*table, strict=True)]
+    for line in table:
+        pairs = zip(line, widths, strict=True)
+        echo("  " + "  ".join(f"{c:<{w}}" for c, w in pairs).rstrip())
+
+
 def print_table(rows: list[tuple[str, str]]) -> None:
     """Print names and values in two columns."""
     width = max(len(name) for name, _ in rows)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..arena import RoomRecipe
+from ..arena import Room, RoomRecipe, load_room
 from ..control.clearance.map_settings import MAPS
 from ..core.atomic_output import FIGURES
 from ..core.errors import ConfigurationError
@@ -189,7 +189,6 @@ def tournament(
     of its row. To continue an interrupted tournament, run it again with the
     same folder.
     """
-    from ..arena import load_room
     from ..strategies.step_game import StepGame
     from ..studies.entrants import EVADERS, evader_of, pursuer_of
     from ..studies.tournament_settings import TournamentSettings
@@ -203,18 +202,7 @@ def tournament(
         evader_of(name, alpha)
     for name in pursuers:
         pursuer_of(name)
-    arena: Any
-    if isinstance(room, Path):
-        if recipe != RoomRecipe():
-            raise ConfigurationError(
-                "discs, boxes and polygons cannot be combined with a room "
-                f"file, got {recipe.discs}, {recipe.boxes} and "
-                f"{recipe.polygons}"
-            )
-        arena = load_room(room)
-    else:
-        width, depth = room or (None, None)
-        arena = replace(recipe, width=width, depth=depth)
+    arena = _arena(room, recipe)
     game = StepGame(duration=duration)
     settings = TournamentSettings(level, arena, game, alpha, map)
     settings.arena(seeds[0])  # raises if the room cannot be generated
@@ -250,6 +238,22 @@ def tournament(
     else:
         print_rows(result["rows"])
     finish_campaign(run, campaign, "games")
+
+
+def _arena(
+    room: Path | tuple[float, float] | None, recipe: RoomRecipe
+) -> Room | RoomRecipe:
+    """Return the room of a file, or how rooms of a size are generated."""
+    if isinstance(room, Path):
+        if recipe != RoomRecipe():
+            raise ConfigurationError(
+                "discs, boxes and polygons cannot be combined with a room "
+                f"file, got {recipe.discs}, {recipe.boxes} and "
+                f"{recipe.polygons}"
+            )
+        return load_room(room)
+    width, depth = room or (None, None)
+    return replace(recipe, width=width, depth=depth)
 
 
 def _run(
