@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.core.poses import Pose, wrap_angle
-from stepaside.perception import perception as module
+from stepaside.core.poses import Pose
+from stepaside.perception import percept_stages as module
 from stepaside.perception.camera_model import CameraModel
 from stepaside.perception.colour_detector import RED, ColourDetection
 from stepaside.perception.depth_detector import (
@@ -15,10 +15,14 @@ from stepaside.perception.depth_detector import (
     DetectedObstacle,
     Shadow,
 )
-from stepaside.perception.frame_report import FrameReport
-from stepaside.perception.images import ColourImage, DepthImage
+from stepaside.perception.head_motion import GazeTarget
+from stepaside.perception.images import ColourImage, DepthImage, SonarEcho
 from stepaside.perception.measurement import Measurement
-from stepaside.perception.perception import Perception
+from stepaside.perception.percept_stages import FrameReport
+from stepaside.perception.perception_builder import (
+    FloorMapping,
+    build_perception,
+)
 from stepaside.perception.track import Observation, TargetTrack
 from stepaside.robots.description import load_robot
 from stepaside.robots.head import load_head
@@ -57,41 +61,29 @@ class FakeDetector:
         return self.found
 
 
-class FakeGaze:
-    """Notes what it is told."""
-
-    yaw, pitch, scan_ends = 0.4, -0.2, 2
-
-    def __init__(self) -> None:
-        self.followed: tuple[float, float] | None = None
-        self.height = 0.0
-
-    def follow(self, bearing: float, distance: float, height: float) -> None:
-        """Note what is looked at."""
-        self.followed = wrap_angle(bearing), distance
-        self.height = height
-
-    def search(self) -> None:
-        """Look at nothing."""
-        self.followed = None
-
-
 class Eyes:
     """Perception of a robot that stands somewhere, turned."""
 
-    def __init__(self) -> None:
-        self.perception = Perception(NAO, HEAD, RED, tick=TICK)
-        detector: Any = FakeDetector()
-        gaze: Any = FakeGaze()
-        self.detector = self.perception._detector = detector
-        self.gaze = self.perception._gaze = gaze
+    def __init__(
+        self, mapping: FloorMapping | None = None, *, people: bool = False
+    ) -> None:
+        self.detector = FakeDetector()
+        detector: Any = self.detector
+        self.perception = build_perception(
+            NAO, HEAD, detector, tick=TICK, mapping=mapping, people=people
+        )
         self.reports: list[FrameReport] = []  # of all ticks so far
         self.support = SUPPORT
 
     @property
+    def target(self) -> GazeTarget | None:
+        """What the head looks at."""
+        return self.perception.gaze_target
+
+    @property
     def tracks(self) -> list[TargetTrack]:
         """Everything followed."""
-        return self.perception._tracker.tracks
+        return self.perception.tracker.tracks
 
     @property
     def torso(self) -> Pose:
@@ -105,7 +97,8 @@ class Eyes:
         *percepts: Any,
         tilt: tuple[float, float] = (0.0, 0.0),
     ) -> Any:
-        """Take in one tick."""
+        """Take in one tick; without percepts, an echo of the own arms."""
+        percepts = percepts or (SonarEcho(time, "left", 0.1),)
         angles, still = np.zeros(JOINTS), np.zeros(3)
         seen = self.perception.see(
             Measurement(time, angles, still, UP, np.zeros(8), None, percepts),
@@ -140,7 +133,8 @@ class Eyes:
 
 
 def colour(time: float) -> ColourImage:
-    return ColourImage(time, CAMERA, np.zeros((2, 2, 3), np.uint8))
+    shape = CAMERA.height, CAMERA.width, 3
+    return ColourImage(time, CAMERA, np.zeros(shape, np.uint8))
 
 
 def depth(time: float) -> DepthImage:

@@ -207,7 +207,7 @@ class FakePerception:
     """Sees what it is told and turns the head."""
 
     def __init__(self) -> None:
-        self.around = SimpleNamespace(turning=0.0)
+        self.head = SimpleNamespace(turning=0.0)
         self.seen: Sighting | None = None
         self.stood: list[tuple[Pose, bool]] = []
         self.tilts: list[tuple[float, float]] = []

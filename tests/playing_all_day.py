@@ -18,9 +18,9 @@ from stepaside.control.scheme_builder import build_scheme
 from stepaside.control.sight_sources import CameraSight
 from stepaside.locomotion.walk_snapshots import Phase
 from stepaside.locomotion.zmp.control_settings import ControlSettings
-from stepaside.perception.colour_detector import RED
+from stepaside.perception.colour_detector import RED, ColourDetector
 from stepaside.perception.images import SonarEcho
-from stepaside.perception.perception import Perception
+from stepaside.perception.perception_builder import build_perception
 from stepaside.planning import GaitSettings
 from stepaside.robots.description import load_robot
 from stepaside.robots.forward_kinematics import ForwardKinematics
@@ -61,7 +61,9 @@ class Day:
         nao = load_robot("nao")
         eyes = None
         if kind == "eyes":
-            eyes = Perception(nao, load_head(nao), RED, tick=TICK)
+            eyes = build_perception(
+                nao, load_head(nao), ColourDetector(RED), tick=TICK
+            )
         self.mind = build_scheme(
             Evasion(safety_radius=0.8, release_distance=1.5),
             nao,

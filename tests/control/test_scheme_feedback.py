@@ -133,7 +133,7 @@ def test_eyes_that_look_around_turn_the_body(
 ) -> None:
     """On the spot, to see the floor behind it; then it plays on."""
     eyes: Any = FakePerception()
-    eyes.around.turning = turning
+    eyes.head.turning = turning
     run = Run(
         FakeStrategy(direction=direction), senses=CameraSight(eyes, tick=TICK)
     )
@@ -147,7 +147,7 @@ def test_eyes_that_look_around_turn_the_body(
     )
     assert landed[2] == pytest.approx(turning * 2.5 * 0.08 * np.pi, abs=0.01)
     assert np.hypot(*landed[:2]) < 0.02
-    eyes.around.turning, eyes.seen = 0.0, Sighting(0.0, 0.2, 1.0)
+    eyes.head.turning, eyes.seen = 0.0, Sighting(0.0, 0.2, 1.0)
     run.until(FIRST + 3.5 * STEP, distance=None)
     assert run.phase() is Phase.WALKING and len(run.asked) == 1
     eyes.seen = None

@@ -52,7 +52,7 @@ class Dull(FakeStrategy):
 class DullPerception:
     """Sees the other always at the same place."""
 
-    around = SimpleNamespace(turning=0.0)
+    head = SimpleNamespace(turning=0.0)
 
     def see(self, measurement: Any, *told: Any) -> Any:
         """See what a measurement says."""

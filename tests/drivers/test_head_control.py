@@ -9,7 +9,7 @@ import pytest
 pytest.importorskip("cv2")
 
 from stepaside.core.poses import wrap_angle  # noqa: E402
-from stepaside.drivers.scheme_factory import build_planar_perception  # noqa: E402
+from stepaside.drivers.scheme_factory import perception_factory  # noqa: E402
 from stepaside.drivers.velocity.head_control import PERIOD, CameraBody
 from stepaside.drivers.velocity.template_controller import TemplateController  # noqa: E402
 from stepaside.drivers.velocity.velocity_body import (
@@ -52,7 +52,7 @@ class NoWire:
         self.robot, self._ticks, self._velocity = robot, 0, REST
         self._told: Any = None
         self.seen: VelocityReport | None = None
-        perception = build_planar_perception(role, load_robot("nao"), PERIOD)
+        perception = perception_factory(role)(load_robot("nao"), PERIOD)
         self._looking = CameraBody(self, self, perception)
         self.playing = VelocityLoop(
             self._looking,

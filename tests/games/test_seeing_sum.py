@@ -28,6 +28,7 @@ from stepaside.games.person_player import PersonPlayer
 from stepaside.games.sight_evaluation import FrameCounts
 from stepaside.games.sight_summary import ErrorSpread, SightSummary
 from stepaside.games.walker import SimulatedPlayer
+from stepaside.planning import Direction
 from stepaside.robots.description import load_robot
 from stepaside.robots.head import load_head
 from stepaside.sim.camera_settings import (
@@ -70,7 +71,7 @@ def prepared(*names: str, **changes: Any) -> CameraSenses:
     return CameraSenses(
         with_initial_poses(settings),
         load_robot("nao"),
-        names or PLAYERS,
+        dict.fromkeys(names or PLAYERS, Direction.FORWARD),
         tick=0.004,
     )
 
@@ -115,11 +116,15 @@ def test_each_robot_has_its_own_perception() -> None:
     assert list(prepared("evader").perceptions) == ["evader"]
 
 
-def test_each_robot_detects_the_trim_of_its_opponent() -> None:
-    minds = prepared().perceptions
-    hues = {
-        name: mind._detector.appearance.hue for name, mind in minds.items()
-    }
+def test_each_robot_detects_the_trim_of_its_opponent(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def detector_of(*parts: Any, **others: Any) -> Any:
+        return parts[2]
+
+    monkeypatch.setattr(seeing, "build_perception", detector_of)
+    detectors: dict[str, Any] = dict(prepared().perceptions)
+    hues = {name: each.appearance.hue for name, each in detectors.items()}
     assert 100 < hues["pursuer"] < 120  # blue, of the evader
     assert hues["evader"] == 0  # red, of the pursuer
 
@@ -308,6 +313,6 @@ def test_robots_that_map_a_room_wait_for_the_start_of_the_game() -> None:
         map=MapSettings(source="seen"),
     ).perceptions
     for each in mapping.values():
-        assert not each.is_ready and not each.started and each.looking
+        assert not each.head.is_ready and each.head.scans
     for each in prepared().perceptions.values():
-        assert each.is_ready and not each.looking
+        assert each.head.is_ready and not each.head.scans

@@ -1,7 +1,7 @@
 """Test the evaluation of perception on detections of known truth."""
 
 from dataclasses import astuple
-from math import atan2, cos, hypot, inf, nan, radians, sin
+from math import atan2, cos, hypot, inf, nan, pi, radians, sin
 from types import SimpleNamespace
 from typing import Any
 
@@ -12,9 +12,9 @@ import pytest
 from stepaside.games.sight_evaluation import FrameCounts, SightEvaluator
 from stepaside.games.sight_summary import ErrorSpread
 from stepaside.perception.camera_model import CameraModel
-from stepaside.perception.frame_report import FrameReport
 from stepaside.perception.images import ColourImage, DepthImage, SonarEcho
 from stepaside.perception.measurement import Sighting
+from stepaside.perception.percept_stages import FrameReport
 from stepaside.robots.head import Mount, rotation
 
 CAMERA = CameraModel.of_field_of_view(80, 60, radians(60.0), radians(45.0))
@@ -82,6 +82,11 @@ class Scene:
         self.other.position_torso_in_world = float(point[0]), float(point[1])
         self.other.position_com_in_world = point
 
+    def sample(self, now: float) -> None:
+        """Evaluate a tick, and record a sample."""
+        self.judge.look()
+        self.judge.sample(now)
+
     def believe(self, bearing: float, away: float = 1.0) -> None:
         """Set the sighting of the robot."""
         self.mind.sighting = Sighting(0.0, bearing, away)
@@ -112,7 +117,7 @@ def rows(scene: Scene, errors: list[float | None]) -> None:
         scene.mind.sighting = None
         if error is not None:
             scene.believe(true + radians(error))
-        scene.judge.sample(i * PERIOD)
+        scene.sample(i * PERIOD)
 
 
 def test_time_with_a_large_bearing_error_is_misled_time() -> None:
@@ -128,7 +133,7 @@ def test_bearing_errors_are_wrapped() -> None:
     scene.own.heading_in_world = radians(-175.0) + atan2(0.2, 1.2)
     for i, belief in enumerate((172.0, 178.0, -178.0)):
         scene.believe(radians(belief))
-        scene.judge.sample(i * PERIOD)
+        scene.sample(i * PERIOD)
     true = scene.judge.array()[:, 3]
     np.testing.assert_allclose(true, radians(175.0))
     figures = scene.judge.figures()
@@ -141,16 +146,16 @@ def test_a_searching_robot_is_lost_even_with_a_sighting() -> None:
     scene.believe(0.0)
     for i in range(5):
         scene.mind.searching = i < 2
-        scene.judge.sample(i * PERIOD)
+        scene.sample(i * PERIOD)
     assert scene.judge.figures().lost_s == pytest.approx(2 * PERIOD)
 
 
 def test_samples_hold_sightings_and_the_truth() -> None:
     scene = Scene()
     scene.own.heading_in_world = 0.5
-    scene.judge.sample(1.0)
+    scene.sample(1.0)
     scene.believe(-0.1, 1.4)
-    scene.judge.sample(1.1)
+    scene.sample(1.1)
     bearing, distance = atan2(0.2, 1.2) - 0.5, hypot(0.2, 1.2)
     np.testing.assert_allclose(
         scene.judge.array(),
@@ -161,13 +166,27 @@ def test_samples_hold_sightings_and_the_truth() -> None:
     )
 
 
+def test_a_sighting_is_compared_with_the_truth_at_its_time() -> None:
+    """Perception runs when an image arrives; others move meanwhile."""
+    scene = Scene()
+    true = atan2(0.2, 1.2)
+    scene.believe(true)
+    scene.sample(0.0)
+    scene.other.position_torso_in_world = 0.3, 0.8
+    scene.sample(0.1)
+    np.testing.assert_allclose(scene.judge.array()[:, 3], true)
+    scene.believe(0.5)
+    scene.sample(0.2)
+    assert scene.judge.array()[2, 3] == pytest.approx(0.5 * pi)
+
+
 def test_errors_exclude_samples_without_a_sighting() -> None:
     scene = Scene()
     true = hypot(0.2, 1.2)
     rows(scene, [None, None])
     for i in range(101):
         scene.believe(atan2(0.2, 1.2) + radians(0.1 * i), true - 0.01 * i)
-        scene.judge.sample((i + 2) * PERIOD)
+        scene.sample((i + 2) * PERIOD)
     figures = scene.judge.figures()
     assert astuple(figures.bearing_error_deg) == pytest.approx((5.0, 9.5))
     assert astuple(figures.distance_error_m) == pytest.approx((0.5, 0.95))

@@ -234,16 +234,17 @@ def test_a_scheme_calibrates_turns_if_enabled() -> None:
 
 
 def test_a_scheme_uses_its_perception() -> None:
-    around = SimpleNamespace(behind=True)
-    eyes: Any = SimpleNamespace(forward=ForwardKinematics(NAO), around=around)
+    kinematics = SimpleNamespace(forward=ForwardKinematics(NAO))
+    poses = SimpleNamespace(kinematics=kinematics)
+    eyes: Any = SimpleNamespace(poses=poses)
     mind = build_scheme(
         *(Pursuit(), NAO, GAIT, STABILISED),
         tick=0.004,
         senses=CameraSight(eyes, tick=0.004),
     )
     assert isinstance(mind.senses, CameraSight)
-    assert mind.senses.perception is eyes and not around.behind
+    assert mind.senses.perception is eyes
     balance = walk_of(mind).balance
     assert isinstance(balance, ClosedLoop)
     # The measured body is worked out once, for eyes and balance.
-    assert balance.stabiliser.estimator._kinematics is eyes.forward
+    assert balance.stabiliser.estimator._kinematics is kinematics.forward

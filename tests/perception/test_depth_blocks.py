@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from stepaside.perception.camera_model import CameraModel
+from stepaside.perception.camera_pose import CameraPose
 from stepaside.perception.depth_detector import DepthScene, detect_obstacles
 from stepaside.perception.images import DepthImage
 from stepaside.robots.head import rotation
@@ -35,7 +36,7 @@ def draw(
     image = DepthImage(0.0, camera, depths.astype(np.float32), NEAR, FAR)
     axes = rotation(0.0, 0.0, yaw)
     eye = np.array([0.3, -0.2, height])
-    return detect_obstacles(image, eye, axes, (-1.0, -1.0))
+    return detect_obstacles(image, CameraPose(eye, axes, (-1.0, -1.0)))
 
 
 def count(*blocks: Block, height: float = 0.5, scale: int = 1) -> int:

@@ -8,6 +8,7 @@ import pytest
 from drawn_depth import Post, draw
 from stepaside.core.poses import Array
 from stepaside.perception.camera_model import CameraModel
+from stepaside.perception.camera_pose import CameraPose
 from stepaside.perception.depth_detector import DepthScene, detect_obstacles
 from stepaside.perception.images import DepthImage
 from stepaside.robots.head import rotation
@@ -25,7 +26,9 @@ def find(
     posts: list[Post], roll: float = 0.0, pitch: float = 10.0, yaw: float = 0.0
 ) -> DepthScene:
     axes = rotation(radians(roll), radians(pitch), radians(yaw))
-    return detect_obstacles(take(axes, posts), EYE, axes, (0.0, 0.0))
+    return detect_obstacles(
+        take(axes, posts), CameraPose(EYE, axes, (0.0, 0.0))
+    )
 
 
 @pytest.mark.parametrize("pitch", [0.0, 10.0, 20.0])
@@ -54,7 +57,7 @@ def test_an_unmeasured_tilt_gives_false_obstacles() -> None:
     axes = rotation(0.0, radians(18.0), 0.0)
     image = take(axes, [])
     level = rotation(0.0, radians(0.0), 0.0)
-    scene = detect_obstacles(image, EYE, level, (0.0, 0.0))
+    scene = detect_obstacles(image, CameraPose(EYE, level, (0.0, 0.0)))
     assert scene != DepthScene((), ())
 
 
@@ -90,9 +93,7 @@ def test_the_own_body_is_removed() -> None:
     """Hands and feet within reach of its own axis are its own."""
     scene = detect_obstacles(
         take(rotation(0.0, radians(10.0), 0.0), [(1.2, 0.0, 0.1, 0.5)]),
-        EYE,
-        rotation(0.0, radians(10.0), 0.0),
-        (1.2, 0.0),
+        CameraPose(EYE, rotation(0.0, radians(10.0), 0.0), (1.2, 0.0)),
     )
     assert scene.obstacles == ()
 
@@ -105,7 +106,7 @@ def test_only_points_within_the_own_radius_are_removed(side: float) -> None:
     width = {}
     for gap in (0.19, 0.25, 5.0):
         own = 1.2, side * (0.1 + gap)
-        (post,) = detect_obstacles(image, EYE, axes, own).obstacles
+        (post,) = detect_obstacles(image, CameraPose(EYE, axes, own)).obstacles
         width[gap] = post.width
     assert width[0.25] == width[5.0]
     assert width[0.19] < width[5.0] - 0.005

@@ -8,6 +8,7 @@ import pytest
 from drawn_depth import Post, paint
 from stepaside.core.poses import Array
 from stepaside.perception.camera_model import CameraModel
+from stepaside.perception.camera_pose import CameraPose
 from stepaside.perception.floor_colours import (
     FloorColours,
     FloorContact,
@@ -38,7 +39,7 @@ def find(
     colours: FloorColours, posts: list[Post], axes: Array = AHEAD
 ) -> tuple[FloorContact, ...]:
     seen = image(axes, posts)
-    return detect_feet(seen, colours, EYE, axes, (0.0, 0.0))
+    return detect_feet(seen, CameraPose(EYE, axes, (0.0, 0.0)), colours)
 
 
 @pytest.mark.parametrize("distance", [0.4, 0.6, 0.8, 1.0])
@@ -94,5 +95,5 @@ def test_the_own_feet_are_ignored(colours: FloorColours) -> None:
 
 def test_rays_above_the_horizon_have_no_floor_point() -> None:
     level = rotation(0.0, 0.0, 0.0)
-    points = floor_points(image(level, []), EYE, level)
+    points = floor_points(image(level, []), CameraPose(EYE, level, (0.0, 0.0)))
     assert np.isinf(points[:60]).all() and np.isfinite(points[61:]).all()

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from stepaside.perception.floor_growing import MAX_STEP, grow_floor
+from stepaside.perception.near_floor import MAX_STEP, grow_floor
 
 HIGH, WIDE = 40, 60
 FIRST = np.s_[:, :12]  # columns whose colour is known

@@ -9,6 +9,7 @@ from stepaside.arena import Box, Disc, Obstacle
 from stepaside.arena.polygon_cover import cover
 from stepaside.core.poses import Array
 from stepaside.perception.camera_model import CameraModel
+from stepaside.perception.camera_pose import CameraPose
 from stepaside.perception.floor_map import (
     CELL,
     FREE_AT_START,
@@ -48,13 +49,21 @@ def view(
     return image, start, axes
 
 
+def view_at(
+    solids: tuple[Obstacle, ...], heading: float
+) -> tuple[DepthImage, CameraPose]:
+    """Return a depth image from the origin, and the pose of its camera."""
+    image, place, axes = view(solids, (0.0, 0.0), heading)
+    return image, CameraPose(place, axes, (0.0, 0.0))
+
+
 def looked(
     seen: FloorMap, solids: tuple[Obstacle, ...], times: int = 2
 ) -> FloorMap:
     views = [view(solids, (0.0, 0.0), h) for h in np.arange(-pi, pi, 0.7)]
     for _ in range(times):
         for image, place, axes in views:
-            seen.take(image, place, axes, (0.0, 0.0), None)
+            seen.take(image, CameraPose(place, axes, (0.0, 0.0)), None)
     return seen
 
 
@@ -82,14 +91,14 @@ def test_the_opponent_is_not_mapped() -> None:
     seen = FloorMap()
     body = (Disc(1.2, 0.0, 0.12),)
     for _ in range(4):
-        seen.take(*view(body, (0.0, 0.0), 0.0), (0.0, 0.0), (1.25, 0.05))
+        seen.take(*view_at(body, 0.0), (1.25, 0.05))
     assert not seen.taken()
 
 
 def test_unknown_floor_differs_from_free_floor() -> None:
     seen = FloorMap()
     for _ in range(2):
-        seen.take(*view((), (0.0, 0.0), 0.0), (0.0, 0.0), None)
+        seen.take(*view_at((), 0.0), None)
     hidden = seen.unseen((0.0, 0.0))
     ahead, behind = np.array([[0.8, 0.0]]), np.array([[-0.83, 0.02]])
     assert min(float(p.clearance(ahead)[0]) for p in hidden) > 0.0
@@ -117,7 +126,7 @@ def test_a_second_view_leaves_only_the_obstacle() -> None:
         for heading in np.arange(-pi, pi, 0.5):
             image, eye, axes = view((near,), place, heading)
             for _ in range(2):
-                seen.take(image, eye, axes, place, None)
+                seen.take(image, CameraPose(eye, axes, place), None)
     found = seen.unseen((0.0, 0.0)) + seen.taken()
     assert found
     for polygon in found:
@@ -126,7 +135,7 @@ def test_a_second_view_leaves_only_the_obstacle() -> None:
 
 def test_the_floor_around_the_start_is_free() -> None:
     seen = FloorMap()
-    seen.take(*view((), (0.0, 0.0), 0.0), (0.0, 0.0), None)
+    seen.take(*view_at((), 0.0), None)
     behind = np.array(
         [[-FREE_AT_START + 1.5 * CELL, 0.0], [-FREE_AT_START - CELL, 0.02]]
     )
@@ -140,9 +149,9 @@ def test_hits_on_the_opponent_are_erased_when_it_is_recognised() -> None:
     """It was mapped as an obstacle before."""
     seen, body = FloorMap(), (Disc(1.2, 0.0, 0.12),)
     for _ in range(4):
-        seen.take(*view(body, (0.0, 0.0), 0.0), (0.0, 0.0), None)
+        seen.take(*view_at(body, 0.0), None)
     assert seen.taken()
-    seen.take(*view(body, (0.0, 0.0), 0.0), (0.0, 0.0), (1.2, 0.0))
+    seen.take(*view_at(body, 0.0), (1.2, 0.0))
     assert not seen.taken()
 
 
@@ -155,7 +164,7 @@ def test_obstacles_beside_the_opponent_stay() -> None:
     for place in ((0.9, 0.0), (1.22, 0.0), None, (1.22, 0.0)):
         both = (wall,) if place is None else (wall, Disc(*place, 0.09))
         facing = pi if place is None else 0.0  # a glance away
-        seen.take(*view(both, (0.0, 0.0), facing), (0.0, 0.0), place)
+        seen.take(*view_at(both, facing), place)
         assert np.array_equal(_centres(seen._evidence > OCCUPIED), cells)
     assert not seen.is_free(np.array([[1.42, 0.0]])).any()
 
@@ -198,7 +207,7 @@ def test_columns_beside_a_blocked_one_start_at_the_near_limit() -> None:
             turned = heading + wrong
             c, s = np.cos(turned), np.sin(turned)
             axes = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
-            seen.take(image, eye, axes, (0.0, 0.0), None)
+            seen.take(image, CameraPose(eye, axes, (0.0, 0.0)), None)
     shown = _centres(seen._known)
     assert near.clearance(shown).min() > -0.5 * CELL
     beyond = np.array([[0.6, 0.35], [0.6, -0.35], [1.2, 0.5]])
@@ -213,7 +222,8 @@ def test_few_columns_are_read_too(width: int) -> None:
     depths[:, width // 2] = 0.0
     seen = FloorMap()
     image = DepthImage(0.0, camera, depths, 0.8, FAR)
-    seen.take(image, np.array([0.0, 0.0, EYE]), np.eye(3), (0.0, 0.0), None)
+    eye = CameraPose(np.array([0.0, 0.0, EYE]), np.eye(3), (0.0, 0.0))
+    seen.take(image, eye, None)
     assert seen.version == 1
 
 

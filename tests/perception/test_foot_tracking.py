@@ -9,13 +9,13 @@ from drawn_depth import Post, paint
 from made_up_eyes import HEAD, JOINTS, NAO, UP
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.perception.camera_model import CameraModel
-from stepaside.perception.colour_detector import RED
+from stepaside.perception.camera_pose import CameraPose, camera_pose
+from stepaside.perception.colour_detector import RED, ColourDetector
 from stepaside.perception.floor_colours import floor_points
 from stepaside.perception.foot_tracking import CLOSE, FootDetector
 from stepaside.perception.images import ColourImage
 from stepaside.perception.measurement import Measurement
-from stepaside.perception.observations import camera_of
-from stepaside.perception.perception import Perception
+from stepaside.perception.perception_builder import build_perception
 from stepaside.perception.track import Observation, TargetTrack
 from stepaside.robots.head import Mount
 
@@ -27,7 +27,9 @@ class Standing:
     """Perception of a robot that stands at the origin and looks ahead."""
 
     def __init__(self, *, people: bool = True) -> None:
-        self.perception = Perception(NAO, HEAD, RED, tick=0.02, people=people)
+        self.perception = build_perception(
+            NAO, HEAD, ColourDetector(RED), tick=0.02, people=people
+        )
         self.see(0.0)
 
     def see(self, time: float, *images: ColourImage) -> None:
@@ -46,7 +48,7 @@ class Standing:
         """What one camera of the head sees of legs on a floor."""
         body, mount = self.perception.body, self.mount(low=low)
         assert body is not None
-        place, axes = camera_of(body, mount)
+        place, axes, _ = camera_pose(body, mount)
         pixels = paint(CAMERA, place, axes, legs)
         return ColourImage(time, CAMERA, pixels, low)
 
@@ -65,7 +67,7 @@ class Standing:
             Observation(0.0, x, y, 0.0, 0.15, 0.15, False, True)
         )
         track.confirmed, track.has_walked = True, walked
-        self.perception._tracker.tracks.append(track)
+        self.perception.tracker.tracks.append(track)
         return track
 
 
@@ -98,7 +100,7 @@ def test_feet_found_nobody_and_move_nothing_that_rests() -> None:
     robot.see(0.02, robot.image(0.02, [], low=False))
     low = robot.image(0.04, legs_at(0.6, 0.0), low=True)
     robot.see(0.04, low)
-    assert robot.perception._tracker.tracks == []
+    assert robot.perception.tracker.tracks == []
     resting = robot.follow(0.7, 0.0, walked=False)
     robot.see(0.06, robot.image(0.06, legs_at(0.6, 0.0), low=True))
     assert resting.position_at(0.06) == pytest.approx((0.7, 0.0))
@@ -109,13 +111,13 @@ def test_the_lower_camera_is_asked_for_when_somebody_is_close() -> None:
     perception = robot.perception
     near = robot.follow(CLOSE - 0.1, 0.0)
     assert not perception.looks_low()  # the floor is not known yet
-    perception._tracker.tracks.clear()
+    perception.tracker.tracks.clear()
     robot.see(0.02, robot.image(0.02, [], low=False))
-    perception._tracker.tracks.append(near)
+    perception.tracker.tracks.append(near)
     assert perception.looks_low()
     near.has_walked = False
     assert not perception.looks_low()
-    perception._tracker.tracks[:] = [robot.follow(CLOSE + 0.1, 0.0)]
+    perception.tracker.tracks[:] = [robot.follow(CLOSE + 0.1, 0.0)]
     assert not perception.looks_low()
 
 
@@ -137,21 +139,26 @@ def test_it_is_the_same_wherever_odometry_began(
     c, s = cos(began.theta), sin(began.theta)
     turn = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
     shift = np.array([began.x, began.y, 0.0])
-    up, down = (camera_of(body, robot.mount(low=low)) for low in (False, True))
+    up, down = (
+        camera_pose(body, robot.mount(low=low))._replace(
+            position_torso_in_odometry=(0.0, 0.0)
+        )
+        for low in (False, True)
+    )
     x, y = began.transform_points([(2.4, 0.9)])[0].tolist()
     people = [robot.follow(2.4, 0.9)], [robot.follow(x, y)]
     both = FootDetector(), FootDetector()
     for i in range(2):
         far = robot.image(0.02 * i, [], low=False)
-        both[0].learn(far, *up, (0.0, 0.0), people[0])
-        place, axes = turn @ up[0] + shift, turn @ up[1]
-        both[1].learn(far, place, axes, (began.x, began.y), people[1])
+        both[0].learn(far, up, people[0])
+        moved_up = CameraPose(turn @ up[0] + shift, turn @ up[1], began[:2])
+        both[1].learn(far, moved_up, people[1])
     one, other = (feet.colours._counts for feet in both)
     assert np.abs(one - other).sum() < 1e-3 * one.sum()  # pixels on an edge
     near = robot.image(0.04, legs_at(0.6, 0.2), low=True)
-    (here,) = both[0].observe(near, *down, (0.0, 0.0))
-    place, axes = turn @ down[0] + shift, turn @ down[1]
-    (there,) = both[1].observe(near, place, axes, (began.x, began.y))
+    (here,) = both[0].observe(near, down)
+    moved_down = CameraPose(turn @ down[0] + shift, turn @ down[1], began[:2])
+    (there,) = both[1].observe(near, moved_down)
     moved = began.transform_points([(here.x, here.y)])[0]
     assert (there.x, there.y) == pytest.approx(tuple(moved), abs=1e-6)
     assert here.bearing == pytest.approx(atan2(here.y, here.x), abs=1e-6)
@@ -169,11 +176,13 @@ def test_floor_is_learnt_where_nobody_hides_it(
     )
     body = robot.perception.body
     assert body is not None
-    place, axes = camera_of(body, HEAD.top)
+    camera = camera_pose(body, HEAD.top)._replace(
+        position_torso_in_odometry=(0.1, 0.0)
+    )
     image = robot.image(0.02, [], low=False)
     people = [robot.follow(1.9, 0.6), robot.follow(2.4, -1.2)]
-    feet.learn(image, place, axes, (0.1, 0.0), people)
-    points = floor_points(image, place, axes)
+    feet.learn(image, camera, people)
+    points = floor_points(image, camera)
     wanted, farther = np.zeros(points.shape[:2], bool), 0
     for row, column in np.ndindex(wanted.shape):
         x, y = points[row, column]
@@ -194,9 +203,11 @@ def test_of_the_floor_under_somebody_nothing_is_learnt() -> None:
     someone = robot.follow(1.0, 0.0)
     body = robot.perception.body
     assert body is not None
-    place, axes = camera_of(body, HEAD.top)
+    camera = camera_pose(body, HEAD.top)._replace(
+        position_torso_in_odometry=(0.0, 0.0)
+    )
     image = robot.image(0.02, legs_at(1.0, 0.0), low=False)
-    feet.learn(image, place, axes, (0.0, 0.0), [someone])
+    feet.learn(image, camera, [someone])
     assert not feet.colours.known
-    feet.learn(image, place, axes, (0.0, 0.0), [])
+    feet.learn(image, camera, [])
     assert feet.colours.known

@@ -9,11 +9,18 @@ import pytest
 from drawn_depth import Post, draw, paint
 from made_up_eyes import HEAD, Eyes
 from stepaside.core.poses import Array
-from stepaside.perception.bottom_camera import BottomCamera
+from stepaside.perception.bottom_camera import NearFloorMapping
 from stepaside.perception.camera_model import CameraModel
+from stepaside.perception.camera_pose import CameraPose, camera_pose
 from stepaside.perception.floor_map import CELL, FloorMap, _centres
 from stepaside.perception.images import ColourImage
 from stepaside.perception.near_floor import NearFloorMapper
+from stepaside.perception.percept_stages import BottomCameraStage
+from stepaside.perception.perception_builder import FloorMapping
+from stepaside.perception.room_scan import RoomScan
+from stepaside.perception.target_selection import RobotSelection
+from stepaside.perception.tracker import Tracker
+from stepaside.robots.body_pose import BodyPose
 from stepaside.robots.head import rotation
 
 CAMERA = CameraModel.of_field_of_view(160, 120, radians(60.9), radians(47.6))
@@ -28,13 +35,17 @@ def axes_of(pitch: float, yaw: float = 0.0) -> Array:
     return rotation(0.0, radians(pitch), yaw)
 
 
+def eye(axes: Array) -> CameraPose:
+    return CameraPose(EYE, axes, HERE)
+
+
 def around(posts: list[Post]) -> FloorMap:
     """A map of what the depth camera saw all around, twice."""
     made = FloorMap()
     for yaw in np.arange(-pi, pi, 0.5).tolist() * 2:
         axes = axes_of(8.0, yaw)
         image = draw(DEPTH, HIGH, axes, posts)
-        made.take(image, HIGH, axes, HERE, None)
+        made.take(image, CameraPose(HIGH, axes, HERE), None)
     return made
 
 
@@ -47,15 +58,16 @@ def learnt(floor: FloorMap, posts: list[Post]) -> NearFloorMapper:
     near = NearFloorMapper(floor)
     for yaw in (2.0, pi, -2.0):
         axes = axes_of(1.2, yaw)
-        near.learn(image(posts, axes, low=False), EYE, axes, HERE, None)
+        near.learn(image(posts, axes, low=False), eye(axes), None)
     return near
 
 
-def lower_of(floor: FloorMap) -> BottomCamera:
+def lower_of(floor: FloorMap) -> BottomCameraStage:
     """The lower camera of who knows what the floor looks like."""
-    made = BottomCamera(HEAD.bottom, people=False, floor=floor)
-    made.near = learnt(floor, [])
-    return made
+    tracker = Tracker()
+    use = NearFloorMapping(learnt(floor, []), RobotSelection(tracker))
+    assert HEAD.bottom is not None
+    return BottomCameraStage(HEAD.bottom, [use], tracker)
 
 
 def hidden(floor: FloorMap, place: tuple[float, float]) -> bool:
@@ -70,7 +82,7 @@ def test_the_floor_before_a_thing_that_is_too_near_is_seen() -> None:
     floor = around([POST])
     assert all(hidden(floor, place) for place in (BEFORE, INSIDE))
     near, axes = learnt(floor, [POST]), axes_of(39.7)
-    near.show(image([POST], axes, low=True), EYE, axes, HERE)
+    near.show(image([POST], axes, low=True), eye(axes))
     assert not hidden(floor, BEFORE) and not hidden(floor, BESIDE)
     assert hidden(floor, INSIDE) and not floor.taken()
 
@@ -85,7 +97,7 @@ def test_floor_that_is_lighter_close_by_is_seen() -> None:
     lighter = (picture.pixels * lamp).clip(0, 255).astype(np.uint8)
     unknown = near._colours.is_not_floor(lighter)
     assert unknown[60, 80] or unknown[110, 20]
-    near.show(replace(picture, pixels=lighter), EYE, axes, HERE)
+    near.show(replace(picture, pixels=lighter), eye(axes))
     assert not hidden(floor, BEFORE) and not hidden(floor, BESIDE)
     assert hidden(floor, INSIDE) and not floor.taken()
 
@@ -99,7 +111,7 @@ def test_nothing_of_a_thing_or_right_beside_it_is_shown(
     post = away * cos(bearing), away * sin(bearing), 0.1, 0.8
     near, axes = learnt(around([post]), [post]), axes_of(39.7)
     floor = near._floor = FloorMap()
-    near.show(image([post], axes, low=True), EYE, axes, HERE)
+    near.show(image([post], axes, low=True), eye(axes))
     shown = _centres(floor._known)
     gaps = np.hypot(*(shown - np.array(post[:2])).T) - post[2]
     assert len(gaps) > 10 and gaps.min() > 0.5 * CELL
@@ -115,7 +127,7 @@ def test_other_colours_show_no_floor() -> None:
     floor = around(post)
     before = floor._known.copy()
     near, axes = learnt(floor, post), axes_of(39.7)
-    near.show(image(post, axes, low=True), EYE, axes, HERE)
+    near.show(image(post, axes, low=True), eye(axes))
     shown = np.argwhere(floor._known & ~before)
     assert not len(shown)
 
@@ -125,13 +137,13 @@ def test_the_floor_is_learnt_where_rays_passed() -> None:
     post = [(1.2, 0.0, 0.3, 0.8)]
     floor, axes = around(post), axes_of(1.2)
     near = NearFloorMapper(floor)
-    near.learn(image(post, axes, low=False), EYE, axes, HERE, None)
+    near.learn(image(post, axes, low=False), eye(axes), None)
     dark = np.full((4, 4, 3), 64, dtype=np.uint8)
     light = np.full((4, 4, 3), 212, dtype=np.uint8)
     assert near._colours.is_not_floor(dark).all()
     assert not near._colours.is_not_floor(light).any()
     blind = NearFloorMapper(FloorMap())
-    blind.learn(image([], axes, low=False), EYE, axes, HERE, None)
+    blind.learn(image([], axes, low=False), eye(axes), None)
     assert not blind._colours._counts.any()
 
 
@@ -141,12 +153,12 @@ def test_who_stands_on_the_floor_is_not_learnt() -> None:
     other = 0.9, 0.1
     post = [(*other, 0.12, 0.58)]
     near = NearFloorMapper(floor)
-    near.learn(image(post, axes, low=False), EYE, axes, HERE, other)
+    near.learn(image(post, axes, low=False), eye(axes), other)
     dark = np.full((4, 4, 3), 64, dtype=np.uint8)
     assert not near._colours._counts[4, 4, 4]
     assert near._colours.is_not_floor(dark).all()
     alone = NearFloorMapper(floor)
-    alone.learn(image(post, axes, low=False), EYE, axes, HERE, None)
+    alone.learn(image(post, axes, low=False), eye(axes), None)
     assert alone._colours._counts[4, 4, 4]
 
 
@@ -166,33 +178,50 @@ def test_what_rays_struck_stays_taken() -> None:
     before = len(floor.taken())
     near, axes = learnt(floor, post), axes_of(39.7)
     for _ in range(20):
-        near.show(image([], axes, low=True), EYE, axes, HERE)
+        near.show(image([], axes, low=True), eye(axes))
     assert before == len(floor.taken()) > 0
     assert atan2(0.0, 1.2) == 0.0 and floor.is_occupied(1.1, 0.0)
 
 
-def test_who_has_lost_the_other_looks_with_the_upper_camera() -> None:
-    """The lower one shows nobody's trim."""
+def standing() -> BodyPose:
     eyes = Eyes()
     eyes.see(0.0)
-    perception = eyes.perception
-    perception._bottom_camera = lower_of(around([]))
-    eyes.know(*eyes.beside(1.5, 0.5))
-    eyes.see(0.0)
-    assert [perception.looks_low() for _ in range(4)].count(True) == 2
-    eyes.tracks.clear()
-    eyes.see(0.0)
-    assert perception.searching
-    assert not any(perception.looks_low() for _ in range(4))
-    perception.floor, eyes.gaze.scan_ends = FloorMap(), 0
-    assert perception.looking  # around, before anybody is looked for
-    assert [perception.looks_low() for _ in range(4)].count(True) == 2
+    assert eyes.perception.body is not None
+    return eyes.perception.body
+
+
+def test_who_has_lost_the_other_looks_with_the_upper_camera() -> None:
+    """The lower one shows nobody's trim."""
+    lower, body = lower_of(around([])), standing()
+    wanted = [lower.wanted(body, lost=False) for _ in range(4)]
+    assert wanted.count(True) == 2
+    assert not any(lower.wanted(body, lost=True) for _ in range(4))
+    wanted = [lower.wanted(body, lost=False) for _ in range(4)]
+    assert wanted.count(True) == 2
+
+
+def test_a_robot_that_scans_the_room_may_look_with_the_lower_camera() -> None:
+    """It seeks nobody yet; afterwards the upper one seeks the opponent."""
+    mapping = FloorMapping(scan=RoomScan(behind=False))
+    eyes = Eyes(mapping)
+    now, low = 0.0, []
+    while not eyes.perception.head.is_ready:
+        body = eyes.perception.body
+        if body is not None:
+            position, axes, _ = camera_pose(body, HEAD.depth)
+            shown = draw(DEPTH, position, axes, [], time=now)
+            position, axes, _ = camera_pose(body, HEAD.top)
+            pixels = paint(CAMERA, position, axes, [])
+            eyes.see(now + 0.1, shown, ColourImage(now, CAMERA, pixels))
+        else:
+            eyes.see(now)
+        now += 0.1
+        low.append(eyes.perception.looks_low())
+    assert any(low)
+    assert not any(eyes.perception.looks_low() for _ in range(4))
 
 
 def test_nobody_is_sought_in_an_image_of_the_floor() -> None:
-    eyes = Eyes()
-    eyes.see(0.0)
-    eyes.perception._bottom_camera = lower_of(around([]))
-    eyes.see(0.02, image([], axes_of(39.7), low=True))
-    (report,) = eyes.reports
+    lower, body = lower_of(around([])), standing()
+    report = lower.process(image([], axes_of(39.7), low=True), body)
     assert not report.sought and not report.azimuths

@@ -6,8 +6,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.core.poses import wrap_angle
+from stepaside.core.poses import Array, wrap_angle
 from stepaside.perception.camera_model import CameraModel
+from stepaside.perception.camera_pose import CameraPose
 from stepaside.perception.colour_detector import RED, ColourDetection
 from stepaside.perception.depth_detector import DetectedObstacle, Shadow
 from stepaside.perception.floor_map import FloorMap
@@ -23,13 +24,14 @@ from stepaside.perception.observations import (
     MIN_DISTANCE,
     MIN_SHADOW_DISTANCE,
     SHADOW_MARGIN,
+    TRIM_FORWARD,
+    TRIM_WIDTH,
     angle_of,
+    is_opponent,
     observe_obstacle,
-    observe_obstacles,
     observe_shadow,
     observe_trim,
 )
-from stepaside.perception.ranging import FORWARD, WIDTH
 from stepaside.perception.track import Observation, TargetTrack
 from stepaside.robots.head import rotation
 
@@ -42,6 +44,13 @@ YAW = 2.8
 AXES = rotation(0.15, 0.05, YAW)
 
 
+def eye(axes: Array) -> CameraPose:
+    return CameraPose(PLACE, axes, (0.3, -0.4))
+
+
+EYE = eye(AXES)
+
+
 def trim(distance: float, bearing: float, **changes: Any) -> ColourDetection:
     """Ends of a robot's trim, projected by plane geometry.
 
@@ -51,7 +60,7 @@ def trim(distance: float, bearing: float, **changes: Any) -> ColourDetection:
         changes: Other entries of the detection.
     """
     ends = []
-    for away, height in ((distance, RED.top), (distance - FORWARD, 0.06)):
+    for away, height in ((distance, RED.top), (distance - TRIM_FORWARD, 0.06)):
         ray = away * cos(bearing), away * sin(bearing), height - PLACE[2]
         ends.append(CAMERA.project(AXES.T @ np.array(ray))[0].tolist())
     (column, top), (_, bottom) = ends
@@ -70,7 +79,7 @@ def trim(distance: float, bearing: float, **changes: Any) -> ColourDetection:
 
 
 def observe(found: ColourDetection, *tracks: TargetTrack) -> Observation:
-    return observe_trim(IMAGE, found, PLACE, AXES, RED, tracks)
+    return observe_trim(IMAGE, found, EYE, RED, tracks)
 
 
 def track(distance: float, bearing: float, time: float = 3.5) -> TargetTrack:
@@ -94,7 +103,7 @@ def test_trim_that_is_whole_tells_bearing_and_distance(
     axes = rotation(0.0, 0.05, YAW)
     bearing = YAW - 0.2
     ends = []
-    for away, height in ((distance, RED.top), (distance - FORWARD, 0.06)):
+    for away, height in ((distance, RED.top), (distance - TRIM_FORWARD, 0.06)):
         ray = away * cos(bearing), away * sin(bearing), height - PLACE[2]
         ends.append(CAMERA.project(axes.T @ np.array(ray))[0].tolist())
     found = trim(1.0, YAW, column=ends[0][0], top=ends[0][1])
@@ -104,7 +113,7 @@ def test_trim_that_is_whole_tells_bearing_and_distance(
         ends[1][1],
         *(found.left, found.right, 1.0, False, False, False),
     )
-    seen = observe_trim(IMAGE, found, PLACE, axes, RED, ())
+    seen = observe_trim(IMAGE, found, eye(axes), RED, ())
     assert wrap_angle(seen.bearing - bearing) == pytest.approx(0.0, abs=0.01)
     assert distance_of(seen) == pytest.approx(distance, rel=0.01)
     direction = atan2(seen.y - PLACE[1], seen.x - PLACE[0])
@@ -154,8 +163,8 @@ def test_feet_out_of_view_leave_the_breadth() -> None:
     found = trim(0.6, YAW, cut_below=True, left=200.0, right=420.0)
     seen = observe(found)
     breadth = atan2(100.0, 550.0) + atan2(120.0, 550.0)
-    assert distance_of(seen) == pytest.approx(WIDTH / breadth)
-    assert seen.along == pytest.approx(DEVIATION_WIDTH * WIDTH / breadth)
+    assert distance_of(seen) == pytest.approx(TRIM_WIDTH / breadth)
+    assert seen.along == pytest.approx(DEVIATION_WIDTH * TRIM_WIDTH / breadth)
     assert not seen.ranged
 
 
@@ -219,7 +228,7 @@ def test_an_obstacle_is_where_it_was_measured(
 
 def test_a_shadow_is_no_farther_than_the_near_limit() -> None:
     shadow = Shadow(YAW, 0.2, 0.3)
-    seen = observe_shadow(DEPTH, shadow, PLACE, ())
+    seen = observe_shadow(DEPTH, shadow, EYE, ())
     away = 0.8 + SHADOW_MARGIN
     assert (seen.x - PLACE[0], seen.y - PLACE[1]) == pytest.approx(
         (away * cos(YAW), away * sin(YAW))
@@ -233,27 +242,27 @@ def test_a_shadow_is_no_farther_than_the_near_limit() -> None:
 def test_within_its_bounds_a_shadow_tells_no_distance() -> None:
     """Memory that came back as a measurement would believe itself."""
     shadow = Shadow(YAW, 0.2, 0.3)
-    nearer = observe_shadow(DEPTH, shadow, PLACE, (track(0.5, YAW),))
+    nearer = observe_shadow(DEPTH, shadow, EYE, (track(0.5, YAW),))
     assert distance_of(nearer) == pytest.approx(0.5)
     assert nearer.along == DEVIATION_UNKNOWN > 1.0
     followed = track(0.6, YAW)
     before = followed.deviation_at(4.5)
     for _ in range(20):
-        one = observe_shadow(DEPTH, shadow, PLACE, (followed,))
+        one = observe_shadow(DEPTH, shadow, EYE, (followed,))
         followed.update(one._replace(time=4.5))
     assert followed.deviation_at(4.5) > 0.8 * before
 
 
 def test_nobody_in_a_shadow_is_within_the_robot() -> None:
     shadow = Shadow(YAW, 0.2, 0.3)
-    seen = observe_shadow(DEPTH, shadow, PLACE, (track(0.36, YAW),))
+    seen = observe_shadow(DEPTH, shadow, EYE, (track(0.36, YAW),))
     assert distance_of(seen) == pytest.approx(MIN_SHADOW_DISTANCE)
     assert seen.along == DEVIATION_BOUND
 
 
 def test_a_shadow_whose_part_was_measured_is_where_that_is() -> None:
     shadow = Shadow(YAW, 0.2, 0.3, 0.85)
-    seen = observe_shadow(DEPTH, shadow, PLACE, (track(0.5, YAW),))
+    seen = observe_shadow(DEPTH, shadow, EYE, (track(0.5, YAW),))
     assert distance_of(seen) == pytest.approx(0.85)
     assert seen.ranged and seen.along == DEVIATION_PART
 
@@ -276,15 +285,12 @@ def test_in_a_mapped_room_only_what_is_where_the_other_is_counts() -> None:
     things = [thing(1.0, 0.1), thing(1.0, 0.6)]
     empty = FloorMap()
 
-    def told(*known: Any) -> list[float]:
-        whole, cut = observe_obstacles(DEPTH, things, *known)
-        assert not whole
-        return [each.y for each in cut]
+    def told(other: tuple[float, float] | None) -> list[float]:
+        return [each.y for each in things if is_opponent(each, empty, other)]
 
-    assert told(None) == [0.1, 0.6]
-    assert told(empty, (1.0, 0.0)) == [0.1]
-    assert told(empty, (1.0, 0.7)) == [0.6]
-    assert told(empty, None) == []
+    assert told((1.0, 0.0)) == [0.1]
+    assert told((1.0, 0.7)) == [0.6]
+    assert told(None) == []
 
 
 @pytest.mark.parametrize("behind", [False, True])
@@ -298,7 +304,7 @@ def test_trim_that_an_edge_hides_in_part_is_put_where_its_middle_is(
     Behind, its middle is beyond the half turn, and what is seen is not.
     """
     away, edge = 0.6, 0.5 * CAMERA.width
-    whole = WIDTH / away
+    whole = TRIM_WIDTH / away
     half = abs(angle_of(IMAGE, 0.0))
     middle = side * (half - (0.5 - left_out) * whole)  # positive rightward
     yaw = middle - side * (pi + 0.02) if behind else YAW
@@ -311,13 +317,13 @@ def test_trim_that_an_edge_hides_in_part_is_put_where_its_middle_is(
     )
     known = track(away, yaw - middle)
     level = rotation(0.0, 0.0, yaw)
-    near = observe_trim(IMAGE, found, PLACE, level, RED, [known], near=True)
-    blind = observe_trim(IMAGE, found, PLACE, level, RED, [known])
+    near = observe_trim(IMAGE, found, eye(level), RED, [known], near=True)
+    blind = observe_trim(IMAGE, found, eye(level), RED, [known])
     off = [wrap_angle(seen.bearing - yaw + middle) for seen in (near, blind)]
     assert off[0] == pytest.approx(0.0, abs=0.01)
     assert off[1] == pytest.approx(side * 0.5 * left_out * whole, abs=0.01)
     assert max(abs(near.bearing), abs(blind.bearing)) <= pi
-    assert near.across > 0.4 * left_out * WIDTH > blind.across
+    assert near.across > 0.4 * left_out * TRIM_WIDTH > blind.across
     assert not near.ranged and near.along > 0.5
 
 
@@ -325,7 +331,7 @@ def test_trim_in_the_image_centre_is_not_hidden() -> None:
     """From the side it is half as broad."""
     found = trim(0.9, YAW)
     ways = [
-        observe_trim(IMAGE, found, PLACE, AXES, RED, [track(0.9, YAW)], near=n)
+        observe_trim(IMAGE, found, EYE, RED, [track(0.9, YAW)], near=n)
         for n in (True, False)
     ]
     assert ways[0]._replace(across=ways[1].across) == ways[1]

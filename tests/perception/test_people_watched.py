@@ -10,15 +10,15 @@ from drawn_depth import Post, Wall, draw
 from made_up_eyes import HEAD, JOINTS, NAO, UP
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.perception.camera_model import CameraModel
-from stepaside.perception.colour_detector import RED
+from stepaside.perception.camera_pose import camera_pose
+from stepaside.perception.colour_detector import RED, ColourDetector
 from stepaside.perception.images import Percept, SonarEcho
 from stepaside.perception.measurement import Measurement, Sighting
-from stepaside.perception.observations import camera_of
 from stepaside.perception.people_selection import (
     PeopleSelection,
     closest_approach,
 )
-from stepaside.perception.perception import Perception
+from stepaside.perception.perception_builder import build_perception
 from stepaside.perception.track import Observation, TargetTrack
 from stepaside.perception.tracker import Tracker
 
@@ -31,7 +31,9 @@ class Watch:
     """Robot at the origin that scans."""
 
     def __init__(self, walls: Sequence[Wall], echo: float | None) -> None:
-        self.perception = Perception(NAO, HEAD, RED, tick=TICK, people=True)
+        self.perception = build_perception(
+            NAO, HEAD, ColourDetector(RED), tick=TICK, people=True
+        )
         self._walls, self._echo = walls, echo
         self._joints = np.zeros(JOINTS)
         self._ticks = 0
@@ -41,7 +43,7 @@ class Watch:
         now, percepts = self._ticks * TICK, list[Percept]()
         body = self.perception.body
         if self._ticks % 4 == 0 and body is not None:
-            place, axes = camera_of(body, HEAD.depth)
+            place, axes, _ = camera_pose(body, HEAD.depth)
             posts: list[Post] = [(x, y, 0.15, 1.7) for x, y in people]
             taken = body.time  # a tick ago, with the head as it was then
             image = draw(CAMERA, place, axes, posts, self._walls, taken)
@@ -145,7 +147,8 @@ def looks(begin: float, speed: float, seconds: float, spread: float) -> float:
         seconds: The while.
         spread: Deviation of its places, in [m].
     """
-    people, at, count = PeopleSelection(), 0, round(seconds / 0.1)
+    tracker = Tracker()
+    people, at, count = PeopleSelection(tracker), 0, round(seconds / 0.1)
 
     def seen(i: int) -> Observation:
         place = begin + 0.1 * i * speed
@@ -154,11 +157,12 @@ def looks(begin: float, speed: float, seconds: float, spread: float) -> float:
         )
 
     track = TargetTrack(seen(0))
+    tracker.tracks = [track]
     track.confirmed = looked = True
     for i in range(1, count):
         if looked or i % 20 == 0:  # else the head sweeps by it
             track.update(seen(i))
-        chosen = people.look([track], None, 0.1 * i, 0.0, 0.0)
+        chosen = people.look(None, 0.1 * i, 0.0, 0.0)
         looked = chosen is track
         at += looked
     return at / (count - 1)
@@ -176,13 +180,15 @@ def test_glances_are_more_frequent_at_walking_people(
     walks: bool,
 ) -> None:
     """0.6 s long, 3 s apart at what rests, 1 s at a walker who leaves."""
-    people, track, looked = PeopleSelection(), followed((3.0, 0.0)), []
+    tracker, track, looked = Tracker(), followed((3.0, 0.0)), []
+    tracker.tracks = [track]
+    people = PeopleSelection(tracker)
     track.has_walked = walks
     track._state[2] = 0.3 if walks else 0.0
     for i in range(2000):
         now = 0.01 * i
         track.observed_at = now
-        looked.append(people.look([track], None, now, 0.0, 0.0) is track)
+        looked.append(people.look(None, now, 0.0, 0.0) is track)
     edges = np.flatnonzero(np.diff(np.array(looked, int)))
     begins, ends = edges[1::2], edges[2::2]
     count = min(len(begins), len(ends))
@@ -210,16 +216,16 @@ def test_a_walking_person_comes_before_a_nearer_object_at_rest() -> None:
     passer = followed(*[(2.0 - 0.1 * i, 1.5) for i in range(10)])
     tracker = Tracker()
     tracker.tracks = [wall, passer, walker]
-    assert PeopleSelection().main(tracker, 0.95, 0.0, 0.0) is walker
+    assert PeopleSelection(tracker).main(0.95, 0.0, 0.0) is walker
     tracker.tracks = [wall]
-    assert PeopleSelection().main(tracker, 0.95, 0.0, 0.0) is wall
+    assert PeopleSelection(tracker).main(0.95, 0.0, 0.0) is wall
     # Another must come clearly nearer to count instead.
-    people = PeopleSelection()
+    people = PeopleSelection(tracker)
     again = followed(*[(0.1, 3.1 - 0.05 * i) for i in range(10)])
     tracker.tracks = [again]
-    assert people.main(tracker, 0.95, 0.0, 0.0) is again
+    assert people.main(0.95, 0.0, 0.0) is again
     tracker.tracks = [again, walker]
-    assert people.main(tracker, 0.95, 0.0, 0.0) is again
+    assert people.main(0.95, 0.0, 0.0) is again
 
 
 def test_sway_is_not_walking() -> None:
@@ -237,7 +243,7 @@ def test_a_track_settles_after_the_settling_time(
 ) -> None:
     """A new track nearby settles almost at once."""
     track = followed((begin, 0.0))
-    people, settled = PeopleSelection(), []
+    people, settled = PeopleSelection(Tracker()), []
     for i in range(1, 20):
         now, x = 0.05 * i, begin + 0.05 * i * speed
         place = Observation(now, x, 0.0, 0.0, 0.03, 0.03, False, True)
@@ -271,7 +277,7 @@ def test_a_person_who_may_pass_settles_later(
 ) -> None:
     """At any distance; an approaching person settles earlier."""
     track = followed((begin, beside))
-    people, settled = PeopleSelection(), []
+    people, settled = PeopleSelection(Tracker()), []
     for i in range(1, 40):
         now, x = 0.05 * i, begin - 0.05 * i * 0.8
         track.update(Observation(now, x, beside, 0.0, 0.03, 0.03, False, True))

@@ -14,12 +14,11 @@ from made_up_eyes import (
     UP,
     Eyes,
     colour,
+    hits,
     trim,
 )
 from stepaside.core.poses import Pose, wrap_angle
-from stepaside.perception.colour_detector import RED
 from stepaside.perception.measurement import Measurement
-from stepaside.perception.perception import Perception
 from stepaside.robots.head import rotation
 
 
@@ -33,8 +32,8 @@ def eyes() -> Eyes:
 def test_without_detections_the_head_scans(eyes: Eyes) -> None:
     perception = eyes.perception
     assert perception.searching and perception.sighting is None
-    assert eyes.gaze.followed is None and not eyes.reports
-    fresh = Perception(NAO, HEAD, RED, tick=TICK)
+    assert eyes.target is None and not eyes.reports
+    fresh = Eyes().perception
     assert fresh.body is None and fresh.sighting is None and fresh.searching
 
 
@@ -83,7 +82,8 @@ def test_three_images_of_the_opponent_give_a_sighting(column: float) -> None:
     assert seen.bearing == pytest.approx(expected)
     assert np.sign(round(seen.bearing, 2)) == np.sign(80.0 - column)
     assert not eyes.perception.searching
-    assert eyes.gaze.followed == pytest.approx((seen.bearing, seen.distance))
+    assert eyes.target is not None
+    assert eyes.target[:2] == pytest.approx((seen.bearing, seen.distance))
 
 
 def test_the_camera_pose_follows_from_head_and_mount(eyes: Eyes) -> None:
@@ -128,7 +128,7 @@ def test_a_delayed_image_uses_the_pose_at_its_exposure() -> None:
         eyes.see(TICK * i)
     eyes.detector.found = trim(80.0)
     eyes.see(40 * TICK, colour(10 * TICK + 0.4 * TICK))
-    body = eyes.perception._poses[10]
+    body = eyes.perception.poses.at(10 * TICK)
     assert body.time == pytest.approx(10 * TICK)
     place = body.head_place + body.head_axes @ HEAD.top.place
     u, v = eyes.tracks[0].position_at(10 * TICK)
@@ -139,18 +139,37 @@ def test_a_delayed_image_uses_the_pose_at_its_exposure() -> None:
 def test_poses_are_stored_for_a_second(eyes: Eyes) -> None:
     for i in range(1, 100):
         eyes.see(TICK * i)
-    poses = eyes.perception._poses
-    assert len(poses) == 50
-    assert eyes.perception._pose_at(0.0) is poses[0]
-    assert eyes.perception._pose_at(poses[7].time - 1e-12) is poses[7]
+    poses = eyes.perception.poses
+    assert poses.at(0.0).time == pytest.approx(50 * TICK)
+    for i in range(50, 100):
+        assert poses.at(TICK * i - 1e-12).time == pytest.approx(TICK * i)
+    assert poses.at(9.0) is poses.latest is eyes.perception.body
+
+
+def test_tracks_age_without_images(eyes: Eyes) -> None:
+    """The selection runs ten times a second, and at each image."""
+    eyes.know(*eyes.beside(1.0, 0.5))
+    perception, support = eyes.perception, eyes.support
+    times = []
+    for i in range(1, 300):
+        values = np.zeros(JOINTS), np.zeros(3), UP, np.zeros(8), None
+        seen = perception.see(
+            Measurement(TICK * i, *values), support, True, (0.0, 0.0)
+        )
+        if seen is not None:
+            times.append(seen.time)
+    assert times == sorted(times) and times[-1] > 1.0
+    assert np.diff(np.unique(times)) == pytest.approx(0.1)
+    assert perception.sighting is None and perception.searching
 
 
 def test_the_head_targets_are_those_of_the_gaze(eyes: Eyes) -> None:
     targets = np.full(JOINTS, 9.0)
     eyes.perception.aim(targets)
     names = [NAO.compile().actuator(i).name for i in range(JOINTS)]
-    assert targets[names.index("HeadYaw")] == 0.4
-    assert targets[names.index("HeadPitch")] == -0.2
+    head = eyes.perception.head
+    assert targets[names.index("HeadYaw")] == head.yaw != 0.0
+    assert targets[names.index("HeadPitch")] == head.pitch
     assert (targets == 9.0).sum() == JOINTS - 2
 
 
@@ -168,4 +187,4 @@ def test_a_visible_track_without_detection_counts_a_miss(
     angle = SUPPORT.theta + side * share * atan2(80.0, 140.0)
     track = eyes.know(x + 2.0 * cos(angle), y + 2.0 * sin(angle))
     eyes.see(TICK, colour(TICK))
-    assert list(track._hits) == ([True, False] if missed else [True])
+    assert hits(track) == ([True, False] if missed else [True])

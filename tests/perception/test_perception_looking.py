@@ -5,11 +5,12 @@ from typing import Any
 
 import pytest
 
-from made_up_eyes import HEAD, TICK, Eyes
+from made_up_eyes import TICK, Eyes
 from stepaside.core.poses import Pose
-from stepaside.perception.floor_map import FloorMap
-from stepaside.perception.gaze import MAX_YAW, SCAN_SPEED, Gaze
+from stepaside.perception.gaze import MAX_YAW, SCAN_SPEED
 from stepaside.perception.measurement import Sighting
+from stepaside.perception.perception_builder import FloorMapping
+from stepaside.perception.room_scan import RoomScan
 from stepaside.perception.target_selection import GAZE_RADIUS, MAX_GAZE_AGE
 
 
@@ -47,9 +48,10 @@ def test_the_head_follows_the_main_track(
     eyes.see(0.0)
     assert eyes.perception.searching is not looks
     if looks:
-        assert eyes.gaze.followed == pytest.approx((-0.8, distance))
+        assert eyes.target is not None
+        assert eyes.target[:2] == pytest.approx((-0.8, distance))
     else:
-        assert eyes.gaze.followed is None
+        assert eyes.target is None
     assert GAZE_RADIUS == 1.2
 
 
@@ -63,7 +65,8 @@ def test_the_head_follows_unconfirmed_tracks_only_nearby(eyes: Eyes) -> None:
     near = eyes.know(*eyes.beside(1.0, 0.5), identified=False)
     near.confirmed = False
     eyes.see(0.0)
-    assert eyes.gaze.followed == pytest.approx((0.5, 1.0))
+    assert eyes.target is not None
+    assert eyes.target[:2] == pytest.approx((0.5, 1.0))
     assert eyes.perception.sighting is None
 
 
@@ -71,7 +74,7 @@ def test_the_gaze_gets_the_height_of_the_track(eyes: Eyes) -> None:
     track = eyes.know(*eyes.beside(1.0, 0.5))
     track.height = 1.4
     eyes.see(0.0)
-    assert eyes.gaze.height == 1.4
+    assert eyes.target is not None and eyes.target.height == 1.4
 
 
 def test_recognition_expires(eyes: Eyes) -> None:
@@ -101,7 +104,7 @@ def test_the_head_scans_after_a_second_without_observation() -> None:
         assert isinstance(seen, Sighting)
         assert seen.bearing == pytest.approx(0.5)
         assert eyes.perception.searching is not looks
-        assert (eyes.gaze.followed is not None) is looks
+        assert (eyes.target is not None) is looks
 
 
 def test_the_head_prefers_the_main_track(eyes: Eyes) -> None:
@@ -109,7 +112,8 @@ def test_the_head_prefers_the_main_track(eyes: Eyes) -> None:
     eyes.know(*eyes.beside(1.5, -0.5))
     seen = eyes.see(0.0)
     assert seen.bearing == pytest.approx(-0.5)
-    assert eyes.gaze.followed == pytest.approx((-0.5, 1.5))
+    assert eyes.target is not None
+    assert eyes.target[:2] == pytest.approx((-0.5, 1.5))
 
 
 def test_a_bearing_behind_is_wrapped_to_pi(eyes: Eyes) -> None:
@@ -128,19 +132,19 @@ def test_a_lost_opponent_gives_no_sighting(eyes: Eyes) -> None:
     assert eyes.perception.sighting is None and eyes.perception.searching
 
 
-def test_a_robot_with_a_map_scans_the_room_first(eyes: Eyes) -> None:
+def test_a_robot_with_a_map_scans_the_room_first() -> None:
     """Until then it gives no sighting, so that the robot stands."""
-    gaze: Any = Gaze(HEAD.coupling, TICK)
-    eyes.perception.floor, eyes.perception._gaze = FloorMap(), gaze
-    yaws = []
+    eyes, yaws = Eyes(FloorMapping(scan=RoomScan(behind=False))), []
+    head = eyes.perception.head
     for tick in range(round(8.0 / TICK)):
         now = tick * TICK
         eyes.tracks.clear()
-        eyes.know(*eyes.beside(1.5, 0.0), time=now)
+        if tick:
+            eyes.know(*eyes.beside(1.5, 0.0), time=now)
         seen = eyes.see(now)
-        yaws.append(gaze.yaw)
+        yaws.append(head.yaw)
         if seen is not None:
             break
     assert min(yaws) < -MAX_YAW + 0.01 and max(yaws) > MAX_YAW - 0.01
     assert now == pytest.approx(3.0 * MAX_YAW / SCAN_SPEED, abs=0.1)
-    assert gaze.scan_ends == 2 and not gaze.searching
+    assert head.is_ready and not eyes.perception.searching

@@ -10,7 +10,6 @@ import pytest
 from made_up_eyes import (
     CAMERA,
     HEAD,
-    NAO,
     SUPPORT,
     TICK,
     Eyes,
@@ -23,16 +22,16 @@ from made_up_eyes import (
     trim,
 )
 from stepaside.core.poses import Pose, wrap_angle
-from stepaside.perception.colour_detector import RED, ColourDetection
+from stepaside.perception.colour_detector import ColourDetection
 from stepaside.perception.depth_detector import Shadow
 from stepaside.perception.floor_map import FloorMap
 from stepaside.perception.images import ColourImage, SonarEcho
-from stepaside.perception.perception import (
+from stepaside.perception.percept_stages import (
     MAX_AGE,
     MIN_SHADOW,
     NEAR_MARGIN,
-    Perception,
 )
+from stepaside.perception.perception_builder import FloorMapping
 from stepaside.perception.sonar import AXIS_OFFSET, HALF_CONE, MIN_AGE
 from stepaside.perception.track import PERSON_MOTION, ROBOT_MOTION
 
@@ -69,6 +68,14 @@ class NoFloor(FloorMap):
         self.others.append(arguments[-1])
 
 
+def mapping() -> tuple[Eyes, NoFloor]:
+    """Return the eyes of a robot with a map."""
+    floor = NoFloor()
+    made = Eyes(FloorMapping(floor))
+    made.see(0.0)
+    return made, floor
+
+
 @pytest.fixture
 def eyes() -> Eyes:
     made = Eyes()
@@ -89,7 +96,7 @@ def test_obstacles_start_unidentified_tracks(
     (report,) = eyes.reports
     assert report.azimuths == (0.2, -0.3)
     assert report.depth is not None and report.image is image
-    taken, place, axes, own = given[0]
+    taken, (place, axes, own) = given[0]
     body = eyes.perception.body
     assert body is not None and taken is image
     np.testing.assert_allclose(
@@ -271,11 +278,11 @@ def test_a_detected_track_counts_no_miss(eyes: Eyes) -> None:
 
 
 def test_mapped_obstacles_start_no_track(
-    eyes: Eyes, monkeypatch: pytest.MonkeyPatch
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """Neither pillars, nor near ones, nor echoes of walls."""
+    eyes, _ = mapping()
     alone = len(eyes.tracks)
-    eyes.perception.floor = NoFloor()
     show(monkeypatch, obstacle(*eyes.beside(1.0, 0.0)), Shadow(0.0, 0.0, 0.5))
     for tick in range(1, 8):
         now = tick * TICK
@@ -289,9 +296,9 @@ def test_mapped_obstacles_start_no_track(
 
 @pytest.mark.parametrize(("gap", "heard"), [(0.2, False), (0.3, True)])
 def test_an_echo_near_a_mapped_obstacle_is_ignored(
-    eyes: Eyes, gap: float, heard: bool
+    gap: float, heard: bool
 ) -> None:
-    floor = eyes.perception.floor = NoFloor()
+    eyes, floor = mapping()
     floor.wall = 0.5 + AXIS_OFFSET + gap
     facing = axis_of(eyes, "left") - eyes.torso.theta
     track = eyes.know(*eyes.beside(0.75, facing), time=-1.0)
@@ -300,9 +307,9 @@ def test_an_echo_near_a_mapped_obstacle_is_ignored(
 
 
 def test_a_mapped_obstacle_updates_no_track(
-    eyes: Eyes, monkeypatch: pytest.MonkeyPatch
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    eyes.perception.floor = floor = NoFloor()
+    eyes, floor = mapping()
     track = eyes.know(*eyes.beside(1.0, 0.0))
     show(monkeypatch, obstacle(*eyes.beside(1.05, 0.0)))
     floor.full = True
@@ -314,9 +321,9 @@ def test_a_mapped_obstacle_updates_no_track(
 
 
 def test_an_outdated_opponent_position_frees_no_floor(
-    eyes: Eyes, monkeypatch: pytest.MonkeyPatch
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    floor = eyes.perception.floor = NoFloor()
+    eyes, floor = mapping()
     show(monkeypatch)
     track = eyes.know(*eyes.beside(1.0, 0.0))
     for age, known in ((0.9 * MAX_AGE, True), (1.1 * MAX_AGE, False)):
@@ -327,37 +334,28 @@ def test_an_outdated_opponent_position_frees_no_floor(
 
 @pytest.mark.parametrize(("beyond", "missed"), [(-0.05, 0), (0.05, 1)])
 def test_a_track_within_the_near_limit_counts_no_miss(
-    eyes: Eyes, monkeypatch: pytest.MonkeyPatch, beyond: float, missed: int
+    monkeypatch: pytest.MonkeyPatch, beyond: float, missed: int
 ) -> None:
     """Otherwise no near track would be confirmed by two cameras."""
-    eyes.perception.floor = NoFloor()
+    eyes, _ = mapping()
     show(monkeypatch)
     forward = HEAD.depth.place[0]
     image = depth(TICK)
     away = image.near + NEAR_MARGIN + forward + beyond
     track = eyes.know(*eyes.beside(away, 0.0))
     eyes.see(TICK, image)
-    assert list(track._hits).count(False) == missed
+    assert hits(track).count(False) == missed
 
 
 @pytest.mark.parametrize(
-    ("floor", "people", "calm"),
-    [(None, False, False), (FloorMap, False, True), (FloorMap, True, False)],
+    ("maps", "people", "calm"),
+    [(False, False, False), (True, False, True), (True, True, False)],
 )
 def test_with_a_map_tracks_use_the_motion_model_of_robots(
-    floor: Any, people: bool, calm: bool
+    maps: bool, people: bool, calm: bool
 ) -> None:
     """The part of a near robot beyond an image edge is estimated too."""
-    eyes = Eyes()
-    made = eyes.perception = Perception(
-        NAO,
-        HEAD,
-        RED,
-        tick=TICK,
-        floor=None if floor is None else floor(),
-        people=people,
-    )
-    made._detector, made._gaze = eyes.detector, eyes.gaze
+    eyes = Eyes(FloorMapping() if maps else None, people=people)
     right = float(CAMERA.width - 4)
     ends = right - 2.0, 40.0, 80.0, right - 4.0, right
     eyes.detector.found = ColourDetection(*ends, 0.5, False, False, False)

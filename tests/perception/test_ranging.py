@@ -5,7 +5,7 @@ import pytest
 
 from stepaside.core.poses import Array
 from stepaside.perception.colour_detector import RED, Appearance
-from stepaside.perception.ranging import range_of_trim, range_of_width
+from stepaside.perception.observations import range_of_trim, range_of_width
 
 EYE = 0.46
 TOES = 0.05  # that trim at the feet is nearer than the axis, in [m]

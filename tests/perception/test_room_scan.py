@@ -5,23 +5,16 @@ from math import radians
 import numpy as np
 import pytest
 
-from made_up_eyes import HEAD, NAO
-from made_up_robot import GAIT, FakeStrategy
-from stepaside.control.scheme_builder import build_scheme
-from stepaside.control.sight_sources import CameraSight
+from made_up_eyes import HEAD
 from stepaside.core.poses import Array
-from stepaside.locomotion.zmp.control_settings import OPEN_LOOP
-from stepaside.perception.colour_detector import RED
-from stepaside.perception.floor_map import FloorMap
-from stepaside.perception.gaze import Gaze
-from stepaside.perception.perception import Perception
+from stepaside.perception.gaze import Gaze, NoGlances
+from stepaside.perception.head_motion import HeadControl
 from stepaside.perception.room_scan import (
     BODY_TURN,
     HEADING_TOLERANCE,
     MAX_DURATION,
     RoomScan,
 )
-from stepaside.planning import Direction
 
 TICK = 0.02
 START = 3.0  # heading at first, near to a turn of pi, in [rad]
@@ -33,8 +26,7 @@ def looked(
     *, behind: bool, rate: float = RATE
 ) -> tuple[float, Array, RoomScan]:
     """Return the duration of a scan, in [s], and the directions."""
-    gaze, around = Gaze(HEAD.coupling, TICK), RoomScan()
-    around.behind = behind
+    gaze, around = Gaze(HEAD.coupling, TICK), RoomScan(behind=behind)
     now, heading, turned = 0.0, 0.0, []
     while around.lasts(gaze):
         around.look(gaze, now, START + heading)
@@ -69,8 +61,7 @@ def test_a_turning_body_covers_all_directions() -> None:
 
 
 def test_after_turning_back_the_body_does_not_turn_again() -> None:
-    gaze, around = Gaze(HEAD.coupling, TICK), RoomScan()
-    around.behind = True
+    gaze, around = Gaze(HEAD.coupling, TICK), RoomScan(behind=True)
     headings = np.array([0.0, -0.7, -1.4, -1.4, -0.7, 0.0, 0.1])
     turnings: list[float] = []
     for heading in START + np.repeat(headings, 100):
@@ -90,8 +81,8 @@ def test_a_scan_times_out_without_a_turn() -> None:
 @pytest.mark.parametrize("rate", [0.05, 0.1, 0.2, 0.26])
 def test_a_slow_turn_is_reversed_in_time(rate: float) -> None:
     """So that the game begins from its initial pose."""
-    gaze, around = Gaze(HEAD.coupling, TICK), RoomScan()
-    around.behind, now, heading = True, 0.0, START
+    gaze, around = Gaze(HEAD.coupling, TICK), RoomScan(behind=True)
+    now, heading = 0.0, START
     while around.lasts(gaze):
         around.look(gaze, now, heading)
         now += TICK
@@ -111,33 +102,16 @@ def test_a_turn_in_the_wrong_direction_is_reversed_too() -> None:
 def test_a_robot_that_is_ready_scans_on_until_the_start(
     awaits_start: bool,
 ) -> None:
-    perception = Perception(
-        *(NAO, HEAD, RED),
-        tick=TICK,
-        floor=FloorMap(),
+    head = HeadControl(
+        Gaze(HEAD.coupling, TICK),
+        glances=NoGlances(),
+        scan=RoomScan(behind=False),
         awaits_start=awaits_start,
     )
-    assert perception.looking and not perception.is_ready
-    perception._gaze.scan_ends = 2
-    assert perception.is_ready
-    assert perception.looking is awaits_start
-    perception.started = True
-    assert not perception.looking
-
-
-@pytest.mark.parametrize("direction", list(Direction))
-def test_a_robot_that_walks_backward_scans_behind(
-    direction: Direction,
-) -> None:
-    """In either role; a robot that walks forward does not."""
-    perception = Perception(NAO, HEAD, RED, tick=TICK, floor=FloorMap())
-    assert not perception.around.behind
-    build_scheme(
-        FakeStrategy(direction=direction),
-        NAO,
-        GAIT,
-        OPEN_LOOP,
-        tick=TICK,
-        senses=CameraSight(perception, tick=TICK),
-    )
-    assert perception.around.behind is (direction is Direction.BACKWARD)
+    assert head.scans and not head.is_ready
+    for tick in range(round(3.0 / TICK)):
+        head.move(tick * TICK, 0.0, None)
+    assert head.is_ready
+    assert head.scans is awaits_start
+    head.start()
+    assert not head.scans

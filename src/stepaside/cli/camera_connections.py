@@ -75,19 +75,19 @@ def open_camera_body(
         StepAsideError: If the robot cannot be reached or has no camera.
     """
     from ..drivers.naoqi.naoqi_body import NaoqiBody
-    from ..drivers.scheme_factory import build_planar_perception
+    from ..drivers.scheme_factory import perception_factory
     from ..drivers.velocity.head_control import PERIOD, CameraBody
     from ..robots.description import load_robot
     from ..robots.head import load_head
 
     description = load_robot(connection.description)
     head = load_head(description)
-    perception = build_planar_perception(connection.role, description, PERIOD)
+    perception = perception_factory(connection.role)(description, PERIOD)
     dry_run = connection.dry_run
     body = NaoqiBody(
         url,
         dry_run=dry_run,
-        joint_names=perception.forward.tree.motors,
+        joint_names=perception.poses.kinematics.forward.tree.motors,
         head=(head.yaw, head.pitch),
         make_mover=connection.mover_factory(settings),
     )

@@ -7,7 +7,7 @@ from ..locomotion.zmp.feedback_loop import Balance, ClosedLoop, OpenLoop
 from ..locomotion.zmp.feedforward import LoadFeedforward
 from ..locomotion.zmp.stabiliser import Stabiliser
 from ..locomotion.zmp.state_estimator import StateEstimator
-from ..planning import Direction, GaitSettings, ManeuverPlanner
+from ..planning import GaitSettings, ManeuverPlanner
 from ..robots.description import RobotDescription
 from ..robots.forward_kinematics import ForwardKinematics
 from ..robots.leg_kinematics import LegKinematics
@@ -112,9 +112,7 @@ def build_scheme(
     """
     forward = None
     if isinstance(senses, CameraSight):
-        perception = senses.perception
-        perception.around.behind = strategy.direction is Direction.BACKWARD
-        forward = perception.forward
+        forward = senses.perception.poses.kinematics.forward
     kinematics = LegKinematics(description, tick=tick)
     walk = ManeuverWalk(
         gait,

@@ -94,7 +94,7 @@ class CameraSight:
     @property
     def turning(self) -> float:
         """Turn on the spot for a scan: 1 left, -1 right, or 0."""
-        return self.perception.around.turning
+        return self.perception.head.turning
 
     def see(
         self,

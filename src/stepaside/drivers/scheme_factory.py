@@ -14,7 +14,6 @@ from ..strategies import Strategy
 
 if TYPE_CHECKING:
     from ..perception.perception import Perception
-    from ..perception.planar_perception import PlanarPerception
 
 REQUEST_TO_MOTION = 3  # ticks from command to motion, measured on NAO
 
@@ -71,40 +70,18 @@ def perception_factory(
 
     Raises:
         ConfigurationError: If OpenCV is not installed.
+        ModelError: If the robot has no head; raised by the factory.
     """
     _one_thread()
-    from ..perception.colour_detector import LOOKS
-    from ..perception.perception import Perception
+    from ..perception.colour_detector import LOOKS, ColourDetector
+    from ..perception.perception_builder import build_perception
     from ..robots.head import load_head
 
-    def make(description: RobotDescription, tick: float) -> Perception:
-        head = load_head(description)
-        return Perception(description, head, LOOKS[role], tick=tick)
+    def make(description: RobotDescription, tick: float) -> "Perception":
+        head, detector = load_head(description), ColourDetector(LOOKS[role])
+        return build_perception(description, head, detector, tick=tick)
 
     return make
-
-
-def build_planar_perception(
-    role: str, description: RobotDescription, tick: float
-) -> "PlanarPerception":
-    """Build the perception of a robot that has its own walking control.
-
-    Args:
-        role: Role of the player; its opponent's colours are looked for.
-        description: Description of the robot.
-        tick: Time between two reports, in [s].
-
-    Raises:
-        ConfigurationError: If OpenCV is not installed.
-        ModelError: If the robot has no head.
-    """
-    _one_thread()
-    from ..perception.colour_detector import LOOKS
-    from ..perception.planar_perception import PlanarPerception
-    from ..robots.head import load_head
-
-    head = load_head(description)
-    return PlanarPerception(description, head, LOOKS[role], tick=tick)
 
 
 def _one_thread() -> None:

@@ -1,6 +1,6 @@
 """Cameras, perception and its evaluation in a duel with camera sensing."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 from ..core.errors import ConfigurationError
 
@@ -12,10 +12,12 @@ except ImportError as error:
     ) from error
 
 from ..core.poses import Array
-from ..perception.colour_detector import LOOKS
-from ..perception.floor_map import FloorMap
-from ..perception.gaze import OFTEN, SELDOM
+from ..perception.colour_detector import LOOKS, ColourDetector
+from ..perception.gaze import OFTEN, SELDOM, Glances
 from ..perception.perception import Perception
+from ..perception.perception_builder import FloorMapping, build_perception
+from ..perception.room_scan import RoomScan
+from ..planning import Direction
 from ..robots.description import RobotDescription
 from ..robots.head import load_head
 from ..sim.ground_truth import GroundTruth
@@ -47,7 +49,7 @@ class CameraSenses:
         self,
         settings: DuelSettings,
         description: RobotDescription,
-        names: Sequence[str],
+        directions: Mapping[str, Direction],
         *,
         tick: float,
     ) -> None:
@@ -56,7 +58,8 @@ class CameraSenses:
         Args:
             settings: Settings of the duel, with the initial poses filled in.
             description: Description of the robots; all are of one model.
-            names: Names of the players that are robots.
+            directions: Driving direction of each player that is a robot; one
+                that walks backward scans the room behind.
             tick: Control period, in [s].
 
         Raises:
@@ -73,18 +76,29 @@ class CameraSenses:
             settings.room.plan is not None and settings.map.source == "seen"
         )
         self.perceptions = {
-            name: Perception(
-                description,
-                self._head,
-                LOOKS[name],
-                tick=tick,
-                floor=FloorMap() if self._maps else None,
-                glances=GLANCES[name] if self._maps else None,
-                people=settings.pursuer == "person",
+            name: self._perception(name, direction, tick)
+            for name, direction in directions.items()
+        }
+
+    def _perception(
+        self, name: str, direction: Direction, tick: float
+    ) -> Perception:
+        """Build the perception of a robot."""
+        mapping = None
+        if self._maps:
+            mapping = FloorMapping(
+                scan=RoomScan(behind=direction is Direction.BACKWARD),
+                glances=Glances(tick, GLANCES[name]),
                 awaits_start=True,
             )
-            for name in names
-        }
+        return build_perception(
+            self._description,
+            self._head,
+            ColourDetector(LOOKS[name]),
+            tick=tick,
+            mapping=mapping,
+            people=self._settings.pursuer == "person",
+        )
 
     def of_robot(self, world: World, name: str) -> CameraSensing:
         """Return the cameras and the perception of a robot of a world."""

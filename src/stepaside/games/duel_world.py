@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 from ..core.errors import ConfigurationError
 from ..core.poses import Pose
 from ..core.random_streams import named_generator
+from ..planning import Direction
 from ..robots.description import load_robot
 from ..sim.body_settings import at_tick, with_control_period
 from ..sim.ground_truth import GroundTruth
@@ -13,7 +14,7 @@ from ..sim.pedestrian_models import FIGURES
 from ..sim.person_body import PersonBody
 from ..sim.person_motion import PersonMotion
 from ..sim.world import World
-from ..strategies import Strategy, load_strategy
+from ..strategies import load_strategy
 from .duel_furnishing import furnishing_of, movers_in
 from .duel_settings import EVADER, PLAYERS, PURSUER, DuelSettings
 from .person_player import PersonPlayer
@@ -59,7 +60,16 @@ class DuelWorld:
         physics = settings.physics
         if not any(settings.robot_of(n).legs.walks for n in self._setups):
             physics = with_control_period(physics, settings.body)
-        self._senses = _camera_senses(settings, self._setups, physics.tick)
+        named = settings.pursuer_strategy, settings.evader_strategy
+        self._strategies = {
+            name: load_strategy(strategy, settings.strategy)
+            for name, strategy in zip(PLAYERS, named, strict=True)
+            if name in self._setups
+        }
+        directions = {n: s.direction for n, s in self._strategies.items()}
+        self._senses = _camera_senses(
+            settings, self._setups, directions, physics.tick
+        )
         self.world = World(
             {name: own.description for name, own in self._setups.items()},
             physics,
@@ -85,14 +95,14 @@ class DuelWorld:
         if person is not None:
             self._truths[PURSUER] = person.truth
         pursuer: Player = (
-            self._walker(PURSUER, settings.pursuer_strategy)
+            self._walker(PURSUER)
             if person is None
             else PersonPlayer(person, self._truths[EVADER])
         )
-        evader = self._walker(EVADER, settings.evader_strategy)
+        evader = self._walker(EVADER)
         self.players = (pursuer, evader)
 
-    def _walker(self, name: str, strategy: str | Strategy) -> Player:
+    def _walker(self, name: str) -> Player:
         """Place a robot in the world, with the sensors of the settings."""
         settings, setup = self._settings, self._setups[name]
         sight, cameras = None, None
@@ -106,7 +116,7 @@ class DuelWorld:
             )
         else:
             cameras = self._senses.of_robot(self.world, name)
-        played = load_strategy(strategy, settings.strategy)
+        played = self._strategies[name]
         legs = settings.robot_of(name).legs
         if legs.walks:
             from .policy_player import place_policy_player
@@ -167,7 +177,10 @@ def _setup_of(settings: DuelSettings, name: str, frame: Pose) -> WalkerSetup:
 
 
 def _camera_senses(
-    settings: DuelSettings, setups: dict[str, WalkerSetup], tick: float
+    settings: DuelSettings,
+    setups: dict[str, WalkerSetup],
+    directions: dict[str, Direction],
+    tick: float,
 ) -> "CameraSenses | None":
     """Return the camera sensing of a duel; None with ideal sight."""
     if settings.sensing != "cameras":
@@ -180,4 +193,4 @@ def _camera_senses(
             "sensing must be ideal for different robots, got 'cameras' for "
             f"{', '.join(d.name for d in descriptions)}"
         )
-    return CameraSenses(settings, descriptions[0], tuple(setups), tick=tick)
+    return CameraSenses(settings, descriptions[0], directions, tick=tick)

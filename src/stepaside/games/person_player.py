@@ -12,7 +12,7 @@ from ..sim.push import Push
 from .player import Snapshot, TruthLog
 
 if TYPE_CHECKING:
-    from ..perception.frame_report import FrameReport
+    from ..perception.percept_stages import FrameReport
 
 
 class PersonPlayer:

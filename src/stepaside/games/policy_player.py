@@ -24,7 +24,7 @@ from .player import MotionLog, Snapshot, snapshot_of
 from .walker_factory import WalkerSetup
 
 if TYPE_CHECKING:
-    from ..perception.frame_report import FrameReport
+    from ..perception.percept_stages import FrameReport
 
 AT_ONCE = 1.0  # a fall until then is one of the policy, in [s]
 

@@ -53,7 +53,8 @@ class LolaOffer(NamedTuple):
         senses = walker.scheme.senses
         head: tuple[int, ...] = ()
         if isinstance(senses, CameraSight):
-            head = senses.perception.head_joints
+            kinematics = senses.perception.poses.kinematics
+            head = kinematics.yaw, kinematics.pitch
         body = ServedBody(walker.robot, head)
         server = LolaServer(
             self.address,

@@ -16,7 +16,7 @@ from ..sim.simulated_robot import SimulatedRobot
 from .player import Snapshot, snapshot_of
 
 if TYPE_CHECKING:
-    from ..perception.frame_report import FrameReport
+    from ..perception.percept_stages import FrameReport
 
 MOVING = 0.05  # change of a target from which a robot moves, in [rad]
 

@@ -6,8 +6,9 @@ from math import atan2, radians
 import numpy as np
 
 from ..core.poses import Array, wrap_angle, wrap_angles
-from ..perception.frame_report import FrameReport
 from ..perception.images import ColourImage, DepthImage, Percept, SonarEcho
+from ..perception.measurement import Sighting
+from ..perception.percept_stages import FrameReport
 from ..perception.perception import Perception
 from ..robots.head import HeadDescription, Mount
 from ..sim.ground_truth import GroundTruth, torsos_apart
@@ -97,6 +98,8 @@ class SightEvaluator:
             "colour": [],
             "depth": [],
         }
+        self._sighting: Sighting | None = None
+        self._true_sighting = (np.nan, np.nan)
         self._rows: list[tuple[float, ...]] = []
         self._still_times = still_times
 
@@ -107,6 +110,9 @@ class SightEvaluator:
             self.note(percept)
         for report in self._perception.reports:
             self.judge(report)
+        sighting = self._perception.sighting
+        if sighting is not self._sighting:
+            self._sighting, self._true_sighting = sighting, self._truth()
 
     def note(self, percept: Percept) -> None:
         """Store the truth at the instant at which an image is taken."""
@@ -160,26 +166,29 @@ class SightEvaluator:
                 stills.append(EvaluatedImage(report, azimuth))
 
     def sample(self, now: float) -> None:
-        """Record the present sighting and the truth."""
+        """Record the latest sighting and the truth at its time."""
+        sighting, estimated = self._sighting, (np.nan, np.nan)
+        true = self._truth() if sighting is None else self._true_sighting
+        if sighting is not None:
+            estimated = (sighting.bearing, sighting.distance)
+        lost = float(sighting is None or self._perception.searching)
+        self._rows.append((now, *estimated, *true, lost))
+
+    def _truth(self) -> tuple[float, float]:
+        """Return the present bearing, in [rad], and distance, in [m]."""
         own, other = self._robot.truth, self._other
         x, y = own.position_torso_in_world
         u, v = other.position_torso_in_world
         bearing = wrap_angle(atan2(v - y, u - x) - own.heading_in_world)
-        distance = torsos_apart(own, other)
-        sighting = self._perception.sighting
-        estimated = (np.nan, np.nan)
-        if sighting is not None:
-            estimated = (sighting.bearing, sighting.distance)
-        lost = float(sighting is None or self._perception.searching)
-        self._rows.append((now, *estimated, bearing, distance, lost))
+        return bearing, torsos_apart(own, other)
 
     def array(self) -> Array:
         """Return the recorded sightings beside the truth.
 
         Returns:
             Time [s], estimated bearing [rad] and distance [m], true bearing
-            [rad] and distance [m], 1 while the opponent is lost. Shape
-            (n, 6).
+            [rad] and distance [m] at the time of the sighting, 1 while the
+            opponent is lost. Shape (n, 6).
         """
         return np.array(self._rows, dtype=np.float64).reshape(-1, 6)
 

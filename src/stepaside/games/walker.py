@@ -14,7 +14,7 @@ from .player import Snapshot, snapshot_of
 from .walker_log import WalkerLog
 
 if TYPE_CHECKING:
-    from ..perception.frame_report import FrameReport
+    from ..perception.percept_stages import FrameReport
     from ..perception.perception import Perception
 
 
@@ -57,12 +57,12 @@ class SimulatedPlayer:
     def is_ready(self) -> bool:
         """Whether it has scanned the room, if it maps it."""
         perception = self._perception
-        return perception is None or perception.is_ready
+        return perception is None or perception.head.is_ready
 
     def start(self) -> None:
         """Receive the signal that the game begins."""
         if self._perception is not None:
-            self._perception.started = True
+            self._perception.head.start()
 
     @property
     def is_moving(self) -> bool:

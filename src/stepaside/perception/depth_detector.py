@@ -1,14 +1,14 @@
 """Detection of obstacles in a depth image."""
 
 from dataclasses import dataclass
-from math import atan2
 from typing import NamedTuple
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.poses import Array
+from ..core.poses import Array, wrap_angles
+from .camera_pose import CameraPose
 from .images import DepthImage
 
 MAX_STEP = 0.25  # of depth between pixels of one component, in [m]
@@ -151,66 +151,18 @@ class DepthScene:
     shadows: tuple[Shadow, ...]
 
 
-def detect_obstacles(
-    image: DepthImage,
-    position_camera_in_odometry: Array,
-    axes_camera_in_odometry: Array,
-    position_own_in_odometry: tuple[float, float],
-) -> DepthScene:
+def detect_obstacles(image: DepthImage, camera: CameraPose) -> DepthScene:
     """Detect obstacles: remove floor and own body, segment the rest.
 
     Args:
         image: Depth image.
-        position_camera_in_odometry: Position of the camera, in [m].
-                Shape (3,).
-        axes_camera_in_odometry: Its axes (forward, left, up) as columns.
-            Shape (3, 3).
-        position_own_in_odometry: Position of the robot, in [m].
+        camera: Pose of the camera at its exposure.
     """
-    rays = image.camera.rays() @ axes_camera_in_odometry.T
-    depths = image.depths.astype(np.float64)
-    points = position_camera_in_odometry + depths[..., None] * rays
-    valid = depths > 0.0
-    heights = points[..., 2]
-    # An error of the tilt lifts the far floor.
-    slack = FLOOR + 0.01 * depths
-    solid = valid & (heights > slack) & (heights < CEILING)
-    away = np.hypot(
-        points[..., 0] - position_own_in_odometry[0],
-        points[..., 1] - position_own_in_odometry[1],
-    )
-    solid &= away > SELF
-    measured = [
-        _measure(
-            points[part],
-            part,
-            position_camera_in_odometry,
-            axes_camera_in_odometry,
-        )
-        for part in segment_depth(solid, depths)
-    ]
-    obstacles = [
-        obstacle
-        for obstacle in measured
-        if obstacle.width < MAX_WIDTH
-        and obstacle.height > MIN_HEIGHT
-        and obstacle.nearest < TRUSTED * image.far
-        # An image edge may cut a piece off a wall.
-        and (obstacle.whole or obstacle.nearest < WHOLE_BEYOND)
-    ]
-    obstacles = join_legs(
-        sorted(obstacles, key=lambda obstacle: obstacle.nearest)
-    )
-    no_return = _shadows(
-        image,
-        depths,
-        rays,
-        position_camera_in_odometry,
-        axes_camera_in_odometry,
-    )
+    rays = camera.rays(image.camera)
+    no_return = _shadows(image, camera, rays)
     whole: list[DetectedObstacle] = []
     near = list(no_return)
-    for obstacle in obstacles:
+    for obstacle in _obstacles(image, camera, rays):
         half = 0.5 * obstacle.width / obstacle.nearest
         low, high = obstacle.azimuth - half, obstacle.azimuth + half
         # Missing floor beside it may be a nearer part of the same object.
@@ -224,10 +176,36 @@ def detect_obstacles(
             )
         else:
             whole.append(obstacle)
-    heading_camera = atan2(
-        axes_camera_in_odometry[1, 0], axes_camera_in_odometry[0, 0]
-    )
-    return DepthScene(tuple(whole), _join_components(near, heading_camera))
+    shadows = _join_components(near, camera.heading_in_odometry)
+    return DepthScene(tuple(whole), shadows)
+
+
+def _obstacles(
+    image: DepthImage, camera: CameraPose, rays: Array
+) -> list[DetectedObstacle]:
+    """Return the obstacles of an image, nearest first."""
+    depths = image.depths.astype(np.float64)
+    points = camera.position_in_odometry + depths[..., None] * rays
+    valid = depths > 0.0
+    heights = points[..., 2]
+    # An error of the tilt lifts the far floor.
+    slack = FLOOR + 0.01 * depths
+    solid = valid & (heights > slack) & (heights < CEILING)
+    solid &= camera.distances(points) > SELF
+    measured = [
+        _measure(points[part], part, camera)
+        for part in segment_depth(solid, depths)
+    ]
+    obstacles = [
+        obstacle
+        for obstacle in measured
+        if obstacle.width < MAX_WIDTH
+        and obstacle.height > MIN_HEIGHT
+        and obstacle.nearest < TRUSTED * image.far
+        # An image edge may cut a piece off a wall.
+        and (obstacle.whole or obstacle.nearest < WHOLE_BEYOND)
+    ]
+    return join_legs(sorted(obstacles, key=lambda obstacle: obstacle.nearest))
 
 
 def _join_components(
@@ -311,21 +289,18 @@ def _person_between(
 
 
 def _measure(
-    points: Array,
-    part: NDArray[np.bool_],
-    position_camera_in_odometry: Array,
-    axes_camera_in_odometry: Array,
+    points: Array, part: NDArray[np.bool_], camera: CameraPose
 ) -> DetectedObstacle:
-    dx, dy = (
-        points[:, 0] - position_camera_in_odometry[0],
-        points[:, 1] - position_camera_in_odometry[1],
-    )
-    heading_camera = atan2(
-        axes_camera_in_odometry[1, 0], axes_camera_in_odometry[0, 0]
-    )
-    azimuths = (np.arctan2(dy, dx) - heading_camera + np.pi) % (
-        2.0 * np.pi
-    ) - np.pi
+    """Return the obstacle of a component.
+
+    Args:
+        points: Its points in odometry, in [m]. Shape (n, 3).
+        part: Its pixels. Shape (height, width).
+        camera: Pose of the camera.
+    """
+    eye, heading = camera.position_in_odometry, camera.heading_in_odometry
+    dx, dy = points[:, 0] - eye[0], points[:, 1] - eye[1]
+    azimuths = wrap_angles(np.arctan2(dy, dx) - heading)
     distances = np.hypot(dx, dy)
     nearest = float(np.quantile(distances, 0.1))
     low, high = np.quantile(azimuths, (0.02, 0.98)).tolist()
@@ -333,10 +308,10 @@ def _measure(
     width = nearest * (high - low)
     columns = np.flatnonzero(part.any(axis=0))
     reach = nearest + min(max(0.5 * width, 0.11), 0.16)
-    bearing = heading_camera + azimuth
+    bearing = heading + azimuth
     return DetectedObstacle(
-        float(position_camera_in_odometry[0] + reach * np.cos(bearing)),
-        float(position_camera_in_odometry[1] + reach * np.sin(bearing)),
+        float(eye[0] + reach * np.cos(bearing)),
+        float(eye[1] + reach * np.sin(bearing)),
         nearest,
         bearing,
         azimuth,
@@ -348,17 +323,13 @@ def _measure(
 
 
 def _shadows(
-    image: DepthImage,
-    depths: Array,
-    rays: Array,
-    position_camera_in_odometry: Array,
-    axes_camera_in_odometry: Array,
+    image: DepthImage, camera: CameraPose, rays: Array
 ) -> list[DepthComponent]:
     """Find floor that should return depth and does not."""
-    down = -rays[..., 2]
+    depths, down = image.depths, -rays[..., 2]
     with np.errstate(divide="ignore"):
         floor = np.where(
-            down > 1e-6, position_camera_in_odometry[2] / down, np.inf
+            down > 1e-6, camera.position_in_odometry[2] / down, np.inf
         )
     expected = (floor > 1.1 * image.near) & (floor < 0.85 * image.far)
     no_return = (expected & (depths == 0.0)).astype(np.uint8)
@@ -371,17 +342,14 @@ def _shadows(
     )
     least = MIN_SHADOW_AREA * (depths.shape[1] / 80.0) ** 2
     shadows = []
-    heading_camera = atan2(
-        axes_camera_in_odometry[1, 0], axes_camera_in_odometry[0, 0]
-    )
     for label in range(1, count):
         if stats[label, cv2.CC_STAT_AREA] < least:
             continue
         directions = rays[labels == label]
-        azimuths = (
-            np.arctan2(directions[:, 1], directions[:, 0]) - heading_camera
+        azimuths = wrap_angles(
+            np.arctan2(directions[:, 1], directions[:, 0])
+            - camera.heading_in_odometry
         )
-        azimuths = (azimuths + np.pi) % (2.0 * np.pi) - np.pi
         low, high = float(azimuths.min()), float(azimuths.max())
         left, wide = stats[label, [cv2.CC_STAT_LEFT, cv2.CC_STAT_WIDTH]]
         whole = bool(left > 0 and left + wide < depths.shape[1])

@@ -1,5 +1,7 @@
 """Colour histogram of the floor, and detection of feet on it close by."""
 
+from collections.abc import Iterable
+from math import hypot
 from typing import NamedTuple
 
 import cv2
@@ -8,6 +10,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from ..core.poses import Array
+from .camera_pose import CameraPose
 from .images import ColourImage, Pixels
 
 BITS = 4  # of each colour channel in the histogram
@@ -84,42 +87,66 @@ class FloorColours:
         return found
 
 
-def floor_points(
-    image: ColourImage,
-    position_camera_in_odometry: Array,
-    axes_camera_in_odometry: Array,
-) -> Array:
+def floor_points(image: ColourImage, camera: CameraPose) -> Array:
     """Return the floor points of the pixels; infinite above the horizon.
 
     Args:
         image: The image.
-        position_camera_in_odometry: Position of the camera, in [m].
-                Shape (3,).
-        axes_camera_in_odometry: Its axes (forward, left, up) as columns.
-            Shape (3, 3).
+        camera: Pose of the camera at its exposure.
 
     Returns:
         Points in odometry, in [m]. Shape (height, width, 2).
     """
-    rays = image.camera.rays() @ axes_camera_in_odometry.T
+    rays, eye = camera.rays(image.camera), camera.position_in_odometry
     down = -rays[..., 2]
     with np.errstate(divide="ignore", invalid="ignore"):
-        reach = np.where(
-            down > 1e-3, position_camera_in_odometry[2] / down, np.inf
-        )
-        points = (
-            position_camera_in_odometry[:2] + reach[..., None] * rays[..., :2]
-        )
+        reach = np.where(down > 1e-3, eye[2] / down, np.inf)
+        points = eye[:2] + reach[..., None] * rays[..., :2]
     points_or_inf: Array = np.where((down > 1e-3)[..., None], points, np.inf)
     return points_or_inf
 
 
+def floor_in_view(
+    points_in_odometry: Array,
+    camera: CameraPose,
+    reach: tuple[float, float],
+    objects_in_odometry: Iterable[tuple[float, float]],
+    *,
+    margin: float,
+    depth: float = 0.0,
+) -> NDArray[np.bool_]:
+    """Return the mask of floor that no object covers or hides.
+
+    Args:
+        points_in_odometry: Floor points of pixels, in [m]. Shape
+            (height, width, 2).
+        camera: Pose of the camera.
+        reach: Least and greatest distance of the floor, in [m].
+        objects_in_odometry: Positions of objects on the floor, in [m].
+        margin: Distance from each object to the floor, in [m].
+        depth: Distance before each object from which on it hides the floor,
+            in [m].
+
+    Returns:
+        Mask. Shape (height, width).
+    """
+    distances = camera.distances(points_in_odometry)
+    least, greatest = reach
+    floor = (distances > least) & (distances < greatest)
+    own_x, own_y = camera.position_torso_in_odometry
+    for x, y in objects_in_odometry:
+        apart = np.hypot(
+            points_in_odometry[..., 0] - x, points_in_odometry[..., 1] - y
+        )
+        hidden = distances > hypot(x - own_x, y - own_y) - depth
+        floor &= (apart > margin) & ~hidden
+    return floor
+
+
 def detect_feet(
     image: ColourImage,
+    camera: CameraPose,
     colours: FloorColours,
-    position_camera_in_odometry: Array,
-    axes_camera_in_odometry: Array,
-    position_own_in_odometry: tuple[float, float],
 ) -> tuple[FloorContact, ...]:
     """Detect feet on the floor close by, by their near edges.
 
@@ -129,26 +156,17 @@ def detect_feet(
 
     Args:
         image: Image of the bottom camera.
+        camera: Pose of the camera at its exposure.
         colours: Colours of the floor; without enough of them nothing is
             detected.
-        position_camera_in_odometry: Position of the camera, in [m].
-                Shape (3,).
-        axes_camera_in_odometry: Its axes (forward, left, up) as columns.
-            Shape (3, 3).
-        position_own_in_odometry: Position of the robot, in [m].
 
     Returns:
         Floor contacts, nearest first.
     """
     if not colours.known:
         return ()
-    points = floor_points(
-        image, position_camera_in_odometry, axes_camera_in_odometry
-    )
-    distances = np.hypot(
-        points[..., 0] - position_own_in_odometry[0],
-        points[..., 1] - position_own_in_odometry[1],
-    )
+    points = floor_points(image, camera)
+    distances = camera.distances(points)
     candidates = (
         (distances > NEAR)
         & (distances < FAR)

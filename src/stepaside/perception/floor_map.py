@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from ..arena import Polygon
 from ..arena.polygon_cover import cover
 from ..core.poses import Array, wrap_angles
+from .camera_pose import CameraPose
 from .images import DepthImage
 
 CELL = 0.05  # side of a cell, in [m]
@@ -73,34 +74,29 @@ class FloorMap:
     def take(
         self,
         image: DepthImage,
-        position_camera_in_odometry: Array,
-        axes_camera_in_odometry: Array,
-        position_own_in_odometry: tuple[float, float],
+        camera: CameraPose,
         position_opponent_in_odometry: tuple[float, float] | None,
     ) -> None:
         """Add a depth image.
 
         Args:
             image: The image.
-            position_camera_in_odometry: Position of the camera, in [m].
-                Shape (3,).
-            axes_camera_in_odometry: Its axes (forward, left, up) as columns.
-                Shape (3, 3).
-            position_own_in_odometry: Position of the robot, in [m].
+            camera: Pose of the camera at its exposure.
             position_opponent_in_odometry: Position of the opponent, in [m];
                 None if it is not tracked.
         """
         depths = image.depths.astype(np.float64)
-        points = position_camera_in_odometry + depths[..., None] * (
-            image.camera.rays() @ axes_camera_in_odometry.T
+        points = camera.position_in_odometry + depths[..., None] * (
+            camera.rays(image.camera)
         )
+        own = camera.position_torso_in_odometry
         valid = (depths > 0.0) & (depths < 0.97 * image.far)
         heights = points[..., 2]
         slack = LOW + 0.01 * depths
         if not self.version:
-            self._free_around(position_own_in_odometry, FREE_AT_START)
+            self._free_around(own, FREE_AT_START)
         hits = valid & (heights > slack) & (heights < HIGH)
-        flat = points[..., :2] - np.array(position_own_in_odometry)
+        flat = points[..., :2] - np.array(own)
         distances = np.hypot(flat[..., 0], flat[..., 1])
         hits &= distances > SELF
         opponents = np.zeros_like(hits)
@@ -111,9 +107,7 @@ class FloorMap:
         beside = round(BEARING_ERROR * image.camera.focal_x)
         blocked = _dilate(np.asarray(~low_enough.any(axis=0)), beside)
         begin = np.where(blocked, image.near, RAY_START)
-        self._add_free_rays(
-            flat, distances, low_enough, hits, position_own_in_odometry, begin
-        )
+        self._add_free_rays(flat, distances, low_enough, hits, own, begin)
         # One pixel alone may be noise.
         hit_cells = self._counts(points[hits & ~opponents][:, :2]) > 1
         self._evidence[hit_cells] += HIT

@@ -1,12 +1,15 @@
 """Detection of the feet of people nearby, by the bottom camera."""
 
 from collections.abc import Sequence
-from math import atan2, cos, hypot, sin
+from math import atan2, cos, sin
 
-import numpy as np
-
-from ..core.poses import Array
-from .floor_colours import FloorColours, detect_feet, floor_points
+from .camera_pose import CameraPose
+from .floor_colours import (
+    FloorColours,
+    detect_feet,
+    floor_in_view,
+    floor_points,
+)
 from .images import ColourImage
 from .track import Observation, TargetTrack
 
@@ -57,75 +60,39 @@ class FootDetector:
     def learn(
         self,
         image: ColourImage,
-        position_camera_in_odometry: Array,
-        axes_camera_in_odometry: Array,
-        position_own_in_odometry: tuple[float, float],
+        camera: CameraPose,
         tracks: Sequence[TargetTrack],
     ) -> None:
         """Learn the colours of the floor from an image of the top camera.
 
         Args:
             image: The image.
-            position_camera_in_odometry: Position of the camera, in [m].
-                Shape (3,).
-            axes_camera_in_odometry: Its axes (forward, left, up) as columns.
-                Shape (3, 3).
-            position_own_in_odometry: Position of the robot, in [m].
+            camera: Pose of the camera at its exposure.
             tracks: All tracks; the floor around them is left out.
         """
-        points = floor_points(
-            image, position_camera_in_odometry, axes_camera_in_odometry
+        floor = floor_in_view(
+            floor_points(image, camera),
+            camera,
+            LEARNT,
+            [track.position_at(image.time) for track in tracks],
+            margin=MARGIN,
+            depth=MARGIN,
         )
-        distances = np.hypot(
-            points[..., 0] - position_own_in_odometry[0],
-            points[..., 1] - position_own_in_odometry[1],
-        )
-        floor = (distances > LEARNT[0]) & (distances < LEARNT[1])
-        for track in tracks:
-            x, y = track.position_at(image.time)
-            apart = np.hypot(points[..., 0] - x, points[..., 1] - y)
-            # A person also hides the floor behind.
-            beyond = (
-                distances
-                > hypot(
-                    x - position_own_in_odometry[0],
-                    y - position_own_in_odometry[1],
-                )
-                - MARGIN
-            )
-            floor &= (apart > MARGIN) & ~beyond
         self.colours.learn(image.pixels, floor)
 
     def observe(
-        self,
-        image: ColourImage,
-        position_camera_in_odometry: Array,
-        axes_camera_in_odometry: Array,
-        position_own_in_odometry: tuple[float, float],
+        self, image: ColourImage, camera: CameraPose
     ) -> list[Observation]:
         """Detect feet in an image of the bottom camera.
 
         Args:
             image: The image.
-            position_camera_in_odometry: Position of the camera, in [m].
-                Shape (3,).
-            axes_camera_in_odometry: Its axes (forward, left, up) as columns.
-                Shape (3, 3).
-            position_own_in_odometry: Position of the robot, in [m].
+            camera: Pose of the camera at its exposure.
         """
-        contacts = detect_feet(
-            image,
-            self.colours,
-            position_camera_in_odometry,
-            axes_camera_in_odometry,
-            position_own_in_odometry,
-        )
+        own_x, own_y = camera.position_torso_in_odometry
         observations = []
-        for contact in contacts:
-            bearing = atan2(
-                contact.y - position_own_in_odometry[1],
-                contact.x - position_own_in_odometry[0],
-            )
+        for contact in detect_feet(image, camera, self.colours):
+            bearing = atan2(contact.y - own_y, contact.x - own_x)
             observations.append(
                 Observation(
                     image.time,

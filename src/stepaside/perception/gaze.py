@@ -1,8 +1,7 @@
 """Gaze control: follow a target, scan for it, glance aside."""
 
+from bisect import bisect_right
 from math import atan2, hypot, radians
-
-import numpy as np
 
 from ..core.poses import Array, wrap_angle
 from .tracker import TALL
@@ -42,7 +41,7 @@ class Gaze:
                 (3, n).
             tick: Control period, in [s].
         """
-        self._yaws, self._low, self._high = coupling
+        self._yaws, self._low, self._high = coupling.tolist()
         self._tick = tick
         self._side = 1.0
         self.yaw, self.pitch = 0.0, SCAN_PITCH
@@ -83,7 +82,7 @@ class Gaze:
             stay: Whether to stop at the next end of the scan.
         """
         self.searching = True
-        edge = min(MAX_YAW, float(self._yaws[-1]))
+        edge = min(MAX_YAW, self._yaws[-1])
         if self._side * self.yaw >= edge - 1e-6 and not stay:
             self._side = -self._side
             self.scan_ends += 1
@@ -91,15 +90,32 @@ class Gaze:
 
     def _turn(self, yaw: float, pitch: float, speed: float) -> None:
         step = speed * self._tick
-        yaw = min(max(yaw, float(self._yaws[0])), float(self._yaws[-1]))
+        yaw = min(max(yaw, self._yaws[0]), self._yaws[-1])
         to_yaw, to_pitch = yaw - self.yaw, pitch - self.pitch
         length = hypot(to_yaw, to_pitch)
         fraction = 1.0 if length <= step else step / length
         self.yaw += fraction * to_yaw
         self.pitch += fraction * to_pitch
-        low = float(np.interp(self.yaw, self._yaws, self._low))
-        high = float(np.interp(self.yaw, self._yaws, self._high))
+        low, high = self._pitch_range(self.yaw)
         self.pitch = min(max(self.pitch, low), high)
+
+    def _pitch_range(self, yaw: float) -> tuple[float, float]:
+        """Return the pitch limits at a yaw in range, all in [rad]."""
+        yaws, low, high = self._yaws, self._low, self._high
+        i = min(max(bisect_right(yaws, yaw) - 1, 0), len(yaws) - 2)
+        along, width = yaw - yaws[i], yaws[i + 1] - yaws[i]
+        return (
+            (low[i + 1] - low[i]) / width * along + low[i],
+            (high[i + 1] - high[i]) / width * along + high[i],
+        )
+
+
+class NoGlances:
+    """Gaze that stays on its target."""
+
+    def direction(self, bearing: float, distance: float) -> float:
+        """Return the bearing of the target, in [rad]."""
+        return bearing
 
 
 class Glances:

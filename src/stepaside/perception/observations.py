@@ -4,15 +4,18 @@ from collections.abc import Sequence
 from math import atan2, cos, hypot, radians, sin
 
 from ..core.poses import Array, wrap_angle
-from ..robots.body_pose import BodyPose
-from ..robots.head import Mount
+from .camera_pose import CameraPose
 from .colour_detector import Appearance, ColourDetection
 from .depth_detector import DetectedObstacle, Shadow
 from .floor_map import FloorMap
 from .images import ColourImage, DepthImage
-from .ranging import WIDTH, range_of_trim, range_of_width
 from .track import Observation, TargetTrack
 
+TRIM_FORWARD = 0.05  # from the axis to the lower end of the trim, in [m]
+TRIM_WIDTH = 0.25  # of trim, seen obliquely, in [m]
+# Range of distances from trim, in [m].
+TRIM_NEAREST = 0.2
+TRIM_FARTHEST = 4.0
 MIN_CONFIDENCE = 0.8  # at which the height of the trim gives the distance
 DEFAULT_DISTANCE = 1.2  # without measurement or track, in [m]
 MIN_DISTANCE = 0.35  # of an opponent, in [m]
@@ -32,8 +35,7 @@ DEVIATION_PART = 0.15  # of the axis of a partly measured object, in [m]
 def observe_trim(
     image: ColourImage,
     found: ColourDetection,
-    position_camera_in_odometry: Array,
-    axes_camera_in_odometry: Array,
+    camera: CameraPose,
     appearance: Appearance,
     tracks: Sequence[TargetTrack],
     *,
@@ -48,41 +50,22 @@ def observe_trim(
     Args:
         image: The image.
         found: Detection of the trim.
-        position_camera_in_odometry: Position of the camera, in [m].
-                Shape (3,).
-        axes_camera_in_odometry: Its axes (forward, left, up) as columns.
-            Shape (3, 3).
+        camera: Pose of the camera at its exposure.
         appearance: Appearance of the robot.
         tracks: All tracks.
         near: Whether it may be so near that an image edge hides a part
             without cutting a patch. The middle of the visible trim is then
             not the axis, and sway would look like a change of distance.
     """
-    camera = image.camera
     middle = 0.5 * (found.top + found.bottom)
-    x, y, _ = (
-        axes_camera_in_odometry @ camera.ray(found.column, middle)
-    ).tolist()
+    x, y, _ = camera.ray(image.camera, found.column, middle).tolist()
     bearing = atan2(y, x)
     hidden = 0.0
     if near:
-        hidden = _hidden_angle(
-            image,
-            found,
-            _distance_of_track(
-                tracks, image.time, bearing, position_camera_in_odometry
-            ),
-        )
+        away = _distance_of_track(tracks, image.time, bearing, camera)
+        hidden = _hidden_angle(image, found, away)
         bearing = wrap_angle(bearing - 0.5 * hidden)
-    distance = None
-    whole = not (found.cut_above or found.cut_below)
-    if whole and found.confidence >= MIN_CONFIDENCE:
-        distance = range_of_trim(
-            axes_camera_in_odometry @ camera.ray(found.column, found.top),
-            axes_camera_in_odometry @ camera.ray(found.column, found.bottom),
-            float(position_camera_in_odometry[2]),
-            appearance,
-        )
+    distance = _distance_by_height(image, found, camera, appearance)
     ranged = distance is not None
     along = DEVIATION_TRACK
     if distance is not None:
@@ -93,22 +76,39 @@ def observe_trim(
         )
         along = DEVIATION_WIDTH * distance
     else:
-        distance = _distance_of_track(
-            tracks, image.time, bearing, position_camera_in_odometry
-        )
+        distance = _distance_of_track(tracks, image.time, bearing, camera)
         if distance <= MIN_DISTANCE:
             along = 0.1
     aside = 0.005 if not found.cut_aside else 0.06
     across = 0.003 + max(aside, 0.5 * abs(hidden)) * distance
+    eye = camera.position_in_odometry
     return Observation(
         image.time,
-        float(position_camera_in_odometry[0] + distance * cos(bearing)),
-        float(position_camera_in_odometry[1] + distance * sin(bearing)),
+        float(eye[0] + distance * cos(bearing)),
+        float(eye[1] + distance * sin(bearing)),
         bearing,
         along,
         max(across, DEVIATION_AXIS) if near else across,
         True,
         ranged,
+    )
+
+
+def _distance_by_height(
+    image: ColourImage,
+    found: ColourDetection,
+    camera: CameraPose,
+    appearance: Appearance,
+) -> float | None:
+    """Return the distance by the height of trim; None if a part is hidden."""
+    whole = not (found.cut_above or found.cut_below)
+    if not whole or found.confidence < MIN_CONFIDENCE:
+        return None
+    return range_of_trim(
+        camera.ray(image.camera, found.column, found.top),
+        camera.ray(image.camera, found.column, found.bottom),
+        float(camera.position_in_odometry[2]),
+        appearance,
     )
 
 
@@ -123,7 +123,7 @@ def _hidden_angle(
         distance: Distance of the robot, in [m].
     """
     left, right = angle_of(image, found.left), angle_of(image, found.right)
-    missing = max(0.0, WIDTH / distance - (right - left))
+    missing = max(0.0, TRIM_WIDTH / distance - (right - left))
     edge = -angle_of(image, 0.0)
     beyond_left, beyond_right = edge + left < missing, edge - right < missing
     return missing * (float(beyond_right) - float(beyond_left))
@@ -147,55 +147,31 @@ def observe_obstacle(
     )
 
 
-def observe_obstacles(
-    image: DepthImage,
-    obstacles: Sequence[DetectedObstacle],
-    floor: FloorMap | None,
-    position_opponent_in_odometry: tuple[float, float] | None = None,
-) -> tuple[list[Observation], list[Observation]]:
-    """Return the observations of obstacles.
-
-    An obstacle that an image edge cuts may be a piece of a wall, and starts
-    no track. With a map of the floor only trim starts a track, and obstacles
-    are used only if they are near the opponent and not on the map.
+def is_opponent(
+    obstacle: DetectedObstacle,
+    floor: FloorMap,
+    position_opponent_in_odometry: tuple[float, float] | None,
+) -> bool:
+    """Return whether an obstacle may be the opponent, and is not on the map.
 
     Args:
-        image: The image.
-        obstacles: Obstacles in it.
-        floor: Map of the floor, if there is one.
+        obstacle: Obstacle in an image.
+        floor: Map of the floor.
         position_opponent_in_odometry: Predicted position of the opponent,
-            in [m].
-
-    Returns:
-        Observations that may start a track, and those that may not.
+            in [m]; None if it is not tracked.
     """
-    if floor is not None:
-        obstacles = [
-            t
-            for t in obstacles
-            if not floor.is_occupied(t.x, t.y)
-            and position_opponent_in_odometry is not None
-            and hypot(
-                t.x - position_opponent_in_odometry[0],
-                t.y - position_opponent_in_odometry[1],
-            )
-            < BODY_RADIUS
-        ]
-    whole, cut = (
-        [
-            observe_obstacle(image, obstacle)
-            for obstacle in obstacles
-            if (obstacle.whole and floor is None) is may_start
-        ]
-        for may_start in (True, False)
-    )
-    return whole, cut
+    if position_opponent_in_odometry is None:
+        return False
+    x, y = position_opponent_in_odometry
+    return hypot(
+        obstacle.x - x, obstacle.y - y
+    ) < BODY_RADIUS and not floor.is_occupied(obstacle.x, obstacle.y)
 
 
 def observe_shadow(
     image: DepthImage,
     shadow: Shadow,
-    position_camera_in_odometry: Array,
+    camera: CameraPose,
     tracks: Sequence[TargetTrack],
 ) -> Observation:
     """Return the observation of an object too near for a distance.
@@ -207,46 +183,28 @@ def observe_shadow(
     Args:
         image: The image.
         shadow: Shadow in it.
-        position_camera_in_odometry: Position of the camera, in [m].
-                Shape (3,).
+        camera: Pose of the camera at its exposure.
         tracks: All tracks.
     """
     far = image.near + SHADOW_MARGIN
-    memory = _distance_of_track(
-        tracks, image.time, shadow.bearing, position_camera_in_odometry
-    )
+    memory = _distance_of_track(tracks, image.time, shadow.bearing, camera)
     ranged = shadow.nearest is not None
     if shadow.nearest is not None:
         distance, along = shadow.nearest, DEVIATION_PART
     else:
         distance = min(max(memory, MIN_SHADOW_DISTANCE), far)
         along = DEVIATION_UNKNOWN if distance == memory else DEVIATION_BOUND
+    eye = camera.position_in_odometry
     return Observation(
         image.time,
-        float(position_camera_in_odometry[0] + distance * cos(shadow.bearing)),
-        float(position_camera_in_odometry[1] + distance * sin(shadow.bearing)),
+        float(eye[0] + distance * cos(shadow.bearing)),
+        float(eye[1] + distance * sin(shadow.bearing)),
         shadow.bearing,
         along,
         0.08 * distance,
         False,
         ranged,
     )
-
-
-def camera_of(body: BodyPose, mount: Mount) -> tuple[Array, Array]:
-    """Return the position and axes of a head camera in odometry.
-
-    Args:
-        body: Pose of the body.
-        mount: Mount of the camera on the head.
-
-    Returns:
-        Position, in [m], shape (3,), and axes as columns, shape (3, 3).
-    """
-    position_camera_in_odometry = (
-        body.head_place + body.head_axes @ mount.place
-    )
-    return position_camera_in_odometry, body.head_axes @ mount.axes
 
 
 def angle_of(image: ColourImage | DepthImage, column: float) -> float:
@@ -259,15 +217,59 @@ def _distance_of_track(
     tracks: Sequence[TargetTrack],
     time: float,
     bearing: float,
-    position_camera_in_odometry: Array,
+    camera: CameraPose,
 ) -> float:
     """Return the distance of the track in a direction, in [m]."""
-    x, y = (
-        float(position_camera_in_odometry[0]),
-        float(position_camera_in_odometry[1]),
-    )
+    x, y = camera.position_in_odometry[:2].tolist()
     for track in tracks:
         off = wrap_angle(track.bearing_from(x, y, time) - bearing)
         if abs(off) < radians(20.0):
             return max(track.distance_from(x, y, time), MIN_DISTANCE)
     return DEFAULT_DISTANCE
+
+
+def range_of_trim(
+    upper: Array, lower: Array, camera_height: float, appearance: Appearance
+) -> float | None:
+    """Return the distance of a robot from the two ends of its trim.
+
+    It follows from the difference of their slopes; the height of the camera
+    has little influence.
+
+    Args:
+        upper: Ray to the upper end in a level frame. Shape (3,).
+        lower: Ray to the lower end in a level frame. Shape (3,).
+        camera_height: Height of the camera above the floor, in [m].
+        appearance: Appearance with the heights of the ends.
+
+    Returns:
+        Horizontal distance from the camera to the axis of the robot, in [m];
+        None if it is out of range.
+    """
+    rise = upper[2] / hypot(upper[0], upper[1])
+    span = rise - lower[2] / hypot(lower[0], lower[1])
+    above, below = (
+        appearance.top - camera_height,
+        camera_height - appearance.bottom,
+    )
+    if span <= 0.05:
+        return None
+    distance = (above + below) / span
+    for _ in range(4):
+        slope_below = span - above / max(distance, TRIM_NEAREST)
+        if slope_below <= 0.0:
+            return None
+        distance = TRIM_FORWARD + below / slope_below
+    return float(distance) if TRIM_NEAREST < distance < TRIM_FARTHEST else None
+
+
+def range_of_width(angle: float) -> float:
+    """Return a rough distance of a robot from the width of its trim, in [m].
+
+    Trim is as wide as the shoulders from the front and half as wide from the
+    side, so the error is up to a third.
+
+    Args:
+        angle: Angle from the left to the right end of the trim, in [rad].
+    """
+    return min(max(TRIM_WIDTH / max(angle, 1e-3), TRIM_NEAREST), TRIM_FARTHEST)

@@ -1,6 +1,5 @@
 """Target selection among people who approach and leave, near walls."""
 
-from collections.abc import Sequence
 from math import hypot
 
 from .target_selection import GAZE_RADIUS, MAX_GAZE_AGE, recent_tracks
@@ -31,19 +30,17 @@ class PeopleSelection:
     others, long enough to detect whether they walk.
     """
 
-    def __init__(self) -> None:
-        """Start without a main track."""
+    def __init__(self, tracker: Tracker) -> None:
+        """Select among the tracks of a tracker, without a main track yet."""
+        self._tracker = tracker
         self._main: TargetTrack | None = None
-        self._glanced: dict[
-            TargetTrack, float
-        ] = {}  # start of the last glance, in [s]
+        # Start of the last glance at each track, in [s].
+        self._glanced: dict[TargetTrack, float] = {}
 
-    def main(
-        self, tracker: Tracker, now: float, x: float, y: float
-    ) -> TargetTrack | None:
+    def main(self, now: float, x: float, y: float) -> TargetTrack | None:
         """Return the walking track that will be nearest, else the nearest."""
-        tracker.prune(now)
-        confirmed = [track for track in tracker.tracks if track.confirmed]
+        self._tracker.prune(now)
+        confirmed = [t for t in self._tracker.tracks if t.confirmed]
         walkers = [track for track in confirmed if track.has_walked]
         self._main = min(
             walkers or confirmed,
@@ -55,14 +52,10 @@ class PeopleSelection:
         return self._main
 
     def look(
-        self,
-        tracks: Sequence[TargetTrack],
-        main: TargetTrack | None,
-        now: float,
-        x: float,
-        y: float,
+        self, main: TargetTrack | None, now: float, x: float, y: float
     ) -> TargetTrack | None:
         """Return an approaching track, else one that is due for a glance."""
+        tracks = self._tracker.tracks
         candidates = recent_tracks(tracks, main, now)
         for track in candidates:
             if (
@@ -116,6 +109,10 @@ class PeopleSelection:
         away, speed = track.distance_from(x, y, now), hypot(*track.velocity)
         soon = away - NEAR < SOON * speed
         return now - track.started_at < NEW and soon and least < NEAR
+
+    def target_id(self, track: TargetTrack) -> int:
+        """Return the number of the track."""
+        return track.number
 
 
 def closest_approach(

@@ -1,113 +1,125 @@
 """Perception: sightings of the opponent from images and echoes, and gaze."""
 
-from collections import deque
 from collections.abc import Sequence
-from math import atan2
+from dataclasses import dataclass
 
 from ..core.poses import Array, Pose, wrap_angle
-from ..robots.body_pose import BodyKinematics, BodyPose
-from ..robots.description import RobotDescription
-from ..robots.forward_kinematics import ForwardKinematics
-from ..robots.head import HeadDescription
-from .bottom_camera import BottomCamera
-from .colour_detector import Appearance, ColourDetector
-from .depth_detector import detect_obstacles
+from ..robots.body_pose import BodyPose
+from .camera_pose import BodyPoseHistory
 from .floor_map import FloorMap
-from .frame_report import FrameReport
-from .gaze import Gaze, Glances
+from .head_motion import GazeTarget, HeadControl
 from .images import ColourImage, DepthImage, Percept, SonarEcho
 from .measurement import Measurement, Sighting
-from .observations import (
-    angle_of,
-    camera_of,
-    observe_obstacles,
-    observe_shadow,
-    observe_trim,
+from .percept_stages import (
+    BottomCameraStage,
+    DepthCameraStage,
+    FrameReport,
+    SonarStage,
+    TopCameraStage,
 )
-from .people_selection import PeopleSelection
-from .room_scan import RoomScan
-from .sonar import is_valid_echo, observe_echo
-from .target_selection import MAX_GAZE_AGE, RobotSelection, TargetSelection
-from .track import PERSON_MOTION, ROBOT_MOTION, Observation, TargetTrack
+from .target_selection import TargetSelection
+from .track import TargetTrack
 from .tracker import Tracker
 
-POSE_MEMORY = 1.0  # how long past poses are stored, in [s]
-MAX_AGE = 0.5  # of the opponent's position when the map is updated, in [s]
-NEAR_MARGIN = 0.1  # beyond the near limit: measured in part only, in [m]
-MIN_SHADOW = 0.12  # width of a shadow that starts a track, in [rad]
+# Longest time between updates when no image or echo arrives, so that tracks
+# age and the head searches, in [s].
+MAX_UPDATE_PERIOD = 0.1
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PerceptStages:
+    """Stages for each kind of percept.
+
+    Attributes:
+        top: Colour images of the top camera.
+        bottom: Colour images of the bottom camera.
+        depth: Depth images.
+        sonar: Echoes.
+    """
+
+    top: TopCameraStage
+    bottom: BottomCameraStage
+    depth: DepthCameraStage
+    sonar: SonarStage
+
+    def process(self, percept: Percept, body: BodyPose) -> FrameReport | None:
+        """Update tracks and map with an image or echo.
+
+        Args:
+            percept: The image or echo.
+            body: Pose of the body at its time.
+
+        Returns:
+            Detections in an image; None for an echo.
+        """
+        if isinstance(percept, ColourImage):
+            stage = self.bottom if percept.low else self.top
+            return stage.process(percept, body)
+        if isinstance(percept, DepthImage):
+            return self.depth.process(percept, body)
+        self.sonar.process(percept, body)
+        return None
 
 
 class Perception:
-    """Detection and tracking of the opponent in odometry, with gaze control.
+    """Pipeline from images and echoes to sightings of the opponent and gaze.
+
+    Each image updates tracks and map with the body pose at its exposure.
+    Then the target is selected. This happens when an image or echo arrives;
+    at other ticks only the head moves.
 
     Attributes:
-        body: Pose of the body from its own measurements; None before the
-            first.
-        sighting: Estimate of the opponent at the last tick; None if lost.
-        searching: Whether the head scans for the opponent.
+        poses: Past poses of the body.
+        tracker: Tracks of all objects.
+        head: Motion of the head.
+        sighting: Estimate of the opponent at the last update; None if lost.
+        gaze_target: Target of the gaze; None while the head searches.
         reports: Detections in the images that arrived at the last tick.
-        forward: Kinematics of the measured body, shared with balance.
         floor: Map of the floor, if there is one.
-        around: Scan of the room before a game begins.
-        started: Whether the game has begun; a robot that maps the floor
-            scans until then.
     """
 
     def __init__(
         self,
-        description: RobotDescription,
-        head: HeadDescription,
-        appearance: Appearance,
-        *,
-        tick: float,
+        poses: BodyPoseHistory,
+        stages: PerceptStages,
+        tracker: Tracker,
+        selection: TargetSelection,
+        head: HeadControl,
         floor: FloorMap | None = None,
-        glances: float | None = None,
-        people: bool = False,
-        awaits_start: bool = False,
     ) -> None:
-        """Set up the perception of a robot.
+        """Combine the parts; :func:`build_perception` builds them.
 
         Args:
-            description: Description of the robot.
-            head: Description of its head.
-            appearance: Appearance of the opponent.
-            tick: Control period, in [s].
-            floor: Map of the floor to fill, which needs a scan of the room
-                first; None for no map.
-            glances: Time between two glances over the shoulders at the floor
-                behind, in [s]; None for no glances.
-            people: Whether people, who wear no trim, may approach.
-            awaits_start: Whether a signal starts the game; otherwise it
-                begins with the end of the scan.
+            poses: Past poses of the body.
+            stages: Stages that process images and echoes.
+            tracker: Tracker that the stages update.
+            selection: Selection of the target among its tracks.
+            head: Motion of the head.
+            floor: Map of the floor that the stages fill, if any.
         """
-        self._selection: TargetSelection = (
-            PeopleSelection() if people else RobotSelection()
-        )
-        self._people = people
-        self.floor = floor
-        self.around = RoomScan()
-        self.started = not awaits_start
-        self._bottom_camera = BottomCamera(
-            head.bottom, people=people, floor=floor
-        )
-        self._glances = None if glances is None else Glances(tick, glances)
-        self._head = head
-        self.forward = ForwardKinematics(description, head.body)
-        self._kinematics = BodyKinematics(description, head, self.forward)
-        self._detector = ColourDetector(appearance)
-        self._gaze = Gaze(head.coupling, tick)
-        self._calm = floor is not None and not people
-        self._tracker = Tracker(ROBOT_MOTION if self._calm else PERSON_MOTION)
-        self._poses: deque[BodyPose] = deque(maxlen=round(POSE_MEMORY / tick))
-        self.body: BodyPose | None = None
+        self.poses, self.tracker, self.floor = poses, tracker, floor
+        self.head = head
+        self._stages, self._selection = stages, selection
+        self._next_update = 0.0
+        self._heading = 0.0
         self.sighting: Sighting | None = None
-        self.searching = True
+        self.gaze_target: GazeTarget | None = None
         self.reports: list[FrameReport] = []
+
+    @property
+    def body(self) -> BodyPose | None:
+        """Latest pose of the body; None before the first measurement."""
+        return self.poses.latest
+
+    @property
+    def searching(self) -> bool:
+        """Whether the head searches for the opponent."""
+        return self.gaze_target is None
 
     def see(
         self,
         measurement: Measurement,
-        support: Pose,
+        pose_support_in_odometry: Pose,
         left_supports: bool,
         tilt: tuple[float, float],
     ) -> Sighting | None:
@@ -115,255 +127,98 @@ class Perception:
 
         Args:
             measurement: Values of the sensors.
-            support: Pose of the support foot in odometry.
+            pose_support_in_odometry: Pose of the support foot.
             left_supports: Whether that is the left foot.
             tilt: Roll and pitch of the torso, in [rad].
 
         Returns:
-            Sighting of the opponent; None if it is lost.
+            Latest sighting of the opponent; None if it is lost.
         """
-        body = self._kinematics.pose(
-            measurement.time,
-            measurement.joint_positions,
-            support,
-            left_supports,
-            tilt,
-        )
-        return self._process(measurement, body)
+        time, joints = measurement.time, measurement.joint_positions
+        support = pose_support_in_odometry
+        self.poses.add(time, joints, support, left_supports, tilt)
+        return self._process(time, measurement.percepts)
 
-    @property
-    def head_joints(self) -> tuple[int, int]:
-        """Indices of the head joints, yaw and pitch."""
-        return self._kinematics.yaw, self._kinematics.pitch
+    def see_level(
+        self, measurement: Measurement, pose_in_odometry: Pose
+    ) -> Sighting | None:
+        """Process a measurement of a level robot with its own walk.
 
-    @property
-    def gaze(self) -> tuple[float, float]:
-        """Target yaw and pitch of the head, in [rad]."""
-        return self._gaze.yaw, self._gaze.pitch
+        Args:
+            measurement: Values of its sensors.
+            pose_in_odometry: Pose of the robot.
 
-    @property
-    def is_ready(self) -> bool:
-        """Whether the scan of the room, if any, is complete."""
-        return self.floor is None or not self.around.lasts(self._gaze)
-
-    @property
-    def looking(self) -> bool:
-        """Whether the scan lasts, or the robot waits for the game to start."""
-        waits = self.floor is not None and not self.started
-        return waits or not self.is_ready
+        Returns:
+            Latest sighting of the opponent; None if it is lost.
+        """
+        time, joints = measurement.time, measurement.joint_positions
+        self.poses.add_level(time, joints, pose_in_odometry)
+        return self._process(time, measurement.percepts)
 
     def looks_low(self) -> bool:
         """Return whether the next image should be from the bottom camera."""
         if self.body is None:
             return False
-        now, (x, y, _) = self.body.time, self.body.torso
-        main = self._selection.main(self._tracker, now, x, y)
         # A search for the opponent needs all images of the top camera.
-        lost = self.sighting is None and not self.looking
-        return self._bottom_camera.wanted(self.body, main, lost=lost)
+        lost = self.sighting is None and not self.head.scans
+        return self._stages.bottom.wanted(self.body, lost=lost)
 
     def _process(
-        self, measurement: Measurement, body: BodyPose
+        self, now: float, percepts: Sequence[Percept]
     ) -> Sighting | None:
-        now = measurement.time
-        self.body = body
-        self._poses.append(body)
         self.reports.clear()
-        for percept in measurement.percepts:
-            self._process_percept(percept, self._pose_at(percept.time), now)
-        track = self._selection.main(self._tracker, now, *body.torso[:2])
-        self.sighting = None
-        if self.looking:
-            self.around.look(self._gaze, now, body.torso.theta)
-            return None
-        self._move_gaze(now, body, track)
-        if track is not None:
-            x, y, heading = body.torso
-            bearing = wrap_angle(track.bearing_from(x, y, now) - heading)
-            distance = track.distance_from(x, y, now)
-            who = track.number if self._people else 0
-            settled = self._selection.settled(track, now, x, y)
-            spread = track.deviation_at(now)
-            self.sighting = Sighting(
-                now, bearing, distance, who, settled, spread
-            )
+        # A LoLA frame brings a value of each sonar, though most often none.
+        arrived = [p for p in percepts if not _is_empty(p)]
+        if arrived or now >= self._next_update:
+            self._next_update = now + MAX_UPDATE_PERIOD - 1e-9
+            for percept in arrived:
+                body = self.poses.at(percept.time)
+                report = self._stages.process(percept, body)
+                if report is not None:
+                    self.reports.append(report)
+            self._select(now, self.poses.at(now))
+        self.head.move(now, self._heading, self.gaze_target)
         return self.sighting
+
+    def _select(self, now: float, body: BodyPose) -> None:
+        """Select the opponent, and the target of the gaze."""
+        x, y, heading = body.torso
+        self._heading = heading
+        main = self._selection.main(now, x, y)
+        self.sighting = self.gaze_target = None
+        if self.head.scans:
+            return
+        chosen = self._selection.look(main, now, x, y)
+        if chosen is not None:
+            bearing, distance = _bearing_and_distance(chosen, body, now)
+            self.gaze_target = GazeTarget(bearing, distance, chosen.height)
+        if main is not None:
+            bearing, distance = _bearing_and_distance(main, body, now)
+            self.sighting = Sighting(
+                now,
+                bearing,
+                distance,
+                self._selection.target_id(main),
+                self._selection.settled(main, now, x, y),
+                main.deviation_at(now),
+            )
 
     def aim(self, joint_targets: Array) -> None:
         """Write the targets of the head joints, in [rad], in place."""
-        joint_targets[self._kinematics.yaw] = self._gaze.yaw
-        joint_targets[self._kinematics.pitch] = self._gaze.pitch
+        kinematics = self.poses.kinematics
+        joint_targets[kinematics.yaw] = self.head.yaw
+        joint_targets[kinematics.pitch] = self.head.pitch
 
-    def _move_gaze(
-        self, now: float, body: BodyPose, track: TargetTrack | None
-    ) -> None:
-        """Move the gaze to the selected track, or scan."""
-        x, y, heading = body.torso
-        tracks = self._tracker.tracks
-        chosen = self._selection.look(tracks, track, now, x, y)
-        self.searching = chosen is None
-        if chosen is None:
-            self._gaze.search()
-            return
-        distance = chosen.distance_from(x, y, now)
-        bearing = chosen.bearing_from(x, y, now) - heading
-        if self._glances is not None:
-            bearing = self._glances.direction(bearing, distance)
-        self._gaze.follow(bearing, distance, chosen.height)
 
-    def _pose_at(self, time: float) -> BodyPose:
-        known = (p for p in reversed(self._poses) if p.time <= time + 1e-9)
-        return next(known, self._poses[0])
+def _bearing_and_distance(
+    track: TargetTrack, body: BodyPose, now: float
+) -> tuple[float, float]:
+    """Return the bearing from the torso, in [rad], and distance, in [m]."""
+    x, y, heading = body.torso
+    bearing = wrap_angle(track.bearing_from(x, y, now) - heading)
+    return bearing, track.distance_from(x, y, now)
 
-    def _process_percept(
-        self, percept: Percept, body: BodyPose, now: float
-    ) -> None:
-        if isinstance(percept, ColourImage):
-            self._process_colour(percept, body, now)
-        elif isinstance(percept, DepthImage):
-            self._process_depth(percept, body, now)
-        else:
-            self._process_echo(percept, body, now)
 
-    def _process_colour(
-        self, image: ColourImage, body: BodyPose, now: float
-    ) -> None:
-        if image.low:
-            self._process_bottom(image, body)
-            return
-        position, axes = camera_of(body, self._head.top)
-        own = body.torso[:2]
-        main = None
-        if self.floor is not None:
-            main = self._selection.main(self._tracker, now, *own)
-        tracks = self._tracker.tracks
-        self._bottom_camera.learn(
-            image,
-            position,
-            axes,
-            own,
-            tracks,
-            main,
-        )
-        found = self._detector.detect(image)
-        azimuths: tuple[float, ...] = ()
-        observations: list[Observation] = []
-        if found is not None:
-            azimuths = (-angle_of(image, found.column),)
-            view = (
-                image,
-                found,
-                position,
-                axes,
-                self._detector.appearance,
-            )
-            observations = [observe_trim(*view, tracks, near=self._calm)]
-        self.reports.append(FrameReport(image, azimuths, colour=found))
-        self._observe(
-            observations,
-            image,
-            position,
-            axes,
-            by_appearance=True,
-        )
-
-    def _process_bottom(self, image: ColourImage, body: BodyPose) -> None:
-        observations, report = self._bottom_camera.see(image, body)
-        self.reports.append(report)
-        self._tracker.observe(observations, may_start=False, walked_only=True)
-
-    def _process_depth(
-        self, image: DepthImage, body: BodyPose, now: float
-    ) -> None:
-        position, axes = camera_of(body, self._head.depth)
-        own = body.torso[:2]
-        scene = detect_obstacles(
-            image,
-            position,
-            axes,
-            own,
-        )
-        azimuths = tuple(o.azimuth for o in scene.obstacles)
-        azimuths += tuple(s.azimuth for s in scene.shadows)
-        self.reports.append(FrameReport(image, azimuths, depth=scene))
-        opponent = None
-        if self.floor is not None:
-            main = self._selection.main(self._tracker, now, *own)
-            opponent = None if main is None else main.position_at(image.time)
-            sure = main is not None and now - main.observed_at < MAX_AGE
-            self.floor.take(
-                image,
-                position,
-                axes,
-                own,
-                opponent if sure else None,
-            )
-        whole, cut = observe_obstacles(
-            image, scene.obstacles, self.floor, opponent
-        )
-        self._observe(
-            whole,
-            image,
-            position,
-            axes,
-            by_appearance=False,
-            cut=cut,
-        )
-        for shadow in scene.shadows if self.floor is None else ():
-            tracks = self._tracker.tracks
-            # A wide shadow without any track may be an unnoticed opponent.
-            may_start = shadow.width > MIN_SHADOW and not any(
-                track.confirmed for track in tracks
-            )
-            near = observe_shadow(image, shadow, position, tracks)
-            # A shadow that an image edge cuts may be a wall: among people
-            # it updates only tracks that have walked.
-            wall = self._people and not shadow.whole
-            self._tracker.observe(
-                [near], may_start=may_start and not wall, walked_only=wall
-            )
-
-    def _process_echo(
-        self, echo: SonarEcho, body: BodyPose, now: float
-    ) -> None:
-        """Update the track with an echo when no camera gives a distance."""
-        if not is_valid_echo(echo):
-            return
-        track = self._selection.main(self._tracker, now, *body.torso[:2])
-        mount = self._head.sonars[echo.sonar]
-        observation = observe_echo(echo, mount, body, track, self.floor, now)
-        if observation is not None:
-            self._tracker.observe([observation], may_start=track is None)
-
-    def _observe(
-        self,
-        observations: list[Observation],
-        image: ColourImage | DepthImage,
-        position: Array,
-        axes: Array,
-        *,
-        by_appearance: bool,
-        cut: Sequence[Observation] = (),
-    ) -> None:
-        """Update tracks, and count a miss for those that should be visible."""
-        updated = self._tracker.observe(observations)
-        updated += self._tracker.observe(
-            cut, may_start=False, walked_only=self._people
-        )
-        ahead = atan2(axes[1, 0], axes[0, 0])
-        half = 0.85 * abs(angle_of(image, 0.0))
-        x, y = float(position[0]), float(position[1])
-        for track in self._tracker.tracks:
-            is_old = image.time - track.identified_at > MAX_GAZE_AGE
-            if track in updated or (by_appearance and is_old):
-                continue
-            if self.floor is not None and isinstance(image, DepthImage):
-                # Too near for the depth camera.
-                if (
-                    track.distance_from(x, y, image.time)
-                    < image.near + NEAR_MARGIN
-                ):
-                    continue
-            offset = wrap_angle(track.bearing_from(x, y, image.time) - ahead)
-            if abs(offset) < half:
-                track.record_frame(False)
+def _is_empty(percept: Percept) -> bool:
+    """Return whether a percept is the absence of an echo."""
+    return isinstance(percept, SonarEcho) and percept.distance is None

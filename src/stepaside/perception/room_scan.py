@@ -14,6 +14,24 @@ HEADING_TOLERANCE = 0.15  # of the turn back to the first heading, in [rad]
 MAX_DURATION = 10.0  # of a scan, in [s]
 
 
+class NoScan:
+    """Absence of a scan: a game begins at once.
+
+    Attributes:
+        turning: 0: the body does not turn.
+    """
+
+    turning = 0.0
+
+    def lasts(self, gaze: Gaze) -> bool:
+        """Return false."""
+        return False
+
+    def look(self, gaze: Gaze, now: float, heading: float) -> None:
+        """Search for the opponent."""
+        gaze.search()
+
+
 class RoomScan:
     """Scan of the head to both sides, and optionally behind the body.
 
@@ -23,13 +41,16 @@ class RoomScan:
     its first heading, from which the game begins.
 
     Attributes:
-        behind: Whether to turn the body and scan behind.
         turning: Requested turn on the spot: 1 left, -1 right, 0 none.
     """
 
-    def __init__(self) -> None:
-        """Start a scan that has not begun."""
-        self.behind = False
+    def __init__(self, *, behind: bool) -> None:
+        """Start a scan that has not begun.
+
+        Args:
+            behind: Whether to turn the body and scan behind.
+        """
+        self._behind = behind
         self.turning = 0.0
         self._start: tuple[float, float] | None = None
 
@@ -51,9 +72,9 @@ class RoomScan:
         turned = wrap_angle(heading - before)
         timed_out = now - time >= MAX_DURATION
         half_time = now - time >= 0.5 * MAX_DURATION
-        done = not self.behind or abs(turned) >= BODY_TURN or half_time
+        done = not self._behind or abs(turned) >= BODY_TURN or half_time
         gaze.search(stay=not done and gaze.scan_ends == SCAN_ENDS - 1)
-        if not self.behind or timed_out:
+        if not self._behind or timed_out:
             self.turning = 0.0
         elif gaze.scan_ends < SCAN_ENDS:
             self.turning = RIGHT

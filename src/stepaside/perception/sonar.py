@@ -29,8 +29,6 @@ def observe_echo(
     mount: Mount,
     body: BodyPose,
     track: TargetTrack | None,
-    floor: FloorMap | None,
-    now: float,
 ) -> Observation | None:
     """Return the observation of an opponent from an echo.
 
@@ -39,28 +37,21 @@ def observe_echo(
         mount: Mount of the sonar on the torso.
         body: Pose of the body at that time.
         track: Main track, if any.
-        floor: Map of the floor, if there is one.
-        now: Time, in [s].
 
     Returns:
         The observation; None if the echo is not used.
     """
     assert echo.distance is not None
     x, y, heading = body.torso
-    axis = body.torso_axes @ mount.axes[:, 0]
-    facing = atan2(axis[1], axis[0])
+    facing = _facing(mount, body)
     distance = echo.distance + AXIS_OFFSET
-    if floor is not None:
-        distance_mapped = floor.distance_in_cone(x, y, facing, HALF_CONE)
-        if track is None or distance_mapped < distance + MAP_MARGIN:
-            return None  # it may be an echo of a wall or obstacle
     if track is None:
         if echo.distance > MAX_NEW:
             return None
         bearing, across = facing, 0.25
     else:
-        bearing, across = track.bearing_from(x, y, now), 0.4
-        if now - track.ranged_at < MIN_AGE:
+        bearing, across = track.bearing_from(x, y, echo.time), 0.4
+        if echo.time - track.ranged_at < MIN_AGE:
             return None
         if abs(wrap_angle(bearing - facing)) > HALF_CONE - abs(
             wrap_angle(facing - heading)
@@ -76,3 +67,27 @@ def observe_echo(
         False,
         True,
     )
+
+
+def may_be_mapped(
+    echo: SonarEcho, mount: Mount, body: BodyPose, floor: FloorMap
+) -> bool:
+    """Return whether an echo may be that of an obstacle on the map.
+
+    Args:
+        echo: Echo that :func:`is_valid_echo` accepts.
+        mount: Mount of the sonar on the torso.
+        body: Pose of the body at that time.
+        floor: Map of the floor.
+    """
+    assert echo.distance is not None
+    x, y, _ = body.torso
+    facing = _facing(mount, body)
+    mapped = floor.distance_in_cone(x, y, facing, HALF_CONE)
+    return mapped < echo.distance + AXIS_OFFSET + MAP_MARGIN
+
+
+def _facing(mount: Mount, body: BodyPose) -> float:
+    """Return the direction of a sonar in odometry, in [rad]."""
+    axis = body.torso_axes @ mount.axes[:, 0]
+    return atan2(axis[1], axis[0])

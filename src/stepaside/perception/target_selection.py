@@ -13,32 +13,25 @@ MOVING = 0.08  # speed of a moving track, in [m/s]
 
 
 class TargetSelection(Protocol):
-    """Selection of tracks as targets."""
+    """Selection of tracks of a tracker as targets."""
 
-    def main(
-        self, tracker: Tracker, now: float, x: float, y: float
-    ) -> TargetTrack | None:
+    def main(self, now: float, x: float, y: float) -> TargetTrack | None:
         """Return the main track: that of the opponent, if any.
 
+        The tracker is pruned before.
+
         Args:
-            tracker: Tracker, which is pruned.
             now: Time, in [s].
             x: Own x in odometry, in [m].
             y: Own y in odometry, in [m].
         """
 
     def look(
-        self,
-        tracks: Sequence[TargetTrack],
-        main: TargetTrack | None,
-        now: float,
-        x: float,
-        y: float,
+        self, main: TargetTrack | None, now: float, x: float, y: float
     ) -> TargetTrack | None:
         """Return the track to look at; None to scan.
 
         Args:
-            tracks: All tracks.
             main: Main track.
             now: Time, in [s].
             x: Own x in odometry, in [m].
@@ -55,6 +48,13 @@ class TargetSelection(Protocol):
             now: Time, in [s].
             x: Own x in odometry, in [m].
             y: Own y in odometry, in [m].
+        """
+
+    def target_id(self, track: TargetTrack) -> int:
+        """Return the number by which sightings tell opponents apart.
+
+        Args:
+            track: Main track.
         """
 
 
@@ -78,22 +78,19 @@ def recent_tracks(
 class RobotSelection:
     """Target selection of a robot that is recognised by its trim."""
 
-    def main(
-        self, tracker: Tracker, now: float, x: float, y: float
-    ) -> TargetTrack | None:
+    def __init__(self, tracker: Tracker) -> None:
+        """Select among the tracks of a tracker."""
+        self._tracker = tracker
+
+    def main(self, now: float, x: float, y: float) -> TargetTrack | None:
         """Return the track recognised recently, else the nearest."""
-        return tracker.main(now, x, y)
+        return self._tracker.main(now, x, y)
 
     def look(
-        self,
-        tracks: Sequence[TargetTrack],
-        main: TargetTrack | None,
-        now: float,
-        x: float,
-        y: float,
+        self, main: TargetTrack | None, now: float, x: float, y: float
     ) -> TargetTrack | None:
         """Return the recognised track, else one that is near or moves."""
-        for track in recent_tracks(tracks, main, now):
+        for track in recent_tracks(self._tracker.tracks, main, now):
             recognised = now - track.identified_at < MAX_GAZE_AGE
             moves = hypot(*track.velocity) > MOVING and track.confirmed
             if (
@@ -109,3 +106,7 @@ class RobotSelection:
     ) -> bool:
         """Return true: the position of a robot is enough."""
         return True
+
+    def target_id(self, track: TargetTrack) -> int:
+        """Return 0: there is one opponent."""
+        return 0

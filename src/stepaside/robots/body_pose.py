@@ -78,7 +78,13 @@ def torso_pose_on_foot(
 
 
 class BodyKinematics:
-    """Forward kinematics from the stance foot to the head."""
+    """Forward kinematics from the stance foot to the head.
+
+    Attributes:
+        forward: Kinematics of the measured joints.
+        yaw: Index of the head yaw among the joints.
+        pitch: Index of the head pitch among the joints.
+    """
 
     def __init__(
         self,
@@ -96,7 +102,7 @@ class BodyKinematics:
         """
         if kinematics is None:
             kinematics = ForwardKinematics(description, head.body)
-        self._kinematics = kinematics
+        self.forward = kinematics
         names = kinematics.tree.motors
         self.yaw, self.pitch = names.index(head.yaw), names.index(head.pitch)
 
@@ -117,7 +123,7 @@ class BodyKinematics:
             left_supports: Whether the stance foot is the left one.
             tilt: Roll and pitch of the torso, in [rad].
         """
-        posture = self._kinematics.posture(joints)
+        posture = self.forward.posture(joints)
         foot = 0 if left_supports else 1
         torso = torso_pose_on_foot(posture, foot, support, tilt)
         return self._with_head(time, joints, posture, torso)
@@ -133,7 +139,7 @@ class BodyKinematics:
             joints: Encoder angles, in [rad]. Shape (joints,).
             frame: Planar pose of the robot in odometry.
         """
-        posture = self._kinematics.posture(joints)
+        posture = self.forward.posture(joints)
         x, y, _ = posture.feet.mean(axis=0).tolist()
         low = float(posture.feet[:, 2].min())
         c, s = cos(frame.theta), sin(frame.theta)

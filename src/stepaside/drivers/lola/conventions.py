@@ -21,7 +21,8 @@ CHEST_BUTTON = 0  # index in Touch
 FOOT_BUMPERS = (4, 5, 9, 10)  # likewise: left and right of each foot
 NEWTONS_PER_KILOGRAM = 9.81  # foot sensors read in kilograms
 SONARS = ("left", "right")
-ECHO_RANGE = (0.0, 2.55)  # open interval of distances with an echo, in [m]
+NO_ECHO = 2.55  # reading of a sonar without an echo, in [m]
+MAX_ECHO = 2.545  # readings are float32, in which 2.55 is less, in [m]
 ROOM_TEMPERATURE = 25.0  # in [degC]
 # Serial numbers by which a simulated robot identifies itself. The fourth
 # value of its battery is the number of the frame, modulo 2^16.
@@ -36,7 +37,6 @@ def joint_frame_of(frame: SensorFrame) -> JointFrame:
     LoLA's accelerometer is minus the specific force on every axis: an
     upright robot reads z near -9.8 m/s^2. Its foot sensors are in [kg].
     """
-    near, far = ECHO_RANGE
     serial = frame.robot_config[0]
     return JointFrame(
         position=frame.position,
@@ -50,7 +50,7 @@ def joint_frame_of(frame: SensorFrame) -> JointFrame:
         foot_forces=NEWTONS_PER_KILOGRAM * frame.fsr,
         load=float(frame.fsr.sum()),
         echoes={
-            name: echo if near < echo < far else None
+            name: echo if 0.0 < echo < MAX_ECHO else None
             for name, echo in zip(SONARS, frame.sonar, strict=True)
         },
         chest_pressed=frame.touch[CHEST_BUTTON] > 0.5,
@@ -84,7 +84,7 @@ def sensor_frame_of(
         lock_step: Whether the simulation waits for answers.
     """
     nothing = np.zeros(JOINT_COUNT)
-    echoes = dict.fromkeys(SONARS, ECHO_RANGE[1])
+    echoes = dict.fromkeys(SONARS, NO_ECHO)
     for percept in measurement.percepts:
         if isinstance(percept, SonarEcho) and percept.distance is not None:
             echoes[percept.sonar] = percept.distance

@@ -8,7 +8,7 @@ import numpy as np
 
 from ...core.poses import Array, Pose, wrap_angle
 from ...perception.measurement import Measurement
-from ...perception.planar_perception import PlanarPerception
+from ...perception.perception import Perception
 from ..cameras.image_source import ImageSource
 from .velocity_body import VelocityBody, VelocityCommand, VelocityReport
 
@@ -52,7 +52,7 @@ class CameraBody:
         self,
         body: HeadBody,
         eyes: ImageSource,
-        perception: PlanarPerception,
+        perception: Perception,
         *,
         turns_head: bool = True,
     ) -> None:
@@ -93,7 +93,8 @@ class CameraBody:
             self._recall(image.time)
         sighting = self._perception.see_level(measured, report.pose)
         if self._turns_head:
-            self._body.look(*self._perception.gaze)
+            head = self._perception.head
+            self._body.look(head.yaw, head.pitch)
         return report._replace(sighting=sighting)
 
     def _recall(self, time: float) -> None:
@@ -115,7 +116,7 @@ class CameraBody:
             heading + fraction * turn,
         )
         joints = earlier.joints + fraction * (later.joints - earlier.joints)
-        self._perception.recall_level(time, joints, pose)
+        self._perception.poses.add_level(time, joints, pose)
 
     def command(self, velocity: VelocityCommand) -> None:
         """Send a velocity command."""

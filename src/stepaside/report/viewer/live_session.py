@@ -26,7 +26,7 @@ from .run_saving import LiveRecording, RunSaver
 from .status_text import phases_of
 
 if TYPE_CHECKING:
-    from ...perception.frame_report import FrameReport
+    from ...perception.percept_stages import FrameReport
 
 LOG = logging.getLogger(__name__)
 MAX_COMMANDS = 10_000  # of teleoperation that are recorded

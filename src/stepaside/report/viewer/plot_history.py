@@ -13,7 +13,7 @@ from ...games.outcome import Outcome
 from ...locomotion.walk_snapshots import StepStarted
 
 if TYPE_CHECKING:
-    from ...perception.frame_report import FrameReport
+    from ...perception.percept_stages import FrameReport
 
 PERIOD = 0.1  # between samples, in [s]
 MAX_SAMPLES = 6000  # of the plots

@@ -1,0 +1,107 @@
+"""Construction of a perception from the parts that a game needs."""
+
+from dataclasses import dataclass, field
+
+from ..robots.body_pose import BodyKinematics
+from ..robots.description import RobotDescription
+from ..robots.head import HeadDescription
+from .bottom_camera import BottomCameraUse, FootTracking, NearFloorMapping
+from .camera_pose import BodyPoseHistory
+from .colour_detector import ColourDetector
+from .floor_map import FloorMap
+from .foot_tracking import FootDetector
+from .gaze import Gaze, Glances, NoGlances
+from .head_motion import HeadControl
+from .near_floor import NearFloorMapper
+from .people_selection import PeopleSelection
+from .percept_stages import (
+    BottomCameraStage,
+    DepthCameraStage,
+    DepthUse,
+    MappedFloorDepth,
+    MappedSonarStage,
+    OpenFloorDepth,
+    SonarStage,
+    TopCameraStage,
+)
+from .perception import Perception, PerceptStages
+from .room_scan import NoScan, RoomScan
+from .target_selection import RobotSelection, TargetSelection
+from .track import PERSON_MOTION, ROBOT_MOTION
+from .tracker import Tracker
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FloorMapping:
+    """Parts of a robot that maps the floor.
+
+    Attributes:
+        floor: Map to fill.
+        scan: Scan of the room before the game.
+        glances: Glances over the shoulders at the floor behind.
+        awaits_start: Whether a signal starts the game; otherwise it begins
+            with the end of the scan.
+    """
+
+    floor: FloorMap = field(default_factory=FloorMap)
+    scan: RoomScan | NoScan = field(default_factory=NoScan)
+    glances: Glances | NoGlances = field(default_factory=NoGlances)
+    awaits_start: bool = False
+
+
+def build_perception(
+    description: RobotDescription,
+    head: HeadDescription,
+    detector: ColourDetector,
+    *,
+    tick: float,
+    mapping: FloorMapping | None = None,
+    people: bool = False,
+) -> Perception:
+    """Build the perception of a robot.
+
+    Args:
+        description: Description of the robot.
+        head: Description of its head.
+        detector: Detector of the opponent in colour images.
+        tick: Control period, in [s].
+        mapping: Parts of a robot that maps the floor; None on an open floor.
+        people: Whether people, who wear no trim, may approach.
+    """
+    # Walls and obstacles of a map rest, so a robot's motion may be smooth.
+    calm = mapping is not None and not people
+    tracker = Tracker(ROBOT_MOTION if calm else PERSON_MOTION)
+    selection: TargetSelection = (
+        PeopleSelection(tracker) if people else RobotSelection(tracker)
+    )
+    uses: list[BottomCameraUse] = []
+    depth: DepthUse = OpenFloorDepth(tracker, near_walls=people)
+    sonar = SonarStage(head.sonars, tracker, selection)
+    if mapping is not None:
+        floor = mapping.floor
+        uses.append(NearFloorMapping(NearFloorMapper(floor), selection))
+        depth = MappedFloorDepth(tracker, selection, floor, walked_only=people)
+        sonar = MappedSonarStage(head.sonars, tracker, selection, floor)
+    if people:
+        uses.append(FootTracking(FootDetector(), tracker, selection))
+    if head.bottom is None:
+        uses = []
+    used = mapping or FloorMapping()
+    return Perception(
+        BodyPoseHistory(BodyKinematics(description, head), tick),
+        PerceptStages(
+            TopCameraStage(head.top, detector, tracker, uses, near=calm),
+            BottomCameraStage(head.bottom or head.top, uses, tracker),
+            DepthCameraStage(head.depth, depth),
+            sonar,
+        ),
+        tracker,
+        selection,
+        HeadControl(
+            Gaze(head.coupling, tick),
+            glances=used.glances,
+            scan=used.scan,
+            awaits_start=mapping is not None and used.awaits_start,
+        ),
+        None if mapping is None else mapping.floor,
+    )
