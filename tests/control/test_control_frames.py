@@ -419,11 +419,11 @@ class Noted(OpenLoop):
         self.rows: list[ReferenceSample] = []
 
     def targets(
-        self, measurement: Measurement, table: ReferenceTable, step: Any
+        self, measurement: Measurement, table: ReferenceTable, *more: Any
     ) -> Array:
         """Note it."""
         self.rows.append(table.at(measurement.time))
-        return super().targets(measurement, table, step)
+        return super().targets(measurement, table, *more)
 
 
 @pytest.mark.parametrize("late", [0, 3])

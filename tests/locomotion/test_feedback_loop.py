@@ -78,7 +78,7 @@ def test_the_open_loop_tracks_the_plan() -> None:
     legs: Any = FakeLegs()
     loop: Any = OpenLoop(legs)
     table = resting_table()
-    targets = loop.targets(measure(1.0), table, unasked)
+    targets = loop.targets(measure(1.0), table, 250, unasked)
     body = table.at(1.0).body
     assert legs.tracked == [body] and targets.tolist() == list(body.com)
     landed, step = Pose(1.0, 2.0, 0.3), object()
@@ -124,9 +124,9 @@ def test_feedback_adds_the_load_feedforward() -> None:
     loop = ClosedLoop(fake, legs, loads)
     measurement = measure(1.0)._replace(joint_positions=np.zeros(3))
     table: Any = SimpleNamespace(
-        at=lambda now: SimpleNamespace(zmp=(0.3, 0.1))
+        sample=lambda index: SimpleNamespace(zmp=(0.3, 0.1))
     )
-    found = loop.targets(measurement, table, lambda now: "step")  # type: ignore[arg-type,return-value]
+    found = loop.targets(measurement, table, 7, lambda now: "step")  # type: ignore[arg-type,return-value]
     np.testing.assert_allclose(found, [2.1, 2.2, 2.3])  # type: ignore[arg-type]
     ((body, zmp),) = asked
     assert body == "answer to update" and zmp == pytest.approx((0.31, 0.08))
@@ -139,14 +139,14 @@ def test_the_closed_loop_asks_its_stabiliser_for_everything() -> None:
     loop: Any = ClosedLoop(fake, legs)
     measurement = measure(1.25)._replace(joint_positions=np.full(3, 9.0))
     sample: Any = SimpleNamespace(zmp=(0.0, 0.0))
-    table = SimpleNamespace(at=lambda now: sample)
+    table = SimpleNamespace(sample=lambda index: sample)
     asked_for: list[float] = []
 
     def step_at(now: float) -> Any:
         asked_for.append(now)
         return "step"
 
-    assert loop.targets(measurement, table, step_at) == "answer to update"
+    assert loop.targets(measurement, table, 7, step_at) == "answer to update"
     assert loop.commanded == "answer to update"
     assert asked_for == [1.25]
     (told,) = fake.asked
@@ -176,11 +176,11 @@ def test_the_closed_loop_is_as_its_stabiliser_is() -> None:
     assert loop.ready is False
     fake.ready = True
     assert loop.ready is True
-    table = SimpleNamespace(at=lambda now: None)
+    table = SimpleNamespace(sample=lambda index: None)
     for fallen in (False, True):
         fake.state = SimpleNamespace(has_fallen=fallen)
         assert loop.state is fake.state
-        targets = loop.targets(measure(0.0), table, lambda now: None)
+        targets = loop.targets(measure(0.0), table, 0, lambda now: None)
         assert (targets is None) is fallen
 
 
@@ -194,7 +194,7 @@ def test_settings_open_or_close_the_loop() -> None:
     }
     loop = build_balance(NAO, GAIT, OPEN_LOOP, **options)
     assert isinstance(loop, OpenLoop)
-    targets = loop.targets(measure(0.0), resting_table(), unasked)
+    targets = loop.targets(measure(0.0), resting_table(), 0, unasked)
     assert np.abs(targets - legs.joint_targets).max() > 1e-4
     closed = build_balance(NAO, GAIT, STABILISED, **options)
     assert isinstance(closed, ClosedLoop)

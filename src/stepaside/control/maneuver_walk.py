@@ -88,7 +88,7 @@ class ManeuverWalk:
         self._delay, self._pace = delay, 1.0
         self._maneuvers = ManeuverSelection(gait, self.balance, guard)
         self._first_foot = first_foot
-        self._now = 0.0
+        self._index = 0
         self._table = ReferenceTable(tick)
         self._stand()
         self.joint_targets: Array = kinematics.stand(self.reference)
@@ -113,12 +113,12 @@ class ManeuverWalk:
     @property
     def pose(self) -> Pose:
         """Pose of the template unicycle, in odometry."""
-        return self._table.template(self._now)
+        return self._table.template(self._index)
 
     @property
     def reference(self) -> BodyReference:
         """Body reference of the last tick, in odometry."""
-        return self.balance.commanded or self._table.at(self._now).body
+        return self.balance.commanded or self._table.sample(self._index).body
 
     @property
     def tilt(self) -> tuple[float, float] | None:
@@ -128,6 +128,7 @@ class ManeuverWalk:
     @property
     def state(self) -> WalkState:
         """Plan and references of the current tick."""
+        sample = self._table.sample(self._index)
         return WalkState(
             phase=self.phase,
             gait=self.gait,
@@ -137,8 +138,8 @@ class ManeuverWalk:
             left_foot=self.left_foot,
             right_foot=self.right_foot,
             first_foot=self._first_foot,
-            reference=self.reference,
-            zmp_reference=self._table.at(self._now).zmp,
+            reference=self.balance.commanded or sample.body,
+            zmp_reference=sample.zmp,
             torso_heading=self.balance.planned_heading,
             estimate=self.balance.state,
             solved=self.balance.solved,
@@ -165,8 +166,9 @@ class ManeuverWalk:
             self._wait(now, decisions)
         elif now >= self._plan_ends - 1e-9:
             self._finish(self.plan, decisions)
-        self._now = now
-        targets = self.balance.targets(measurement, self._table, self.step)
+        table = self._table
+        self._index = index = table.index(now)
+        targets = self.balance.targets(measurement, table, index, self.step)
         if targets is None:
             self.phase, self.plan = Phase.FALLEN, None
             return self.joint_targets

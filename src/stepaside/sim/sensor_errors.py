@@ -20,25 +20,27 @@ class AveragedImu:
         self, data: mujoco.MjData, gyro: slice, accelerometer: slice
     ) -> None:
         """Average two sensors of a world."""
-        self._sensors = data.sensordata
-        self._gyro, self._accelerometer = gyro, accelerometer
-        self._sum = np.zeros(6)
+        self._gyro: Array = data.sensordata[gyro]  # views
+        self._accelerometer: Array = data.sensordata[accelerometer]
+        self._gyro_sum, self._accelerometer_sum = np.zeros(3), np.zeros(3)
         self._count = 0
 
     def before_step(self, time: float) -> None:
         """Add the readings of the last physics step."""
-        self._sum[:3] += self._sensors[self._gyro]
-        self._sum[3:] += self._sensors[self._accelerometer]
+        self._gyro_sum += self._gyro
+        self._accelerometer_sum += self._accelerometer
         self._count += 1
 
     def read(self) -> tuple[Array, Array]:
         """Return the means since the last call, in [rad/s] and [m/s^2]."""
         if self._count == 0:
             self.before_step(0.0)
-        mean = self._sum / self._count
-        self._sum[:] = 0.0
+        gyro = self._gyro_sum / self._count
+        accelerometer = self._accelerometer_sum / self._count
+        self._gyro_sum.fill(0.0)
+        self._accelerometer_sum.fill(0.0)
         self._count = 0
-        return mean[:3], mean[3:]
+        return gyro, accelerometer
 
 
 class SensorErrors:

@@ -38,6 +38,28 @@ def set_joint_gains(
             model.actuator_biasprm[actuator, 1:3] = -stiffness, -damping
 
 
+WRITE_LOOP = """\
+def write_targets(targets, target, reach, lead, sent):
+    for j in range(targets.shape[0]):
+        change = targets[j] - target[j]
+        change = max(min(change, reach[j]), -reach[j])
+        target[j] += change
+        sent[j] = change * lead[j] + target[j]
+"""
+STEP_LOOP = """\
+def servo_step(qpos, qvel, angles, rates, change, target, lead, half, stall,
+               slope, share, sent, limits):
+    for j in range(target.shape[0]):
+        angle = qpos[angles[j]]
+        error = target[j] + change[j] * share - angle
+        error -= min(max(error, -half[j]), half[j])
+        sent[j] = error + angle + lead[j] * change[j]
+        loss = slope[j] * qvel[rates[j]]
+        limits[j, 1] = min(max(stall[j] - loss, 0.0), stall[j])
+        limits[j, 0] = max(min(-stall[j] - loss, 0.0), -stall[j])
+"""
+
+
 class IdealServos:
     """Position servos without delay.
 
@@ -79,6 +101,7 @@ class IdealServos:
         self._target = np.zeros(actuators.size)
         self._range = model.actuator_forcerange[self._ctrl]
         self._full = self._range[:, 1].copy()
+        self._write = kernel_of("write_targets", WRITE_LOOP, "11111")
 
     def soften(self, stiffness: Array) -> None:
         """Limit the torques to fractions of their maximum, 0 to 1."""
@@ -87,11 +110,15 @@ class IdealServos:
 
     def reset(self, targets: Array) -> None:
         """Set targets, in [rad], without motion towards them."""
-        self._target = targets
+        self._target = targets.copy()
         self._sent[:] = targets
 
     def write(self, targets: Array) -> None:
         """Set new targets, in [rad]. Shape (joints,)."""
+        if self._write is not None:
+            arguments = self._target, self._reach, self._lead, self._sent
+            self._write(targets, *arguments)
+            return
         change = self._limited(targets)
         self._target = self._target + change
         change *= self._lead
@@ -102,20 +129,6 @@ class IdealServos:
         np.minimum(change, self._reach, out=change)
         np.maximum(change, self._back, out=change)
         return change
-
-
-LOOP = """\
-def servo_step(qpos, qvel, angles, rates, change, target, lead, half, stall,
-               slope, share, sent, limits):
-    for j in range(target.shape[0]):
-        angle = qpos[angles[j]]
-        error = target[j] + change[j] * share - angle
-        error -= min(max(error, -half[j]), half[j])
-        sent[j] = error + angle + lead[j] * change[j]
-        loss = slope[j] * qvel[rates[j]]
-        limits[j, 1] = min(max(stall[j] - loss, 0.0), stall[j])
-        limits[j, 0] = max(min(-stall[j] - loss, 0.0), -stall[j])
-"""
 
 
 class RealisticServos(IdealServos):
@@ -180,7 +193,7 @@ class RealisticServos(IdealServos):
         self._elapsed = 0.0
         self._kernel: Kernel | None = None
         if self._slope is not None:
-            self._kernel = kernel_of("servo_step", LOOP, "11ii111111012")
+            self._kernel = kernel_of("servo_step", STEP_LOOP, "11ii111111012")
 
     def soften(self, stiffness: Array) -> None:
         """Limit the torques to fractions of their maximum, 0 to 1."""

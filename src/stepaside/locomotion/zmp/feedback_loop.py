@@ -65,13 +65,18 @@ class Balance(Protocol):
         """Heading of the torso of the last targets, in [rad]."""
 
     def targets(
-        self, measurement: Measurement, table: ReferenceTable, step: StepAt
+        self,
+        measurement: Measurement,
+        table: ReferenceTable,
+        index: int,
+        step: StepAt,
     ) -> Array | None:
         """Return the joint targets of one tick.
 
         Args:
             measurement: Measurement of the tick.
             table: References of the plan.
+            index: Index of the tick in the table.
             step: Function from a time, in [s], to the step in progress.
 
         Returns:
@@ -135,10 +140,14 @@ class OpenLoop:
         self._index = 0  # of the last tick in the table
 
     def targets(
-        self, measurement: Measurement, table: ReferenceTable, step: StepAt
+        self,
+        measurement: Measurement,
+        table: ReferenceTable,
+        index: int,
+        step: StepAt,
     ) -> Array:
         """Return the targets of the plan."""
-        index, used = table.index(measurement.time), self._used
+        used = self._used
         if (
             used == len(self._targets)
             or index != self._index + 1
@@ -263,13 +272,17 @@ class ClosedLoop:
         return self._kinematics.torso_heading
 
     def targets(
-        self, measurement: Measurement, table: ReferenceTable, step: StepAt
+        self,
+        measurement: Measurement,
+        table: ReferenceTable,
+        index: int,
+        step: StepAt,
     ) -> Array | None:
         """Return the targets of the stabilised reference.
 
         See :class:`Stabiliser`.
         """
-        stabiliser, sample = self.stabiliser, table.at(measurement.time)
+        stabiliser, sample = self.stabiliser, table.sample(index)
         body = stabiliser.update(measurement, sample, step(measurement.time))
         self.commanded = body
         if stabiliser.state is not None and stabiliser.state.has_fallen:

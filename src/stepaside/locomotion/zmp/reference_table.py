@@ -167,13 +167,18 @@ class ReferenceTable:
         """Return the index of a tick; it may be beyond the last row."""
         return round(now / self._tick) - self._first
 
-    def template(self, now: float) -> Pose:
+    def template(self, index: int) -> Pose:
         """Return the pose of the template at a tick, in odometry."""
-        return self._templates[min(self.index(now), len(self._templates) - 1)]
+        templates = self._templates
+        return templates[index if index < len(templates) else -1]
 
     def at(self, now: float) -> ReferenceSample:
         """Return the references at a tick; after the last one, the last."""
-        i = min(self.index(now), len(self._templates) - 1)
+        return self.sample(self.index(now))
+
+    def sample(self, index: int) -> ReferenceSample:
+        """Return the same by the index of the tick."""
+        i = min(index, len(self._templates) - 1)
         (x, y), (u, v) = self.zmp[i].tolist(), self._dcm[i].tolist()
         reaction = ZERO
         if self._reaction is not None:
