@@ -172,7 +172,7 @@ def test_the_summary_covers_only_the_walk(
     assert run.duration == pytest.approx(1199 * period)
     assert found.seen_share == pytest.approx(0.25, abs=0.01)
     assert found.radius_m == pytest.approx(radius, abs=1e-3)
-    assert found.way_m == pytest.approx(8.0 * radius, rel=0.02)
+    assert found.path_length_m == pytest.approx(8.0 * radius, rel=0.02)
     assert found.closest_m == pytest.approx(0.9)
     assert found.distance_m == pytest.approx(1.5, abs=0.05)
     assert found.steps is None and found.plan_time_us is None

@@ -110,7 +110,7 @@ def test_a_played_run_folder_replays(by: str, tmp_path: Path) -> None:
     scene = Joints() if by == "joints" else Walks()
     folder = tmp_path / "record"
     with offered(scene) as words:
-        played([*words, "--by", by, "--record", str(folder)], scene)
+        played([*words, "--interface", by, "--record", str(folder)], scene)
     run = load_run(folder, "play")
     assert run.outcome is Outcome.COMPLETED
     assert run.message == "played long enough"
@@ -158,7 +158,7 @@ def look_on(
 def test_a_dry_run_by_joints_moves_nothing_and_is_kept(tmp_path: Path) -> None:
     scene, folder = Joints(), tmp_path / "record"
     with offered(scene) as words:
-        player = look_on(scene, [*words, "--by", "joints"], folder, 40)
+        player = look_on(scene, [*words, "--interface", "joints"], folder, 40)
     player.join(60.0)
     assert not player.is_alive()
     assert not scene.server.robot.commanded
@@ -174,7 +174,9 @@ def test_a_dry_run_by_footsteps_is_recorded_without_commands(
 ) -> None:
     scene, folder = Walks(), tmp_path / "record"
     with offered(scene) as words:
-        player = look_on(scene, [*words, "--by", "footsteps"], folder, 100)
+        player = look_on(
+            scene, [*words, "--interface", "footsteps"], folder, 100
+        )
         robot = scene.server.robot
         assert not robot.awake and not scene.told and robot.asked == REST
     player.join(60.0)

@@ -35,8 +35,14 @@ def refused(capsys: pytest.CaptureFixture[str], *words: str) -> str:
         ("play --role evader --robot nao:x", "lola:, naoqi: or ros2:"),
         ("play --role evader --robot ros2:/na-o", "namespace must be"),
         ("play --role evader --robot naoqi:x:0", "naoqi:tcp://HOST:PORT"),
-        ("play --role evader --robot lola:E --by velocity", "--by requires"),
-        ("play --role evader --robot ros2:/e --by footsteps", "--by requires"),
+        (
+            "play --role evader --robot lola:E --interface velocity",
+            "--interface requires",
+        ),
+        (
+            "play --role evader --robot ros2:/e --interface footsteps",
+            "--interface requires",
+        ),
         ("serve", "--lola PLAYER=ADDRESS or --naoqi"),
         (
             "serve --ros2 evader",
@@ -75,7 +81,9 @@ def test_a_robot_on_naoqi_that_is_not_there_is_said(
     line = "play --role evader --robot naoqi:127.0.0.1:1 --dry-run --wait 0"
     words = line.split()
     assert "no robot answers" in refused(capsys, *words)
-    assert "no robot answers" in refused(capsys, *words, "--by", "joints")
+    assert "no robot answers" in refused(
+        capsys, *words, "--interface", "joints"
+    )
 
 
 LOCALHOST = "ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST"
@@ -121,7 +129,7 @@ def test_the_guardian_stops_the_robot_when_play_is_killed(
     )
     log = tmp_path / "log"
     robot = f"naoqi:{server.url}"
-    words = ["play", "--role", "pursuer", "--robot", robot, "--by", way]
+    words = ["play", "--role", "pursuer", "--robot", robot, "--interface", way]
     process = subprocess.Popen(
         [sys.executable, "-c", PLAY, *words, "--record", str(log)],
         stderr=subprocess.DEVNULL,

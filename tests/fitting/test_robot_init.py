@@ -219,7 +219,7 @@ def test_the_command_writes_a_folder_once(tmp_path: Path) -> None:
     told = CliRunner().invoke(main, [*words, "--json"])
     facts = json.loads(told.stdout)
     assert facts["mass_kg"] == pytest.approx(25.2)
-    assert len(facts["asked_for"]["speed_limits"]) == 12
+    assert len(facts["missing_values"]["speed_limits"]) == 12
     assert load_robot(folder).name == "stranger"
     again = CliRunner().invoke(main, words)
     assert again.exit_code == 2 and "--overwrite" in again.stderr

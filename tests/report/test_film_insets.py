@@ -81,7 +81,7 @@ def test_a_split_image_has_the_scene_beside_two_stacked_insets(
     width: int, height: int
 ) -> None:
     shot = FilmSettings(
-        camera="split", width=width, height=height, words=False
+        camera="split", width=width, height=height, captions=False
     )
     cinema = FilmRenderer(short_run(), shot, "egl")
     picture = cinema.picture(0.05)

@@ -65,7 +65,7 @@ def played(
         offers += [offer, f"{role}={place}"]
         players.append(["--role", role, "--robot", f"{way}:{place}"])
         players[-1] += ["--sim-time"] * lock_step
-        players[-1] += ["--by", by] * (by != "velocity")
+        players[-1] += ["--interface", by] * (by != "velocity")
     found = play_out(arguments, body, lock_step, offers, players, READY[way])
     return {"way": way, **found}
 

@@ -219,7 +219,7 @@ def measure(humanoid: Humanoid, model: Path) -> dict[str, Any]:
         settings = with_robot(DuelSettings(seed=SEED, duration=DURATION), made)
         run = run_duel(settings)
     facts, told = report_of(derived), results_of(run)
-    asked = facts["asked_for"]
+    asked = facts["missing_values"]
     return {
         **humanoid._asdict(),
         **{
@@ -229,12 +229,12 @@ def measure(humanoid: Humanoid, model: Path) -> dict[str, Any]:
         "gait": facts["gait"],
         "lengths_share": facts["lengths_share"],
         "control": dict(derived.description.control),
-        "asked_for": {
+        "missing_values": {
             "sole": asked["sole"],
             "torques": len(asked["torques"]),
             "speed_limits": len(asked["speed_limits"]),
         },
-        "left_out_meshes": facts["left_out_meshes"],
+        "omitted_meshes": facts["left_out_meshes"],
         "by_hand": [],
         "summary": {
             key: value

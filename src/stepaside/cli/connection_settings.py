@@ -56,11 +56,11 @@ class ConnectionSettings:
         "simulated robot by default",
         option="--images",
     )
-    by: str | None = setting(
+    interface: str | None = setting(
         None,
         "Commands sent to a robot over NAOqi",
         names=MOTION_INTERFACES,
-        option="--by",
+        option="--interface",
         default_text="velocity",
     )
     max_speed: float | None = setting(
@@ -127,16 +127,17 @@ class ConnectionSettings:
     def __post_init__(self) -> None:
         """Validate ranges, names and combinations of options."""
         check_settings(self)
-        if self.by is not None and not self.robot.startswith(NAOQI):
+        if self.interface is not None and not self.robot.startswith(NAOQI):
             raise click.UsageError(
-                f"--by requires a robot at {NAOQI}, got {self.robot!r}; LoLA "
-                "accepts joint targets only, ROS 2 velocities only"
+                f"--interface requires a robot at {NAOQI}, got "
+                f"{self.robot!r}; LoLA accepts joint targets only, ROS 2 "
+                "velocities only"
             )
 
     @property
     def moves_joints(self) -> bool:
         """Whether the robot receives joint targets."""
-        return self.by == "joints" or self.robot.startswith(LOLA)
+        return self.interface == "joints" or self.robot.startswith(LOLA)
 
     def strategy(self, settings: DuelSettings) -> Strategy:
         """Load the strategy of the role."""
@@ -153,7 +154,7 @@ class ConnectionSettings:
         """Return the factory of the mover that sends commands to ALMotion."""
         from ..drivers.naoqi.velocity_mover import VelocityMover
 
-        if self.by != "footsteps":
+        if self.interface != "footsteps":
             return VelocityMover
         from ..drivers.naoqi.footstep_mover import FootstepMover
 

@@ -48,7 +48,8 @@ def play(settings: DuelSettings, connection: ConnectionSettings) -> None:
     \b
     --robot lola:ADDRESS       joint targets for a NAO V6, every 12 ms
     --robot naoqi:tcp://...    velocities for the robot's own walking
-                               controller, or footsteps or joints (--by)
+                               controller, or footsteps or joints
+                               (--interface)
     --robot ros2:/NAMESPACE    velocities for the robot's own walking
                                controller, on ROS 2 topics
 

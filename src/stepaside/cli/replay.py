@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 FILM = (  # options of films
     *("begin", "duration", "rate", "speed", "width", "height", "camera"),
-    *("slow", "words", "title", "layers"),
+    *("slow", "captions", "title", "layers"),
 )
 PAGE = ("port", "opens", "serve_for")  # options of the live page
 
@@ -102,7 +102,7 @@ def _views() -> tuple[str, ...]:
     help="Slow the video down around the closest approach.",
 )
 @click.option(
-    "--words/--no-words",
+    "--captions/--no-captions",
     default=True,
     help="Show players, time and distance in the video.",
 )
@@ -207,7 +207,7 @@ def _film_settings(
         camera=options["camera"],
         layers=options["layers"],
         slow=options["slow"],
-        words=options["words"],
+        captions=options["captions"],
         title=options["title"],
     )
 

@@ -97,8 +97,8 @@ def _print(facts: dict[str, Any]) -> None:
         ),
         ("safety radius", f"{facts['game']['safety_radius']:g} m"),
         ("head", _head_text(facts["head"])),
-        ("omitted meshes", str(facts["left_out_meshes"])),
-        ("missing values", _missing_text(facts["asked_for"])),
+        ("omitted meshes", str(facts["omitted_meshes"])),
+        ("missing values", _missing_text(facts["missing_values"])),
     ]
     print_table(rows)
 

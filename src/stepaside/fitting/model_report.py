@@ -88,8 +88,8 @@ def report_of(derived: DerivedDescription) -> dict[str, Any]:
         "game": dict(own.game),
         "coupled": sorted(coupled_of(analysis)),
         "head": head_of(analysis),
-        "left_out_meshes": len(analysis.missing),
-        "asked_for": {
+        "omitted_meshes": len(analysis.missing),
+        "missing_values": {
             "sole": any(leg.is_guessed for leg in analysis.legs),
             "torques": assumed_torques,
             "speed_limits": assumed_speeds,

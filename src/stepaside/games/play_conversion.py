@@ -120,7 +120,7 @@ def _summary(
         language=settings.language,
         walking_s=walked,
         steps=steps,
-        way_m=float(np.hypot(*np.diff(smooth, axis=0).T).sum()),
+        path_length_m=float(np.hypot(*np.diff(smooth, axis=0).T).sum()),
         radius_m=_radius(smooth[late], own.unicycle[late, 2]),
         distance_m=None
         if distance is None or not late.any()

@@ -27,7 +27,8 @@ class PlaySummary:
         language: Protocol of the robot: "lola", "naoqi" or "ros2".
         walking_s: Time in the walking state, in [s].
         steps: Footsteps begun; None where the robot has its own walk.
-        way_m: Length of the path, in [m], without the sway of a gait cycle.
+        path_length_m: Length of the path, in [m], without the sway of a
+            gait cycle.
         radius_m: Radius of the circle fitted to the last third of the walk,
             in [m]; None if the path hardly turns there.
         distance_m: Mean distance to the opponent there, in [m]; None
@@ -42,7 +43,7 @@ class PlaySummary:
     language: str
     walking_s: float
     steps: int | None
-    way_m: float
+    path_length_m: float
     radius_m: float | None
     distance_m: float | None
     closest_m: float | None

@@ -83,7 +83,7 @@ class FilmRenderer:
 
         with hidden_walls(self._scene.model, view.eye):
             image = self._renderer.draw(self._scene.data, view.camera(), add)
-        if settings.words:
+        if settings.captions:
             image = caption(
                 image,
                 run,

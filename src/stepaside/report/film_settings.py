@@ -20,7 +20,7 @@ class FilmSettings(NamedTuple):
         camera: One of :data:`~stepaside.report.film_camera.VIEWS`.
         layers: Whether traces, rings and other lines are drawn.
         slow: Whether the film is slower about the closest approach.
-        words: Whether names, time, distance and state are written.
+        captions: Whether names, time, distance and state are written.
         title: Title in the upper left corner; empty for none.
     """
 
@@ -33,7 +33,7 @@ class FilmSettings(NamedTuple):
     camera: str = "fixed"
     layers: bool = True
     slow: bool = False
-    words: bool = True
+    captions: bool = True
     title: str = ""
 
     def speed_at(self, time: float, closest: float | None) -> float:

@@ -24,7 +24,7 @@ def strip_settings(settings: FilmSettings, last: float) -> FilmSettings:
     """
     span = min(last, settings.begin + settings.duration) - settings.begin
     rate = (FRAMES - 1) / span if span > 0.0 else 1.0
-    return settings._replace(rate=rate, speed=1.0, slow=False, words=False)
+    return settings._replace(rate=rate, speed=1.0, slow=False, captions=False)
 
 
 def write_strip(

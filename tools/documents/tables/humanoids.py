@@ -34,7 +34,7 @@ def origins(result: Mapping[str, Any]) -> str:
                 row["name"],
                 f"`{row['path']}` of {row['source']}",
                 row["kinematics"],
-                _asked(row["asked_for"]),
+                _asked(row["missing_values"]),
             )
             for row in result["rows"]
         ),
