@@ -151,6 +151,21 @@ class ManeuverWalk:
         if self.plan is None:
             self._first_foot = foot
 
+    def coast(self, now: float) -> Array | None:
+        """Run a tick within a step; see :class:`.locomotion.Locomotion`."""
+        if (
+            self.plan is None
+            or now >= self._plan_ends - 1e-9
+            or self._maneuvers.guard is not None
+        ):
+            return None
+        index = self._table.index(now)
+        targets = self.balance.planned_targets(self._table, index)
+        if targets is None:
+            return None
+        self.begun, self._index, self.joint_targets = None, index, targets
+        return targets
+
     def update(
         self, measurement: Measurement, decisions: IntentSource
     ) -> Array:

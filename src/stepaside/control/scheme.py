@@ -144,3 +144,26 @@ class ControlScheme(LocomotionScheme):
     def state(self) -> WalkState:
         """Plan and references of the last tick."""
         return self.locomotion.state
+
+    def coast(self, now: float) -> Array | None:
+        """Run a control tick without measurement, in the middle of a step.
+
+        Only for a robot whose sightings need not be followed tick by tick.
+
+        Args:
+            now: Time of the tick, in [s].
+
+        Returns:
+            Joint targets, in [rad], shape (joints,); None if this tick needs
+            a measurement, and then nothing has changed.
+
+        Raises:
+            ReachError: If the legs cannot follow the reference.
+        """
+        walk, decisions = self.locomotion, self.decisions
+        heading = walk.torso_heading
+        targets = None if decisions.turns is not None else walk.coast(now)
+        if targets is not None:
+            decisions.headings.note(now + walk.heading_delay, heading)
+            decisions.templates.note(now + walk.pose_delay, walk.pose)
+        return targets

@@ -36,6 +36,12 @@ class SimulatedPlayer:
         self.name = robot.name
         self.robot, self.scheme, self.frame = robot, scheme, frame
         self.truth: GroundTruth = robot.truth
+        # Exact sightings are read when a decision is due.
+        self._coasts = (
+            robot.eyes is None
+            and robot.sight is not None
+            and robot.sight.is_exact
+        )
 
     @property
     def begun(self) -> StepStarted | None:
@@ -76,8 +82,11 @@ class SimulatedPlayer:
 
     def tick(self) -> None:
         """Read the sensors, decide, and send joint targets."""
-        robot = self.robot
-        robot.write(self.scheme.update(robot.read()))
+        robot, scheme = self.robot, self.scheme
+        targets = scheme.coast(robot.world.time) if self._coasts else None
+        if targets is None:
+            targets = scheme.update(robot.read())
+        robot.write(targets)
 
     def snapshot(self) -> Snapshot:
         """Return the state at this instant."""

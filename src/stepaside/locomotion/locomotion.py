@@ -148,3 +148,17 @@ class PlannedLocomotion(Locomotion, Protocol):
 
     def lead_with(self, foot: Foot) -> None:
         """Choose the foot of the first step, if the robot stands."""
+
+    def coast(self, now: float) -> Array | None:
+        """Run a control tick that needs neither measurement nor decision.
+
+        Args:
+            now: Time of the tick, in [s].
+
+        Returns:
+            Joint targets, in [rad], shape (joints,); None if this tick needs
+            a measurement or a decision, and then nothing has changed.
+
+        Raises:
+            ReachError: If the legs cannot follow the reference.
+        """

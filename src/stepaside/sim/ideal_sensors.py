@@ -34,6 +34,14 @@ class IdealLineOfSight:
         self._latest: Sighting | None = None
         self._count = 0
 
+    @property
+    def is_exact(self) -> bool:
+        """Whether sightings have no noise, delay or rate.
+
+        Such a sensor may be read at some ticks only.
+        """
+        return self._settings == SightSettings()
+
     def read(self, now: float) -> Sighting | None:
         """Return the latest sighting that has arrived at a time, in [s]."""
         settings = self._settings

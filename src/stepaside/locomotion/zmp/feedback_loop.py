@@ -64,6 +64,22 @@ class Balance(Protocol):
     def planned_heading(self) -> float:
         """Heading of the torso of the last targets, in [rad]."""
 
+    def planned_targets(
+        self, table: ReferenceTable, index: int
+    ) -> Array | None:
+        """Return the joint targets of a tick if they need no measurement.
+
+        Args:
+            table: References of the plan.
+            index: Index of the tick in the table.
+
+        Returns:
+            Joint targets, in [rad], shape (joints,); None with feedback.
+
+        Raises:
+            ReachError: If the legs cannot follow the reference.
+        """
+
     def targets(
         self,
         measurement: Measurement,
@@ -147,6 +163,10 @@ class OpenLoop:
         step: StepAt,
     ) -> Array:
         """Return the targets of the plan."""
+        return self.planned_targets(table, index)
+
+    def planned_targets(self, table: ReferenceTable, index: int) -> Array:
+        """Return the targets of the plan at a tick."""
         used = self._used
         if (
             used == len(self._targets)
@@ -270,6 +290,9 @@ class ClosedLoop:
     def planned_heading(self) -> float:
         """Heading of the torso of the last targets, in [rad]."""
         return self._kinematics.torso_heading
+
+    def planned_targets(self, table: ReferenceTable, index: int) -> None:
+        """Return None: every tick needs a measurement."""
 
     def targets(
         self,

@@ -1,0 +1,42 @@
+"""Test a simulated robot with its controller."""
+
+from typing import Any
+
+import numpy as np
+
+from stepaside.games import DuelSettings
+from stepaside.games.duel import Duel
+from stepaside.games.match import play
+from stepaside.games.walker import SimulatedPlayer
+
+DURATION = 3.0
+
+
+def test_a_walking_robot_measures_only_when_a_decision_is_due() -> None:
+    """In open loop with exact sightings; the motion is the same."""
+    readings, tracks = [], []
+    for coasts in (True, False):
+        duel = Duel(DuelSettings(seed=3, duration=DURATION))
+        pursuer = duel.players[0]
+        assert isinstance(pursuer, SimulatedPlayer)
+        if not coasts:
+            pursuer.scheme.coast = lambda now: None  # type: ignore[method-assign]
+        robot: Any = pursuer.robot
+        read, times = robot.read, list[float]()
+
+        def note(read: Any = read, times: Any = times) -> Any:
+            measured = read()
+            times.append(measured.time)
+            return measured
+
+        robot.read = note
+        outcome, wall_time = play(duel, DURATION)
+        tracks.append(duel.run(outcome, wall_time).tracks["pursuer"])
+        readings.append(times)
+    sparing, each = readings
+    assert len(each) == round(DURATION / 0.004)
+    walking = [time for time in sparing if time > 1.0]
+    assert len(walking) < 0.05 * len(each)
+    other = tracks[1].arrays("pursuer")
+    for key, values in tracks[0].arrays("pursuer").items():
+        np.testing.assert_array_equal(values, other[key], err_msg=key)
