@@ -13,14 +13,14 @@ from stepaside.drivers.play_log import PlayLog
 from stepaside.drivers.row_file import read_rows
 from stepaside.drivers.velocity.velocity_body import VelocityCommand
 from stepaside.drivers.velocity.velocity_loop import DrivingState, VelocityTick
-from stepaside.games.play_conversion import run_of_play
-from stepaside.games.play_rows import PlayedRows
-from stepaside.games.play_settings import PlaySettings
-from stepaside.games.play_sightings import (
+from stepaside.games.play_conversion import (
+    opponent_trajectory,
+    run_of_play,
     sight_table,
     sightings_in,
-    track_of_other,
 )
+from stepaside.games.play_rows import PlayedRows
+from stepaside.games.play_settings import PlaySettings
 from stepaside.perception.measurement import Measurement, Sighting
 from stepaside.planning import Foot
 
@@ -131,7 +131,7 @@ def test_a_standing_player_is_recorded_where_it_stands(
     seen[200:220] = np.nan
     columns = {"times_s": times + began, "sighting": seen}
     found = sightings_in(PlayedRows(columns, times, ()))
-    track = track_of_other(found, times, own)
+    track = opponent_trajectory(found, times, own)
     assert track is not None
     np.testing.assert_allclose(
         track.torso[:, :2], np.broadcast_to(other, (300, 2)), atol=2e-3
@@ -170,7 +170,7 @@ def test_the_summary_covers_only_the_walk(
     found = run.summary
     assert found.walking_s == pytest.approx(800 * period)
     assert run.duration == pytest.approx(1199 * period)
-    assert found.seen_share == pytest.approx(0.25, abs=0.01)
+    assert found.sighted_share == pytest.approx(0.25, abs=0.01)
     assert found.radius_m == pytest.approx(radius, abs=1e-3)
     assert found.path_length_m == pytest.approx(8.0 * radius, rel=0.02)
     assert found.closest_m == pytest.approx(0.9)

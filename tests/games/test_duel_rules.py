@@ -239,7 +239,7 @@ def test_an_unreachable_reference_ends_a_duel_and_it_is_recorded(
 
 def test_a_duel_without_a_record_stores_nothing() -> None:
     duel = Duel(DuelSettings(start=START), recorded=False)
-    assert duel.observers == () and duel.witness is None
+    assert duel.observers == () and duel.sight_observer is None
     for _ in range(11):
         duel.tick()
     assert duel.recorder.times.size == 0

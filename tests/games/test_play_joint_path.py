@@ -40,8 +40,8 @@ def believed(forces: Array, foot: Foot = Foot.LEFT) -> Trajectory:
         "begun": np.full((1, 6), np.nan),
         "state": np.zeros(1),
     }
-    body = OdometryPath(PlayedRows(columns, np.zeros(1), ()), NAO)
-    body._tilts = np.array([TILT])
+    rows = PlayedRows(columns, np.zeros(1), ())
+    body = OdometryPath(rows, NAO, np.array([TILT]))
     return body.track(GaitSettings(), np.full((1, 3), np.nan))
 
 
@@ -148,8 +148,7 @@ def test_the_odometry_of_each_controller_begins_midway_between_the_feet(
         "state": np.zeros(2),
     }
     rows = PlayedRows(columns, np.array([0.0, 0.02]), ())
-    body = OdometryPath(rows, NAO)
-    body._tilts = np.array([TILT, TILT])
+    body = OdometryPath(rows, NAO, np.array([TILT, TILT]))
     track = body.track(GaitSettings(), np.full((2, 3), np.nan))
     for name in ("com", "place", "torso", "zmp", "qpos"):
         values = getattr(track, name)

@@ -235,7 +235,7 @@ def test_a_robot_with_its_own_walk_is_shown_as_a_template(
     assert run.robots == () and run.persons == ()
     assert run.summary.radius_m == pytest.approx(1.0, abs=0.01)
     assert run.summary.distance_m == pytest.approx(1.0, abs=0.01)
-    assert run.summary.seen_share == pytest.approx(179 / 199, abs=0.01)
+    assert run.summary.sighted_share == pytest.approx(179 / 199, abs=0.01)
     np.testing.assert_allclose(run.tracks["evader"].com, 0.0, atol=1e-6)
     assert run.pursuer.command is not None
     np.testing.assert_array_equal(run.pursuer.command[5], [0.3, 0.2, 0.2, 0.2])

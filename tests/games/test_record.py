@@ -38,11 +38,6 @@ def recorder(
     return Recorder(players, tick=tick), match, world, players
 
 
-def sample(made: Recorder, match: Match) -> None:
-    """Take one sample at any time."""
-    made._sample(match)
-
-
 def arrays_of(made: Recorder) -> dict[str, Array]:
     found = {"times_s": made.times}
     for name, track in made.tracks().items():
@@ -64,7 +59,7 @@ def test_a_record_holds_the_samples_of_each_player() -> None:
 
 def test_landings_are_in_the_world_with_their_side() -> None:
     made, match, _, players = recorder()
-    sample(made, match)
+    made.before(match)
     first = begun()
     other = begun(
         landing_time=1.4, foot=Foot.RIGHT, landing=Pose(0.4, -0.1, 0.3)
@@ -111,7 +106,7 @@ def test_headings_are_unwrapped() -> None:
     made, match, _, players = recorder()
     for heading in (3.0, -3.1, -2.9):
         players[0].seen["torso"] = Pose(0.0, 0.0, heading)
-        sample(made, match)
+        made.before(match)
     headings = arrays_of(made)["a_torso"][:, 2]
     expected = [3.0, 2 * pi - 3.1, 2 * pi - 2.9]
     np.testing.assert_allclose(headings, expected)
@@ -128,16 +123,16 @@ def test_an_empty_record_has_the_usual_shapes() -> None:
 def test_a_player_without_odometry_has_no_landings() -> None:
     made, match, _, players = recorder()
     del players[0].seen["frame"]
-    sample(made, match)
+    made.before(match)
     assert made.tracks()["a"].landings is None
 
 
 def test_returned_trajectories_do_not_change_later() -> None:
     made, match, _, players = recorder()
-    sample(made, match)
+    made.before(match)
     first = made.tracks()["a"]
     tell(players[0], 1)
-    sample(made, match)
+    made.before(match)
     assert isinstance(first, Trajectory) and first.com.shape == (1, 3)
     np.testing.assert_array_equal(first.com, [[1.0, 2.0, 3.0]])
     assert made.tracks()["a"].com.shape == (2, 3)

@@ -1,6 +1,7 @@
 """Test the evaluation of perception in duels with camera sensing."""
 
 from dataclasses import replace
+from math import atan2, hypot
 from types import SimpleNamespace
 from typing import Any
 
@@ -12,7 +13,7 @@ import pytest
 from stepaside.arena import Room, RoomRecipe, generate_room
 from stepaside.control.clearance.map_settings import MapSettings
 from stepaside.control.sight_sources import CameraSight
-from stepaside.core.poses import Pose
+from stepaside.core.poses import Pose, wrap_angle
 from stepaside.games import camera_duel as seeing
 from stepaside.games.camera_duel import CameraSenses, SightObserver
 from stepaside.games.duel import Duel
@@ -25,7 +26,7 @@ from stepaside.games.initial_poses import (
 )
 from stepaside.games.outcome import Outcome
 from stepaside.games.person_player import PersonPlayer
-from stepaside.games.sight_evaluation import FrameCounts
+from stepaside.games.sight_evaluation import FrameCounts, SightEvaluator
 from stepaside.games.sight_summary import ErrorSpread, SightSummary
 from stepaside.games.walker import SimulatedPlayer
 from stepaside.planning import Direction
@@ -37,6 +38,7 @@ from stepaside.sim.camera_settings import (
     RoomObject,
     SceneSettings,
 )
+from stepaside.sim.ground_truth import GroundTruth
 from stepaside.sim.person_settings import PersonSettings
 
 RAYS = CameraSettings(colour=ColourSettings(renderer="raycast"))
@@ -55,13 +57,13 @@ def saw(lost: float) -> SightSummary:
     return SightSummary(none, none, None, 0, 0.0, lost)
 
 
-def judged(colour: FrameCounts, depth: FrameCounts, lost: float) -> Any:
+def evaluated(colour: FrameCounts, depth: FrameCounts, lost: float) -> Any:
     """Return the evaluator of a robot that was lost for a time."""
     return SimpleNamespace(
         colour=colour,
         depth=depth,
         stills={"colour": []},
-        figures=lambda: saw(lost),
+        summary=lambda: saw(lost),
         array=lambda: np.full((2, 6), lost),
     )
 
@@ -84,22 +86,24 @@ def at(ticks: int) -> Any:
 
 
 def test_the_report_combines_both_robots_and_both_cameras() -> None:
-    judges = {
-        "pursuer": judged(FrameCounts(10, 9, 1), FrameCounts(), 0.5),
-        "evader": judged(FrameCounts(20, 12, 3), FrameCounts(10, 3, 5), 1.25),
+    evaluators = {
+        "pursuer": evaluated(FrameCounts(10, 9, 1), FrameCounts(), 0.5),
+        "evader": evaluated(
+            FrameCounts(20, 12, 3), FrameCounts(10, 3, 5), 1.25
+        ),
     }
-    both = SightObserver(judges, "raycast", every=5)
-    figures, each = both.figures()
-    assert figures.camera == "raycast"
-    assert figures.detection_rate == pytest.approx(24 / 40)
-    assert figures.false_detections == 9
-    assert figures.lost_s == 1.75
+    both = SightObserver(evaluators, "raycast", every=5)
+    together, each = both.report()
+    assert together.camera == "raycast"
+    assert together.detection_rate == pytest.approx(24 / 40)
+    assert together.false_detections == 9
+    assert together.lost_s == 1.75
     assert each["evader"] == saw(1.25)
     assert set(both.sight()) == {"pursuer", "evader"}
     assert both.sight()["evader"][0, 0] == 1.25
-    assert both.stills()["pursuer"] is judges["pursuer"].stills
-    blind = {"evader": judged(FrameCounts(), FrameCounts(), 0.0)}
-    nothing, each = SightObserver(blind, "raycast", every=5).figures()
+    assert both.stills()["pursuer"] is evaluators["pursuer"].stills
+    blind = {"evader": evaluated(FrameCounts(), FrameCounts(), 0.0)}
+    nothing, each = SightObserver(blind, "raycast", every=5).report()
     assert nothing.detection_rate is None and list(each) == ["evader"]
 
 
@@ -159,14 +163,14 @@ def test_each_robot_is_evaluated_by_the_true_state_of_its_opponent(
     """Five stills within the duel, at quadratic times."""
     made: list[tuple[Any, ...]] = []
 
-    def judge(*a: Any, wears_trim: bool) -> None:
+    def evaluate(*a: Any, wears_trim: bool) -> None:
         made.append((*a, wears_trim))
 
-    monkeypatch.setattr(seeing, "SightEvaluator", judge)
+    monkeypatch.setattr(seeing, "SightEvaluator", evaluate)
     both = prepared()
     robot: Any = SimpleNamespace(name="pursuer")
     truth: Any = object()
-    both.judge(robot, truth, wears_trim=False)
+    both.evaluator_of(robot, truth, wears_trim=False)
     ((own, other, mind, _, things, times, wears_trim),) = made
     assert wears_trim is False
     assert own is robot and other is truth
@@ -180,36 +184,39 @@ def test_each_robot_is_evaluated_by_the_true_state_of_its_opponent(
     assert roots[0] == pytest.approx(0.5 * np.diff(roots)[0])
 
 
+def check_truth(
+    evaluator: SightEvaluator, own: GroundTruth, other: GroundTruth
+) -> None:
+    """Compare the true bearing and distance that an evaluator records."""
+    evaluator.sample(0.0)
+    bearing, distance = evaluator.array()[-1, 3:5].tolist()
+    x, y = own.position_torso_in_world
+    u, v = other.position_torso_in_world
+    assert distance == pytest.approx(hypot(u - x, v - y))
+    expected = atan2(v - y, u - x) - own.heading_in_world
+    assert wrap_angle(bearing - expected) == pytest.approx(0.0, abs=1e-9)
+
+
 def test_each_robot_with_cameras_is_evaluated() -> None:
     duel = Duel(replace(SETTINGS, duration=1.0))
-    witness = duel.witness
-    assert witness is not None and list(witness.judges) == list(PLAYERS)
-    assert duel.observers == (duel.recorder, witness)
+    observer = duel.sight_observer
+    assert observer is not None and list(observer.evaluators) == list(PLAYERS)
+    assert duel.observers == (duel.recorder, observer)
     for own, other in (duel.players, duel.players[::-1]):
         assert isinstance(own, SimulatedPlayer)
         assert own.robot.eyes is not None and own.robot.sight is None
         assert isinstance(own.scheme.senses, CameraSight)
-        judge = witness.judges[own.name]
-        assert judge._robot is own.robot
-        assert judge._perception is own.scheme.senses.perception
-        assert (
-            judge._other.position_torso_in_world
-            == other.truth.position_torso_in_world
-        )
-        assert (
-            own.truth.position_torso_in_world
-            != other.truth.position_torso_in_world
-        )
+        check_truth(observer.evaluators[own.name], own.truth, other.truth)
     duel.close()
 
 
 def test_a_person_has_no_cameras() -> None:
     duel = Duel(replace(SETTINGS, duration=1.0, pursuer="person"))
-    witness = duel.witness
-    assert witness is not None and list(witness.judges) == ["evader"]
-    person = duel.players[0]
+    observer = duel.sight_observer
+    assert observer is not None and list(observer.evaluators) == ["evader"]
+    person, robot = duel.players
     assert isinstance(person, PersonPlayer)
-    assert witness.judges["evader"]._other is person.truth
+    check_truth(observer.evaluators["evader"], robot.truth, person.truth)
     assert duel.tick() is None
     run = duel.run(Outcome.COMPLETED, 1.0)
     assert run.evader.sight is not None and run.pursuer.sight is None
@@ -221,7 +228,7 @@ def test_a_person_has_no_cameras() -> None:
 
 def test_a_duel_with_ideal_sight_has_no_sight_observer() -> None:
     duel = Duel(DuelSettings(seed=5))
-    assert duel.witness is None and duel.observers == (duel.recorder,)
+    assert duel.sight_observer is None and duel.observers == (duel.recorder,)
 
 
 def test_both_evaluators_sample_at_the_same_instants() -> None:
@@ -235,11 +242,13 @@ def test_both_evaluators_sample_at_the_same_instants() -> None:
 
 def test_both_evaluators_observe_every_tick() -> None:
     looked: list[str] = []
-    judges: dict[str, Any] = {
-        name: SimpleNamespace(look=lambda name=name: looked.append(name))
+    evaluators: dict[str, Any] = {
+        name: SimpleNamespace(
+            evaluate_tick=lambda name=name: looked.append(name)
+        )
         for name in PLAYERS
     }
-    both = SightObserver(judges, "raycast", every=5)
+    both = SightObserver(evaluators, "raycast", every=5)
     for ticks in range(3):
         both.acted(at(ticks))
     both.ended(at(3), Outcome.COMPLETED)

@@ -140,7 +140,7 @@ def test_over_ros2_in_lock_step_the_duel_is_the_one_in_one_process(
     from stepaside.drivers.ros2.dds_domain import DdsParticipant
     from stepaside.drivers.ros2.ros2_body import Ros2Body
     from stepaside.drivers.ros2.ros2_server import WorldClock
-    from stepaside.games.ros2_offers import Ros2Offer
+    from stepaside.games.robot_offers import Ros2Offer
 
     dds = DdsParticipant(0, tag=TAG)
     clock = WorldClock(dds)

@@ -67,9 +67,10 @@ class Scene:
         own: Any = SimpleNamespace(
             world=world, name="me", truth=self.own, eyes=self.eyes
         )
+        self.robot = own
         other: Any = self.other
         head: Any = HEAD
-        self.judge = SightEvaluator(
+        self.evaluator = SightEvaluator(
             *(own, other, self.mind, head, things or [], still_times),
             wears_trim=wears_trim,
         )
@@ -84,8 +85,8 @@ class Scene:
 
     def sample(self, now: float) -> None:
         """Evaluate a tick, and record a sample."""
-        self.judge.look()
-        self.judge.sample(now)
+        self.evaluator.evaluate_tick()
+        self.evaluator.sample(now)
 
     def believe(self, bearing: float, away: float = 1.0) -> None:
         """Set the sighting of the robot."""
@@ -105,9 +106,9 @@ def show(
     scene: Scene, image: ColourImage | DepthImage, *azimuths: float
 ) -> None:
     """Take an image with detections at angles, in [deg]."""
-    scene.judge.note(image)
+    scene.evaluator.record_truth(image)
     angles = tuple(radians(a) for a in azimuths)
-    scene.judge.judge(FrameReport(image, angles))
+    scene.evaluator.evaluate(FrameReport(image, angles))
 
 
 def rows(scene: Scene, errors: list[float | None]) -> None:
@@ -123,9 +124,9 @@ def rows(scene: Scene, errors: list[float | None]) -> None:
 def test_time_with_a_large_bearing_error_is_misled_time() -> None:
     scene = Scene()
     rows(scene, [0.0, 21.0, -21.0, 30.0, 19.0, -19.0, None, 180.0])
-    figures = scene.judge.figures()
-    assert figures.misled_s == pytest.approx(4 * PERIOD)
-    assert figures.lost_s == pytest.approx(1 * PERIOD)
+    summary = scene.evaluator.summary()
+    assert summary.misled_s == pytest.approx(4 * PERIOD)
+    assert summary.lost_s == pytest.approx(1 * PERIOD)
 
 
 def test_bearing_errors_are_wrapped() -> None:
@@ -134,11 +135,11 @@ def test_bearing_errors_are_wrapped() -> None:
     for i, belief in enumerate((172.0, 178.0, -178.0)):
         scene.believe(radians(belief))
         scene.sample(i * PERIOD)
-    true = scene.judge.array()[:, 3]
+    true = scene.evaluator.array()[:, 3]
     np.testing.assert_allclose(true, radians(175.0))
-    figures = scene.judge.figures()
-    assert figures.bearing_error_deg.median == pytest.approx(3.0)
-    assert figures.misled_s == 0.0
+    summary = scene.evaluator.summary()
+    assert summary.bearing_error_deg.median == pytest.approx(3.0)
+    assert summary.misled_s == 0.0
 
 
 def test_a_searching_robot_is_lost_even_with_a_sighting() -> None:
@@ -147,7 +148,7 @@ def test_a_searching_robot_is_lost_even_with_a_sighting() -> None:
     for i in range(5):
         scene.mind.searching = i < 2
         scene.sample(i * PERIOD)
-    assert scene.judge.figures().lost_s == pytest.approx(2 * PERIOD)
+    assert scene.evaluator.summary().lost_s == pytest.approx(2 * PERIOD)
 
 
 def test_samples_hold_sightings_and_the_truth() -> None:
@@ -158,7 +159,7 @@ def test_samples_hold_sightings_and_the_truth() -> None:
     scene.sample(1.1)
     bearing, distance = atan2(0.2, 1.2) - 0.5, hypot(0.2, 1.2)
     np.testing.assert_allclose(
-        scene.judge.array(),
+        scene.evaluator.array(),
         [
             [1.0, nan, nan, bearing, distance, 1.0],
             [1.1, -0.1, 1.4, bearing, distance, 0.0],
@@ -174,10 +175,10 @@ def test_a_sighting_is_compared_with_the_truth_at_its_time() -> None:
     scene.sample(0.0)
     scene.other.position_torso_in_world = 0.3, 0.8
     scene.sample(0.1)
-    np.testing.assert_allclose(scene.judge.array()[:, 3], true)
+    np.testing.assert_allclose(scene.evaluator.array()[:, 3], true)
     scene.believe(0.5)
     scene.sample(0.2)
-    assert scene.judge.array()[2, 3] == pytest.approx(0.5 * pi)
+    assert scene.evaluator.array()[2, 3] == pytest.approx(0.5 * pi)
 
 
 def test_errors_exclude_samples_without_a_sighting() -> None:
@@ -187,25 +188,25 @@ def test_errors_exclude_samples_without_a_sighting() -> None:
     for i in range(101):
         scene.believe(atan2(0.2, 1.2) + radians(0.1 * i), true - 0.01 * i)
         scene.sample((i + 2) * PERIOD)
-    figures = scene.judge.figures()
-    assert astuple(figures.bearing_error_deg) == pytest.approx((5.0, 9.5))
-    assert astuple(figures.distance_error_m) == pytest.approx((0.5, 0.95))
+    summary = scene.evaluator.summary()
+    assert astuple(summary.bearing_error_deg) == pytest.approx((5.0, 9.5))
+    assert astuple(summary.distance_error_m) == pytest.approx((0.5, 0.95))
 
 
 def test_without_samples_there_are_no_errors() -> None:
     scene = Scene()
-    assert scene.judge.array().shape == (0, 6)
-    figures = scene.judge.figures()
-    assert figures.bearing_error_deg == ErrorSpread(None, None)
-    assert figures.misled_s == figures.lost_s == 0.0
-    assert figures.detection_rate is None
+    assert scene.evaluator.array().shape == (0, 6)
+    summary = scene.evaluator.summary()
+    assert summary.bearing_error_deg == ErrorSpread(None, None)
+    assert summary.misled_s == summary.lost_s == 0.0
+    assert summary.detection_rate is None
     rows(scene, [90.0])
-    assert scene.judge.figures().misled_s == 0.0  # one sample lasts nil
+    assert scene.evaluator.summary().misled_s == 0.0  # one sample lasts nil
 
 
 def test_rates_are_fractions_of_the_frames_with_the_opponent_in_view() -> None:
     assert FrameCounts().rate is None
-    assert FrameCounts(shown=8, found=2).rate == 0.25
+    assert FrameCounts(in_view=8, detected=2).rate == 0.25
 
 
 @pytest.mark.parametrize("yaw", [0.0, 2.0, -1.0])
@@ -225,12 +226,14 @@ def test_frames_count_as_shown_found_and_false(
     scene.stand(TOP, side * radians(50.0), 1.2)
     show(scene, colour())
     show(scene, colour(), 0.0)
-    assert scene.judge.colour == FrameCounts(shown=6, found=4, false=4)
-    assert scene.judge.depth == FrameCounts()
-    figures = scene.judge.figures()
-    assert figures.detection_rate == pytest.approx(4 / 6)
-    assert figures.false_detections == 4
-    assert figures.depth_detection_rate is None
+    assert scene.evaluator.colour == FrameCounts(
+        in_view=6, detected=4, false=4
+    )
+    assert scene.evaluator.depth == FrameCounts()
+    summary = scene.evaluator.summary()
+    assert summary.detection_rate == pytest.approx(4 / 6)
+    assert summary.false_detections == 4
+    assert summary.depth_detection_rate is None
 
 
 def test_both_cameras_count_separately_and_false_ones_together() -> None:
@@ -239,12 +242,12 @@ def test_both_cameras_count_separately_and_false_ones_together() -> None:
     show(scene, colour(), 0.0, 25.0)
     show(scene, depth(), 0.0, -25.0, 25.0)
     show(scene, depth())
-    assert scene.judge.colour == FrameCounts(1, 1, 1)
-    assert scene.judge.depth == FrameCounts(2, 1, 2)
-    figures = scene.judge.figures()
-    assert figures.false_detections == 3
-    assert figures.detection_rate == 1.0
-    assert figures.depth_detection_rate == 0.5
+    assert scene.evaluator.colour == FrameCounts(1, 1, 1)
+    assert scene.evaluator.depth == FrameCounts(2, 1, 2)
+    summary = scene.evaluator.summary()
+    assert summary.false_detections == 3
+    assert summary.detection_rate == 1.0
+    assert summary.depth_detection_rate == 0.5
 
 
 @pytest.mark.parametrize(
@@ -257,10 +260,10 @@ def test_depth_shows_only_what_is_well_in_range(
     scene = Scene(0.7)
     scene.stand(DEPTH, 0.2, away)
     show(scene, depth())
-    assert scene.judge.depth.shown == shown
+    assert scene.evaluator.depth.in_view == shown
     scene.stand(TOP, 0.2, away)
     show(scene, colour())
-    assert scene.judge.colour.shown == 1
+    assert scene.evaluator.colour.in_view == 1
 
 
 def test_the_center_of_the_opponent_must_be_in_view() -> None:
@@ -269,9 +272,9 @@ def test_the_center_of_the_opponent_must_be_in_view() -> None:
     for lift, shown in ((0.38, 1), (0.46, 0), (-0.37, 1), (-0.46, 0)):
         level = scene.other.position_com_in_world.copy()
         scene.other.position_com_in_world[2] += lift
-        before = scene.judge.colour.shown
+        before = scene.evaluator.colour.in_view
         show(scene, colour())
-        assert scene.judge.colour.shown - before == shown
+        assert scene.evaluator.colour.in_view - before == shown
         scene.other.position_com_in_world = level
 
 
@@ -285,33 +288,35 @@ def test_objects_are_no_false_detections_of_the_depth_camera() -> None:
     ahead = 2.0 * cos(radians(9.0)) + down * sin(radians(9.0))
     there = np.degrees(atan2(-1.0, ahead))
     show(scene, depth(), there, there - 19.5, there + 19.5)
-    assert scene.judge.depth.false == 0
+    assert scene.evaluator.depth.false == 0
     show(scene, depth(), there - 20.5)
-    assert scene.judge.depth.false == 1
+    assert scene.evaluator.depth.false == 1
     show(scene, colour(), there)
-    assert scene.judge.colour.false == 1
+    assert scene.evaluator.colour.false == 1
 
 
 def test_each_noted_image_is_evaluated_once() -> None:
     scene = Scene()
     image = colour()
-    scene.judge.judge(FrameReport(image, (1.0,)))
-    assert scene.judge.colour == FrameCounts()
+    scene.evaluator.evaluate(FrameReport(image, (1.0,)))
+    assert scene.evaluator.colour == FrameCounts()
     scene.stand(TOP, 0.0, 1.0)
     show(scene, image, 0.0)
-    scene.judge.judge(FrameReport(image, (0.0,)))
-    assert scene.judge.colour == FrameCounts(1, 1, 0)
-    scene.judge.note(SonarEcho(0.0, "left", 0.5))
+    scene.evaluator.evaluate(FrameReport(image, (0.0,)))
+    assert scene.evaluator.colour == FrameCounts(1, 1, 0)
+    scene.evaluator.record_truth(SonarEcho(0.0, "left", 0.5))
 
 
 def test_an_image_without_a_search_is_not_evaluated() -> None:
     scene = Scene()
     scene.stand(TOP, 0.0, 1.0)
     image = colour()
-    scene.judge.note(image)
-    scene.judge.judge(FrameReport(image, (), sought=False))
-    assert scene.judge.colour == FrameCounts()
-    assert not scene.judge._true and not scene.judge.stills["colour"]
+    scene.evaluator.record_truth(image)
+    scene.evaluator.evaluate(FrameReport(image, (), sought=False))
+    assert scene.evaluator.colour == FrameCounts()
+    assert not scene.evaluator.stills["colour"]
+    scene.evaluator.evaluate(FrameReport(image, (0.0,)))  # it is forgotten
+    assert scene.evaluator.colour == FrameCounts()
 
 
 def test_each_tick_notes_exposed_images_and_evaluates_reports() -> None:
@@ -321,25 +326,24 @@ def test_each_tick_notes_exposed_images_and_evaluates_reports() -> None:
     one, late = colour(), colour(0.1)
     scene.eyes.exposed = [one, late, SonarEcho(0.0, "left", 0.5)]
     scene.mind.reports = [FrameReport(one, (0.0,))]
-    scene.judge.look()
-    assert scene.judge.colour == FrameCounts(1, 1, 0)
+    scene.evaluator.evaluate_tick()
+    assert scene.evaluator.colour == FrameCounts(1, 1, 0)
     scene.stand(TOP, radians(50.0), 1.0)  # the truth counts of then
     scene.eyes.exposed = []
     scene.mind.reports = [FrameReport(late, (0.0,))]
-    scene.judge.look()
-    assert scene.judge.colour == FrameCounts(2, 2, 0)
+    scene.evaluator.evaluate_tick()
+    assert scene.evaluator.colour == FrameCounts(2, 2, 0)
     scene.eyes.exposed, scene.mind.reports = [], []
-    scene.judge.look()
-    assert scene.judge.colour == FrameCounts(2, 2, 0)
+    scene.evaluator.evaluate_tick()
+    assert scene.evaluator.colour == FrameCounts(2, 2, 0)
 
 
 def test_without_cameras_no_image_is_noted() -> None:
     scene = Scene()
-    blind: Any = scene.judge._robot
-    blind.eyes = None
+    scene.robot.eyes = None
     scene.mind.reports = [FrameReport(colour(), (0.0,))]
-    scene.judge.look()
-    assert scene.judge.colour == FrameCounts()
+    scene.evaluator.evaluate_tick()
+    assert scene.evaluator.colour == FrameCounts()
 
 
 def test_stills_are_the_first_images_at_their_times() -> None:
@@ -348,11 +352,11 @@ def test_stills_are_the_first_images_at_their_times() -> None:
     images = [colour(t) for t in (0.4, 0.5, 0.6, 1.1, inf)]
     for image in images:
         show(scene, image)
-    kept = scene.judge.stills["colour"]
+    kept = scene.evaluator.stills["colour"]
     assert [still.report.image for still in kept] == [images[1], images[3]]
     assert kept[0].azimuth == pytest.approx(radians(12.0))
     show(scene, depth(0.7))
-    assert len(scene.judge.stills["depth"]) == 1
+    assert len(scene.evaluator.stills["depth"]) == 1
 
 
 def test_a_person_counts_only_in_depth_images() -> None:
@@ -360,8 +364,10 @@ def test_a_person_counts_only_in_depth_images() -> None:
     scene.stand(TOP, 0.0, 1.5)
     show(scene, colour())
     show(scene, colour(0.1), 40.0)
-    assert scene.judge.colour == FrameCounts(shown=0, found=0, false=1)
-    assert scene.judge.colour.rate is None
+    assert scene.evaluator.colour == FrameCounts(
+        in_view=0, detected=0, false=1
+    )
+    assert scene.evaluator.colour.rate is None
     scene.stand(DEPTH, 0.0, 1.5)
     show(scene, depth(), 0.0)
-    assert scene.judge.depth == FrameCounts(shown=1, found=1, false=0)
+    assert scene.evaluator.depth == FrameCounts(in_view=1, detected=1, false=0)

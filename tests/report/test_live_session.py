@@ -309,7 +309,7 @@ def test_of_a_live_duel_the_first_minutes_are_kept(
     assert duel.world.time >= 2.0
     np.testing.assert_allclose(duel.recorder.times, 0.02 * np.arange(51))
     assert all(len(t.com) == 51 for t in duel.recorder.tracks().values())
-    assert duel.observers[0] is session.trail and duel.witness is None
+    assert duel.observers[0] is session.trail and duel.sight_observer is None
 
 
 def test_what_was_played_is_saved_with_pushes_and_commands(

@@ -36,13 +36,13 @@ def offers_of(
         offers[name] = LolaOffer(parse_address(place), ideal_sight)
     if options["naoqi"]:
         from ..drivers.naoqi.naoqi_url import parse_url
-        from ..games.naoqi_offers import NaoqiOffer
+        from ..games.robot_offers import NaoqiOffer
 
         for name, place in _entries("naoqi", options["naoqi"], offers):
             offers[name] = NaoqiOffer(parse_url(place), ideal_sight)
     if options["naoqi_joints"]:
         from ..drivers.naoqi.naoqi_url import parse_url
-        from ..games.naoqi_offers import NaoqiJointsOffer
+        from ..games.robot_offers import NaoqiJointsOffer
 
         joints = options["naoqi_joints"]
         for name, place in _entries("naoqi-joints", joints, offers):
@@ -50,7 +50,7 @@ def offers_of(
     if options["ros2"]:
         from ..drivers.ros2.namespaces import parse_namespace
         from ..drivers.ros2.ros2_server import WorldClock
-        from ..games.ros2_offers import Ros2Offer
+        from ..games.robot_offers import Ros2Offer
         from .connection_settings import join_domain
 
         dds = join_domain(options["domain"], network=options["network"])

@@ -116,7 +116,7 @@ class CameraSenses:
         )
         return CameraSensing(eyes, perception)
 
-    def judge(
+    def evaluator_of(
         self, robot: SimulatedRobot, other: GroundTruth, *, wears_trim: bool
     ) -> SightEvaluator:
         """Return the evaluation of a robot's sightings of its opponent.
@@ -149,12 +149,12 @@ class SightObserver:
     """Match observer that evaluates the perception of each robot.
 
     Attributes:
-        judges: Evaluators, by name of the robot.
+        evaluators: Evaluators, by name of the robot.
     """
 
     def __init__(
         self,
-        judges: Mapping[str, SightEvaluator],
+        evaluators: Mapping[str, SightEvaluator],
         renderer: str,
         *,
         every: int,
@@ -162,49 +162,55 @@ class SightObserver:
         """Observe a match.
 
         Args:
-            judges: Evaluators, by name of the robot.
+            evaluators: Evaluators, by name of the robot.
             renderer: Name of the renderer of the colour images.
             every: Control ticks between samples of the sightings.
         """
-        self.judges = dict(judges)
+        self.evaluators = dict(evaluators)
         self._renderer, self._every = renderer, every
 
     def before(self, match: Match) -> None:
         """Compare sightings with the true state, when a sample is due."""
         if match.world.ticks % self._every == 0:
-            for judge in self.judges.values():
-                judge.sample(match.world.time)
+            for evaluator in self.evaluators.values():
+                evaluator.sample(match.world.time)
 
     def acted(self, match: Match) -> None:
         """Evaluate the detections of this tick."""
-        for judge in self.judges.values():
-            judge.look()
+        for evaluator in self.evaluators.values():
+            evaluator.evaluate_tick()
 
     def ended(self, match: Match, outcome: Outcome) -> None:
         """Do nothing at the end of the game."""
 
     def sight(self) -> dict[str, Array]:
         """Return estimated and true sightings, by name of the robot."""
-        return {name: judge.array() for name, judge in self.judges.items()}
+        return {
+            name: evaluator.array()
+            for name, evaluator in self.evaluators.items()
+        }
 
     def stills(self) -> dict[str, dict[str, list[EvaluatedImage]]]:
         """Return the stored images, by robot and camera."""
-        return {name: judge.stills for name, judge in self.judges.items()}
+        return {
+            name: evaluator.stills
+            for name, evaluator in self.evaluators.items()
+        }
 
-    def figures(self) -> SightReport:
+    def report(self) -> SightReport:
         """Return errors and detection rates of all robots and of each."""
         tallies = [
             tally
-            for judge in self.judges.values()
-            for tally in (judge.colour, judge.depth)
+            for evaluator in self.evaluators.values()
+            for tally in (evaluator.colour, evaluator.depth)
         ]
-        shown = sum(t.shown for t in tallies)
-        each = {name: j.figures() for name, j in self.judges.items()}
-        found = sum(t.found for t in tallies)
+        in_view = sum(t.in_view for t in tallies)
+        by_robot = {name: e.summary() for name, e in self.evaluators.items()}
+        detected = sum(t.detected for t in tallies)
         together = PerceptionSummary(
             camera=self._renderer,
-            detection_rate=found / shown if shown else None,
+            detection_rate=detected / in_view if in_view else None,
             false_detections=sum(t.false for t in tallies),
-            lost_s=sum(f.lost_s for f in each.values()),
+            lost_s=sum(own.lost_s for own in by_robot.values()),
         )
-        return SightReport(together, each)
+        return SightReport(together, by_robot)

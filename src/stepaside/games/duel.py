@@ -28,7 +28,7 @@ class Duel(Match):
         settings: Settings of the duel, with the initial poses filled in.
         frames: Initial poses of pursuer and evader in the world.
         recorder: Recorder of the trajectories.
-        witness: Evaluation of the perception, if sensing is by cameras.
+        sight_observer: Evaluation of the perception, if sensing is by cameras.
     """
 
     def __init__(
@@ -63,12 +63,13 @@ class Duel(Match):
                 stage.players[PLAYERS.index(name)].push(*pushes)
         tick = stage.world.physics.tick
         self.recorder = Recorder(stage.players, tick=tick)
-        self.witness = (
-            stage.witness(every=self.recorder.every) if recorded else None
-        )
+        self.sight_observer = None
+        if recorded:
+            every = self.recorder.every
+            self.sight_observer = stage.sight_observer(every=every)
         recorders: list[MatchObserver] = [self.recorder]
-        if self.witness is not None:
-            recorders.append(self.witness)
+        if self.sight_observer is not None:
+            recorders.append(self.sight_observer)
         super().__init__(
             stage.world,
             stage.players,
@@ -90,7 +91,7 @@ class Duel(Match):
             self,
             outcome,
             self.recorder,
-            self.witness,
+            self.sight_observer,
             wall_time,
         )
 
@@ -100,7 +101,7 @@ def make_duel_run(
     match: Match,
     outcome: Outcome,
     recorder: Recorder,
-    witness: "SightObserver | None",
+    sight_observer: "SightObserver | None",
     wall_time: float,
 ) -> DuelRun:
     """Return a finished duel as a value.
@@ -110,12 +111,12 @@ def make_duel_run(
         match: The match that was played.
         outcome: How it ended.
         recorder: Recorder of the trajectories.
-        witness: Evaluation of the perception, if sensing is by cameras.
+        sight_observer: Evaluation of the perception, if sensing is by cameras.
         wall_time: Time that the computation took, in [s].
     """
     tracks, times = recorder.tracks(), recorder.times
-    if witness is not None:
-        for name, rows in witness.sight().items():
+    if sight_observer is not None:
+        for name, rows in sight_observer.sight().items():
             tracks[name] = replace(tracks[name], sight=rows)
     summary = summarise(
         settings,
@@ -123,7 +124,7 @@ def make_duel_run(
         times,
         tracks,
         recorder.planning(),
-        None if witness is None else witness.figures(),
+        None if sight_observer is None else sight_observer.report(),
         wall_time,
     )
     return DuelRun(
@@ -135,7 +136,7 @@ def make_duel_run(
         times=times,
         tracks=tracks,
         summary=summary,
-        stills={} if witness is None else witness.stills(),
+        stills={} if sight_observer is None else sight_observer.stills(),
     )
 
 

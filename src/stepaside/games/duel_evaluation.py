@@ -87,7 +87,7 @@ def summarise(
         real_time_factor=now / max(wall_time, 1e-9),
         pursuer=_player("pursuer", tracks, tail, seen),
         evader=_player("evader", tracks, tail, seen),
-        sight=None if seen is None else seen.all,
+        sight=None if seen is None else seen.together,
         touched=list(match.touched),
         notes=list(settings.notes),
         captured_at_s=match.captured_at,
@@ -133,7 +133,7 @@ def _player(
     seen: SightReport | None,
 ) -> PlayerSummary:
     radius = fit_circle(tracks[name].unicycle[tail, :2])[1]
-    sight = None if seen is None else seen.each.get(name)
+    sight = None if seen is None else seen.by_robot.get(name)
     return PlayerSummary(_number(radius), sight)
 
 

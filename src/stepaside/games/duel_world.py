@@ -144,21 +144,21 @@ class DuelWorld:
             ),
         )
 
-    def witness(self, *, every: int) -> "SightObserver | None":
+    def sight_observer(self, *, every: int) -> "SightObserver | None":
         """Return the evaluation of perception, if sensing is by cameras."""
         if self._senses is None:
             return None
         from .camera_duel import SightObserver
 
-        judges = {}
+        evaluators = {}
         for own, other in (self.players, self.players[::-1]):
             if isinstance(own, SimulatedPlayer):
-                judges[own.name] = self._senses.judge(
+                evaluators[own.name] = self._senses.evaluator_of(
                     own.robot,
                     self._truths[other.name],
                     wears_trim=not isinstance(other, PersonPlayer),
                 )
-        return SightObserver(judges, self._senses.renderer, every=every)
+        return SightObserver(evaluators, self._senses.renderer, every=every)
 
 
 def _setup_of(settings: DuelSettings, name: str, frame: Pose) -> WalkerSetup:

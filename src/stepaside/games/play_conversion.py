@@ -14,16 +14,16 @@ from .array_checks import check_times, check_tracks
 from .duel_circle import cycle_mean, distance_between
 from .duel_settings import PLAYERS
 from .outcome import Outcome
-from .play_joint_path import OdometryPath
+from .play_joint_path import OdometryPath, estimate_tilts
 from .play_rows import NOTES, PlayedRows, read_played
 from .play_settings import PlaySettings
-from .play_sightings import sight_table, sightings_in, track_of_other
 from .play_summary import Change, PlaySummary
 from .run import PlayRun
 from .trajectory import Trajectory
 
 MAX_CHANGES = 2000  # of state, in a summary
 MIN_TURN = 0.5  # of a path to which a circle can be fitted, in [rad]
+SAME = 1e-6  # tolerance within which times are of one sighting, in [s]
 CUT_OFF = "the record was cut off"
 
 
@@ -55,7 +55,7 @@ def run_of_play(
     rows = read_played(folder)
     times, found = rows.times[rows.sampled], sightings_in(rows)
     own = _own(rows, settings, sight_table(found))
-    other = track_of_other(found, times, own.unicycle)
+    other = opponent_trajectory(found, times, own.unicycle)
     tracks = {settings.role: own}
     if other is not None:
         both = tracks | {settings.other: other}
@@ -77,7 +77,8 @@ def run_of_play(
 def _own(rows: PlayedRows, settings: PlaySettings, sight: Array) -> Trajectory:
     """Return the trajectory of the player itself."""
     if rows.moves_joints:
-        path = OdometryPath(rows, load_robot(settings.robot))
+        robot = load_robot(settings.robot)
+        path = OdometryPath(rows, robot, estimate_tilts(rows))
         return path.track(settings.gait, sight)
     sampled = rows.sampled
     torso = rows.columns["pose"][sampled].copy()
@@ -126,7 +127,7 @@ def _summary(
         if distance is None or not late.any()
         else float(distance[late].mean()),
         closest_m=float(nearest.min()) if len(nearest) else None,
-        seen_share=float(passed[walking & seen].sum() / walked)
+        sighted_share=float(passed[walking & seen].sum() / walked)
         if walked > 0.0
         else None,
         plan_time_us=1e6 * float(np.median(spent)) if len(spent) else None,
@@ -156,3 +157,73 @@ def _changes(rows: PlayedRows) -> tuple[Change, ...]:
         for change in changes
         if 0 <= change.tick < len(times)
     )
+
+
+def sightings_in(rows: PlayedRows) -> Array:
+    """Extract each new sighting and each loss of the opponent.
+
+    Returns:
+        Time of arrival [s], time of measurement [s], bearing [rad] and
+        distance [m]; NaN after arrival where the opponent was lost. Shape
+        (k, 4).
+    """
+    sightings = rows.columns["sighting"]
+    taken = sightings[:, 0] + rows.offset
+    lost = np.isnan(taken)
+    before = np.concatenate([[np.nan], taken[:-1]])
+    with np.errstate(invalid="ignore"):
+        new = ~lost & ~(np.abs(taken - before) < SAME)
+    gone = lost & ~np.isnan(before)
+    chosen = np.flatnonzero(new | gone)
+    return np.column_stack(
+        [rows.times[chosen], taken[chosen], sightings[chosen, 1:]]
+    )
+
+
+def sight_table(found: Array) -> Array:
+    """Convert sightings to the array of a run, with the truth unknown.
+
+    Args:
+        found: Sightings of :func:`sightings_in`. Shape (k, 4).
+
+    Returns:
+        Array ``sight`` of :class:`Trajectory`. Shape (k, 6).
+    """
+    unknown = np.full((len(found), 2), np.nan)
+    lost = np.isnan(found[:, 1]).astype(float)
+    return np.column_stack([found[:, 0], found[:, 2:], unknown, lost])
+
+
+def opponent_trajectory(
+    found: Array, times: Array, own: Array
+) -> Trajectory | None:
+    """Return the trajectory of the opponent's last sightings.
+
+    Args:
+        found: Sightings of :func:`sightings_in`. Shape (k, 4).
+        times: Times of the samples, in [s]. Shape (n,).
+        own: Poses (x, y, heading) of the player in odometry, in [m] and
+            [rad]. Shape (n, 3).
+
+    Returns:
+        Trajectory in odometry; None without a sighting.
+    """
+    sightings = found[~np.isnan(found[:, 1])]
+    if not len(sightings):
+        return None
+    arrived, taken, bearing, distance = sightings.T
+    x, y, heading = (np.interp(taken, times, column) for column in own.T)
+    toward = heading + bearing
+    rows = np.column_stack(
+        [
+            x + distance * np.cos(toward),
+            y + distance * np.sin(toward),
+            np.unwrap(toward + np.pi),
+        ]
+    )
+    # Before its first sighting the opponent is put at that sighting.
+    newest = np.searchsorted(arrived, times + 1e-9, side="right") - 1
+    torso = rows[np.maximum(newest, 0)]
+    com = torso.copy()
+    com[:, 2] = 0.0
+    return Trajectory(com=com, torso=torso)

@@ -28,13 +28,15 @@ class OdometryPath:
     """
 
     def __init__(
-        self, rows: PlayedRows, description: RobotDescription
+        self, rows: PlayedRows, description: RobotDescription, tilts: Array
     ) -> None:
         """Take the rows of a robot.
 
         Args:
             rows: Rows of a player that commanded joints.
             description: Description of the robot.
+            tilts: Roll and pitch of the torso in each row, in [rad]. Shape
+                (rows, 2).
 
         Raises:
             ConfigurationError: If the number of joints differs.
@@ -50,7 +52,7 @@ class OdometryPath:
                 f"{len(tree.motors)} joints, got {joints}"
             )
         self._sensors = self._forward.force_sensors()
-        self._tilts = _tilts(rows)
+        self._tilts = tilts
 
     def track(self, gait: GaitSettings, sight: Array) -> Trajectory:
         """Return the trajectory at the samples of the run.
@@ -167,8 +169,15 @@ class OdometryPath:
         return np.array(landings, dtype=np.float64).reshape(-1, 5)
 
 
-def _tilts(rows: PlayedRows) -> Array:
-    """Estimate roll and pitch from the IMU, in [rad]. Shape (rows, 2)."""
+def estimate_tilts(rows: PlayedRows) -> Array:
+    """Estimate roll and pitch of the torso from the recorded IMU.
+
+    Args:
+        rows: Rows of a player that commanded joints.
+
+    Returns:
+        Roll and pitch in each row, in [rad]. Shape (rows, 2).
+    """
     attitude = AttitudeFilter(ACCELEROMETER_GAIN, 0.0, calibration=0.0)
     gyro, force = rows.columns["gyro"], rows.columns["accelerometer"]
     passed = np.diff(rows.times, prepend=0.0).tolist()

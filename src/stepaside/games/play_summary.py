@@ -34,7 +34,7 @@ class PlaySummary:
         distance_m: Mean distance to the opponent there, in [m]; None
             without a sighting.
         closest_m: Smallest distance of a sighting, in [m].
-        seen_share: Fraction of the walking time with a valid sighting.
+        sighted_share: Fraction of the walking time with a valid sighting.
         plan_time_us: Median processor time of a plan, in [us].
         changes: Changes of state, with time and reason.
     """
@@ -47,6 +47,6 @@ class PlaySummary:
     radius_m: float | None
     distance_m: float | None
     closest_m: float | None
-    seen_share: float | None
+    sighted_share: float | None
     plan_time_us: float | None
     changes: tuple[Change, ...]

@@ -25,19 +25,19 @@ class FrameCounts:
     """Counts of the frames of one camera.
 
     Attributes:
-        shown: Frames with the opponent in the field of view.
-        found: Frames among them with a detection of the opponent.
+        in_view: Frames with the opponent in the field of view.
+        detected: Frames among them with a detection of the opponent.
         false: Detections that match no object.
     """
 
-    shown: int = 0
-    found: int = 0
+    in_view: int = 0
+    detected: int = 0
     false: int = 0
 
     @property
     def rate(self) -> float | None:
         """Detection rate; None if the opponent was never in view."""
-        return self.found / self.shown if self.shown else None
+        return self.detected / self.in_view if self.in_view else None
 
 
 @dataclass(slots=True)
@@ -103,18 +103,18 @@ class SightEvaluator:
         self._rows: list[tuple[float, ...]] = []
         self._still_times = still_times
 
-    def look(self) -> None:
+    def evaluate_tick(self) -> None:
         """Evaluate a tick, after perception and before physics."""
         eyes = self._robot.eyes
         for percept in () if eyes is None else eyes.exposed:
-            self.note(percept)
+            self.record_truth(percept)
         for report in self._perception.reports:
-            self.judge(report)
+            self.evaluate(report)
         sighting = self._perception.sighting
         if sighting is not self._sighting:
             self._sighting, self._true_sighting = sighting, self._truth()
 
-    def note(self, percept: Percept) -> None:
+    def record_truth(self, percept: Percept) -> None:
         """Store the truth at the instant at which an image is taken."""
         if isinstance(percept, SonarEcho):
             return
@@ -127,31 +127,31 @@ class SightEvaluator:
             [*self._other.position_torso_in_world, self._height()]
         )
         point = axes.T @ (target - position)
-        shown = percept.camera.sees(point)
-        shown &= self._wears_trim or not is_colour
+        in_view = percept.camera.sees(point)
+        in_view &= self._wears_trim or not is_colour
         if isinstance(percept, DepthImage):
             distance = float(np.hypot(*point[:2]))
-            shown &= percept.near + NEAR_MARGIN < distance < percept.far
+            in_view &= percept.near + NEAR_MARGIN < distance < percept.far
         others = [
             self._azimuth(axes.T @ (np.array([x, y, 0.2]) - position))
             for x, y in self._things
         ]
-        self._true[percept] = (self._azimuth(point), shown, others)
+        self._true[percept] = (self._azimuth(point), in_view, others)
 
-    def judge(self, report: FrameReport) -> None:
+    def evaluate(self, report: FrameReport) -> None:
         """Compare the detections of an image with the truth."""
         truth = self._true.pop(report.image, None)
         if truth is None or not report.sought:
             return
-        azimuth, shown, others = truth
+        azimuth, in_view, others = truth
         kind = "colour" if isinstance(report.image, ColourImage) else "depth"
         counts = self.colour if kind == "colour" else self.depth
         matches = [
             abs(wrap_angle(a - azimuth)) < MATCH_ANGLE for a in report.azimuths
         ]
-        if shown:
-            counts.shown += 1
-            counts.found += any(matches)
+        if in_view:
+            counts.in_view += 1
+            counts.detected += any(matches)
         # The depth camera also detects objects, which are not false.
         allowed = others if kind == "depth" else []
         for angle, fits in zip(report.azimuths, matches, strict=True):
@@ -192,7 +192,7 @@ class SightEvaluator:
         """
         return np.array(self._rows, dtype=np.float64).reshape(-1, 6)
 
-    def figures(self) -> SightSummary:
+    def summary(self) -> SightSummary:
         """Return errors and detection rates."""
         rows = self.array()
         bearing_error = np.abs(wrap_angles(rows[:, 1] - rows[:, 3]))

@@ -63,9 +63,9 @@ class SightReport(NamedTuple):
     """Evaluation of perception in a game.
 
     Attributes:
-        all: Summary of all robots together.
-        each: Summary of each robot with cameras, by name.
+        together: Summary of all robots together.
+        by_robot: Summary of each robot with cameras, by name.
     """
 
-    all: PerceptionSummary
-    each: Mapping[str, SightSummary]
+    together: PerceptionSummary
+    by_robot: Mapping[str, SightSummary]

@@ -27,24 +27,24 @@ def tallies(draw: st.DrawFn) -> FrameCounts:
 def test_rates_are_of_all_frames_and_times_are_added(
     robots: list[tuple[FrameCounts, FrameCounts, float]],
 ) -> None:
-    judges: Any = {
+    evaluators: Any = {
         f"robot {i}": SimpleNamespace(
             colour=colour,
             depth=depth,
-            figures=lambda lost=lost: SimpleNamespace(lost_s=lost),
+            summary=lambda lost=lost: SimpleNamespace(lost_s=lost),
         )
         for i, (colour, depth, lost) in enumerate(robots)
     }
-    found = SightObserver(judges, "rays", every=1).figures().all
+    found = SightObserver(evaluators, "rays", every=1).report().together
     each = [tally for robot in robots for tally in robot[:2]]
-    shown = sum(tally.shown for tally in each)
+    shown = sum(tally.in_view for tally in each)
     assert (found.detection_rate is None) == (shown == 0)
     if found.detection_rate is not None:
-        hits = sum(tally.found for tally in each)
+        hits = sum(tally.detected for tally in each)
         assert found.detection_rate == pytest.approx(hits / shown)
         assert 0.0 <= found.detection_rate <= 1.0
     assert found.false_detections == sum(tally.false for tally in each)
     assert found.lost_s == pytest.approx(sum(lost for *_, lost in robots))
     for tally in each:
         if tally.rate is not None:
-            assert tally.rate == pytest.approx(tally.found / tally.shown)
+            assert tally.rate == pytest.approx(tally.detected / tally.in_view)
