@@ -89,7 +89,7 @@ class Eyes:
     def torso(self) -> Pose:
         """Pose of the torso in odometry."""
         assert self.perception.body is not None
-        return self.perception.body.torso
+        return self.perception.body.pose_torso_in_odometry
 
     def see(
         self,
@@ -180,7 +180,7 @@ def axis_of(eyes: Eyes, sonar: str) -> float:
     """Direction of a sonar in odometry."""
     body = eyes.perception.body
     assert body is not None
-    axis = body.torso_axes @ HEAD.sonars[sonar].axes[:, 0]
+    axis = body.axes_torso_in_odometry @ HEAD.sonars[sonar].axes_in_body[:, 0]
     return atan2(axis[1], axis[0])
 
 

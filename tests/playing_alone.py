@@ -61,7 +61,12 @@ def play(feedback: bool) -> dict[str, object]:
     return {
         "phases": phases,
         "walked": scheme.state.left_foot.x,
-        "apart": float(abs(posture.feet[0] - posture.feet[1])[1]),
+        "apart": float(
+            abs(
+                posture.positions_feet_in_torso[0]
+                - posture.positions_feet_in_torso[1]
+            )[1]
+        ),
     }
 
 

@@ -213,7 +213,7 @@ def test_a_measured_pose_aligns_odometry_with_the_body(
     body = BodyReference((x, y, 0.27), foot, foot)
     around.note(MEASUREMENT, body)
     assert around.frame == start
-    around.note(MEASUREMENT._replace(place=place), body)
+    around.note(MEASUREMENT._replace(pose_in_room=place), body)
     found = around.frame.compose(planned)
     assert found[:2] == pytest.approx(place[:2], abs=1e-9)
     assert wrap_angle(found.theta - place.theta) == pytest.approx(0, abs=1e-9)

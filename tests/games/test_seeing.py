@@ -180,11 +180,13 @@ def test_the_estimated_camera_pose_is_true_while_walking() -> None:
         body = perception.body
         assert body is not None
         if start is None:
-            start = truth.heading_in_world - body.torso.theta
+            start = truth.heading_in_world - body.pose_torso_in_odometry.theta
         # The body is a tick older than the truth.
         true = duel.world.data.xpos[head]
-        heights.append(body.head_place[2] - true[2])
-        headings.append(truth.heading_in_world - body.torso.theta - start)
+        heights.append(body.position_head_in_odometry[2] - true[2])
+        headings.append(
+            truth.heading_in_world - body.pose_torso_in_odometry.theta - start
+        )
     assert np.abs(heights).max() < 0.01
     # Soles slip a little on each step.
     assert np.abs(np.degrees(headings)).max() < 6.0

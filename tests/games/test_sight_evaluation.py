@@ -77,8 +77,8 @@ class Scene:
 
     def stand(self, mount: Mount, azimuth: float, away: float) -> None:
         """Put the opponent at a position in a camera frame, at its height."""
-        axes = self.frame @ mount.axes
-        eye = self.place + self.frame @ mount.place
+        axes = self.frame @ mount.axes_in_body
+        eye = self.place + self.frame @ mount.position_in_body
         point = eye + axes @ (away * np.array([cos(azimuth), sin(azimuth), 0]))
         self.other.position_torso_in_world = float(point[0]), float(point[1])
         self.other.position_com_in_world = point
@@ -280,11 +280,11 @@ def test_the_center_of_the_opponent_must_be_in_view() -> None:
 
 def test_objects_are_no_false_detections_of_the_depth_camera() -> None:
     """For a colour camera they are."""
-    eye = np.array([0.3, -0.2]) + DEPTH.place[:2]
+    eye = np.array([0.3, -0.2]) + DEPTH.position_in_body[:2]
     scene = Scene(0.0, [(9.0, 9.0), (eye[0] + 2.0, eye[1] - 1.0)])
     scene.stand(DEPTH, 0.3, 1.5)
     # How far the thing is aside, seen from the tilted camera.
-    down = scene.place[2] + DEPTH.place[2] - 0.2
+    down = scene.place[2] + DEPTH.position_in_body[2] - 0.2
     ahead = 2.0 * cos(radians(9.0)) + down * sin(radians(9.0))
     there = np.degrees(atan2(-1.0, ahead))
     show(scene, depth(), there, there - 19.5, there + 19.5)

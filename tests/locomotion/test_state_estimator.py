@@ -291,7 +291,7 @@ def test_the_measured_posture_is_available() -> None:
     assert estimate.posture is None
     see(estimate, measured())
     assert estimate.posture is not None
-    assert estimate.posture.feet.shape == (2, 3)
+    assert estimate.posture.positions_feet_in_torso.shape == (2, 3)
 
 
 @pytest.mark.parametrize("mass", [0.5, 5.0, 500.0])

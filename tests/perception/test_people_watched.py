@@ -121,7 +121,7 @@ def test_an_approaching_person_is_preferred_to_one_who_passes() -> None:
         if time > 4.0:
             assert seen is not None and off(seen, place) < 8.0
             assert seen.distance == pytest.approx(hypot(*place), abs=0.12)
-            counted.add(seen.who)
+            counted.add(seen.target_id)
     assert len(counted) == 1
 
 

@@ -62,7 +62,9 @@ def test_the_torso_has_the_measured_tilt(
     body = eyes.perception.body
     assert body is not None
     expected = rotation(*tilt, SUPPORT.theta)
-    np.testing.assert_allclose(body.torso_axes, expected, atol=1e-6)
+    np.testing.assert_allclose(
+        body.axes_torso_in_odometry, expected, atol=1e-6
+    )
 
 
 @pytest.mark.parametrize("column", [40.0, 80.0, 130.0])
@@ -92,7 +94,10 @@ def test_the_camera_pose_follows_from_head_and_mount(eyes: Eyes) -> None:
     eyes.see(TICK, colour(TICK))
     body = eyes.perception.body
     assert body is not None
-    place = body.head_place + body.head_axes @ HEAD.top.place
+    place = (
+        body.position_head_in_odometry
+        + body.axes_head_in_odometry @ HEAD.top.position_in_body
+    )
     u, v = eyes.tracks[0].position_at(TICK)
     angle = atan2(v - place[1], u - place[0])
     assert angle == pytest.approx(SUPPORT.theta, abs=1e-3)
@@ -130,7 +135,10 @@ def test_a_delayed_image_uses_the_pose_at_its_exposure() -> None:
     eyes.see(40 * TICK, colour(10 * TICK + 0.4 * TICK))
     body = eyes.perception.poses.at(10 * TICK)
     assert body.time == pytest.approx(10 * TICK)
-    place = body.head_place + body.head_axes @ HEAD.top.place
+    place = (
+        body.position_head_in_odometry
+        + body.axes_head_in_odometry @ HEAD.top.position_in_body
+    )
     u, v = eyes.tracks[0].position_at(10 * TICK)
     angle = atan2(v - place[1], u - place[0])
     assert angle == pytest.approx(0.7 + 0.02 * 10, abs=1e-3)
@@ -183,7 +191,10 @@ def test_a_visible_track_without_detection_counts_a_miss(
     """Well within the view of the camera, to the edge of which it is 80."""
     body = eyes.perception.body
     assert body is not None
-    x, y, _ = body.head_place + body.head_axes @ HEAD.top.place
+    x, y, _ = (
+        body.position_head_in_odometry
+        + body.axes_head_in_odometry @ HEAD.top.position_in_body
+    )
     angle = SUPPORT.theta + side * share * atan2(80.0, 140.0)
     track = eyes.know(x + 2.0 * cos(angle), y + 2.0 * sin(angle))
     eyes.see(TICK, colour(TICK))

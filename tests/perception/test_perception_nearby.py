@@ -100,9 +100,13 @@ def test_obstacles_start_unidentified_tracks(
     body = eyes.perception.body
     assert body is not None and taken is image
     np.testing.assert_allclose(
-        place, body.head_place + body.head_axes @ HEAD.depth.place
+        place,
+        body.position_head_in_odometry
+        + body.axes_head_in_odometry @ HEAD.depth.position_in_body,
     )
-    np.testing.assert_allclose(axes, body.head_axes @ HEAD.depth.axes)
+    np.testing.assert_allclose(
+        axes, body.axes_head_in_odometry @ HEAD.depth.axes_in_body
+    )
     assert own == pytest.approx(eyes.torso[:2])
 
 
@@ -251,9 +255,15 @@ def test_a_frame_counts_a_miss_only_within_its_view(
     assert body is not None
     show(monkeypatch)
     angle = SUPPORT.theta + radians(bearing)
-    place = body.head_place + body.head_axes @ HEAD.top.place
+    place = (
+        body.position_head_in_odometry
+        + body.axes_head_in_odometry @ HEAD.top.position_in_body
+    )
     if percept is depth:
-        place = body.head_place + body.head_axes @ HEAD.depth.place
+        place = (
+            body.position_head_in_odometry
+            + body.axes_head_in_odometry @ HEAD.depth.position_in_body
+        )
     track = eyes.know(place[0] + 1.5 * cos(angle), place[1] + 1.5 * sin(angle))
     eyes.see(TICK, percept(TICK))
     assert hits(track) == ([True, False] if missed else [True])
@@ -339,7 +349,7 @@ def test_a_track_within_the_near_limit_counts_no_miss(
     """Otherwise no near track would be confirmed by two cameras."""
     eyes, _ = mapping()
     show(monkeypatch)
-    forward = HEAD.depth.place[0]
+    forward = HEAD.depth.position_in_body[0]
     image = depth(TICK)
     away = image.near + NEAR_MARGIN + forward + beyond
     track = eyes.know(*eyes.beside(away, 0.0))

@@ -62,11 +62,19 @@ def test_torso_and_head_poses_equal_those_of_the_simulation(
     rise = np.array([0.0, 0.0, height])
     torso, head = data.body("torso"), data.body("head")
     assert body.time == 1.5
-    np.testing.assert_allclose(body.torso_place, torso.xpos - rise)
-    np.testing.assert_allclose(body.torso_axes.reshape(-1), torso.xmat)
-    np.testing.assert_allclose(body.head_place, head.xpos - rise)
-    np.testing.assert_allclose(body.head_axes.reshape(-1), head.xmat)
-    assert body.torso == pytest.approx((0.7, -0.4, HEADING))
+    np.testing.assert_allclose(
+        body.position_torso_in_odometry, torso.xpos - rise
+    )
+    np.testing.assert_allclose(
+        body.axes_torso_in_odometry.reshape(-1), torso.xmat
+    )
+    np.testing.assert_allclose(
+        body.position_head_in_odometry, head.xpos - rise
+    )
+    np.testing.assert_allclose(
+        body.axes_head_in_odometry.reshape(-1), head.xmat
+    )
+    assert body.pose_torso_in_odometry == pytest.approx((0.7, -0.4, HEADING))
     assert body.yaw == data.joint("HeadYaw").qpos[0]
     assert body.pitch == data.joint("HeadPitch").qpos[0]
     assert body.yaw != body.pitch
@@ -77,10 +85,14 @@ def test_the_body_moves_with_its_stance_foot() -> None:
     start = kinematics().pose(0.0, angles, Pose(0, 0, 0), True, TILT)
     moved = Pose(0.4, -0.3, 1.0)
     body = kinematics().pose(0.0, angles, moved, True, TILT)
-    assert body.torso == pytest.approx(moved.compose(start.torso))
-    head = moved.transform_points(start.head_place[None, :2])[0]
-    np.testing.assert_allclose(body.head_place[:2], head)
-    assert body.head_place[2] == pytest.approx(start.head_place[2])
+    assert body.pose_torso_in_odometry == pytest.approx(
+        moved.compose(start.pose_torso_in_odometry)
+    )
+    head = moved.transform_points(start.position_head_in_odometry[None, :2])[0]
+    np.testing.assert_allclose(body.position_head_in_odometry[:2], head)
+    assert body.position_head_in_odometry[2] == pytest.approx(
+        start.position_head_in_odometry[2]
+    )
 
 
 def test_measured_posture_is_that_of_the_model() -> None:
@@ -90,16 +102,20 @@ def test_measured_posture_is_that_of_the_model() -> None:
     torso = data.body("torso")
     axes = torso.xmat.reshape(3, 3)
     com = axes.T @ (data.subtree_com[torso.id] - torso.xpos)
-    np.testing.assert_allclose(posture.com, com, atol=1e-12)
+    np.testing.assert_allclose(posture.position_com_in_torso, com, atol=1e-12)
     for i, name in enumerate((NAO.left_foot, NAO.right_foot)):
         foot = axes.T @ (data.site(name).xpos - torso.xpos)
-        np.testing.assert_allclose(posture.feet[i], foot, atol=1e-12)
+        np.testing.assert_allclose(
+            posture.positions_feet_in_torso[i], foot, atol=1e-12
+        )
         frame = axes.T @ data.site(name).xmat.reshape(3, 3)
-        np.testing.assert_allclose(posture.frames[i], frame, atol=1e-12)
+        np.testing.assert_allclose(
+            posture.axes_feet_in_torso[i], frame, atol=1e-12
+        )
     # The CoM is nobody's view: it stays when the robot moves on.
-    kept = posture.com.copy()
+    kept = posture.position_com_in_torso.copy()
     forward().posture(0.5 * angles)
-    np.testing.assert_array_equal(posture.com, kept)
+    np.testing.assert_array_equal(posture.position_com_in_torso, kept)
 
 
 def test_the_mass_equals_that_of_the_model() -> None:
@@ -141,7 +157,13 @@ def test_a_posture_follows_arrays_that_change_in_place() -> None:
     first = forward().posture(angles)
     assert forward().posture(angles.copy()) is first
     angles *= 0.5
-    assert np.abs(forward().posture(angles).com - first.com).max() > 1e-3
+    assert (
+        np.abs(
+            forward().posture(angles).position_com_in_torso
+            - first.position_com_in_torso
+        ).max()
+        > 1e-3
+    )
 
 
 def test_balance_and_perception_share_one_kinematics() -> None:
@@ -151,5 +173,7 @@ def test_balance_and_perception_share_one_kinematics() -> None:
     shared = BodyKinematics(NAO, head, one)
     ours = shared.pose(0.0, angles, Pose(0.1, 0.2, 0.3), True, TILT)
     own = kinematics().pose(0.0, angles, Pose(0.1, 0.2, 0.3), True, TILT)
-    np.testing.assert_array_equal(ours.head_place, own.head_place)
+    np.testing.assert_array_equal(
+        ours.position_head_in_odometry, own.position_head_in_odometry
+    )
     assert one.posture(angles) is one.posture(angles)

@@ -46,21 +46,27 @@ def test_signs_of_angles_are_those_of_a_robot() -> None:
 def test_cameras_point_forward_and_slightly_down() -> None:
     for mount, degrees in ((HEAD.top, 1.2), (HEAD.depth, 8.0)):
         ahead = cos(radians(degrees)), 0.0, -sin(radians(degrees))
-        np.testing.assert_allclose(mount.axes[:, 0], ahead, atol=1e-15)
-        np.testing.assert_allclose(mount.axes[:, 1], (0, 1, 0), atol=1e-15)
-        assert mount.axes[2, 2] > 0.9 and mount.place[1] == 0.0
-    assert HEAD.depth.place[2] > HEAD.top.place[2]
+        np.testing.assert_allclose(mount.axes_in_body[:, 0], ahead, atol=1e-15)
+        np.testing.assert_allclose(
+            mount.axes_in_body[:, 1], (0, 1, 0), atol=1e-15
+        )
+        assert (
+            mount.axes_in_body[2, 2] > 0.9 and mount.position_in_body[1] == 0.0
+        )
+    assert HEAD.depth.position_in_body[2] > HEAD.top.position_in_body[2]
     assert HEAD.housing == (0.035, 0.18, 0.05)
 
 
 def test_sonars_are_mirror_images_and_point_outward() -> None:
     left, right = HEAD.sonars["left"], HEAD.sonars["right"]
     mirror = np.diag([1.0, -1.0, 1.0])
-    np.testing.assert_allclose(mirror @ left.place, right.place)
-    turned = mirror @ left.axes @ mirror
-    np.testing.assert_allclose(turned, right.axes, atol=1e-12)
-    assert left.axes[1, 0] == pytest.approx(sin(0.392441), rel=2e-3)
-    assert left.axes[2, 0] == pytest.approx(-sin(0.0436497))
+    np.testing.assert_allclose(
+        mirror @ left.position_in_body, right.position_in_body
+    )
+    turned = mirror @ left.axes_in_body @ mirror
+    np.testing.assert_allclose(turned, right.axes_in_body, atol=1e-12)
+    assert left.axes_in_body[1, 0] == pytest.approx(sin(0.392441), rel=2e-3)
+    assert left.axes_in_body[2, 0] == pytest.approx(-sin(0.0436497))
 
 
 def test_head_ranges_are_in_radians_and_symmetric() -> None:

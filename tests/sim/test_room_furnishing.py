@@ -145,7 +145,9 @@ def test_the_housing_is_massless_and_behind_the_lens() -> None:
         model.geom_size[housing], (depth / 2, width / 2, height / 2)
     )
     window = data.geom_xpos[housing] + (depth / 2, 0.0, 0.0)
-    np.testing.assert_allclose(window, HEAD.depth.place + (1.0, 2.0, 0.5))
+    np.testing.assert_allclose(
+        window, HEAD.depth.position_in_body + (1.0, 2.0, 0.5)
+    )
     assert model.geom_group[housing] == 2
     assert model.geom_contype[housing] == 0 == model.geom_conaffinity[housing]
     black = (0.1, 0.1, 0.1, 1.0)
@@ -158,10 +160,10 @@ def test_the_bottom_camera_has_the_axes_of_its_mount() -> None:
     mujoco.mj_camlight(model, data)
     camera, mount = model.camera(f"me/{LOWER}").id, HEAD.bottom
     assert mount is not None
-    place = np.array([1.0, 2.0, 0.5]) + mount.place
+    place = np.array([1.0, 2.0, 0.5]) + mount.position_in_body
     np.testing.assert_allclose(data.cam_xpos[camera], place, atol=1e-9)
     right, up, back = data.cam_xmat[camera].reshape(3, 3).T
-    forward, left, upward = mount.axes.T
+    forward, left, upward = mount.axes_in_body.T
     np.testing.assert_allclose(back, -forward, atol=1e-9)
     np.testing.assert_allclose(right, -left, atol=1e-9)
     np.testing.assert_allclose(up, upward, atol=1e-9)

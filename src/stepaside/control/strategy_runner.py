@@ -74,7 +74,7 @@ class StrategyRunner(DecisionMaker):
         self.templates: StateHistory[Pose] = StateHistory(tick)
         self.turns = turns
         self._spacing = gait.foot_spacing
-        self._track = 0
+        self._target_id = 0
 
     def calibrate(self, measurement: Measurement, *, stands: bool) -> None:
         """Update the turn calibration, if there is one.
@@ -164,9 +164,9 @@ class StrategyRunner(DecisionMaker):
         would not do: it corresponds to a body half a step ahead, and the
         torso has the mean heading of both feet.
         """
-        if sighting.who != self._track:
+        if sighting.target_id != self._target_id:
             # A different person: its motion is unknown.
-            self._track = sighting.who
+            self._target_id = sighting.target_id
             self.reset_rates()
         template = self.templates.at(sighting.time)
         sight = self.headings.at(sighting.time) + sighting.bearing

@@ -89,10 +89,30 @@ def _masses(description: RobotDescription) -> Iterator[RequirementCheck]:
         description.standing.get(name, 0.0) for name in forward.tree.motors
     ]
     posture = forward.posture(np.array(angles, dtype=np.float64))
-    aside = abs(float(posture.com[1] - posture.feet[:, 1].mean()))
-    high = float(posture.com[2] - posture.feet[:, 2].mean())
-    sides = posture.feet[0] + posture.feet[1] - 2.0 * posture.feet.mean(axis=0)
-    uneven = abs(float(posture.feet[0, 2] - posture.feet[1, 2])) / high
+    aside = abs(
+        float(
+            posture.position_com_in_torso[1]
+            - posture.positions_feet_in_torso[:, 1].mean()
+        )
+    )
+    high = float(
+        posture.position_com_in_torso[2]
+        - posture.positions_feet_in_torso[:, 2].mean()
+    )
+    sides = (
+        posture.positions_feet_in_torso[0]
+        + posture.positions_feet_in_torso[1]
+        - 2.0 * posture.positions_feet_in_torso.mean(axis=0)
+    )
+    uneven = (
+        abs(
+            float(
+                posture.positions_feet_in_torso[0, 2]
+                - posture.positions_feet_in_torso[1, 2]
+            )
+        )
+        / high
+    )
     mirrored = (
         aside < GREATEST_COM_OFFSET * high
         and uneven < GREATEST_FOOT_DIFFERENCE

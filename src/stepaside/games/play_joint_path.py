@@ -72,13 +72,19 @@ class OdometryPath:
         for row in sampled.tolist():
             frame = frames[float(controllers[row])]
             posture, body = self._stand(row, frame)
-            com = body.place + body.axes @ posture.com
-            c, s = cos(body.heading), sin(body.heading)
+            com = (
+                body.position_in_odometry
+                + body.axes_in_odometry @ posture.position_com_in_torso
+            )
+            c, s = cos(body.heading_in_odometry), sin(body.heading_in_odometry)
             zmp_offset = gait.zmp_forward * np.array([c, s])
             for name, value in (
                 ("com", com),
-                ("torso", [*body.place[:2], body.heading]),
-                ("place", [*(com[:2] - zmp_offset), body.heading]),
+                (
+                    "torso",
+                    [*body.position_in_odometry[:2], body.heading_in_odometry],
+                ),
+                ("place", [*(com[:2] - zmp_offset), body.heading_in_odometry]),
                 ("qpos", self._qpos(row, body)),
                 ("zmp", self._zmp(row, posture, body)),
                 (
@@ -109,9 +115,11 @@ class OdometryPath:
             frames[float(controllers[row])] = frame
             posture, body = self._stand(row, frame)
             x, y, _ = (
-                body.place + body.axes @ posture.feet.mean(axis=0)
+                body.position_in_odometry
+                + body.axes_in_odometry
+                @ posture.positions_feet_in_torso.mean(axis=0)
             ).tolist()
-            frame = Pose(x, y, body.heading)
+            frame = Pose(x, y, body.heading_in_odometry)
         return frames
 
     def _stand(
@@ -135,8 +143,8 @@ class OdometryPath:
             known[follower] = known.get(leader, 0.0)
         joints = [known.get(name, 0.0) for name in self._tree.joints]
         roll, pitch = self._tilts[row].tolist()
-        quaternion = _quaternion(roll, pitch, body.heading)
-        return np.array([*body.place, *quaternion, *joints])
+        quaternion = _quaternion(roll, pitch, body.heading_in_odometry)
+        return np.array([*body.position_in_odometry, *quaternion, *joints])
 
     def _zmp(
         self, row: int, posture: MeasuredPosture, body: SpatialTorsoPose
@@ -149,12 +157,15 @@ class OdometryPath:
         flat = np.column_stack([self._sensors, np.zeros(len(forces))])
         corners = np.concatenate(
             [
-                posture.feet[i] + flat[4 * i : 4 * i + 4] @ posture.frames[i].T
+                posture.positions_feet_in_torso[i]
+                + flat[4 * i : 4 * i + 4] @ posture.axes_feet_in_torso[i].T
                 for i in range(2)
             ]
         )
         center_in_torso = forces @ corners / total
-        center: Array = (body.place + body.axes @ center_in_torso)[:2]
+        center: Array = (
+            body.position_in_odometry + body.axes_in_odometry @ center_in_torso
+        )[:2]
         return center
 
     def _landings(self, frames: dict[float, Pose]) -> Array:

@@ -213,8 +213,8 @@ class SightEvaluator:
     def _camera(self, mount: Mount) -> tuple[Array, Array]:
         data = self._robot.world.data
         axes = data.xmat[self._body].reshape(3, 3)
-        place = data.xpos[self._body] + axes @ mount.place
-        return place, axes @ mount.axes
+        place = data.xpos[self._body] + axes @ mount.position_in_body
+        return place, axes @ mount.axes_in_body
 
     def _height(self) -> float:
         return float(self._other.position_com_in_world[2])

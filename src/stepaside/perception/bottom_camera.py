@@ -102,7 +102,7 @@ class FootTracking:
 
     def wanted(self, body: BodyPose, *, lost: bool) -> bool:
         """Return whether a person who has walked is close ahead."""
-        x, y, _ = body.torso
+        x, y, _ = body.pose_torso_in_odometry
         main = self._selection.main(body.time, x, y)
         return self._detector.wanted(main, body.time, x, y, body.yaw)
 

@@ -80,9 +80,10 @@ def camera_pose(body: BodyPose, mount: Mount) -> CameraPose:
         mount: Mount of the camera on the head.
     """
     return CameraPose(
-        body.head_place + body.head_axes @ mount.place,
-        body.head_axes @ mount.axes,
-        body.torso[:2],
+        body.position_head_in_odometry
+        + body.axes_head_in_odometry @ mount.position_in_body,
+        body.axes_head_in_odometry @ mount.axes_in_body,
+        body.pose_torso_in_odometry[:2],
     )
 
 

@@ -16,7 +16,8 @@ class Sighting(NamedTuple):
         bearing: Horizontal direction of the opponent from the heading of the
             own torso, in [rad], positive leftward.
         distance: Horizontal distance to the opponent, in [m].
-        who: Number of its track, where several people may approach; else 0.
+        target_id: Number of its track, where several people may approach; else
+            0.
         settled: Whether it was observed long enough for its velocity.
         spread: Standard deviation of its position, in [m].
     """
@@ -24,7 +25,7 @@ class Sighting(NamedTuple):
     time: float
     bearing: float
     distance: float
-    who: int = 0
+    target_id: int = 0
     settled: bool = True
     spread: float = 0.0
 
@@ -45,8 +46,8 @@ class Measurement(NamedTuple):
             Shape (8,).
         sighting: Latest sighting of the opponent, if any.
         percepts: Images and echoes that arrived since the last tick.
-        place: CoM and heading of the torso in the frame of a known room,
-            from a localisation sensor; None without one.
+        pose_in_room: CoM and heading of the torso in the frame of a known
+            room, from a localisation sensor; None without one.
         joint_velocities: Joint velocities, in [rad/s], in the order of the
             joint angles, from a body that measures them; else None.
             Shape (joints,).
@@ -59,5 +60,5 @@ class Measurement(NamedTuple):
     foot_forces: Array
     sighting: Sighting | None
     percepts: tuple["Percept", ...] = ()
-    place: Pose | None = None
+    pose_in_room: Pose | None = None
     joint_velocities: Array | None = None

@@ -344,7 +344,9 @@ class SonarStage:
         """
         if not is_valid_echo(echo) or self._is_ambiguous(echo, body):
             return
-        track = self._selection.main(echo.time, *body.torso[:2])
+        track = self._selection.main(
+            echo.time, *body.pose_torso_in_odometry[:2]
+        )
         mount = self._mounts[echo.sonar]
         observation = observe_echo(echo, mount, body, track)
         if observation is not None:
@@ -378,6 +380,8 @@ class MappedSonarStage(SonarStage):
 
     def _is_ambiguous(self, echo: SonarEcho, body: BodyPose) -> bool:
         """Return whether no opponent is tracked, or the map explains it."""
-        track = self._selection.main(echo.time, *body.torso[:2])
+        track = self._selection.main(
+            echo.time, *body.pose_torso_in_odometry[:2]
+        )
         mount = self._mounts[echo.sonar]
         return track is None or may_be_mapped(echo, mount, body, self._floor)

@@ -182,7 +182,7 @@ class Perception:
 
     def _select(self, now: float, body: BodyPose) -> None:
         """Select the opponent, and the target of the gaze."""
-        x, y, heading = body.torso
+        x, y, heading = body.pose_torso_in_odometry
         self._heading = heading
         main = self._selection.main(now, x, y)
         self.sighting = self.gaze_target = None
@@ -214,7 +214,7 @@ def _bearing_and_distance(
     track: TargetTrack, body: BodyPose, now: float
 ) -> tuple[float, float]:
     """Return the bearing from the torso, in [rad], and distance, in [m]."""
-    x, y, heading = body.torso
+    x, y, heading = body.pose_torso_in_odometry
     bearing = wrap_angle(track.bearing_from(x, y, now) - heading)
     return bearing, track.distance_from(x, y, now)
 

@@ -42,7 +42,7 @@ def observe_echo(
         The observation; None if the echo is not used.
     """
     assert echo.distance is not None
-    x, y, heading = body.torso
+    x, y, heading = body.pose_torso_in_odometry
     facing = _facing(mount, body)
     distance = echo.distance + AXIS_OFFSET
     if track is None:
@@ -81,7 +81,7 @@ def may_be_mapped(
         floor: Map of the floor.
     """
     assert echo.distance is not None
-    x, y, _ = body.torso
+    x, y, _ = body.pose_torso_in_odometry
     facing = _facing(mount, body)
     mapped = floor.distance_in_cone(x, y, facing, HALF_CONE)
     return mapped < echo.distance + AXIS_OFFSET + MAP_MARGIN
@@ -89,5 +89,5 @@ def may_be_mapped(
 
 def _facing(mount: Mount, body: BodyPose) -> float:
     """Return the direction of a sonar in odometry, in [rad]."""
-    axis = body.torso_axes @ mount.axes[:, 0]
+    axis = body.axes_torso_in_odometry @ mount.axes_in_body[:, 0]
     return atan2(axis[1], axis[0])

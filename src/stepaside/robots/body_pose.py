@@ -18,21 +18,25 @@ class BodyPose:
 
     Attributes:
         time: Time of the measurement, in [s].
-        torso: Planar pose of the torso in odometry.
-        torso_place: Position of the torso in odometry, in [m]. Shape (3,).
-        torso_axes: Axes of the torso in odometry, as columns. Shape (3, 3).
-        head_place: Position of the head in odometry, in [m]. Shape (3,).
-        head_axes: Axes of the head in odometry, as columns. Shape (3, 3).
+        pose_torso_in_odometry: Planar pose of the torso in odometry.
+        position_torso_in_odometry: Position of the torso in odometry, in [m].
+            Shape (3,).
+        axes_torso_in_odometry: Axes of the torso in odometry, as columns.
+            Shape (3, 3).
+        position_head_in_odometry: Position of the head in odometry, in [m].
+            Shape (3,).
+        axes_head_in_odometry: Axes of the head in odometry, as columns. Shape
+            (3, 3).
         yaw: Measured yaw of the head, in [rad].
         pitch: Measured pitch of the head, in [rad].
     """
 
     time: float
-    torso: Pose
-    torso_place: Array
-    torso_axes: Array
-    head_place: Array
-    head_axes: Array
+    pose_torso_in_odometry: Pose
+    position_torso_in_odometry: Array
+    axes_torso_in_odometry: Array
+    position_head_in_odometry: Array
+    axes_head_in_odometry: Array
     yaw: float
     pitch: float
 
@@ -41,14 +45,14 @@ class SpatialTorsoPose(NamedTuple):
     """Spatial pose of a torso in odometry.
 
     Attributes:
-        place: Position of the torso, in [m]. Shape (3,).
-        axes: Axes of the torso as columns. Shape (3, 3).
-        heading: Heading of the torso, in [rad].
+        position_in_odometry: Position of the torso, in [m]. Shape (3,).
+        axes_in_odometry: Axes of the torso as columns. Shape (3, 3).
+        heading_in_odometry: Heading of the torso, in [rad].
     """
 
-    place: Array
-    axes: Array
-    heading: float
+    position_in_odometry: Array
+    axes_in_odometry: Array
+    heading_in_odometry: float
 
 
 def torso_pose_on_foot(
@@ -67,11 +71,11 @@ def torso_pose_on_foot(
     """
     lean = rotation(*tilt, 0.0)
     # Torso heading = foot heading - foot yaw relative to the levelled torso.
-    ahead = lean @ posture.frames[foot, :, 0]
+    ahead = lean @ posture.axes_feet_in_torso[foot, :, 0]
     heading = support.theta - atan2(ahead[1], ahead[0])
     c, s = cos(heading), sin(heading)
     axes = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]) @ lean
-    place = -(axes @ posture.feet[foot])
+    place = -(axes @ posture.positions_feet_in_torso[foot])
     place[0] += support.x
     place[1] += support.y
     return SpatialTorsoPose(place, axes, heading)
@@ -140,8 +144,8 @@ class BodyKinematics:
             frame: Planar pose of the robot in odometry.
         """
         posture = self.forward.posture(joints)
-        x, y, _ = posture.feet.mean(axis=0).tolist()
-        low = float(posture.feet[:, 2].min())
+        x, y, _ = posture.positions_feet_in_torso.mean(axis=0).tolist()
+        low = float(posture.positions_feet_in_torso[:, 2].min())
         c, s = cos(frame.theta), sin(frame.theta)
         axes = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
         place = np.array([frame.x, frame.y, 0.0]) - axes @ [x, y, low]
@@ -162,8 +166,8 @@ class BodyKinematics:
             Pose(float(place[0]), float(place[1]), heading),
             place,
             axes,
-            place + axes @ posture.head,
-            axes @ posture.head_axes,
+            place + axes @ posture.position_head_in_torso,
+            axes @ posture.axes_head_in_torso,
             float(joints[self.yaw]),
             float(joints[self.pitch]),
         )

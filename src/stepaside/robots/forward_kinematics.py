@@ -28,20 +28,22 @@ class MeasuredPosture(NamedTuple):
     """CoM, feet and head in the torso frame.
 
     Attributes:
-        com: Position of the CoM, in [m]. Shape (3,).
-        feet: Positions of left and right foot, in [m]. Shape (2, 3).
-        frames: Rotation matrices of left and right foot. Shape (2, 3, 3).
-        head: Position of the head, in [m]; zero without a head.
-            Shape (3,).
-        head_axes: Rotation matrix of the head; identity without a head.
-            Shape (3, 3).
+        position_com_in_torso: Position of the CoM, in [m]. Shape (3,).
+        positions_feet_in_torso: Positions of left and right foot, in [m].
+            Shape (2, 3).
+        axes_feet_in_torso: Rotation matrices of left and right foot. Shape (2,
+            3, 3).
+        position_head_in_torso: Position of the head, in [m]; zero without a
+            head. Shape (3,).
+        axes_head_in_torso: Rotation matrix of the head; identity without a
+            head. Shape (3, 3).
     """
 
-    com: Array
-    feet: Array
-    frames: Array
-    head: Array = np.zeros(3)
-    head_axes: Array = np.eye(3)
+    position_com_in_torso: Array
+    positions_feet_in_torso: Array
+    axes_feet_in_torso: Array
+    position_head_in_torso: Array = np.zeros(3)
+    axes_head_in_torso: Array = np.eye(3)
 
 
 class ForwardKinematics:
@@ -97,8 +99,12 @@ class ForwardKinematics:
             )
             if numbers.size > HEAD_OFFSET:
                 posture = posture._replace(
-                    head=numbers[HEAD_OFFSET : HEAD_OFFSET + 3],
-                    head_axes=numbers[HEAD_OFFSET + 3 :].reshape(3, 3),
+                    position_head_in_torso=numbers[
+                        HEAD_OFFSET : HEAD_OFFSET + 3
+                    ],
+                    axes_head_in_torso=numbers[HEAD_OFFSET + 3 :].reshape(
+                        3, 3
+                    ),
                 )
             self._posture = posture
             self._cache_key = key

@@ -33,13 +33,14 @@ class Mount:
     """Pose of a sensor on a body.
 
     Attributes:
-        place: Position in the frame of the body, in [m]. Shape (3,).
-        axes: Axes (forward, left, up) of the sensor in the frame of the
-            body, as columns. Shape (3, 3).
+        position_in_body: Position in the frame of the body, in [m]. Shape
+            (3,).
+        axes_in_body: Axes (forward, left, up) of the sensor in the frame of
+            the body, as columns. Shape (3, 3).
     """
 
-    place: Array
-    axes: Array
+    position_in_body: Array
+    axes_in_body: Array
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -68,8 +68,10 @@ class RayCaster:
         """Cast all rays up to a distance, in [m]; misses are -1."""
         data = self._data
         axes = data.xmat[self._body].reshape(3, 3)
-        self.origin = data.xpos[self._body] + axes @ self._mount.place
-        axes_in_world = axes @ self._mount.axes
+        self.origin = (
+            data.xpos[self._body] + axes @ self._mount.position_in_body
+        )
+        axes_in_world = axes @ self._mount.axes_in_body
         self.directions = self._rays @ axes_in_world.T
         with geoms_in_cone(
             self._model,

@@ -68,12 +68,14 @@ def furnisher(
 
 def _add_lower(body: mujoco.MjsBody, wearer: str, mount: Mount) -> None:
     """Add the bottom camera to a head; MuJoCo cameras look along -z."""
-    forward, left, up = mount.axes.T
+    forward, left, up = mount.axes_in_body.T
     axes = np.column_stack([-left, up, -forward])
     turn = np.zeros(4)
     mujoco.mju_mat2Quat(turn, axes.ravel())
     body.add_camera(
-        name=f"{wearer}/{LOWER}", pos=mount.place.tolist(), quat=turn.tolist()
+        name=f"{wearer}/{LOWER}",
+        pos=mount.position_in_body.tolist(),
+        quat=turn.tolist(),
     )
 
 
@@ -148,7 +150,7 @@ def _add_housing(
 ) -> None:
     """Add the massless housing of the depth camera to a head."""
     depth, width, height = head.housing
-    x, y, z = head.depth.place.tolist()
+    x, y, z = head.depth.position_in_body.tolist()
     spec.body(f"{wearer}/{head.body}").add_geom(
         type=mujoco.mjtGeom.mjGEOM_BOX,
         # The mount is at the front face of the housing.

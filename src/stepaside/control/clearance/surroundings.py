@@ -81,10 +81,10 @@ class KnownRoom:
 
     def note(self, measurement: Measurement, body: BodyReference) -> None:
         """Align odometry with the measured pose; update moving obstacles."""
-        if measurement.place is not None:
+        if measurement.pose_in_room is not None:
             x, y, _ = body.com
             planned = Pose(x, y, body.heading)
-            self.frame = measurement.place.compose(planned.inverse())
+            self.frame = measurement.pose_in_room.compose(planned.inverse())
         now = measurement.time
         if self._room.moving and now >= self._next - 1e-9:
             self._next = now + REFRESH_PERIOD

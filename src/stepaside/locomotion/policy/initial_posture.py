@@ -34,7 +34,7 @@ class InitialPosture:
         self.joint_targets: Array = np.array(
             [known.get(name, 0.0) for name in tree.motors]
         )
-        feet = forward.posture(self.joint_targets).feet
+        feet = forward.posture(self.joint_targets).positions_feet_in_torso
         middle = feet.mean(axis=0)
         leaders = tree.followers
         joints = (known.get(leaders.get(n, n), 0.0) for n in tree.joints)

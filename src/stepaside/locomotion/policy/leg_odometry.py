@@ -51,7 +51,7 @@ class LegOdometry:
             duration: Time since the last reading, in [s].
         """
         posture = self._forward.posture(measurement.joint_positions)
-        feet = posture.feet @ _tilted(*tilt).T
+        feet = posture.positions_feet_in_torso @ _tilted(*tilt).T
         forces = measurement.foot_forces
         stance = int(forces[4:].sum() > forces[:4].sum())
         x, y, theta = self.pose

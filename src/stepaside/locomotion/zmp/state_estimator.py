@@ -194,12 +194,15 @@ class StateEstimator:
             if load == 0.0:
                 continue
             x, y, _, yaw = feet.left_foot if side == 0 else feet.right_foot
-            frame = level @ posture.frames[side]
+            frame = level @ posture.axes_feet_in_torso[side]
             turn = yaw - atan2(frame[1, 0], frame[0, 0])
             if load >= 0.5:
                 self._heading = turn
             c, s = cos(turn), sin(turn)
-            lever = level @ (posture.com - posture.feet[side])
+            lever = level @ (
+                posture.position_com_in_torso
+                - posture.positions_feet_in_torso[side]
+            )
             u, v, _ = lever.tolist()
             com_x += load * (x + c * u - s * v)
             com_y += load * (y + s * u + c * v)

@@ -25,9 +25,12 @@ def measured_step(posture: MeasuredPosture, swing: Foot) -> Array:
         Row (x [m], y [m], theta [rad]). Shape (3,).
     """
     own, other = (0, 1) if swing is Foot.LEFT else (1, 0)
-    frame = posture.frames[other].T
-    x, y, _ = frame @ (posture.feet[own] - posture.feet[other])
-    turn = frame @ posture.frames[own]
+    frame = posture.axes_feet_in_torso[other].T
+    x, y, _ = frame @ (
+        posture.positions_feet_in_torso[own]
+        - posture.positions_feet_in_torso[other]
+    )
+    turn = frame @ posture.axes_feet_in_torso[own]
     return np.array([x, y, atan2(turn[1, 0], turn[0, 0])])
 
 
