@@ -3,8 +3,9 @@
 from collections.abc import Callable, Iterator
 from dataclasses import fields, replace
 from html import unescape
+from itertools import count
 from math import degrees, inf, pi, radians
-from threading import RLock
+from threading import Event, RLock
 from types import SimpleNamespace
 from typing import Any
 
@@ -59,7 +60,11 @@ def session() -> Iterator[LiveSession]:
 
 def played(session: LiveSession, ticks: int) -> None:
     """Let the loop play, and wait until it has."""
-    session._in_loop(lambda: session._advance(ticks))
+    if ticks:
+        session.step(ticks * session.duel.world.physics.tick)
+    done = Event()
+    session.change(lambda duel: done.set())
+    assert done.wait(60.0), session.error
 
 
 def walker(session: LiveSession, number: int) -> SimulatedPlayer:
@@ -450,7 +455,7 @@ def test_the_page_shows_the_duel_as_it_is(live: tuple[Page, Any]) -> None:
     assert server.scene.up == "+z"
     session, gui = page.session, server.gui
     played(session, 250)
-    page._refresh()
+    page.refresh()
     data = session.duel.world.data
     moved = [
         (int(name.split("/")[-1]), item)
@@ -473,7 +478,7 @@ def test_the_page_shows_the_duel_as_it_is(live: tuple[Page, Any]) -> None:
     assert gui["Start"].label == "Start"
     session.outcome, session.error = Outcome.CONTACT, "a bolt"
     session.duel.message = "evader and pursuer touched at 1.00 s"
-    page._refresh()
+    page.refresh()
     status = gui.texts[0].content
     assert session.duel.message in status
     assert "**over: contact**" in status and "**stopped: a bolt**" in status
@@ -500,19 +505,19 @@ def test_the_page_works_nothing_out_while_the_physics_moves(
     distance: Any = Duel.distance
     seen = property(watched(distance.fget))
     monkeypatch.setattr(Duel, "distance", seen)
-    page._refresh()
+    page.refresh()
     page._plots.show(page.session)
     assert len(held) > 2 and all(held)
 
 
 def test_the_page_draws_a_new_duel_anew(live: tuple[Page, Any]) -> None:
     page, server = live
-    page._refresh()
+    page.refresh()
     before = server.scene.items["/layers/line of sight/both"]
-    page._refresh()
+    page.refresh()
     assert server.scene.items["/layers/line of sight/both"] is before
     page.session.reset()
-    page._refresh()
+    page.refresh()
     assert server.scene.items["/layers/line of sight/both"] is not before
 
 
@@ -527,7 +532,7 @@ def test_buttons_start_step_and_set_the_speed(
     session._advance = lambda ticks: None  # type: ignore[method-assign]
     gui["Start"].press()
     assert session.running
-    page._refresh()
+    page.refresh()
     assert gui["Start"].label == "Pause"
     asked: list[float] = []
     session.step = asked.append  # type: ignore
@@ -626,7 +631,7 @@ def test_the_page_says_that_a_hand_drives_and_no_theory_then(
     release = gui["Stop driving"]
 
     def said() -> str:
-        page._refresh()
+        page.refresh()
         return "\n".join(text.content for text in gui.texts)
 
     assert release.disabled and "Not driven" in said()
@@ -653,14 +658,14 @@ def test_the_pace_is_told_only_while_time_passes(
 ) -> None:
     page, server = live
     page.session.real_time_factor = 0.0
-    page._refresh()
+    page.refresh()
     assert "real time" not in server.gui.texts[0].content
     page.session.real_time_factor = 1.04
-    page._refresh()
+    page.refresh()
     assert "real time" not in server.gui.texts[0].content
     page.session._advance = lambda ticks: None  # type: ignore[method-assign]
     page.session.running = True
-    page._refresh()
+    page.refresh()
     page.session.running = False
     assert "1.0 x real time" in server.gui.texts[0].content
 
@@ -728,7 +733,7 @@ def test_a_replay_shows_the_sample_of_its_time(
 ) -> None:
     """Bodies, lines and words are those of that moment."""
     page, server = replay
-    page._show(time)
+    page.show(time)
     stage = RunScene(run)
     stage.put(index)
     frames = [
@@ -798,14 +803,14 @@ def test_a_replay_has_its_slider_plots_and_layers(
     )
     np.testing.assert_allclose(camera.look_at, [place[0], place[1], 0.2])
     server.gui["Safety radius"].press(False)
-    page._show(1.0)
+    page.show(1.0)
     assert "/layers/safety radius/evader" not in server.scene.items
     assert "/layers/line of sight/both" in server.scene.items
     server.gui["Play"].press()
-    page._show(1.0)
+    page.show(1.0)
     assert server.gui["Play"].label == "Pause"
     server.gui["Play"].press()
-    page._show(1.0)
+    page.show(1.0)
     assert server.gui["Play"].label == "Play"
 
 
@@ -828,23 +833,25 @@ def test_playing_moves_the_slider_by_time_and_speed_to_the_end(
     replay: tuple[Any, Any], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     page, server = replay
-    clock = iter(0.25 * np.arange(100.0))
+    clock = count(0.0, 0.25)
     monkeypatch.setattr(replaying, "perf_counter", lambda: next(clock))
     monkeypatch.setattr(replaying, "sleep", lambda seconds: None)
     shown: list[float] = []
+    done = Event()
 
     def show(time: float) -> None:
         shown.append(time)
         if len(shown) == 6:
-            page._closing.set()
+            done.set()
 
-    page._show = show
+    page.show = show
     server.gui["Speed"].value = 2.0
     server.gui["Play"].press()
     # The clock is looked at twice in a round: half a second passes.
-    page._loop()
-    np.testing.assert_allclose(shown, [0.5, 1.5, 2.0, 2.0, 2.0, 2.0])
-    assert page._playing is False
+    page.start()
+    assert done.wait(60.0)
+    page.close()
+    np.testing.assert_allclose(shown[:6], [0.5, 1.5, 2.0, 2.0, 2.0, 2.0])
 
 
 def test_a_replay_that_cannot_be_shown_goes_on(
@@ -853,17 +860,16 @@ def test_a_replay_that_cannot_be_shown_goes_on(
     page, server = replay
     monkeypatch.setattr(replaying, "sleep", lambda seconds: None)
     tried: list[float] = []
+    tried_again = Event()
 
     def fail(time: float) -> None:
         tried.append(time)
         if len(tried) == 2:
-            page._closing.set()
+            tried_again.set()
         raise RuntimeError("no light")
 
-    page._show = fail
+    page.show = fail
     page.start()
-    page._thread.join(timeout=60.0)
-    assert len(tried) == 2
-    page._closing.clear()
+    assert tried_again.wait(60.0)
     page.close()
-    assert server.stopped and page._closing.is_set()
+    assert server.stopped

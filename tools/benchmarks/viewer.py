@@ -34,8 +34,9 @@ class CountedPage(Page):
 
     updates = 0
 
-    def _refresh(self) -> None:
-        super()._refresh()
+    def refresh(self) -> None:
+        """Count the updates of the page."""
+        super().refresh()
         self.updates += 1
 
 

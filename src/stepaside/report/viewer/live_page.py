@@ -252,7 +252,7 @@ class Page:
         while not self._closing.is_set():
             began = perf_counter()
             try:
-                self._refresh()
+                self.refresh()
                 if began - plotted > 1.0 / PLOT_RATE:
                     plotted = began
                     self._plots.show(self.session)
@@ -263,7 +263,8 @@ class Page:
             watched = len(self.server.get_clients()) > 0
             sleep(max(rest, 0.001) if watched else 0.2)
 
-    def _refresh(self) -> None:
+    def refresh(self) -> None:
+        """Show the present state of the session."""
         session = self.session
         if session.generation != self._generation:
             self._generation = session.generation

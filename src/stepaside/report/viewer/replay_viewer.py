@@ -174,12 +174,13 @@ class ReplayPage:
                     self.slider.value = min(time, end)  # type: ignore[misc]
                     if time >= float(self._run.times[-1]):
                         self._playing = False
-                self._show(float(self.slider.value))
+                self.show(float(self.slider.value))
             except Exception:
                 LOG.exception("the replay could not be shown")
             sleep(max(0.001, 1.0 / RATE - (perf_counter() - now)))
 
-    def _show(self, time: float) -> None:
+    def show(self, time: float) -> None:
+        """Show the sample of a time of the run, in [s]."""
         run = self._run
         index = run.index_at(time)
         self._scene.put(index)
