@@ -26,6 +26,8 @@ def fresh(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """Nothing is stored, and nothing preferred afterwards."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     monkeypatch.setattr(machine, "_preference", JitPreference.PLAIN)
+    monkeypatch.setattr(machine, "_work", 0.0)
+    monkeypatch.setattr(machine, "COMPILING_PAYS", 300.0)
     yield
 
 
@@ -80,12 +82,13 @@ def test_damaged_code_is_not_used(suffix: str) -> None:
 
 
 def test_short_games_do_not_wait_for_machine_code() -> None:
-    machine.prefer_for_duration(machine.LONG - 1.0, many=True)
+    machine.expect_work(machine.LOADING_PAYS - 1.0)
     assert machine.preferred() is JitPreference.PLAIN
-    machine.prefer_for_duration(machine.LONG)
+    machine.expect_work(1.0)
     assert machine.preferred() is JitPreference.STORED
-    machine.prefer_for_duration(machine.LONG, many=True)
-    machine.prefer_for_duration(machine.LONG)
+    for _ in range(4):
+        machine.expect_work(0.25 * machine.COMPILING_PAYS)
+    machine.expect_work(1.0)
     assert machine.preferred() is JitPreference.COMPILED
 
 

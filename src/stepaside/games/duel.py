@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import mujoco
 
-from ..robots.jit import prefer_for_duration
+from ..robots.jit import expect_work
 from ..sim.push import pushes_by_robot
 from .duel_evaluation import summarise
 from .duel_settings import PLAYERS, DuelSettings
@@ -159,7 +159,7 @@ def run_duel(
         StepAsideError: If the settings contradict each other or cannot be
             met by the robots.
     """
-    prefer_for_duration(settings.duration)
+    expect_work(settings.duration)
     duel = Duel(settings)
     outcome, wall_time = play(duel, settings.duration, report)
     return duel.run(outcome, wall_time)

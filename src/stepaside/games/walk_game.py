@@ -10,7 +10,7 @@ from ..locomotion.zmp.mpc import MpcResult
 from ..perception.measurement import Sighting
 from ..planning import Direction
 from ..robots.description import RobotDescription, load_robot
-from ..robots.jit import prefer_for_duration
+from ..robots.jit import expect_work
 from ..sim.body_settings import with_control_period
 from ..sim.world import World
 from ..strategies import Walk
@@ -178,7 +178,7 @@ def run_walk(
         StepAsideError: If the settings contradict each other or cannot be
             met by the robot.
     """
-    prefer_for_duration(settings.duration)
+    expect_work(settings.duration)
     game = WalkGame(settings, recorded=record)
 
     def report_time(progress: Progress) -> None:

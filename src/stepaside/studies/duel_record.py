@@ -14,7 +14,6 @@ from ..games.duel import run_duel
 from ..games.duel_settings import DuelSettings
 from ..games.outcome import Outcome
 from ..games.run import DuelRun
-from ..robots.jit import prefer_for_duration
 from ..strategies.registry import file_of
 from ..theory.unicycle.certificate import certify
 from ..theory.unicycle.relative_coordinates import RelativeStart
@@ -73,7 +72,6 @@ def play_record(settings: DuelSettings) -> Record:
         KeyboardInterrupt: If the duel was interrupted.
     """
     began = perf_counter()
-    prefer_for_duration(settings.duration, many=True)
     run = run_duel(settings)
     if run.outcome is Outcome.INTERRUPTED:
         raise KeyboardInterrupt
