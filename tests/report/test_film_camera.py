@@ -14,9 +14,9 @@ from stepaside.games.run import Run
 from stepaside.games.trajectory import Trajectory
 from stepaside.report import film_layers
 from stepaside.report.film import FilmSettings, closest_time
-from stepaside.report.film_camera import MARGIN, VIEWS, FilmCamera, framing
+from stepaside.report.film_camera import MARGIN, FilmCamera, framing
 from stepaside.report.film_captions import caption, draw_title
-from stepaside.report.film_settings import AROUND, SLOWEST
+from stepaside.report.film_settings import AROUND, SLOWEST, VIEWS
 from stepaside.report.palette import PALETTES
 
 FOVY, ASPECT = 45.0, 16.0 / 9.0

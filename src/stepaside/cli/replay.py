@@ -2,6 +2,7 @@
 
 import webbrowser
 from collections.abc import Callable
+from dataclasses import fields, replace
 from pathlib import Path
 from time import sleep
 from typing import TYPE_CHECKING, Any
@@ -10,6 +11,7 @@ import click
 
 from ..core.atomic_output import FIGURES, reason_of
 from ..core.errors import OutputError
+from ..report.film_settings import AROUND, SLOWEST, FilmSettings
 from .effort_estimate import IMAGES, announce_effort
 from .options.common_options import (
     browser_option,
@@ -18,28 +20,21 @@ from .options.common_options import (
     port_option,
     serve_for_option,
 )
-from .options.parameter_types import POSITIVE, SECONDS, NameType, NumberType
-from .options.setting_options import refuse_options
+from .options.setting_options import refuse_options, takes
 from .output_files import OutputFile, attempt, writes_files
 from .progress import show_progress
 from .terminal import echo, print_json
 
 if TYPE_CHECKING:
     from ..games.run import Run
-    from ..report.film import FilmSettings
 
 
-FILM = (  # options of films
-    *("begin", "duration", "rate", "speed", "width", "height", "camera"),
-    *("slow", "captions", "title", "layers"),
-)
 PAGE = ("port", "opens", "serve_for")  # options of the live page
-
-
-def _views() -> tuple[str, ...]:
-    from ..report.film_camera import VIEWS
-
-    return VIEWS
+FILMS = {
+    "video": FilmSettings(),
+    "gif": FilmSettings(480, 270, rate=10.0, duration=12.0),
+    "strip": FilmSettings(640, 480, rate=1.0, duration=3600.0),
+}
 
 
 @click.command("replay")
@@ -62,63 +57,23 @@ def _views() -> tuple[str, ...]:
     type=OutputFile(*FIGURES),
     help="Write four frames of the run, each above its top view.",
 )
-@click.option(
-    "--begin",
-    type=NumberType("s", allow_zero=True),
-    default=0.0,
-    help="Start of the video in the run [s].",
-)
-@click.option(
-    "--duration", type=SECONDS, help="Duration of the run in the video [s]."
-)
-@click.option(
-    "--rate", type=NumberType("1/s"), help="Frame rate of the video [1/s]."
-)
-@click.option(
-    "--speed",
-    type=POSITIVE,
-    default=1.0,
-    help="Speed of the video [1]; 2 is twice real time.",
-)
-@click.option(
-    "--width", type=click.IntRange(64, 3840), help="Image width in pixels."
-)
-@click.option(
-    "--height", type=click.IntRange(64, 2160), help="Image height in pixels."
-)
-@click.option(
-    "--camera",
-    type=NameType(_views),
-    default="fixed",
-    show_default=True,
-    help="View of the video: fixed view of the whole run, following the "
-    "robots, top view, evader's camera, or following beside both robots' "
-    "camera images.",
-)
-@click.option(
-    "--slow-motion/--no-slow-motion",
-    "slow",
-    default=False,
-    help="Slow the video down around the closest approach.",
-)
-@click.option(
-    "--captions/--no-captions",
-    default=True,
-    help="Show players, time and distance in the video.",
-)
-@click.option("--title", default="", help="Title in the upper left corner.")
-@click.option(
-    "--layers/--no-layers",
-    default=True,
-    help="Draw trajectories and plans in the video.",
-)
+@takes(FilmSettings, "film", build=dict)
 @figure_width
 @port_option()
 @browser_option()
 @serve_for_option()
 @json_option
 @writes_files
-def replay(run: Path, as_json: bool, **options: Any) -> None:
+def replay(
+    run: Path,
+    html: str | None,
+    video: str | None,
+    gif: str | None,
+    strip: str | None,
+    film: dict[str, Any],
+    as_json: bool,
+    **page: Any,
+) -> None:
     """Replay the run in the folder RUN.
 
     By default, serves a page with a time slider. With --html, --video, --gif
@@ -126,50 +81,54 @@ def replay(run: Path, as_json: bool, **options: Any) -> None:
     """
     from ..games.run_archive import load_run
 
-    films = [options[kind] for kind in ("video", "gif", "strip")]
-    if films == [None, None, None]:
-        refuse_options(FILM, "--video, --gif or --strip")
-    if options["html"] or any(films):
+    if not (video or gif or strip):
+        names = {field.name for field in fields(FilmSettings)}
+        refuse_options(names, "--video, --gif or --strip")
+    if html or video or gif or strip:
         refuse_options(PAGE, "a live page, without output files")
     loaded = load_run(run)
-    written: dict[str, Any] = {}
-    html, video, gif, strip = (
-        None if options[kind] is None else Path(options[kind])
-        for kind in ("html", "video", "gif", "strip")
-    )
+    written: dict[str, dict[str, Any]] = {}
     if html is not None:
         from ..report.replay_page import write_page
 
-        def page() -> None:
-            write_page(loaded, html)
-            written["html"] = _written(html)
+        def write() -> None:
+            write_page(loaded, Path(html))
+            written["html"] = _written(Path(html))
 
-        attempt(page)
-    if video is not None:
-        from ..report.film import write_video
-
-        film = _film_settings(options, 60.0, 30.0, 1280, 720)
-        _announce(film, loaded)
-        _render("video", write_video, run, video, film, written)
-    if gif is not None:
-        from ..report.film import write_gif
-
-        film = _film_settings(options, 12.0, 10.0, 480, 270)
-        _announce(film, loaded)
-        _render("gif", write_gif, run, gif, film, written)
-    if strip is not None:
-        from ..report.film_strip import write_strip
-
-        film = _film_settings(options, 3600.0, 1.0, 640, 480)
-        _render("strip", write_strip, run, strip, film, written)
-    if html is video is gif is strip is None:
-        _serve(loaded, options)
+        attempt(write)
+    for kind, file in (("video", video), ("gif", gif), ("strip", strip)):
+        if file is not None:
+            chosen = _even(replace(FILMS[kind], **film))
+            if kind != "strip":
+                _announce(chosen, loaded)
+            _render(kind, run, Path(file), chosen, written)
+    if not (html or video or gif or strip):
+        _serve(loaded, **page)
     elif as_json:
         print_json(written)
     else:
         for kind, entry in written.items():
             size = entry["bytes"] / 1e6
             echo(f"{kind}: {entry['file']} ({size:.1f} MB)")
+
+
+def _even(film: FilmSettings) -> FilmSettings:
+    """Return settings with even sides: H.264 halves the colour's."""
+    return replace(
+        film,
+        width=film.width - film.width % 2,
+        height=film.height - film.height % 2,
+    )
+
+
+def _writer(kind: str) -> Callable[..., int]:
+    if kind == "strip":
+        from ..report.film_strip import write_strip
+
+        return write_strip
+    from ..report.film import write_gif, write_video
+
+    return write_video if kind == "video" else write_gif
 
 
 def _written(file: Path) -> dict[str, Any]:
@@ -186,36 +145,8 @@ def _written(file: Path) -> dict[str, Any]:
         ) from error
 
 
-def _film_settings(
-    options: dict[str, Any],
-    duration: float,
-    rate: float,
-    width: int,
-    height: int,
-) -> Any:
-    from ..report.film import FilmSettings
-
-    wide, high = options["width"] or width, options["height"] or height
-    return FilmSettings(
-        # H.264 subsamples colour by two in both directions.
-        width=wide - wide % 2,
-        height=high - high % 2,
-        rate=options["rate"] or rate,
-        speed=options["speed"],
-        begin=options["begin"],
-        duration=options["duration"] or duration,
-        camera=options["camera"],
-        layers=options["layers"],
-        slow=options["slow"],
-        captions=options["captions"],
-        title=options["title"],
-    )
-
-
-def _announce(film: "FilmSettings", run: "Run") -> None:
+def _announce(film: FilmSettings, run: "Run") -> None:
     """Announce long rendering."""
-    from ..report.film_settings import AROUND, SLOWEST
-
     shown = min(float(run.times[-1]) - film.begin, film.duration)
     slower = 2.0 * AROUND / SLOWEST if film.slow else 0.0
     number = max(shown + slower, 0.0) * film.rate / film.speed
@@ -229,13 +160,13 @@ def _announce(film: "FilmSettings", run: "Run") -> None:
 
 def _render(
     name: str,
-    write: Callable[..., int],
     run: Path,
     file: Path,
-    film: Any,
-    written: dict[str, Any],
+    film: FilmSettings,
+    written: dict[str, dict[str, Any]],
 ) -> None:
     """Render a film with a progress bar, and add it to ``written``."""
+    write = _writer(name)
     with show_progress(name, unit="frames") as bar:
 
         def report(done: int, number: int) -> None:
@@ -249,19 +180,21 @@ def _render(
         attempt(render)
 
 
-def _serve(run: Any, options: dict[str, Any]) -> None:
+def _serve(
+    run: "Run", port: int, opens: bool, serve_for: float | None
+) -> None:
     from ..report.viewer.replay_viewer import ReplayPage
 
-    page = ReplayPage(run, port=options["port"])
+    page = ReplayPage(run, port=port)
     page.start()
     address = f"http://127.0.0.1:{page.server.get_port()}"
     echo(f"serving at {address}; press Ctrl-C to stop")
-    if options["opens"]:
+    if opens:
         webbrowser.open(address)
     try:
-        while options["serve_for"] is None:
+        while serve_for is None:
             sleep(1.0)
-        sleep(options["serve_for"])
+        sleep(serve_for)
     except KeyboardInterrupt:
         echo("stepaside: stopped; the run is unchanged", err=True)
     finally:

@@ -16,7 +16,6 @@ from ..games.run import Run
 from ..sim.obstacle_geoms import HEIGHT as WALL_HEIGHT
 from .room_extent import wall_corners
 
-VIEWS = ("fixed", "follow", "top", "eyes", "split")
 AZIMUTH, ELEVATION = 60.0, -32.0  # of the fixed and following view, in [deg]
 MARGIN = 0.86  # fraction of the image's half sides that points may take
 HEIGHT = 0.62  # of a player with its label, in [m]
@@ -130,7 +129,7 @@ class FilmCamera:
 
         Args:
             run: The run.
-            name: One of ``VIEWS``.
+            name: One of :data:`~stepaside.report.film_settings.VIEWS`.
             fovy: Vertical field of view, in [deg].
             aspect: Width over height of the image.
 

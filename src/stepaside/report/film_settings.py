@@ -1,40 +1,91 @@
 """Settings of a film, and the times at which it has images."""
 
+from dataclasses import dataclass
 from math import floor
-from typing import NamedTuple
+
+from ..core.ranges import Range
+from ..core.setting import check_settings, setting
 
 SLOWEST = 0.25  # factor of the film's speed at the closest approach
 AROUND = 2.0  # time before and after it that is slower, in [s]
+VIEWS = ("fixed", "follow", "top", "eyes", "split")
+WHY = "from a frame of a fast film to a night"
 
 
-class FilmSettings(NamedTuple):
-    """Settings of a film.
+@dataclass(frozen=True, slots=True)
+class FilmSettings:
+    """Settings of a film."""
 
-    Attributes:
-        width: Width of an image, in [pixels].
-        height: Height of an image, in [pixels].
-        rate: Images per second of the film.
-        speed: Time of the run per time of the film.
-        begin: Time of the run at which the film begins, in [s].
-        duration: Time of the run that the film shows, in [s].
-        camera: One of :data:`~stepaside.report.film_camera.VIEWS`.
-        layers: Whether traces, rings and other lines are drawn.
-        slow: Whether the film is slower about the closest approach.
-        captions: Whether names, time, distance and state are written.
-        title: Title in the upper left corner; empty for none.
-    """
+    width: int = setting(
+        1280,
+        "Image width [pixels]",
+        Range(16, 3840, "pixels", "of a screen", whole=True),
+        option="--width",
+        default_text="1280, gif 480, strip 640",
+    )
+    height: int = setting(
+        720,
+        "Image height [pixels]",
+        Range(16, 2160, "pixels", "of a screen", whole=True),
+        option="--height",
+        default_text="720, gif 270, strip 480",
+    )
+    rate: float = setting(
+        30.0,
+        "Frame rate of the video",
+        Range(1e-6, 1e6, "1/s", WHY),
+        option="--rate",
+        default_text="30, gif 10",
+    )
+    speed: float = setting(
+        1.0,
+        "Speed of the video {unit}; 2 is twice real time",
+        Range(1e-6, 1e6, "1", WHY),
+        option="--speed",
+    )
+    begin: float = setting(
+        0.0,
+        "Start of the video in the run",
+        Range(0.0, 86400.0, "s", "the longest run"),
+        option="--begin",
+    )
+    duration: float = setting(
+        60.0,
+        "Duration of the run in the video",
+        Range(1e-6, 86400.0, "s", "the longest run"),
+        option="--duration",
+        default_text="60, gif 12, strip the whole run",
+    )
+    camera: str = setting(
+        "fixed",
+        "View of the video: fixed view of the whole run, following the "
+        "robots, top view, evader's camera, or following beside both robots' "
+        "camera images",
+        names=VIEWS,
+        option="--camera",
+    )
+    layers: bool = setting(
+        True,
+        "Draw trajectories and plans in the video",
+        option="--layers/--no-layers",
+    )
+    slow: bool = setting(
+        False,
+        "Slow the video down around the closest approach",
+        option="--slow-motion/--no-slow-motion",
+    )
+    captions: bool = setting(
+        True,
+        "Show players, time and distance in the video",
+        option="--captions/--no-captions",
+    )
+    title: str = setting(
+        "", "Title in the upper left corner", option="--title"
+    )
 
-    width: int = 1280
-    height: int = 720
-    rate: float = 30.0
-    speed: float = 1.0
-    begin: float = 0.0
-    duration: float = 60.0
-    camera: str = "fixed"
-    layers: bool = True
-    slow: bool = False
-    captions: bool = True
-    title: str = ""
+    def __post_init__(self) -> None:
+        """Validate the settings."""
+        check_settings(self)
 
     def speed_at(self, time: float, closest: float | None) -> float:
         """Return the time of the run per time of the film.

@@ -1,6 +1,7 @@
 """Figure of a few images of a film, each above its top view."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 from matplotlib.lines import Line2D
@@ -24,7 +25,7 @@ def strip_settings(settings: FilmSettings, last: float) -> FilmSettings:
     """
     span = min(last, settings.begin + settings.duration) - settings.begin
     rate = (FRAMES - 1) / span if span > 0.0 else 1.0
-    return settings._replace(rate=rate, speed=1.0, slow=False, captions=False)
+    return replace(settings, rate=rate, speed=1.0, slow=False, captions=False)
 
 
 def write_strip(

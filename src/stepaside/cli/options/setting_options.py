@@ -232,7 +232,10 @@ def given_options(
 
 
 def takes(
-    kind: type[Any], name: str, without: Collection[str] = ()
+    kind: type[Any],
+    name: str,
+    without: Collection[str] = (),
+    build: Callable[..., Any] | None = None,
 ) -> Decorator:
     """Add the options of settings that no configuration file holds.
 
@@ -240,6 +243,8 @@ def takes(
         kind: Class of the settings.
         name: Argument of the command that receives them.
         without: Entries whose options the command does not have.
+        build: Makes the argument from the given values; the class of the
+            settings by default.
     """
     entries = [
         entry
@@ -252,7 +257,7 @@ def takes(
         def command(**values: Any) -> Any:
             given = given_options(values, entries)
             chosen = {e.path: e.value_of(value) for e, value in given}
-            return function(**{name: kind(**chosen)}, **values)
+            return function(**{name: (build or kind)(**chosen)}, **values)
 
         wrapped: Callable[..., Any] = command
         for entry in reversed(entries):
