@@ -176,7 +176,7 @@ def test_a_rendered_image_is_upright(
     # Nothing is finer than a robot needs it: it has to be fast.
     quality = model.vis.quality
     assert quality.shadowsize == 0 == quality.offsamples
-    assert (quality.numslices, quality.numstacks) == (16, 10)
+    assert (quality.numslices, quality.numstacks) == (12, 6)
     for flag in ("mjRND_SHADOW", "mjRND_REFLECTION"):
         number = getattr(mujoco.mjtRndFlag, flag)
         assert screen._scene.flags[number] == 0
