@@ -145,7 +145,13 @@ def compare(
 
 def name_of(case: str, variant: tuple[str, float], seed: int) -> str:
     """Return the name of a job."""
-    return f"{case}/{variant[0]}-{1e3 * variant[1]:g}ms/{seed}"
+    return f"{case}/{label_of(variant)}/{seed}"
+
+
+def label_of(variant: tuple[str, float]) -> str:
+    """Return the name of an integrator and its time step."""
+    integrator, time_step = variant
+    return f"{integrator}-{1e3 * time_step:g}ms"
 
 
 def main() -> None:
@@ -165,14 +171,12 @@ def main() -> None:
     rows = gather(arguments.output, head, jobs, play, arguments.workers)
     cases = {
         case: {
-            f"{variant[0]} {1e3 * variant[1]:g} ms": compare(
-                rows, case, variant, seeds
-            )
+            label_of(variant): compare(rows, case, variant, seeds)
             for variant in VARIANTS
         }
         for case in CASES
     }
-    write_result(arguments.output, head, cases=cases)
+    write_result(arguments.output, head, number=len(seeds), cases=cases)
     finished(arguments.output)
 
 

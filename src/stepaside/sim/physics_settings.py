@@ -28,8 +28,8 @@ class PhysicsSettings:
     )
     integrator: str = setting(
         "implicitfast",
-        "Integrator of the physics; discrete is as accurate at twice the "
-        "time step and then takes half the time",
+        "Integrator of the physics; discrete allows twice the time step, "
+        "at half the cost",
         names=INTEGRATORS,
         option="--integrator",
     )

@@ -53,6 +53,7 @@ TABLES: dict[str, Callable[..., str]] = {
     "humanoid-origins": humanoids.origins,
     "index": index.index,
     "instants": instants.instants,
+    "integrators": benchmark.integrators,
     "long-walks": walking.long_walks,
     "outcomes": many_duels.outcomes,
     "pace": walking.pace,

@@ -69,6 +69,27 @@ def all_rows(result: Mapping[str, Any]) -> str:
     )
 
 
+def integrators(result: Mapping[str, Any]) -> str:
+    """List differences of walks from the finest time step, by integrator."""
+    cases = result["cases"]
+    variants = list(next(iter(cases.values())))
+    rows = []
+    for name in variants[1:]:
+        found = [case[name] for case in cases.values()]
+        rows.append(
+            (
+                name.replace("-", ", ").replace("ms", " ms"),
+                *(
+                    f"{number(1e3 * own['final_m'], 1)} mm, "
+                    f"{number(1e3 * own['turn_rad'], 0)} mrad"
+                    for own in found
+                ),
+                f"{sum(own['falls'] for own in found)}",
+            )
+        )
+    return table(("integrator", *cases, "falls"), rows)
+
+
 def headlines(result: Mapping[str, Any]) -> str:
     """Return the values that the README shows."""
     figures = result["figures"]
