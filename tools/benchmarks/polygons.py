@@ -161,6 +161,7 @@ def measure(recipe: RoomRecipe, fine: float, games: int) -> dict[str, Any]:
         **{
             name: {
                 "median_ms": 1e3 * float(np.median(each[1:])),
+                "p99_ms": 1e3 * float(np.percentile(each[1:], 99.0)),
                 "longest_ms": 1e3 * max(each[1:]),
             }
             for name, each in times.items()

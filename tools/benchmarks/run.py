@@ -1,23 +1,44 @@
-"""Time planner, MPC, control tick and duel in one process.
+"""Time planner, MPC, duels, decisions and games of unicycles in one process.
 
 Both sides of every ratio are timed here, on one core; processor times. Drake's
-planner is skipped if it is not installed (``pip install .[bench]``)::
+planner and cameras are skipped if they are not installed (``pip install
+.[bench,vision]``). Figures are appended to the history beside the results, and
+what became slower since the last run on this machine is printed::
 
-    python tools/benchmarks/run.py --output docs/results/benchmark.json
+    python tools/benchmarks/run.py
 """
 
 import os
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+os.environ.setdefault("NUMBA_NUM_THREADS", "1")
 
 from asking import ask, machine
-from duel import measure_duel
+from duel import measure_camera_duel, measure_duel
+from history import append_run, changes_since_last
+from kernel import measure_kernel
 from mpc import measure_mpc
 from planner import measure_planner
+from polygons import RECIPES, measure
 
 from stepaside.studies.result_files import header, write_result
 
-LIBRARIES = ("mujoco", "numpy", "drake", "daqp")
+LIBRARIES = ("mujoco", "numpy", "drake", "daqp", "numba")
+ROOMS = 25  # whose maps decisions are timed in
+
+
+def measure_decisions() -> dict[str, float]:
+    """Return the times of decisions on maps of rooms with a few discs."""
+    measure(RECIPES[0], 2.2, 2)  # import all code
+    row = measure(RECIPES[0], 2.2, ROOMS)
+    return {
+        f"{name}_decision_{key}": row[part][key]
+        for part, name in (
+            ("look-ahead", "look_ahead"),
+            ("pursuit", "pursuit"),
+        )
+        for key in ("median_ms", "p99_ms")
+    }
 
 
 def main() -> None:
@@ -26,7 +47,8 @@ def main() -> None:
     asked.add_argument("--duration", type=float, default=60.0)
     arguments = asked.parse_args()
     figures = measure_planner() | measure_mpc()
-    figures |= measure_duel(arguments.duration)
+    figures |= measure_duel(arguments.duration) | measure_camera_duel()
+    figures |= measure_decisions() | measure_kernel(16_384, 1000)
     for suffix in ("", "_with_samples"):
         drake = "drake_zmp_planner_us" if not suffix else f"drake{suffix}_us"
         if drake in figures:
@@ -34,9 +56,19 @@ def main() -> None:
             figures[f"drake_over_plan{suffix}"] = figures[drake] / ours
     settings = {"seed": 1, "duration_s": arguments.duration}
     head = header(settings, libraries=LIBRARIES)
-    write_result(arguments.output, head, machine=machine(), figures=figures)
+    own = machine()
+    write_result(arguments.output, head, machine=own, figures=figures)
+    history = arguments.output.with_name("benchmark-history.jsonl")
+    changes = changes_since_last(history, figures, own)
+    append_run(history, head["version"], figures, own)
     for name, value in figures.items():
         print(f"{name}: {value:.3g}")
+    for change in changes:
+        if change.is_regression:
+            print(
+                f"slower by {change.slowdown:.2f}: {change.name} was "
+                f"{change.before:.3g}, is {change.now:.3g}"
+            )
 
 
 if __name__ == "__main__":

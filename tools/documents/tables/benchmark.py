@@ -53,6 +53,48 @@ ROWS = {
         "times",
         "<= 2.5",
     ),
+    "duel_over_bare_physics_machine_code": (
+        "the same, with the legs as machine code",
+        "times",
+        "<= 1.7",
+    ),
+    "physics_over_bare_physics": (
+        "physics of the duel over bare mj_step",
+        "times",
+        "",
+    ),
+    "control_tick_us_machine_code": (
+        "control tick of one robot, as machine code",
+        "us",
+        "",
+    ),
+    "hardware_real_time_factor": (
+        "whole duel, hardware body with feedback, as machine code",
+        "x real time",
+        "",
+    ),
+    "camera_duel_real_time_factor": (
+        "whole duel with cameras",
+        "x real time",
+        "",
+    ),
+    "look_ahead_decision_median_ms": (
+        "decision of look-ahead on a sensed map, median",
+        "ms",
+        "",
+    ),
+    "look_ahead_decision_p99_ms": ("the same, 99th percentile", "ms", ""),
+    "pursuit_decision_median_ms": (
+        "decision of pursuit on a sensed map, median",
+        "ms",
+        "",
+    ),
+    "pursuit_decision_p99_ms": ("the same, 99th percentile", "ms", ""),
+    "compiled_steps_per_s": (
+        "steps of games of unicycles in the compiled kernel",
+        "1/s",
+        "",
+    ),
 }
 
 
