@@ -90,21 +90,6 @@ def load_entries(path: Path) -> dict[str, Any]:
     return read_entries(text, str(path))
 
 
-def has_entry(path: Path, entry: str) -> bool:
-    """Return whether a configuration file contains an entry.
-
-    Args:
-        path: TOML file that is known to be valid.
-        entry: Dotted name, like ``control.method``.
-    """
-    found: Any = tomllib.loads(path.read_text(encoding="utf-8"))
-    for name in entry.split("."):
-        if not isinstance(found, dict) or name not in found:
-            return False
-        found = found[name]
-    return True
-
-
 def read_settings(
     kind: type[S], text: str, source: str, *, aside: Collection[str] = ()
 ) -> S:

@@ -110,7 +110,6 @@ class NumberType(click.ParamType[float]):
 ANGLE = AngleType()
 METERS = NumberType("m")
 SECONDS = NumberType("s")
-POSITIVE = NumberType("1")
 
 
 class NameType(click.ParamType[str]):
