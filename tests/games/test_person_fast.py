@@ -11,7 +11,7 @@ from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.initial_poses import draw_start
 from stepaside.games.match import play
 from stepaside.games.outcome import Outcome
-from stepaside.games.template_game import template_closest_approach
+from stepaside.games.template_game import play_template
 from stepaside.locomotion.zmp.control_settings import ControlSettings
 from stepaside.planning import PRESETS
 from stepaside.sim.person_motion import PersonMotion
@@ -27,7 +27,7 @@ def met(
     speed: float, *, miss: float = 0.0, bearing: float = 0.0, far: float = 6.0
 ) -> float:
     """Return the closest approach of a straight walk to the template [m]."""
-    return template_closest_approach(
+    return play_template(
         lambda pose, evader: PersonMotion(
             PersonSettings("straight", speed, miss=miss), pose, evader
         ),
@@ -36,7 +36,7 @@ def met(
         TIMED,
         FAST,
         duration=(far + 2.0) / speed,
-    )
+    ).closest_m
 
 
 def duel(**changes: Any) -> DuelSettings:

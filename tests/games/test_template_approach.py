@@ -6,7 +6,7 @@ from math import atan2, cos, pi, sin
 import pytest
 
 from stepaside.core.poses import Pose
-from stepaside.games.template_game import template_closest_approach
+from stepaside.games.template_game import play_template
 from stepaside.planning import PRESETS, Direction
 from stepaside.sim.person_motion import PersonMotion, Place
 from stepaside.sim.person_settings import PersonSettings
@@ -24,14 +24,14 @@ def met(frame: Pose, speed: float = 0.5, strategy: object = EVADER) -> float:
         return PersonMotion(person, start, evader)
 
     start, evader = Pose(-3.0, 0.0, 0.0), Pose(0.0, 0.1, pi - 0.2)
-    return template_closest_approach(
+    return play_template(
         motion,
         frame.compose(start),
         frame.compose(evader),
         strategy,  # type: ignore[arg-type]
         GAIT,
         duration=12.0,
-    )
+    ).closest_m
 
 
 @pytest.mark.parametrize("strategy", [EVADER, Evasion(safety_radius=2.0)])

@@ -64,8 +64,8 @@ def test_a_summary_has_the_settings_of_the_walk() -> None:
 
 
 PAIRS = [
-    ("tracking", "com_x_m", "com_x", "reference_x"),
-    ("tracking", "com_y_m", "com_y", "reference_y"),
+    ("tracking", "com_x_m", "com_x", "com_reference_x"),
+    ("tracking", "com_y_m", "com_y", "com_reference_y"),
     ("tracking", "zmp_x_m", "zmp_x", "zmp_reference_x"),
     ("tracking", "zmp_y_m", "zmp_y", "zmp_reference_y"),
     ("estimation", "com_x_m", "estimated_com_x", "com_x"),
@@ -120,12 +120,15 @@ def walked(ratio: float = 1.0, turned: float = 1.0) -> dict[str, Array]:
     angle = 0.05 * TIMES
     sway = 0.02 * np.sin(2.0 * pi * (TIMES - 3.0) / PERIOD)
     size = ratio + sway
-    arrays["world_x"], arrays["world_y"] = (
+    arrays["com_in_world_x"], arrays["com_in_world_y"] = (
         size * np.cos(angle),
         size * np.sin(angle),
     )
-    arrays["asked_x"], arrays["asked_y"] = np.sin(angle), np.cos(angle)
-    arrays["asked_heading"] = np.remainder(6.0 + angle, 2.0 * pi)
+    arrays["com_reference_in_world_x"], arrays["com_reference_in_world_y"] = (
+        np.sin(angle),
+        np.cos(angle),
+    )
+    arrays["heading_reference"] = np.remainder(6.0 + angle, 2.0 * pi)
     arrays["heading"] = np.remainder(6.1 + turned * angle, 2.0 * pi)
     return arrays
 
@@ -140,7 +143,7 @@ def test_speed_and_turning_are_over_whole_cycles() -> None:
     rate = degrees(0.9 * 0.05)
     assert found["yaw_rate_deg_s"] == pytest.approx(rate, rel=1e-6)
     right = walked(1.0, 1.0)
-    for name in ("heading", "asked_heading"):
+    for name in ("heading", "heading_reference"):
         right[name] = -right[name]
     found = figures(right)
     assert found["yaw_ratio"] == pytest.approx(1.0)
@@ -163,16 +166,16 @@ def test_the_part_of_a_cycle_at_the_end_does_not_count() -> None:
 
 def test_without_path_or_turn_there_is_no_ratio() -> None:
     arrays = record()
-    arrays["world_x"] = 0.1 * TIMES
+    arrays["com_in_world_x"] = 0.1 * TIMES
     found = figures(arrays)
     assert found["speed_m_s"] == pytest.approx(0.1)
     assert found["speed_ratio"] is None and found["yaw_ratio"] is None
     lasted = 10.0 * PERIOD
     for way, exists in ((0.011, True), (0.009, False)):
-        arrays["asked_x"] = way / lasted * TIMES
+        arrays["com_reference_in_world_x"] = way / lasted * TIMES
         assert (figures(arrays)["speed_ratio"] is not None) is exists
     for turn, exists in ((0.051, True), (0.049, False), (-0.051, True)):
-        arrays["asked_heading"] = turn / lasted * TIMES
+        arrays["heading_reference"] = turn / lasted * TIMES
         assert (figures(arrays)["yaw_ratio"] is not None) is exists
 
 
@@ -207,7 +210,7 @@ def test_slip_is_the_displacement_of_the_support_foot() -> None:
     times: Array = 2.5 + STEP * np.arange(len(x), dtype=float)
     arrays = record(times)
     arrays["single"] = single
-    arrays["foot_x"], arrays["foot_y"] = 0.6 * x, -0.8 * x
+    arrays["foot_in_world_x"], arrays["foot_in_world_y"] = 0.6 * x, -0.8 * x
     slip = figures(arrays)["slip_per_step_m"]
     # The first sample and the last are left out.
     assert slip == pytest.approx(0.002, rel=1e-9)
@@ -217,7 +220,7 @@ def test_a_fixed_support_foot_has_no_slip() -> None:
     single, x = supports([0.0, 0.0, 0.0], 20, 0.05)
     times: Array = 2.5 + STEP * np.arange(len(x), dtype=float)
     arrays = record(times)
-    arrays["single"], arrays["foot_x"] = single, x
+    arrays["single"], arrays["foot_in_world_x"] = single, x
     assert figures(arrays)["slip_per_step_m"] == pytest.approx(0.0, abs=1e-12)
 
 
@@ -228,7 +231,7 @@ def test_slip_needs_a_complete_single_support(
     single, x = supports([0.01, 0.01], length, 0.05)
     times: Array = 2.5 + STEP * np.arange(len(x), dtype=float)
     arrays = record(times)
-    arrays["single"], arrays["foot_x"] = single, x
+    arrays["single"], arrays["foot_in_world_x"] = single, x
     assert (figures(arrays)["slip_per_step_m"] is not None) is exists
 
 

@@ -63,11 +63,11 @@ def check_recovery(result: WalkRun, heading: float) -> None:
     arrays = express_in_support_foot(result.times, result.walker)
     late = arrays["time"] > arrays["time"][-1] - CYCLE
     for axis in "xy":
-        off = arrays[f"com_{axis}"] - arrays[f"reference_{axis}"]
+        off = arrays[f"com_{axis}"] - arrays[f"com_reference_{axis}"]
         assert np.abs(off[late]).max() < 0.002
     assert np.abs(arrays["heading"][late]).max() < heading
     since = arrays["time"] > arrays["time"][-1] - 4.0
-    x, y = arrays["world_x"][since], arrays["world_y"][since]
+    x, y = arrays["com_in_world_x"][since], arrays["com_in_world_y"][since]
     walked = np.hypot(x[-1] - x[0], y[-1] - y[0])
     assert walked == pytest.approx(4.0 * SPEED, rel=0.08)
 

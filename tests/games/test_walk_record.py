@@ -67,19 +67,20 @@ def test_a_walk_is_expressed_in_the_frame_of_the_support_foot(
     heading = truth.heading_in_world
     assert abs(heading) > 0.2
     assert seen["heading"] == pytest.approx(heading)
-    assert seen["asked_heading"] == pytest.approx(
+    assert seen["heading_reference"] == pytest.approx(
         walker.scheme.kinematics.torso_heading
     )
-    assert seen["asked_heading"] == pytest.approx(heading, abs=0.05)
+    assert seen["heading_reference"] == pytest.approx(heading, abs=0.05)
     np.testing.assert_allclose(
-        [seen["world_x"], seen["world_y"]], truth.position_com_in_world[:2]
+        [seen["com_in_world_x"], seen["com_in_world_y"]],
+        truth.position_com_in_world[:2],
     )
     np.testing.assert_allclose(
-        [seen["asked_x"], seen["asked_y"]],
+        [seen["com_reference_in_world_x"], seen["com_reference_in_world_y"]],
         walker.scheme.state.reference.com[:2],
     )
     for name, tolerance in (("com_x", 0.004), ("com_y", 0.004)):
-        wanted = seen[name.replace("com", "reference")]
+        wanted = seen[name.replace("com", "com_reference")]
         assert seen[name] == pytest.approx(wanted, abs=0.01)
         assert seen[name] == pytest.approx(
             seen[f"estimated_{name}"], abs=tolerance
@@ -105,7 +106,10 @@ def test_vectors_are_rotated_and_points_transformed(
     place = data.site(f"walker/{name}")
     heading = np.arctan2(place.xmat[3], place.xmat[0])
     frame = Pose(place.xpos[0], place.xpos[1], float(heading))
-    assert (seen["foot_x"], seen["foot_y"]) == (frame.x, frame.y)
+    assert (seen["foot_in_world_x"], seen["foot_in_world_y"]) == (
+        frame.x,
+        frame.y,
+    )
     com = frame.transform_points([[seen["com_x"], seen["com_y"]]])[0]
     np.testing.assert_allclose(
         com, walker.robot.truth.position_com_in_world[:2]
@@ -127,7 +131,7 @@ def test_vectors_are_rotated_and_points_transformed(
     )
     support = walker.scheme.locomotion.step(walking.world.time).support
     for column, point in (
-        ("reference", walker.scheme.state.reference.com[:2]),
+        ("com_reference", walker.scheme.state.reference.com[:2]),
         ("zmp_reference", walker.scheme.state.zmp_reference),
     ):
         there = [[seen[f"{column}_x"], seen[f"{column}_y"]]]
@@ -227,13 +231,13 @@ def test_references_and_estimates_are_placed_with_the_odometry() -> None:
     wanted = frame.compose(step.support)
     np.testing.assert_allclose(track.support[0, 2:], wanted)
     there = columns(made)
-    for name in ("reference", "zmp_reference", "estimated_com"):
+    for name in ("com_reference", "zmp_reference", "estimated_com"):
         for axis in "xy":
             key = f"{name}_{axis}"
             assert there[key][0] == pytest.approx(here[key]), key
     for key in ("estimated_velocity_x", "estimated_velocity_y"):
         assert there[key][0] == pytest.approx(here[key]), key
-    turned = there["asked_heading"][0] - here["asked_heading"]
+    turned = there["heading_reference"][0] - here["heading_reference"]
     assert turned == pytest.approx(frame.theta)
 
 
@@ -273,7 +277,11 @@ def test_steps_and_solver_results_are_collected() -> None:
         step = begun()
         for answer, began in zip(answers, (step, None, step), strict=True):
             walk.balance = SimpleNamespace(
-                solved=answer, state=None, adapted=0
+                solved=answer,
+                state=None,
+                adapted=0,
+                commanded=None,
+                planned_heading=0.0,
             )
             walk.begun = began
             walking.tally.acted(walking)

@@ -28,7 +28,7 @@ from .duel_summary import (
 from .forecast import ExpectedEnd, forecast
 from .match import Match
 from .sight_summary import SightReport
-from .template_game import template_closest_approach
+from .template_game import play_template
 from .trajectory import PlanningTimes, Trajectory
 
 
@@ -150,9 +150,9 @@ def _closest_approach(settings: DuelSettings) -> float | None:
         Pose(start.distance, 0.0, pi + (start.evader_offset or 0.0)),
     )
     if settings.strategy.trigger == "time":
-        return template_closest_approach(
+        return play_template(
             *initial, settings.strategy, gait, duration=settings.duration
-        )
+        ).closest_m
     pace = time_scale(gait)
     return template_approach(
         *initial,

@@ -19,8 +19,8 @@ COLUMNS = (
     "com_y",
     "velocity_x",
     "velocity_y",
-    "reference_x",
-    "reference_y",
+    "com_reference_x",
+    "com_reference_y",
     "zmp_x",
     "zmp_y",
     "zmp_reference_x",
@@ -35,14 +35,14 @@ COLUMNS = (
     "estimated_zmp_y",
     "estimated_roll",
     "estimated_pitch",
-    "world_x",
-    "world_y",
+    "com_in_world_x",
+    "com_in_world_y",
     "heading",
-    "asked_x",
-    "asked_y",
-    "asked_heading",
-    "foot_x",
-    "foot_y",
+    "com_reference_in_world_x",
+    "com_reference_in_world_y",
+    "heading_reference",
+    "foot_in_world_x",
+    "foot_in_world_y",
 )
 
 
@@ -52,9 +52,8 @@ def express_in_support_foot(
     """Express a walk in the frame of the support foot.
 
     True quantities are in the frame of the true sole, references and
-    estimates in that of the planned sole. Columns ``world_*`` and ``foot_*``
-    are the true positions of CoM and sole in the world, columns ``asked_*``
-    the references in odometry placed in the world.
+    estimates in that of the planned sole, unless their names say otherwise.
+    References in the world are those of odometry, placed there at its start.
 
     Args:
         times: Times of the samples, in [s]. Shape (n,).
@@ -76,15 +75,15 @@ def express_in_support_foot(
     pairs = {
         "com": _point(sole, com),
         "velocity": _vector(sole, track.velocity),
-        "reference": _point(planned, track.com_reference),
+        "com_reference": _point(planned, track.com_reference),
         "zmp": _point(sole, track.zmp),
         "zmp_reference": _point(planned, track.zmp_reference),
         "estimated_com": _point(planned, estimate[:, 0:2]),
         "estimated_velocity": _vector(planned, estimate[:, 2:4]),
         "estimated_zmp": _point(planned, estimate[:, 4:6]),
-        "world": com,
-        "asked": track.com_reference,
-        "foot": sole[:, :2],
+        "com_in_world": com,
+        "com_reference_in_world": track.com_reference,
+        "foot_in_world": sole[:, :2],
     }
     found = {"time": times, "support": support[:, 0], "single": support[:, 1]}
     for name, points in pairs.items():
@@ -97,7 +96,7 @@ def express_in_support_foot(
     }
     assert track.heading_reference is not None
     found["heading"] = track.torso[:, 2]
-    found["asked_heading"] = track.heading_reference[:, 0]
+    found["heading_reference"] = track.heading_reference[:, 0]
     return {name: found[name] for name in COLUMNS}
 
 

@@ -38,35 +38,6 @@ class TemplateGame:
         return float(np.hypot(offset[:, 0], offset[:, 1]).min())
 
 
-def template_closest_approach(
-    motion: Callable[[Pose, Place], PersonMotion],
-    start: Pose,
-    evader: Pose,
-    strategy: Strategy,
-    gait: GaitSettings,
-    *,
-    duration: float,
-    ready: float = 0.0,
-) -> float:
-    """Compute the closest approach of a person to an evader's template.
-
-    Args and model are those of :func:`play_template`.
-
-    Returns:
-        Closest approach, in [m].
-    """
-    game = play_template(
-        motion,
-        start,
-        evader,
-        strategy,
-        gait,
-        duration=duration,
-        ready=ready,
-    )
-    return game.closest_m
-
-
 def play_template(
     motion: Callable[[Pose, Place], PersonMotion],
     start: Pose,

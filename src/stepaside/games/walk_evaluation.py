@@ -130,8 +130,8 @@ def summarise_columns(
         yaw_ratio=pace.turn,
         slip_per_step_m=_slip(a),
         tracking=TrackingErrors(
-            com_x_m=_error(a["com_x"], a["reference_x"]),
-            com_y_m=_error(a["com_y"], a["reference_y"]),
+            com_x_m=_error(a["com_x"], a["com_reference_x"]),
+            com_y_m=_error(a["com_y"], a["com_reference_y"]),
             zmp_x_m=_error(a["zmp_x"], a["zmp_reference_x"]),
             zmp_y_m=_error(a["zmp_y"], a["zmp_reference_y"]),
         ),
@@ -176,10 +176,12 @@ def _pace(a: dict[str, Array], cycle: float) -> WalkingPace:
     def length(x: Array, y: Array) -> float:
         return float(np.hypot(np.diff(x[rows]), np.diff(y[rows])).sum())
 
-    true_length = length(a["world_x"], a["world_y"])
-    planned_length = length(a["asked_x"], a["asked_y"])
+    true_length = length(a["com_in_world_x"], a["com_in_world_y"])
+    planned_length = length(
+        a["com_reference_in_world_x"], a["com_reference_in_world_y"]
+    )
     heading = np.unwrap(a["heading"])[rows]
-    planned_heading = np.unwrap(a["asked_heading"])[rows]
+    planned_heading = np.unwrap(a["heading_reference"])[rows]
     true_turn = float(heading[-1] - heading[0])
     planned_turn = float(planned_heading[-1] - planned_heading[0])
     return WalkingPace(
@@ -197,8 +199,10 @@ def _slip(a: dict[str, Array]) -> float | None:
     slips = [
         float(
             np.hypot(
-                a["foot_x"][end - 1] - a["foot_x"][start + 2],
-                a["foot_y"][end - 1] - a["foot_y"][start + 2],
+                a["foot_in_world_x"][end - 1]
+                - a["foot_in_world_x"][start + 2],
+                a["foot_in_world_y"][end - 1]
+                - a["foot_in_world_y"][start + 2],
             )
         )
         for start, end in zip(edges[:-1], edges[1:], strict=True)

@@ -58,7 +58,7 @@ def _draw_over_time(
         ("roll", "y", LEFT, "leftward"),
         ("pitch", "x", RIGHT, "forward"),
     ):
-        off = seen[f"com_{axis}"] - seen[f"reference_{axis}"]
+        off = seen[f"com_{axis}"] - seen[f"com_reference_{axis}"]
         tilt = np.degrees(seen[lean])
         upper.plot(times, tilt, color=colour, lw=1.0, label=lean)
         lower.plot(times, 1e3 * off, color=colour, lw=1.0, label=label)
