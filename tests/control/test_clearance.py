@@ -34,6 +34,7 @@ from stepaside.planning import (
     Foot,
     ManeuverPlan,
     ManeuverPlanner,
+    TemplateDrive,
 )
 from stepaside.robots.body_reference import BodyReference
 from stepaside.robots.description import load_robot
@@ -216,7 +217,7 @@ def test_a_blocked_intent_is_slowed_then_turned_then_refused() -> None:
                 Direction(1 - 2 * choice.back),
                 first_foot=Foot.LEFT,
                 standing=True,
-                speed_factor=choice.intent.speed_factor,
+                drive=TemplateDrive(speed_factor=choice.intent.speed_factor),
             ),
             Pose(0.0, -0.05, 0.0),
             standing=True,
@@ -249,7 +250,7 @@ def test_a_robot_before_a_pillar_steps_back(wanted: float) -> None:
             state=CenterState(rest[:2], (0.0, 0.0)),
             swing_start=right.inverse().compose(left),
             standing=True,
-            speed_factor=choice.intent.speed_factor,
+            drive=TemplateDrive(speed_factor=choice.intent.speed_factor),
         )
 
     chosen = guard.choose(Intent(wanted), plan_for, right, standing=True)

@@ -16,7 +16,13 @@ from stepaside.control.clearance.guard import (
 from stepaside.control.clearance.surroundings import KnownRoom, MappedRoom
 from stepaside.core.poses import Pose
 from stepaside.perception.floor_map import CELL, FloorMap
-from stepaside.planning import Direction, Foot, ManeuverPlan, ManeuverPlanner
+from stepaside.planning import (
+    Direction,
+    Foot,
+    ManeuverPlan,
+    ManeuverPlanner,
+    TemplateDrive,
+)
 from stepaside.robots.description import load_robot
 from stepaside.sim.outline_measurement import measure_outline
 from stepaside.strategies import Intent
@@ -33,7 +39,7 @@ def plan_for(choice: GuardDecision) -> ManeuverPlan:
         Direction(1 - 2 * choice.back),
         first_foot=Foot.LEFT,
         standing=True,
-        speed_factor=choice.intent.speed_factor,
+        drive=TemplateDrive(speed_factor=choice.intent.speed_factor),
     )
 
 

@@ -21,6 +21,7 @@ from stepaside.planning import (
     Foot,
     ManeuverPlan,
     ManeuverPlanner,
+    TemplateDrive,
 )
 from stepaside.planning.steady_gait import landing_state
 from stepaside.strategies import Evasion, Intent, Knowledge, Limits, Walk
@@ -40,7 +41,7 @@ def next_plan(
         first_foot=before.first_foot.other,
         state=landing_state(before),
         swing_start=back,
-        pace=pace,
+        drive=TemplateDrive(pace=pace),
     )
 
 
@@ -53,7 +54,7 @@ def walk_at(paces: list[float], bearing: float = 0.6) -> list[ManeuverPlan]:
             Direction.BACKWARD,
             first_foot=Foot.LEFT,
             standing=True,
-            pace=paces[0],
+            drive=TemplateDrive(pace=paces[0]),
         )
     ]
     for pace in paces[1:]:

@@ -20,6 +20,7 @@ from stepaside.planning import (
     GaitSettings,
     ManeuverPlan,
     ManeuverPlanner,
+    TemplateDrive,
 )
 
 PLANNER = ManeuverPlanner(GaitSettings())
@@ -299,8 +300,7 @@ def test_a_speed_factor_shortens_strides_and_keeps_turns(
             direction,
             first_foot=Foot.LEFT,
             standing=True,
-            saturated=saturated,
-            speed_factor=factor,
+            drive=TemplateDrive(saturated, factor),
         )
         x, y, theta = plan.placements[2:].T
         side = np.where(np.arange(len(x)) % 2, -0.05, 0.05)
@@ -322,7 +322,7 @@ def test_speed_factor_one_is_the_default_plan() -> None:
         Direction.BACKWARD,
         first_foot=Foot.LEFT,
         standing=True,
-        speed_factor=1.0,
+        drive=TemplateDrive(speed_factor=1.0),
     )
     assert plain.placements.tobytes() == whole.placements.tobytes()
     assert plain.inputs.tobytes() == whole.inputs.tobytes()
@@ -337,5 +337,5 @@ def test_an_invalid_speed_factor_is_refused(factor: float) -> None:
             Direction.FORWARD,
             first_foot=Foot.LEFT,
             standing=True,
-            speed_factor=factor,
+            drive=TemplateDrive(speed_factor=factor),
         )

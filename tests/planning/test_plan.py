@@ -14,6 +14,7 @@ from stepaside.planning import (
     GaitSettings,
     ManeuverPlan,
     ManeuverPlanner,
+    TemplateDrive,
 )
 
 GAIT = GaitSettings()
@@ -199,7 +200,7 @@ def test_a_saturated_template_turns_at_full_rate() -> None:
             Direction.FORWARD,
             first_foot=Foot.LEFT,
             standing=True,
-            saturated=saturated,
+            drive=TemplateDrive(saturated),
         )
         turns[saturated] = plan.placements[2, 2]
     interval = GAIT.path_interval

@@ -14,6 +14,7 @@ from stepaside.planning import (
     GaitSettings,
     ManeuverPlan,
     ManeuverPlanner,
+    TemplateDrive,
 )
 from stepaside.planning.steady_gait import landing_state, steady_plan
 from stepaside.planning.swing import SwingProfile
@@ -166,7 +167,7 @@ def test_no_foot_goes_farther_than_the_outer_stride(
         Direction.FORWARD,
         first_foot=Foot.LEFT,
         standing=True,
-        saturated=saturated,
+        drive=TemplateDrive(saturated),
     )
     assert FAST.outer_stride is not None
     # Between two landings of a foot: two steps, each along a chord.

@@ -40,6 +40,7 @@ from stepaside.planning import (
     GaitSettings,
     ManeuverPlan,
     ManeuverPlanner,
+    TemplateDrive,
 )
 from stepaside.robots.description import load_robot
 from stepaside.sim.outline_measurement import measure_outline
@@ -119,7 +120,7 @@ def guarded(pose: Pose, solids: ObstacleSet) -> Callable[[], object]:
             Direction.BACKWARD,
             first_foot=Foot.LEFT,
             state=state,
-            speed_factor=choice.intent.speed_factor,
+            drive=TemplateDrive(speed_factor=choice.intent.speed_factor),
         )
 
     return lambda: guard.choose(Intent(0.4), plan_for, support, standing=False)

@@ -18,7 +18,7 @@ from .plan_settings import ENTRIES_OF_GAMES, FEET, ROLES, PlanSettings
 from .terminal import echo, print_json
 
 if TYPE_CHECKING:
-    from ..planning import ManeuverPlan
+    from ..planning import ManeuverPlan, TemplateDrive
 
 MANEUVER = OptionGroup(
     "Maneuver", ("role", "bearing", "steps", "first_foot", "saturated")
@@ -55,7 +55,7 @@ def plan(settings: PlanSettings, figure: str | None, as_json: bool) -> None:
         ROLES[role],
         first_foot=FEET[settings.first_foot],
         standing=True,
-        saturated=settings.saturated,
+        drive=TemplateDrive(settings.saturated),
         count=settings.steps,
     )
     if as_json:

@@ -12,6 +12,7 @@ from ..planning import (
     GaitSettings,
     ManeuverPlan,
     ManeuverPlanner,
+    TemplateDrive,
 )
 from .clearance.guard import Guard, GuardDecision
 
@@ -90,9 +91,9 @@ class ManeuverSelection:
                 state=state,
                 swing_start=swing_start,
                 standing=standing,
-                saturated=request.saturated,
-                speed_factor=chosen.speed_factor,
-                pace=chosen.pace,
+                drive=TemplateDrive(
+                    request.saturated, chosen.speed_factor, chosen.pace
+                ),
             )
             if self.guard is None:
                 return plan

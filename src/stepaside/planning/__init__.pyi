@@ -6,6 +6,7 @@ from .gait_settings import GaitSettings as GaitSettings
 from .gait_settings import SoleRectangle as SoleRectangle
 from .maneuver import CenterState as CenterState
 from .maneuver import ManeuverPlanner as ManeuverPlanner
+from .maneuver import TemplateDrive as TemplateDrive
 from .path import Direction as Direction
 from .path import UnicycleTrajectory as UnicycleTrajectory
 from .plan import ManeuverPlan as ManeuverPlan
@@ -23,5 +24,6 @@ __all__ = [
     "ManeuverPlanner",
     "PlanSamples",
     "SoleRectangle",
+    "TemplateDrive",
     "UnicycleTrajectory",
 ]

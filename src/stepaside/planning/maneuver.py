@@ -36,6 +36,27 @@ class CenterState(NamedTuple):
     velocity: tuple[float, float]
 
 
+class TemplateDrive(NamedTuple):
+    """Speed and steering law of the template over one maneuver.
+
+    Attributes:
+        saturated: Whether it turns by (6) instead of (8).
+        speed_factor: Fraction of the gait's speed and stride, in (0, 1]. Step
+            durations and turns do not change; to stop, plan a halt. A sharp
+            turn can reduce it further; see :meth:`.GaitSettings.stride_share`.
+        pace: Fraction of the gait's step rate; see
+            :meth:`ManeuverPlanner.schedule`. The footsteps do not depend on
+            it.
+    """
+
+    saturated: bool = False
+    speed_factor: float = 1.0
+    pace: float = 1.0
+
+
+FULL_SPEED = TemplateDrive()
+
+
 class ManeuverPlanner:
     """Maneuver planner for one gait, for pursuer and evader alike.
 
@@ -79,9 +100,7 @@ class ManeuverPlanner:
         state: CenterState | None = None,
         swing_start: Pose | None = None,
         standing: bool = False,
-        saturated: bool = False,
-        speed_factor: float = 1.0,
-        pace: float = 1.0,
+        drive: TemplateDrive = FULL_SPEED,
         count: int | None = None,
     ) -> ManeuverPlan:
         r"""Plan one maneuver (Fig. 4, red box).
@@ -97,13 +116,7 @@ class ManeuverPlanner:
                 support foot; abreast of it by default.
             standing: Whether the robot starts from standing: then the plan
                 begins with a double support, else with a single support.
-            saturated: Whether the template turns by (6) instead of (8).
-            speed_factor: Fraction of the gait's speed and stride, in (0, 1].
-                Step durations and turns do not change; to stop, plan a
-                halt. A sharp turn can reduce it further; see
-                :meth:`.GaitSettings.stride_share`.
-            pace: Fraction of the gait's step rate; see :meth:`schedule`. The
-                footsteps do not depend on it.
+            drive: Speed and steering law of the template.
             count: Number of footsteps; by default the horizon of the gait.
 
         Returns:
@@ -115,6 +128,7 @@ class ManeuverPlanner:
                 is out of range.
         """
         check_bearing(bearing, "bearing")
+        saturated, speed_factor, pace = drive
         check_positive(speed_factor, "speed_factor", "1")
         check_within(speed_factor, 0.0, 1.0, "speed_factor", "1")
         gait = self.settings

@@ -4,7 +4,7 @@ import numpy as np
 
 from ..core.poses import Pose
 from .footsteps import Foot
-from .maneuver import CenterState, ManeuverPlanner
+from .maneuver import CenterState, ManeuverPlanner, TemplateDrive
 from .path import Direction
 from .plan import ManeuverPlan
 
@@ -59,7 +59,7 @@ def steady_plan(
             first_foot=foot,
             state=CenterState((x, y), (vx, vy)),
             swing_start=swing_start,
-            saturated=saturated,
+            drive=TemplateDrive(saturated),
         )
 
     def recur(state: np.ndarray) -> np.ndarray:

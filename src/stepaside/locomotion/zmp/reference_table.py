@@ -149,11 +149,9 @@ class ReferenceTable:
         self.references[:, 9] = samples.right_height
         self.references[:, 10] = samples.right_foot[:, 2] + theta
         self.zmp, self._dcm = zmp, dcm
-        heading = (template[:, 2] + theta).tolist()
-        self._templates = [
-            Pose(x, y, turned)
-            for (x, y), turned in zip(position.tolist(), heading, strict=True)
-        ]
+        heading = template[:, 2] + theta
+        rows = np.column_stack([position, heading]).tolist()
+        self._templates = [Pose(*row) for row in rows]
 
     def rest(self, sample: ReferenceSample) -> None:
         """Load the references of a standing body."""
