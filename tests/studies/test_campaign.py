@@ -159,7 +159,7 @@ def test_lost_blocks_are_submitted_again(tmp_path: Path) -> None:
     store, executor = ResultStore(tmp_path), Losing({1, 3, 4})
     run = run_study(study_of(), store, executor, None, told.append)
     assert squares(run) == EXPECTED
-    assert len(told) == 3 and "submitted again" in told[0]
+    assert told and all("submitted again" in message for message in told)
 
 
 def test_a_block_that_is_always_lost_ends_the_campaign() -> None:

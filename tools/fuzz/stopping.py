@@ -32,6 +32,7 @@ LONG = {
     "view": "--no-open --port=8761",
     "replay": "run --video=film.mp4 --speed=0.05",
     "walk": "--duration=3000 --output=walk",
+    "study": "study.toml --workers=2 --output=study",
     "robustness": "--workers=2 --output=walks",
     "circle": "--starts=1000000",
     "map": "--grid=300 --distances=50",
@@ -45,6 +46,7 @@ LONG = {
 # What is through before anybody would stop it.
 SHORT = {
     "compare",
+    "merge",
     "legs inspect",
     "plan",
     "unicycles",

@@ -15,6 +15,8 @@ from ..core.interrupts import INTERRUPTED, interruptible
 COMMANDS = {
     "duel": "Simulate a duel of two humanoids in physics.",
     "duels": "Run a study of many duels on all cores.",
+    "study": "Run any grid or list of settings of a game.",
+    "merge": "Join the outputs of the shards of a campaign.",
     "view": "Watch a duel in the browser; push or drive the robots.",
     "replay": "Replay a run: live page, offline page or video.",
     "compare": "Plot several runs in one figure.",

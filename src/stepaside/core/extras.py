@@ -1,6 +1,10 @@
 """Optional dependencies, and the extra that installs each."""
 
 EXTRAS = {  # as in ``pyproject.toml``, with the names of the modules
+    "dask": ("distributed",),
+    "mpi": ("mpi4py",),
+    "slurm": ("dask_jobqueue",),
+    "tables": ("polars",),
     "fast": ("numba",),
     "legs": ("onnxruntime", "yaml"),
     "mpc": ("daqp",),

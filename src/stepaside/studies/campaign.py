@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from functools import cache
 from math import ceil
 from time import perf_counter
-from typing import Any, Generic, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeVar
 
 from ..core.errors import CampaignError, OutputError
 from ..core.random_streams import named_generator
@@ -20,6 +20,10 @@ from .result_store import (
     ResultStore,
     stamp_text,
 )
+from .result_table import to_frame
+
+if TYPE_CHECKING:
+    import polars
 
 C = TypeVar("C")
 BLOCK_TIME = 0.5  # aimed at for a block of cases, in [s]
@@ -172,6 +176,14 @@ class StudyRun(Generic[C]):
             if position != MISSING:
                 yield self.store.record_at(position)
 
+    def to_frame(self) -> "polars.DataFrame":
+        """Return the records as a polars frame, one row per case.
+
+        Raises:
+            ModuleNotFoundError: Without the extra ``tables``.
+        """
+        return to_frame(self.records())
+
     def append(
         self, writer: RecordWriter, block: "_Block", records: list[Record]
     ) -> None:
@@ -279,6 +291,7 @@ class _Campaign(Generic[C]):
         self._again: list[_Block] = []
         self._in_flight: dict[Future[_BlockResult], _Block] = {}
         self._size = 1
+        self._lost = 0
 
     def complete(self) -> None:
         """Run until nothing is missing, or until the campaign is stopped."""
@@ -288,6 +301,7 @@ class _Campaign(Generic[C]):
                 done = wait(self._in_flight, None, FIRST_COMPLETED).done
                 for future in done:
                     self._take(future)
+                self._tell_loss()
         except KeyboardInterrupt:
             self._run.interrupted = True
             self._stop()
@@ -348,11 +362,17 @@ class _Campaign(Generic[C]):
                 f"{self._run.finished} of {len(self._cases)} results are "
                 "saved"
             ) from error
-        self._on_loss(
-            f"a worker was lost ({type(error).__name__}); its "
-            f"{len(block.numbers)} cases are submitted again"
-        )
+        self._lost += len(block.numbers)
         self._again.append(block._replace(attempts=block.attempts + 1))
+
+    def _tell_loss(self) -> None:
+        """Say how many cases were lost with a worker since the last time."""
+        if self._lost:
+            self._on_loss(
+                f"a worker was lost; {self._lost} cases in progress are "
+                "submitted again"
+            )
+            self._lost = 0
 
     def _stop(self) -> None:
         """Store what is finished, and cancel the rest."""

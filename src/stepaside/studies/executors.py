@@ -1,6 +1,8 @@
 """Executors of a campaign: processes of this machine, or of a cluster."""
 
 import os
+import shutil
+import sys
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import (
     BrokenExecutor,
@@ -17,8 +19,13 @@ from ..core.errors import CampaignError, ConfigurationError
 from .code_version import installation
 
 Losses = tuple[type[BaseException], ...]
-POOL = "pool"
-SPECIFICATIONS = f"{POOL} or MODULE:FACTORY"
+POOL, DASK, SLURM, MPI = "pool", "dask", "slurm", "mpi"
+SPECIFICATIONS = (
+    f"{POOL}, {DASK}, {DASK}:tcp://HOST:PORT, {SLURM}, {MPI} or MODULE:FACTORY"
+)
+CONNECTION_TIME = 10.0  # in which a scheduler must answer, in [s]
+SLURM_MEMORY = "2GB"  # of each worker, above what docs/campaigns.md measures
+SLURM_CONFIGURATION = "jobqueue.slurm"  # of Dask, for partition and limits
 WINDOW = 4  # blocks submitted at a time, for each worker
 UNKNOWN_WORKERS = 64  # assumed where an executor does not tell
 
@@ -126,9 +133,12 @@ def open_engine(
     """Start the workers of a campaign; end them with the ``with`` block.
 
     Args:
-        specification: ``pool`` for processes of this machine; or
-            MODULE:FACTORY, a function that takes the number of workers and
-            returns an executor of ``concurrent.futures``.
+        specification: ``pool`` for processes of this machine; ``dask`` for a
+            local Dask cluster, ``dask:ADDRESS`` for a running one; ``slurm``
+            for Dask workers in jobs of Slurm; ``mpi`` for the ranks of a
+            program started by ``mpiexec``; or MODULE:FACTORY, a function
+            that takes the number of workers and returns an executor of
+            ``concurrent.futures``.
         workers: Number of processes; all cores by default. The size of a
             running cluster is its own.
 
@@ -140,6 +150,12 @@ def open_engine(
     name, _, rest = specification.partition(":")
     if name == POOL:
         opened = _open_pool(workers)
+    elif name == DASK:
+        opened = _open_dask(rest, workers)
+    elif name == SLURM:
+        opened = _open_slurm(workers)
+    elif name == MPI:
+        opened = _open_mpi()
     else:
         opened = _open_factory(name, rest, workers)
     with opened as engine:
@@ -153,8 +169,9 @@ def check_executor(specification: str) -> None:
         ConfigurationError: If there is no such executor.
     """
     name, colon, rest = specification.partition(":")
-    known = {POOL: not colon}
-    if not known.get(name, colon and name and rest):
+    alone = {POOL, SLURM, MPI, DASK} if not colon else set()
+    with_rest = bool(colon and rest and name not in ("", POOL, SLURM, MPI))
+    if name not in alone and not with_rest:
         raise ConfigurationError(
             f"executor must be {SPECIFICATIONS}, got {specification!r:.80}"
         )
@@ -170,6 +187,94 @@ def _open_pool(workers: int | None) -> Iterator[Engine]:
         yield engine
     finally:
         engine.close()
+
+
+@contextmanager
+def _open_dask(address: str, workers: int | None) -> Iterator[Engine]:
+    """Connect to a Dask scheduler, or start a local one."""
+    from distributed import Client, LocalCluster
+
+    cluster = None
+    if not address:
+        cluster = LocalCluster(
+            n_workers=workers or os.cpu_count() or 1,
+            threads_per_worker=1,
+            dashboard_address=None,
+        )
+    try:
+        try:
+            client = Client(cluster or address, timeout=CONNECTION_TIME)
+        except (OSError, ValueError) as error:
+            raise CampaignError(
+                f"no Dask scheduler answers at {address}: {error}"
+            ) from error
+        with _dask_engine(
+            client, len(client.scheduler_info()["workers"])
+        ) as engine:
+            yield engine
+    finally:
+        if cluster is not None:
+            cluster.close()
+
+
+@contextmanager
+def _open_slurm(workers: int | None) -> Iterator[Engine]:
+    """Submit Slurm jobs with one Dask worker each.
+
+    Partition, account, time limit and memory of the jobs come from the
+    configuration of Dask (``jobqueue.slurm``).
+    """
+    import dask
+    from dask_jobqueue import SLURMCluster
+    from distributed import Client
+
+    if workers is None:
+        raise ConfigurationError(
+            "workers must be given for executor slurm [jobs], got none"
+        )
+    if shutil.which("sbatch") is None:
+        raise CampaignError(
+            "executor slurm needs the command sbatch of Slurm, which is not "
+            "on the path"
+        )
+    memory = dask.config.get(f"{SLURM_CONFIGURATION}.memory", None)
+    with SLURMCluster(
+        cores=1,
+        processes=1,
+        memory=memory or SLURM_MEMORY,
+        python=sys.executable,
+        scheduler_options={"dashboard_address": None},
+    ) as cluster:
+        cluster.scale(jobs=workers)
+        client = Client(cluster, timeout=CONNECTION_TIME)
+        with _dask_engine(client, workers) as engine:
+            yield engine
+
+
+@contextmanager
+def _dask_engine(client: Any, workers: int) -> Iterator[Engine]:
+    """Use a client of Dask, which submits tasks of lost workers again."""
+    from distributed.client import FutureCancelledError
+    from distributed.scheduler import KilledWorker
+
+    losses = (KilledWorker, FutureCancelledError)
+    with client, client.get_executor(pure=False) as executor:
+        yield Engine(executor, max(workers, 1), losses=losses)
+
+
+@contextmanager
+def _open_mpi() -> Iterator[Engine]:
+    """Use the ranks of this MPI program but the first as workers."""
+    from mpi4py import MPI as ranks
+    from mpi4py.futures import MPIPoolExecutor
+
+    if ranks.COMM_WORLD.Get_size() < 2:
+        raise ConfigurationError(
+            "executor mpi must be started by `mpiexec -n RANKS python -m "
+            "mpi4py.futures -m stepaside ...` with RANKS >= 2, got 1 rank"
+        )
+    with MPIPoolExecutor() as executor:
+        yield Engine(executor, executor.num_workers)
 
 
 @contextmanager
