@@ -11,7 +11,11 @@ from stepaside.core.errors import PlanError
 from stepaside.theory.unicycle.adaptive_simulation import simulate
 from stepaside.theory.unicycle.compilation import load_numba
 from stepaside.theory.unicycle.compiled_batch import sine_cosine
-from stepaside.theory.unicycle.kernel import play_games
+from stepaside.theory.unicycle.kernel import (
+    CHUNK,
+    accurate_step,
+    play_games,
+)
 from stepaside.theory.unicycle.relative_coordinates import RelativeStart
 from stepaside.theory.unicycle.unicycle_game import Game, make_game
 
@@ -181,13 +185,30 @@ def test_duration_is_rounded_up_to_whole_steps(backend: str) -> None:
 
 
 def test_progress_reports_every_chunk_and_chunks_change_nothing() -> None:
-    starts = random_starts(7, seed=4)
+    starts = random_starts(CHUNK + 7, seed=4)
     counts: list[int] = []
-    some = play_games(GAMES[1], starts, 0.5, chunk=3, progress=counts.append)
-    assert counts == [3, 3, 1]
-    whole = play_games(GAMES[1], starts, 0.5)
-    np.testing.assert_array_equal(some.states, whole.states)
-    np.testing.assert_array_equal(some.sides, whole.sides)
+    some = play_games(GAMES[1], starts, 0.5, progress=counts.append)
+    assert counts == [CHUNK, 7]
+    rest = play_games(GAMES[1], starts[CHUNK - 5 :], 0.5)
+    np.testing.assert_array_equal(some.states[CHUNK - 5 :], rest.states)
+    np.testing.assert_array_equal(some.sides[CHUNK - 5 :], rest.sides)
+
+
+@pytest.mark.skipif(load_numba() is None, reason="Numba is not installed")
+@pytest.mark.parametrize("game", GAMES)
+def test_the_default_step_is_accurate_and_coarse(game: Game) -> None:
+    """Outcomes are those of a tenth of the step; four steps are too long."""
+    starts = random_starts(1000, seed=3)
+    step = accurate_step(game)
+    fine = play_games(game, starts, 40.0, step=0.1 * step)
+    found = play_games(game, starts, 40.0)
+    assert found.captured.tolist() == fine.captured.tolist()
+    assert found.circle.tolist() == fine.circle.tolist()
+    off = np.abs(found.closest_distance - fine.closest_distance)
+    assert off.max() < 3e-7
+    coarse = play_games(game, starts, 40.0, step=4.0 * step)
+    off = np.abs(coarse.closest_distance - fine.closest_distance)
+    assert off.max() > 3e-7
 
 
 @pytest.mark.parametrize("side", [1, -1])

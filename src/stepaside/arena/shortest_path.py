@@ -56,6 +56,8 @@ def first_waypoint(
         )
         for point in ends
     )
+    if np.isinf(to_end).all():
+        return end
     (x, y), (u, v) = start, end
     left = (u - x) * (corners[:, 1] - y) - (v - y) * (corners[:, 0] - x)
     best = from_start + np.where(side * left < 0.0, SIDE_PREFERENCE, 0.0)
@@ -79,7 +81,7 @@ def first_waypoint(
         ]
         first[after], best[after] = first[number], through[after]
     total = best + to_end
-    if not len(corners) or not np.isfinite(total.min()):
+    if np.isinf(total).all():
         return end
     x, y = corners[first[int(total.argmin())]].tolist()
     return x, y

@@ -70,7 +70,7 @@ TIME = NumberType("s")
 )
 @game_time_option(help="Duration of each game [s].  [default: 30/k]")
 @click.option(
-    "--step", type=TIME, help="Integration step [s].  [default: 0.01/k]"
+    "--step", type=TIME, help="Integration step [s].  [default: 0.025/k]"
 )
 @figure_option()
 @figure_width
@@ -91,6 +91,7 @@ def map(  # noqa: A001 (the command's name)
     as_json: bool,
 ) -> None:
     """Simulate games over a grid of initial poses and find the worst one."""
+    from ..theory.unicycle.kernel import accurate_step
     from ..theory.unicycle.start_maps import StartBox, find_worst_start
 
     for name, value in (("--aim", aim), ("--facing", facing)):
@@ -109,7 +110,7 @@ def map(  # noqa: A001 (the command's name)
     rules = _MapSettings(
         (distances, grid, grid),
         30.0 / gain if duration is None else duration,
-        0.01 / gain if step is None else step,
+        accurate_step(game) if step is None else step,
         0.1 * unit if body is None else body,
     )
     found = _simulate(game, box, rules, quiet=as_json)

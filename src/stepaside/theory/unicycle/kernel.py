@@ -19,6 +19,12 @@ from .relative_coordinates import check_bearings
 from .relative_motion import RelativeState
 from .unicycle_game import Game
 
+# Step size times the larger gain, in [rad]: 0.05 s at 0.5 /s. Six games of
+# 4,096 starts have the outcomes of a step of 0.0025 s, and closest approaches
+# within 1.2e-7 m; twice the step gives 5e-5 m, half of it takes 1.6 times as
+# long.
+STEP_TIMES_GAIN = 0.025
+CHUNK = 16_384  # games between two reports of progress
 MAX_STEPS = 1e8  # of one game: some seconds of computing time
 _RESULTS = (
     *RelativeState._fields,
@@ -60,12 +66,11 @@ def play_games(
     starts: ArrayLike,
     duration: float,
     *,
-    step: float = 0.01,
+    step: float | None = None,
     capture_distance: float = 1e-6,
     side: int = 0,
     backend: str = "auto",
     progress: Callable[[int], None] | None = None,
-    chunk: int = 16384,
 ) -> Outcomes:
     """Simulate one game from each of many initial states.
 
@@ -73,14 +78,15 @@ def play_games(
         game: Parameters of the game.
         starts: Rows of r [m], a, psi [rad]. Shape (n, 3).
         duration: Time after which a game ends, in [s]; rounded up to whole
-            steps.
-        step: Step size of the integration, in [s]. Steps near an edge, a
-            capture or a close pass are divided further.
+            steps of a given size.
+        step: Step size of the integration, in [s]; by default the largest
+            one up to :func:`accurate_step` that divides the duration. Steps
+            near an edge, a capture or a close pass are divided further.
         capture_distance: Distance at which a game ends, in [m].
         side: Initial side, +1 or -1; 0 for the one behind the evader.
         backend: "numba", "numpy", or "auto" for the first one available.
-        progress: Called with the number of games of each finished chunk.
-        chunk: Number of games between two calls of ``progress``.
+        progress: Called with the number of games of each finished chunk of
+            16,384.
 
     Returns:
         Outcomes of the games, in the order of the initial states.
@@ -92,6 +98,8 @@ def play_games(
     from .block_layout import make_blocks
 
     check_positive(duration, "duration", "s")
+    if step is None:
+        step = duration / ceil(duration / accurate_step(game) - 1e-9)
     check_positive(step, "step", "s")
     check_positive(capture_distance, "capture_distance", "m")
     if duration > MAX_STEPS * step:
@@ -107,16 +115,25 @@ def play_games(
     clock = BatchTiming(ceil(duration / step - 1e-9), float(step))
     rules = flat_parameters(game, capture_distance)
     played = np.empty((len(_RESULTS), len(states)))
-    for first in range(0, len(states), chunk):
-        part = states[first : first + chunk]
+    for first in range(0, len(states), CHUNK):
+        part = states[first : first + CHUNK]
         size = compiled_batch.SIZE if fast else len(part)
         blocks = make_blocks(part, side, size, clock.step, rules)
         play(blocks, rows, clock, rules)
         for row, name in zip(played, _RESULTS, strict=True):
-            row[first : first + chunk] = blocks[name].ravel()[: len(part)]
+            row[first : first + CHUNK] = blocks[name].ravel()[: len(part)]
         if progress is not None:
             progress(len(part))
     return _outcomes(played, rows, clock)
+
+
+def accurate_step(game: Game) -> float:
+    """Return the step size that keeps closest approaches to 1e-7 m, in [s].
+
+    Args:
+        game: Parameters of the game, at speeds of about 1 m/s.
+    """
+    return STEP_TIMES_GAIN / max(game.pursuer.gain, game.evader.gain)
 
 
 def circle_states(circles: Sequence[Circle]) -> Array:

@@ -114,7 +114,7 @@ def map_starts(
     duration: float,
     *,
     shape: tuple[int, int, int] = (8, 37, 37),
-    step: float = 0.01,
+    step: float | None = None,
     capture_distance: float = 1e-6,
     progress: Callable[[int], None] | None = None,
 ) -> StartMap:
@@ -125,7 +125,8 @@ def map_starts(
         box: Box of initial states.
         duration: Duration of each game, in [s].
         shape: Points along distance, pursuer error and bearing.
-        step: Step size of the integration, in [s].
+        step: Step size of the integration, in [s]; see
+            :func:`.kernel.play_games`.
         capture_distance: Distance at which a game ends, in [m].
         progress: Called with the number of games finished since the last
             call.
@@ -154,7 +155,7 @@ def find_worst_start(
     box: StartBox,
     duration: float,
     *,
-    step: float = 0.01,
+    step: float | None = None,
     capture_distance: float = 1e-6,
 ) -> WorstStart:
     """Search the worst initial state from the local minima of a map.
@@ -168,7 +169,8 @@ def find_worst_start(
         start_map: Map over the same box.
         box: Box of initial states.
         duration: Duration of each game, in [s].
-        step: Step size of the integration, in [s].
+        step: Step size of the integration, in [s]; see
+            :func:`.kernel.play_games`.
         capture_distance: Distance at which a game ends, in [m].
 
     Returns:
