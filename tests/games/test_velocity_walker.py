@@ -167,7 +167,8 @@ def test_a_served_sighting_is_relative_to_the_heading_of_its_time() -> None:
             if seen is not None and key in poses[i]:
                 pose, sight = poses[i][key]
                 off = wrap_angle(pose.theta + seen.bearing - sight)
-                assert abs(off) < 0.03
+                # 0.0124 by the odometry; 0.0156 from headings a tick older.
+                assert abs(off) < 0.0135
                 checked += state.time > 2.5
         for robot, _ in players:
             robot.tick()

@@ -7,6 +7,7 @@ import pytest
 
 from stepaside.theory.bound import DiscretisationScheme, Grid, two_car_game
 from stepaside.theory.bound.compiled_stage import (
+    RowStates,
     mark_active_rows,
     stage_blocks,
 )
@@ -138,10 +139,8 @@ def test_numpy_stage_equals_the_compiled_stage(
     outs, moves = [], []
     for stage in (stage_blocks, stage_arrays):
         out, moved = np.zeros_like(first), np.ones(grid.shape[:2], bool)
-        stage(
-            first, first + 0.01, out, 0.75, 0.7 / rate, True, setting, active,
-            moved, 1e-9,
-        )  # fmt: skip
+        rows = RowStates(active, moved, 1e-9)
+        stage(first, first + 0.01, out, 0.75, 0.7 / rate, True, setting, rows)
         outs.append(out[3:-3, 3:-3, 3:-3])
         moves.append(moved)
     np.testing.assert_allclose(outs[0], outs[1], rtol=1e-9)

@@ -6,6 +6,7 @@ from typing import Any
 from ..arena import NO_OBSTACLES, ObstacleSet
 from ..core.errors import StrategyError
 from ..core.poses import Pose, wrap_angle
+from ..perception.measurement import Sighting
 from .foreign_code import evaluate_strategy
 from .knowledge import Intent, Knowledge, Limits
 from .opponent_rates import FloorVelocity, SightRates
@@ -63,34 +64,30 @@ class DecisionMaker:
     def observe(
         self,
         now: float,
-        pose: Pose,
-        sight: float,
-        bearing: float,
-        distance: float,
+        pose_template_in_odometry: Pose,
+        sight_in_odometry: float,
+        sighting: Sighting,
         *,
-        time: float,
-        frame: Pose = ORIGIN,
+        pose_odometry_in_map: Pose = ORIGIN,
         moving: bool,
         obstacles: ObstacleSet = NO_OBSTACLES,
-        spread: float = 0.0,
         map_error: float = 0.0,
     ) -> Knowledge:
         """Add a sighting and return the knowledge for a decision.
 
         Args:
             now: Time of the decision, in [s].
-            pose: Pose of the template at the sighting, in odometry.
-            sight: Direction of the line of sight in odometry, in [rad].
-            bearing: That direction relative to the pose, in [rad].
-            distance: Distance to the opponent, in [m].
-            time: Time of the sighting, in [s].
-            frame: Pose of odometry in the frame of the obstacles.
+            pose_template_in_odometry: Pose of the template at the sighting.
+            sight_in_odometry: Direction of the line of sight, in [rad].
+            sighting: The sighting, with its bearing from the template.
+            pose_odometry_in_map: Pose of odometry in the frame of the
+                obstacles.
             moving: Whether the player is walking.
             obstacles: Known obstacles.
-            spread: Standard deviation of the opponent's position, in [m].
             map_error: Largest position error of the obstacles, in [m].
         """
-        rates = self._rates.note(time, sight, distance)
+        time, bearing, distance = sighting[:3]
+        rates = self._rates.note(time, sight_in_odometry, distance)
         return Knowledge(
             time=now,
             bearing=wrap_angle(bearing),
@@ -99,11 +96,13 @@ class DecisionMaker:
             bearing_rate=rates.bearing_rate,
             closing_speed=rates.closing_speed,
             age=max(0.0, now - time),
-            pose=frame.compose(pose),
+            pose=pose_odometry_in_map.compose(pose_template_in_odometry),
             moving=moving,
             obstacles=obstacles,
-            velocity=self._velocity_in(pose, time, bearing, distance),
-            spread=spread,
+            velocity=self._velocity_in(
+                pose_template_in_odometry, time, bearing, distance
+            ),
+            spread=sighting.spread,
             map_error=map_error,
         )
 
@@ -184,9 +183,7 @@ class TemplatePlayer(DecisionMaker):
             time,
             pose,
             pose.theta + bearing,
-            bearing,
-            distance,
-            time=time,
+            Sighting(time, bearing, distance),
             moving=self._moving,
             obstacles=self._obstacles,
         )

@@ -47,6 +47,20 @@ class StageParameters(NamedTuple):
     godunov: bool
 
 
+class RowStates(NamedTuple):
+    """Rows that one step may change, and those that it has changed.
+
+    Attributes:
+        active: Rows that may change in this step. Shape (a, r).
+        changed: Output of the last stage: rows that changed. Shape (a, r).
+        still: Change that counts as none, in [m].
+    """
+
+    active: Any
+    changed: Any
+    still: Any
+
+
 @compiled
 def first_slopes(
     v: Any, at: int, stride: int, scale: Any, left: Any, right: Any
@@ -140,9 +154,15 @@ def clip_row(first: Any, out: Any, low: Any, high: Any, still: Any) -> bool:
 
 @compiled_parallel
 def stage_blocks(
-    first: Any, now: Any, out: Any, keep: Any, step: Any, last: bool,
-    setting: StageParameters, active: Any, changed: Any, still: Any,
-) -> None:  # fmt: skip
+    first: Any,
+    now: Any,
+    out: Any,
+    keep: Any,
+    step: Any,
+    last: bool,
+    setting: StageParameters,
+    rows: RowStates,
+) -> None:
     """Compute one Runge-Kutta stage for the active rows.
 
     Args:
@@ -153,10 +173,9 @@ def stage_blocks(
         step: Time step, in [s].
         last: Whether this is the last stage of the step.
         setting: Parameters of the game on the grid.
-        active: Rows that may change in this step. Shape (a, r).
-        changed: Output of the last stage: rows that changed. Shape (a, r).
-        still: Change that counts as none, in [m].
+        rows: Rows that may change; those that change are marked.
     """
+    active, changed, still = rows
     flat = now.reshape(-1)
     width, line = now.shape[2] - 6, now.shape[2]
     plane = now.shape[1] * line

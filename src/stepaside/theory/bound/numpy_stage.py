@@ -4,14 +4,20 @@ from typing import Any
 
 import numpy as np
 
-from .compiled_stage import FIFTH, StageParameters
+from .compiled_stage import FIFTH, RowStates, StageParameters
 from .upwind_scheme import lax_friedrichs, upwind, weno5
 
 
 def stage_arrays(
-    first: Any, now: Any, out: Any, keep: Any, step: Any, last: bool,
-    setting: StageParameters, active: Any, changed: Any, still: Any,
-) -> None:  # fmt: skip
+    first: Any,
+    now: Any,
+    out: Any,
+    keep: Any,
+    step: Any,
+    last: bool,
+    setting: StageParameters,
+    rows: RowStates,
+) -> None:
     """Compute one stage; see :func:`.compiled_stage.stage_blocks`."""
     inner = (slice(3, -3),) * 3
     slopes: list[Any] = []
@@ -36,8 +42,9 @@ def stage_arrays(
     if last:
         high = setting.distance[:, None]
         made = np.maximum(np.minimum(made, high), setting.distance[0])
-        changed[:] = active & (np.abs(made - first[inner]) > still).any(axis=2)
-    out[inner] = np.where(active[:, :, None], made, first[inner])
+        moved = (np.abs(made - first[inner]) > rows.still).any(axis=2)
+        rows.changed[:] = rows.active & moved
+    out[inner] = np.where(rows.active[:, :, None], made, first[inner])
 
 
 def _shifted(v: Any, axis: int, by: int) -> Any:

@@ -13,6 +13,7 @@ from ..unicycle.compilation import load_numba
 from .compiled_stage import (
     FIFTH,
     FIRST,
+    RowStates,
     StageParameters,
     mark_active_rows,
     stage_blocks,
@@ -133,7 +134,7 @@ def march(
     arm = 3 if setting.order == FIFTH else 1
     still = precision(STILL * game.evader_speed * float(stable))
     changed = np.ones(grid.shape[:2], bool)
-    active = np.empty_like(changed)
+    rows = RowStates(np.empty_like(changed), changed, still)
     v, w1, w2 = np.zeros((3, *(n + 2 * PAD for n in grid.shape)), precision)
     v[INNER] = setting.distance[:, None]
 
@@ -141,14 +142,11 @@ def march(
         first: Values, now: Values, out: Values, keep: float, last: bool
     ) -> None:
         fill_ghosts(now)
-        stage(
-            first, now, out, precision(keep), step, last, setting, active,
-            changed, still,
-        )  # fmt: skip
+        stage(first, now, out, precision(keep), step, last, setting, rows)
 
     for n in range(1, count + 1):
         step = stable if n < count else precision(horizon - (n - 1) * stable)
-        if mark_active_rows(changed, active, arm, times):
+        if mark_active_rows(rows.changed, rows.active, arm, times):
             advance(v, v, w1, 0.0, times == 1)
             if times == 3:
                 advance(v, w1, w2, 0.75, False)
