@@ -34,7 +34,8 @@ from stepaside.sim.sensor_suite import (
 )
 
 TICK = 0.004
-HEAD = load_head(load_robot("nao"))
+NAO = load_robot("nao")
+HEAD = load_head(NAO)
 PLAIN = CameraSettings(
     colour=ColourSettings(width=80, height=60, noise=0.0),
     depth=DepthSettings(noise=0.0, missing=0.0),
@@ -111,8 +112,7 @@ def eyes_of(
     return SensorSuite(
         world,
         "me",
-        "torso",
-        HEAD,
+        NAO,
         settings,
         renderer,
         seed,

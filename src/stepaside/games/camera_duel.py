@@ -106,8 +106,7 @@ class CameraSenses:
         eyes = SensorSuite(
             world,
             name,
-            self._description.torso,
-            self._head,
+            self._description,
             self._settings.cameras,
             self.renderer,
             self._settings.seed,

@@ -17,7 +17,8 @@ from ..perception.images import (
     Pixels,
     SonarEcho,
 )
-from ..robots.head import HeadDescription, Mount
+from ..robots.description import RobotDescription
+from ..robots.head import Mount, load_head
 from .camera_settings import CameraSettings
 from .offscreen_rendering import RAYCAST, OffscreenRenderer
 from .ray_casting import (
@@ -96,8 +97,7 @@ class SensorSuite:
         self,
         world: World,
         name: str,
-        torso: str,
-        head: HeadDescription,
+        description: RobotDescription,
         settings: CameraSettings,
         renderer: str,
         seed: int,
@@ -110,8 +110,7 @@ class SensorSuite:
         Args:
             world: World with the robot.
             name: Name of the robot in the world.
-            torso: Name of its torso body, without prefix.
-            head: Description of its head.
+            description: Description of the robot, which has a head.
             settings: Settings of the sensors.
             renderer: Renderer of colour images.
             seed: Seed of the run.
@@ -122,7 +121,7 @@ class SensorSuite:
         self._looks_low = looks_low
         self._world, self._name = world, name
         self._settings, self._seed = settings, seed
-        self._head = head
+        self._head = head = load_head(description)
         self._renderer: OffscreenRenderer | None = None
         self.exposed: list[Percept] = []
         self._due = 0.0
@@ -131,7 +130,7 @@ class SensorSuite:
         self._streams = [self._colour(body, renderer)]
         if with_depth:
             self._streams.append(self._depth(body))
-            self._streams += self._sonars(f"{name}/{torso}")
+            self._streams += self._sonars(f"{name}/{description.torso}")
 
     def read(self, now: float) -> tuple[Percept, ...]:
         """Return the percepts that arrive at a tick."""
