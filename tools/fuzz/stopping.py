@@ -54,8 +54,9 @@ SHORT = {
     "robot init",
     "robot show",
 }
-# It lets the robot rest before it ends; a second Ctrl-C lets it go limp.
-APART = {"play"}
+# The first lets the robot rest before it ends; a second Ctrl-C lets it go
+# limp. The other needs a network, and none comes with the package.
+APART = {"play", "legs measure"}
 MOMENTS = (0.4, 2.0, 4.0, 8.0)  # of processor time, in [s]
 LONGEST = 40.0  # that is waited for a moment, in [s]
 GIVEN_UP = 60.0  # that is waited for an end, in [s]

@@ -5,6 +5,7 @@ from typing import Any
 import click
 
 from .legs_inspect import inspect
+from .legs_measure import measure
 
 
 @click.group("legs")
@@ -12,5 +13,5 @@ def legs(**_: Any) -> None:
     """Inspect a walking policy, or measure how a robot walks with it."""
 
 
-for command in (inspect,):
+for command in (inspect, measure):
     legs.add_command(command)

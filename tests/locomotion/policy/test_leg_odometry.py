@@ -20,7 +20,9 @@ class FeetInTorso:
 
     def posture(self, joint_positions: Array) -> Any:
         """Both feet in the torso frame."""
-        return SimpleNamespace(feet=joint_positions.reshape(2, 3))
+        return SimpleNamespace(
+            positions_feet_in_torso=joint_positions.reshape(2, 3)
+        )
 
 
 def seen_from(pose: Pose, left_carries: bool) -> Measurement:

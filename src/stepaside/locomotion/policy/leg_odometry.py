@@ -19,17 +19,21 @@ class LegOdometry:
 
     Attributes:
         pose: Pose of the torso in odometry; its heading counts turns.
+        moved: Motion over the last reading in the torso frame, in [m].
+            Shape (3,).
         velocity: Velocity of the torso in its frame, smoothed, in [m/s].
             Shape (3,).
     """
 
-    def __init__(self, forward: ForwardKinematics) -> None:
+    def __init__(self, forward: ForwardKinematics, scale: float = 1.0) -> None:
         """Begin at the origin.
 
         Args:
             forward: Kinematics of the robot.
+            scale: True motion by that of the feet.
         """
-        self._forward = forward
+        self._forward, self._scale = forward, scale
+        self.moved: Array = np.zeros(3)
         self.pose = Pose(0.0, 0.0, 0.0)
         self.velocity: Array = np.zeros(3)
         self._feet: Array | None = None
@@ -63,6 +67,8 @@ class LegOdometry:
                 s * now[0] + c * now[1],
                 now[2],
             )
+            moved = self._scale * moved
+            self.moved = moved
             share = min(1.0, duration / SMOOTHING)
             self.velocity = self.velocity + share * (
                 moved / duration - self.velocity

@@ -53,5 +53,5 @@ def load_legs(
         description,
         tick=tick,
         response=load_response(description.folder, network.path),
-        learns_turns=legs.learn_turns,
+        learns=legs.learn,
     )

@@ -20,10 +20,10 @@ class LegsSettings:
         "recognise it",
         option="--legs-contract",
     )
-    learn_turns: bool = setting(
+    learn: bool = setting(
         True,
-        "Correct the turning rate of a walking policy by the gyro",
-        option="--legs-learn-turns/--no-legs-learn-turns",
+        "Correct the velocity of a walking policy by gyro and leg odometry",
+        option="--legs-learn/--no-legs-learn",
     )
 
     def __post_init__(self) -> None:

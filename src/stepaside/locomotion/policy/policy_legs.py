@@ -1,33 +1,31 @@
 """Learned legs of one robot: a body velocity in, joint targets out."""
 
-from math import cos, isnan, sin
-
 import numpy as np
 
 from ...core.errors import PolicyError
 from ...core.poses import Array, Pose
-from ...perception.attitude import AttitudeFilter
 from ...perception.measurement import Measurement
 from ...robots.description import RobotDescription
 from ...robots.forward_kinematics import ForwardKinematics
 from .contract import CommandRanges, PolicyContract
+from .gravity_filter import GravityFilter
 from .initial_posture import InitialPosture
 from .leg_odometry import LegOdometry
 from .network import PolicyNetwork
 from .runner import BodyMotion, PolicyRunner
 from .velocity_response import STILL, BodyVelocity, VelocityResponse
 
-CORRECTION = 0.5  # of the attitude filter by the accelerometer, in [1/s]
-TURN_LEARNING = 0.2  # integral gain of the turning rate, in [1/s]
-TURN_BOUND = 0.3  # greatest learned correction, in [rad/s]
+LEARNING = 0.2  # integral gain of each velocity, in [1/s]: some gait cycles
+BOUND = 0.15  # greatest learned correction, in [m/s] and [rad/s]
 
 
 class PolicyLegs:
     """Walking policy on the sensors of one robot.
 
     The policy runs at its own period, which is a multiple of the control
-    tick. Its command is the inverse of the measured response; the remaining
-    error of the turning rate is learned from the gyro while it walks.
+    tick. Its command is the inverse of the measured response. While it walks
+    the remaining error is learned: of the turning rate from the gyro, and of
+    the other components from the leg odometry once its scale is measured.
 
     Attributes:
         contract: Contract of the network.
@@ -48,7 +46,7 @@ class PolicyLegs:
         *,
         tick: float,
         response: VelocityResponse | None = None,
-        learns_turns: bool = True,
+        learns: bool = True,
     ) -> None:
         """Begin in the default posture.
 
@@ -58,7 +56,7 @@ class PolicyLegs:
             description: Description of the robot.
             tick: Control period, in [s].
             response: Measured response; by default commands are delivered.
-            learns_turns: Whether the turning rate is corrected by the gyro.
+            learns: Whether velocities are corrected by gyro and odometry.
 
         Raises:
             PolicyError: If the period of the policy is no multiple of the
@@ -82,18 +80,21 @@ class PolicyLegs:
         self.standing = InitialPosture(forward, dict(angles))
         self.joint_targets = self.standing.joint_targets
         self._runner = PolicyRunner(contract, network)
-        self._attitude = AttitudeFilter(CORRECTION, 0.0)
-        self.odometry = LegOdometry(forward)
+        self._gravity = GravityFilter()
+        scale = self.response.odometry_scale
+        self.odometry = LegOdometry(forward, scale or 1.0)
         self.command = self.intended = STILL
-        self._learns_turns = learns_turns
-        self._correction = 0.0  # of the turning rate, in [rad/s]
-        self._bias, self._readings = 0.0, 0
+        # Of the velocities ahead, to the left and of turning.
+        self._gains = LEARNING * np.array(
+            [learns and scale is not None] * 2 + [learns], dtype=np.float64
+        )
+        self._correction: Array = np.zeros(3)
         self._turned, self._ticks = 0.0, 0
 
     @property
     def ready(self) -> bool:
         """Whether it has stood long enough to calibrate the gyro."""
-        return self._attitude.ready
+        return self._gravity.ready
 
     @property
     def pose(self) -> Pose:
@@ -104,7 +105,7 @@ class PolicyLegs:
     @property
     def tilt(self) -> tuple[float, float]:
         """Roll and pitch of the torso, in [rad]."""
-        return self._attitude.roll, self._attitude.pitch
+        return self._gravity.tilt
 
     @property
     def limits(self) -> CommandRanges:
@@ -137,53 +138,41 @@ class PolicyLegs:
 
     def _note_imu(self, measurement: Measurement) -> float:
         """Update attitude and turning; return the turning rate, [rad/s]."""
-        wz = float(measurement.gyro[2])
-        wz = 0.0 if isnan(wz) else wz
-        if not self.ready:
-            self._readings += 1
-            self._bias += (wz - self._bias) / self._readings
-            rate = 0.0
-        else:
-            rate = wz - self._bias
+        rate = float(self._gravity.rate[2])
         ahead, left, _ = self.odometry.velocity.tolist()
-        self._attitude.update(
+        self._gravity.update(
             measurement.gyro,
             measurement.accelerometer,
-            (-left * rate, ahead * rate),
+            np.array([-left * rate, ahead * rate, 0.0]),
             self._tick,
         )
-        return rate
+        return float(self._gravity.rate[2])
 
     def _decide(self, measurement: Measurement) -> None:
         """Run the policy at its own period."""
         period = self.contract.period
-        attitude = self._attitude
-        roll, pitch = attitude.roll, attitude.pitch
         turned, self._turned = self._turned, 0.0
-        self.odometry.update(measurement, (roll, pitch), turned, period)
+        self.odometry.update(measurement, self.tilt, turned, period)
         walks = self.intended != STILL
-        if self._learns_turns and walks:
-            error = self.intended.turn * period - turned
-            correction = self._correction + TURN_LEARNING * error
-            self._correction = min(max(correction, -TURN_BOUND), TURN_BOUND)
         self.command = STILL
         if walks:
-            turn = self.intended.turn + self._correction
+            ahead, left, _ = self.odometry.moved.tolist()
+            moved = np.array([ahead, left, turned])
+            error = np.array(self.intended) * period - moved
+            self._correction = np.clip(
+                self._correction + self._gains * error, -BOUND, BOUND
+            )
+            corrected = np.array(self.intended) + self._correction
             self.command = self.response.command_for(
-                self.intended._replace(turn=turn)
+                BodyVelocity(*corrected.tolist())
             )
         velocities = measurement.joint_velocities
         assert velocities is not None
-        gravity = (
-            sin(pitch),
-            -cos(pitch) * sin(roll),
-            -cos(pitch) * cos(roll),
-        )
         motion = BodyMotion(
             measurement.joint_positions[self._joints],
             velocities[self._joints],
             np.array(measurement.gyro),
-            np.array(gravity),
+            -self._gravity.up,
             self.odometry.velocity,
         )
         targets = self.joint_targets.copy()

@@ -31,11 +31,13 @@ def response_entries(
     axes = zip(AXES, response.axes, strict=True)
     return {
         "network": digest_of(network),
+        "odometry_scale": response.odometry_scale or 1.0,
         **{
             name: {
                 "commands": list(axis.commands),
                 "delivered": [list(row) for row in axis.delivered],
-                "rise_time": axis.rise_time,
+                "lag": axis.lag,
+                "halting": axis.halting,
             }
             for name, axis in axes
         },
@@ -66,13 +68,15 @@ def load_response(folder: Path, network: Path) -> VelocityResponse | None:
                     BodyVelocity(*map(float, row))
                     for row in entries[name]["delivered"]
                 ),
-                float(entries[name]["rise_time"]),
+                float(entries[name]["lag"]),
+                float(entries[name]["halting"]),
             )
             for name in AXES
         ]
+        scale = float(entries["odometry_scale"])
     except (ValueError, KeyError, TypeError) as error:
         raise PolicyError(
             f"{path} is not a response of legs: `stepaside legs measure` "
             "writes it anew"
         ) from error
-    return VelocityResponse((axes[0], axes[1], axes[2]))
+    return VelocityResponse((axes[0], axes[1], axes[2]), scale)

@@ -37,13 +37,16 @@ class AxisResponse(NamedTuple):
     Attributes:
         commands: Commands, ascending, zero included. Shape (n,).
         delivered: Mean velocity for each of them.
-        rise_time: Time from a command at rest to 63 % of the velocity that
-            it leads to, in [s].
+        lag: Time by which the motion after a command at rest is behind that
+            of its final velocity, in [s].
+        halting: Motion along the axis from the command to stand until the
+            body stands, at the greatest command, in [m] or [rad].
     """
 
     commands: tuple[float, ...]
     delivered: tuple[BodyVelocity, ...]
-    rise_time: float = 0.0
+    lag: float = 0.0
+    halting: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -52,9 +55,12 @@ class VelocityResponse:
 
     Attributes:
         axes: Response to commands ahead, to the left and of turning.
+        odometry_scale: True motion by that of the leg odometry; None if it
+            was not measured. Feet roll, which the odometry does not contain.
     """
 
     axes: tuple[AxisResponse, AxisResponse, AxisResponse]
+    odometry_scale: float | None = None
 
     def __post_init__(self) -> None:
         """Check the tables.

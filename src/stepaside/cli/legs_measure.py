@@ -1,0 +1,188 @@
+"""``stepaside legs measure``: velocities that learned legs deliver."""
+
+from math import isfinite
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from ..core.atomic_output import atomic_draft
+from .options.common_options import figure_option, json_option, workers_option
+from .output_files import attempt, writes_files
+from .progress import show_progress
+from .tables import print_table
+from .terminal import echo, print_json
+
+if TYPE_CHECKING:
+    from ..fitting.legs_measurement import LegsMeasurement
+    from ..locomotion.policy.legs_settings import LegsSettings
+    from ..robots.description import RobotDescription
+
+BODIES = ("ideal", "delayed", "hardware")
+
+
+@click.command("measure")
+@click.argument("robot")
+@click.option(
+    "--legs",
+    default="",
+    help="ONNX file of the walking policy; that of robot.toml by default.",
+)
+@click.option("--legs-contract", default="", help="Name of the convention.")
+@click.option(
+    "--body",
+    type=click.Choice(BODIES),
+    default="ideal",
+    help="Imperfections of the body.  [default: ideal]",
+)
+@click.option("--seed", type=int, default=1, help="Seed of sensor errors.")
+@workers_option()
+@figure_option(help="Write a figure of commands and delivered velocities.")
+@json_option
+@writes_files
+def measure(
+    robot: str,
+    legs: str,
+    legs_contract: str,
+    body: str,
+    seed: int,
+    workers: int | None,
+    figure: str | None,
+    as_json: bool,
+) -> None:
+    """Walk the learned legs of ROBOT at a grid of commands.
+
+    Each walk begins and ends at rest. Writes the response beside the robot
+    description, as legs-NETWORK.toml, in place of an earlier one; games then
+    command its inverse, so that intended and delivered velocities agree.
+    """
+    import tomli_w
+
+    from ..games.robot_settings import settings_from_description
+    from ..locomotion.policy.legs_settings import LegsSettings
+    from ..locomotion.policy.response_file import (
+        response_entries,
+        response_path,
+    )
+    from ..robots.description import load_robot
+
+    description = load_robot(robot)
+    network = legs or settings_from_description(description).legs.network
+    if not network:
+        raise click.UsageError(
+            "--legs must name a network: robot.toml has no [locomotion]"
+        )
+    settings = LegsSettings(network, legs_contract)
+    file = response_path(description.folder, Path(network))
+    result = _measure(description, settings, body, seed, workers)
+    with atomic_draft(file) as draft:
+        entries = response_entries(result.response, Path(network))
+        draft.write_text(tomli_w.dumps(entries), encoding="utf-8")
+    if figure is not None:
+        from ..report.legs_figure import draw_response
+
+        attempt(lambda: draw_response(result.response, Path(figure)))
+    if as_json:
+        print_json(_facts(result) | {"file": str(file)})
+    else:
+        _print(result)
+        echo(f"\nwrote {file}")
+
+
+def _measure(
+    description: "RobotDescription",
+    legs: "LegsSettings",
+    body: str,
+    seed: int,
+    workers: int | None,
+) -> "LegsMeasurement":
+    """Measure with a progress bar on standard error."""
+    from ..core.worker_pool import worker_pool
+    from ..fitting.legs_measurement import measure_legs
+    from ..sim.body_settings import BODIES
+
+    with (
+        worker_pool(workers) as executor,
+        show_progress("measure", unit="walks") as bar,
+    ):
+
+        def report(done: int, of: int) -> None:
+            bar.total, bar.n = of, done
+            bar.refresh()
+
+        return measure_legs(
+            description, legs, BODIES[body], executor, report, seed=seed
+        )
+
+
+def _facts(result: "LegsMeasurement") -> dict[str, Any]:
+    """Return a measurement as JSON values; NaN becomes None."""
+
+    def number(value: float) -> float | None:
+        return value if isfinite(value) else None
+
+    limits = result.response.limits
+    return {
+        "falls": result.falls,
+        "gains": result.gains().tolist(),
+        "limits": limits._asdict(),
+        "lag_s": [axis.lag for axis in result.response.axes],
+        "halting": [axis.halting for axis in result.response.axes],
+        "odometry_scale": result.response.odometry_scale,
+        "combined_error_m_s": result.combined_error[0],
+        "combined_error_rad_s": result.combined_error[1],
+        "trials": [
+            {
+                "command": list(trial.command),
+                "delivered": [number(value) for value in trial.delivered],
+                "lag_s": number(trial.lag),
+                "halting": number(trial.halting),
+                "fell_at_s": trial.fell_at,
+            }
+            for trial in result.trials
+        ],
+    }
+
+
+def _print(result: "LegsMeasurement") -> None:
+    """Print the trials, then a summary by axis."""
+    echo("     command                  delivered")
+    echo("  vx     vy     wz       vx     vy     wz   [m/s, m/s, rad/s]")
+    for trial in result.trials:
+        asked = " ".join(f"{value:6.2f}" for value in trial.command)
+        got = " ".join(f"{value:6.3f}" for value in trial.delivered)
+        fell = trial.fell_at
+        echo(f"{asked}   {got if fell is None else f'fell at {fell:.1f} s'}")
+    gains, rows = result.gains(), []
+    units = (("m/s", "m"), ("m/s", "m"), ("rad/s", "rad"))
+    limits = result.response.limits._asdict().items()
+    for i, (name, (low, high)) in enumerate(limits):
+        axis, (speed, length) = result.response.axes[i], units[i]
+        cross = ", ".join(
+            f"{gains[k, i]:+.3f} {other}"
+            for k, other in enumerate(("vx", "vy", "wz"))
+            if k != i
+        )
+        rows.append(
+            (
+                name,
+                f"{low:.2f} to {high:.2f} {speed}, gain {gains[i, i]:.3f}, "
+                f"cross {cross}, lag {axis.lag:.2f} s, halts in "
+                f"{axis.halting:.2f} {length}",
+            )
+        )
+    rows += [
+        ("falls", str(result.falls)),
+        (
+            "leg odometry",
+            f"true motion is {result.response.odometry_scale:.3f} of it",
+        ),
+        (
+            "combined commands",
+            f"differ from the sum of the axes by up to "
+            f"{result.combined_error[0]:.3f} m/s, "
+            f"{result.combined_error[1]:.3f} rad/s",
+        ),
+    ]
+    echo("")
+    print_table(rows)

@@ -1,0 +1,339 @@
+"""Measurement of learned legs: what velocities commands lead to."""
+
+from collections.abc import Callable
+from concurrent.futures import Executor
+from dataclasses import dataclass
+from math import hypot
+from typing import NamedTuple
+
+import mujoco
+import numpy as np
+
+from ..core.errors import PolicyError
+from ..core.poses import Array, Pose
+from ..games.policy_player import place_on_legs
+from ..games.walker_factory import WalkerSetup
+from ..locomotion.policy.contract import CommandRanges
+from ..locomotion.policy.legs_loader import load_policy
+from ..locomotion.policy.legs_settings import LegsSettings
+from ..locomotion.policy.policy_legs import PolicyLegs
+from ..locomotion.policy.velocity_response import (
+    AXES,
+    STILL,
+    AxisResponse,
+    BodyVelocity,
+    VelocityResponse,
+)
+from ..locomotion.zmp.control_settings import ControlSettings
+from ..planning import GaitSettings
+from ..robots.description import RobotDescription
+from ..sim.body_settings import BodySettings, at_tick
+from ..sim.physics_settings import PhysicsSettings
+from ..sim.world import World
+
+STANDING = 1.5  # before the command, in [s]: the gyro is calibrated in 1 s
+SETTLING = 3.0  # from the command to a steady walk, in [s]
+STEADY = 6.0  # over which the velocity is averaged, in [s]
+HALTING = 2.0  # from the end of the command to the end of a trial, in [s]
+SHARES = (-1.0, -0.75, -0.5, -0.25, 0.0, 0.25, 0.5, 0.75, 1.0)
+# Combined commands, as shares of the range, that check the sum of the axes.
+COMBINED = (
+    (0.7, 0.0, 0.4),
+    (0.7, 0.0, -0.4),
+    (-0.7, 0.0, 0.4),
+    (-0.7, 0.0, -0.4),
+    (0.5, 0.5, 0.0),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class LegsTrial:
+    """One walk at a constant command.
+
+    Attributes:
+        description: Description of the robot.
+        legs: Walking policy.
+        body: Deviations of the body from an ideal one.
+        command: Command of the policy.
+        seed: Seed of sensor errors.
+    """
+
+    description: RobotDescription
+    legs: LegsSettings
+    body: BodySettings
+    command: BodyVelocity
+    seed: int
+
+
+class LegsTrialResult(NamedTuple):
+    """Motion of one walk at a constant command.
+
+    Attributes:
+        command: Command of the policy.
+        delivered: Mean velocity of the steady walk; NaN after a fall.
+        lag: Time by which the motion along the greatest component is behind
+            that of the final velocity, in [s]; NaN after a fall.
+        halting: Motion along it from the end of the command to rest, in [m]
+            or [rad]; NaN after a fall.
+        fell_at: Time of a fall, in [s]; None without one.
+        odometry: Mean horizontal velocity of the steady walk by the leg
+            odometry (ahead, to the left), in [m/s].
+    """
+
+    command: BodyVelocity
+    delivered: BodyVelocity
+    lag: float
+    halting: float
+    fell_at: float | None
+    odometry: tuple[float, float] = (0.0, 0.0)
+
+
+def run_trial(trial: LegsTrial) -> LegsTrialResult:
+    """Walk at a constant command from rest to rest.
+
+    Raises:
+        PolicyError: If the network cannot run on the robot.
+    """
+    physics, description = PhysicsSettings(), trial.description
+    contract, network = load_policy(trial.legs, description)
+    world = World({"robot": description}, physics, trial.body, trial.seed)
+    legs = PolicyLegs(
+        contract,
+        network,
+        description,
+        tick=physics.tick,
+        learns=False,
+    )
+    setup = WalkerSetup(
+        "robot",
+        description,
+        GaitSettings(zmp_forward=0.0),
+        ControlSettings(),
+        at_tick(trial.body, physics.tick),
+        Pose(0.0, 0.0, 0.0),
+        trial.seed,
+    )
+    truth = setup.true_state_in(world)
+    robot = place_on_legs(world, setup, legs, truth=truth)
+    mujoco.mj_forward(world.model, world.data)
+    ends = STANDING + SETTLING + STEADY
+    poses, estimates = [], []
+    while world.time < ends + HALTING:
+        walks = STANDING <= world.time + 1e-9 < ends
+        place = truth.position_reference_in_world
+        poses.append((*place, truth.heading_in_world))
+        estimates.append(legs.pose)
+        if truth.has_fallen:
+            nothing = BodyVelocity(*[float("nan")] * 3)
+            return LegsTrialResult(
+                trial.command, nothing, nothing[0], nothing[0], world.time
+            )
+        command = trial.command if walks else STILL
+        robot.write(legs.update(robot.read(), command))
+        world.step()
+    result = _evaluate(trial.command, np.array(poses), physics.tick)
+    estimated = _evaluate(trial.command, np.array(estimates), physics.tick)
+    return result._replace(odometry=estimated.delivered[:2])
+
+
+def _evaluate(
+    command: BodyVelocity, poses: Array, tick: float
+) -> LegsTrialResult:
+    """Evaluate the poses of a walk without a fall.
+
+    Args:
+        command: Command of the policy.
+        poses: Pose (x, y, heading) at each tick. Shape (n, 3).
+        tick: Time between poses, in [s].
+    """
+    x, y, heading = poses.T
+    heading = np.unwrap(heading)
+    middle = 0.5 * (heading[1:] + heading[:-1])
+    dx, dy = np.diff(x), np.diff(y)
+    moved = np.stack(
+        [
+            np.cos(middle) * dx + np.sin(middle) * dy,
+            np.cos(middle) * dy - np.sin(middle) * dx,
+            np.diff(heading),
+        ],
+        axis=1,
+    )
+    begins, steady, ends = (
+        round(time / tick)
+        for time in (
+            STANDING,
+            STANDING + SETTLING,
+            STANDING + SETTLING + STEADY,
+        )
+    )
+    velocity = moved[steady:ends].sum(axis=0) / STEADY
+    axis = int(np.argmax(np.abs(command)))
+    final = float(velocity[axis])
+    lag = halting = 0.0
+    if command != STILL and abs(final) > 1e-3:
+        walked = float(moved[begins:ends, axis].sum())
+        lag = SETTLING + STEADY - walked / final
+        halting = float(moved[ends:, axis].sum())
+    delivered = BodyVelocity(*velocity.tolist())
+    return LegsTrialResult(command, delivered, lag, halting, None)
+
+
+def trial_commands(ranges: CommandRanges) -> list[BodyVelocity]:
+    """Return the commands of a measurement: each axis, then combinations.
+
+    Args:
+        ranges: Ranges of the commands.
+    """
+    commands = [STILL]
+    for name, (low, high) in zip(AXES, ranges, strict=True):
+        values = (share * (high if share > 0 else -low) for share in SHARES)
+        commands += [
+            STILL._replace(**{name: value}) for value in values if value
+        ]
+    for shares in COMBINED:
+        values = (
+            share * (high if share > 0 else -low)
+            for share, (low, high) in zip(shares, ranges, strict=True)
+        )
+        commands.append(BodyVelocity(*values))
+    return commands
+
+
+@dataclass(frozen=True, slots=True)
+class LegsMeasurement:
+    """Measured response of a robot's learned legs.
+
+    Attributes:
+        trials: Results of all walks.
+        response: Response by axis, without commands that led to a fall and
+            those beyond which the velocity does not increase.
+        combined_error: Greatest difference between the velocity of a combined
+            command and the sum of its axes: of the horizontal velocity, in
+            [m/s], and of the turning rate, in [rad/s].
+    """
+
+    trials: tuple[LegsTrialResult, ...]
+    response: VelocityResponse
+    combined_error: tuple[float, float]
+
+    @property
+    def falls(self) -> int:
+        """Number of walks that ended in a fall."""
+        return sum(trial.fell_at is not None for trial in self.trials)
+
+    def gains(self) -> Array:
+        """Return the linear fit of delivered velocities to commands.
+
+        Returns:
+            Row by delivered component, column by commanded axis: the slope
+            through the origin. Shape (3, 3).
+        """
+        columns = []
+        for axis in self.response.axes:
+            commands = np.array(axis.commands)
+            rows = np.array(axis.delivered)
+            rows = rows - rows[axis.commands.index(0.0)]
+            columns.append(commands @ rows / (commands @ commands))
+        return np.stack(columns, axis=1)
+
+
+def measure_legs(
+    description: RobotDescription,
+    legs: LegsSettings,
+    body: BodySettings,
+    executor: Executor,
+    report: Callable[[int, int], None],
+    *,
+    seed: int = 1,
+) -> LegsMeasurement:
+    """Walk a grid of commands, and tabulate the velocities that result.
+
+    Args:
+        description: Description of the robot.
+        legs: Walking policy.
+        body: Deviations of the body from an ideal one.
+        executor: Runs the walks.
+        report: Called with the number of finished walks and of all walks.
+        seed: Seed of sensor errors.
+
+    Raises:
+        PolicyError: If the network cannot run on the robot, the robot falls
+            while it is to stand, or an axis does not follow its command.
+    """
+    contract, _ = load_policy(legs, description)
+    commands = trial_commands(contract.command_ranges)
+    trials = [
+        LegsTrial(description, legs, body, command, seed)
+        for command in commands
+    ]
+    results = []
+    for result in executor.map(run_trial, trials):
+        results.append(result)
+        report(len(results), len(trials))
+    if results[0].fell_at is not None:
+        raise PolicyError(
+            f"legs: the robot fell at {results[0].fell_at:.2f} s while it "
+            "was to stand: the contract does not fit the network"
+        )
+    singles = results[: -len(COMBINED)]
+    axes = [_axis(i, singles) for i in range(3)]
+    response = VelocityResponse(
+        (axes[0], axes[1], axes[2]), _odometry_scale(singles)
+    )
+    return LegsMeasurement(
+        tuple(results),
+        response,
+        _combined_error(response, results[-len(COMBINED) :]),
+    )
+
+
+def _axis(axis: int, results: list[LegsTrialResult]) -> AxisResponse:
+    """Return the response along one axis, as far as it ascends."""
+    own = [
+        result
+        for result in results
+        if all(
+            value == 0.0 for k, value in enumerate(result.command) if k != axis
+        )
+    ]
+    own.sort(key=lambda result: result.command[axis])
+    rest = next(i for i, r in enumerate(own) if r.command == STILL)
+    kept = [own[rest]]
+    for steps in (own[rest + 1 :], own[rest - 1 :: -1] if rest else []):
+        for result in steps:
+            sign = 1.0 if result.command[axis] > 0.0 else -1.0
+            last = kept[-1] if sign > 0.0 else kept[0]
+            gained = result.delivered[axis] - last.delivered[axis]
+            if result.fell_at is not None or not sign * gained > 0.0:
+                break
+            kept = [*kept, result] if sign > 0.0 else [result, *kept]
+    lags = [r.lag for r in (kept[0], kept[-1]) if r.command != STILL]
+    halts = [abs(r.halting) for r in (kept[0], kept[-1])]
+    return AxisResponse(
+        tuple(result.command[axis] for result in kept),
+        tuple(result.delivered for result in kept),
+        float(np.mean(lags)) if lags else 0.0,
+        max(halts),
+    )
+
+
+def _odometry_scale(results: list[LegsTrialResult]) -> float:
+    """Fit true horizontal velocities to those of the leg odometry."""
+    walks = [result for result in results if result.fell_at is None]
+    true = np.array([result.delivered[:2] for result in walks]).ravel()
+    estimated = np.array([result.odometry for result in walks]).ravel()
+    return float(true @ estimated / (estimated @ estimated))
+
+
+def _combined_error(
+    response: VelocityResponse, results: list[LegsTrialResult]
+) -> tuple[float, float]:
+    """Compare combined commands with the sum of their axes."""
+    horizontal, turning = [0.0], [0.0]
+    for result in results:
+        if result.fell_at is None:
+            expected = response.deliver(result.command)
+            errors = np.subtract(result.delivered, expected)
+            horizontal.append(hypot(*errors[:2].tolist()))
+            turning.append(abs(float(errors[2])))
+    return max(horizontal), max(turning)

@@ -1,0 +1,87 @@
+"""Direction of gravity in the torso frame, from gyro and accelerometer."""
+
+import numpy as np
+
+from ...core.constants import GRAVITY
+from ...core.poses import Array
+
+CALIBRATION = 1.0  # of standing to average gravity, in [s]
+SETTLED = 0.3  # share of it after which readings count
+CORRECTION = 0.5  # gain of the accelerometer, in [1/s]: a few gait cycles
+BIAS_CORRECTION = 0.05  # of the gyro bias, in [1/s^2]: damped beyond critical
+
+
+class GravityFilter:
+    r"""Complementary filter of the upward direction in the torso frame.
+
+    The direction :math:`u` turns by the gyro, and towards the specific force
+    :math:`f` by :math:`k \, (f \times u) / g`. The cross product leaves out
+    the component of the acceleration along :math:`u`, so that vertical
+    impacts that coincide with a swing of the torso do not tilt the estimate.
+    The bias of the gyro follows from the same error, except about the
+    vertical, where gravity shows none. A robot on a policy sways and turns
+    slowly while it stands, so that standing does not calibrate its gyro.
+
+    Attributes:
+        up: Upward unit vector in the torso frame. Shape (3,).
+        rate: Angular velocity without bias, in [rad/s]. Shape (3,).
+    """
+
+    def __init__(self) -> None:
+        """Begin upright and uncalibrated."""
+        self.up: Array = np.array([0.0, 0.0, 1.0])
+        self.rate: Array = np.zeros(3)
+        self._bias: Array = np.zeros(3)
+        self._force: Array = np.zeros(3)
+        self._time, self._count = 0.0, 0
+
+    @property
+    def ready(self) -> bool:
+        """Whether the robot has stood long enough for the calibration."""
+        return self._time >= CALIBRATION - 1e-9
+
+    @property
+    def tilt(self) -> tuple[float, float]:
+        """Roll and pitch of the torso, in [rad]."""
+        x, y, z = self.up.tolist()
+        return float(np.arctan2(y, z)), -float(np.arcsin(min(1, max(-1, x))))
+
+    def update(
+        self,
+        gyro: Array,
+        specific_force: Array,
+        acceleration: Array,
+        duration: float,
+    ) -> None:
+        """Update the direction with one reading.
+
+        Args:
+            gyro: Angular velocity in the torso frame, in [rad/s]. Shape (3,).
+            specific_force: Accelerometer in the torso frame, in [m/s^2].
+                Shape (3,).
+            acceleration: Known acceleration in the torso frame, in [m/s^2].
+                Shape (3,).
+            duration: Time since the last reading, in [s].
+        """
+        gyro = np.nan_to_num(gyro)  # a gyro with two axes
+        if not self.ready:
+            self._calibrate(specific_force, duration)
+            return
+        self.rate = gyro - self._bias
+        force = (specific_force - acceleration) / GRAVITY
+        error = np.cross(force, self.up)
+        self._bias = self._bias - duration * BIAS_CORRECTION * error
+        turn = self.rate + CORRECTION * error
+        up = self.up + duration * np.cross(self.up, turn)
+        self.up = up / np.linalg.norm(up)
+
+    def _calibrate(self, specific_force: Array, duration: float) -> None:
+        """Average the direction of gravity of a robot that stands."""
+        self._time += duration
+        if self._time < SETTLED * CALIBRATION:
+            return
+        self._count += 1
+        self._force = (
+            self._force + (specific_force - self._force) / self._count
+        )
+        self.up = self._force / np.linalg.norm(self._force)

@@ -1,0 +1,128 @@
+"""Test the measurement of learned legs."""
+
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import Executor
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+pytest.importorskip("onnxruntime")
+
+from legs_robot import nao_on_legs
+from stepaside.core.errors import PolicyError
+from stepaside.fitting.legs_measurement import (
+    LegsTrial,
+    LegsTrialResult,
+    measure_legs,
+    run_trial,
+)
+from stepaside.games.robot_settings import settings_from_description
+from stepaside.locomotion.policy.velocity_response import STILL, BodyVelocity
+from stepaside.robots.description import RobotDescription, load_robot
+from stepaside.sim.body_settings import BodySettings
+
+# Delivered velocity by commanded one.
+GAINS = np.array([[0.8, 0.0, 0.02], [0.01, 0.5, 0.0], [0.0, -0.03, 0.9]])
+
+
+class FormulaExecutor(Executor):
+    """Executor that computes the result of each trial by a formula."""
+
+    def __init__(self, falls: Callable[[BodyVelocity], bool]) -> None:
+        self._falls = falls
+
+    def map(  # type: ignore[override]
+        self,
+        fn: Callable[..., Any],
+        trials: Iterable[LegsTrial],
+        **_: Any,
+    ) -> Iterator[LegsTrialResult]:
+        """Deliver velocities that are linear in the command."""
+        for trial in trials:
+            delivered = BodyVelocity(*(GAINS @ np.array(trial.command)))
+            fell = 2.0 if self._falls(trial.command) else None
+            seen = (delivered.forward / 1.05, delivered.lateral / 1.05)
+            yield LegsTrialResult(
+                trial.command, delivered, 0.3, 0.1, fell, seen
+            )
+
+
+def never(command: BodyVelocity) -> bool:
+    return False
+
+
+@pytest.fixture(scope="module")
+def robot(tmp_path_factory: pytest.TempPathFactory) -> RobotDescription:
+    return load_robot(nao_on_legs(tmp_path_factory.mktemp("legs") / "nao"))
+
+
+def measured(
+    robot: RobotDescription, falls: Callable[[BodyVelocity], bool] = never
+) -> Any:
+    done: list[tuple[int, int]] = []
+    result = measure_legs(
+        robot,
+        settings_from_description(robot).legs,
+        BodySettings(),
+        FormulaExecutor(falls),
+        lambda count, of: done.append((count, of)),
+    )
+    assert done[-1] == (30, 30)
+    return result
+
+
+def test_linear_legs_are_measured_exactly(robot: RobotDescription) -> None:
+    result = measured(robot)
+    np.testing.assert_allclose(result.gains(), GAINS, atol=1e-12)
+    assert result.response.odometry_scale == pytest.approx(1.05)
+    assert result.combined_error == pytest.approx((0.0, 0.0), abs=1e-12)
+    wanted = BodyVelocity(0.4, 0.1, -0.3)
+    found = result.response.deliver(result.response.command_for(wanted))
+    assert found == pytest.approx(wanted)
+    assert [axis.lag for axis in result.response.axes] == [0.3] * 3
+
+
+def test_commands_that_led_to_a_fall_are_left_out(
+    robot: RobotDescription,
+) -> None:
+    """And those beyond them, on that side of the axis."""
+    result = measured(robot, lambda command: command.forward == 0.5)
+    assert result.falls == 2  # alone, and with a lateral command
+    assert result.response.axes[0].commands == (
+        -1.0,
+        -0.75,
+        -0.5,
+        -0.25,
+        0,
+        0.25,
+    )
+    assert result.response.limits.forward == pytest.approx((-0.8, 0.2))
+
+
+def test_legs_that_fall_while_standing_are_refused(
+    robot: RobotDescription,
+) -> None:
+    with pytest.raises(PolicyError, match="fell at 2.00 s while it was to"):
+        measured(robot, lambda command: command == STILL)
+
+
+def test_a_robot_that_holds_a_posture_delivers_nothing(
+    robot: RobotDescription,
+) -> None:
+    legs = settings_from_description(robot).legs
+    trial = LegsTrial(robot, legs, BodySettings(), BodyVelocity(0.5), 1)
+    result = run_trial(trial)
+    assert result.fell_at is None
+    assert result.delivered == pytest.approx((0.0, 0.0, 0.0), abs=2e-3)
+    assert result.odometry == pytest.approx((0.0, 0.0), abs=2e-3)
+
+
+def test_a_fall_ends_a_trial(tmp_path: Path) -> None:
+    robot = load_robot(nao_on_legs(tmp_path / "nao", gain=1.0))
+    legs = settings_from_description(robot).legs
+    trial = LegsTrial(robot, legs, BodySettings(), BodyVelocity(0.9), 1)
+    result = run_trial(trial)
+    assert result.fell_at is not None and 1.5 < result.fell_at < 4.0
+    assert np.isnan(result.delivered).all()

@@ -1,0 +1,45 @@
+"""Test the file of a measured response."""
+
+from pathlib import Path
+
+import pytest
+import tomli_w
+
+from stepaside.core.errors import PolicyError
+from stepaside.locomotion.policy.contract import CommandRanges
+from stepaside.locomotion.policy.response_file import (
+    load_response,
+    response_entries,
+    response_path,
+)
+from stepaside.locomotion.policy.velocity_response import VelocityResponse
+
+RESPONSE = VelocityResponse(
+    VelocityResponse.ideal(CommandRanges()).axes, odometry_scale=1.06
+)
+
+
+def stored(folder: Path) -> Path:
+    network = folder / "walk.onnx"
+    network.write_bytes(b"one network")
+    text = tomli_w.dumps(response_entries(RESPONSE, network))
+    response_path(folder, network).write_text(text)
+    return network
+
+
+def test_a_response_is_read_as_written(tmp_path: Path) -> None:
+    assert load_response(tmp_path, stored(tmp_path)) == RESPONSE
+
+
+def test_another_network_of_the_name_has_no_response(tmp_path: Path) -> None:
+    network = stored(tmp_path)
+    network.write_bytes(b"another network")
+    assert load_response(tmp_path, network) is None
+    assert load_response(tmp_path, tmp_path / "run.onnx") is None
+
+
+def test_a_malformed_response_is_named(tmp_path: Path) -> None:
+    network = stored(tmp_path)
+    response_path(tmp_path, network).write_text("forward = [")
+    with pytest.raises(PolicyError, match="legs-walk.toml is not a response"):
+        load_response(tmp_path, network)
