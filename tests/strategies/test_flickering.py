@@ -21,6 +21,7 @@ from stepaside.control.strategy_runner import StrategyRunner
 from stepaside.core.poses import Pose
 from stepaside.perception.floor_map import CELL, FloorMap
 from stepaside.perception.measurement import Sighting
+from stepaside.planning import Direction
 from stepaside.strategies import Intent, Knowledge, Limits, Pursuit
 from stepaside.strategies.look_ahead import PENALTY, LookAhead
 from stepaside.strategies.search import turn_search as search
@@ -112,12 +113,30 @@ def test_a_map_that_is_exact_is_taken_at_its_word(
     assert told[0].gain == pytest.approx(gain)
 
 
+class Noting:
+    """Stands, and notes what it is told."""
+
+    direction, saturated = Direction.BACKWARD, False
+
+    def __init__(self) -> None:
+        self.told: list[Knowledge] = []
+
+    def begin(self) -> None:
+        """Return no memory."""
+
+    def decide(self, knowledge: Knowledge, memory: Any) -> tuple[Intent, Any]:
+        """Stand."""
+        self.told.append(knowledge)
+        return Intent(moving=False), memory
+
+
 def test_knowledge_contains_the_map_error() -> None:
     given = KnownRoom(Room(), Pose(0.0, 0.0, 0.0))
     seen = MappedRoom(FloorMap(), unseen_is_free=False)
     for around, map_error in ((None, 0.0), (given, 0.0), (seen, CELL)):
-        decisions = StrategyRunner(LookAhead(), GAIT, 0.02, around)
+        strategy = Noting()
+        decisions = StrategyRunner(strategy, GAIT, 0.02, around)
         decisions.headings.note(0.0, 0.0)
         decisions.templates.note(0.0, Pose(0.0, 0.0, 0.0))
-        told = decisions._knowledge(0.0, Sighting(0.0, 0.0, 1.0), moving=True)
-        assert told.map_error == map_error
+        decisions.decide(0.0, Sighting(0.0, 0.0, 1.0), moving=True)
+        assert [known.map_error for known in strategy.told] == [map_error]

@@ -7,10 +7,9 @@ from ..arena import NO_OBSTACLES, ObstacleSet
 from ..core.errors import StrategyError
 from ..core.poses import Pose, wrap_angle
 from ..perception.measurement import Sighting
-from .foreign_code import evaluate_strategy
 from .knowledge import Intent, Knowledge, Limits
 from .opponent_rates import FloorVelocity, SightRates
-from .strategy import Strategy
+from .strategy import Strategy, evaluate_strategy
 
 ORIGIN = Pose(0.0, 0.0, 0.0)
 

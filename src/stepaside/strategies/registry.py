@@ -16,14 +16,13 @@ from ..core.setting import ranges_of
 from .constant_walk import StandStill, Walk
 from .deflected_evasion import DeflectedEvasion
 from .evasion import Evasion
-from .foreign_code import FAILURES
 from .herding import HerdingPursuit
 from .lead_pursuit import LeadPursuit
 from .look_ahead import LookAhead
 from .optimal_evasion import OptimalEvasion
 from .optimal_pursuit import OptimalPursuit
 from .pursuit import Pursuit
-from .strategy import Strategy
+from .strategy import FAILURES, Strategy
 from .strategy_validation import validate_strategy
 
 STRATEGIES: Mapping[str, Callable[[Evasion], Strategy]] = {

@@ -2,8 +2,12 @@
 
 from typing import Any, Protocol
 
+from ..core.errors import StrategyError
 from ..planning import Direction
 from .knowledge import Intent, Knowledge
+
+# sys.exit() in user code must not end the program.
+FAILURES = (Exception, SystemExit)
 
 
 class Strategy(Protocol):
@@ -39,3 +43,28 @@ class Strategy(Protocol):
         Returns:
             Intent and new memory.
         """
+
+
+def evaluate_strategy(
+    strategy: Strategy, knowledge: Knowledge, memory: Any
+) -> tuple[Intent, Any]:
+    """Evaluate one decision of a strategy.
+
+    Args:
+        strategy: Strategy, possibly user code.
+        knowledge: Knowledge of the player.
+        memory: Memory of the player.
+
+    Returns:
+        Intent and new memory.
+
+    Raises:
+        StrategyError: If it fails, exits, or returns no intent.
+    """
+    try:
+        intent, memory = strategy.decide(knowledge, memory)
+    except FAILURES as error:
+        raise StrategyError(f"{type(error).__name__}: {error}") from error
+    if not isinstance(intent, Intent):
+        raise StrategyError(f"decide must return an Intent, got {intent!r}")
+    return intent, memory

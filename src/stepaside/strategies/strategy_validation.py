@@ -6,8 +6,8 @@ from typing import Any
 
 from ..core.errors import ConfigurationError
 from ..planning import Direction
-from .foreign_code import FAILURES
 from .knowledge import Intent, Knowledge, Limits
+from .strategy import FAILURES
 
 LIMITS = Limits(0.1, 0.2, 0.04, 0.547)
 
