@@ -58,14 +58,16 @@ def look_at(log: PlayLog, walker: SimulatedPlayer) -> None:
     def send(targets: Any) -> None:
         write(targets)
         scheme = walker.scheme
+        # Open loop, sensors are read only when a decision is due.
+        measurement = measured.pop() if measured else read()
         log.note(
             JointTick(
                 RobotState.WALKING,
                 "chest button",
                 scheme.phase,
-                measured[0],
+                measurement,
                 targets,
-                scheme.sighting,
+                measurement.sighting or scheme.sighting,
                 0,
                 1,
                 scheme.state,

@@ -126,7 +126,8 @@ class OdometryPath:
         self, row: int, frame: Pose
     ) -> tuple[MeasuredPosture, SpatialTorsoPose]:
         x, y, heading, side = self._columns["support"][row].tolist()
-        posture = self._forward.posture(self._columns["joint_positions"][row])
+        measured = self._columns["joint_positions"][row].copy()
+        posture = self._forward.posture(measured)
         support = frame.compose(Pose(x, y, heading))
         roll, pitch = self._tilts[row].tolist()
         foot = 0 if side > 0.0 else 1
