@@ -89,6 +89,7 @@ class ManeuverWalk:
         self._maneuvers = ManeuverSelection(gait, self.balance, guard)
         self._first_foot = first_foot
         self._index = 0
+        self._landing: Pose | None = None
         self._table = ReferenceTable(tick)
         self._stand()
         self.joint_targets: Array = kinematics.stand(self.reference)
@@ -298,7 +299,7 @@ class ManeuverWalk:
         self._table.load(plan, frame, started, duration)
         landing = plan.schedule.first_step_duration
         landing += started - plan.gait.double_support
-        landed = frame.compose(plan.landing)
+        self._landing = landed = frame.compose(plan.landing)
         vx, vy = plan.start_velocity.tolist()
         jump = max(abs(vx - state.velocity[0]), abs(vy - state.velocity[1]))
         self.begun = StepStarted(
@@ -311,7 +312,10 @@ class ManeuverWalk:
             foot = self._first_foot
             return resting_step(self._support(foot), foot)
         return first_step_of(
-            self.plan, self.plan_frame, now - self.plan_started
+            self.plan,
+            self.plan_frame,
+            now - self.plan_started,
+            self._landing,
         )
 
     def _support(self, swing: Foot) -> Pose:

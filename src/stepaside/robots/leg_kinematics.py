@@ -320,8 +320,7 @@ class LegKinematics:
             step = newton_step(*self._arguments(reference))
         except ZeroDivisionError:
             return False
-        x, y, z, turn = step[:BASE]
-        if not max(abs(x), abs(y), abs(z), abs(turn)) < GREATEST_MOVE:
+        if not max(map(abs, step[:BASE])) < GREATEST_MOVE:
             return False
         moved = step[n + BASE :]
         if not self._allows(step[BASE:n], moved):

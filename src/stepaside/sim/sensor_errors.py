@@ -75,7 +75,7 @@ class SensorErrors:
     def encoders(self, angles: Array) -> Array:
         """Return quantised joint angles, in [rad]. Shape (joints,)."""
         step = self._body.encoder_step
-        return angles if step == 0.0 else np.round(angles / step) * step
+        return angles if step == 0.0 else np.rint(angles / step) * step
 
     def imu(self, gyro: Array, force: Array) -> tuple[Array, Array]:
         """Return noisy, delayed gyro [rad/s] and accelerometer [m/s^2]."""

@@ -52,7 +52,10 @@ def resting_step(support: Pose, foot: Foot) -> CurrentStep:
 
 
 def first_step_of(
-    plan: ManeuverPlan, frame: Pose, passed: float
+    plan: ManeuverPlan,
+    frame: Pose,
+    passed: float,
+    landing: Pose | None = None,
 ) -> CurrentStep:
     """Return the first step of a plan.
 
@@ -60,6 +63,7 @@ def first_step_of(
         plan: Plan being walked.
         frame: Pose of its frame in odometry.
         passed: Time since it began, in [s].
+        landing: Planned landing pose in odometry, if it is known.
     """
     gait = plan.schedule.settings
     walked = passed
@@ -68,7 +72,7 @@ def first_step_of(
     return CurrentStep(
         frame,
         plan.first_foot,
-        frame.compose(plan.landing),
+        frame.compose(plan.landing) if landing is None else landing,
         gait.single_support - walked,
         swing_progress_at(walked / gait.single_support, gait.swing_profile),
         True,
@@ -169,8 +173,26 @@ def shifted_swing(
     if not step.walking or shift == (0.0, 0.0):
         return body
     u, v = step.progress * shift[0], step.progress * shift[1]
-    if step.swing is Foot.LEFT:
-        x, y, z, yaw = body.left_foot
-        return body._replace(left_foot=(x + u, y + v, z, yaw))
-    x, y, z, yaw = body.right_foot
-    return body._replace(right_foot=(x + u, y + v, z, yaw))
+    return moved_swing(body, step.swing, u, v, 0.0)
+
+
+def moved_swing(
+    body: BodyReference, swing: Foot, x: float, y: float, turn: float
+) -> BodyReference:
+    """Return a reference whose swing foot is moved.
+
+    Args:
+        body: Body reference.
+        swing: Foot that swings.
+        x: Translation in odometry, in [m].
+        y: Likewise.
+        turn: Rotation, in [rad].
+    """
+    com, left, right, left_tilt, right_tilt = body
+    if swing is Foot.LEFT:
+        u, v, z, yaw = left
+        left = u + x, v + y, z, yaw + turn
+    else:
+        u, v, z, yaw = right
+        right = u + x, v + y, z, yaw + turn
+    return BodyReference(com, left, right, left_tilt, right_tilt)

@@ -91,6 +91,7 @@ class ReferenceTable:
         self._dcm: Array
         self._reaction: Array | None = None
         self._templates: list[Pose] = []
+        self._lists: tuple[list[list[float]], ...] | None = None
         self._samplers: dict[tuple[Schedule, int, int], Sampler] = {}
 
     def load(
@@ -134,7 +135,7 @@ class ReferenceTable:
         )
         points = points @ turn
         points += plan_frame[:2]
-        self._reaction = None
+        self._reaction = self._lists = None
         if plan.schedule.has_swing_reaction:
             self._reaction = (samples.zmp - samples.pivot) @ turn
         com, left, right, zmp, dcm, position = points.reshape(6, count, 2)
@@ -158,7 +159,7 @@ class ReferenceTable:
         self._first = 0
         self.references = np.array([sample.body.row()])
         self.zmp, self._dcm = np.array([sample.zmp]), np.array([sample.dcm])
-        self._reaction = None
+        self._reaction = self._lists = None
         self._templates = [sample.template]
 
     def index(self, now: float) -> int:
@@ -177,12 +178,16 @@ class ReferenceTable:
     def sample(self, index: int) -> ReferenceSample:
         """Return the same by the index of the tick."""
         i = min(index, len(self._templates) - 1)
-        (x, y), (u, v) = self.zmp[i].tolist(), self._dcm[i].tolist()
+        if self._lists is None:
+            arrays = self.references, self.zmp, self._dcm
+            self._lists = tuple(array.tolist() for array in arrays)
+        references, zmp, dcm = self._lists
+        (x, y), (u, v) = zmp[i], dcm[i]
         reaction = ZERO
         if self._reaction is not None:
             p, q = self._reaction[i].tolist()
             reaction = p, q
-        body = BodyReference.from_row(self.references[i].tolist())
+        body = BodyReference.from_row(references[i])
         template = self._templates[i]
         return ReferenceSample(body, (x, y), (u, v), template, reaction)
 

@@ -153,11 +153,8 @@ class Stabiliser:
         left, right = self._ankles.tilts(
             self.state, commanded.roll(self._lean)
         )
-        return body._replace(
-            com=(x + self.com_shift[0], y + self.com_shift[1], z),
-            left_tilt=left,
-            right_tilt=right,
-        )
+        com = (x + self.com_shift[0], y + self.com_shift[1], z)
+        return BodyReference(com, body.left_foot, body.right_foot, left, right)
 
     def _observe(
         self, measurement: Measurement, row: ReferenceSample, step: CurrentStep
@@ -167,11 +164,10 @@ class Stabiliser:
         x, y = x + self.com_shift[0], y + self.com_shift[1]
         square = self._gait.eta**2
         u, v = row.reaction
+        shifted = shifted_swing(row.body, step, self.step_shift)
         self._asked.append(
             StabiliserTargets(
-                shifted_swing(row.body, step, self.step_shift)._replace(
-                    com=(x, y, z)
-                ),
+                BodyReference((x, y, z), *shifted[1:]),
                 (
                     row.dcm[0] + self.dcm_shift[0],
                     row.dcm[1] + self.dcm_shift[1],

@@ -9,7 +9,7 @@ from ...planning import Foot, GaitSettings
 from ...planning.swing import swing_progress_at
 from ...robots.forward_kinematics import MeasuredPosture
 from ...robots.leg_kinematics import BodyReference
-from .current_step import CurrentStep
+from .current_step import CurrentStep, moved_swing
 
 MAX_TURN = 0.08  # of the learned correction, in [rad]
 
@@ -85,8 +85,4 @@ class StrideLearning:
             return body
         x, y, theta = (share * self.aim[step.swing]).tolist()
         x, y = step.from_support(x, y)
-        if step.swing is Foot.LEFT:
-            u, v, z, yaw = body.left_foot
-            return body._replace(left_foot=(u + x, v + y, z, yaw + theta))
-        u, v, z, yaw = body.right_foot
-        return body._replace(right_foot=(u + x, v + y, z, yaw + theta))
+        return moved_swing(body, step.swing, x, y, theta)
