@@ -19,6 +19,7 @@ from stepaside.sim.person_motion import (
     template_approach,
 )
 from stepaside.sim.person_settings import PersonSettings
+from stepaside.theory.unicycle.unicycle_game import Unicycle
 
 START = StartSettings(distance=1.5, pursuer_offset=0.0, evader_offset=0.0)
 
@@ -128,8 +129,7 @@ def test_the_template_evader_escapes_from_a_slower_pursuer() -> None:
             lambda pose, evader: PersonMotion(person, pose, evader),
             Pose(0.0, 0.0, 0.0),
             Pose(1.5, 0.0, pi),
-            speed=0.1,
-            gain=0.2,
+            unicycle=Unicycle(0.1, 0.2),
             angle=0.0,
             safety_radius=0.8,
             duration=60.0,

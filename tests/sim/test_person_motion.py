@@ -16,6 +16,7 @@ from stepaside.sim.person_motion import (
     template_approach,
 )
 from stepaside.sim.person_settings import PersonSettings
+from stepaside.theory.unicycle.unicycle_game import Unicycle
 
 EVADER = (1.0, -2.0)
 
@@ -133,6 +134,7 @@ def test_a_missing_file_is_refused(tmp_path: Path) -> None:
 
 
 SPEED, GAIN, RADIUS = 0.1, 0.25, 0.8
+UNICYCLE = Unicycle(SPEED, GAIN)
 
 
 def approach(
@@ -140,17 +142,19 @@ def approach(
     evader: Pose,
     angle: float,
     person: PersonSettings | None = None,
-    **changes: float,
+    *,
+    unicycle: Unicycle = UNICYCLE,
+    duration: float = 18.0,
 ) -> float:
     walk = person or PersonSettings("straight", 0.15)
-    given = {"duration": 18.0, "speed": SPEED, "gain": GAIN} | changes
     return template_approach(
         lambda pose, place: PersonMotion(walk, pose, place),
         start,
         evader,
         angle=angle,
         safety_radius=RADIUS,
-        **given,
+        unicycle=unicycle,
+        duration=duration,
     )
 
 

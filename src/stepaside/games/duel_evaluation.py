@@ -9,6 +9,7 @@ from ..core.poses import Array, Pose
 from ..sim.person_motion import PersonMotion, template_approach
 from ..theory.unicycle.circle_equations import Circle
 from ..theory.unicycle.circle_fit import fit_circle
+from ..theory.unicycle.unicycle_game import Unicycle
 from .duel_circle import (
     angle_between,
     circle_of_theory,
@@ -156,8 +157,7 @@ def _closest_approach(settings: DuelSettings) -> float | None:
     pace = time_scale(gait)
     return template_approach(
         *initial,
-        speed=gait.speed * pace,
-        gain=gait.gain * pace,
+        unicycle=Unicycle(gait.speed * pace, gait.gain * pace),
         angle=settings.strategy.angle,
         safety_radius=settings.strategy.safety_radius,
         duration=settings.duration,

@@ -17,7 +17,7 @@ from ..locomotion.walk_snapshots import Phase, StepStarted
 from ..sim.ground_truth import GroundTruth, TrueRobotState
 from ..sim.ideal_sensors import IdealLineOfSight
 from ..sim.push import Push
-from ..sim.simulated_robot import SimulatedRobot
+from ..sim.simulated_robot import SensorSetup, SimulatedRobot
 from ..sim.world import World
 from ..strategies import Strategy
 from .player import MotionLog, Snapshot, snapshot_of
@@ -125,10 +125,12 @@ def place_on_legs(
         legs.standing,
         setup.odometry_in_world,
         setup.body,
-        named_generator(setup.seed, f"sensors/{setup.name}"),
-        sight=sight,
-        averages_imu=True,
-        truth=truth,
+        SensorSetup(
+            generator=named_generator(setup.seed, f"sensors/{setup.name}"),
+            averages_imu=True,
+            sight=sight,
+            truth=truth,
+        ),
         gains=dict(zip(contract.joints, gains, strict=True)),
     )
 

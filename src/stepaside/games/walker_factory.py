@@ -23,7 +23,7 @@ from ..sim.body_settings import BodySettings
 from ..sim.ground_truth import TrueRobotState
 from ..sim.ideal_sensors import IdealLineOfSight
 from ..sim.outline_measurement import measure_outline
-from ..sim.simulated_robot import SimulatedRobot
+from ..sim.simulated_robot import SensorSetup, SimulatedRobot
 from ..sim.world import World
 from ..strategies import Strategy
 from .walker import SimulatedPlayer
@@ -123,13 +123,15 @@ def place_walker(
         scheme.kinematics,
         setup.odometry_in_world,
         setup.body,
-        named_generator(setup.seed, f"sensors/{setup.name}"),
-        sight=sight,
-        eyes=None if cameras is None else cameras.eyes,
-        averages_imu=setup.control.feedback,
-        truth=truth or setup.true_state_in(world),
-        knows_place=clearance is not None
-        and isinstance(clearance.surroundings, KnownRoom),
+        SensorSetup(
+            generator=named_generator(setup.seed, f"sensors/{setup.name}"),
+            averages_imu=setup.control.feedback,
+            sight=sight,
+            eyes=None if cameras is None else cameras.eyes,
+            truth=truth or setup.true_state_in(world),
+            knows_pose=clearance is not None
+            and isinstance(clearance.surroundings, KnownRoom),
+        ),
     )
     return SimulatedPlayer(robot, scheme, setup.odometry_in_world)
 

@@ -10,6 +10,7 @@ import numpy as np
 from ..core.errors import ConfigurationError
 from ..core.poses import Array, Pose, wrap_angle
 from ..theory import laws
+from ..theory.unicycle.unicycle_game import Unicycle
 from .person_settings import PATHS, PersonSettings
 from .repeated_visits import RepeatedVisits
 
@@ -147,8 +148,7 @@ def template_approach(
     start: Pose,
     evader: Pose,
     *,
-    speed: float,
-    gain: float,
+    unicycle: Unicycle,
     angle: float,
     safety_radius: float,
     duration: float,
@@ -163,8 +163,7 @@ def template_approach(
         motion: Function that starts a walk of the person.
         start: Initial pose of the person in the world.
         evader: Initial pose of the evader in the world.
-        speed: Speed of the evader, in [m/s].
-        gain: Steering gain of the evader, in [1/s].
+        unicycle: Speed and steering gain of the evader.
         angle: Evasion angle, in [rad].
         safety_radius: Safety radius, in [m].
         duration: Duration of the game, in [s].
@@ -187,8 +186,8 @@ def template_approach(
         bearing = wrap_angle(atan2(py - y, px - x) - theta)
         side = side or laws.side_behind(bearing)
         aim = laws.evasion_heading(bearing, side, angle)
-        theta += laws.proportional_rate(aim, gain) * step
-        x -= step * speed * cos(theta)
-        y -= step * speed * sin(theta)
+        theta += laws.proportional_rate(aim, unicycle.gain) * step
+        x -= step * unicycle.speed * cos(theta)
+        y -= step * unicycle.speed * sin(theta)
         theta = wrap_angle(theta) if abs(theta) > pi else theta
     return closest

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from ..core.constants import GRAVITY
 from ..core.errors import ModelError
@@ -66,6 +68,29 @@ class JointPosture(Protocol):
         """Names of the actuated joints."""
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class SensorSetup:
+    """Sensors of a simulated robot.
+
+    Attributes:
+        generator: Random generator of errors and noise; None for exact
+            sensors.
+        averages_imu: Whether the IMU averages between readings, as real ones
+            do, instead of sampling.
+        sight: Ideal line of sight to the opponent, if any.
+        eyes: Cameras and sonars, if any.
+        truth: True state of the robot, if it exists already.
+        knows_pose: Whether it has an ideal sensor of its pose.
+    """
+
+    generator: np.random.Generator | None = None
+    averages_imu: bool = False
+    sight: IdealLineOfSight | None = None
+    eyes: SensorSuite | None = None
+    truth: TrueRobotState | None = None
+    knows_pose: bool = False
+
+
 class SimulatedRobot:
     """Robot in a world, with its sensors and servos.
 
@@ -86,13 +111,8 @@ class SimulatedRobot:
         kinematics: JointPosture,
         pose: Pose,
         body: BodySettings | None = None,
-        generator: np.random.Generator | None = None,
+        sensors: SensorSetup | None = None,
         *,
-        sight: IdealLineOfSight | None = None,
-        eyes: SensorSuite | None = None,
-        averages_imu: bool = False,
-        truth: TrueRobotState | None = None,
-        knows_place: bool = False,
         gains: JointGains | None = None,
     ) -> None:
         """Place a robot in the posture of its kinematics.
@@ -104,74 +124,33 @@ class SimulatedRobot:
             kinematics: Kinematics in the standing posture.
             pose: Pose of the odometry frame in the world.
             body: Errors of the body; none by default.
-            generator: Random generator of errors and noise.
-            sight: Ideal line of sight to the opponent, if any.
-            eyes: Cameras and sonars, if any.
-            averages_imu: Whether the IMU averages between readings, as real
-                ones do, instead of sampling.
-            truth: True state, if it exists already.
-            knows_place: Whether it has an ideal sensor of its pose.
+            sensors: Its sensors; exact ones of its own joints, IMU and feet
+                by default.
             gains: Gains of a body that is driven by joint torques; by default
                 its position servos.
         """
-        body = body or BodySettings()
-        self.world = world
-        self.name = name
+        body, setup = body or BodySettings(), sensors or SensorSetup()
+        self.world, self.name = world, name
         self.tick = world.physics.tick
-        self.sight = sight
-        self.eyes = eyes
+        self.sight, self.eyes = setup.sight, setup.eyes
         model, data = world.model, world.data
         names = kinematics.joint_names
         joints = [model.joint(f"{name}/{n}") for n in names]
         self._qpos = np.array([j.qposadr[0] for j in joints])
         ids = np.array([motor_of(model, j.id) for j in joints])
-        speeds = np.array([description.speed_limits[n] for n in names])
         if gains is not None:
             set_joint_gains(model, ids, names, gains)
         self._dofs = (
             None if gains is None else np.array([j.dofadr[0] for j in joints])
         )
-        self.servos: IdealServos
-        if body.has_ideal_servos:
-            self.servos = IdealServos(
-                model,
-                data,
-                ids,
-                speeds,
-                self.tick,
-                feedforward=gains is None,
-            )
-        else:
-            legs = np.array([n in description.legs for n in names])
-            servos = RealisticServos(
-                model,
-                data,
-                ids,
-                speeds,
-                self.tick,
-                body,
-                body.backlash * legs,
-                feedforward=gains is None,
-            )
-            world.before_step.append(servos.before_step)
-            self.servos = servos
-        self._imu: AveragedImu | None = None
+        self.servos = self._make_servos(
+            description, names, ids, body, feedforward=gains is None
+        )
+        self._find_sensors(description)
         self._errors: SensorErrors | None = None
-        if generator is not None and body.has_sensor_errors:
+        if setup.generator is not None and body.has_sensor_errors:
             unit = description.game.get("force_unit", 1.0)
-            self._errors = SensorErrors(body, generator, force_unit=unit)
-        sensors = description.sensors
-        self._gyro = self._sensor(sensors.gyro)
-        self._accelerometer = self._sensor(sensors.accelerometer)
-        # Views of the state, made once: slicing takes time.
-        self._qpos_view: Array = data.qpos
-        self._sensordata: Array = data.sensordata
-        self._gyro_view: Array = data.sensordata[self._gyro]
-        self._accelerometer_view: Array = data.sensordata[self._accelerometer]
-        pressing = [self._sensor(foot).start for foot in sensors.feet]
-        self._force_addresses = np.array(pressing)
-        sites = [model.site(f"{name}/{f}").id for f in sensors.feet]
-        self._corner_sites = np.array(sites)
+            self._errors = SensorErrors(body, setup.generator, force_unit=unit)
         root = model.body(f"{name}/{description.torso}")
         self._place_in_world(
             kinematics, pose, int(model.jnt_qposadr[root.jntadr[0]])
@@ -179,12 +158,63 @@ class SimulatedRobot:
         self.servos.reset(kinematics.joint_targets)
         self._torso = root.id
         self.pusher: PushApplier | None = None
-        self.truth = truth or TrueRobotState(model, data, root.name)
+        self.truth = setup.truth or TrueRobotState(model, data, root.name)
         self._stance = StanceWatch(model, data, name, description)
-        self.place = IdealPose(self.truth) if knows_place else None
-        if averages_imu:
+        self.place = IdealPose(self.truth) if setup.knows_pose else None
+        self._imu: AveragedImu | None = None
+        if setup.averages_imu:
             self._imu = AveragedImu(data, self._gyro, self._accelerometer)
             world.before_step.append(self._imu.before_step)
+
+    def _make_servos(
+        self,
+        description: RobotDescription,
+        names: tuple[str, ...],
+        actuators: NDArray[np.int_],
+        body: BodySettings,
+        *,
+        feedforward: bool,
+    ) -> IdealServos:
+        """Return the servos of the joints with these names."""
+        world = self.world
+        speeds = np.array([description.speed_limits[n] for n in names])
+        if body.has_ideal_servos:
+            return IdealServos(
+                world.model,
+                world.data,
+                actuators,
+                speeds,
+                self.tick,
+                feedforward=feedforward,
+            )
+        legs = np.array([n in description.legs for n in names])
+        servos = RealisticServos(
+            world.model,
+            world.data,
+            actuators,
+            speeds,
+            self.tick,
+            body,
+            body.backlash * legs,
+            feedforward=feedforward,
+        )
+        world.before_step.append(servos.before_step)
+        return servos
+
+    def _find_sensors(self, description: RobotDescription) -> None:
+        """Find the sensors, and make views of their values once."""
+        model, data = self.world.model, self.world.data
+        sensors = description.sensors
+        self._gyro = self._sensor(sensors.gyro)
+        self._accelerometer = self._sensor(sensors.accelerometer)
+        self._qpos_view: Array = data.qpos
+        self._sensordata: Array = data.sensordata
+        self._gyro_view: Array = data.sensordata[self._gyro]
+        self._accelerometer_view: Array = data.sensordata[self._accelerometer]
+        pressing = [self._sensor(foot).start for foot in sensors.feet]
+        self._force_addresses = np.array(pressing)
+        sites = [model.site(f"{self.name}/{f}").id for f in sensors.feet]
+        self._corner_sites = np.array(sites)
 
     def _sensor(self, sensor: str) -> slice:
         try:
