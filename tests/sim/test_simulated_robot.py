@@ -317,6 +317,8 @@ def test_sight_and_eyes_are_read_at_the_time_of_the_world() -> None:
     told: list[float] = []
 
     class Sense:
+        is_exact = False
+
         def read(self, now: float) -> Any:
             told.append(now)
             return ("seen",)
