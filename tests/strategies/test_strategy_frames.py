@@ -284,13 +284,14 @@ def test_a_player_knows_the_opponents_velocity_in_its_own_frame(
 ) -> None:
     """Of the other on the floor, however the own body moves and turns."""
     strategy: Any = Noting()
-    player = TemplatePlayer(strategy, LIMITS, ObstacleSet(SOLIDS))
+    player = TemplatePlayer(strategy, LIMITS, own, ObstacleSet(SOLIDS))
     for i in range(6):
         time = STEP * i
         here = own.compose(Pose(-0.03 * i, 0.0, 0.3 * i))
         there = Pose(own.x + 2.0 + u * time, own.y + v * time, 0.0)
         x, y, _ = here.inverse().compose(there)
-        player.decide(time, here, atan2(y, x), hypot(x, y))
+        player.pose = here
+        player.decide(time, atan2(y, x), hypot(x, y))
     first, last = strategy.told[0], strategy.told[-1]
     assert first.velocity is None and last.pose == here
     assert last.obstacles.shapes == SOLIDS and last.age == 0.0

@@ -140,12 +140,17 @@ class DecisionMaker:
 
 
 class TemplatePlayer(DecisionMaker):
-    """Player of a template game: exact sightings, without latency."""
+    """Player of a template game: exact sightings, without latency.
+
+    Attributes:
+        pose: Own pose in the room.
+    """
 
     def __init__(
         self,
         strategy: Strategy,
         limits: Limits,
+        pose: Pose,
         obstacles: ObstacleSet = NO_OBSTACLES,
         *,
         estimates_velocity: bool = True,
@@ -155,6 +160,7 @@ class TemplatePlayer(DecisionMaker):
         Args:
             strategy: Strategy of the player.
             limits: Limits of its gait.
+            pose: Initial pose in the room.
             obstacles: Known obstacles.
             estimates_velocity: Whether its knowledge contains the velocity
                 of the opponent.
@@ -162,16 +168,14 @@ class TemplatePlayer(DecisionMaker):
         super().__init__(
             strategy, limits, estimates_velocity=estimates_velocity
         )
+        self.pose = pose
         self._obstacles, self._moving = obstacles, False
 
-    def decide(
-        self, time: float, pose: Pose, bearing: float, distance: float
-    ) -> Intent:
+    def decide(self, time: float, bearing: float, distance: float) -> Intent:
         """Decide and store the memory.
 
         Args:
             time: Present time, in [s].
-            pose: Own pose.
             bearing: Bearing of the opponent, in [rad].
             distance: Distance to the opponent, in [m].
 
@@ -180,8 +184,8 @@ class TemplatePlayer(DecisionMaker):
         """
         knowledge = self.observe(
             time,
-            pose,
-            pose.theta + bearing,
+            self.pose,
+            self.pose.theta + bearing,
             Sighting(time, bearing, distance),
             moving=self._moving,
             obstacles=self._obstacles,

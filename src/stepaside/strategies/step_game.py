@@ -136,8 +136,8 @@ class StepTrack(NamedTuple):
         return found
 
 
-class _StepPlayer:
-    """One player with its strategy and pose."""
+class _StepPlayer(TemplatePlayer):
+    """Player that moves by the arc of one decision."""
 
     def __init__(
         self,
@@ -146,22 +146,21 @@ class _StepPlayer:
         game: StepGame,
         solids: ObstacleSet,
     ) -> None:
-        self.strategy, self.pose, self.game = strategy, pose, game
-        self._player = TemplatePlayer(
-            strategy, game.limits, solids, estimates_velocity=False
+        super().__init__(
+            strategy, game.limits, pose, solids, estimates_velocity=False
         )
+        self.game = game
 
     def bearing_of(self, other: Pose) -> float:
         """Return the bearing of a pose in the own frame, in [rad]."""
         x, y, theta = self.pose
         return wrap_angle(atan2(other.y - y, other.x - x) - theta)
 
-    def decide(self, time: float, other: Pose) -> Intent:
-        """Evaluate the strategy."""
+    def decide_against(self, time: float, other: Pose) -> Intent:
+        """Evaluate the strategy, with the opponent at a pose in the room."""
         x, y, _ = self.pose
         distance = hypot(other.x - x, other.y - y)
-        bearing = self.bearing_of(other)
-        return self._player.decide(time, self.pose, bearing, distance)
+        return self.decide(time, self.bearing_of(other), distance)
 
     def after(self, intent: Intent) -> Pose:
         """Return the pose after a decision: the exact arc of the maneuver."""
@@ -225,9 +224,9 @@ def play_steps(
     for n in range(game.steps):
         time = n * game.period / game.decisions
         begun = perf_counter()
-        wanted = prey.decide(time, hunter.pose)
+        wanted = prey.decide_against(time, hunter.pose)
         decisions.append(perf_counter() - begun)
-        chasing = hunter.decide(time, prey.pose)
+        chasing = hunter.decide_against(time, prey.pose)
         moved = hunter.after(chasing)
         if game.solid_pursuer:
             free = clearance_at(packed, moved.x, moved.y, game.body_radius)

@@ -47,19 +47,15 @@ class StrategyRun:
         return float(self.distances.min())
 
 
-class _UnicyclePlayer:
-    """One unicycle with its strategy."""
+class _UnicyclePlayer(TemplatePlayer):
+    """Unicycle that drives along its decisions."""
 
     def __init__(
         self, strategy: Strategy, body: Unicycle, pose: Pose, period: float
     ) -> None:
-        self.strategy, self.body, self.pose = strategy, body, pose
         limits = Limits(body.speed, body.gain, body.speed * period, period)
-        self._player = TemplatePlayer(strategy, limits)
-
-    def decide(self, time: float, bearing: float, distance: float) -> Intent:
-        """Evaluate the strategy."""
-        return self._player.decide(time, self.pose, bearing, distance)
+        super().__init__(strategy, limits, pose)
+        self.body = body
 
     def drive(self, intent: Intent, times: Array) -> Array:
         """Drive along a decision; poses at times since then. Shape (n, 3)."""
