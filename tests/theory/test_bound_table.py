@@ -10,6 +10,7 @@ import pytest
 from click.testing import CliRunner
 
 from stepaside.cli.bound import bound as bound_command
+from stepaside.cli.main import main
 from stepaside.core.errors import PlanError
 from stepaside.theory.bound import (
     Bound,
@@ -166,14 +167,14 @@ def test_command_writes_table_and_figure(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        ("--capture 0", "--capture"),
+        ("--capture 0", "capture must lie in"),
         ("--capture 99 --farthest 5 --nearest 1", "--capture"),
         ("--pursuer-speed nan", "--pursuer-speed"),
         ("--output table.txt", ".npz"),
         ("--figure table.txt", "--figure"),
-        ("--grid 3", "--grid"),
+        ("--grid 3", "grid must be an integer"),
     ],
 )
 def test_bad_options_are_refused(words: str, said: str) -> None:
-    result = CliRunner().invoke(bound_command, words.split())
-    assert result.exit_code != 0 and said in result.output
+    result = CliRunner().invoke(main, ["bound", *words.split()])
+    assert result.exit_code == 2 and said in result.output

@@ -1,10 +1,13 @@
 """``stepaside bound``: upper bound of the closest approach."""
 
+from dataclasses import dataclass
 from math import pi, prod
 from typing import TYPE_CHECKING, NamedTuple
 
 import click
 
+from ..core.ranges import Range
+from ..core.setting import check_settings, setting
 from .bound_tables import (
     describe,
     describe_refinement,
@@ -13,14 +16,8 @@ from .bound_tables import (
 )
 from .effort_estimate import CELLS, announce_effort
 from .options.common_options import figure_option, figure_width, json_option
-from .options.parameter_types import (
-    METERS,
-    SECONDS,
-    NameType,
-    NumberType,
-    OutputFile,
-)
-from .options.setting_options import refuse_options
+from .options.parameter_types import NameType, OutputFile, positive
+from .options.setting_options import refuse_options, takes
 from .output_files import attempt, writes_files
 from .progress import show_progress
 from .terminal import print_json
@@ -29,7 +26,6 @@ if TYPE_CHECKING:
     from ..theory.bound import Bound, BoundGame, DiscretisationScheme, Grid
     from ..theory.bound.grid_refinement import Refinement
 
-SPEED, RATE = NumberType("m/s"), NumberType("rad/s")
 AGAINST = ("pursuit", "any")
 
 
@@ -39,99 +35,122 @@ def _schemes() -> tuple[str, ...]:
     return tuple(scheme.value for scheme in DiscretisationScheme)
 
 
+@dataclass(frozen=True, slots=True)
+class BoundOptions:
+    """Game, grid and solver of ``stepaside bound``."""
+
+    against: str = setting(
+        AGAINST[0],
+        "The pursuer of eqs. (1)-(2), or any with a bounded turning rate",
+        names=AGAINST,
+        option="--against",
+    )
+    pursuer_speed: float = setting(
+        1.0,
+        "Speed of the pursuer",
+        positive("m/s"),
+        option="--pursuer-speed",
+    )
+    evader_speed: float = setting(
+        1.0, "Speed of the evader", positive("m/s"), option="--evader-speed"
+    )
+    pursuer_gain: float = setting(
+        0.5,
+        "Steering gain k of eq. (2) {unit}, for --against pursuit",
+        positive("1/s"),
+        option="--pursuer-gain",
+    )
+    pursuer_turn: float | None = setting(
+        None,
+        "Maximum turning rate of the pursuer {unit}, for --against any",
+        positive("rad/s", None),
+        option="--pursuer-turn",
+        default_text="pi k",
+    )
+    evader_turn: float | None = setting(
+        None,
+        "Maximum turning rate of the evader",
+        positive("rad/s", None),
+        option="--evader-turn",
+        default_text="the pursuer's",
+    )
+    capture: float | None = setting(
+        None,
+        "Capture distance of the barrier in the output",
+        positive("m", None),
+        option="--capture",
+        default_text="0.7 v/k",
+    )
+    nearest: float | None = setting(
+        None,
+        "Distance at which a game ends, the inner edge of the grid",
+        positive("m", None),
+        option="--nearest",
+        default_text="half of --capture",
+    )
+    farthest: float | None = setting(
+        None,
+        "Outer edge of the grid",
+        positive("m", None),
+        option="--farthest",
+        default_text="depends on the game",
+    )
+    grid: int = setting(
+        64,
+        "Grid cells along each axis",
+        Range(16, 400, "1", "more do not fit in memory", whole=True),
+        option="--grid",
+    )
+    refine: int = setting(
+        1,
+        "Number of coarser grids, each with half the cells, for the error "
+        "estimate",
+        Range(0, 3, "1", "coarser ones say nothing", whole=True),
+        option="--refine",
+    )
+    horizon: float | None = setting(
+        None,
+        "Time horizon",
+        positive("s", None),
+        option="--horizon",
+        default_text="one full turn at the lowest rate",
+    )
+    games: int = setting(
+        1000,
+        "Number of random games simulated to check the table",
+        Range(0, 1_000_000, "1", "more take hours", whole=True),
+        option="--games",
+    )
+
+    def __post_init__(self) -> None:
+        """Validate ranges and names."""
+        check_settings(self)
+        if self.against == "pursuit":
+            refuse_options({"pursuer_turn"}, "--against any, got pursuit")
+
+    def game(self) -> "BoundGame":
+        """Return the game."""
+        from ..theory.bound import fixed_pursuit_game, two_car_game
+
+        speeds = self.pursuer_speed, self.evader_speed
+        if self.against == "pursuit":
+            return fixed_pursuit_game(
+                *speeds, self.pursuer_gain, self.evader_turn
+            )
+        turn = self.pursuer_turn
+        limit = pi * self.pursuer_gain if turn is None else turn
+        return two_car_game(*speeds, limit, self.evader_turn)
+
+
 @click.command("bound")
-@click.option(
-    "--against",
-    type=NameType(lambda: AGAINST),
-    default=AGAINST[0],
-    show_default=True,
-    help="The pursuer of eqs. (1)-(2), or any with a bounded turning rate.",
-)
-@click.option(
-    "--pursuer-speed",
-    type=SPEED,
-    default=1.0,
-    show_default=True,
-    help="Speed of the pursuer [m/s].",
-)
-@click.option(
-    "--evader-speed",
-    type=SPEED,
-    default=1.0,
-    show_default=True,
-    help="Speed of the evader [m/s].",
-)
-@click.option(
-    "--pursuer-gain",
-    type=NumberType("1/s"),
-    default=0.5,
-    show_default=True,
-    help="Steering gain k of eq. (2) [1/s], for --against pursuit.",
-)
-@click.option(
-    "--pursuer-turn",
-    type=RATE,
-    help="Maximum turning rate of the pursuer [rad/s], for --against any.  "
-    "[default: pi k]",
-)
-@click.option(
-    "--evader-turn",
-    type=RATE,
-    help="Maximum turning rate of the evader [rad/s].  "
-    "[default: the pursuer's]",
-)
-@click.option(
-    "--capture",
-    type=METERS,
-    help="Capture distance of the barrier in the output [m].  "
-    "[default: 0.7 v/k]",
-)
-@click.option(
-    "--nearest",
-    type=METERS,
-    help="Distance at which a game ends, the inner edge of the grid [m].  "
-    "[default: half of --capture]",
-)
-@click.option(
-    "--farthest",
-    type=METERS,
-    help="Outer edge of the grid [m].  [default: depends on the game]",
-)
-@click.option(
-    "--grid",
-    "cells",
-    type=click.IntRange(16, 400),
-    default=64,
-    show_default=True,
-    help="Grid cells along each axis.",
-)
-@click.option(
-    "--refine",
-    type=click.IntRange(0, 3),
-    default=1,
-    show_default=True,
-    help="Number of coarser grids, each with half the cells, for the error "
-    "estimate.",
-)
-@click.option(
-    "--horizon",
-    type=SECONDS,
-    help="Time horizon [s].  [default: one full turn at the lowest rate]",
-)
+@takes(BoundOptions, "options")
 @click.option(
     "--scheme",
-    type=NameType(lambda: _schemes()),
+    type=NameType(_schemes),
     default="weno",
     show_default=True,
     help="Scheme of the solver: fifth order (weno, lax) or first order "
     "(first, first-lax), with Godunov or Lax-Friedrichs flux.",
-)
-@click.option(
-    "--games",
-    type=click.IntRange(0, 1_000_000),
-    default=1000,
-    show_default=True,
-    help="Number of random games simulated to check the table.",
 )
 @click.option(
     "--output", type=OutputFile(".npz"), help="Write the table (.npz)."
@@ -141,20 +160,8 @@ def _schemes() -> tuple[str, ...]:
 @json_option
 @writes_files
 def bound(
-    against: str,
-    pursuer_speed: float,
-    evader_speed: float,
-    pursuer_gain: float,
-    pursuer_turn: float | None,
-    evader_turn: float | None,
-    capture: float | None,
-    nearest: float | None,
-    farthest: float | None,
-    cells: int,
-    refine: int,
-    horizon: float | None,
+    options: BoundOptions,
     scheme: str,
-    games: int,
     output: str | None,
     figure: str | None,
     as_json: bool,
@@ -165,24 +172,20 @@ def bound(
     """
     from ..theory.bound import DiscretisationScheme
 
-    if against == "pursuit":
-        refuse_options({"pursuer_turn"}, "--against any, got pursuit")
-    turn = pi * pursuer_gain if pursuer_turn is None else pursuer_turn
+    capture = options.capture
+    if capture is None:
+        capture = 0.7 * options.evader_speed / options.pursuer_gain
     problem = _BoundProblem(
-        _game_of(
-            against,
-            (pursuer_speed, evader_speed),
-            (pursuer_gain, turn, evader_turn),
-        ),
-        0.7 * evader_speed / pursuer_gain if capture is None else capture,
+        options.game(),
+        capture,
         DiscretisationScheme(scheme),
-        horizon,
+        options.horizon,
     )
-    grid = problem.grid(nearest, farthest, cells)
-    table, rows = problem.solve(grid, refine, quiet=as_json)
-    result = describe(table, problem.capture) | describe_refinement(rows)
-    if games:
-        result["played"] = played_games(table, games)
+    grid = problem.grid(options.nearest, options.farthest, options.grid)
+    table, rows = problem.solve(grid, options.refine, quiet=as_json)
+    result = describe(table, capture) | describe_refinement(rows)
+    if options.games:
+        result["played"] = played_games(table, options.games)
     if output is not None and attempt(lambda: table.save(output)):
         result["output"] = output
     if figure is not None:
@@ -194,20 +197,6 @@ def bound(
         print_json(result)
         return
     print_bound(result)
-
-
-def _game_of(
-    against: str,
-    speeds: tuple[float, float],
-    turning: tuple[float, float, float | None],
-) -> "BoundGame":
-    """Return the game for gain, pursuer's and evader's turning limits."""
-    from ..theory.bound import fixed_pursuit_game, two_car_game
-
-    gain, limit, evader_turn = turning
-    if against == "pursuit":
-        return fixed_pursuit_game(*speeds, gain, evader_turn)
-    return two_car_game(*speeds, limit, evader_turn)
 
 
 class _BoundProblem(NamedTuple):

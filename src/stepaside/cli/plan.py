@@ -18,7 +18,7 @@ from .plan_settings import ENTRIES_OF_GAMES, FEET, ROLES, PlanSettings
 from .terminal import echo, print_json
 
 if TYPE_CHECKING:
-    from ..planning import ManeuverPlan, TemplateDrive
+    from ..planning import ManeuverPlan
 
 MANEUVER = OptionGroup(
     "Maneuver", ("role", "bearing", "steps", "first_foot", "saturated")
@@ -43,7 +43,7 @@ def plan(settings: PlanSettings, figure: str | None, as_json: bool) -> None:
     --role and --bearing are required. The gait may come from the
     configuration of a duel or a walk.
     """
-    from ..planning import ManeuverPlanner
+    from ..planning import ManeuverPlanner, TemplateDrive
 
     role, bearing, gait = settings.role, settings.bearing, settings.gait
     for name, value in (("--role", role), ("--bearing", bearing)):
