@@ -16,7 +16,11 @@ from lola_fakes import (
     sensor_frame,
 )
 from stepaside.drivers.guardian_process import SessionLost
-from stepaside.drivers.joint.joint_body import JointBody
+from stepaside.drivers.joint.joint_body import (
+    JointBody,
+    JointInterface,
+    SystemClock,
+)
 from stepaside.drivers.joint.safety import RobotState
 from stepaside.drivers.lola.conventions import CODEC, joint_frame_of
 from stepaside.drivers.lola.lights import COLOURS
@@ -40,13 +44,9 @@ def body_of(
     clock = Clock()
     link = FakeLink(clock, script)
     body = JointBody(
-        link,
-        JOINTS,
-        STANCE,
-        NAO_MOTORS,
-        CODEC,
-        clock=clock,
-        pause=clock.pause,
+        JointInterface(link, NAO_MOTORS, CODEC),
+        dict(zip(JOINTS, STANCE, strict=True)),
+        clock=SystemClock(clock, clock.pause),
         **changes,
     )
     return body, link, clock

@@ -11,7 +11,11 @@ import pytest
 import stepaside.drivers.joint
 from stepaside.core.errors import ModelError
 from stepaside.drivers.joint.frames import Codec, JointCommand, JointFrame
-from stepaside.drivers.joint.joint_body import JointBody
+from stepaside.drivers.joint.joint_body import (
+    JointBody,
+    JointInterface,
+    SystemClock,
+)
 from stepaside.drivers.joint.joint_map import JointMap, MotorTable, motors_of
 from stepaside.drivers.joint.safety import RobotState
 from stepaside.robots.description import load_robot
@@ -99,13 +103,13 @@ class MotorLink:
 
 def body_on(link: MotorLink) -> JointBody:
     return JointBody(
-        link,
-        ("knee", "hip"),
-        STANCE,
-        MOTORS,
-        Codec(lambda frame: frame, lambda command: command),
-        clock=link.clock,
-        pause=lambda duration: None,
+        JointInterface(
+            link,
+            MOTORS,
+            Codec(lambda frame: frame, lambda command: command),
+        ),
+        dict(zip(("knee", "hip"), STANCE, strict=True)),
+        clock=SystemClock(link.clock, lambda duration: None),
     )
 
 

@@ -14,7 +14,11 @@ from lola_fakes import JOINTS, STANCE, Clock, FakeLink, pressed, sensor_frame
 from stepaside.control.strategy_runner import StrategyRunner
 from stepaside.core.errors import ConfigurationError, ReachError, StrategyError
 from stepaside.core.poses import Pose
-from stepaside.drivers.joint.joint_body import JointBody
+from stepaside.drivers.joint.joint_body import (
+    JointBody,
+    JointInterface,
+    SystemClock,
+)
 from stepaside.drivers.joint.joint_loop import JointLoop
 from stepaside.drivers.joint.safety import RobotState
 from stepaside.drivers.lola.conventions import CODEC
@@ -96,13 +100,9 @@ class Game:
             clock = self.link.clock
             names = scheme.kinematics.joint_names
             return JointBody(
-                self.link,
-                names,
-                scheme.joint_targets,
-                NAO_MOTORS,
-                CODEC,
-                clock=clock,
-                pause=clock.pause,
+                JointInterface(self.link, NAO_MOTORS, CODEC),
+                dict(zip(names, scheme.joint_targets, strict=True)),
+                clock=SystemClock(clock, clock.pause),
                 **changes,
             )
 

@@ -22,7 +22,11 @@ from lola_fakes import (
     sensor_frame,
 )
 from stepaside.drivers.guardian_process import SessionLost
-from stepaside.drivers.joint.joint_body import JointBody
+from stepaside.drivers.joint.joint_body import (
+    JointBody,
+    JointInterface,
+    SystemClock,
+)
 from stepaside.drivers.joint.safety import RobotState
 from stepaside.drivers.lola.conventions import CODEC
 from stepaside.drivers.lola.lola_address import LolaAddress
@@ -199,13 +203,9 @@ def test_a_world_that_is_frozen_ends_control(tmp_path: Path) -> None:
 def body_on(near: socket.socket) -> JointBody:
     clock = Clock()
     return JointBody(
-        SocketLink(near, SENSOR_BYTES),
-        JOINTS,
-        STANCE,
-        NAO_MOTORS,
-        CODEC,
-        clock=clock,
-        pause=clock.pause,
+        JointInterface(SocketLink(near, SENSOR_BYTES), NAO_MOTORS, CODEC),
+        dict(zip(JOINTS, STANCE, strict=True)),
+        clock=SystemClock(clock, clock.pause),
     )
 
 
@@ -262,7 +262,9 @@ def test_ten_thousand_garbage_frames_from_a_robot_are_passed_over() -> None:
     clock = Clock()
     link = FakeLink(clock, script)
     body = JointBody(
-        link, JOINTS, STANCE, NAO_MOTORS, CODEC, clock=clock, pause=clock.pause
+        JointInterface(link, NAO_MOTORS, CODEC),
+        dict(zip(JOINTS, STANCE, strict=True)),
+        clock=SystemClock(clock, clock.pause),
     )
     for _ in range(10_000):
         time = body.read().time

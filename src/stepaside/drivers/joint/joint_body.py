@@ -1,9 +1,9 @@
 """Body of a robot that is driven by its joints over a link."""
 
 import logging
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping
 from time import monotonic, sleep
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
@@ -39,6 +39,35 @@ class SightSubscription(Protocol):
         """Disconnect."""
 
 
+class JointInterface(NamedTuple):
+    """Interface of a robot to its joints.
+
+    Attributes:
+        link: Link that carries the frames.
+        motors: Motors of the robot, in the order of its frames.
+        codec: Conversion between frames and what the link carries.
+    """
+
+    link: FrameLink
+    motors: MotorTable
+    codec: Codec
+
+
+class SystemClock(NamedTuple):
+    """Clock of this computer.
+
+    Attributes:
+        read: Returns the time, in [s].
+        pause: Sleeps for a time, in [s].
+    """
+
+    read: Callable[[], float] = monotonic
+    pause: Callable[[float], None] = sleep
+
+
+SYSTEM_CLOCK = SystemClock()
+
+
 class JointBody:
     """Robot behind the interface read, write, step, close.
 
@@ -55,56 +84,51 @@ class JointBody:
 
     def __init__(
         self,
-        link: FrameLink,
-        joint_names: Sequence[str],
-        stance: Array,
-        motors: MotorTable,
-        codec: Codec,
+        interface: JointInterface,
+        stance: Mapping[str, float],
         *,
         sight: SightSubscription | None = None,
         eyes: ImageSource | None = None,
         guardian: StiffnessGuardian | None = None,
         safety: SafetySettings | None = None,
         dry_run: bool = False,
-        clock: Callable[[], float] = monotonic,
-        pause: Callable[[float], None] = sleep,
+        clock: SystemClock = SYSTEM_CLOCK,
     ) -> None:
         """Start a session; the robot is limp.
 
         Args:
-            link: Link that carries the frames; closed with the body.
-            joint_names: Actuated joints, in the order of joint targets.
-            stance: Posture in which control begins, in [rad].
-                Shape (joints,).
-            motors: Motors of the robot, in the order of its frames.
-            codec: Conversion between frames and what the link carries.
+            interface: Interface of the robot; its link is closed with the
+                body.
+            stance: Posture in which control begins, in [rad], by actuated
+                joint, in the order of joint targets.
             sight: Ideal line of sight of a simulated robot, if used.
             eyes: Cameras, if used.
             guardian: Guardian that releases the robot if this process
                 fails.
             safety: Limits of safe operation.
             dry_run: Whether to command nothing but lights.
-            clock: Time of this computer, in [s].
-            pause: Function that sleeps for a time in [s].
+            clock: Clock of this computer.
 
         Raises:
             ModelError: If the robot has no motor for one of the joints.
         """
         settings = safety or SafetySettings()
+        link, motors, codec = interface
         self._link, self._sight, self._guardian = link, sight, guardian
         self._eyes, self._motors = eyes, motors
         self.tick = motors.tick
-        self._joints = JointMap(joint_names, motors)
-        self._motion = JointMotionState(self._joints, stance, motors)
+        self._joints = JointMap(tuple(stance), motors)
+        angles = np.array(list(stance.values()), dtype=np.float64)
+        self._motion = JointMotionState(self._joints, angles, motors)
         self._vitals = SafetyMonitor(settings.look_ahead, motors)
         self._silence = settings.silence
         self._safety = Safety(settings)
         self._hearing = FrameReceiver(
-            link, settings.silence, clock, codec.read, motors.tick
+            link, settings.silence, clock.read, codec.read, motors.tick
         )
         self._codec = codec
         self._dry_run = dry_run
-        self._clock, self._pause = clock, pause
+        self._clock, self._pause = clock
         self._start = 0
         self._state = RobotState.LIMP
         self.frame: JointFrame | None = None

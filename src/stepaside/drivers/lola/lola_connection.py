@@ -9,7 +9,7 @@ from time import sleep
 
 from ...core.poses import Array
 from ..guardian_process import SessionLost, open_with_retries
-from ..joint.joint_body import JointBody
+from ..joint.joint_body import JointBody, JointInterface
 from ..joint.safety import RobotState
 from ..joint.session_options import PLAIN, SessionOptions
 from ..joint.stiffness_guardian import FADING, StiffnessGuardian
@@ -59,11 +59,8 @@ def open_lola(
             guardian = StiffnessGuardian(partial(let_go, link.socket))
             stack.callback(guardian.dismiss)
         body = JointBody(
-            link,
-            joint_names,
-            stance,
-            NAO_MOTORS,
-            CODEC,
+            JointInterface(link, NAO_MOTORS, CODEC),
+            dict(zip(joint_names, stance.tolist(), strict=True)),
             sight=sight,
             eyes=how.eyes(),
             guardian=guardian,

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from ...core.poses import Array
 from ..guardian_process import open_with_retries
-from ..joint.joint_body import JointBody
+from ..joint.joint_body import JointBody, JointInterface
 from ..joint.session_options import PLAIN, SessionOptions
 from ..joint.stiffness_guardian import StiffnessGuardian
 from ..lola.nao_joints import NAO_MOTORS
@@ -51,11 +51,8 @@ def open_joints(
         if sight is not None:
             log.warning("uses the ideal line of sight of the robot")
         body = JointBody(
-            link,
-            joint_names,
-            stance,
-            NAO_MOTORS,
-            CODEC,
+            JointInterface(link, NAO_MOTORS, CODEC),
+            dict(zip(joint_names, stance.tolist(), strict=True)),
             sight=sight,
             eyes=eyes,
             guardian=guardian,
