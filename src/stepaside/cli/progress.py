@@ -43,12 +43,14 @@ class PlainProgress:
 
     Attributes:
         n: Finished work, in its unit.
+        initial: Part of it that was finished before, and took no time.
         total: Total work; None if not known yet.
     """
 
     def __init__(self, name: str, total: float | None, unit: str) -> None:
         """Start at zero."""
         self.n: float = 0
+        self.initial: float = 0
         self.total = total
         self._name, self._unit, self._postfix = name, unit, ""
         self._began = self._printed = monotonic()
@@ -89,8 +91,9 @@ class PlainProgress:
             done = f"{100.0 * fraction:.0f} %"
             if self._unit:
                 done += f", {self.n:.0f} of {self.total:.0f} {self._unit}"
-            if fraction > 0.0:
-                seconds = elapsed * (1.0 / fraction - 1.0)
+            if self.n > self.initial:
+                pace = elapsed / (self.n - self.initial)
+                seconds = pace * (self.total - self.n)
                 remaining = f", about {seconds:.0f} s left"
         elif self._unit:
             done += f" {self._unit}"

@@ -16,6 +16,7 @@ from typing import Any
 
 from ..core import worker_pool as pools
 from ..core.errors import CampaignError, ConfigurationError
+from ..robots.jit import folder as cache_folder
 from .code_version import installation
 
 Losses = tuple[type[BaseException], ...]
@@ -222,7 +223,8 @@ def _open_slurm(workers: int | None) -> Iterator[Engine]:
     """Submit Slurm jobs with one Dask worker each.
 
     Partition, account, time limit and memory of the jobs come from the
-    configuration of Dask (``jobqueue.slurm``).
+    configuration of Dask (``jobqueue.slurm``). The output of jobs is in
+    the cache folder, unless the configuration has a ``log-directory``.
     """
     import dask
     from dask_jobqueue import SLURMCluster
@@ -237,11 +239,13 @@ def _open_slurm(workers: int | None) -> Iterator[Engine]:
             "executor slurm needs the command sbatch of Slurm, which is not "
             "on the path"
         )
-    memory = dask.config.get(f"{SLURM_CONFIGURATION}.memory", None)
+    chosen = dask.config.get(SLURM_CONFIGURATION, {})
+    logs = chosen.get("log-directory") or str(cache_folder() / "slurm")
     with SLURMCluster(
         cores=1,
         processes=1,
-        memory=memory or SLURM_MEMORY,
+        memory=chosen.get("memory") or SLURM_MEMORY,
+        log_directory=logs,
         python=sys.executable,
         scheduler_options={"dashboard_address": None},
     ) as cluster:
