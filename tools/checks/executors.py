@@ -149,7 +149,10 @@ class DaskCluster:
         self.scheduler = self._start(
             "scheduler", "--port", str(self.port), "--no-dashboard"
         )
-        self.workers = [
+        self.workers = self._start_workers()
+
+    def _start_workers(self) -> "list[subprocess.Popen[bytes]]":
+        return [
             self._start(
                 *("worker", self.address, "--nthreads", "1"),
                 *("--no-dashboard", "--death-timeout", "60"),
@@ -173,12 +176,13 @@ class DaskCluster:
         kill_child("python")(self.workers[0])
 
     def restart_scheduler(self, _: object) -> None:
-        """Kill the scheduler, and start it again at its address."""
+        """Kill the scheduler, and start it and workers again."""
         self.scheduler.kill()
         self.scheduler.wait()
         self.scheduler = self._start(
             "scheduler", "--port", str(self.port), "--no-dashboard"
         )
+        self.workers = self._start_workers()
 
 
 def shards(check: Check, wanted: str) -> None:

@@ -1,7 +1,6 @@
 """Test the faults that tests are tried by, on a small package."""
 
 import ast
-import json
 import subprocess
 import sys
 from collections.abc import Callable
@@ -9,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from stepaside.studies.result_store import ResultStore
 from tools.documents.store import Store
 from tools.documents.tables.mutation import score, survivors
 from tools.mutation.__main__ import main
@@ -240,7 +240,7 @@ def test_interrupted_run_ends_with_the_same_table(
     unused = [line for line in survivors if "return x + 1.0" in line]
     assert len(unused) >= 2 and len(survivors) < 6, listed
     assert (root / FILE).read_text() == TEXT
-    (rows,) = (root / "runs" / "mutation").glob("trials-*.jsonl")
+    (rows,) = (root / "runs" / "mutation").glob("trials-*/*.jsonl")
     lines = rows.read_text().splitlines(keepends=True)
     half = "".join(lines[: len(lines) // 2])
     altered = half.replace('"killed"', '"survived"', 1)
@@ -249,8 +249,8 @@ def test_interrupted_run_ends_with_the_same_table(
     again = run(root)
     assert again.splitlines()[-1] == listed.splitlines()[-1]
     assert told("--list-survivors") == listed
-    keys = [json.loads(line)["key"] for line in rows.read_text().splitlines()]
-    assert len(keys) == len(set(keys)) == len(lines)
+    keys = set(ResultStore(rows.parent).read())
+    assert len(keys) == len(lines)
 
 
 def test_only_make_mutate_writes_the_result(

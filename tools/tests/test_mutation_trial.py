@@ -22,7 +22,7 @@ REPOSITORY = Path(__file__).parents[2]
 FILE = "src/stepaside/planning/toy.py"
 TRIAL = """import os, sys
 from pathlib import Path
-import stepaside.studies.record_store
+import stepaside.studies.result_store
 from tools.mutation.child import fork, warm_up
 from tools.mutation.trial import run
 tree, note = Path(sys.argv[1]), Path(sys.argv[2])

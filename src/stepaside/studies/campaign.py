@@ -29,6 +29,7 @@ C = TypeVar("C")
 BLOCK_TIME = 0.5  # aimed at for a block of cases, in [s]
 LARGEST_BLOCK = 1000  # cases
 GROWTH = 4  # largest ratio of the sizes of successive blocks
+PATIENCE = 30.0  # without a result, before workers are counted, in [s]
 ATTEMPTS = 3  # for a block whose worker is lost
 MISSING = -1  # position of a case without a record
 
@@ -298,10 +299,12 @@ class _Campaign(Generic[C]):
         try:
             self._tell()
             while self._submit() or self._in_flight:
-                done = wait(self._in_flight, None, FIRST_COMPLETED).done
+                done = wait(self._in_flight, PATIENCE, FIRST_COMPLETED).done
                 for future in done:
                     self._take(future)
                 self._tell_loss()
+                if not done and self._engine.is_deserted:
+                    self._on_loss("the scheduler has no workers; waiting")
         except KeyboardInterrupt:
             self._run.interrupted = True
             self._stop()

@@ -48,6 +48,7 @@ class Engine:
         largest_block: int = 1_000_000,
         losses: Losses = (),
         start: Callable[[], Executor] | None = None,
+        count: Callable[[], int] | None = None,
     ) -> None:
         """Use an executor.
 
@@ -59,10 +60,13 @@ class Engine:
                 of ``concurrent.futures``.
             start: Starts another executor after a worker was lost; None if
                 the executor itself replaces lost workers.
+            count: Returns the present number of workers, where it may be
+                none.
         """
         self.workers, self.largest_block = workers, largest_block
         self.losses: Losses = (BrokenExecutor, CancelledError, *losses)
         self._executor, self._start = executor, start
+        self._count = count
 
     @classmethod
     def of(cls, executor: Executor | None) -> "Engine":
@@ -93,6 +97,11 @@ class Engine:
             self._executor = self._start()
             return True
         return not broken
+
+    @property
+    def is_deserted(self) -> bool:
+        """Whether there is no worker now."""
+        return self._count is not None and self._count() == 0
 
     def close(self) -> None:
         """End the workers."""
@@ -200,7 +209,7 @@ def _open_dask(address: str, workers: int | None) -> Iterator[Engine]:
         cluster = LocalCluster(
             n_workers=workers or os.cpu_count() or 1,
             threads_per_worker=1,
-            dashboard_address=None,
+            dashboard_address=":0",
         )
     try:
         try:
@@ -247,7 +256,7 @@ def _open_slurm(workers: int | None) -> Iterator[Engine]:
         memory=chosen.get("memory") or SLURM_MEMORY,
         log_directory=logs,
         python=sys.executable,
-        scheduler_options={"dashboard_address": None},
+        scheduler_options={"dashboard_address": ":0"},
     ) as cluster:
         cluster.scale(jobs=workers)
         client = Client(cluster, timeout=CONNECTION_TIME)
@@ -263,7 +272,12 @@ def _dask_engine(client: Any, workers: int) -> Iterator[Engine]:
 
     losses = (KilledWorker, FutureCancelledError)
     with client, client.get_executor(pure=False) as executor:
-        yield Engine(executor, max(workers, 1), losses=losses)
+        yield Engine(
+            executor,
+            max(workers, 1),
+            losses=losses,
+            count=lambda: len(client.scheduler_info()["workers"]),
+        )
 
 
 @contextmanager

@@ -8,6 +8,7 @@ from collections.abc import Callable
 from . import (
     benchmark,
     bounds,
+    campaigns,
     duels,
     evading,
     fuzzing,
@@ -36,6 +37,8 @@ TABLES: dict[str, Callable[..., str]] = {
     "bound-evaders": bounds.evaders,
     "bound-refinement": bounds.refinement,
     "bound-speed": bounds.speed,
+    "campaign-costs": campaigns.costs,
+    "campaign-parents": campaigns.parents,
     "certified": many_duels.certified,
     "certified-starts": unicycles.certified_starts,
     "comers": people.comers,

@@ -1,0 +1,48 @@
+"""Test that the code of docs/campaigns.md runs."""
+
+import re
+import tomllib
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from stepaside.cli.main import main
+from stepaside.strategies.bound_cache import pursuit_bound
+from stepaside.studies import tournament_record
+from stepaside.studies.sweep import load_sweep
+
+PAGE = (Path(__file__).parents[2] / "docs" / "campaigns.md").read_text("utf-8")
+
+
+def blocks(language: str) -> list[str]:
+    return re.findall(rf"```{language}\n(.*?)```", PAGE, flags=re.DOTALL)
+
+
+def test_queries_of_a_tournament_run(
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    pytest.importorskip("polars")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    monkeypatch.setattr(tournament_record, "CELLS", 16)
+    pursuit_bound.cache_clear()
+    line = "tournament --seeds 0:2 --duration 4 --workers 1 --output"
+    words = [*line.split(), "games.parquet", "--evader", "aside"]
+    answer = CliRunner().invoke(main, [*words, "--evader", "look-ahead"])
+    pursuit_bound.cache_clear()
+    assert answer.exit_code == 0, answer.output
+    query, study = blocks("python")
+    exec(compile(query, "docs/campaigns.md", "exec"), {})
+    assert "look-ahead" in capsys.readouterr().out
+    exec(compile(study, "docs/campaigns.md", "exec"), {})
+
+
+def test_the_study_file_is_one(tmp_path: Path) -> None:
+    (text,) = blocks("toml")
+    file = tmp_path / "radius.toml"
+    file.write_text(text)
+    assert tomllib.loads(text)["game"] == "duel"
+    assert len(load_sweep(file).cases) == 3 * 2 * 40
