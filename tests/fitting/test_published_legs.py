@@ -1,0 +1,71 @@
+"""Test published networks, where the wheels that contain them are installed.
+
+``pip install --no-deps holosoma-inference example-robot-data`` brings them.
+"""
+
+import sysconfig
+from importlib.util import find_spec
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("onnxruntime")
+
+from stepaside.cli.main import main
+from stepaside.fitting.legs_measurement import LegsTrial, run_trial
+from stepaside.locomotion.policy.contract_checks import check_contract
+from stepaside.locomotion.policy.contract_reader import read_contract
+from stepaside.locomotion.policy.legs_settings import LegsSettings
+from stepaside.locomotion.policy.network import PolicyNetwork
+from stepaside.locomotion.policy.velocity_response import BodyVelocity
+from stepaside.robots.description import load_robot
+from stepaside.sim.body_settings import BodySettings
+
+G1 = (
+    Path(sysconfig.get_path("purelib"))
+    / "cmeel.prefix/share/example-robot-data/robots/g1_description"
+)
+
+
+def network_of(robot: str, kind: str) -> Path:
+    wheel = find_spec("holosoma_inference")
+    if wheel is None or not wheel.submodule_search_locations:
+        pytest.skip("holosoma-inference is not installed")
+    folder = Path(wheel.submodule_search_locations[0]) / "models" / "loco"
+    return folder / robot / f"{kind}_{robot}.onnx"
+
+
+@pytest.mark.parametrize("kind", ["fastsac", "ppo"])
+@pytest.mark.parametrize("robot", ["g1_29dof", "t1_29dof"])
+def test_metadata_and_convention_complete_the_contract(
+    robot: str, kind: str
+) -> None:
+    network = PolicyNetwork(network_of(robot, kind))
+    reading = read_contract(network, motors=(), legs=(), entries={})
+    contract = check_contract(reading, network, ())
+    assert contract.convention == "holosoma"
+    assert len(contract.joints) == 29
+    assert any(angle != 0.0 for angle in contract.default_posture)
+
+
+def test_a_published_network_walks_a_published_robot(tmp_path: Path) -> None:
+    """At 0.4 m/s of 0.5 commanded."""
+    network = network_of("g1_29dof", "fastsac")
+    if not G1.is_dir():
+        pytest.skip("example-robot-data is not installed")
+    model = G1 / "urdf" / "g1_29dof_rev_1_0.urdf"
+    arguments = [str(model), f"--meshes={G1 / 'meshes'}"]
+    with pytest.raises(SystemExit) as left:
+        main(["robot", "init", *arguments, f"--output={tmp_path / 'g1'}"])
+    assert left.value.code in (0, None)
+    trial = LegsTrial(
+        load_robot(tmp_path / "g1"),
+        LegsSettings(str(network)),
+        BodySettings(),
+        BodyVelocity(0.5, 0.0, 0.0),
+        1,
+    )
+    result = run_trial(trial)
+    assert result.fell_at is None
+    assert 0.35 < result.delivered.forward < 0.5
+    assert abs(result.delivered.lateral) < 0.1
