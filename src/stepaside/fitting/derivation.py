@@ -147,46 +147,32 @@ def derive(
     )
     speeds = published_speeds(model)
     sole = shared_sole(analysis)
-    spacing = spacing_of(analysis, sole[3])
     servos = gains_of(analysis, torques, 0.9 * analysis.length)
     description = _structure(
         analysis, folder, mesh_folders, sole, servos, speeds
     )
-    stiff = stiff_joints(analysis)
-    lowest, highest = reachable_heights(description, spacing, sole, stiff)
-    greatest = max(GREATEST_BY_HEIGHT * highest, LEAST_SPACING * 2.0 * sole[3])
-    if spacing > greatest:
-        # A narrower stance lifts the CoM; one iteration is enough.
-        spacing = greatest
-        lowest, highest = reachable_heights(description, spacing, sole, stiff)
-    highest_size = RobotSize(
-        highest, analysis.mass, spacing, sole, description.place.reach
-    )
-    size, lengths = choose_com_height(description, highest_size, lowest)
-    height = size.com_height
+    lowest, highest = _reachable_sizes(description, analysis, sole)
+    size, lengths = choose_com_height(description, highest, lowest)
+    servos = gains_of(analysis, torques, size.com_height)
     description = replace(
-        description,
-        overlay=replace(
-            description.overlay, servos=gains_of(analysis, torques, height)
-        ),
+        description, overlay=replace(description.overlay, servos=servos)
     )
     gait = gait_of(size, lengths)
     zmp_offset, loads = choose_zmp_offset(
         *with_gait(description, gait), torques
     )
     gait["zmp_forward"] = round(zmp_offset * gait["zmp_forward"], 4) + 0.0
-    overlay, lean = description.overlay, 0.0
     overloaded = loads.most > GREATEST_LOAD
     weak = loads.usual > WEAK_LOAD or overloaded or zmp_offset < 1.0
+    lean = 0.0
     if overloaded:
         lean, loads = least_lean(*with_gait(description, gait), torques)
     if weak:
-        servos = gains_of(analysis, torques, height, weak=True)
-        overlay = replace(overlay, servos=servos)
+        servos = gains_of(analysis, torques, size.com_height, weak=True)
     description = replace(
         description,
         lean=lean,
-        overlay=overlay,
+        overlay=replace(description.overlay, servos=servos),
         gait=dict(gait),
         control={
             "method": "measured" if weak else "closed-form",
@@ -201,7 +187,7 @@ def derive(
         analysis,
         size,
         lowest,
-        highest,
+        highest.com_height,
         frozenset(torques),
         frozenset(speeds),
         lengths,
@@ -209,6 +195,24 @@ def derive(
         loads,
         weak,
     )
+
+
+def _reachable_sizes(
+    description: RobotDescription,
+    analysis: ModelAnalysis,
+    sole: tuple[float, float, float, float],
+) -> tuple[float, RobotSize]:
+    """Return the least CoM height in reach, and the size at the greatest."""
+    stiff = stiff_joints(analysis)
+    spacing = spacing_of(analysis, sole[3])
+    lowest, highest = reachable_heights(description, spacing, sole, stiff)
+    greatest = max(GREATEST_BY_HEIGHT * highest, LEAST_SPACING * 2.0 * sole[3])
+    if spacing > greatest:
+        # A narrower stance lifts the CoM; one iteration is enough.
+        spacing = greatest
+        lowest, highest = reachable_heights(description, spacing, sole, stiff)
+    reach = description.place.reach
+    return lowest, RobotSize(highest, analysis.mass, spacing, sole, reach)
 
 
 def _check_legs(analysis: ModelAnalysis) -> None:

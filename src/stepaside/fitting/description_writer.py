@@ -55,19 +55,33 @@ GAME_COMMENTS = {
 
 def write_description(derived: DerivedDescription) -> str:
     """Return the text of a ``robot.toml``."""
+    return (
+        "\n".join(
+            [
+                *_identity(derived),
+                *_posture(derived),
+                *_speeds(derived),
+                "# NAO's gait, scaled by CoM height z and time constant",
+                "# sqrt(z / g) of the pendulum, with quicker steps;",
+                "# `stepaside robot tune` improves it.",
+                *_gait(derived),
+                *_sole(derived),
+                *_control(derived),
+                *_overlay(derived),
+            ]
+        )
+        + "\n"
+    )
+
+
+def _identity(derived: DerivedDescription) -> list[str]:
     own, analysis = derived.description, derived.analysis
-    left, right = analysis.legs
     legs = ",\n".join(
         "    " + ", ".join(_quoted(name) for name in leg.joints)
         for leg in analysis.legs
     )
-    soles = (
-        f"{ASK} a guess from the length of the leg, measure it"
-        if left.is_guessed
-        else f"lowest points of the geoms of {left.foot} and {right.foot}"
-    )
     coupled = ", ".join(sorted(coupled_of(analysis))) or "none"
-    lines = [
+    return [
         f"# {own.name}, derived from the model by `stepaside robot init`.",
         "# The model file is not changed; [overlay] is added whenever it is",
         "# read. A comment with ASK marks a value that is not in the model:",
@@ -86,18 +100,36 @@ def write_description(derived: DerivedDescription) -> str:
         *_comment(f"Joints that follow others: {coupled}."),
         f"legs = [\n{legs},\n]",
         "",
+    ]
+
+
+def _posture(derived: DerivedDescription) -> list[str]:
+    own = derived.description
+    return [
         "# Standing posture in [rad]: knees slightly bent, arms hanging.",
         *_table("standing", own.standing),
         "# Knees stay slightly bent, in [rad]: inverse kinematics of a leg",
         "# has two branches, which meet where the knee is straight.",
         *_table("working_limits", own.working_limits),
-        *_speeds(derived),
-        "# NAO's gait, scaled by CoM height z and time constant sqrt(z / g)",
-        "# of the pendulum, with quicker steps; `stepaside robot tune`",
-        "# improves it.",
-        *_gait(derived),
-        f"# Outline of a left sole in the foot frame, in [m]: {soles}.",
-        *_table("sole", own.sole),
+    ]
+
+
+def _sole(derived: DerivedDescription) -> list[str]:
+    left, right = derived.analysis.legs
+    source = (
+        f"{ASK} a guess from the length of the leg, measure it"
+        if left.is_guessed
+        else f"lowest points of the geoms of {left.foot} and {right.foot}"
+    )
+    return [
+        f"# Outline of a left sole in the foot frame, in [m]: {source}.",
+        *_table("sole", derived.description.sole),
+    ]
+
+
+def _control(derived: DerivedDescription) -> list[str]:
+    own = derived.description
+    return [
         "# Many robots walk open loop; `stepaside robot check` tests it,",
         "# `stepaside robot tune` writes better values.",
         "[control]",
@@ -119,9 +151,7 @@ def write_description(derived: DerivedDescription) -> str:
         f"forward = {own.place.forward}",
         f"reach = {own.place.reach}",
         "",
-        *_overlay(derived),
     ]
-    return "\n".join(lines) + "\n"
 
 
 def _missing_meshes(derived: DerivedDescription) -> list[str]:
