@@ -19,6 +19,7 @@ from ..perception.measurement import Measurement, Sighting
 from ..planning import Direction, GaitSettings
 from ..robots.description import RobotDescription
 from ..robots.joint_loads import LegLoads
+from ..robots.leg_kinematics import LegKinematics
 from ..strategies import Walk
 
 TICK = 0.004  # control period, in [s]
@@ -81,11 +82,14 @@ def step_loads(
         ReachError: If the legs cannot reach the reference.
     """
     scheme = _scheme(description, gait, Direction.FORWARD)
-    legs = scheme.kinematics
+    # The scheme computes many ticks at once; loads need them one by one.
+    legs = LegKinematics(scheme.kinematics.description, tick=TICK)
+    legs.stand(scheme.state.reference)
     dynamics = LegLoads(legs, zmp_forward=gait.zmp_forward, tick=TICK)
     by_swing_foot: dict[bool, list[Array]] = {True: [], False: []}
     for _ in _walk(scheme, gait):
         body = scheme.state.reference
+        legs.track(body)
         required = np.abs(dynamics.torques(body, scheme.state.zmp_reference))
         left, right = (
             f[2] > LIFTED for f in (body.left_foot, body.right_foot)
