@@ -69,10 +69,10 @@ class GravityFilter:
             return
         self.rate = gyro - self._bias
         force = (specific_force - acceleration) / GRAVITY
-        error = np.cross(force, self.up)
+        error = _cross(force, self.up)
         self._bias = self._bias - duration * BIAS_CORRECTION * error
         turn = self.rate + CORRECTION * error
-        up = self.up + duration * np.cross(self.up, turn)
+        up = self.up + duration * _cross(self.up, turn)
         self.up = up / np.linalg.norm(up)
 
     def _calibrate(self, specific_force: Array, duration: float) -> None:
@@ -85,3 +85,9 @@ class GravityFilter:
             self._force + (specific_force - self._force) / self._count
         )
         self.up = self._force / np.linalg.norm(self._force)
+
+
+def _cross(one: Array, other: Array) -> Array:
+    """Return the cross product; that of NumPy takes ten times as long."""
+    (a, b, c), (x, y, z) = one.tolist(), other.tolist()
+    return np.array([b * z - c * y, c * x - a * z, a * y - b * x])

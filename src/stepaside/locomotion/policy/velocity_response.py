@@ -1,5 +1,7 @@
 """Response of a walking policy: velocities it delivers for its commands."""
 
+from bisect import bisect_right
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
@@ -7,11 +9,10 @@ from typing import NamedTuple
 import numpy as np
 
 from ...core.errors import PolicyError
-from ...core.poses import Array
 from .contract import CommandRanges
 
 AXES = ("forward", "lateral", "turn")
-SWEEPS = 12  # over the axes of the inverse, which converges in about four
+SWEEPS = 12  # over the axes of the inverse; it converges before
 
 
 class BodyVelocity(NamedTuple):
@@ -93,20 +94,30 @@ class VelocityResponse:
         return cls((axes[0], axes[1], axes[2]))
 
     @cached_property
-    def _tables(self) -> list[tuple[Array, Array]]:
-        """Commands of each axis, and their effect beyond that of standing."""
-        tables = []
+    def _effects(self) -> tuple[tuple[BodyVelocity, ...], ...]:
+        """Delivered velocities of each axis beyond that of standing."""
+        effects = []
         for axis in self.axes:
-            commands = np.array(axis.commands)
             rows = np.array(axis.delivered)
-            rest = rows[axis.commands.index(0.0)]
-            tables.append((commands, rows - rest))
-        return tables
+            rows = rows - rows[axis.commands.index(0.0)]
+            effects.append(tuple(BodyVelocity(*row) for row in rows.tolist()))
+        return tuple(effects)
 
-    def _effect(self, axis: int, command: float) -> Array:
-        commands, rows = self._tables[axis]
-        return np.array(
-            [np.interp(command, commands, rows[:, k]) for k in range(3)]
+    @cached_property
+    def _own(self) -> tuple[tuple[float, ...], ...]:
+        """Effect of each axis on its own component, ascending."""
+        return tuple(
+            tuple(row[i] for row in rows)
+            for i, rows in enumerate(self._effects)
+        )
+
+    def _effect(self, axis: int, command: float) -> BodyVelocity:
+        """Return the velocity that a command along one axis adds."""
+        rows = self._effects[axis]
+        i, share = _locate(self.axes[axis].commands, command)
+        (a, b, c), (u, v, w) = rows[i], rows[i + 1]
+        return BodyVelocity(
+            a + share * (u - a), b + share * (v - b), c + share * (w - c)
         )
 
     def deliver(self, command: BodyVelocity) -> BodyVelocity:
@@ -121,13 +132,17 @@ class VelocityResponse:
         of walking policies are small.
         """
         command = [0.0, 0.0, 0.0]
+        effects = [STILL, STILL, STILL]
         for _ in range(SWEEPS):
+            before = tuple(command)
             for i in range(3):
-                others = [j for j in range(3) if j != i]
-                cross = sum(self._effect(j, command[j])[i] for j in others)
-                commands, rows = self._tables[i]
-                missing = velocity[i] - cross
-                command[i] = float(np.interp(missing, rows[:, i], commands))
+                cross = sum(effects[j][i] for j in range(3) if j != i)
+                own, given = self._own[i], self.axes[i].commands
+                k, share = _locate(own, velocity[i] - cross)
+                command[i] = given[k] + share * (given[k + 1] - given[k])
+                effects[i] = self._effect(i, command[i])
+            if before == tuple(command):
+                break
         return BodyVelocity(*command)
 
     def nearest(self, velocity: BodyVelocity) -> BodyVelocity:
@@ -143,11 +158,19 @@ class VelocityResponse:
                 share = min(share, limit / abs(value))
         return BodyVelocity(*(share * value for value in velocity))
 
-    @property
+    @cached_property
     def limits(self) -> CommandRanges:
         """Least and greatest velocity delivered along each axis alone."""
-        ends = [
-            (float(rows[0, i]), float(rows[-1, i]))
-            for i, (_, rows) in enumerate(self._tables)
-        ]
-        return CommandRanges(*ends)
+        return CommandRanges(*((own[0], own[-1]) for own in self._own))
+
+
+def _locate(values: Sequence[float], value: float) -> tuple[int, float]:
+    """Return the interval of a value, and the share of it below the value.
+
+    Args:
+        values: Ascending values.
+        value: A value; one outside counts as the nearest end.
+    """
+    i = min(max(bisect_right(values, value) - 1, 0), len(values) - 2)
+    share = (value - values[i]) / (values[i + 1] - values[i])
+    return i, min(1.0, max(0.0, share))
