@@ -109,8 +109,14 @@ class Eyes:
         self.reports += self.perception.reports
         return seen
 
-    def know(self, x: float, y: float, **changes: Any) -> TargetTrack:
-        """Follow something at a place in odometry."""
+    def know(
+        self,
+        x: float,
+        y: float,
+        velocity: tuple[float, float] = (0.0, 0.0),
+        **changes: Any,
+    ) -> TargetTrack:
+        """Track an object at a position in odometry."""
         values: dict[str, Any] = {
             "time": 0.0,
             "identified": True,
@@ -119,7 +125,8 @@ class Eyes:
         track = TargetTrack(
             Observation(
                 x=x, y=y, bearing=0.0, along=0.02, across=0.02, **values
-            )
+            ),
+            velocity_in_odometry=velocity,
         )
         track.confirmed = True
         self.tracks.append(track)
@@ -182,7 +189,3 @@ def axis_of(eyes: Eyes, sonar: str) -> float:
     assert body is not None
     axis = body.axes_torso_in_odometry @ HEAD.sonars[sonar].axes_in_body[:, 0]
     return atan2(axis[1], axis[0])
-
-
-def hits(track: TargetTrack) -> list[bool]:
-    return list(track._hits)

@@ -13,9 +13,7 @@ from stepaside.perception.camera_pose import CameraPose
 from stepaside.perception.floor_map import (
     CELL,
     FREE_AT_START,
-    OCCUPIED,
     FloorMap,
-    _centres,
     _wide_areas,
 )
 from stepaside.perception.images import DepthImage
@@ -159,13 +157,13 @@ def test_obstacles_beside_the_opponent_stay() -> None:
     """Who walks along a wall does not wipe it off the map."""
     wall = Box(1.4, 0.0, 0.1, 2.0)
     seen = looked(FloorMap(), (wall,), times=4)
-    cells = _centres(seen._evidence > OCCUPIED)
+    cells = seen.occupied_cells()
     assert len(cells) == 40
     for place in ((0.9, 0.0), (1.22, 0.0), None, (1.22, 0.0)):
         both = (wall,) if place is None else (wall, Disc(*place, 0.09))
         facing = pi if place is None else 0.0  # a glance away
         seen.take(*view_at(both, facing), place)
-        assert np.array_equal(_centres(seen._evidence > OCCUPIED), cells)
+        assert np.array_equal(seen.occupied_cells(), cells)
     assert not seen.is_free(np.array([[1.42, 0.0]])).any()
 
 
@@ -208,7 +206,7 @@ def test_columns_beside_a_blocked_one_start_at_the_near_limit() -> None:
             c, s = np.cos(turned), np.sin(turned)
             axes = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
             seen.take(image, CameraPose(eye, axes, (0.0, 0.0)), None)
-    shown = _centres(seen._known)
+    shown = seen.known_cells()
     assert near.clearance(shown).min() > -0.5 * CELL
     beyond = np.array([[0.6, 0.35], [0.6, -0.35], [1.2, 0.5]])
     gaps = np.hypot(*(shown[:, None] - beyond).transpose(2, 0, 1))

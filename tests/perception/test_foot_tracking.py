@@ -153,7 +153,7 @@ def test_it_is_the_same_wherever_odometry_began(
         both[0].learn(far, up, people[0])
         moved_up = CameraPose(turn @ up[0] + shift, turn @ up[1], began[:2])
         both[1].learn(far, moved_up, people[1])
-    one, other = (feet.colours._counts for feet in both)
+    one, other = (feet.colours.counts for feet in both)
     assert np.abs(one - other).sum() < 1e-3 * one.sum()  # pixels on an edge
     near = robot.image(0.04, legs_at(0.6, 0.2), low=True)
     (here,) = both[0].observe(near, down)

@@ -12,7 +12,7 @@ from stepaside.core.poses import Array
 from stepaside.perception.bottom_camera import NearFloorMapping
 from stepaside.perception.camera_model import CameraModel
 from stepaside.perception.camera_pose import CameraPose, camera_pose
-from stepaside.perception.floor_map import CELL, FloorMap, _centres
+from stepaside.perception.floor_map import CELL, FloorMap
 from stepaside.perception.images import ColourImage
 from stepaside.perception.near_floor import NearFloorMapper
 from stepaside.perception.percept_stages import BottomCameraStage
@@ -95,7 +95,7 @@ def test_floor_that_is_lighter_close_by_is_seen() -> None:
     steep = -(CAMERA.rays() @ axes.T)[..., 2].clip(-1.0, 0.0)
     lamp = 0.5 + 0.7 * steep[..., None]
     lighter = (picture.pixels * lamp).clip(0, 255).astype(np.uint8)
-    unknown = near._colours.is_not_floor(lighter)
+    unknown = near.colours.is_not_floor(lighter)
     assert unknown[60, 80] or unknown[110, 20]
     near.show(replace(picture, pixels=lighter), eye(axes))
     assert not hidden(floor, BEFORE) and not hidden(floor, BESIDE)
@@ -109,10 +109,11 @@ def test_nothing_of_a_thing_or_right_beside_it_is_shown(
 ) -> None:
     """Where an image was taken is known to a few centimetres."""
     post = away * cos(bearing), away * sin(bearing), 0.1, 0.8
-    near, axes = learnt(around([post]), [post]), axes_of(39.7)
-    floor = near._floor = FloorMap()
+    colours, axes = learnt(around([post]), [post]).colours, axes_of(39.7)
+    floor = FloorMap()
+    near = NearFloorMapper(floor, colours)
     near.show(image([post], axes, low=True), eye(axes))
-    shown = _centres(floor._known)
+    shown = floor.known_cells()
     gaps = np.hypot(*(shown - np.array(post[:2])).T) - post[2]
     assert len(gaps) > 10 and gaps.min() > 0.5 * CELL
     # It is not shown through it, either.
@@ -125,11 +126,10 @@ def test_other_colours_show_no_floor() -> None:
     """A dark thing that fills the view leaves all as it was."""
     post = [(0.45, 0.0, 0.3, 0.8)]
     floor = around(post)
-    before = floor._known.copy()
+    before = floor.known_cells()
     near, axes = learnt(floor, post), axes_of(39.7)
     near.show(image(post, axes, low=True), eye(axes))
-    shown = np.argwhere(floor._known & ~before)
-    assert not len(shown)
+    np.testing.assert_array_equal(floor.known_cells(), before)
 
 
 def test_the_floor_is_learnt_where_rays_passed() -> None:
@@ -140,11 +140,11 @@ def test_the_floor_is_learnt_where_rays_passed() -> None:
     near.learn(image(post, axes, low=False), eye(axes), None)
     dark = np.full((4, 4, 3), 64, dtype=np.uint8)
     light = np.full((4, 4, 3), 212, dtype=np.uint8)
-    assert near._colours.is_not_floor(dark).all()
-    assert not near._colours.is_not_floor(light).any()
+    assert near.colours.is_not_floor(dark).all()
+    assert not near.colours.is_not_floor(light).any()
     blind = NearFloorMapper(FloorMap())
     blind.learn(image([], axes, low=False), eye(axes), None)
-    assert not blind._colours._counts.any()
+    assert not blind.colours.known
 
 
 def test_who_stands_on_the_floor_is_not_learnt() -> None:
@@ -155,11 +155,11 @@ def test_who_stands_on_the_floor_is_not_learnt() -> None:
     near = NearFloorMapper(floor)
     near.learn(image(post, axes, low=False), eye(axes), other)
     dark = np.full((4, 4, 3), 64, dtype=np.uint8)
-    assert not near._colours._counts[4, 4, 4]
-    assert near._colours.is_not_floor(dark).all()
+    assert not near.colours.counts[4, 4, 4]
+    assert near.colours.is_not_floor(dark).all()
     alone = NearFloorMapper(floor)
     alone.learn(image(post, axes, low=False), eye(axes), None)
-    assert alone._colours._counts[4, 4, 4]
+    assert alone.colours.counts[4, 4, 4]
 
 
 def test_the_lower_camera_looks_every_other_time_once_it_knows() -> None:

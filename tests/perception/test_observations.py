@@ -82,12 +82,15 @@ def observe(found: ColourDetection, *tracks: TargetTrack) -> Observation:
     return observe_trim(IMAGE, found, EYE, RED, tracks)
 
 
-def track(distance: float, bearing: float, time: float = 3.5) -> TargetTrack:
-    """Something that was seen at a distance from the camera."""
+def track(
+    distance: float, bearing: float, time: float = 3.5, speed: float = 0.0
+) -> TargetTrack:
+    """Track an object at a distance from the camera, moving away from it."""
     x = PLACE[0] + distance * cos(bearing)
     y = PLACE[1] + distance * sin(bearing)
     return TargetTrack(
-        Observation(time, x, y, bearing, 0.03, 0.01, True, True)
+        Observation(time, x, y, bearing, 0.03, 0.01, True, True),
+        velocity_in_odometry=(speed * cos(bearing), speed * sin(bearing)),
     )
 
 
@@ -201,8 +204,7 @@ def test_memory_is_of_what_was_in_that_direction(bearing: float) -> None:
 
 
 def test_memory_is_of_where_it_is_by_now() -> None:
-    moving = track(2.0, YAW, time=3.0)
-    moving._state[2:] = -0.5 * cos(YAW), -0.5 * sin(YAW)
+    moving = track(2.0, YAW, time=3.0, speed=-0.5)
     seen = observe(trim(1.5, YAW, cut_above=True), moving)
     assert 1.7 < distance_of(seen) < 1.8
 

@@ -125,13 +125,15 @@ def test_an_approaching_person_is_preferred_to_one_who_passes() -> None:
     assert len(counted) == 1
 
 
-def followed(*places: Place) -> TargetTrack:
+def followed(
+    *places: Place, velocity: tuple[float, float] = (0.0, 0.0)
+) -> TargetTrack:
     """A confirmed track of what was seen at places, 0.1 s apart."""
     first, *rest = [
         Observation(0.1 * i, x, y, 0.0, 0.03, 0.03, False, True)
         for i, (x, y) in enumerate(places)
     ]
-    track = TargetTrack(first)
+    track = TargetTrack(first, velocity_in_odometry=velocity)
     for seen in rest:
         track.update(seen)
     track.confirmed = True
@@ -180,11 +182,11 @@ def test_glances_are_more_frequent_at_walking_people(
     walks: bool,
 ) -> None:
     """0.6 s long, 3 s apart at what rests, 1 s at a walker who leaves."""
-    tracker, track, looked = Tracker(), followed((3.0, 0.0)), []
+    track = followed((3.0, 0.0), velocity=(0.3 if walks else 0.0, 0.0))
+    tracker, looked = Tracker(), []
     tracker.tracks = [track]
     people = PeopleSelection(tracker)
     track.has_walked = walks
-    track._state[2] = 0.3 if walks else 0.0
     for i in range(2000):
         now = 0.01 * i
         track.observed_at = now

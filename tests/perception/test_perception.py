@@ -14,7 +14,6 @@ from made_up_eyes import (
     UP,
     Eyes,
     colour,
-    hits,
     trim,
 )
 from stepaside.core.poses import Pose, wrap_angle
@@ -198,4 +197,4 @@ def test_a_visible_track_without_detection_counts_a_miss(
     angle = SUPPORT.theta + side * share * atan2(80.0, 140.0)
     track = eyes.know(x + 2.0 * cos(angle), y + 2.0 * sin(angle))
     eyes.see(TICK, colour(TICK))
-    assert hits(track) == ([True, False] if missed else [True])
+    assert track.frames == ((True, False) if missed else (True,))

@@ -43,8 +43,7 @@ def test_the_head_follows_the_main_track(
     speed: float,
     looks: bool,
 ) -> None:
-    track = eyes.know(*eyes.beside(distance, -0.8), **changes)
-    track._state[3] = speed
+    eyes.know(*eyes.beside(distance, -0.8), (0.0, speed), **changes)
     eyes.see(0.0)
     assert eyes.perception.searching is not looks
     if looks:
@@ -56,9 +55,8 @@ def test_the_head_follows_the_main_track(
 
 
 def test_the_head_follows_unconfirmed_tracks_only_nearby(eyes: Eyes) -> None:
-    track = eyes.know(*eyes.beside(3.0, 0.5), identified=False)
+    track = eyes.know(*eyes.beside(3.0, 0.5), (0.0, 0.5), identified=False)
     track.confirmed = False
-    track._state[3] = 0.5
     eyes.see(0.0)
     assert eyes.perception.searching
     eyes.tracks.clear()

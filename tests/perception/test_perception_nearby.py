@@ -1,7 +1,7 @@
 """Test obstacles, shadows, echoes and missed detections."""
 
 from dataclasses import replace
-from math import cos, degrees, radians, sin
+from math import cos, degrees, pi, radians, sin, sqrt
 from typing import Any
 
 import numpy as np
@@ -16,7 +16,6 @@ from made_up_eyes import (
     axis_of,
     colour,
     depth,
-    hits,
     obstacle,
     show,
     trim,
@@ -33,7 +32,12 @@ from stepaside.perception.percept_stages import (
 )
 from stepaside.perception.perception_builder import FloorMapping
 from stepaside.perception.sonar import AXIS_OFFSET, HALF_CONE, MIN_AGE
-from stepaside.perception.track import PERSON_MOTION, ROBOT_MOTION
+from stepaside.perception.track import (
+    PERSON_MOTION,
+    ROBOT_MOTION,
+    Observation,
+    TargetTrack,
+)
 
 HEARD = [  # sonar, bearing from the heading in [deg], whether it is heard
     ("left", 49.0, True),
@@ -266,7 +270,7 @@ def test_a_frame_counts_a_miss_only_within_its_view(
         )
     track = eyes.know(place[0] + 1.5 * cos(angle), place[1] + 1.5 * sin(angle))
     eyes.see(TICK, percept(TICK))
-    assert hits(track) == ([True, False] if missed else [True])
+    assert track.frames == ((True, False) if missed else (True,))
 
 
 def test_a_colour_frame_counts_no_miss_of_unidentified_tracks(
@@ -275,16 +279,16 @@ def test_a_colour_frame_counts_no_miss_of_unidentified_tracks(
     show(monkeypatch)
     thing = eyes.know(*eyes.beside(1.5, 0.0), identified=False)
     eyes.see(TICK, colour(TICK))
-    assert hits(thing) == [True]
+    assert list(thing.frames) == [True]
     eyes.see(2 * TICK, depth(2 * TICK))
-    assert hits(thing) == [True, False]
+    assert list(thing.frames) == [True, False]
 
 
 def test_a_detected_track_counts_no_miss(eyes: Eyes) -> None:
     eyes.detector.found = trim(80.0)
     for i in range(1, 4):
         eyes.see(TICK * i, colour(TICK * i))
-    assert hits(eyes.tracks[0]) == [True] * 3
+    assert eyes.tracks[0].frames == (True,) * 3
 
 
 def test_mapped_obstacles_start_no_track(
@@ -354,7 +358,20 @@ def test_a_track_within_the_near_limit_counts_no_miss(
     away = image.near + NEAR_MARGIN + forward + beyond
     track = eyes.know(*eyes.beside(away, 0.0))
     eyes.see(TICK, image)
-    assert hits(track).count(False) == missed
+    assert track.frames.count(False) == missed
+
+
+def smallest_deviation(track: TargetTrack) -> float:
+    """Standard deviation of the position along its best axis, in [m]."""
+    x, y = track.position_at(track.time)
+    distances: list[float] = []
+    for angle in np.linspace(0.0, pi, 721):
+        exact = Observation(
+            *(track.time, x + cos(angle), y + sin(angle), 0.0),
+            *(0.0, 0.0, False, True),
+        )
+        distances.append(1.0 / sqrt(track.mahalanobis_squared(exact)))
+    return min(distances)
 
 
 @pytest.mark.parametrize(
@@ -372,9 +389,10 @@ def test_with_a_map_tracks_use_the_motion_model_of_robots(
     black = np.zeros((CAMERA.height, CAMERA.width, 3), np.uint8)
     eyes.see(0.0, ColourImage(0.0, CAMERA, black))
     (track,) = eyes.tracks
-    assert (
-        track._acceleration
-        == (ROBOT_MOTION if calm else PERSON_MOTION).acceleration
+    motion = ROBOT_MOTION if calm else PERSON_MOTION
+    step = 0.2
+    spread = track.deviation_at(track.time + step), track.deviation_at(0.0)
+    assert spread[0] ** 2 - spread[1] ** 2 == pytest.approx(
+        (motion.speed * step) ** 2 + 0.25 * motion.acceleration**2 * step**4
     )
-    deviation = np.sqrt(np.linalg.eigvalsh(track._covariance[:2, :2])[0])
-    assert bool(deviation > 0.05) is calm
+    assert (smallest_deviation(track) > 0.05) is calm

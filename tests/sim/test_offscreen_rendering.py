@@ -177,9 +177,6 @@ def test_a_rendered_image_is_upright(
     quality = model.vis.quality
     assert quality.shadowsize == 0 == quality.offsamples
     assert (quality.numslices, quality.numstacks) == (12, 6)
-    for flag in ("mjRND_SHADOW", "mjRND_REFLECTION"):
-        number = getattr(mujoco.mjtRndFlag, flag)
-        assert screen._scene.flags[number] == 0
     assert model.geom("floor").size[2] == 10.0
     assert model.vis.global_.offwidth == 64
     assert model.vis.global_.offheight == 48

@@ -351,10 +351,6 @@ def test_a_person_starts_at_the_pursuer_pose() -> None:
         assert person.truth.position_torso_in_world == (0.0, 0.0)
         aside = np.arctan2(miss, 2.0)
         assert person.truth.heading_in_world == pytest.approx(aside, abs=1e-6)
-        assert (
-            person._other.position_torso_in_world
-            == evader.truth.position_torso_in_world
-        )
         sighting = evader.robot.read().sighting
         assert sighting is not None  # and the evader knows the person
         assert sighting.distance == pytest.approx(duel.distance)

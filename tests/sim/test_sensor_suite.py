@@ -268,11 +268,13 @@ def test_rendering_uses_the_field_of_view_of_the_camera(
 ) -> None:
     """MuJoCo takes the vertical angle, in degrees."""
     sizes: list[tuple[Any, ...]] = []
+    models: list[mujoco.MjModel] = []
     drawn: list[int] = []
 
     class FakeRenderer:
         def __init__(self, model: Any, *arguments: Any) -> None:
             sizes.append(arguments)
+            models.append(model)
 
         def draw(self, data: Any, number: int) -> np.ndarray:
             """Draw a grey image."""
@@ -281,7 +283,7 @@ def test_rendering_uses_the_field_of_view_of_the_camera(
 
     monkeypatch.setattr(eyes_module, "OffscreenRenderer", FakeRenderer)
     eyes = eyes_of(depth=False, renderer="egl")
-    model = eyes._world.model
+    (model,) = models
     assert model.camera("me/head_camera").fovy[0] == pytest.approx(47.6)
     assert model.camera("other").fovy[0] == 45.0
     assert sizes == [(80, 60, "egl")]
@@ -292,11 +294,15 @@ def test_rendering_uses_the_field_of_view_of_the_camera(
     assert drawn == 2 * [model.camera("me/head_camera").id]
 
 
-def test_sensors_can_be_closed_twice() -> None:
-    eyes = eyes_of(depth=False)
+def test_sensors_can_be_closed_twice(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     closed: list[bool] = []
     screen: Any = SimpleNamespace(close=lambda: closed.append(True))
-    eyes._renderer = screen
+    monkeypatch.setattr(
+        eyes_module, "OffscreenRenderer", lambda *arguments: screen
+    )
+    eyes = eyes_of(depth=False, renderer="egl")
     eyes.close()
     eyes.close()
     assert closed == [True]

@@ -12,6 +12,8 @@ from stepaside.sim.servos import IdealServos, RealisticServos
 
 KP, KV, STALL = 20.0, 0.5, 1.5
 STEP, CYCLE = 0.002, 0.012
+# Offset of the command that cancels damping, by the change in one cycle.
+LEAD = KV / np.array([KP, 2 * KP]) / CYCLE
 SPEEDS = np.array([5.0, 2.0])
 # Nothing here has the same number as qpos, as speed and as actuator.
 MODEL = f"""
@@ -38,7 +40,7 @@ QPOS, DOFS = slice(8, 10), slice(7, 9)
 def bench() -> tuple[mujoco.MjModel, mujoco.MjData]:
     model = mujoco.MjModel.from_xml_string(MODEL)
     data = mujoco.MjData(model)
-    data.ctrl[0] = 0.123  # somebody else's
+    data.ctrl[0] = 0.123  # another robot's
     return model, data
 
 
@@ -81,20 +83,23 @@ def test_a_target_moves_no_faster_than_the_joint_can(side: float) -> None:
     servos, _, data = ideal()
     servos.reset(np.zeros(2))
     wanted = side * np.array([0.1, 0.06])
+    before = np.zeros(2)
     for count in range(1, 4):
         servos.write(wanted)
-        expected = np.minimum(np.abs(wanted), count * SPEEDS * CYCLE) * side
-        np.testing.assert_allclose(servos._target, expected, atol=1e-12)
-    np.testing.assert_allclose(servos._target, wanted, atol=1e-12)
+        target = np.minimum(np.abs(wanted), count * SPEEDS * CYCLE) * side
+        expected = target + LEAD * (target - before)
+        np.testing.assert_allclose(data.ctrl[1:], expected, atol=1e-12)
+        before = target
     servos.write(wanted)
     np.testing.assert_allclose(data.ctrl[1:], wanted, atol=1e-12)
 
 
 def test_a_small_change_is_not_limited() -> None:
-    servos, _, _ = ideal()
+    servos, _, data = ideal()
     servos.reset(np.zeros(2))
-    servos.write(np.array([0.002, -0.001]))
-    np.testing.assert_allclose(servos._target, [0.002, -0.001])
+    target = np.array([0.002, -0.001])
+    servos.write(target)
+    np.testing.assert_allclose(data.ctrl[1:], target + LEAD * target)
 
 
 def test_a_joint_at_its_target_speed_needs_no_torque() -> None:
@@ -113,7 +118,7 @@ def test_realistic_servos_ramp_over_one_cycle() -> None:
     servos, _, data = realistic(delay_cycles=0, efficiency=0.9)
     wanted = np.array([0.012, -0.006])
     servos.write(wanted)
-    lead = KV / np.array([KP, 2 * KP]) / CYCLE * wanted
+    lead = LEAD * wanted
     for step in range(1, 9):
         servos.before_step(0.0)
         share = min(step / 6.0, 1.0)
@@ -129,14 +134,13 @@ def test_realistic_servos_ramp_over_one_cycle() -> None:
 def test_targets_take_effect_in_order_after_the_delay(delay: int) -> None:
     servos, _, data = realistic(delay_cycles=delay, efficiency=0.9)
     sent = [np.array([0.001 * i, -0.002 * i]) for i in range(1, 8)]
-    for number, request in enumerate(sent):
+    due = [np.zeros(2)] * (delay + 1) + sent
+    for before, target, request in zip(due, due[1:], sent, strict=False):
         servos.write(request)
         for _ in range(6):
             servos.before_step(0.0)
-        ramp = data.ctrl[1:] - servos._lead * servos._change
-        due = number - delay
-        expected = sent[due] if due >= 0 else np.zeros(2)
-        np.testing.assert_allclose(ramp, expected, atol=1e-12)
+        expected = target + LEAD * (target - before)
+        np.testing.assert_allclose(data.ctrl[1:], expected, atol=1e-12)
 
 
 def test_a_reset_clears_pending_targets() -> None:
@@ -152,12 +156,14 @@ def test_a_reset_clears_pending_targets() -> None:
 
 @pytest.mark.parametrize("side", [1.0, -1.0])
 def test_realistic_servos_respect_the_speed_limits(side: float) -> None:
-    servos, _, _ = realistic(efficiency=0.9)
-    wanted = side * np.ones(2)
+    servos, _, data = realistic(efficiency=0.9)
+    wanted, change = side * np.ones(2), side * SPEEDS * CYCLE
     for count in range(1, 4):
         servos.write(wanted)
-        reached = servos._target + servos._change
-        np.testing.assert_allclose(reached, count * side * SPEEDS * CYCLE)
+        for _ in range(6):
+            servos.before_step(0.0)
+        expected = count * change + LEAD * change
+        np.testing.assert_allclose(data.ctrl[1:], expected)
 
 
 @pytest.mark.parametrize("side", [1.0, -1.0])

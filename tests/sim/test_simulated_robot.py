@@ -77,6 +77,12 @@ def stand(
     return made.robot, made.scheme
 
 
+def command_of(robot: SimulatedRobot) -> Array:
+    """Commanded joint angles, in [rad]. The robot is the second of two."""
+    command: Array = robot.world.data.ctrl.copy()
+    return command[command.size // 2 :]
+
+
 def stabiliser_of(scheme: ControlScheme) -> Stabiliser:
     balance = walk_of(scheme).balance
     assert isinstance(balance, ClosedLoop)
@@ -206,7 +212,11 @@ def test_a_body_that_is_not_ideal_has_realistic_servos(
     legs = np.array([n in NAO.legs for n in scheme.kinematics.joint_names])
     assert 10 <= legs.sum() < legs.size
     play = 0.5 * value if effect == "backlash" else 0.0
-    np.testing.assert_allclose(robot.servos._half_backlash, play * legs)
+    angles = robot.read().joint_positions
+    robot.servos.reset(angles + 0.1)
+    robot.servos.before_step(0.0)
+    error = command_of(robot) - angles
+    np.testing.assert_allclose(error, 0.1 - play * legs)
 
 
 def test_speed_limits_belong_to_their_joints() -> None:
@@ -215,8 +225,14 @@ def test_speed_limits_belong_to_their_joints() -> None:
         robot, scheme = stand(**effects)
         limits = [NAO.speed_limits[n] for n in scheme.kinematics.joint_names]
         assert len(set(limits)) > 1
-        reach = robot.servos._reach
-        np.testing.assert_allclose(reach, 0.012 * np.array(limits))
+        far, commands = robot.read().joint_positions + 1.0, []
+        for _ in range(2):
+            robot.write(far)
+            for effect in 6 * robot.world.before_step:
+                effect(0.0)
+            commands.append(command_of(robot))
+        moved = commands[1] - commands[0]
+        np.testing.assert_allclose(moved, 0.012 * np.array(limits))
 
 
 def test_sensor_errors_use_the_generator_of_the_robot() -> None:
@@ -368,7 +384,10 @@ def test_a_walker_reads_decides_and_writes() -> None:
     made.tick()
     assert robot.world.ticks == 0
     assert made.is_moving and made.begun is scheme.begun is not None
-    np.testing.assert_allclose(robot.servos._target, scheme.joint_targets)
+    before = command_of(robot)
+    robot.write(scheme.joint_targets)
+    np.testing.assert_allclose(command_of(robot), scheme.joint_targets)
+    np.testing.assert_allclose(before, scheme.joint_targets, atol=0.1)
     robot.world.step()
     made.tick()
     assert made.begun is None

@@ -41,7 +41,12 @@ class FloorContact(NamedTuple):
 
 
 class FloorColours:
-    """Histogram of the colours of the floor."""
+    """Histogram of the colours of the floor.
+
+    Attributes:
+        counts: Pixels of the floor by levels of red, green and blue. Shape
+            (LEVELS, LEVELS, LEVELS).
+    """
 
     def __init__(self, min_fraction: float = MIN_FRACTION) -> None:
         """Start with an empty histogram.
@@ -51,12 +56,12 @@ class FloorColours:
                 the floor's, but that of an object in front of it.
         """
         self._min_fraction = min_fraction
-        self._counts = np.zeros((LEVELS,) * 3, dtype=np.int64)
+        self.counts = np.zeros((LEVELS,) * 3, dtype=np.int64)
 
     @property
     def known(self) -> bool:
         """Whether the histogram holds enough pixels."""
-        return bool(self._counts.sum() >= MIN_PIXELS)
+        return bool(self.counts.sum() >= MIN_PIXELS)
 
     def learn(self, pixels: Pixels, floor: NDArray[np.bool_]) -> None:
         """Add pixels of the floor.
@@ -66,7 +71,7 @@ class FloorColours:
             floor: Mask of the floor. Shape (height, width).
         """
         coarse = pixels[floor] >> (8 - BITS)
-        np.add.at(self._counts, tuple(coarse.T), 1)
+        np.add.at(self.counts, tuple(coarse.T), 1)
 
     def is_not_floor(self, pixels: Pixels) -> NDArray[np.bool_]:
         """Return the mask of other colours than the floor's.
@@ -77,8 +82,8 @@ class FloorColours:
         Returns:
             Mask. Shape (height, width).
         """
-        least = self._min_fraction * max(1, int(self._counts.sum()))
-        floor = np.asarray(self._counts >= least)
+        least = self._min_fraction * max(1, int(self.counts.sum()))
+        floor = np.asarray(self.counts >= least)
         # Neighbouring levels are floor too, at other brightness.
         near = sliding_window_view(np.pad(floor, 1), (3, 3, 3))
         is_floor = np.asarray(near.any(axis=(3, 4, 5)))

@@ -227,9 +227,17 @@ class FloorMap:
         np.add.at(counts, (cells[:, 0], cells[:, 1]), 1)
         return counts
 
+    def occupied_cells(self) -> Array:
+        """Return the centres of occupied cells in odometry. Shape (n, 2)."""
+        return _centres(self._evidence > OCCUPIED)
+
+    def known_cells(self) -> Array:
+        """Return the centres of known cells in odometry. Shape (n, 2)."""
+        return _centres(self._known)
+
     def taken(self) -> tuple[Polygon, ...]:
         """Return the occupied cells as polygons in odometry."""
-        return cover(_centres(self._evidence > OCCUPIED), CELL)
+        return cover(self.occupied_cells(), CELL)
 
     def is_occupied(self, x: float, y: float) -> bool:
         """Return whether a point lies at an occupied cell; in [m]."""
@@ -260,7 +268,7 @@ class FloorMap:
 
     def _vectors_to_occupied(self, x: float, y: float) -> Array:
         """Return vectors to all occupied cells, in [m]. Shape (n, 2)."""
-        distances: Array = _centres(self._evidence > OCCUPIED) - (x, y)
+        distances: Array = self.occupied_cells() - (x, y)
         return distances
 
     def unseen(self, position: tuple[float, float]) -> tuple[Polygon, ...]:

@@ -32,18 +32,23 @@ class NearFloorMapper:
     has measured free floor. Lighting changes them close by, so regions are
     grown. Cells become known by this, but never occupied or cleared: depth
     alone decides that.
+
+    Attributes:
+        colours: Colours of the floor learnt so far.
     """
 
-    def __init__(self, floor: FloorMap) -> None:
-        """Start without colours of the floor."""
+    def __init__(
+        self, floor: FloorMap, colours: FloorColours | None = None
+    ) -> None:
+        """Start with colours of the floor; without them, none are known."""
         self._floor = floor
-        self._colours = FloorColours(MIN_FRACTION)
+        self.colours = colours or FloorColours(MIN_FRACTION)
         self._images = 0
 
     def wanted(self) -> bool:
         """Return whether the next image should be from the bottom camera."""
         self._images += 1
-        return self._colours.known and self._images % EVERY == 0
+        return self.colours.known and self._images % EVERY == 0
 
     def learn(
         self,
@@ -69,7 +74,7 @@ class NearFloorMapper:
             margin=MARGIN,
         )
         chosen[chosen] = self._floor.is_free(points[chosen])
-        self._colours.learn(image.pixels[::STRIDE, ::STRIDE], chosen)
+        self.colours.learn(image.pixels[::STRIDE, ::STRIDE], chosen)
 
     def show(self, image: ColourImage, camera: CameraPose) -> None:
         """Mark floor in an image of the bottom camera as known in the map.
@@ -82,7 +87,7 @@ class NearFloorMapper:
         distances = camera.distances(points)
         near = (distances > MAPPED[0]) & (distances < MAPPED[1])
         pixels = image.pixels[::STRIDE, ::STRIDE]
-        bare = grow_floor(pixels, ~self._colours.is_not_floor(pixels))
+        bare = grow_floor(pixels, ~self.colours.is_not_floor(pixels))
         self._floor.show(points[near & bare], points[near & ~bare])
 
 

@@ -98,8 +98,9 @@ class TargetTrack:
         first: Observation,
         number: int = 0,
         motion: MotionModel = PERSON_MOTION,
+        velocity_in_odometry: tuple[float, float] = (0.0, 0.0),
     ) -> None:
-        """Start with a first observation."""
+        """Start with a first observation and velocity, in [m/s]."""
         self.number, self._acceleration = number, motion.acceleration
         self.has_walked = False
         self.imaged_at = -inf
@@ -111,12 +112,17 @@ class TargetTrack:
         self.ranged_at = first.time if first.ranged else -inf
         self.confirmed = False
         self.height = first.height
-        self._state = np.array([first.x, first.y, 0.0, 0.0])
+        self._state = np.array([first.x, first.y, *velocity_in_odometry])
         self._covariance = np.zeros((4, 4))
         self._covariance[:2, :2] = first.covariance
         self._covariance[2, 2] = self._covariance[3, 3] = motion.speed**2
         self._hits: deque[bool] = deque([True], maxlen=WINDOW)
         self._store_position(first)
+
+    @property
+    def frames(self) -> tuple[bool, ...]:
+        """Whether each of the last frames shows it, oldest first."""
+        return tuple(self._hits)
 
     @property
     def drift(self) -> tuple[float, float]:
