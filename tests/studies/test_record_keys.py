@@ -40,7 +40,7 @@ OTHERS: dict[str, Any] = {
     "pursuer_strategy": ["lead"],
     "sensing": ["cameras"],
     "cameras.colour.optics": ["v6", "v4"],
-    "cameras.colour.renderer": ["rays"],
+    "cameras.colour.renderer": ["raycast"],
     "pursuer": ["person"],
     "pursuer_robot": [RobotSettings(gait=PRESETS["fast"])],
     "evader_robot": [RobotSettings(gait=PRESETS["fast"])],
@@ -50,6 +50,7 @@ OTHERS: dict[str, Any] = {
     "room.plan": [ROOM],
     "map.source": ["none", "seen"],
     "map.unseen": ["free"],
+    "physics.integrator": ["discrete"],
     "person.path": ["circle", "straight", "visits"],
     "person.figure": ["child"],
 }

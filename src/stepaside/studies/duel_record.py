@@ -5,6 +5,7 @@ from dataclasses import asdict, replace
 from hashlib import sha256
 from math import isfinite
 from time import perf_counter
+from typing import Any
 
 import numpy as np
 
@@ -45,15 +46,34 @@ FIELDS = (  # of every record
 def settings_hash(settings: DuelSettings) -> str:
     """Return a fingerprint of the settings of a duel without its seed.
 
-    The content of strategy files is included, that of their imports is not.
+    Only differences from the default settings count, so that a setting that
+    is added later does not change it. The content of strategy files is
+    included, that of their imports is not.
     """
-    entries = asdict(replace(settings.named(), seed=0))
+    default = asdict(DuelSettings(seed=0).named())
+    entries = _differences(asdict(replace(settings.named(), seed=0)), default)
     for name in (settings.evader_strategy, settings.pursuer_strategy):
         file = file_of(name) if isinstance(name, str) else None
         if file is not None and file.is_file():
             entries[f"content of {name}"] = file.read_bytes().hex()
     text = json.dumps(entries, sort_keys=True)
     return sha256(text.encode()).hexdigest()[:12]
+
+
+def _differences(
+    entries: dict[str, Any], default: dict[str, Any]
+) -> dict[str, Any]:
+    """Return the entries that differ from the default ones, by section."""
+    found: dict[str, Any] = {}
+    for name, value in entries.items():
+        usual = default.get(name)
+        if isinstance(value, dict) and isinstance(usual, dict):
+            value = _differences(value, usual)
+            if value:
+                found[name] = value
+        elif name not in default or value != usual:
+            found[name] = value
+    return found
 
 
 def play_seed(settings: DuelSettings, seed: int) -> Record:
