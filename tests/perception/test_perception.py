@@ -153,8 +153,11 @@ def test_poses_are_stored_for_a_second(eyes: Eyes) -> None:
     assert poses.at(9.0) is poses.latest is eyes.perception.body
 
 
-def test_tracks_age_without_images(eyes: Eyes) -> None:
-    """The selection runs ten times a second, and at each image."""
+@pytest.mark.parametrize(("people", "period"), [(False, 0.1), (True, TICK)])
+def test_tracks_age_without_images(people: bool, period: float) -> None:
+    """Decisions about people may begin at any tick, others at ten a second."""
+    eyes = Eyes(people=people)
+    eyes.see(0.0)
     eyes.know(*eyes.beside(1.0, 0.5))
     perception, support = eyes.perception, eyes.support
     times = []
@@ -166,7 +169,7 @@ def test_tracks_age_without_images(eyes: Eyes) -> None:
         if seen is not None:
             times.append(seen.time)
     assert times == sorted(times) and times[-1] > 1.0
-    assert np.diff(np.unique(times)) == pytest.approx(0.1)
+    assert np.diff(np.unique(times)) == pytest.approx(period)
     assert perception.sighting is None and perception.searching
 
 

@@ -21,10 +21,6 @@ from .target_selection import TargetSelection
 from .track import TargetTrack
 from .tracker import Tracker
 
-# Longest time between updates when no image or echo arrives, so that tracks
-# age and the head searches, in [s].
-MAX_UPDATE_PERIOD = 0.1
-
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PerceptStages:
@@ -65,8 +61,8 @@ class Perception:
     """Pipeline from images and echoes to sightings of the opponent and gaze.
 
     Each image updates tracks and map with the body pose at its exposure.
-    Then the target is selected. This happens when an image or echo arrives;
-    at other ticks only the head moves.
+    Then the target is selected. This happens when an image or echo arrives,
+    or an update period ends; at other ticks only the head moves.
 
     Attributes:
         poses: Past poses of the body.
@@ -86,6 +82,8 @@ class Perception:
         selection: TargetSelection,
         head: HeadControl,
         floor: FloorMap | None = None,
+        *,
+        update_period: float,
     ) -> None:
         """Combine the parts; :func:`build_perception` builds them.
 
@@ -96,11 +94,13 @@ class Perception:
             selection: Selection of the target among its tracks.
             head: Motion of the head.
             floor: Map of the floor that the stages fill, if any.
+            update_period: Longest time between two selections of the target,
+                by tracks predicted to the present, in [s]; 0 for every tick.
         """
         self.poses, self.tracker, self.floor = poses, tracker, floor
         self.head = head
         self._stages, self._selection = stages, selection
-        self._next_update = 0.0
+        self._update_period, self._next_update = update_period, 0.0
         self._heading = 0.0
         self.sighting: Sighting | None = None
         self.gaze_target: GazeTarget | None = None
@@ -170,7 +170,7 @@ class Perception:
         # A LoLA frame brings a value of each sonar, though most often none.
         arrived = [p for p in percepts if not _is_empty(p)]
         if arrived or now >= self._next_update:
-            self._next_update = now + MAX_UPDATE_PERIOD - 1e-9
+            self._next_update = now + self._update_period - 1e-9
             for percept in arrived:
                 body = self.poses.at(percept.time)
                 report = self._stages.process(percept, body)

@@ -30,6 +30,10 @@ from .target_selection import RobotSelection, TargetSelection
 from .track import PERSON_MOTION, ROBOT_MOTION
 from .tracker import Tracker
 
+# Longest time between updates when no image or echo arrives, so that tracks
+# age and the head searches, in [s].
+UPDATE_PERIOD = 0.1
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FloorMapping:
@@ -104,4 +108,6 @@ def build_perception(
             awaits_start=mapping is not None and used.awaits_start,
         ),
         None if mapping is None else mapping.floor,
+        # A person at 1 m/s needs a decision before the next image arrives.
+        update_period=0.0 if people else UPDATE_PERIOD,
     )
