@@ -70,7 +70,7 @@ def test_a_run_shows_its_name_players_and_outcome(name: str) -> None:
     run = values()[name]
     text = repr(run)
     assert len(text) < 200
-    for part in (type(run).__name__, run.name, run.message, *run.players):
+    for part in (f"{name.title()}Run", run.name, run.message, *run.players):
         assert part in text
 
 

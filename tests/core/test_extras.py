@@ -13,7 +13,11 @@ from stepaside.cli.main import all_commands
 from stepaside.core.extras import EXTRAS, install_hint
 from tools.documents.store import ROOT
 
-PACKAGES = {"cv2": "opencv-python-headless"}  # where it differs
+PACKAGES = {  # where the name of the package differs
+    "cv2": "opencv-python-headless",
+    "dask_jobqueue": "dask-jobqueue",
+    "yaml": "pyyaml",
+}
 SHORT = "--duration 0.02 --json"
 WORKS = (
     f"duel {SHORT} --output run",

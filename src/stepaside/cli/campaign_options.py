@@ -136,6 +136,21 @@ class CampaignOptions(NamedTuple):
         return cases if self.shard is None else -(-cases // self.shard[1])
 
 
+class _FolderOrTable(click.Path):
+    """Folder of results; with the suffix of a table, the file of a table."""
+
+    def convert(
+        self,
+        value: Any,
+        param: click.Parameter | None,
+        ctx: click.Context | None,
+    ) -> Any:
+        """Return the path; a file that is not a table is refused."""
+        if Path(value).suffix.lower() in TABLES:
+            return Path(value)
+        return super().convert(value, param, ctx)
+
+
 def campaign_options(
     output_help: str,
 ) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
@@ -169,7 +184,7 @@ def campaign_options(
 
         output_option = click.option(
             "--output",
-            type=click.Path(path_type=Path),
+            type=_FolderOrTable(file_okay=False, path_type=Path),
             help=f"{output_help} With the suffix {' or '.join(TABLES)}: file "
             "of a table of all records, beside such a folder.",
         )
