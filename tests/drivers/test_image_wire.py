@@ -16,6 +16,7 @@ from stepaside.drivers.cameras.image_wire import (
 )
 from stepaside.drivers.guardian_process import SessionLost
 from stepaside.drivers.lola.camera_socket import CameraClient, CameraServer
+from stepaside.drivers.lola.listener import ClientListener
 from stepaside.drivers.lola.lola_address import LolaAddress
 from stepaside.drivers.lola.lola_server import LolaServer
 from stepaside.perception.camera_model import CameraModel
@@ -109,10 +110,10 @@ def test_images_are_dropped_for_a_client_that_does_not_read(
 
 
 def test_a_channel_that_brings_garbage_is_silent(tmp_path: Path) -> None:
-    offer = CameraServer(LolaAddress(str(tmp_path / "c")))
+    offer = ClientListener(LolaAddress(str(tmp_path / "c")))
     channel = CameraClient(LolaAddress(str(tmp_path / "c")))
-    offer.send(measured(0.0), 0)
-    offer._send(b"x" * 200)
+    assert offer.accept()
+    offer.send(b"x" * 200)
     assert channel.percepts(0, 0.0, 0.012) == []
     assert channel.percepts(1, 0.0, 0.012) == []
     channel.close()

@@ -251,12 +251,12 @@ def test_a_session_cut_at_any_byte_of_an_answer_does_not_hurt_the_world(
         assert open_files() == before
 
 
-def test_ten_thousand_garbage_frames_from_a_robot_are_passed_over() -> None:
+def test_garbage_frames_from_a_robot_are_passed_over() -> None:
     """As long as every other frame is good."""
     random = np.random.default_rng(3)
     script = (
         frame
-        for _ in range(10_000)
+        for _ in range(1000)
         for frame in (random.bytes(SENSOR_BYTES), FRAME)
     )
     clock = Clock()
@@ -266,32 +266,31 @@ def test_ten_thousand_garbage_frames_from_a_robot_are_passed_over() -> None:
         dict(zip(JOINTS, STANCE, strict=True)),
         clock=SystemClock(clock, clock.pause),
     )
-    for _ in range(10_000):
+    for _ in range(1000):
         time = body.read().time
         body.write(STANCE)
-    assert body.refused == 10_000
+    assert body.refused == 1000
     assert body.state is RobotState.READY
-    assert time == pytest.approx(19_998 * 0.012)
+    assert time == pytest.approx(1998 * 0.012)
     body.close()
 
 
-def test_ten_thousand_garbage_clients_do_not_hurt_the_world(
+def test_garbage_clients_do_not_hurt_the_world(
     tmp_path: Path,
 ) -> None:
     random = np.random.default_rng(4)
     with serving(tmp_path) as (server, robot, address):
         before = open_files()
-        for _ in range(10_000):
-            near, far = socket.socketpair()
-            near.setblocking(False)
-            server._listener.client = near  # as if it had been accepted
-            server._reader.__init__()  # type: ignore[misc]
-            far.send(random.bytes(786))
+        for _ in range(1000):
+            client = socket.socket(socket.AF_UNIX)
+            client.connect(address.path)
+            client.send(random.bytes(786))
+            server.speak()  # accepts it
             server.hear()
             server.hear()
             if server.connected:  # a rare whole frame's beginning
                 server.drop("test")
-            far.close()
+            client.close()
         assert open_files() == before
         tick(server, 0.0)
         assert not robot.stiffness.any()

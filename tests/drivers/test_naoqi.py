@@ -2,8 +2,9 @@
 
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from math import nan
 from time import monotonic, sleep
 from typing import Any
@@ -299,20 +300,24 @@ def test_a_fallen_robot_lies_still_until_its_button_is_released(
     assert robot.awake and robot.posture == "StandInit"
 
 
+def motion_of(kind: type[ALMotion], robot: WalkServiceState) -> ALMotion:
+    """Return a motion service of a robot."""
+    return kind(robot, VelocityCommand(0.07, 0.4), GaitSettings())
+
+
 @contextmanager
-def offering(**services: object) -> Iterator[tuple[str, WalkServiceState]]:
-    """Services of a robot, some of them other than ours."""
+def offering(
+    **services: Callable[[WalkServiceState], object],
+) -> Iterator[tuple[str, WalkServiceState]]:
+    """Serve a robot, with some services made by other functions."""
     robot = WalkServiceState(SimulatedUnicycle().state(), ["a", "b"])
-    for service in services.values():
-        service._robot = robot  # type: ignore[attr-defined]
-    ours = {
-        "ALMotion": ALMotion(
-            robot, VelocityCommand(0.07, 0.4), GaitSettings()
-        ),
+    changed = {name: make(robot) for name, make in services.items()}
+    served: dict[str, object] = {
+        "ALMotion": motion_of(ALMotion, robot),
         "ALMemory": ALMemory(robot),
         "ALRobotPosture": ALRobotPosture(robot),
     }
-    session = listen("tcp://127.0.0.1:0", ours | services)
+    session = listen("tcp://127.0.0.1:0", served | changed)
     try:
         yield session.endpoints()[0], robot
     finally:
@@ -333,7 +338,7 @@ class Unwilling:
 
 def test_a_robot_that_could_not_stand_up_tries_again_by_the_button() -> None:
     posture = Unwilling()
-    with offering(ALRobotPosture=posture) as (url, robot):
+    with offering(ALRobotPosture=lambda robot: posture) as (url, robot):
         body = NaoqiBody(url)
         until(lambda: "could not stand up" in heard(body).hindrance)
         assert "could not stand up" in heard(body).hindrance
@@ -356,8 +361,7 @@ def test_a_robot_that_answers_slowly_still_walks(slow: float) -> None:
             sleep(slow)
             return super().getRobotPosition(use_sensors)
 
-    motion = Slow(None, VelocityCommand(0.07, 0.4), GaitSettings())  # type: ignore[arg-type]
-    with offering(ALMotion=motion) as (url, robot):
+    with offering(ALMotion=partial(motion_of, Slow)) as (url, robot):
         drive_and_hear(url, robot)
 
 
@@ -394,8 +398,7 @@ class Refusing(ALMotion):
 
 
 def test_the_reason_of_a_refused_call_is_complete() -> None:
-    motion = Refusing(None, VelocityCommand(0.07, 0.4), GaitSettings())  # type: ignore[arg-type]
-    with offering(ALMotion=motion) as (url, _):
+    with offering(ALMotion=partial(motion_of, Refusing)) as (url, _):
         body = NaoqiBody(url)
         heard(body)
         with pytest.raises(SessionLost) as refused:

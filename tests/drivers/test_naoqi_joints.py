@@ -38,8 +38,8 @@ from stepaside.drivers.naoqi.joint_services import (  # noqa: E402
     JointMotionService,
     JointServiceState,
 )
-from stepaside.drivers.naoqi.joint_transport import JointTransport, fade
-from stepaside.drivers.naoqi.qi_session import listen  # noqa: E402
+from stepaside.drivers.naoqi.joint_transport import fade, service_of
+from stepaside.drivers.naoqi.qi_session import connect, listen  # noqa: E402
 from stepaside.drivers.naoqi.sensor_keys import (  # noqa: E402
     KEYS,
     OLDER,
@@ -305,17 +305,19 @@ def test_a_world_that_is_gone_ends_the_session(scene: Scene) -> None:
     assert scene.body.state is RobotState.LIMP
 
 
-def test_values_that_are_no_numbers_are_refused_and_then_silence(
-    scene: Scene,
-) -> None:
-    scene.ticks(12)
+def test_values_that_are_not_numbers_are_refused_and_then_silence() -> None:
+    scene = Scene(lock_step=False)
+    for _ in range(5):
+        scene.server.speak()
+        scene.body.read()
+        scene.body.write(STANCE)
     scene.robot.angles = np.full(len(STANCE), nan)
-    scene.body._hearing._silence = 0.05
-    scene.body._hearing.lock_step = False
     scene.server.speak()
     with pytest.raises(SessionLost, match="1 refused"):
         scene.body.read()
     assert scene.body.state is RobotState.LIMP
+    scene.body.close()
+    scene.server.close()
 
 
 def test_stiffness_decays_when_the_client_falls_silent(
@@ -332,8 +334,8 @@ def test_stiffness_decays_when_the_client_falls_silent(
 def test_the_last_of_two_clients_has_the_joint(scene: Scene) -> None:
     """NAOqi refuses no client: limits hold for all commands together."""
     scene.ticks(12)
-    other = JointTransport(scene.server.url)
-    other._motion.setAngles("HeadYaw", 0.5, 1.0)
+    other = connect(scene.server.url)
+    service_of(other, "ALMotion").setAngles("HeadYaw", 0.5, 1.0)
     scene.server.act()
     head = list(JOINTS).index("HeadYaw")
     assert scene.robot.angles[head] == 0.5

@@ -141,4 +141,4 @@ def test_a_guarded_robot_receives_the_same_commands(tmp_path: Path) -> None:
     assert robot.asked == [VelocityCommand(0.1, 0.2), REST]
     assert not (tmp_path / "rest").exists()
     with pytest.raises(ChildProcessError):
-        os.waitpid(guardian._pid, os.WNOHANG)
+        os.waitpid(guardian.pid, os.WNOHANG)

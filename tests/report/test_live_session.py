@@ -50,6 +50,20 @@ def _setter(event: Event) -> Callable[[Duel], None]:
     return lambda duel: event.set()
 
 
+def loop_thread(session: LiveSession) -> Thread:
+    """Return the thread in which the duel is played."""
+    found: list[Thread] = []
+    done = Event()
+
+    def note(duel: Duel) -> None:
+        found.append(current_thread())
+        done.set()
+
+    session.change(note)
+    assert done.wait(60.0)
+    return found[0]
+
+
 def run_until(session: LiveSession, time: float) -> None:
     """Let time pass up to a tick, and stop there."""
     reached, duel = Event(), session.duel
@@ -134,7 +148,7 @@ def time_for(
 ) -> tuple[float, LiveSession]:
     """Time of the clock that 1.5 s of a duel take."""
     made = LiveSession(SETTINGS)
-    clock.sleeper = made._thread
+    clock.sleeper = loop_thread(made)
     made.speed = speed
     times = []
 
@@ -214,6 +228,7 @@ def test_a_reset_begins_again(session: LiveSession) -> None:
 def test_a_duel_is_let_go_by_the_thread_that_drew_for_it() -> None:
     """When another one has begun, and at the end; each of them once."""
     made = LiveSession(SETTINGS)
+    loop = loop_thread(made)
     closed: list[tuple[Duel, Thread]] = []
 
     def watch() -> Duel:
@@ -232,7 +247,7 @@ def test_a_duel_is_let_go_by_the_thread_that_drew_for_it() -> None:
     second = watch()
     made.close()
     assert [duel for duel, _ in closed] == [first, second]
-    assert {thread for _, thread in closed} == {made._thread}
+    assert {thread for _, thread in closed} == {loop}
 
 
 def test_errors_in_the_loop_are_told(session: LiveSession) -> None:

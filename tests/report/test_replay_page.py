@@ -231,9 +231,12 @@ def test_pictures_of_a_film_are_evenly_spaced(
 class FakeRenderer:
     """Keeps what it was asked to draw."""
 
+    last: "FakeRenderer"  # made last
+
     def __init__(self, model: Any, *asked: Any):
         """Note size, backend and look."""
         self.asked = asked
+        FakeRenderer.last = self
         self.drawn: list[tuple[Any, Any, Any]] = []
 
     def draw(self, data: Any, camera: Any, add: Any = None) -> Any:
@@ -253,7 +256,7 @@ def fake_renderer(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def filmed(shot: FilmSettings, time: float) -> tuple[Any, Any, Any]:
     cinema = FilmRenderer(made(), shot, "egl")
-    screen: Any = cinema._renderer
+    screen = FakeRenderer.last
     width, height, backend, look = screen.asked
     assert (width, height, backend) == (shot.width, shot.height, "egl")
     assert look.samples >= 4 and look.shadow >= 1024
@@ -261,7 +264,7 @@ def filmed(shot: FilmSettings, time: float) -> tuple[Any, Any, Any]:
     (found,) = screen.drawn
     cinema.close()
     assert screen.drawn == []
-    return found  # type: ignore[no-any-return]
+    return found
 
 
 @pytest.mark.usefixtures("fake_renderer")
@@ -398,7 +401,7 @@ def test_pictures_come_in_order_and_all_of_them(
     monkeypatch.setattr(film, "choose_renderer", lambda wanted: "egl")
     monkeypatch.setattr(film, "load_run", lambda folder: made())
     monkeypatch.setattr(film, "worker_pool", InlinePool)
-    monkeypatch.setattr(film, "_draw", lambda f, s, b, times: list(times))
+    monkeypatch.setattr(film, "draw_chunk", lambda f, s, b, times: list(times))
     shot = FilmSettings(rate=100.0)
     for workers in (1, 2, 30):
         drawn = list(film.render_images(Path("run"), shot, workers=workers))
@@ -424,7 +427,7 @@ def test_a_worker_keeps_its_graphics(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(film, "load_run", lambda folder: folder)
     monkeypatch.setattr(film, "_renderers", {})
     for times in ([1.0, 2.0], [3.0]):
-        drawn = film._draw(Path("run"), FilmSettings(), "egl", times)
+        drawn = film.draw_chunk(Path("run"), FilmSettings(), "egl", times)
         assert drawn == [2.0 * time for time in times]
     assert began == [(Path("run"), FilmSettings(), "egl")]
 

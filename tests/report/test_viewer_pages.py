@@ -5,7 +5,7 @@ from dataclasses import fields, replace
 from html import unescape
 from itertools import count
 from math import degrees, inf, pi, radians
-from threading import Event, RLock
+from threading import Event, RLock, Thread
 from types import SimpleNamespace
 from typing import Any
 
@@ -484,7 +484,22 @@ def test_the_page_shows_the_duel_as_it_is(live: tuple[Page, Any]) -> None:
     assert "**over: contact**" in status and "**stopped: a bolt**" in status
 
 
-def test_the_page_works_nothing_out_while_the_physics_moves(
+def is_locked(session: LiveSession) -> bool:
+    """Return whether another thread would wait for the lock now."""
+    acquired: list[bool] = []
+
+    def try_lock() -> None:
+        acquired.append(session.lock.acquire(blocking=False))
+        if acquired[0]:
+            session.lock.release()
+
+    thread = Thread(target=try_lock)
+    thread.start()
+    thread.join()
+    return not acquired[0]
+
+
+def test_the_page_reads_the_physics_only_under_the_lock(
     live: tuple[Page, Any], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Snapshots compute on the world's data: two at once end the process."""
@@ -493,7 +508,7 @@ def test_the_page_works_nothing_out_while_the_physics_moves(
 
     def watched(what: Callable[[Any], Any]) -> Callable[[Any], Any]:
         def look(of: Any) -> Any:
-            held.append(page.session.lock._is_owned())  # type: ignore[attr-defined]
+            held.append(is_locked(page.session))
             return what(of)
 
         return look
@@ -506,7 +521,7 @@ def test_the_page_works_nothing_out_while_the_physics_moves(
     seen = property(watched(distance.fget))
     monkeypatch.setattr(Duel, "distance", seen)
     page.refresh()
-    page._plots.show(page.session)
+    page.plots.show(page.session)
     assert len(held) > 2 and all(held)
 
 
@@ -522,14 +537,14 @@ def test_the_page_draws_a_new_duel_anew(live: tuple[Page, Any]) -> None:
 
 
 def test_buttons_start_step_and_set_the_speed(
-    live: tuple[Page, Any],
+    live: tuple[Page, Any], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     page, server = live
     session, gui = page.session, server.gui
     gui["Duel"].press("step")
     played(session, 0)
     assert session.duel.world.ticks == 25
-    session._advance = lambda ticks: None  # type: ignore[method-assign]
+    monkeypatch.setattr(session.duel, "tick", lambda: None)
     gui["Start"].press()
     assert session.running
     page.refresh()
@@ -549,8 +564,8 @@ def test_buttons_start_step_and_set_the_speed(
     gui["Speed"].press("as fast as possible")
     assert session.speed == inf
     gui["Footsteps"].press(False)
-    assert page._layers.shown["footsteps"] is False
-    assert page._layers.shown["CoM trace"] is True
+    assert page.layers.shown["footsteps"] is False
+    assert page.layers.shown["CoM trace"] is True
 
 
 def test_controls_begin_with_the_duels_own_values(
@@ -653,8 +668,8 @@ def test_the_page_says_that_a_hand_drives_and_no_theory_then(
     assert release.disabled and session.theory is not None
 
 
-def test_the_pace_is_told_only_while_time_passes(
-    live: tuple[Page, Any],
+def test_the_pace_is_shown_only_while_time_passes(
+    live: tuple[Page, Any], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     page, server = live
     page.session.real_time_factor = 0.0
@@ -663,7 +678,7 @@ def test_the_pace_is_told_only_while_time_passes(
     page.session.real_time_factor = 1.04
     page.refresh()
     assert "real time" not in server.gui.texts[0].content
-    page.session._advance = lambda ticks: None  # type: ignore[method-assign]
+    monkeypatch.setattr(page.session.duel, "tick", lambda: None)
     page.session.running = True
     page.refresh()
     page.session.running = False
@@ -696,7 +711,7 @@ def test_a_reset_takes_what_the_controls_say(live: tuple[Page, Any]) -> None:
     assert settings.control == STABILISED
     decisions = walker(session, 0).scheme.decisions
     assert decisions.strategy == Pursuit()
-    assert page._drive._hand is None
+    assert not session.driven
     gui["Body"].value = "ideal"
     gui["Duel"].press("reset")
     assert session.settings.control == OPEN_LOOP

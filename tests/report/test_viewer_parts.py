@@ -423,7 +423,7 @@ def test_the_circle_passes_both_robots_on_the_pursuers_side(
         duel=SimpleNamespace(triggered_at=1.0, players=[walking(plan)]),
     )
     places = [np.array([1.0, 1.0]), np.array([1.6, 1.6])]
-    lines = drawing._circle(session, places)
+    lines = drawing.circle_lines(session, places)
     middle = lines[:, 0, :2].mean(axis=0)
     for place in places:
         assert np.hypot(*(place - middle)) == pytest.approx(0.6)
@@ -443,7 +443,7 @@ def test_a_circle_that_cannot_be_is_not_drawn() -> None:
             duel=SimpleNamespace(triggered_at=at, players=[walking(None)]),
         )
         places = [np.zeros(2), np.array([apart, 0.0])]
-        return len(drawing._circle(session, places))
+        return len(drawing.circle_lines(session, places))
 
     assert lines(0.6, 1.1, 1.0) == 72
     assert lines(None, 1.1, 1.0) == 0 == lines(0.6, 1.1, None)

@@ -337,7 +337,7 @@ def test_a_room_without_starts_draws_them() -> None:
         ("--seeds", "3:1"),
         ("--duration", "nan"),
         ("--alpha", "200deg"),
-        ("--discs", "500"),
+        ("--room", "1.5x1.5", "--discs", "20"),
     ],
 )
 def test_invalid_tournament_options_are_refused_in_one_line(

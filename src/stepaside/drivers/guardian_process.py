@@ -64,7 +64,11 @@ TERMINATION_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
 class Guardian:
-    """Handle of the control process on its guardian."""
+    """Handle of the control process on its guardian.
+
+    Attributes:
+        pid: Number of the guardian process.
+    """
 
     def __init__(
         self,
@@ -85,8 +89,8 @@ class Guardian:
         """
         near, far = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         parent = os.getpid()
-        self._pid = os.fork()
-        if self._pid == 0:
+        self.pid = os.fork()
+        if self.pid == 0:
             code = 1
             try:
                 near.close()
@@ -126,7 +130,7 @@ class Guardian:
         self._socket.close()
         self._socket = None
         with suppress(ChildProcessError):
-            os.waitpid(self._pid, 0)
+            os.waitpid(self.pid, 0)
 
     def _send(self, message: bytes) -> None:
         if self._socket is not None:

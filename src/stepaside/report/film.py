@@ -184,7 +184,7 @@ def frame_times_of(run: Run, settings: FilmSettings) -> list[float]:
 _renderers: dict[tuple[Path, FilmSettings, str], FilmRenderer] = {}
 
 
-def _draw(
+def draw_chunk(
     folder: Path, settings: FilmSettings, backend: str, times: list[float]
 ) -> list[Pixels]:
     """Render some images in a process that keeps its renderer."""
@@ -223,7 +223,7 @@ def render_images(
             f"film must begin before the run's end, got {settings.begin:g} [s]"
         )
     chunks = [times[i : i + CHUNK] for i in range(0, len(times), CHUNK)]
-    draw = partial(_draw, folder, settings, backend)
+    draw = partial(draw_chunk, folder, settings, backend)
     count = workers or os.cpu_count() or 1
     with worker_pool(count) as pool:
         # Only a few chunks are submitted ahead, to bound the memory used.

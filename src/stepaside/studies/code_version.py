@@ -80,12 +80,18 @@ def _substance(file: Path) -> bytes:
     """Return the bytes of a file; of code, its syntax without docstrings."""
     if file.suffix != ".py":
         return file.read_bytes()
-    tree = ast.parse(file.read_text(encoding="utf-8"))
+    return _syntax(file.read_text(encoding="utf-8"))
+
+
+@cache  # versions of several results share most of their files
+def _syntax(text: str) -> bytes:
+    """Return a fingerprint of the syntax of code without docstrings."""
+    tree = ast.parse(text)
     for node in ast.walk(tree):
         body = getattr(node, "body", None)
         if isinstance(body, list) and body and _is_text(body[0]):
             del body[0]
-    return ast.dump(tree).encode()
+    return sha256(ast.dump(tree).encode()).digest()
 
 
 def _is_text(node: ast.stmt) -> bool:

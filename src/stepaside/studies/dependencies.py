@@ -7,11 +7,13 @@ package resolves its public names from them when they are first used.
 
 import ast
 from collections.abc import Iterable, Iterator
+from functools import cache
 from pathlib import Path
 
 PACKAGE = __name__.split(".")[0]
 INIT = "__init__.py"
 Import = tuple[str, str | None]  # module in the package, and a name in it
+Binding = tuple[str, Import]  # name in the importing file
 
 
 def dependencies(root: Path, names: Iterable[str]) -> frozenset[Path]:
@@ -44,7 +46,6 @@ class _Graph:
         self.root = root
         self.files: set[Path] = set()
         self._folders: set[Path] = set()
-        self._trees: dict[Path, ast.Module] = {}
 
     def add_root(self, name: str) -> None:
         """Follow the imports of a module, or of all modules of a folder."""
@@ -88,7 +89,7 @@ class _Graph:
                 continue
             self.files.add(file)
             left += self._packages_of(file)
-            for module, name in _imports(self._parse(file), self._names(file)):
+            for _, (module, name) in self._imports(file):
                 left += self._resolve(module, name)
 
     def _packages_of(self, file: Path) -> list[Path]:
@@ -114,13 +115,11 @@ class _Graph:
     def _public(self, file: Path, name: str | None = None) -> list[Path]:
         """Return the files behind all public names of a package, or one."""
         found: list[Path] = []
-        package = self._names(file)
         stub = file.with_suffix(".pyi")  # names that are imported lazily
         for source in (file, stub) if stub.is_file() else (file,):
-            for node in _import_nodes(self._parse(source), for_types=True):
-                for alias, (module, own) in _named(node, package):
-                    if name in (None, alias):
-                        found += self._resolve(module, own)
+            for alias, (module, own) in self._imports(source, for_types=True):
+                if name in (None, alias):
+                    found += self._resolve(module, own)
         return found
 
     def _file(self, module: str) -> Path | None:
@@ -130,25 +129,25 @@ class _Graph:
             return beside
         return path / INIT if (path / INIT).is_file() else None
 
-    def _names(self, file: Path) -> tuple[str, ...]:
-        """Return the package of a file, as names below the root."""
-        return file.relative_to(self.root).parts[:-1]
-
-    def _parse(self, file: Path) -> ast.Module:
-        if file not in self._trees:
-            self._trees[file] = ast.parse(file.read_text(encoding="utf-8"))
-        return self._trees[file]
+    def _imports(
+        self, file: Path, *, for_types: bool = False
+    ) -> tuple[Binding, ...]:
+        """Return the imports of the package in a file, with their names."""
+        package = file.relative_to(self.root).parts[:-1]
+        text = file.read_text(encoding="utf-8")
+        return _parse_imports(text, package, for_types)
 
 
 def _is_code(file: Path) -> bool:
     return file.suffix in (".py", ".pyi") or "__pycache__" in file.parts
 
 
-def _imports(tree: ast.AST, package: tuple[str, ...]) -> Iterator[Import]:
-    """Yield the imports of the package that are executed in a file."""
-    for node in _import_nodes(tree, for_types=False):
-        for _, found in _named(node, package):
-            yield found
+@cache  # versions of several results share most of their files
+def _parse_imports(
+    text: str, package: tuple[str, ...], for_types: bool
+) -> tuple[Binding, ...]:
+    nodes = _import_nodes(ast.parse(text), for_types=for_types)
+    return tuple(each for node in nodes for each in _named(node, package))
 
 
 def _import_nodes(
@@ -179,7 +178,7 @@ def _is_type_checking(test: ast.expr) -> bool:
 
 def _named(
     node: ast.Import | ast.ImportFrom, package: tuple[str, ...]
-) -> Iterator[tuple[str, Import]]:
+) -> Iterator[Binding]:
     """Yield the names that a statement binds, with their imports."""
     if isinstance(node, ast.Import):
         for alias in node.names:

@@ -55,7 +55,7 @@ def draw_session(layers: SceneLayers, session: LiveSession) -> None:
         pursuer, evader = positions
         sight = np.array([[[*pursuer, 0.25], [*evader, 0.25]]])
         lines.append(("line of sight", "both", sight, THEORY))
-        circle = _circle(session, positions)
+        circle = circle_lines(session, positions)
         lines.append(("theoretical circle", "both", circle, THEORY))
     for layer, owner, segments, colour in lines:
         layers.draw(layer, owner, segments, colour)
@@ -89,7 +89,7 @@ def _trace_lines(session: LiveSession, name: str) -> list[Lines]:
     return lines
 
 
-def _circle(session: LiveSession, positions: list[Array]) -> Array:
+def circle_lines(session: LiveSession, positions: list[Array]) -> Array:
     """Return the theoretical circle through both players. Shape (n, 2, 3).
 
     Its center is on the side to which the pursuer turns. Empty before the

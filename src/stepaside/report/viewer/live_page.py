@@ -76,6 +76,8 @@ class Page:
         server: viser's server.
         gate: Access control.
         session: The duel.
+        layers: Layers drawn over the scene.
+        plots: Plots of the history.
     """
 
     def __init__(
@@ -102,14 +104,14 @@ class Page:
         self._notify = Notices(self.server).show
         served.messages.notify = self._notify
         self._closing = threading.Event()
-        self._layers, self._viewers = self._set_scene()
+        self.layers, self._viewers = self._set_scene()
         self._generation = self.session.generation
         gui = self.server.gui
         layout = arrange_panels(gui)
         self._status = gui.add_markdown("starting")
         self._add_buttons()
         self._add_keys()
-        self._plots = Plots(gui)
+        self.plots = Plots(gui)
         with layout.play:
             self._cameras = CameraPanel(gui)
             add_push(gui, self.session, self._notify)
@@ -240,7 +242,7 @@ class Page:
 
         @box.on_update
         def _(_: object) -> None:
-            self._layers.shown[layer] = box.value
+            self.layers.shown[layer] = box.value
 
     def _reset_cameras(self) -> None:
         """Show the camera panel if the duel has cameras."""
@@ -255,7 +257,7 @@ class Page:
                 self.refresh()
                 if began - plotted > 1.0 / PLOT_RATE:
                     plotted = began
-                    self._plots.show(self.session)
+                    self.plots.show(self.session)
                     self._cameras.show(self.session.new_frames())
             except Exception:
                 LOG.exception("the page could not be refreshed")
@@ -268,12 +270,12 @@ class Page:
         session = self.session
         if session.generation != self._generation:
             self._generation = session.generation
-            self._layers.clear()
+            self.layers.clear()
             self._reset_cameras()
         snapshot = session.snapshot()
         with self.server.atomic():
             self._bodies.move(snapshot.positions, snapshot.quaternions)
-            draw_session(self._layers, session)
+            draw_session(self.layers, session)
         self._viewers.aim(
             [np.array(player.torso[:2]) for player in snapshot.players],
             [float(player.com[2]) for player in snapshot.players],
