@@ -7,7 +7,12 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..core.atomic_output import atomic_draft
-from .options.common_options import figure_option, json_option, workers_option
+from .options.common_options import (
+    figure_option,
+    json_option,
+    seed_option,
+    workers_option,
+)
 from .output_files import attempt, writes_files
 from .progress import show_progress
 from .tables import print_table
@@ -35,7 +40,7 @@ BODIES = ("ideal", "delayed", "hardware")
     default="ideal",
     help="Imperfections of the body.  [default: ideal]",
 )
-@click.option("--seed", type=int, default=1, help="Seed of sensor errors.")
+@seed_option(default=1, show_default=True, help="Seed of sensor errors.")
 @workers_option()
 @figure_option(help="Write a figure of commands and delivered velocities.")
 @json_option
