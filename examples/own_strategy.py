@@ -35,16 +35,14 @@ class BackAndAside:
 def main(duration: float) -> None:
     """Compare it with moving aside, with unicycles and with humanoids."""
     body = Unicycle(0.1, 0.2)  # of NAO, in path time: 0.4 s per 0.547 s
-    clock = {"period": 0.4, "duration": 0.4 / 0.547 * duration}
-    at = sa.RelativeStart(0.9, 0.3, -0.2)
+    rules = st.UnicycleMatch((body, body), 0.4, 0.4 / 0.547 * duration)
+    at = sa.RelativeStart(0.9, 0.3, -0.2).poses()
     start = sa.StartSettings(0.9, -0.3, 0.2)
     settings = sa.DuelSettings(duration=duration, start=start)
     names = {"aside": "evasion", "own": f"{__file__}:BackAndAside"}
     for label, name in names.items():
         evader = st.load_strategy(name)
-        game = st.play_strategies(
-            st.Pursuit(), evader, at, bodies=(body, body), **clock
-        )
+        game = st.play_strategies(st.Pursuit(), evader, at, game=rules)
         duel = sa.run_duel(replace(settings, evader_strategy=name))
         for bodies, closest, path in (
             ("unicycles", game.closest_distance, game.evader),

@@ -18,8 +18,8 @@ from stepaside import (
     make_game,
 )
 from stepaside.core.poses import Pose
-from stepaside.strategies import Evasion, Pursuit, play_steps
-from stepaside.strategies.step_game import StepGame
+from stepaside.strategies import Evasion, Pursuit, play_strategies
+from stepaside.strategies.strategy_game import StepGame
 from stepaside.theory.unicycle import simulate_sampled
 
 SHORT = 600  # longest text of any value, in [characters]
@@ -47,7 +47,7 @@ def values() -> dict[str, Any]:
         "game of unicycles": stepaside.simulate(GAME, START, 60.0),
         "sampled game": simulate_sampled(GAME, START, 60.0, 0.4),
         "games": stepaside.play_games(GAME, [START.wrapped()] * 2000, 1.0),
-        "steps": play_steps(
+        "steps": play_strategies(
             Pursuit(), Evasion(), poses, game=StepGame(duration=60.0)
         ),
         "circle": stepaside.find_circle(0.1, 0.1, 0.2, 0.2),

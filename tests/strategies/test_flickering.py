@@ -25,7 +25,7 @@ from stepaside.planning import Direction
 from stepaside.strategies import Intent, Knowledge, Limits, Pursuit
 from stepaside.strategies.look_ahead import PENALTY, LookAhead
 from stepaside.strategies.search import turn_search as search
-from stepaside.strategies.step_game import StepGame, play_steps
+from stepaside.strategies.strategy_game import StepGame, play_strategies
 
 LIMITS = Limits(GAIT.speed, GAIT.gain, GAIT.stride, GAIT.step_duration)
 
@@ -72,7 +72,7 @@ def turned(map_error: float) -> int:
         room = generate_room(RoomRecipe(3.0, 3.0, discs=3), seed)
         assert room.starts is not None
         game = StepGame(duration=30.0)
-        play_steps(Pursuit(), evader, room.starts, room=room, game=game)
+        play_strategies(Pursuit(), evader, room.starts, room=room, game=game)
         changes += int((np.abs(np.diff(evader.headings)) > 3.0).sum())
     return changes
 

@@ -18,9 +18,9 @@ from stepaside.strategies import (
     OptimalEvasion,
     Pursuit,
     StepGame,
-    StepOutcome,
     Strategy,
-    play_steps,
+    StrategyOutcome,
+    play_strategies,
 )
 from stepaside.strategies import (
     bound_cache as tables,
@@ -60,7 +60,7 @@ def test_with_an_empty_map_and_no_pieces_it_is_the_law(angle: float) -> None:
     law = replace(ASIDE, angle=angle)
     mind = LookAhead(pieces=(), tail=20, angle=angle)
     tracks = [
-        play_steps(Pursuit(), evader, FACING, game=SHORT)
+        play_strategies(Pursuit(), evader, FACING, game=SHORT)
         for evader in (law, mind)
     ]
     np.testing.assert_allclose(tracks[1].evader, tracks[0].evader, atol=1e-12)
@@ -68,7 +68,7 @@ def test_with_an_empty_map_and_no_pieces_it_is_the_law(angle: float) -> None:
 
 def test_the_pursuer_heading_is_estimated_from_sightings() -> None:
     """From two sightings on, while it obeys eqs. (1)-(2)."""
-    track = play_steps(Pursuit(), ASIDE, FACING, game=SHORT)
+    track = play_strategies(Pursuit(), ASIDE, FACING, game=SHORT)
     trace: Trace = ()
     for n in range(12):
         pursuer, evader = track.pursuer[n], track.evader[n]
@@ -98,19 +98,19 @@ def test_in_a_room_it_survives_where_moving_aside_touches(seed: int) -> None:
     assert room.starts is not None
     game = StepGame(duration=60.0)
 
-    def play(evader: Strategy) -> StepOutcome:
+    def play(evader: Strategy) -> StrategyOutcome:
         assert room.starts is not None
-        track = play_steps(
+        track = play_strategies(
             Pursuit(), evader, room.starts, room=room, game=game
         )
-        if track.outcome is StepOutcome.SURVIVED:
-            assert len(track.distances) == game.steps + 1
+        if track.outcome is StrategyOutcome.SURVIVED:
+            assert len(track.distances) == len(game.decision_times) + 1
             assert track.distances.min() > game.capture
             assert track.clearances.min() >= game.body_radius
         return track.outcome
 
-    assert play(ASIDE) is StepOutcome.TOUCHED
-    assert play(LookAhead()) is StepOutcome.SURVIVED
+    assert play(ASIDE) is StrategyOutcome.TOUCHED
+    assert play(LookAhead()) is StrategyOutcome.SURVIVED
 
 
 def test_with_its_back_in_a_corner_it_turns_before_it_walks() -> None:
@@ -119,10 +119,10 @@ def test_with_its_back_in_a_corner_it_turns_before_it_walks() -> None:
     assert room.starts is not None
     game = StepGame(duration=16.0)
     for tight, expected in (
-        (0.0, StepOutcome.CAPTURED),
-        (0.5, StepOutcome.SURVIVED),
+        (0.0, StrategyOutcome.CAPTURED),
+        (0.5, StrategyOutcome.SURVIVED),
     ):
-        track = play_steps(
+        track = play_strategies(
             Pursuit(),
             LookAhead(tight=tight),
             room.starts,
@@ -136,10 +136,12 @@ def test_it_rather_stands_than_touches() -> None:
     """Its back is at a disc, and backward is the only way it has."""
     room = Room(obstacles=(Disc(0.5, 0.0, 0.29),))
     starts = (Pose(-1.0, 0.0, 0.0), Pose(0.0, 0.0, pi))
-    track = play_steps(Pursuit(), LookAhead(), starts, room=room, game=SHORT)
+    track = play_strategies(
+        Pursuit(), LookAhead(), starts, room=room, game=SHORT
+    )
     assert track.clearances.min() >= 0.2
-    alone = play_steps(Pursuit(), ASIDE, starts, room=room, game=SHORT)
-    assert alone.outcome is StepOutcome.TOUCHED
+    alone = play_strategies(Pursuit(), ASIDE, starts, room=room, game=SHORT)
+    assert alone.outcome is StrategyOutcome.TOUCHED
 
 
 def test_it_knows_the_map_in_its_own_odometry() -> None:
@@ -166,7 +168,7 @@ def test_turns_stay_within_the_largest_heading() -> None:
     mind = LookAhead(largest_error=0.5)
     room = generate_room(RoomRecipe(discs=3), 2)
     assert room.starts is not None
-    track = play_steps(
+    track = play_strategies(
         Pursuit(), mind, room.starts, room=room, game=StepGame(duration=12.0)
     )
     turns = [
@@ -198,7 +200,7 @@ def test_the_optimal_evader_maximises_its_table() -> None:
         )
         promised.append(unit * float(value))
         for found, mind in ((kept, OptimalEvasion(cells)), (aside, ASIDE)):
-            track = play_steps(Pursuit(), mind, starts, game=SHORT)
+            track = play_strategies(Pursuit(), mind, starts, game=SHORT)
             found.append(float(track.distances.min()))
     assert np.mean(kept) >= 0.97 * np.mean(promised)
     assert np.max(np.subtract(kept, promised)) < 0.02
@@ -240,7 +242,7 @@ def test_no_other_look_is_taken(changes: dict[str, object], rule: str) -> None:
 
 def test_a_step_of_the_game_turns_no_farther_than_it_may() -> None:
     game = StepGame(largest_turn=0.02, duration=4.0)
-    track = play_steps(Pursuit(), ASIDE, FACING, game=game)
+    track = play_strategies(Pursuit(), ASIDE, FACING, game=game)
     for poses in (track.pursuer, track.evader):
         turns = [
             wrap_angle(b - a)
@@ -257,7 +259,7 @@ def test_a_solid_pursuer_stops_where_it_would_touch() -> None:
     still = Evasion(safety_radius=0.1, release_distance=0.2)
     for solid in (False, True):
         game = StepGame(solid_pursuer=solid, duration=20.0)
-        track = play_steps(Pursuit(), still, starts, room=wall, game=game)
+        track = play_strategies(Pursuit(), still, starts, room=wall, game=game)
         near = wall.clearance(track.pursuer[:, :2]).min()
         assert bool(near >= 0.2 - 1e-12) is solid
         # Who walks through things goes straight, and who does not, around.

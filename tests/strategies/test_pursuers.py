@@ -18,9 +18,9 @@ from stepaside.strategies import (
     OptimalPursuit,
     Pursuit,
     StepGame,
-    StepOutcome,
+    StrategyOutcome,
     Walk,
-    play_steps,
+    play_strategies,
 )
 from stepaside.strategies.opponent_track import (
     Trace,
@@ -59,7 +59,7 @@ def test_direction_of_motion_is_exact_on_a_circle() -> None:
 def test_without_a_lead_it_is_the_pursuer_of_the_paper() -> None:
     game = StepGame(duration=20.0)
     paths = [
-        play_steps(pursuer, ASIDE, START, game=game).pursuer
+        play_strategies(pursuer, ASIDE, START, game=game).pursuer
         for pursuer in (Pursuit(), LeadPursuit(0.0))
     ]
     np.testing.assert_allclose(paths[1], paths[0], atol=1e-9)
@@ -71,7 +71,7 @@ def test_lead_pursuit_intercepts_where_pure_pursuit_trails() -> None:
     starts = (Pose(0.0, 0.0, way), Pose(0.7, -0.7, way))
     game = StepGame(duration=40.0)
     pure, led = (
-        play_steps(pursuer, walker, starts, game=game).distances[-1]
+        play_strategies(pursuer, walker, starts, game=game).distances[-1]
         for pursuer in (Pursuit(), LeadPursuit(0.5))
     )
     assert led < pure - 0.1
@@ -84,11 +84,11 @@ def test_the_optimal_pursuer_captures_an_evader_moving_aside(
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     game = StepGame(duration=60.0)
     best, paper = (
-        play_steps(pursuer, ASIDE, START, game=game).outcome
+        play_strategies(pursuer, ASIDE, START, game=game).outcome
         for pursuer in (OptimalPursuit(24), Pursuit())
     )
-    assert best is StepOutcome.CAPTURED
-    assert paper is StepOutcome.SURVIVED
+    assert best is StrategyOutcome.CAPTURED
+    assert paper is StrategyOutcome.SURVIVED
 
 
 def known(bearing: float, distance: float = 1.0, **more: Any) -> Knowledge:
@@ -124,7 +124,9 @@ def test_greater_gains_end_on_the_closer_circle_of_theory() -> None:
     for ratio in (1.5, 2.0, 3.0):
         rate = 0.5 * pi / (1.0 / (0.2 * ratio) + 1.0 / 0.2)
         theory = 0.2 * sin(rate / (0.2 * ratio)) / rate
-        track = play_steps(Pursuit(gain_ratio=ratio), ASIDE, START, game=game)
+        track = play_strategies(
+            Pursuit(gain_ratio=ratio), ASIDE, START, game=game
+        )
         assert track.distances[-1] == pytest.approx(theory, rel=0.01)
 
 
@@ -155,7 +157,7 @@ def test_herding_turns_with_the_room() -> None:
         for x, y, theta in START
     )
     one, other = (
-        play_steps(HerdingPursuit(), ASIDE, (a, b), game=game).pursuer
+        play_strategies(HerdingPursuit(), ASIDE, (a, b), game=game).pursuer
         for a, b in (START, turned)
     )
     x, y = one[:, :2].T
@@ -167,7 +169,7 @@ def test_herding_turns_with_the_room() -> None:
 def test_without_obstacles_there_is_no_deflection() -> None:
     game = StepGame(duration=20.0)
     one, other = (
-        play_steps(Pursuit(), evader, START, game=game).evader
+        play_strategies(Pursuit(), evader, START, game=game).evader
         for evader in (ASIDE, DeflectedEvasion(ASIDE))
     )
     np.testing.assert_array_equal(one, other)

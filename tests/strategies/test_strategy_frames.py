@@ -32,7 +32,7 @@ from stepaside.strategies.opponent_track import (
     note,
 )
 from stepaside.strategies.search import PlayerPair
-from stepaside.strategies.step_game import StepGame, play_steps
+from stepaside.strategies.strategy_game import StepGame, play_strategies
 
 LIMITS = Limits(0.1, 0.2, 0.04, 0.7)
 STEP = LIMITS.step_duration
@@ -138,7 +138,7 @@ def test_a_game_in_steps_has_no_preferred_direction(name: str) -> None:
         solids = tuple(moved(solid, frame) for solid in obstacles)
         begin = frame.compose(starts[0]), frame.compose(starts[1])
         tracks.append(
-            play_steps(
+            play_strategies(
                 *players, begin, room=Room(None, None, solids), game=game
             )
         )

@@ -17,7 +17,11 @@ from stepaside.strategies import (
     StandStill,
     Walk,
 )
-from stepaside.strategies.unicycle_match import StrategyRun, play_strategies
+from stepaside.strategies.strategy_game import (
+    StrategyTrack,
+    UnicycleMatch,
+    play_strategies,
+)
 from stepaside.theory.unicycle import (
     RelativeStart,
     make_game,
@@ -32,14 +36,14 @@ ALWAYS = Evasion(safety_radius=1e9, side_hysteresis=0.0)
 
 def play(
     pursuer: object = None, evader: object = None, **changes: object
-) -> StrategyRun:
+) -> StrategyTrack:
     """Play the players of the paper, or others."""
     options = {"bodies": (BODY, BODY), "period": 0.2, "duration": 10.0}
     return play_strategies(
         pursuer or Pursuit(),  # type: ignore[arg-type]
         evader or ALWAYS,  # type: ignore[arg-type]
-        changes.pop("start", START),  # type: ignore[arg-type]
-        **(options | changes),  # type: ignore[arg-type]
+        changes.pop("start", START).poses(),  # type: ignore[attr-defined]
+        game=UnicycleMatch(**(options | changes)),  # type: ignore[arg-type]
     )
 
 
@@ -53,10 +57,8 @@ def test_strategies_of_the_paper_are_its_sampled_game(
     run = play_strategies(
         Pursuit(),
         replace(ALWAYS, angle=angle),
-        start,
-        bodies=(BODY, BODY),
-        period=0.2,
-        duration=10.0,
+        start.poses(),
+        game=UnicycleMatch((BODY, BODY), period=0.2, duration=10.0),
     )
     game = make_game(1.0, 1.0, 0.5, 0.5, angle)
     sampled = simulate_sampled(game, start, 10.0, 0.2)
@@ -92,13 +94,11 @@ def test_an_evader_stands_until_the_other_is_in_its_safety_area() -> None:
 
 
 def test_one_that_stands_is_captured_and_the_game_ends() -> None:
-    run = play(
-        evader=StandStill(), start=RelativeStart(2.5), capture_distance=0.1
-    )
+    run = play(evader=StandStill(), start=RelativeStart(2.5), capture=0.1)
     assert run.captured and run.closest_distance == run.distances[-1] <= 0.1
     assert len(run.times) == len(run.pursuer) == len(run.evader)
     assert 2.3 < run.times[-1] < 3.0
-    assert play(capture_distance=2.6).times.tolist() == [0.0]
+    assert play(capture=2.6).times.tolist() == [0.0]
 
 
 @pytest.mark.parametrize("factor", [1.0, 0.5])
@@ -118,10 +118,8 @@ def test_a_mirrored_game_is_the_mirror_image() -> None:
         play_strategies(
             Pursuit(),
             ALWAYS,
-            RelativeStart(2.5, sign * 0.3, sign * -0.2),
-            bodies=(BODY, BODY),
-            period=0.2,
-            duration=10.0,
+            RelativeStart(2.5, sign * 0.3, sign * -0.2).poses(),
+            game=UnicycleMatch((BODY, BODY), period=0.2, duration=10.0),
         )
         for sign in (1.0, -1.0)
     ]
@@ -156,7 +154,7 @@ def test_players_know_how_fast_the_line_of_sight_moves() -> None:
     assert not any(k.moving for k in seen)
 
 
-@pytest.mark.parametrize("name", ["period", "duration", "capture_distance"])
+@pytest.mark.parametrize("name", ["period", "duration", "capture"])
 def test_values_that_no_game_has_are_refused(name: str) -> None:
     for value in (0.0, -1.0, float("nan")):
         with pytest.raises(PlanError, match=name):

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from stepaside.games.outcome import Outcome
-from stepaside.strategies.step_game import StepOutcome, StepTrack
+from stepaside.strategies.strategy_game import StrategyOutcome, StrategyTrack
 from stepaside.studies import evading_readings as read
 from stepaside.studies.claim_jobs import JOBS
 from stepaside.studies.claims import Claim
@@ -31,21 +31,27 @@ def claims(job: str) -> dict[str, Claim]:
 
 def game(
     closest: float = 0.7,
-    outcome: StepOutcome = StepOutcome.SURVIVED,
+    outcome: StrategyOutcome = StrategyOutcome.SURVIVED,
     clear: float = 0.205,
     decision: float = 5e-4,
-) -> StepTrack:
+) -> StrategyTrack:
     """Return a game of three steps, closest at the second."""
     pursuer, evader = np.zeros((3, 3)), np.zeros((3, 3))
     evader[:, 0] = 1.2, closest, 1.1
     clearances = np.array([0.5, clear, 0.4])
-    return StepTrack(
-        outcome, pursuer, evader, np.zeros(3), clearances, decision, decision
+    return StrategyTrack(
+        outcome,
+        np.arange(3.0),
+        pursuer,
+        evader,
+        clearances,
+        decision,
+        decision,
     )
 
 
-TOUCHED = game(outcome=StepOutcome.TOUCHED, clear=0.19)
-CAPTURED = game(0.34, StepOutcome.CAPTURED)
+TOUCHED = game(outcome=StrategyOutcome.TOUCHED, clear=0.19)
+CAPTURED = game(0.34, StrategyOutcome.CAPTURED)
 
 
 def played() -> PlayedGames:
@@ -66,7 +72,7 @@ def played() -> PlayedGames:
     )
 
 
-def with_games(tournament: str, evader: str, *games: StepTrack) -> Fault:
+def with_games(tournament: str, evader: str, *games: StrategyTrack) -> Fault:
     """Replace the games of an evader in a tournament."""
 
     def fault(found: PlayedGames) -> PlayedGames:

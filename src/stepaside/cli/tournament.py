@@ -189,7 +189,7 @@ def tournament(
     of its row. To continue an interrupted tournament, run it again with the
     same folder.
     """
-    from ..strategies.step_game import StepGame
+    from ..strategies.strategy_game import StepGame
     from ..studies.entrants import EVADERS, evader_of, pursuer_of
     from ..studies.tournament_settings import TournamentSettings
 

@@ -61,7 +61,12 @@ def play_named_game(
     """
     import numpy as np
 
-    from ..strategies import Evasion, load_strategy, play_strategies
+    from ..strategies import (
+        Evasion,
+        UnicycleMatch,
+        load_strategy,
+        play_strategies,
+    )
 
     evasion = Evasion(
         game.angle,
@@ -70,15 +75,10 @@ def play_named_game(
         side_hysteresis=game.hysteresis,
     )
     pursuer, evader = (load_strategy(name, evasion) for name in names)
-    run = play_strategies(
-        pursuer,
-        evader,
-        start,
-        bodies=(game.pursuer, game.evader),
-        duration=times[0],
-        period=times[1],
-        capture_distance=capture,
+    match = UnicycleMatch(
+        (game.pursuer, game.evader), times[1], times[0], capture
     )
+    run = play_strategies(pursuer, evader, start.poses(), game=match)
     floor = [
         float(np.hypot(*(path - path[0])[:, :2].T).max())
         for path in (run.pursuer, run.evader)

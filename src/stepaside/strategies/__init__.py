@@ -11,10 +11,15 @@ from .optimal_evasion import OptimalEvasion
 from .optimal_pursuit import OptimalPursuit
 from .pursuit import Pursuit
 from .registry import STRATEGIES, load_strategy
-from .step_game import StepGame, StepOutcome, StepTrack, play_steps
 from .strategy import Strategy
+from .strategy_game import (
+    StepGame,
+    StrategyOutcome,
+    StrategyTrack,
+    UnicycleMatch,
+    play_strategies,
+)
 from .teleoperation import TeleoperatedPursuit
-from .unicycle_match import StrategyRun, play_strategies
 
 __all__ = [
     "STAND",
@@ -34,12 +39,11 @@ __all__ = [
     "Pursuit",
     "StandStill",
     "StepGame",
-    "StepOutcome",
-    "StepTrack",
     "Strategy",
-    "StrategyRun",
+    "StrategyOutcome",
+    "StrategyTrack",
+    "UnicycleMatch",
     "Walk",
     "load_strategy",
-    "play_steps",
     "play_strategies",
 ]

@@ -19,6 +19,7 @@ class DecisionMaker:
 
     Attributes:
         strategy: Strategy of the player.
+        limits: Limits of its gait.
         memory: Memory of the strategy.
     """
 
@@ -39,13 +40,13 @@ class DecisionMaker:
         """
         self.strategy = strategy
         self.memory: Any = strategy.begin()
-        self._limits = limits
+        self.limits = limits
         self._estimates_velocity = estimates_velocity
         self.reset_rates()
 
     def reset_rates(self) -> None:
         """Forget the motion of the opponent."""
-        period = self._limits.step_duration
+        period = self.limits.step_duration
         self._rates = SightRates(period)
         self._velocity = FloorVelocity(period)
 
@@ -91,7 +92,7 @@ class DecisionMaker:
             time=now,
             bearing=wrap_angle(bearing),
             distance=distance,
-            limits=self._limits,
+            limits=self.limits,
             bearing_rate=rates.bearing_rate,
             closing_speed=rates.closing_speed,
             age=max(0.0, now - time),
@@ -144,6 +145,7 @@ class TemplatePlayer(DecisionMaker):
 
     Attributes:
         pose: Own pose in the room.
+        obstacles: Known obstacles.
     """
 
     def __init__(
@@ -169,7 +171,7 @@ class TemplatePlayer(DecisionMaker):
             strategy, limits, estimates_velocity=estimates_velocity
         )
         self.pose = pose
-        self._obstacles, self._moving = obstacles, False
+        self.obstacles, self._moving = obstacles, False
 
     def decide(self, time: float, bearing: float, distance: float) -> Intent:
         """Decide and store the memory.
@@ -188,7 +190,7 @@ class TemplatePlayer(DecisionMaker):
             self.pose.theta + bearing,
             Sighting(time, bearing, distance),
             moving=self._moving,
-            obstacles=self._obstacles,
+            obstacles=self.obstacles,
         )
         try:
             intent = self.evaluate(knowledge)

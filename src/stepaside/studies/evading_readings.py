@@ -12,7 +12,7 @@ from ..games.duel_settings import PLAYERS, DuelSettings
 from ..games.outcome import Outcome
 from ..games.run import DuelRun
 from ..sim.camera_settings import SceneSettings
-from ..strategies.step_game import StepGame, StepOutcome, StepTrack
+from ..strategies.strategy_game import StepGame, StrategyOutcome, StrategyTrack
 from .claims import Readings
 from .evading_claims import DURATION
 from .physics_game import clearance, outcome_of, players_touched
@@ -37,12 +37,12 @@ class PlayedGames:
             same initial poses.
     """
 
-    games: dict[str, dict[str, tuple[StepTrack, ...]]]
+    games: dict[str, dict[str, tuple[StrategyTrack, ...]]]
 
     def survived(self, evader: str) -> float:
         """Return the fraction of games in rooms that an evader survives."""
         outcomes = [g.outcome for g in self.games["room"][evader]]
-        return outcomes.count(StepOutcome.SURVIVED) / len(outcomes)
+        return outcomes.count(StrategyOutcome.SURVIVED) / len(outcomes)
 
     def closest(self, evader: str) -> float:
         """Return the mean closest approach on the open floor, in [m]."""

@@ -11,7 +11,7 @@ from ..games.duel_settings import DuelSettings
 from ..games.outcome import Outcome
 from ..games.walk_game import run_walk
 from ..games.walk_settings import WalkSettings
-from ..strategies.step_game import StepGame
+from ..strategies.strategy_game import StepGame
 from ..theory.unicycle.adaptive_simulation import simulate
 from ..theory.unicycle.relative_coordinates import RelativeStart
 from ..theory.unicycle.unicycle_game import MOVE_ASIDE, make_game

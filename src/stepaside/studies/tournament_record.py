@@ -9,7 +9,7 @@ import numpy as np
 from ..arena import Room
 from ..core.poses import Array, wrap_angle, wrap_angles
 from ..strategies.bound_cache import pursuit_bound
-from ..strategies.step_game import StepGame, StepTrack, play_steps
+from ..strategies.strategy_game import StepGame, StrategyTrack, play_strategies
 from .entrants import SIGHT, evader_of, pursuer_of
 from .floor_used import floor_used
 from .records import Record
@@ -43,7 +43,7 @@ Pairing = tuple[str, str]
 
 def play_paths(
     settings: TournamentSettings, pairing: Pairing, seed: int
-) -> "tuple[Room, StepTrack | DuelPaths]":
+) -> "tuple[Room, StrategyTrack | DuelPaths]":
     """Play one game of a tournament; return its room and both paths."""
     if settings.level != HUMANOIDS:
         return play_track(settings, pairing, seed)
@@ -84,13 +84,13 @@ def _play_humanoids(
 
 def play_track(
     settings: TournamentSettings, pairing: Pairing, seed: int
-) -> tuple[Room, StepTrack]:
+) -> tuple[Room, StrategyTrack]:
     """Play one game at level "steps" or "unicycles"; return its track."""
     room, starts = settings.arena(seed)
     unicycles = settings.level == "unicycles"
     values = asdict(settings.game)
     game = StepGame(**values | {"decisions": FEEDBACK if unicycles else 1})
-    track = play_steps(
+    track = play_strategies(
         pursuer_of(pairing[1]),
         evader_of(pairing[0], settings.angle),
         starts,

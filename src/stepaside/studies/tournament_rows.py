@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ..strategies.step_game import StepGame
+from ..strategies.strategy_game import StepGame
 from ..theory.unicycle.circle_equations import find_circle
 from .entrants import gain_ratio_of
 from .survival import CONFIDENCE, wilson

@@ -15,7 +15,7 @@ from ..arena import (
 )
 from ..core.errors import ConfigurationError, check_within
 from ..core.poses import Pose
-from ..strategies.step_game import StepGame
+from ..strategies.strategy_game import StepGame
 
 ERROR = ConfigurationError
 HUMANOIDS = "physics"

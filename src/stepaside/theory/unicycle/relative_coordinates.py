@@ -65,6 +65,11 @@ class RelativeStart:
             sight + pi - self.bearing,
         )
 
+    def poses(self) -> tuple[Pose, Pose]:
+        """Return the poses of the pursuer, at the origin, and the evader."""
+        origin = Pose(0.0, 0.0, 0.0)
+        return origin, self.evader_pose(origin)
+
 
 def check_bearings(angles: ArrayLike, name: str) -> None:
     """Raise :class:`PlanError` unless all angles lie within one turn.

@@ -1,0 +1,375 @@
+"""Games of two strategies with template unicycles, without physics.
+
+Rules say when players decide and how they move until the next decision:
+:class:`StepGame` by whole footsteps, :class:`UnicycleMatch` along the
+trajectory of Sec. III-B.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import StrEnum
+from math import atan2, ceil, cos, hypot, inf, pi, sin, tau
+from time import perf_counter
+from typing import ClassVar, NamedTuple
+
+import numpy as np
+
+from ..arena import NO_OBSTACLES, OPEN_FLOOR, Room
+from ..core.brief_repr import brief_repr
+from ..core.constants import CAPTURE_DISTANCE
+from ..core.errors import check_bearing, check_positive, check_within
+from ..core.poses import Array, Pose, wrap_angle
+from ..planning import Direction
+from ..planning.path import UnicycleTrajectory
+from ..theory.unicycle.unicycle_game import Unicycle
+from .decision_maker import TemplatePlayer
+from .knowledge import Intent, Limits
+from .search.distance_field import clearance_at
+from .strategy import Strategy
+
+SAMPLES = 8  # of a unicycle match, between two decisions
+
+
+class StrategyOutcome(StrEnum):
+    """Outcome of a game of strategies."""
+
+    SURVIVED = "survived"
+    CAPTURED = "captured"
+    TOUCHED = "touched"
+
+
+@dataclass(frozen=True, slots=True)
+class StepGame:
+    """Rules of a game by footsteps; times are path times.
+
+    Attributes:
+        stride: Length of a step, in [m].
+        speed: Speed of the template, in [m/s].
+        gain: Steering gain k of both, in [1/s].
+        largest_turn: Largest turn of a step, in [rad]; by default that of eq.
+            (2), pi times gain times stride over speed.
+        capture: Capture distance, in [m]: at it or below it the evader is
+            captured.
+        body_radius: Clearance of the evader's centre below which it touches
+            an obstacle, in [m].
+        solid_pursuer: Whether obstacles stop the pursuer; otherwise it walks
+            through them.
+        duration: Duration of a game, in [s].
+        decisions: Decisions per step; with more than one, the players
+            approximate unicycles under feedback.
+    """
+
+    knows_velocity: ClassVar = False  # of the opponent
+    stride: float = 0.04
+    speed: float = 0.1
+    gain: float = 0.2
+    largest_turn: float | None = None
+    capture: float = CAPTURE_DISTANCE
+    body_radius: float = 0.2
+    solid_pursuer: bool = False
+    duration: float = 180.0
+    decisions: int = 1
+
+    def __post_init__(self) -> None:
+        """Validate the rules."""
+        check_positive(self.stride, "stride", "m")
+        check_positive(self.speed, "speed", "m/s")
+        check_positive(self.gain, "gain", "1/s")
+        check_positive(self.capture, "capture", "m")
+        check_positive(self.body_radius, "body_radius", "m")
+        check_positive(self.duration, "duration", "s")
+        check_within(self.decisions, 1, 100, "decisions", "1")
+        if self.largest_turn is not None:
+            check_positive(self.largest_turn, "largest_turn", "rad")
+            check_bearing(self.largest_turn, "largest_turn")
+
+    @property
+    def period(self) -> float:
+        """Duration of a step, in [s]."""
+        return self.stride / self.speed
+
+    @property
+    def share(self) -> float:
+        """Turn of a step per desired heading, kappa."""
+        return self.gain * self.period
+
+    @property
+    def turn(self) -> float:
+        """Largest turn of a step, in [rad]."""
+        if self.largest_turn is None:
+            return pi * self.share
+        return self.largest_turn
+
+    @property
+    def limits(self) -> tuple[Limits, Limits]:
+        """Limits of the gaits of pursuer and evader."""
+        gait = Limits(self.speed, self.gain, self.stride, self.period)
+        return gait, gait
+
+    @property
+    def decision_times(self) -> list[float]:
+        """Times of all decisions, in [s]."""
+        count = max(1, round(self.duration * self.decisions / self.period))
+        return [n * self.period / self.decisions for n in range(count)]
+
+    @property
+    def sample_times(self) -> Array:
+        """Times of recorded poses since a decision, in [s]. Shape (1,)."""
+        return np.array([self.period / self.decisions])
+
+    def move(self, player: TemplatePlayer, intent: Intent) -> list[Pose]:
+        """Return the pose after a decision: the exact arc of the maneuver."""
+        if not intent.walks:
+            return [player.pose]
+        if player.strategy.saturated:  # rate of (6), up to the bearing
+            turn, most = intent.heading, min(self.share, self.turn)
+        else:
+            turn, most = self.share * intent.heading, self.turn
+        turn = min(max(turn, -most), most) / self.decisions
+        half = 0.5 * turn
+        way = (
+            self.stride
+            / self.decisions
+            * intent.speed_factor
+            * float(np.sinc(half / pi))
+        )
+        if player.strategy.direction is Direction.BACKWARD:
+            way = -way
+        x, y, theta = player.pose
+        return [
+            Pose(
+                x + way * cos(theta + half),
+                y + way * sin(theta + half),
+                (theta + turn) % tau,
+            )
+        ]
+
+
+@dataclass(frozen=True, slots=True)
+class UnicycleMatch:
+    r"""Rules of a match of unicycles that decide periodically.
+
+    Both follow the trajectory (9)-(14) of the chosen maneuver until the next
+    decision: with :math:`\Delta / \bar{v}` as the period, step by step, as
+    walkers do; with a short period as unicycles under feedback. Time is path
+    time. A standing player starts at the next decision.
+
+    Attributes:
+        bodies: Speeds and gains of pursuer and evader.
+        period: Time between two decisions, in [s].
+        duration: Time limit, in [s]; rounded up to whole periods.
+        capture: Distance at which the match ends, in [m].
+    """
+
+    knows_velocity: ClassVar = True
+    body_radius: ClassVar = 0.0  # unicycles are points
+    solid_pursuer: ClassVar = False
+    bodies: tuple[Unicycle, Unicycle]
+    period: float
+    duration: float
+    capture: float = 1e-6
+
+    def __post_init__(self) -> None:
+        """Validate the rules."""
+        for body in self.bodies:
+            check_positive(body.speed, "speed", "m/s")
+            check_positive(body.gain, "gain", "1/s")
+        check_positive(self.period, "period", "s")
+        check_positive(self.duration, "duration", "s")
+        check_positive(self.capture, "capture", "m")
+
+    @property
+    def limits(self) -> tuple[Limits, Limits]:
+        """Limits of pursuer and evader."""
+        pursuer, evader = (
+            Limits(b.speed, b.gain, b.speed * self.period, self.period)
+            for b in self.bodies
+        )
+        return pursuer, evader
+
+    @property
+    def decision_times(self) -> list[float]:
+        """Times of all decisions, in [s]."""
+        count = ceil(self.duration / self.period - 1e-9)
+        return [n * self.period for n in range(count)]
+
+    @property
+    def sample_times(self) -> Array:
+        """Times of recorded poses since a decision, in [s]. Shape (m,)."""
+        return self.period * np.arange(1, SAMPLES + 1) / SAMPLES
+
+    def move(self, player: TemplatePlayer, intent: Intent) -> list[Pose]:
+        """Return the poses at the sample times after a decision."""
+        if not intent.walks:
+            return [player.pose] * SAMPLES
+        limits = player.limits
+        path = UnicycleTrajectory(
+            intent.heading,
+            intent.speed_factor * limits.speed,
+            limits.gain,
+            player.strategy.direction,
+            player.strategy.saturated,
+        ).poses(intent.pace * self.sample_times)
+        path[:, :2] = player.pose.transform_points(path[:, :2])
+        path[:, 2] += player.pose.theta
+        return [Pose(*pose) for pose in path.tolist()]
+
+
+class StrategyTrack(NamedTuple):
+    """Recorded game of strategies.
+
+    Attributes:
+        outcome: Outcome of the game.
+        times: Times of the poses, in [s]. Shape (n,).
+        pursuer: Poses (x [m], y [m], theta [rad]), from the start on.
+            Shape (n, 3).
+        evader: Poses of the evader, likewise.
+        clearances: Clearances of the evader's centre, in [m]. Shape (n,).
+        decision: Mean time of a decision of the evader, without the first
+            one, which loads code, in [s].
+        longest_decision: Longest time of a decision, likewise.
+    """
+
+    outcome: StrategyOutcome
+    times: Array
+    pursuer: Array
+    evader: Array
+    clearances: Array
+    decision: float
+    longest_decision: float
+
+    def __repr__(self) -> str:
+        """Return the fields in one short line."""
+        return brief_repr(self)
+
+    @property
+    def captured(self) -> bool:
+        """Whether the distance fell to the capture distance."""
+        return self.outcome is StrategyOutcome.CAPTURED
+
+    @property
+    def bearings(self) -> Array:
+        """Bearings of the pursuer from the evader, in [rad]. Shape (n,)."""
+        poses = zip(self.evader.tolist(), self.pursuer.tolist(), strict=True)
+        return np.array([_bearing(Pose(*e), Pose(*p)) for e, p in poses])
+
+    @property
+    def distances(self) -> Array:
+        """Distance between the two, in [m]. Shape (n,)."""
+        apart = self.evader - self.pursuer
+        found: Array = np.hypot(apart[:, 0], apart[:, 1])
+        return found
+
+    @property
+    def closest_distance(self) -> float:
+        """Least recorded distance, in [m]."""
+        return float(self.distances.min())
+
+
+def play_strategies(
+    pursuer: Strategy,
+    evader: Strategy,
+    starts: tuple[Pose, Pose],
+    *,
+    room: Room = OPEN_FLOOR,
+    game: StepGame | UnicycleMatch | None = None,
+) -> StrategyTrack:
+    """Play a game without physics; both players decide at the same instants.
+
+    Args:
+        pursuer: Strategy of the pursuer.
+        evader: Strategy of the evader.
+        starts: Initial poses of pursuer and evader in the room.
+        room: Room; the evader knows all obstacles, and so does a pursuer
+            that they stop.
+        game: Rules; by default those of :class:`StepGame`.
+
+    Raises:
+        PlanError: If a strategy requests an invalid motion.
+        StrategyError: If a strategy returns no intent.
+    """
+    game = game or StepGame()
+    # A pursuer that obstacles do not stop plans no detours.
+    stops = room.solid_set if game.solid_pursuer else NO_OBSTACLES
+    hunter, prey = (
+        TemplatePlayer(*player, estimates_velocity=game.knows_velocity)
+        for player in (
+            (pursuer, game.limits[0], starts[0], stops),
+            (evader, game.limits[1], starts[1], room.solid_set),
+        )
+    )
+    packed = room.solid_set.packed
+    outcome = StrategyOutcome.SURVIVED
+    samples: list[tuple[float, Pose, Pose, float]] = []
+    decisions: list[float] = []
+    for time, *poses in _moves(game, hunter, prey, decisions):
+        clearance = clearance_at(packed, poses[1].x, poses[1].y, inf)
+        samples.append((time, poses[0], poses[1], clearance))
+        if clearance < game.body_radius:
+            outcome = StrategyOutcome.TOUCHED
+            break
+        if _distance(*poses) <= game.capture:
+            outcome = StrategyOutcome.CAPTURED
+            break
+    times, hunted, evaded, clearances = zip(*samples, strict=True)
+    later = decisions[1:] or decisions or [0.0]
+    return StrategyTrack(
+        outcome,
+        np.array(times),
+        np.array(hunted),
+        np.array(evaded),
+        np.array(clearances),
+        float(np.mean(later)),
+        max(decisions[1:], default=0.0),
+    )
+
+
+def _moves(
+    game: StepGame | UnicycleMatch,
+    pursuer: TemplatePlayer,
+    evader: TemplatePlayer,
+    decisions: list[float],
+) -> Iterator[tuple[float, Pose, Pose]]:
+    """Yield time [s] and poses of pursuer and evader, from the start on.
+
+    Appends the time [s] that each decision of the evader took.
+    """
+    yield 0.0, pursuer.pose, evader.pose
+    times = game.sample_times.tolist()
+    for time in game.decision_times:
+        begun = perf_counter()
+        evades = _decide(evader, time, pursuer.pose)
+        decisions.append(perf_counter() - begun)
+        pursues = _decide(pursuer, time, evader.pose)
+        chase, flight = game.move(pursuer, pursues), game.move(evader, evades)
+        for after, pursuer_pose, evader_pose in zip(
+            times, chase, flight, strict=True
+        ):
+            pursuer.pose = _stopped(pursuer, pursuer_pose, game.body_radius)
+            evader.pose = evader_pose
+            yield time + after, pursuer.pose, evader.pose
+
+
+def _stopped(player: TemplatePlayer, pose: Pose, body_radius: float) -> Pose:
+    """Return the next pose of a player that its obstacles stop."""
+    packed = player.obstacles.packed
+    if clearance_at(packed, pose.x, pose.y, body_radius) < body_radius:
+        return Pose(player.pose.x, player.pose.y, pose.theta)
+    return pose
+
+
+def _decide(player: TemplatePlayer, time: float, other: Pose) -> Intent:
+    """Evaluate a strategy, with the opponent at a pose in the room."""
+    distance = _distance(player.pose, other)
+    return player.decide(time, _bearing(player.pose, other), distance)
+
+
+def _distance(one: Pose, other: Pose) -> float:
+    """Return the distance between two poses, in [m]."""
+    return hypot(other.x - one.x, other.y - one.y)
+
+
+def _bearing(pose: Pose, other: Pose) -> float:
+    """Return the bearing of another pose in the frame of a pose, in [rad]."""
+    sight = atan2(other.y - pose.y, other.x - pose.x)
+    return wrap_angle(sight - pose.theta)
