@@ -154,7 +154,7 @@ def test_only_the_evader_has_a_depth_camera(
         (world, "pursuer", False),
         (world, "evader", True),
     ]
-    assert all(a[4:6] == ("raycast", 5) for a in opened)
+    assert all(a[4:6] == (None, 5) for a in opened)
 
 
 def test_each_robot_is_evaluated_by_the_true_state_of_its_opponent(

@@ -19,7 +19,6 @@ from stepaside.perception.images import (
 )
 from stepaside.robots.description import load_robot
 from stepaside.robots.head import load_head
-from stepaside.sim import sensor_suite as eyes_module
 from stepaside.sim.camera_settings import (
     CameraSettings,
     ColourSettings,
@@ -30,7 +29,6 @@ from stepaside.sim.sensor_suite import (
     ImageNoise,
     SensorStream,
     SensorSuite,
-    _size_for,
 )
 
 TICK = 0.004
@@ -95,7 +93,7 @@ def eyes_of(
     *,
     depth: bool = True,
     seed: int = 3,
-    renderer: str = "raycast",
+    renderer: Any = None,
 ) -> SensorSuite:
     """Return sensors of a head 0.5 m above a floor, a box 1.6 m ahead."""
     model = mujoco.MjModel.from_xml_string(
@@ -250,9 +248,10 @@ def test_pixel_noise_is_shifted_over_the_whole_tile() -> None:
 
 
 def test_ray_casting_reduces_the_image_to_160_columns() -> None:
-    camera = ColourSettings().model()
-    assert _size_for("egl", camera) is camera
-    small = _size_for("raycast", camera)
+    settings = CameraSettings()
+    camera = settings.colour.model()
+    assert eyes_of(settings, renderer=SimpleNamespace()).camera == camera
+    small = eyes_of(settings).camera
     assert (small.width, small.height) == (160, 120)
     assert isinstance(small.height, int)
     for large, less in (
@@ -260,49 +259,25 @@ def test_ray_casting_reduces_the_image_to_160_columns() -> None:
         (camera.height / camera.focal_y, small.height / small.focal_y),
     ):
         assert degrees(less) == pytest.approx(degrees(large))
-    assert _size_for("raycast", small) is small
+    assert eyes_of(PLAIN).camera == PLAIN.colour.model()
 
 
-def test_rendering_uses_the_field_of_view_of_the_camera(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_rendering_uses_the_field_of_view_of_the_camera() -> None:
     """MuJoCo takes the vertical angle, in degrees."""
-    sizes: list[tuple[Any, ...]] = []
-    models: list[mujoco.MjModel] = []
-    drawn: list[int] = []
+    drawn: list[str] = []
 
     class FakeRenderer:
-        def __init__(self, model: Any, *arguments: Any) -> None:
-            sizes.append(arguments)
-            models.append(model)
-
         def draw(self, data: Any, number: int) -> np.ndarray:
             """Draw a grey image."""
-            drawn.append(number)
+            camera = data.model.camera(number)
+            assert camera.fovy[0] == pytest.approx(47.6)
+            assert data.model.camera("other").fovy[0] == 45.0
+            drawn.append(camera.name)
             return np.full((60, 80, 3), 99, dtype=np.uint8)
 
-    monkeypatch.setattr(eyes_module, "OffscreenRenderer", FakeRenderer)
-    eyes = eyes_of(depth=False, renderer="egl")
-    (model,) = models
-    assert model.camera("me/head_camera").fovy[0] == pytest.approx(47.6)
-    assert model.camera("other").fovy[0] == 45.0
-    assert sizes == [(80, 60, "egl")]
+    eyes = eyes_of(depth=False, renderer=FakeRenderer())
     for tick in range(30):
         for percept in eyes.read(tick * TICK):
             assert isinstance(percept, ColourImage)
             assert (percept.pixels == 99).all()
-    assert drawn == 2 * [model.camera("me/head_camera").id]
-
-
-def test_sensors_can_be_closed_twice(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    closed: list[bool] = []
-    screen: Any = SimpleNamespace(close=lambda: closed.append(True))
-    monkeypatch.setattr(
-        eyes_module, "OffscreenRenderer", lambda *arguments: screen
-    )
-    eyes = eyes_of(depth=False, renderer="egl")
-    eyes.close()
-    eyes.close()
-    assert closed == [True]
+    assert drawn == 2 * ["me/head_camera"]

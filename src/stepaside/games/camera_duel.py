@@ -21,7 +21,11 @@ from ..planning import Direction
 from ..robots.description import RobotDescription
 from ..robots.head import load_head
 from ..sim.ground_truth import GroundTruth
-from ..sim.offscreen_rendering import choose_renderer
+from ..sim.offscreen_rendering import (
+    RAYCAST,
+    OffscreenRenderer,
+    choose_renderer,
+)
 from ..sim.sensor_suite import SensorSuite
 from ..sim.simulated_robot import SimulatedRobot
 from ..sim.world import World
@@ -71,6 +75,7 @@ class CameraSenses:
         self._settings, self._description = settings, description
         self._head = load_head(description)
         self.renderer = choose_renderer(settings.cameras.colour.renderer)
+        self._screen: OffscreenRenderer | None = None
         self._low = uses_lower_cameras(settings)
         self._maps = (
             settings.room.plan is not None and settings.map.source == "seen"
@@ -108,12 +113,21 @@ class CameraSenses:
             name,
             self._description,
             self._settings.cameras,
-            self.renderer,
+            self._shared_screen(world),
             self._settings.seed,
             with_depth=self._maps or name == "evader",
             looks_low=perception.looks_low if self._low else None,
         )
         return CameraSensing(eyes, perception)
+
+    def _shared_screen(self, world: World) -> OffscreenRenderer | None:
+        """Return the renderer of all robots; None for ray casting."""
+        if self.renderer != RAYCAST and self._screen is None:
+            camera = self._settings.cameras.colour.model()
+            self._screen = OffscreenRenderer(
+                world.model, camera.width, camera.height, self.renderer
+            )
+        return self._screen
 
     def evaluator_of(
         self, robot: SimulatedRobot, other: GroundTruth, *, wears_trim: bool

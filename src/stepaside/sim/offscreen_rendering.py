@@ -130,6 +130,7 @@ class OffscreenRenderer:
         self._model = model
         self._gl = context(width, height)
         self._gl.make_current()
+        self._closed = False
         quality = model.vis.quality
         quality.shadowsize, quality.offsamples = look.shadow, look.samples
         quality.numslices, quality.numstacks = look.slices, look.stacks
@@ -191,7 +192,10 @@ class OffscreenRenderer:
         return self._pixels[::-1].copy()
 
     def close(self) -> None:
-        """Release the graphics context."""
+        """Release the graphics context, unless it is released already."""
+        if self._closed:
+            return
+        self._closed = True
         self._gl.make_current()
         self._context.free()
         self._gl.free()

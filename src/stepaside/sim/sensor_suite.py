@@ -20,7 +20,7 @@ from ..perception.images import (
 from ..robots.description import RobotDescription
 from ..robots.head import Mount, load_head
 from .camera_settings import CameraSettings
-from .offscreen_rendering import RAYCAST, OffscreenRenderer
+from .offscreen_rendering import OffscreenRenderer
 from .ray_casting import (
     ColourCaster,
     DepthCaster,
@@ -99,7 +99,7 @@ class SensorSuite:
         name: str,
         description: RobotDescription,
         settings: CameraSettings,
-        renderer: str,
+        renderer: OffscreenRenderer | None,
         seed: int,
         *,
         with_depth: bool,
@@ -112,7 +112,8 @@ class SensorSuite:
             name: Name of the robot in the world.
             description: Description of the robot, which has a head.
             settings: Settings of the sensors.
-            renderer: Renderer of colour images.
+            renderer: Renderer of colour images, which robots may share; None
+                for ray casting.
             seed: Seed of the run.
             with_depth: Whether it has a depth camera and sonars.
             looks_low: Function that returns whether the next colour image is
@@ -122,12 +123,13 @@ class SensorSuite:
         self._world, self._name = world, name
         self._settings, self._seed = settings, seed
         self._head = head = load_head(description)
-        self._renderer: OffscreenRenderer | None = None
+        self._renderer = renderer
         self.exposed: list[Percept] = []
         self._due = 0.0
-        self.camera = _size_for(renderer, settings.colour.model())
+        camera = settings.colour.model()
+        self.camera = _reduced(camera) if renderer is None else camera
         body = f"{name}/{head.body}"
-        self._streams = [self._colour(body, renderer)]
+        self._streams = [self._colour(body)]
         if with_depth:
             self._streams.append(self._depth(body))
             self._streams += self._sonars(f"{name}/{description.torso}")
@@ -147,7 +149,6 @@ class SensorSuite:
         """Release the graphics context, if any."""
         if self._renderer is not None:
             self._renderer.close()
-            self._renderer = None
 
     def _generator(self, purpose: str) -> np.random.Generator:
         return named_generator(self._seed, f"eyes/{self._name}/{purpose}")
@@ -167,17 +168,13 @@ class SensorSuite:
             deque(),
         )
 
-    def _colour(self, body: str, renderer: str) -> SensorStream:
+    def _colour(self, body: str) -> SensorStream:
         settings, camera = self._settings.colour, self.camera
         head, low = self._head, self._looks_low
-        if renderer != RAYCAST:
-            self._renderer = OffscreenRenderer(
-                self._world.model, camera.width, camera.height, renderer
-            )
-        upper = self._pixels(body, renderer, head.top, head.camera)
+        upper = self._pixels(body, head.top, head.camera)
         lower = None
         if low is not None and head.bottom is not None:
-            lower = self._pixels(body, renderer, head.bottom, LOWER)
+            lower = self._pixels(body, head.bottom, LOWER)
         noise = ImageNoise(camera, settings.noise, self._generator("grain"))
 
         def take(now: float) -> Percept:
@@ -188,13 +185,12 @@ class SensorSuite:
         return self._stream("colour", take, settings.rate, settings.latency)
 
     def _pixels(
-        self, body: str, renderer: str, mount: Mount, name: str
+        self, body: str, mount: Mount, name: str
     ) -> Callable[[], Pixels]:
         """Return the function that takes images of one camera of the head.
 
         Args:
             body: Name of the head body.
-            renderer: Renderer of the images.
             mount: Mount of the camera on the head.
             name: Name of the camera in the model.
         """
@@ -284,9 +280,9 @@ class ImageNoise:
         return np.asarray(noisy, dtype=np.uint8)
 
 
-def _size_for(renderer: str, camera: CameraModel) -> CameraModel:
-    """Return the camera model, reduced for ray casting."""
-    if renderer != RAYCAST or camera.width <= RAYCAST_WIDTH:
+def _reduced(camera: CameraModel) -> CameraModel:
+    """Return the camera model with fewer pixels, for ray casting."""
+    if camera.width <= RAYCAST_WIDTH:
         return camera
     scale = RAYCAST_WIDTH / camera.width
     return CameraModel(
