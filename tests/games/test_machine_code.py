@@ -5,14 +5,14 @@ from dataclasses import fields
 import numpy as np
 import pytest
 
-import stepaside.robots.jit as machine
+import stepaside.core.compilation as machine
+from stepaside.core.compilation import JitPreference
 from stepaside.core.poses import Array
 from stepaside.games.walk_game import run_walk
 from stepaside.games.walk_settings import WALKER, WalkSettings
 from stepaside.locomotion.zmp.control_settings import OPEN_LOOP, STABILISED
 from stepaside.robots.description import load_robot
 from stepaside.robots.ik_solver import solver_of
-from stepaside.robots.jit import JitPreference
 from stepaside.robots.tree_cache import load_tree
 from stepaside.sim.body_settings import BODIES
 

@@ -5,11 +5,11 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 
-import stepaside.robots.jit as machine
+import stepaside.core.compilation as machine
+from stepaside.core.compilation import JitPreference
 from stepaside.core.poses import Array
 from stepaside.locomotion.zmp.feedforward import LoadFeedforward
 from stepaside.robots.description import load_robot
-from stepaside.robots.jit import JitPreference
 from stepaside.robots.leg_kinematics import BodyReference, LegKinematics
 
 NAO = load_robot("nao")

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from stepaside.arena import Disc, ObstacleSet, Room, RoomRecipe, generate_room
+from stepaside.core.compilation import cache_folder
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.strategies import (
@@ -183,7 +184,7 @@ def test_the_optimal_evader_maximises_its_table() -> None:
     """Even a coarse table: its value is reached, moving aside is worse."""
     unit, cells = 0.5, 24
     bound = tables.pursuit_bound(cells)
-    assert tables.cache_folder().is_dir()
+    assert cache_folder().is_dir()
     kept: list[float] = []
     promised: list[float] = []
     aside: list[float] = []
@@ -213,7 +214,7 @@ def test_a_table_is_solved_once_and_cached() -> None:
     tables.pursuit_bound.cache_clear()
     again = tables.pursuit_bound(16)
     assert one.seconds == again.seconds  # read, not solved anew
-    file = next(tables.cache_folder().glob("pursuit-16-*.npz"))
+    file = next(cache_folder().glob("pursuit-16-*.npz"))
     file.write_bytes(b"torn")
     tables.pursuit_bound.cache_clear()
     np.testing.assert_allclose(

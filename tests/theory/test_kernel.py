@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from stepaside.core.compilation import load_numba
 from stepaside.core.errors import PlanError
 from stepaside.theory.unicycle.adaptive_simulation import simulate
-from stepaside.theory.unicycle.compilation import load_numba
 from stepaside.theory.unicycle.compiled_batch import sine_cosine
 from stepaside.theory.unicycle.kernel import (
     CHUNK,

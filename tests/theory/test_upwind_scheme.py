@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from stepaside.core.compilation import load_numba
 from stepaside.theory.bound import DiscretisationScheme, Grid, two_car_game
 from stepaside.theory.bound.compiled_stage import (
     RowStates,
@@ -22,7 +23,6 @@ from stepaside.theory.bound.upwind_scheme import (
     weno5,
 )
 from stepaside.theory.bound.value_solver import make_stage_parameters
-from stepaside.theory.unicycle.compilation import load_numba
 
 EPS = 12e-6
 

@@ -12,12 +12,12 @@ from time import process_time
 import mujoco
 import numpy as np
 
+from stepaside.core.compilation import JitPreference, prefer
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array
 from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.locomotion.zmp.control_settings import STABILISED
-from stepaside.robots.jit import JitPreference, prefer
 from stepaside.sim.body_settings import BODIES
 
 MACHINE_CODE = (

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import mujoco
 
-from ..robots.jit import expect_work
+from ..core.compilation import expect_work
 from ..sim.push import pushes_by_robot
 from .duel_evaluation import summarise
 from .duel_settings import PLAYERS, DuelSettings

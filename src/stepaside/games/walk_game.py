@@ -5,12 +5,12 @@ from math import inf
 
 import mujoco
 
+from ..core.compilation import expect_work
 from ..core.poses import Pose
 from ..locomotion.zmp.mpc import MpcResult
 from ..perception.measurement import Sighting
 from ..planning import Direction
 from ..robots.description import RobotDescription, load_robot
-from ..robots.jit import expect_work
 from ..sim.body_settings import with_control_period
 from ..sim.world import World
 from ..strategies import Walk

@@ -16,8 +16,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..core.compilation import Function, Kernel, function_of, kernel_of
 from ..core.poses import Array
-from .jit import Function, Kernel, function_of, kernel_of
 
 RowFunction = Callable[..., tuple[Array | float, ...]]
 DEPTH = 12  # nesting of an expression before it is assigned to a variable
@@ -149,7 +149,7 @@ class Formula(NamedTuple):
     text: str
 
     def function(self) -> Function:
-        """Compile the function; see :func:`.jit.function_of`."""
+        """Compile the function; see :func:`.compilation.function_of`."""
         return function_of(self.name, self.text)
 
     def row_function(self) -> RowFunction:
@@ -169,7 +169,7 @@ class Formula(NamedTuple):
         Args:
             name: Name of the loop.
             loop: Its definition.
-            arguments: See :func:`.jit.kernel_of`.
+            arguments: See :func:`.compilation.kernel_of`.
         """
         text = f"@formula\n{self.text}\n\n{loop}"
         return kernel_of(name, text, arguments)

@@ -6,11 +6,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..core.compilation import JitPreference, preferred
 from ..core.errors import ModelError
 from ..core.poses import Array
 from .description import REMEDY, RobotDescription
 from .expression_tracing import ExpressionTrace, Number
-from .jit import JitPreference, preferred
 from .link_poses import gather_moments, place_links
 from .robot_tree import RobotTree
 from .tree_cache import load_tree

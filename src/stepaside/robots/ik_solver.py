@@ -4,11 +4,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..core.compilation import Function, Kernel, preferred
 from ..core.poses import Array
 from .description import RobotDescription
 from .ik_residuals import trace_residuals
 from .ik_step import step_kernel, trace_step
-from .jit import Function, Kernel, preferred
 from .leg_joints import BASE, FIXED_ROWS, LegJoints
 from .robot_tree import RobotTree
 

@@ -8,9 +8,9 @@ such a joint, the torso heading.
 
 from typing import NamedTuple
 
+from ..core.compilation import Kernel
 from .expression_tracing import Formula, Number
 from .ik_residuals import HEADING, UP, TracedLegs
-from .jit import Kernel
 from .leg_joints import BASE, LegJoints
 from .link_poses import motion_of
 from .scalar_algebra import (

@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..core.compilation import Function, Kernel, preferred
 from ..core.constants import GRAVITY
 from ..core.poses import Array
 from .body_reference import BodyReference
@@ -20,7 +21,6 @@ from .expression_tracing import (
     cosines,
     sines,
 )
-from .jit import Function, Kernel, preferred
 from .leg_joints import LegJoints
 from .leg_kinematics import LegKinematics
 from .link_poses import LinkPoses, place_links

@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 import mujoco
 import numpy as np
 
+from ..core.compilation import Kernel, kernel_of
 from ..core.poses import Array
-from ..robots.jit import Kernel, kernel_of
 from .body_settings import BodySettings
 
 JointGains = Mapping[str, tuple[float, float]]

@@ -1,6 +1,5 @@
 """Cached value tables of the bound, solved at first use."""
 
-import os
 from collections.abc import Callable
 from functools import lru_cache
 from pathlib import Path
@@ -8,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..core.compilation import cache_folder
 from ..core.errors import PlanError, StepAsideError
 from .search.value_lookup import ValueTable
 
@@ -17,12 +17,6 @@ if TYPE_CHECKING:  # the solver imports Numba
 NEAR, FAR = 0.15, 4.5  # of the game against eqs. (1)-(2), in v/k
 CARS_NEAR, CARS_FAR = 0.5, 8.0  # of the two cars, in turning radii
 FORMAT = 1
-
-
-def cache_folder() -> Path:
-    """Return the folder of the tables, in the user's cache."""
-    base = os.environ.get("XDG_CACHE_HOME") or "~/.cache"
-    return Path(base).expanduser() / "stepaside"
 
 
 def is_pursuit_bound_cached(cells: int) -> bool:

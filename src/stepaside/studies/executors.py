@@ -15,8 +15,8 @@ from importlib import import_module
 from typing import Any
 
 from ..core import worker_pool as pools
+from ..core.compilation import cache_folder
 from ..core.errors import CampaignError, ConfigurationError
-from ..robots.jit import folder as cache_folder
 from .code_version import installation
 
 Losses = tuple[type[BaseException], ...]

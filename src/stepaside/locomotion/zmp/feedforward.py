@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from ...core.compilation import kernel_of
 from ...core.poses import Array
-from ...robots.jit import kernel_of
 from ...robots.joint_loads import LegLoads
 from ...robots.leg_kinematics import BodyReference, LegKinematics
 

@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...arena.obstacles import PackedObstacles
-from ...theory.unicycle.compilation import inlined
+from ...core.compilation import inlined
 
 CELL = 0.1  # side of a cell, in [m]; 0.05 and 0.2 take longer
 LISTED = 12  # obstacles that a cell can list; with more all are measured

@@ -1,24 +1,13 @@
 """Rollout of one maneuver, with its score."""
 
 from math import atan2, pi
-from pathlib import Path
 from typing import Any, NamedTuple
 
-from ...theory.unicycle.compilation import (
-    compiled,
-    forget_stale,
-    inlined,
-    load_numba,
-)
+from ...core.compilation import compiled, inlined
 from .candidate_maneuvers import CandidateManeuvers, ManeuverObjective
 from .distance_field import DistanceField, field_clearance
 from .step_motion import PlayerPair, StepRules, half_turn, step_both
 from .value_lookup import ValueTable, value_at
-
-if load_numba() is not None:
-    _HERE = Path(__file__).parent
-    _UNICYCLE = _HERE.parents[1] / "theory" / "unicycle"
-    forget_stale(_HERE, [*_HERE.glob("*.py"), *_UNICYCLE.glob("*.py")])
 
 
 class SearchProblem(NamedTuple):

@@ -9,7 +9,7 @@ vectors to save trigonometric functions.
 from math import atan2
 from typing import NamedTuple
 
-from ...theory.unicycle.compilation import inlined
+from ...core.compilation import inlined
 
 
 class PlayerPair(NamedTuple):

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from ...arena.obstacles import PackedObstacles
-from ...theory.unicycle.compilation import compiled
+from ...core.compilation import compiled
 from .candidate_maneuvers import (
     DEEPEST,
     BestManeuver,

@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...theory.unicycle.compilation import inlined
+from ...core.compilation import inlined
 from .step_motion import PlayerPair
 
 

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..unicycle.compilation import compiled, compiled_parallel, parallel_range
+from ...core.compilation import compiled, compiled_parallel, parallel_range
 from .upwind_scheme import lax_friedrichs, upwind, weno5
 
 FIRST, FIFTH = 1, 5

@@ -13,16 +13,11 @@ Each turning rate affects one coordinate only, so the Hamiltonian separates
 into three one-dimensional ones, and Godunov's flux is exact for each.
 """
 
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from ..unicycle.compilation import forget_stale, inlined, load_numba
-
-if load_numba() is not None:
-    _HERE = Path(__file__).parent
-    forget_stale(_HERE, [*_HERE.glob("*.py"), *_HERE.parent.glob("*.py")])
+from ...core.compilation import inlined
 
 HALF = np.float32(0.5)
 ZERO = np.float32(0.0)

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
+from ...core.compilation import load_numba
 from ...core.errors import PlanError, check_positive
-from ..unicycle.compilation import load_numba
 from .compiled_stage import (
     FIFTH,
     FIRST,

@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from .compilation import compiled
+from ...core.compilation import compiled
 from .game_batch import Array, block_type
 from .game_parameters import FlatParameters
 from .relative_motion import (

@@ -6,7 +6,12 @@ vectorises it; sines are polynomials for the same reason.
 
 from typing import Any
 
-from .compilation import compiled, compiled_parallel, inlined, parallel_range
+from ...core.compilation import (
+    compiled,
+    compiled_parallel,
+    inlined,
+    parallel_range,
+)
 from .event_location import event_located_step
 from .game_batch import (
     BatchTiming,

@@ -10,7 +10,7 @@ from enum import IntEnum
 from math import pi
 from typing import Any, NamedTuple
 
-from .compilation import inlined, shared
+from ...core.compilation import inlined, shared
 from .game_parameters import FlatParameters
 from .relative_motion import (
     RelativeState,

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .compilation import inlined
+from ...core.compilation import inlined
 from .event_location import TURN_PER_STEP, LocatedStep
 from .game_parameters import FlatParameters
 from .relative_motion import (

@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...core.brief_repr import brief_repr
+from ...core.compilation import load_numba
 from ...core.errors import PlanError, check_positive, shown
 from ...core.poses import wrap_angles
 from .all_circles import circles_of
 from .circle_equations import Circle
-from .compilation import load_numba
 from .game_batch import Array, BatchTiming, deviations
 from .game_parameters import flat_parameters
 from .relative_coordinates import check_bearings

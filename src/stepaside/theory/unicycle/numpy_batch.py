@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from .compilation import compiled
+from ...core.compilation import compiled
 from .compiled_batch import locate
 from .event_location import LocatedStep
 from .game_batch import (

@@ -14,8 +14,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ...core.compilation import inlined
 from .. import laws
-from .compilation import inlined
 from .game_parameters import FlatParameters
 from .smooth_pieces import SmoothPiece, proportional_rate
 

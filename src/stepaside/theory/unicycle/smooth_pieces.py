@@ -14,8 +14,8 @@ from enum import IntEnum
 from math import inf, pi
 from typing import Any, NamedTuple
 
+from ...core.compilation import inlined
 from .. import laws
-from .compilation import inlined
 from .game_parameters import FlatParameters
 
 inlined(laws.wrap_once)  # called by evasion_heading

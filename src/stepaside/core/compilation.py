@@ -1,9 +1,14 @@
-"""Just-in-time compilation of generated formulas, cached on disk.
+"""Optional compilation by Numba, which is imported at its first use only.
 
-Formulas of :mod:`.expression_tracing` run as plain Python by default, also on
-board. For long simulations the same source can be compiled by Numba: a few
-seconds once, then a tenth of the time, with the same bits, since the order
-of operations is preserved and nothing is fused.
+Importing Numba takes longer than importing everything else. So functions
+that compiled code may call are only registered (:func:`shared`,
+:func:`inlined`), and Numba is imported when a function is compiled; without
+Numba :func:`compiled` does nothing.
+
+Generated formulas (:func:`function_of`, :func:`kernel_of`) run as plain
+Python by default, also on board. For long simulations the same source can be
+compiled: a few seconds once, then a tenth of the time, with the same bits,
+since the order of operations is preserved and nothing is fused.
 """
 
 import os
@@ -11,13 +16,15 @@ import sys
 from collections.abc import Callable
 from contextlib import suppress
 from enum import IntEnum
+from functools import cache
 from hashlib import sha256
 from importlib.util import module_from_spec, spec_from_file_location
 from math import cos, sin
 from pathlib import Path
 from tempfile import NamedTemporaryFile
-from typing import Any
+from typing import Any, TypeVar
 
+F = TypeVar("F", bound=Callable[..., Any])
 Function = Callable[..., tuple[float, ...]]
 Kernel = Callable[..., Any]
 HEAD = "from math import cos, sin"
@@ -27,6 +34,87 @@ KERNEL_HEAD = f"""\
 from numba import njit
 
 formula = njit(error_model="numpy")"""
+
+_OPTIONS: dict[str, Any] = {
+    "error_model": "numpy",
+    "fastmath": {"contract"},
+}
+_marked: list[tuple[Callable[..., Any], bool]] = []
+_folders: set[Path] = set()  # of functions registered or compiled
+
+
+@cache
+def load_numba() -> Any:
+    """Return the module numba, or None without the extra "fast"."""
+    try:
+        import numba
+        import numba.extending
+    except ImportError:
+        return None
+    return numba
+
+
+def shared(function: F) -> F:
+    """Register a function that both compiled code and Python may call.
+
+    One definition then serves numbers in compiled loops and arrays in NumPy.
+    """
+    _register(function, inline=False)
+    return function
+
+
+def inlined(function: F) -> F:
+    """Register a function (:func:`shared`) to be inlined in compiled code."""
+    _register(function, inline=True)
+    return function
+
+
+def compiled(function: F, **options: Any) -> F:
+    """Compile a function of numbers and arrays at its first call."""
+    numba = load_numba()
+    if numba is None:
+        return function
+    folder = Path(function.__code__.co_filename).parent
+    _folders.add(folder)
+    _forget_stale(folder)
+    while _marked:
+        marked, inline = _marked.pop()
+        register = numba.extending.register_jitable
+        register(forceinline=inline, **_OPTIONS)(marked)
+    made: F = numba.njit(cache=True, **options, **_OPTIONS)(function)
+    return made
+
+
+def compiled_parallel(function: F) -> F:
+    """Compile a function whose ``prange`` loops run on all cores."""
+    return compiled(function, parallel=True, nogil=True)
+
+
+def parallel_range() -> Any:
+    """Return the parallel range of :func:`compiled_parallel` functions."""
+    numba = load_numba()
+    return range if numba is None else numba.prange
+
+
+@cache
+def _forget_stale(folder: Path) -> None:
+    """Delete cached machine code of a folder, older than any source file.
+
+    Numba only checks the file of a function, not the files of the functions
+    that it calls.
+    """
+    with suppress(OSError):
+        sources = [file for each in _folders for file in each.glob("*.py")]
+        newest = max(file.stat().st_mtime for file in sources)
+        for index in (folder / "__pycache__").glob("*.nbi"):
+            if index.stat().st_mtime < newest:
+                index.unlink()
+
+
+def _register(function: Callable[..., Any], *, inline: bool) -> None:
+    """Note a function that compiled code may call."""
+    _marked.append((function, inline))
+    _folders.add(Path(function.__code__.co_filename).parent)
 
 
 class JitPreference(IntEnum):
@@ -116,26 +204,27 @@ def kernel_of(name: str, text: str, arguments: str) -> Kernel | None:
     return None
 
 
-def folder() -> Path:
+def cache_folder() -> Path:
     """Return the cache folder; ``XDG_CACHE_HOME`` is respected."""
-    base = os.environ.get("XDG_CACHE_HOME")
-    return (Path(base) if base else Path.home() / ".cache") / "stepaside"
+    base = os.environ.get("XDG_CACHE_HOME") or "~/.cache"
+    return Path(base).expanduser() / "stepaside"
 
 
 def _machine_code(
     name: str, text: str, arguments: str | None = None
 ) -> Any | None:
     """Load the machine code of a source, or compile it if preferred."""
+    numba = load_numba()
+    if numba is None:
+        return None
     content = f"{HEAD if arguments is None else KERNEL_HEAD}\n\n\n{text}"
     digest = sha256(content.encode()).hexdigest()[:16]
-    path = folder() / f"{name}_{digest}.py"
+    path = cache_folder() / f"{name}_{digest}.py"
     stored = path.is_file() and path.read_text(encoding="utf-8") == content
     if not stored:
         if _preference is not JitPreference.COMPILED:
             return None
         _write(path, content)
-    import numba  # slow to import
-
     spec = spec_from_file_location(path.stem, path)
     assert spec is not None and spec.loader is not None
     module = module_from_spec(spec)

@@ -6,7 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from stepaside.robots import jit as machine
+from stepaside.core import compilation as machine
+from stepaside.core.compilation import JitPreference
 from stepaside.robots.description import load_robot
 from stepaside.robots.expression_tracing import (
     ExpressionTrace,
@@ -15,7 +16,6 @@ from stepaside.robots.expression_tracing import (
     sine,
 )
 from stepaside.robots.ik_solver import solver_of
-from stepaside.robots.jit import JitPreference
 from stepaside.robots.tree_cache import load_tree
 
 pytest.importorskip("numba")
@@ -40,7 +40,7 @@ def formula(factor: float) -> machine.Function:
 
 def files() -> list[str]:
     """Endings of what is kept, but for what Python itself compiled."""
-    kept = machine.folder().rglob("*.*")
+    kept = machine.cache_folder().rglob("*.*")
     return sorted(path.suffix for path in kept if path.suffix != ".pyc")
 
 
@@ -48,7 +48,7 @@ def test_nothing_is_compiled_unless_it_is_preferred() -> None:
     formula(2.0)
     machine.prefer(JitPreference.STORED)
     formula(2.0)
-    assert not machine.folder().exists()
+    assert not machine.cache_folder().exists()
 
 
 def test_compiled_code_is_loaded_from_the_cache() -> None:
@@ -76,7 +76,7 @@ def test_damaged_code_is_not_used(suffix: str) -> None:
     plain = formula(2.0)
     machine.prefer(JitPreference.COMPILED)
     formula(2.0)
-    (path,) = machine.folder().rglob(f"*{suffix}")
+    (path,) = machine.cache_folder().rglob(f"*{suffix}")
     path.write_bytes(b"raise SystemExit(1)")
     assert formula(2.0)(0.3, 0.7) == plain(0.3, 0.7)
 
