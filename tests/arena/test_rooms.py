@@ -185,7 +185,7 @@ def test_file_preserves_boxes_and_walls() -> None:
 
 def test_recipe_that_does_not_fit_is_refused() -> None:
     with pytest.raises(ConfigurationError, match="too full"):
-        generate_room(RoomRecipe(2.0, 2.0, discs=60), 1)
+        generate_room(RoomRecipe(1.5, 1.5, discs=20), 1)
     with pytest.raises(ConfigurationError, match="two players"):
         generate_room(RoomRecipe(0.8, 0.8), 1)
 
@@ -261,7 +261,7 @@ def test_invalid_file_is_refused_in_one_line(
         ["--size", "3xnan"],
         ["--size", "0.1x3"],
         ["--discs", "-1"],
-        ["--discs", "400"],
+        ["--size", "1.5x1.5", "--discs", "20"],
         ["--largest", "0.01"],
         ["--size", "open", "--doors", "1"],
     ],

@@ -295,6 +295,6 @@ def test_unknown_strategy_is_refused() -> None:
 def test_circle_within_capture_distance_has_no_marks() -> None:
     """Such a game ends before anything can be measured."""
     game = Game(Unicycle(0.1, 1e9), Unicycle(0.1, 1e9))
-    assert unicycle_sweep._simulated(game) is None
+    assert unicycle_sweep.simulate_circle(game) is None
     large = Game(Unicycle(0.1, 0.2), Unicycle(0.1, 0.2))
-    assert unicycle_sweep._simulated(large) is not None
+    assert unicycle_sweep.simulate_circle(large) is not None

@@ -200,13 +200,11 @@ def test_settings_open_or_close_the_loop() -> None:
     assert isinstance(closed, ClosedLoop)
     made = closed.stabiliser
     assert made.settings is STABILISED and not closed.ready
-    assert made._tick == 0.012
-    # A request, and those still on their way.
-    assert made._asked.maxlen == 4
-    assert made._lean == 0.0
+    assert made.tick == 0.012 and made.delay_ticks == 3
+    assert made.lean == 0.0
     leaning = replace(NAO, lean=0.1)
     bent = build_balance(leaning, GAIT, STABILISED, **options)
-    assert isinstance(bent, ClosedLoop) and bent.stabiliser._lean == 0.1
+    assert isinstance(bent, ClosedLoop) and bent.stabiliser.lean == 0.1
 
 
 @pytest.mark.parametrize("seen", [None, Sighting(0.0, 0.1, 2.0)])
@@ -247,4 +245,4 @@ def test_a_scheme_uses_its_perception() -> None:
     balance = walk_of(mind).balance
     assert isinstance(balance, ClosedLoop)
     # The measured body is worked out once, for eyes and balance.
-    assert balance.stabiliser.estimator._kinematics is kinematics.forward
+    assert balance.stabiliser.estimator.kinematics is kinematics.forward

@@ -81,10 +81,13 @@ def test_no_correction_before_the_first_delayed_response() -> None:
 
 
 def test_a_correction_that_is_no_longer_needed_fades() -> None:
-    joints = correction(gain=0.0, leak=0.5)
-    joints._correction = np.array([0.02])
-    targets = np.array([0.1])
+    joints, targets = correction(leak=0.5), np.array([0.1])
+    for _ in range(50):
+        joints.update(np.zeros(1), targets)
+    for _ in range(5):
+        first = joints.update(targets, targets)[0] - 0.1
     ticks = 200
-    for _ in range(ticks + 2):
-        added = joints.update(targets, targets)[0] - 0.1
-    assert added == pytest.approx(0.02 * (1.0 - 0.5 * TICK) ** ticks)
+    for _ in range(ticks):
+        last = joints.update(targets, targets)[0] - 0.1
+    assert first > 0.001
+    assert last == pytest.approx(first * (1.0 - 0.5 * TICK) ** ticks)

@@ -289,10 +289,10 @@ def test_tails_match_their_definitions() -> None:
     now = p.sample([passed])
     lead = (now.dcm - now.zmp)[0]
     share = 1.0 - np.exp(-GAIT.eta * span)
-    truncated = mpc._boundedness(p, passed, ZERO, ZERO)
+    truncated = mpc.boundedness(p, passed, ZERO, ZERO)
     np.testing.assert_allclose(truncated, lead - inside, atol=1e-6)
-    repeated = solver(tail="periodic")._boundedness(p, passed, ZERO, ZERO)
+    repeated = solver(tail="periodic").boundedness(p, passed, ZERO, ZERO)
     np.testing.assert_allclose(repeated, share * lead - inside, atol=1e-6)
     shift = np.array([0.002, -0.001])
-    moved = mpc._boundedness(p, passed, shift, ZERO)
+    moved = mpc.boundedness(p, passed, shift, ZERO)
     np.testing.assert_allclose(moved - truncated, shift, atol=1e-12)

@@ -7,7 +7,6 @@ import pytest
 
 from stepaside.core.poses import Array, Pose
 from stepaside.locomotion.zmp.reference_table import (
-    CACHED,
     ReferenceSample,
     ReferenceTable,
     standing_reference,
@@ -126,35 +125,6 @@ def test_the_next_plan_replaces_the_last() -> None:
         table.load(made, FRAME, started, 0.2)
         tick = int(np.ceil(started / TICK)) + 3
         check(table.at(tick * TICK), made, tick * TICK - started)
-
-
-def test_the_same_timing_is_sampled_once() -> None:
-    """Plans of one schedule at one offset share their maps."""
-    planner = ManeuverPlanner(GAIT)
-    schedule = planner.schedule(5, standing=False)
-    table = ReferenceTable(TICK)
-    one = table._sampler(schedule, 0.001, 10)
-    assert table._sampler(schedule, 0.001, 10) is one
-    np.testing.assert_allclose(one.times, 0.001 + TICK * np.arange(10))
-    assert table._sampler(schedule, 0.001, 11) is not one
-    assert table._sampler(schedule, 0.0011, 10) is not one
-    other = planner.schedule(4, standing=False)
-    assert table._sampler(other, 0.001, 10) is not one
-
-
-def test_the_sampler_cache_is_bounded() -> None:
-    """A day of sums of 0.547 s drifts by a microsecond, in nanoseconds."""
-    schedule = ManeuverPlanner(GAIT).schedule(5, standing=False)
-    table = ReferenceTable(TICK)
-    first = table._sampler(schedule, 0.0, 2)
-    for i in range(1, CACHED):
-        table._sampler(schedule, 1e-9 * i, 2)
-    assert table._sampler(schedule, 0.0, 2) is first
-    last = table._sampler(schedule, 1e-9 * CACHED, 2)
-    assert len(table._samplers) == CACHED
-    assert table._sampler(schedule, 1e-9 * CACHED, 2) is last
-    assert table._sampler(schedule, 0.0, 2) is not first
-    assert len(table._samplers) == CACHED
 
 
 @pytest.mark.parametrize("foot", Foot)

@@ -192,8 +192,8 @@ def test_the_zmp_is_weighted_by_foot_load() -> None:
 
 
 def test_dcm_is_ahead_of_the_com_by_its_velocity() -> None:
-    estimate, body = estimator(), FakeKinematics()
-    estimate._kinematics = body  # type: ignore[assignment]
+    body = FakeKinematics()
+    estimate = estimator(body)
     for i in range(40):
         body.lever = LEVER + (0.001 * i, -0.002 * i, 0.0)
         state = see(estimate, measured())

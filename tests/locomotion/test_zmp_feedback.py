@@ -127,7 +127,7 @@ def test_the_mpc_method_asks_a_solver_while_walking() -> None:
     gains = StabiliserSettings(feedback=3.0, edge=0.005)
     rule = zmp_feedback(ControlSettings("mpc", True, gains), GAIT, TICK)
     assert isinstance(rule, MpcFeedback)
-    assert isinstance(rule._mpc, IntrinsicallyStableMpc)
+    assert isinstance(rule.mpc, IntrinsicallyStableMpc)
     made = walking()
     rest = resting_step(SUPPORT, Foot.LEFT)
     assert rule.shift(rest, (0.001, 0.0), (0.0, 0.0)) == pytest.approx(

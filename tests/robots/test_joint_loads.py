@@ -90,7 +90,7 @@ def test_at_rest_the_torques_are_those_of_mujoco() -> None:
         kinematics, loads = loads_of(reference)
         zmp = (reference.com[0], reference.com[1])
         found = loads.torques(reference, zmp)
-        share = loads._ground_contact(reference, zmp)[-1]
+        share = loads.ground_contact(reference, zmp)[-1]
         assert (share == 1.0) is (lift > 0.0)
         wanted = by_mujoco(kinematics, reference, share)
         np.testing.assert_allclose(found, wanted, atol=2e-4)

@@ -189,7 +189,7 @@ def test_legs_that_are_not_plain_use_the_damped_step() -> None:
     near = STANCE._replace(com=(0.031, 0.001, 0.599))
     for _ in range(3):
         legs.track(near)
-    assert np.abs(legs._error).max() < 1e-6
+    assert np.abs(legs.error).max() < 1e-6
 
 
 def test_targets_are_in_the_order_of_the_motors() -> None:
@@ -269,4 +269,4 @@ def test_a_leg_joint_without_a_motor_is_refused_by_name(
 def test_every_row_has_a_name() -> None:
     legs = LegKinematics(stranger(), tick=TICK)
     legs.stand(STANCE)
-    assert len(legs._error) == len(ROWS) == 16
+    assert len(legs.error) == len(ROWS) == 16

@@ -297,11 +297,10 @@ def test_feedback_makes_the_imu_average() -> None:
 def test_feedback_knows_the_clock_and_the_delay() -> None:
     _, scheme = stand(feedback=True, delay_cycles=3)
     stabiliser = stabiliser_of(scheme)
-    late = stabiliser._asked.maxlen
-    assert late == 4
-    assert stabiliser._tick == 0.012
+    assert stabiliser.delay_ticks == 3
+    assert stabiliser.tick == 0.012
     _, at_once = stand(feedback=True)
-    assert stabiliser_of(at_once)._asked.maxlen == 1
+    assert stabiliser_of(at_once).delay_ticks == 0
 
 
 def test_a_scheme_starts_from_the_first_measurement() -> None:

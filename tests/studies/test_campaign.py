@@ -188,13 +188,13 @@ def test_blocks_grow_with_short_cases_and_are_bounded(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     sizes: list[int] = []
-    original = campaigns._measure_block
+    original = campaigns.measure_block
 
     def counted(measure: Any, cases: Any) -> Any:
         sizes.append(len(cases))
         return original(measure, cases)
 
-    monkeypatch.setattr(campaigns, "_measure_block", counted)
+    monkeypatch.setattr(campaigns, "measure_block", counted)
     with ThreadPoolExecutor(1) as pool:
         run = run_study(study_of(range(20_000)), None, pool)
     assert run.completed and sum(sizes) == 20_000

@@ -75,7 +75,7 @@ def test_sigterm_is_ctrl_c_while_a_command_runs() -> None:
     assert signal.getsignal(signal.SIGTERM) == before
 
 
-def test_a_figure_is_trusted_by_what_it_holds(
+def test_figures_are_redrawn_if_they_or_their_settings_change(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     drawn: list[str] = []
@@ -97,6 +97,8 @@ def test_a_figure_is_trusted_by_what_it_holds(
     (tmp_path / "fig2.png").unlink()
     reproduce_figures.draw_figures(tmp_path, 1)
     assert sorted(drawn[3:]) == ["game", "sweep"]
+    reproduce_figures.draw_figures(tmp_path, 1, duration=1.0)
+    assert drawn[5:] == ["duel"]
     assert (tmp_path / "sweep.png").read_text() == "sweep"
 
 

@@ -111,7 +111,7 @@ def _draw_marks(
     _, mark, colour = _STYLES[law]
     found = []
     for x in np.linspace(sweep.low, sweep.high, count).tolist():
-        ends = _simulated(replace(sweep.vary(game, x), law=law))
+        ends = simulate_circle(replace(sweep.vary(game, x), law=law))
         if ends is not None:
             found.append((x, ends.radius_pursuer_m, ends.distance_m))
     if not found:
@@ -122,7 +122,7 @@ def _draw_marks(
     axes[1].plot(xs, distances, mark, **look)
 
 
-def _simulated(game: Game) -> FittedCircle | None:
+def simulate_circle(game: Game) -> FittedCircle | None:
     """Return the circle at the end of a game that starts near it.
 
     None if it is not stable or the evader is captured.

@@ -114,7 +114,7 @@ class LegLoads:
             *before,
             *last,
             self._rate if self._calls > 1 else 0.0,
-            *self._ground_contact(reference, zmp),
+            *self.ground_contact(reference, zmp),
             *self._kinematics.legs.roll_argument(roll),
         )
         count = len(self._leg_motors)
@@ -183,7 +183,7 @@ class LegLoads:
         self._calls -= len(self._points) - 2 - ticks
         self._points = self._points[ticks : ticks + 2]
 
-    def _ground_contact(
+    def ground_contact(
         self, reference: BodyReference, zmp: tuple[float, float]
     ) -> list[float]:
         """Return the anchors of both feet and the load fraction of the left.
@@ -197,7 +197,7 @@ class LegLoads:
         return contact
 
     def _ground_contacts(self, references: Array, zmp: Array) -> Array:
-        """Return :meth:`_ground_contact` of rows. Shape (ticks, 7)."""
+        """Return :meth:`ground_contact` of rows. Shape (ticks, 7)."""
         x, y, z, yaw, u, v, w, turned = references[:, 3:11].T
         forward = self._zmp_forward
         x, y = x + forward * cosines(yaw), y + forward * sines(yaw)

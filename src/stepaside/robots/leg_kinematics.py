@@ -67,6 +67,7 @@ class LegKinematics:
         description: Robot description.
         joint_names: Actuated joints, in the order of the joint targets.
         legs: Leg joints.
+        error: Remaining error of each row of the last solution.
     """
 
     def __init__(self, description: RobotDescription, *, tick: float) -> None:
@@ -97,7 +98,7 @@ class LegKinematics:
         self._heading = 0.0
         self._last_heading = 0.0
         self._roll = 0.0
-        self._error = np.zeros(FIXED_ROWS)
+        self.error = np.zeros(FIXED_ROWS)
         fixed = dict(zip(tree.joints, legs.fixed, strict=True))
         self._fixed_targets = np.array([fixed[name] for name in tree.motors])
         columns = dict(zip(tree.joints, legs.columns[1:], strict=True))
@@ -161,7 +162,7 @@ class LegKinematics:
             ReachError: If the legs cannot reach it; names the worst row.
         """
         if not self._try_stand(reference):
-            worst = int(np.argmax(np.abs(self._error)))
+            worst = int(np.argmax(np.abs(self.error)))
             heights = self._heights(reference).describe(reference.com[2])
             raise ReachError(
                 f"{self.description.name} cannot reach {ROWS[worst]} with a "
@@ -213,7 +214,7 @@ class LegKinematics:
         reach = np.full(len(self._free), STAND_STEP)
         for _ in range(60):
             self._step(reference, reach)
-            if float(np.abs(self._error).max()) < TOLERANCE:
+            if float(np.abs(self.error).max()) < TOLERANCE:
                 return True
         return False
 
@@ -235,7 +236,7 @@ class LegKinematics:
         if self._step_freely(self._row(reference)):
             return self.joint_targets
         self._step(reference, self._reach)
-        error = self._error
+        error = self.error
         if not -GREATEST_ERROR <= error.min() <= error.max() <= GREATEST_ERROR:
             worst = int(np.argmax(np.abs(error)))
             raise ReachError(
@@ -376,7 +377,7 @@ class LegKinematics:
         c, s = cos(self._heading), sin(self._heading)
         to_world = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
         turned = error[:FIXED_ROWS].reshape(-1, 3) @ to_world.T
-        self._error = np.append(turned, error[FIXED_ROWS:])
+        self.error = np.append(turned, error[FIXED_ROWS:])
         moved = np.clip(angles + move[BASE:], legs.low, legs.high)
         self._free = tuple(moved.tolist())
         self._range_margin = 0.0

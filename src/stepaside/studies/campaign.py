@@ -220,7 +220,7 @@ class _BlockResult(NamedTuple):
     error: Exception | None = None
 
 
-def _measure_block(
+def measure_block(
     measure: Callable[[C], Record], cases: list[C]
 ) -> _BlockResult:
     """Measure cases one after the other, in a worker."""
@@ -324,7 +324,7 @@ class _Campaign(Generic[C]):
             cases = [self._cases[number] for number in block.numbers]
             measure = self._run.study.measure
             try:
-                future = self._engine.submit(_measure_block, measure, cases)
+                future = self._engine.submit(measure_block, measure, cases)
             except self._engine.losses as error:
                 self._lose(block, error)
                 continue

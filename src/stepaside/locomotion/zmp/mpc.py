@@ -123,7 +123,7 @@ class IntrinsicallyStableMpc:
         """
         began = perf_counter()
         rows, high, soon = self._constraints(plan, passed, zmp)
-        bounded = self._boundedness(plan, passed, dcm, zmp)
+        bounded = self.boundedness(plan, passed, dcm, zmp)
         gradient = np.concatenate([self._drift * zmp[0], self._drift * zmp[1]])
         w, flag, info = self._program(
             self._cost, gradient, rows, high, bounded
@@ -197,10 +197,22 @@ class IntrinsicallyStableMpc:
         soon = np.where(back == 0.0, high, back - held)
         return rows[keep], high[keep], soon[keep]
 
-    def _boundedness(
+    def boundedness(
         self, plan: ManeuverPlan, passed: float, dcm: Array, zmp: Array
     ) -> Array:
-        """Return the right side of the boundedness condition. Shape (2,)."""
+        """Return the right side of the boundedness condition.
+
+        Args:
+            plan: Plan being walked.
+            passed: Time since its start, in [s].
+            dcm: Deviation of the DCM from the plan, in the plan frame, in
+                [m]. Shape (2,).
+            zmp: Deviation of the ZMP, likewise. Shape (2,).
+
+        Returns:
+            Deviation that the velocities of the ZMP in the horizon have to
+            sum up to, weighted by their decay, in [m]. Shape (2,).
+        """
         bounded: Array = dcm - zmp
         if self.settings.tail == "anticipative":
             return bounded

@@ -75,6 +75,8 @@ class Stabiliser:
         joints: Correction of joint errors.
         zmp_feedback: Rule for the ZMP shift.
         stride: Learning of the footsteps' shortfall.
+        tick: Control period, in [s].
+        lean: See :meth:`BodyReference.roll`, in [rad].
     """
 
     def __init__(
@@ -118,13 +120,18 @@ class Stabiliser:
         self.stride = StrideLearning(
             gait, gains.stride_gain, gains.stride_bound
         )
-        self._gait, self._tick, self._lean = gait, tick, lean
+        self._gait, self.tick, self.lean = gait, tick, lean
         self._grow = exp(gait.eta * tick)
         self._boxes = {foot: zmp_box(foot, gait, gains.edge) for foot in Foot}
         self._ankles = Ankles(gains, tick)
         self._asked: deque[StabiliserTargets] = deque(
             maxlen=max(1, round(delay / tick) + 1)
         )
+
+    @property
+    def delay_ticks(self) -> int:
+        """Delay from a command to the motion, in ticks."""
+        return (self._asked.maxlen or 1) - 1
 
     @property
     def ready(self) -> bool:
@@ -150,9 +157,7 @@ class Stabiliser:
         x, y, z = row.body.com
         assert self.state is not None
         commanded = self._asked[0].body
-        left, right = self._ankles.tilts(
-            self.state, commanded.roll(self._lean)
-        )
+        left, right = self._ankles.tilts(self.state, commanded.roll(self.lean))
         com = (x + self.com_shift[0], y + self.com_shift[1], z)
         return BodyReference(com, body.left_foot, body.right_foot, left, right)
 
@@ -201,7 +206,7 @@ class Stabiliser:
 
     def _react(self, step: CurrentStep) -> None:
         """Let the shifts follow the errors, and bring them back."""
-        gains, tick, eta = self.settings.stabiliser, self._tick, self._gait.eta
+        gains, tick, eta = self.settings.stabiliser, self.tick, self._gait.eta
         rate = min(1.0, gains.yielding * tick)
         dx = self.dcm_shift[0] + rate * self.error[0]
         dy = self.dcm_shift[1] + rate * self.error[1]
@@ -227,7 +232,7 @@ class Stabiliser:
         gains = self.settings.stabiliser
         box = self._boxes[step.swing]
         goal = adapted_landing(error, step, box, self._gait, gains)
-        reach = gains.step_speed * self._tick
+        reach = gains.step_speed * self.tick
         u, v = self.step_shift
         self.step_shift = (
             u + min(max(goal[0] - u, -reach), reach),

@@ -53,6 +53,9 @@ class StateEstimator:
     the measured joints relative to the loaded feet, whose poses are those
     of odometry. A constant-gain observer of the linear inverted pendulum,
     driven by the measured ZMP, adds the velocity.
+
+    Attributes:
+        kinematics: Forward kinematics of the robot.
     """
 
     def __init__(
@@ -78,7 +81,7 @@ class StateEstimator:
             correction: Gain of the :class:`AttitudeFilter`, in [1/s].
             bias_correction: Gain of its bias, in [1/s^2].
         """
-        self._kinematics = kinematics
+        self.kinematics = kinematics
         self._sensors = force_sensors
         self._weight = GRAVITY * kinematics.mass
         self._eta, self._tick = eta, tick
@@ -138,7 +141,7 @@ class StateEstimator:
         forces = measurement.foot_forces
         left_force, right_force = _sums(forces)
         weight = self._weigh(left_force, right_force)
-        posture = self._kinematics.posture(measurement.joint_positions)
+        posture = self.kinematics.posture(measurement.joint_positions)
         self.posture = posture
         measured, (px, py) = self._locate(
             posture, forces, (left_force, right_force), feet

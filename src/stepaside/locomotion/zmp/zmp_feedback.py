@@ -16,6 +16,7 @@ class ZmpFeedback(Protocol):
     """Rule for the ZMP shift.
 
     Attributes:
+        mpc: The MPC.
         solved: Result of the MPC at the last tick, if it ran.
     """
 
@@ -57,6 +58,7 @@ class MpcFeedback:
     """Rule by the intrinsically stable MPC.
 
     Attributes:
+        mpc: The MPC.
         solved: Result of the MPC at the last tick, if it ran.
     """
 
@@ -68,7 +70,7 @@ class MpcFeedback:
     ) -> None:
         """Use an MPC while walking, and another rule while standing."""
         self.solved: MpcResult | None = None
-        self._mpc, self._standing, self._tick = mpc, standing, tick
+        self.mpc, self._standing, self._tick = mpc, standing, tick
 
     def shift(self, step: CurrentStep, dcm: Vector, zmp: Vector) -> Vector:
         """Return the ZMP shift; see :class:`ZmpFeedback`."""
@@ -77,7 +79,7 @@ class MpcFeedback:
             return self._standing.shift(step, dcm, zmp)
         if dcm == zmp == (0.0, 0.0):
             return zmp  # the plan itself is optimal
-        result = self._mpc.solve(
+        result = self.mpc.solve(
             step.plan,
             step.passed,
             np.array(step.to_support(*dcm)),
