@@ -16,7 +16,6 @@ import numpy as np
 import pytest
 
 from invented_run import check_same
-from onlooker import look_on
 from stepaside.cli.duel import print_duel
 from stepaside.core.errors import ConfigurationError
 from stepaside.games.duel import Duel, run_duel
@@ -49,6 +48,7 @@ from stepaside.sim.camera_settings import (
 from stepaside.sim.offscreen_rendering import RAYCAST, choose_renderer
 from stepaside.sim.person_settings import PURSUERS
 from stepaside.strategies import Evasion
+from tick_observers import observe_ticks
 
 PUSHED = 0.24  # [s]; a push is over, and what it does has been felt
 LONG = 60.0  # [s]; no event of a loop that runs comes as late as this
@@ -303,7 +303,7 @@ def test_live_duel_is_stepped_pushed_and_drawn(
             if walk is not None and walk.solved is not None:
                 solved.add(player.name)
 
-    look_on(session.duel, look)
+    observe_ticks(session.duel, look)
     stepped(session, PUSHED)
     assert session.outcome is None
     passed = case.duration + PUSHED

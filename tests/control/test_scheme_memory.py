@@ -8,6 +8,7 @@ import pytest
 
 from made_up_robot import GAIT, STEP, TICK, FakeStrategy, Run, measure
 from made_up_state import FakeEstimator
+from memory_size import reachable_values
 from stepaside.control.sight_sources import CameraSight
 from stepaside.control.state_history import DURATION
 from stepaside.locomotion.walk_snapshots import Phase
@@ -18,7 +19,6 @@ from stepaside.locomotion.zmp.control_settings import (
 from stepaside.locomotion.zmp.feedback_loop import ClosedLoop
 from stepaside.locomotion.zmp.stabiliser import Stabiliser
 from stepaside.robots.leg_kinematics import BodyReference, LegStates
-from weighing import weight
 
 # Four steps are a whole number of ticks: then the gait repeats on its clock.
 AGAIN = round(4 * STEP / TICK)
@@ -98,7 +98,7 @@ def weights(run: Run, rounds: int, times: int = 4) -> list[int]:
         for _ in range(rounds * AGAIN):
             run.scheme.update(measure(run.ticks * TICK))
             run.ticks += 1
-        found.append(weight(run.scheme))
+        found.append(reachable_values(run.scheme))
     assert run.phase() is Phase.WALKING
     return found[1:]  # first the memories fill
 
@@ -113,7 +113,7 @@ def test_memory_is_constant_over_twenty_thousand_ticks() -> None:
     found = weights(run, rounds=8)
     assert run.ticks > 20_000
     assert found[0] > 1000 and len(set(found)) == 1
-    assert weight([run.scheme, 1.0]) == found[0] + 2
+    assert reachable_values([run.scheme, 1.0]) == found[0] + 2
 
 
 def test_perception_memory_is_constant() -> None:

@@ -13,7 +13,7 @@ CODE = """
 import sys
 for missing in ("mujoco", "scipy", "matplotlib", "numba"):
     sys.modules[missing] = None
-from playing_alone import main
+from onboard_session import main
 main()
 """
 

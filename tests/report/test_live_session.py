@@ -10,7 +10,6 @@ from time import sleep
 import numpy as np
 import pytest
 
-from onlooker import look_away, look_on
 from stepaside.core.errors import ConfigurationError, StepAsideError
 from stepaside.games.approach_forecast import CourseApproach
 from stepaside.games.duel import Duel
@@ -24,6 +23,7 @@ from stepaside.report.viewer import run_saving as saving
 from stepaside.report.viewer.live_session import LiveSession
 from stepaside.report.viewer.status_text import outlook, status_text
 from stepaside.strategies.teleoperation import TURN, TeleoperatedPursuit
+from tick_observers import observe_ticks, stop_observing
 
 START = StartSettings(distance=1.0, pursuer_offset=0.0, evader_offset=0.0)
 SETTINGS = DuelSettings(start=START)
@@ -74,11 +74,11 @@ def run_until(session: LiveSession, time: float) -> None:
             session.running = False
             reached.set()
 
-    looking = look_on(duel, look)
+    looking = observe_ticks(duel, look)
     session.running = True
     assert reached.wait(LONG), session.error
     settle(session)
-    look_away(duel, looking)
+    stop_observing(duel, looking)
 
 
 def walker(session: LiveSession, number: int = 0) -> SimulatedPlayer:
@@ -99,7 +99,7 @@ def test_time_passes_only_while_it_runs(session: LiveSession) -> None:
 
 def test_a_pause_from_outside_holds_at_once(session: LiveSession) -> None:
     ticked = Event()
-    look_on(session.duel, lambda duel: ticked.set())
+    observe_ticks(session.duel, lambda duel: ticked.set())
     session.running = True
     assert ticked.wait(LONG)
     session.running = False
@@ -156,7 +156,7 @@ def time_for(
         times.append(clock.now)
         clock.now += cost(duel.world.time)
 
-    look_on(made.duel, pay)
+    observe_ticks(made.duel, pay)
     run_until(made, 1.5)
     made.close()
     assert made.duel.world.time == pytest.approx(1.5)
@@ -197,7 +197,7 @@ def test_a_push_changes_the_run() -> None:
         def record_command(duel: Duel, way: list[float] = way) -> None:
             way.append(float(duel.players[0].truth.position_com_in_world[1]))
 
-        look_on(made.duel, record_command)
+        observe_ticks(made.duel, record_command)
         made.push(0, impulse, pi / 2)
         run_until(made, 1.0)
         made.close()

@@ -24,8 +24,7 @@ from browsing import (
     press,
     until,
 )
-from hostile import HOSTILE
-from onlooker import look_away, look_on
+from injection_strings import HOSTILE
 from stepaside.cli.main import main
 from stepaside.games.configuration_file import dump_configuration
 from stepaside.games.duel import Duel
@@ -36,6 +35,7 @@ from stepaside.report.replay_page import write_page
 from stepaside.report.scene import RunScene
 from stepaside.report.text_escaping import visible
 from stepaside.report.viewer.live_session import LiveSession
+from tick_observers import observe_ticks, stop_observing
 
 SLOW = 0.02  # speed at which a sight of some seconds lasts for minutes
 
@@ -92,7 +92,7 @@ def test_a_live_duel_can_be_watched_pushed_and_driven(browser: Any) -> None:
         if duel.world.time > 1.0:
             session.speed = SLOW
 
-    slowing = look_on(session.duel, slow_down)
+    slowing = observe_ticks(session.duel, slow_down)
     pursuer = session.duel.players[0]
     assert isinstance(pursuer, SimulatedPlayer)
     try:
@@ -117,7 +117,7 @@ def test_a_live_duel_can_be_watched_pushed_and_driven(browser: Any) -> None:
         press(page, "Push")
         page.get_by_text("pushed the pursuer left").wait_for()
         until(page, lambda: pursuer.robot.pusher is not None)
-        look_away(session.duel, slowing)
+        stop_observing(session.duel, slowing)
         session.speed = 1.0
         press(page, "Start")
         pusher = pursuer.robot.pusher

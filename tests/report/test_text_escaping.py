@@ -14,7 +14,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import stepaside
-from hostile import HOSTILE
+from injection_strings import HOSTILE
 from invented_run import run_of
 from stepaside.cli.main import main
 from stepaside.games.run import DuelRun

@@ -14,7 +14,6 @@ import pytest
 
 from fake_page import Client, Gui, open_fake
 from invented_run import changed, drifted
-from onlooker import look_on
 from stepaside.control.strategy_runner import StrategyRunner
 from stepaside.core.errors import ConfigurationError, StepAsideError
 from stepaside.core.poses import Array, wrap_angle
@@ -46,6 +45,7 @@ from stepaside.strategies import (
     Pursuit,
     TeleoperatedPursuit,
 )
+from tick_observers import observe_ticks
 
 START = StartSettings(distance=1.0, pursuer_offset=0.3, evader_offset=-0.2)
 SETTINGS = DuelSettings(start=START)
@@ -140,7 +140,9 @@ def _seen() -> Any:
 def test_a_step_is_kept_only_when_it_begins(session: LiveSession) -> None:
     """With its maneuver and landing, as the scheme said at that tick."""
     begun: list[Any] = []
-    look_on(session.duel, lambda duel: begun.append(duel.players[0].begun))
+    observe_ticks(
+        session.duel, lambda duel: begun.append(duel.players[0].begun)
+    )
     played(session, 600)
     told = [step for step in begun if step is not None]
     assert list(session.trail.steps["pursuer"]) == told

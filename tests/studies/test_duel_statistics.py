@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from counting import NORMAL, is_wilson
+from reference_statistics import NORMAL, is_wilson
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.studies.duel_statistics import (
     VALUES,

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from counting import is_wilson
+from reference_statistics import is_wilson
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.studies.encounters import Encounter, encounters
 from stepaside.studies.people_statistics import (

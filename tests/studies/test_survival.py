@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from counting import coverage, is_wilson
+from reference_statistics import coverage, is_wilson
 from stepaside.planning import GaitSettings
 from stepaside.studies.push_limits import push_cases
 from stepaside.studies.push_results import pushes_result

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from counting import NORMAL, is_wilson
+from reference_statistics import NORMAL, is_wilson
 from stepaside.studies.tournament_rows import tournament_rows
 
 OUTCOMES = ("survived", "captured", "contact", "touched", "fell")

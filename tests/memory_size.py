@@ -1,4 +1,4 @@
-"""How much an object holds, whatever it is made of."""
+"""Number of values that an object keeps alive."""
 
 from collections import deque
 from collections.abc import Mapping
@@ -11,8 +11,8 @@ import numpy as np
 ATOMS = (type(None), bool, int, float, str, bytes, Enum, type, ModuleType)
 
 
-def weight(thing: Any, seen: set[int] | None = None) -> int:
-    """Number of values within reach of a thing, each object once.
+def reachable_values(thing: Any, seen: set[int] | None = None) -> int:
+    """Return the number of values reachable from an object, each once.
 
     Attributes, slots, items, elements of arrays and what functions and
     methods hold are followed.
@@ -25,11 +25,11 @@ def weight(thing: Any, seen: set[int] | None = None) -> int:
     seen.add(id(thing))
     if isinstance(thing, np.ndarray):
         return int(thing.size)
-    return 1 + sum(weight(part, seen) for part in parts(thing))
+    return 1 + sum(reachable_values(part, seen) for part in parts(thing))
 
 
 def parts(thing: Any) -> list[Any]:
-    """What a thing consists of."""
+    """Return what an object refers to directly."""
     if isinstance(thing, Mapping):
         return [*thing.keys(), *thing.values()]
     if isinstance(thing, list | tuple | set | frozenset | deque):

@@ -1,4 +1,4 @@
-"""Text that does something where it is not written out."""
+"""Strings that act as markup or commands unless they are escaped."""
 
 HOSTILE = (
     *("@@RUN@@", "@@NAME@@", "@@POLICY@@", "@@@@RUN@@@@"),
