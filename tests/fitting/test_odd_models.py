@@ -19,7 +19,7 @@ from stepaside.fitting.derivation import (
 )
 from stepaside.fitting.gait_scaling import RobotSize
 from stepaside.fitting.leg_detection import DetectedLeg
-from stepaside.fitting.model_analysis import _forward_score, analyse_model
+from stepaside.fitting.model_analysis import analyse_model, forward_score
 from stepaside.fitting.motor_data import published_speeds
 from stepaside.robots.description import load_robot
 from stepaside.robots.model_reader import read_model
@@ -118,7 +118,7 @@ def test_toes_and_knees_determine_the_forward_direction(
         "</body></worldbody></mujoco>"
     )
     leg = _leg((*edges, -0.04, 0.04))
-    assert np.sign(_forward_score(model, leg)) == ahead
+    assert np.sign(forward_score(model, leg)) == ahead
 
 
 def test_missing_joints_of_legs_that_face_sideways_are_named(

@@ -12,8 +12,8 @@ from stepaside.perception.colour_detector import (
     Appearance,
     ColourDetection,
     ColourDetector,
-    _check_group,
     _groups,
+    check_group,
     smoothed_hsv,
 )
 from stepaside.perception.images import ColourImage, Pixels
@@ -121,7 +121,7 @@ TRIM = (
 
 
 def judge(*patches: Patch) -> ColourDetection | None:
-    return _check_group(boxes(*patches), CAMERA)
+    return check_group(boxes(*patches), CAMERA)
 
 
 def ends(found: ColourDetection | None) -> tuple[float, ...]:

@@ -14,7 +14,7 @@ from stepaside.perception.floor_map import (
     CELL,
     FREE_AT_START,
     FloorMap,
-    _wide_areas,
+    wide_areas,
 )
 from stepaside.perception.images import DepthImage
 
@@ -230,7 +230,7 @@ def test_the_rim_of_what_is_unseen_is_unseen() -> None:
     hidden = np.zeros((12, 12), dtype=np.bool_)
     hidden[3:7, 4:8] = True
     hidden[2, 5:7] = hidden[7, 5:7] = hidden[4:6, 3] = hidden[4:6, 8] = True
-    assert (_wide_areas(hidden) == hidden).all()
+    assert (wide_areas(hidden) == hidden).all()
     strip = np.zeros((12, 12), dtype=np.bool_)
     strip[4:6] = True
-    assert not _wide_areas(strip).any()
+    assert not wide_areas(strip).any()

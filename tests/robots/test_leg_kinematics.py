@@ -10,7 +10,7 @@ from stepaside.core.errors import ReachError
 from stepaside.core.poses import Array
 from stepaside.robots.description import load_robot
 from stepaside.robots.head import rotation
-from stepaside.robots.ik_residuals import _rotation_to_yaw
+from stepaside.robots.ik_residuals import rotation_to_yaw
 from stepaside.robots.leg_kinematics import ROWS, BodyReference, LegKinematics
 
 NAO = load_robot("nao")
@@ -293,7 +293,7 @@ def test_the_levelling_rotation_is_the_small_rotation_of_a_frame(
         vector[axis] = 1e-5
         turn = rotation(*vector)
         frame = turn @ rotation(0.0, 0.0, yaw)
-        back = _rotation_to_yaw(frame.tolist(), (np.cos(yaw), np.sin(yaw)))
+        back = rotation_to_yaw(frame.tolist(), (np.cos(yaw), np.sin(yaw)))
         assert back == pytest.approx((-vector).tolist(), abs=1e-9)
 
 

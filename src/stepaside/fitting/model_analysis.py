@@ -135,7 +135,7 @@ def _legs(
             if first_error is None or isinstance(first_error, NoLegsError):
                 first_error = error
             continue
-        if sum(_forward_score(model, leg) for leg in legs) >= 0.0:
+        if sum(forward_score(model, leg) for leg in legs) >= 0.0:
             return data, turn, legs
         first_error = first_error or ModelError(
             f"{path}: toes and knees do not tell which way the robot faces"
@@ -144,7 +144,7 @@ def _legs(
     raise first_error
 
 
-def _forward_score(model: mujoco.MjModel, leg: DetectedLeg) -> float:
+def forward_score(model: mujoco.MjModel, leg: DetectedLeg) -> float:
     """Score the evidence that a leg faces forward; negative for backward.
 
     Some feet are longer behind the ankle and some knees bend backward, but

@@ -113,7 +113,7 @@ class ColourDetector:
         boxes = boxes[boxes[:, 4] >= least]
         best: ColourDetection | None = None
         for group in _groups(boxes):
-            found = _check_group(group, image.camera)
+            found = check_group(group, image.camera)
             if found is not None and (
                 best is None
                 or found.bottom - found.top > best.bottom - best.top
@@ -238,7 +238,7 @@ def _groups(boxes: NDArray[np.int32]) -> list[NDArray[np.int32]]:
     return groups
 
 
-def _check_group(
+def check_group(
     group: NDArray[np.int32], camera: CameraModel
 ) -> ColourDetection | None:
     """Return the detection of a group; None if it does not fit a robot."""

@@ -281,7 +281,7 @@ class FloorMap:
         first = np.clip(first, 0, SIDE - 2 * WINDOW)
         window = tuple(slice(i, i + 2 * WINDOW) for i in first.tolist())
         hidden = ~self._known[window]
-        dark = _wide_areas(hidden | (self._evidence[window] > OCCUPIED))
+        dark = wide_areas(hidden | (self._evidence[window] > OCCUPIED))
         centres = _centres(dark & hidden) + first * CELL
         x, y = (centres - position).T
         near = np.hypot(x, y) < NEARBY
@@ -303,7 +303,7 @@ class FloorMap:
         return found
 
 
-def _wide_areas(chosen: NDArray[np.bool_]) -> NDArray[np.bool_]:
+def wide_areas(chosen: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """Return chosen cells in or beside squares of three by three.
 
     Narrower strips are noise, but the rim of a round area is not.

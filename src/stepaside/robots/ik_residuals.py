@@ -171,7 +171,7 @@ class TracedLegs(NamedTuple):
         frame = self.legs.tree.sites[self.legs.sites[side]]
         position = self.links.position_of(frame)
         translation = subtract(self.targets.feet[side], position)
-        levelling = _rotation_to_yaw(
+        levelling = rotation_to_yaw(
             self.links.axes_of(frame), self.targets.yaws[side]
         )
         rotation = add(levelling, self.targets.tilts[side])
@@ -187,7 +187,7 @@ class TracedLegs(NamedTuple):
         return (s + t) / (c + d)
 
 
-def _rotation_to_yaw(axes: Matrix, yaw: Vector) -> list[Number]:
+def rotation_to_yaw(axes: Matrix, yaw: Vector) -> list[Number]:
     """Return the small rotation, in [rad], to a level frame with a yaw.
 
     Half the sum of the cross products of the axes with their targets.
