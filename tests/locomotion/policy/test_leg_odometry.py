@@ -1,5 +1,6 @@
-"""Test odometry from the stance foot and the gyro."""
+"""Test odometry from the loaded soles and the gyro."""
 
+from collections.abc import Callable
 from math import cos, sin
 from types import SimpleNamespace
 from typing import Any
@@ -13,25 +14,52 @@ from stepaside.perception.measurement import Measurement
 
 PERIOD = 0.02
 LEFT, RIGHT = (0.0, 0.1), (0.0, -0.1)  # feet in odometry, in [m]
+FRONT, REAR = 0.12, -0.06  # of a sole, in [m]
+SOLE = [(x, y) for x in (FRONT, REAR) for y in (0.03, -0.03)]
+CORNERS = np.array([*SOLE, *SOLE])
 
 
 class FeetInTorso:
     """Kinematics whose joint angles are the feet themselves."""
 
+    def force_sensors(self) -> Array:
+        """Corners of both soles."""
+        return CORNERS
+
     def posture(self, joint_positions: Array) -> Any:
-        """Both feet in the torso frame."""
+        """Both feet in the torso frame, from positions and axes."""
+        rows = joint_positions.reshape(2, 4, 3)
         return SimpleNamespace(
-            positions_feet_in_torso=joint_positions.reshape(2, 3)
+            positions_feet_in_torso=rows[:, 0], axes_feet_in_torso=rows[:, 1:]
         )
 
 
 def seen_from(pose: Pose, left_carries: bool) -> Measurement:
     """Feet on the floor, as a torso at a pose sees them."""
-    feet = pose.inverse().transform_points(np.array([LEFT, RIGHT]))
-    angles = np.column_stack([feet, [-0.7, -0.7]]).ravel()
+    places = pose.inverse().transform_points(np.array([LEFT, RIGHT]))
+    feet = np.column_stack([places, [-0.7, -0.7]])[:, None]
+    axes = np.tile(about_vertical(-pose.theta), (2, 1, 1))
+    angles = np.concatenate([feet, axes], axis=1).ravel()
     forces = np.repeat([1.0, 0.0] if left_carries else [0.0, 1.0], 4)
+    return sensed(angles, forces)
+
+
+def sensed(angles: Array, forces: Array) -> Measurement:
+    """Return a measurement of joints and feet."""
     nothing = np.zeros(3)
     return Measurement(0.0, angles, nothing, nothing, forces, None)
+
+
+def about_vertical(angle: float) -> Array:
+    """Return a rotation about the vertical."""
+    c, s = cos(angle), sin(angle)
+    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+
+
+def about_lateral(angle: float) -> Array:
+    """Return a rotation about the lateral axis; positive lowers the toes."""
+    c, s = cos(angle), sin(angle)
+    return np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
 
 
 @pytest.mark.parametrize("left_carries", [True, False])
@@ -53,3 +81,20 @@ def test_the_pose_is_that_of_a_torso_over_feet_that_stay(
         )
     assert odometry.pose == pytest.approx((x, y, heading), abs=1e-9)
     np.testing.assert_allclose(odometry.velocity, [0.5, 0, 0], atol=0.01)
+
+
+@pytest.mark.parametrize("turned", [about_vertical, about_lateral])
+def test_a_torso_rests_while_its_feet_turn_about_loaded_corners(
+    turned: Callable[[float], Array],
+) -> None:
+    """The toes carry: feet pivot about them, or roll over them."""
+    odometry = LegOdometry(FeetInTorso())  # type: ignore[arg-type]
+    toes = np.array([FRONT, 0.0, 0.0])
+    forces = np.tile([1.0, 1.0, 0.0, 0.0], 2)
+    for i in range(26):
+        axes = turned(0.01 * i)
+        stays = np.array([[*LEFT, -0.7], [*RIGHT, -0.7]]) + toes
+        feet = (stays - axes @ toes)[:, None]
+        angles = np.concatenate([feet, np.tile(axes, (2, 1, 1))], axis=1)
+        odometry.update(sensed(angles.ravel(), forces), (0, 0), 0.0, PERIOD)
+    assert odometry.pose == pytest.approx((0.0, 0.0, 0.0), abs=1e-9)

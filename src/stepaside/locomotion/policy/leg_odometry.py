@@ -1,4 +1,4 @@
-"""Odometry of a walking robot from its stance foot and its gyro."""
+"""Odometry of a walking robot from its loaded soles and its gyro."""
 
 from math import cos, sin
 
@@ -12,10 +12,12 @@ SMOOTHING = 0.1  # time constant of the velocity, in [s]: a few readings
 
 
 class LegOdometry:
-    """Pose of the torso over the floor, from the foot that carries it.
+    """Pose of the torso over the floor, from the corners that carry it.
 
-    Between two readings the foot with the greater force does not move; the
-    torso moves by the opposite of that foot's motion in the torso frame.
+    A corner of a sole that is loaded at one reading does not move until the
+    next, whether its foot lies flat, rolls or pivots. The torso moves by the
+    opposite of the motion of these corners in the torso frame, the mean over
+    all eight by their loads.
 
     Attributes:
         pose: Pose of the torso in odometry; its heading counts turns.
@@ -33,10 +35,14 @@ class LegOdometry:
             scale: True motion by that of the feet.
         """
         self._forward, self._scale = forward, scale
+        corners = forward.force_sensors()
+        self._corners_in_feet = np.zeros((2, 4, 3))
+        self._corners_in_feet[..., :2] = corners.reshape(2, 4, 2)
         self.moved: Array = np.zeros(3)
         self.pose = Pose(0.0, 0.0, 0.0)
         self.velocity: Array = np.zeros(3)
-        self._feet: Array | None = None
+        self._corners: Array = np.zeros((8, 3))
+        self._loads: Array = np.zeros(8)
 
     def update(
         self,
@@ -54,30 +60,32 @@ class LegOdometry:
                 [rad].
             duration: Time since the last reading, in [s].
         """
-        posture = self._forward.posture(measurement.joint_positions)
-        feet = posture.positions_feet_in_torso @ _tilted(*tilt).T
-        forces = measurement.foot_forces
-        stance = int(forces[4:].sum() > forces[:4].sum())
-        x, y, theta = self.pose
-        if self._feet is not None:
+        corners = self._locate(measurement.joint_positions) @ _tilted(*tilt).T
+        before, loads = self._corners, self._loads
+        self._corners, self._loads = corners, measurement.foot_forces.clip(0.0)
+        load = float(loads.sum())
+        if load > 0.0:
             c, s = cos(turn), sin(turn)
-            now = feet[stance]
-            moved = self._feet[stance] - (
-                c * now[0] - s * now[1],
-                s * now[0] + c * now[1],
-                now[2],
-            )
-            moved = self._scale * moved
-            self.moved = moved
-            share = min(1.0, duration / SMOOTHING)
-            self.velocity = self.velocity + share * (
-                moved / duration - self.velocity
-            )
-            dx, dy = float(moved[0]), float(moved[1])
-            x += cos(theta) * dx - sin(theta) * dy
-            y += sin(theta) * dx + cos(theta) * dy
-        self._feet = feet
+            turned = corners @ np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]])
+            self.moved = self._scale * (loads @ (before - turned)) / load
+        else:  # in flight
+            self.moved = self.velocity * duration
+        share = min(1.0, duration / SMOOTHING)
+        self.velocity = self.velocity + share * (
+            self.moved / duration - self.velocity
+        )
+        x, y, theta = self.pose
+        dx, dy, _ = self.moved.tolist()
+        x += cos(theta) * dx - sin(theta) * dy
+        y += sin(theta) * dx + cos(theta) * dy
         self.pose = Pose(x, y, theta + turn)
+
+    def _locate(self, joint_positions: Array) -> Array:
+        """Return the corners of both soles in the torso frame, in [m]."""
+        posture = self._forward.posture(joint_positions)
+        axes = posture.axes_feet_in_torso.transpose(0, 2, 1)
+        feet = posture.positions_feet_in_torso[:, None]
+        return (feet + self._corners_in_feet @ axes).reshape(8, 3)
 
 
 def _tilted(roll: float, pitch: float) -> Array:
