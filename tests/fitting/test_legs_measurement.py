@@ -76,7 +76,7 @@ def measured(
 def test_linear_legs_are_measured_exactly(robot: RobotDescription) -> None:
     result = measured(robot)
     np.testing.assert_allclose(result.gains(), GAINS, atol=1e-12)
-    assert result.response.odometry_scale == pytest.approx(1.05)
+    assert result.odometry_ratio() == pytest.approx(1.05)
     assert result.combined_error == pytest.approx((0.0, 0.0), abs=1e-12)
     wanted = BodyVelocity(0.4, 0.1, -0.3)
     found = result.response.deliver(result.response.command_for(wanted))

@@ -133,7 +133,7 @@ def _facts(result: "LegsMeasurement") -> dict[str, Any]:
         "limits": limits._asdict(),
         "lag_s": [axis.lag for axis in result.response.axes],
         "halting": [axis.halting for axis in result.response.axes],
-        "odometry_scale": result.response.odometry_scale,
+        "odometry_ratio": result.odometry_ratio(),
         "combined_error_m_s": result.combined_error[0],
         "combined_error_rad_s": result.combined_error[1],
         "trials": [
@@ -180,7 +180,7 @@ def _print(result: "LegsMeasurement") -> None:
         ("falls", str(result.falls)),
         (
             "leg odometry",
-            f"true motion is {result.response.odometry_scale:.3f} of it",
+            f"true motion is {result.odometry_ratio():.3f} of it",
         ),
         (
             "combined commands",

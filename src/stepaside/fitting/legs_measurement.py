@@ -236,6 +236,13 @@ class LegsMeasurement:
             columns.append(commands @ rows / (commands @ commands))
         return np.stack(columns, axis=1)
 
+    def odometry_ratio(self) -> float:
+        """Return the true horizontal motion by that of the leg odometry."""
+        walks = [trial for trial in self.trials if trial.fell_at is None]
+        true = np.array([trial.delivered[:2] for trial in walks]).ravel()
+        estimated = np.array([trial.odometry for trial in walks]).ravel()
+        return float(true @ estimated / (estimated @ estimated))
+
 
 def measure_legs(
     description: RobotDescription,
@@ -277,9 +284,7 @@ def measure_legs(
         )
     singles = results[: -len(COMBINED)]
     axes = [_axis(i, singles) for i in range(3)]
-    response = VelocityResponse(
-        (axes[0], axes[1], axes[2]), _odometry_scale(singles)
-    )
+    response = VelocityResponse((axes[0], axes[1], axes[2]))
     return LegsMeasurement(
         tuple(results),
         response,
@@ -315,14 +320,6 @@ def _axis(axis: int, results: list[LegsTrialResult]) -> AxisResponse:
         float(np.mean(lags)) if lags else 0.0,
         max(halts),
     )
-
-
-def _odometry_scale(results: list[LegsTrialResult]) -> float:
-    """Fit true horizontal velocities to those of the leg odometry."""
-    walks = [result for result in results if result.fell_at is None]
-    true = np.array([result.delivered[:2] for result in walks]).ravel()
-    estimated = np.array([result.odometry for result in walks]).ravel()
-    return float(true @ estimated / (estimated @ estimated))
 
 
 def _combined_error(

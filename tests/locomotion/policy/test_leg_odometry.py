@@ -30,7 +30,9 @@ class FeetInTorso:
         """Both feet in the torso frame, from positions and axes."""
         rows = joint_positions.reshape(2, 4, 3)
         return SimpleNamespace(
-            positions_feet_in_torso=rows[:, 0], axes_feet_in_torso=rows[:, 1:]
+            positions_feet_in_torso=rows[:, 0],
+            axes_feet_in_torso=rows[:, 1:],
+            position_com_in_torso=np.array([0.0, 0.0, 0.1]),
         )
 
 

@@ -14,9 +14,7 @@ from stepaside.locomotion.policy.response_file import (
 )
 from stepaside.locomotion.policy.velocity_response import VelocityResponse
 
-RESPONSE = VelocityResponse(
-    VelocityResponse.ideal(CommandRanges()).axes, odometry_scale=1.06
-)
+RESPONSE = VelocityResponse.ideal(CommandRanges())
 
 
 def stored(folder: Path) -> Path:

@@ -12,36 +12,38 @@ SMOOTHING = 0.1  # time constant of the velocity, in [s]: a few readings
 
 
 class LegOdometry:
-    """Pose of the torso over the floor, from the corners that carry it.
+    """Pose of the CoM over the floor, from the corners that carry it.
 
     A corner of a sole that is loaded at one reading does not move until the
     next, whether its foot lies flat, rolls or pivots. The torso moves by the
     opposite of the motion of these corners in the torso frame, the mean over
-    all eight by their loads.
+    all eight by their loads. The CoM, which is the reference point of a
+    walking robot, moves as the joints say in addition.
 
     Attributes:
-        pose: Pose of the torso in odometry; its heading counts turns.
-        moved: Motion over the last reading in the torso frame, in [m].
-            Shape (3,).
-        velocity: Velocity of the torso in its frame, smoothed, in [m/s].
-            Shape (3,).
+        pose: Pose in odometry: place of the CoM, and heading of the torso,
+            which counts turns.
+        moved: Motion of the CoM over the last reading, ahead and to the left
+            at the mean heading, in [m]. Shape (2,).
+        velocity: Velocity of the torso in its level frame, smoothed, in
+            [m/s]. Shape (3,).
     """
 
-    def __init__(self, forward: ForwardKinematics, scale: float = 1.0) -> None:
+    def __init__(self, forward: ForwardKinematics) -> None:
         """Begin at the origin.
 
         Args:
             forward: Kinematics of the robot.
-            scale: True motion by that of the feet.
         """
-        self._forward, self._scale = forward, scale
-        corners = forward.force_sensors()
+        self._forward = forward
         self._corners_in_feet = np.zeros((2, 4, 3))
-        self._corners_in_feet[..., :2] = corners.reshape(2, 4, 2)
-        self.moved: Array = np.zeros(3)
+        self._corners_in_feet[..., :2] = forward.force_sensors().reshape(
+            2, 4, 2
+        )
+        self.moved: Array = np.zeros(2)
         self.pose = Pose(0.0, 0.0, 0.0)
         self.velocity: Array = np.zeros(3)
-        self._corners: Array = np.zeros((8, 3))
+        self._points: Array = np.zeros((9, 3))
         self._loads: Array = np.zeros(8)
 
     def update(
@@ -60,32 +62,37 @@ class LegOdometry:
                 [rad].
             duration: Time since the last reading, in [s].
         """
-        corners = self._locate(measurement.joint_positions) @ _tilted(*tilt).T
-        before, loads = self._corners, self._loads
-        self._corners, self._loads = corners, measurement.foot_forces.clip(0.0)
+        points = self._locate(measurement.joint_positions) @ _tilted(*tilt).T
+        c, s = cos(0.5 * turn), sin(0.5 * turn)
+        onward = np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]])
+        shifts = points @ onward - self._points @ onward.T
+        loads = self._loads
+        self._points, self._loads = points, measurement.foot_forces.clip(0.0)
         load = float(loads.sum())
         if load > 0.0:
-            c, s = cos(turn), sin(turn)
-            turned = corners @ np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]])
-            self.moved = self._scale * (loads @ (before - turned)) / load
-        else:  # in flight
-            self.moved = self.velocity * duration
+            torso = -(loads @ shifts[:8]) / load
+            self.moved = (torso + shifts[8])[:2]
+        else:  # in flight, or no reading before
+            torso = self.velocity * duration
+            self.moved = torso[:2]
         share = min(1.0, duration / SMOOTHING)
         self.velocity = self.velocity + share * (
-            self.moved / duration - self.velocity
+            torso / duration - self.velocity
         )
         x, y, theta = self.pose
-        dx, dy, _ = self.moved.tolist()
-        x += cos(theta) * dx - sin(theta) * dy
-        y += sin(theta) * dx + cos(theta) * dy
+        dx, dy = self.moved.tolist()
+        c, s = cos(theta + 0.5 * turn), sin(theta + 0.5 * turn)
+        x += c * dx - s * dy
+        y += s * dx + c * dy
         self.pose = Pose(x, y, theta + turn)
 
     def _locate(self, joint_positions: Array) -> Array:
-        """Return the corners of both soles in the torso frame, in [m]."""
+        """Return the corners of both soles and the CoM in the torso frame."""
         posture = self._forward.posture(joint_positions)
         axes = posture.axes_feet_in_torso.transpose(0, 2, 1)
         feet = posture.positions_feet_in_torso[:, None]
-        return (feet + self._corners_in_feet @ axes).reshape(8, 3)
+        corners = (feet + self._corners_in_feet @ axes).reshape(8, 3)
+        return np.vstack([corners, posture.position_com_in_torso])
 
 
 def _tilted(roll: float, pitch: float) -> Array:

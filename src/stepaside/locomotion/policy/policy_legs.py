@@ -25,7 +25,7 @@ class PolicyLegs:
     The policy runs at its own period, which is a multiple of the control
     tick. Its command is the inverse of the measured response. While it walks
     the remaining error is learned: of the turning rate from the gyro, and of
-    the other components from the leg odometry once its scale is measured.
+    the other components from the leg odometry.
 
     Attributes:
         contract: Contract of the network.
@@ -81,13 +81,9 @@ class PolicyLegs:
         self.joint_targets = self.standing.joint_targets
         self._runner = PolicyRunner(contract, network)
         self._gravity = GravityFilter()
-        scale = self.response.odometry_scale
-        self.odometry = LegOdometry(forward, scale or 1.0)
+        self.odometry = LegOdometry(forward)
         self.command = self.intended = STILL
-        # Of the velocities ahead, to the left and of turning.
-        self._gains = LEARNING * np.array(
-            [learns and scale is not None] * 2 + [learns], dtype=np.float64
-        )
+        self._learning = LEARNING if learns else 0.0
         self._correction: Array = np.zeros(3)
         self._turned, self._ticks = 0.0, 0
 
@@ -98,7 +94,7 @@ class PolicyLegs:
 
     @property
     def pose(self) -> Pose:
-        """Pose of the torso in odometry."""
+        """Pose in odometry: place of the CoM and heading of the torso."""
         x, y, theta = self.odometry.pose
         return Pose(x, y, theta + self._turned)
 
@@ -156,11 +152,10 @@ class PolicyLegs:
         walks = self.intended != STILL
         self.command = STILL
         if walks:
-            ahead, left, _ = self.odometry.moved.tolist()
-            moved = np.array([ahead, left, turned])
+            moved = np.array([*self.odometry.moved, turned])
             error = np.array(self.intended) * period - moved
             self._correction = np.clip(
-                self._correction + self._gains * error, -BOUND, BOUND
+                self._correction + self._learning * error, -BOUND, BOUND
             )
             corrected = np.array(self.intended) + self._correction
             self.command = self.response.command_for(

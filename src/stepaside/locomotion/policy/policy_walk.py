@@ -73,7 +73,7 @@ class PolicyWalk:
 
     @property
     def pose(self) -> Pose:
-        """Pose of the torso, which is that of the template."""
+        """Pose of the template: place of the CoM and heading of the torso."""
         return self.legs.pose
 
     @property

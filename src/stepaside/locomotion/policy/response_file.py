@@ -31,7 +31,6 @@ def response_entries(
     axes = zip(AXES, response.axes, strict=True)
     return {
         "network": digest_of(network),
-        "odometry_scale": response.odometry_scale or 1.0,
         **{
             name: {
                 "commands": list(axis.commands),
@@ -73,10 +72,9 @@ def load_response(folder: Path, network: Path) -> VelocityResponse | None:
             )
             for name in AXES
         ]
-        scale = float(entries["odometry_scale"])
     except (ValueError, KeyError, TypeError) as error:
         raise PolicyError(
             f"{path} is not a response of legs: `stepaside legs measure` "
             "writes it anew"
         ) from error
-    return VelocityResponse((axes[0], axes[1], axes[2]), scale)
+    return VelocityResponse((axes[0], axes[1], axes[2]))

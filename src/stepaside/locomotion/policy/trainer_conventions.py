@@ -178,8 +178,8 @@ LEGGED_GYM = Convention(
 )
 MUJOCO_PLAYGROUND = Convention(
     "mujoco_playground",
-    "https://github.com/google-deepmind/mujoco_playground, "
-    "_src/locomotion/g1/joystick.py",
+    "https://github.com/google-deepmind/mujoco_playground, mujoco_playground/"
+    "_src/locomotion/g1/joystick.py and t1/joystick.py",
     {
         "terms": (
             *_MANAGER_TERMS,
@@ -191,6 +191,14 @@ MUJOCO_PLAYGROUND = Convention(
         # Trained with 1.25 to 1.5 gait cycles per second.
         "clock": PhaseClock(period=1.0 / 1.375),
         "command_ranges": CommandRanges(lateral=(-0.5, 0.5)),
+    },
+    by_joint={
+        "AAHead_yaw": {
+            "action_scale": 1.0,
+            # Trained with 1.25 to 1.75 gait cycles per second.
+            "clock": PhaseClock(period=1.0 / 1.5, standing="holds"),
+            "command_ranges": CommandRanges(lateral=(-0.8, 0.8)),
+        }
     },
 )
 BOOSTER_GYM = Convention(
@@ -210,10 +218,17 @@ BOOSTER_GYM = Convention(
         ),
         "action_scale": 1.0,
         "action_clip": 1.0,
-        "clock": PhaseClock(
-            period=1.0 / 1.5, offsets=(0.0,), standing="silent"
-        ),
+        "clock": PhaseClock(period=1.0, offsets=(0.0,), standing="silent"),
         "command_rate": 1.0,
+    },
+    postures={
+        f"{side}_{name}": angle
+        for side in ("Left", "Right")
+        for name, angle in {
+            "Hip_Pitch": -0.2,
+            "Knee_Pitch": 0.4,
+            "Ankle_Pitch": -0.25,
+        }.items()
     },
 )
 CONVENTIONS = {

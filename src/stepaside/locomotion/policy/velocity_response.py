@@ -56,12 +56,9 @@ class VelocityResponse:
 
     Attributes:
         axes: Response to commands ahead, to the left and of turning.
-        odometry_scale: True motion by that of the leg odometry; None if it
-            was not measured. Feet roll, which the odometry does not contain.
     """
 
     axes: tuple[AxisResponse, AxisResponse, AxisResponse]
-    odometry_scale: float | None = None
 
     def __post_init__(self) -> None:
         """Check the tables.
