@@ -115,6 +115,20 @@ def test_every_convention_is_complete_but_for_the_robot(
     assert CONVENTIONS[name].source.startswith("https://")
 
 
+def test_a_convention_knows_what_differs_for_a_robot(tmp_path: Path) -> None:
+    """MuJoCo Playground stops the clock of T1 while it stands."""
+    entries = {"stiffness": 40.0, "damping": 2.0, "default_posture": 0.0}
+    path = network_of(tmp_path / "a.onnx", {}, 22)
+    t1 = entries | {"joints": [*JOINTS, "AAHead_yaw"]}
+    contracts = [
+        read(path, "mujoco_playground", own)[0].contract()
+        for own in (entries, t1)
+    ]
+    assert [each.action_scale[0] for each in contracts] == [0.5, 1.0]
+    clocks = [each.clock for each in contracts]
+    assert [clock and clock.standing for clock in clocks] == ["runs", "holds"]
+
+
 def test_linear_velocity_is_dropped_where_the_input_says_so(
     tmp_path: Path,
 ) -> None:
