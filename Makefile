@@ -112,7 +112,7 @@ mutate: setup
 
 bench: setup
 	$(BIN)/python $(INSTALL) --editable ".[bench]"
-	$(BIN)/python tools/benchmarks/run.py
+	$(BIN)/python tools/benchmarks/benchmark.py
 	$(BIN)/python tools/benchmarks/kernel.py
 	$(BIN)/python -m tools.documents
 

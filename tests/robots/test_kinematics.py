@@ -81,19 +81,19 @@ def test_a_walk_is_that_of_a_damped_solve_on_mujoco_s_jacobians(
     damping: float, gap: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """But for the damping, which the step that nothing limits leaves out."""
-    import mujoco_legs
+    import mujoco_inverse_kinematics as by_mujoco
 
     from stepaside.core.poses import Pose
     from stepaside.locomotion.zmp.reference_table import ReferenceTable
 
-    monkeypatch.setattr(mujoco_legs, "DAMPING", damping)
+    monkeypatch.setattr(by_mujoco, "DAMPING", damping)
     plan = ManeuverPlanner(GaitSettings()).plan(
         -0.5, Direction.FORWARD, first_foot=Foot.LEFT, standing=True, count=4
     )
     table = ReferenceTable(0.004)
     duration = plan.schedule.duration - 1.0
     table.load(plan, Pose(0.0, -0.05, 0.0), 0.0, duration)
-    theirs = mujoco_legs.MujocoLegs(load_robot("nao"), tick=0.004)
+    theirs = by_mujoco.MujocoLegs(load_robot("nao"), tick=0.004)
     ours = LegKinematics(load_robot("nao"), tick=0.004)
     theirs.stand(table.at(0.0).body)
     ours.stand(table.at(0.0).body)

@@ -11,7 +11,7 @@ from time import perf_counter
 
 import mujoco
 import numpy as np
-from asking import ask, machine
+from benchmark_options import ask, machine
 from mujoco.batch import Batch
 
 from stepaside.core.poses import Array

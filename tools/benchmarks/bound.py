@@ -21,7 +21,7 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from asking import ask, machine
+from benchmark_options import ask, machine
 from numpy.typing import NDArray
 
 from stepaside.studies.result_files import header, write_result

@@ -17,7 +17,7 @@ from functools import partial
 from time import perf_counter, process_time
 from typing import Any
 
-from asking import ask, machine
+from benchmark_options import ask, machine
 from duels import KINDS
 
 from stepaside.games.duel_settings import DuelSettings

@@ -8,7 +8,7 @@ Writes ``docs/results/certificate.json`` for docs/unicycles.md::
 from math import pi, radians
 
 import numpy as np
-from asking import ask
+from benchmark_options import ask
 
 from stepaside.studies.code_version import UNICYCLES
 from stepaside.studies.result_files import header, write_result

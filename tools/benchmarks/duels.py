@@ -17,8 +17,8 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
-from asking import ask, seeds_of
-from gathering import complete
+from benchmark_options import ask, seeds_of
+from resumable_jobs import complete
 
 from stepaside.games.configuration_file import json_settings
 from stepaside.games.duel_settings import DuelSettings

@@ -16,7 +16,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import numpy as np
-from asking import ask, machine
+from benchmark_options import ask, machine
 from click.testing import CliRunner
 
 from stepaside.cli.main import main as stepaside

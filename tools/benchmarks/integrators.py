@@ -15,8 +15,8 @@ from time import process_time
 from typing import Any, NamedTuple
 
 import numpy as np
-from asking import ask, seeds_of
-from gathering import Row, finished, gather
+from benchmark_options import ask, seeds_of
+from resumable_jobs import Row, finished, gather
 
 from stepaside.core.random_streams import named_generator
 from stepaside.games.walk_game import run_walk

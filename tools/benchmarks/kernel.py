@@ -13,7 +13,7 @@ os.environ.setdefault("NUMBA_NUM_THREADS", "1")
 import time
 
 import numpy as np
-from asking import ask, machine
+from benchmark_options import ask, machine
 
 from stepaside.studies.code_version import UNICYCLES
 from stepaside.studies.result_files import header, write_result

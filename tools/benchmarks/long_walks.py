@@ -8,8 +8,8 @@
 from dataclasses import replace
 from math import radians
 
-from asking import ask
-from walks import walk_all
+from benchmark_options import ask
+from parallel_walks import walk_all
 
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.locomotion.zmp.control_settings import STABILISED

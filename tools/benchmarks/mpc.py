@@ -1,7 +1,7 @@
 """Time one MPC tick against a replan of the closed form, in one process."""
 
 import numpy as np
-from timing import time_call
+from call_timing import time_call
 
 from stepaside.locomotion.zmp.control_settings import MpcSettings
 from stepaside.locomotion.zmp.mpc import IntrinsicallyStableMpc

@@ -1,7 +1,7 @@
 """Time the maneuver planner against Drake's ZMP planner for the same ZMP."""
 
 import numpy as np
-from timing import time_call
+from call_timing import time_call
 
 from stepaside.core.poses import Pose
 from stepaside.planning import (

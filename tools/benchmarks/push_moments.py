@@ -14,7 +14,7 @@ from typing import Any
 
 import mujoco
 import numpy as np
-from asking import RESULTS, ask
+from benchmark_options import RESULTS, ask
 
 from stepaside.core.poses import Array
 from stepaside.games.walk_game import WalkGame

@@ -10,7 +10,7 @@ footsteps and for a footstep that lands at any time up to the planned one::
 from math import cos, pi, sin, tau
 
 import numpy as np
-from asking import ask
+from benchmark_options import ask
 
 from stepaside.core.poses import Array
 from stepaside.planning import (

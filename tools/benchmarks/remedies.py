@@ -5,7 +5,7 @@ Like ``stepaside circle --remedies``, into a file of results::
     python tools/benchmarks/remedies.py
 """
 
-from asking import ask
+from benchmark_options import ask
 
 from stepaside.cli.circle_tables import describe_circles, describe_remedies
 from stepaside.cli.unicycle_options import describe_game

@@ -13,7 +13,7 @@ from tempfile import TemporaryDirectory
 from time import monotonic
 from typing import Any, NamedTuple
 
-from asking import ask
+from benchmark_options import ask
 
 from stepaside.fitting.derivation import derive
 from stepaside.fitting.description_writer import write_description

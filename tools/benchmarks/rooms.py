@@ -12,8 +12,8 @@ import json
 from pathlib import Path
 from typing import NamedTuple
 
-from asking import ask, machine, seeds_of
-from gathering import Row, finished, gather, spread
+from benchmark_options import ask, machine, seeds_of
+from resumable_jobs import Row, finished, gather, spread
 
 from stepaside.arena import RoomRecipe, generate_room
 from stepaside.control.clearance.map_settings import MAPS, MapSettings

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from asking import ask
+from benchmark_options import ask
 
 from stepaside.studies.code_version import UNICYCLES
 from stepaside.studies.result_files import header, write_result

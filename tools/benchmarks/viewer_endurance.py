@@ -4,7 +4,7 @@ Two pages are opened and closed ten times over the given time while the duel
 runs in real time. Before that the duel runs at full speed, without and with
 one page. Requires Chromium::
 
-    python tools/benchmarks/viewer.py --minutes 30
+    python tools/benchmarks/viewer_endurance.py --minutes 30
 """
 
 import os
@@ -16,7 +16,7 @@ from pathlib import Path
 from time import perf_counter, sleep
 from typing import Any
 
-from asking import ask, machine
+from benchmark_options import ask, machine
 from playwright.sync_api import sync_playwright
 
 from stepaside.games import DuelSettings

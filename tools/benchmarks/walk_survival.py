@@ -2,11 +2,11 @@
 
 Like ``stepaside robustness --body hardware``, into a file of results::
 
-    python tools/benchmarks/survival.py --seeds 6 --phases 4
+    python tools/benchmarks/walk_survival.py --seeds 6 --phases 4
 """
 
-from asking import ask
-from gathering import Row, complete, finished, part_of
+from benchmark_options import ask
+from resumable_jobs import Row, complete, finished, part_of
 
 from stepaside.studies.push_limits import push_cases
 from stepaside.studies.push_results import MODULES

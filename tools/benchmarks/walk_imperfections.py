@@ -4,14 +4,14 @@ Rms errors of 30 s of turning walk on both bodies with ``--feedback``; then
 speed, turning and slip of 25 s on the hardware body without joint correction,
 with one imperfection of the body removed at a time::
 
-    python tools/benchmarks/walking.py --seeds 1:11
+    python tools/benchmarks/walk_imperfections.py --seeds 1:11
 """
 
 from dataclasses import replace
 from typing import Any
 
-from asking import ask, seeds_of
-from gathering import Row, finished, gather, spread
+from benchmark_options import ask, seeds_of
+from resumable_jobs import Row, finished, gather, spread
 
 from stepaside.games.run_archive import results_of
 from stepaside.games.walk_game import run_walk

@@ -4,7 +4,7 @@ The server is a separate process whose duel runs in real time. Pages are
 sockets that receive all messages and render nothing, four at a time;
 ``viewer.py`` opens real pages::
 
-    python tools/benchmarks/pages.py --minutes 60
+    python tools/benchmarks/page_memory.py --minutes 60
 """
 
 import os
@@ -16,7 +16,7 @@ from time import monotonic, sleep
 from typing import Any
 
 import viser
-from asking import ask, machine
+from benchmark_options import ask, machine
 from websockets.exceptions import WebSocketException
 from websockets.sync.client import ClientConnection, connect
 

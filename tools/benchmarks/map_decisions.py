@@ -5,7 +5,7 @@ them, are covered by convex polygons; more discs make more polygons. Measured
 is the processor time of each part of a decision, at a new position and with
 a cold cache each time::
 
-    python tools/benchmarks/polygons.py
+    python tools/benchmarks/map_decisions.py
 """
 
 import os
@@ -19,7 +19,7 @@ from time import process_time
 from typing import Any
 
 import numpy as np
-from asking import ask, machine
+from benchmark_options import ask, machine
 
 from stepaside.arena import (
     ObstacleSet,

@@ -2,7 +2,7 @@
 
 Runs tournaments at the level of steps and writes the results::
 
-    python tools/benchmarks/evading.py --seeds 1000:1300 --small 1000:1050
+    python tools/benchmarks/room_evaders.py --seeds 1000:1300 --small 1000:1050
 
 Games recorded in a folder (``--records``) are not repeated. No setting of an
 evader was tuned on seeds from 1000 on.
@@ -11,7 +11,7 @@ evader was tuned on seeds from 1000 on.
 from pathlib import Path
 from typing import Any
 
-from asking import ask, machine, seeds_of
+from benchmark_options import ask, machine, seeds_of
 
 from stepaside.arena import RoomRecipe
 from stepaside.studies.campaign import run_study

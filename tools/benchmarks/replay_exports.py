@@ -2,7 +2,7 @@
 
 ::
 
-    python tools/benchmarks/replaying.py --seed 7
+    python tools/benchmarks/replay_exports.py --seed 7
 """
 
 import os
@@ -13,7 +13,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from time import perf_counter
 
-from asking import ask, machine
+from benchmark_options import ask, machine
 from click.testing import CliRunner
 
 from stepaside.cli.main import main as stepaside

@@ -4,9 +4,9 @@ import os
 from argparse import ArgumentParser
 from pathlib import Path
 
-import asking
+import benchmark_options
 import pytest
-from asking import ask
+from benchmark_options import ask
 
 
 def asked(*words: str, name: str = "walls.json") -> Path:
@@ -32,7 +32,7 @@ def refused(
 def test_results_go_among_the_others_by_default(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(asking, "RESULTS", tmp_path)
+    monkeypatch.setattr(benchmark_options, "RESULTS", tmp_path)
     assert asked() == tmp_path / "walls.json"
     assert kinds().parse_args(["low"]).output == tmp_path / "wall-low.json"
 

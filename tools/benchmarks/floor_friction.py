@@ -2,13 +2,13 @@
 
 ::
 
-    python tools/benchmarks/floors.py --seeds 200:230
+    python tools/benchmarks/floor_friction.py --seeds 200:230
 """
 
 from typing import NamedTuple
 
-from asking import ask, seeds_of
-from gathering import Row, finished, gather, spread
+from benchmark_options import ask, seeds_of
+from resumable_jobs import Row, finished, gather, spread
 
 from stepaside.games import DuelSettings, run_duel
 from stepaside.games.run_archive import results_of

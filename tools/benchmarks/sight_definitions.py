@@ -14,8 +14,8 @@ from typing import Any, NamedTuple
 from unittest.mock import patch
 
 import numpy as np
-from asking import ask, seeds_of
-from gathering import finished, gather
+from benchmark_options import ask, seeds_of
+from resumable_jobs import finished, gather
 
 from stepaside.control import ControlScheme
 from stepaside.core.poses import wrap_angle

@@ -1,8 +1,8 @@
 """Run served duels over NAOqi with footsteps or joints, not velocities."""
 
-from asking import ask
-from driven import played
-from processes import write_rows
+from benchmark_options import ask
+from served_processes import write_rows
+from served_velocity_duels import played
 
 DUELS = (  # motion interface, body, whether in lockstep
     ("footsteps", "delayed", False),

@@ -3,14 +3,14 @@
 Degraded means 30 % of the images dropped, 100 ms more latency, and boxes
 and a mannequin in the room::
 
-    python tools/benchmarks/seeing.py plain --seeds 302:309
-    python tools/benchmarks/seeing.py degraded --seeds 302:305
+    python tools/benchmarks/camera_duels.py plain --seeds 302:309
+    python tools/benchmarks/camera_duels.py degraded --seeds 302:305
 """
 
 from typing import NamedTuple
 
-from asking import ask, machine, seeds_of
-from gathering import Row, finished, gather, spread
+from benchmark_options import ask, machine, seeds_of
+from resumable_jobs import Row, finished, gather, spread
 
 from stepaside.games import DuelSettings, run_duel
 from stepaside.games.run_archive import results_of

@@ -4,8 +4,8 @@ from pathlib import Path
 from time import sleep
 from typing import Any
 
-from asking import ask
-from processes import play_out, write_rows
+from benchmark_options import ask
+from served_processes import play_out, write_rows
 
 PLAYERS = {"pursuer": "P", "evader": "E"}
 DUELS = [

@@ -5,7 +5,7 @@ planner and cameras are skipped if they are not installed (``pip install
 .[bench,vision]``). Figures are appended to the history beside the results, and
 what became slower since the last run on this machine is printed::
 
-    python tools/benchmarks/run.py
+    python tools/benchmarks/benchmark.py
 """
 
 import os
@@ -13,13 +13,13 @@ import os
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 os.environ.setdefault("NUMBA_NUM_THREADS", "1")
 
-from asking import ask, machine
+from benchmark_options import ask, machine
 from duel import measure_camera_duel, measure_duel
 from history import append_run, changes_since_last
 from kernel import measure_kernel
+from map_decisions import RECIPES, measure
 from mpc import measure_mpc
 from planner import measure_planner
-from polygons import RECIPES, measure
 
 from stepaside.studies.result_files import header, write_result
 

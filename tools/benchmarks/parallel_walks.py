@@ -4,7 +4,7 @@ from argparse import Namespace
 from collections.abc import Mapping
 from typing import Any
 
-from gathering import Row, finished, gather
+from resumable_jobs import Row, finished, gather
 
 from stepaside.games.run_archive import results_of
 from stepaside.games.walk_game import run_walk

@@ -14,7 +14,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from asking import machine
+from benchmark_options import machine
 
 from stepaside.studies.code_version import PHYSICS
 from stepaside.studies.result_files import header, write_result

@@ -2,8 +2,8 @@
 
 ::
 
-    python tools/benchmarks/person.py ideal --seeds 1:6
-    python tools/benchmarks/person.py cameras --seeds 1:3
+    python tools/benchmarks/person_approach.py ideal --seeds 1:6
+    python tools/benchmarks/person_approach.py cameras --seeds 1:3
 
 A person does not wear the colours of a robot, so colour images contain no
 detections: with cameras, two images per second are ray cast. Depth images and
@@ -12,8 +12,8 @@ sonar have their usual rates.
 
 from typing import NamedTuple
 
-from asking import ask, seeds_of
-from gathering import Row, finished, gather, spread
+from benchmark_options import ask, seeds_of
+from resumable_jobs import Row, finished, gather, spread
 
 from stepaside.games import DuelSettings, run_duel
 from stepaside.games.run_archive import results_of

@@ -5,7 +5,7 @@ straight --gait fast``: from ahead within 30 degrees, at a walking distance of
 5 s. Fifty seeds of each kind; an interrupted run continues from the records
 in ``runs/comers``::
 
-    python tools/benchmarks/comers.py --seeds 0:50
+    python tools/benchmarks/fast_gait_people.py --seeds 0:50
 
 ``--verify N`` repeats N recorded duels of each kind; if all agree to the bit,
 the records of an older version of the code are reused.
@@ -14,8 +14,8 @@ the records of an older version of the code are reused.
 from dataclasses import replace
 from pathlib import Path
 
-from asking import ask, seeds_of
-from gathering import complete
+from benchmark_options import ask, seeds_of
+from resumable_jobs import complete
 
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.locomotion.zmp.control_settings import ControlSettings

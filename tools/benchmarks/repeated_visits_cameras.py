@@ -4,15 +4,15 @@ The robot has the hardware body, the fast gait and cameras. A contact or a
 fall ends a game, and the next seed follows; resident memory is recorded
 every minute::
 
-    python tools/benchmarks/coming_and_going.py --minutes 30
+    python tools/benchmarks/repeated_visits_cameras.py --minutes 30
 """
 
 from math import inf
 from pathlib import Path
 from time import perf_counter
 
-from asking import ask, machine
-from people import CAMERAS
+from benchmark_options import ask, machine
+from camera_people import CAMERAS
 
 from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings

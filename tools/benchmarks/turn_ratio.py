@@ -2,13 +2,13 @@
 
 Open-loop walks with a constant bearing, forward and backward, to both sides::
 
-    python tools/benchmarks/turning.py
+    python tools/benchmarks/turn_ratio.py
 """
 
 from math import degrees, radians
 
-from asking import ask
-from gathering import Row, finished, gather, spread
+from benchmark_options import ask
+from resumable_jobs import Row, finished, gather, spread
 
 from stepaside.games.run_archive import results_of
 from stepaside.games.walk_game import run_walk

@@ -4,15 +4,16 @@ They do not wear the colours of a robot, so colour images contain no
 detections: two images per second are ray cast. Depth images and sonar have
 their usual rates::
 
-    python tools/benchmarks/people.py --speed 0.8 --seeds 1:6
-    python tools/benchmarks/people.py --speed 0.5 --seeds 1:6 --body hardware
+    python tools/benchmarks/camera_people.py --speed 0.8 --seeds 1:6
+    python tools/benchmarks/camera_people.py --speed 0.5 --seeds 1:6 \
+        --body hardware
 """
 
 from argparse import Namespace
 from dataclasses import replace
 
-from asking import ask, seeds_of
-from gathering import finished, gather
+from benchmark_options import ask, seeds_of
+from resumable_jobs import finished, gather
 
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.locomotion.zmp.control_settings import STABILISED

@@ -10,8 +10,8 @@ from pathlib import Path
 from time import sleep
 from typing import Any
 
-from asking import ask
-from processes import Ready, play_out, write_rows
+from benchmark_options import ask
+from served_processes import Ready, play_out, write_rows
 
 ROLES = ("pursuer", "evader")
 DUELS = (  # interface, body, whether in lockstep

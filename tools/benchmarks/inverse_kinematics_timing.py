@@ -3,7 +3,7 @@
 The duels have the same seed. They and the bare physics of the same motion
 alternate, fifty ticks each, in one process on one core::
 
-    python tools/benchmarks/legs.py --output legs.json
+    python tools/benchmarks/inverse_kinematics_timing.py --output legs.json
 """
 
 import os
@@ -17,8 +17,8 @@ from unittest.mock import patch
 
 import mujoco
 import numpy as np
-from asking import ask, machine
-from mujoco_legs import MujocoLegs
+from benchmark_options import ask, machine
+from mujoco_inverse_kinematics import MujocoLegs
 
 from stepaside.core.poses import Array
 from stepaside.games.duel import Duel

@@ -6,8 +6,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from asking import seeds_of
-from gathering import finished, gather, part_of, spread
+from benchmark_options import seeds_of
+from resumable_jobs import finished, gather, part_of, spread
 
 HEAD: dict[str, Any] = {"version": "1", "libraries": {"numpy": "2"}}
 JOBS = {"a": 1, "b": 2, "c": 3}
