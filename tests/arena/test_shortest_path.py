@@ -110,11 +110,16 @@ def test_pursuer_goes_around_a_pillar(side: int) -> None:
     here = Pose(0.3, -0.2, 0.7)
     placed = pillar.moved(here)
     known = Knowledge(
-        0.0, 0.0, 1.5, LIMITS, pose=here, obstacles=ObstacleSet((placed,))
+        0.0,
+        0.0,
+        1.5,
+        LIMITS,
+        pose_in_map=here,
+        obstacles_in_map=ObstacleSet((placed,)),
     )
     intent, _ = Pursuit().decide(known, None)
     assert side * intent.heading > 0.3
-    free = Knowledge(0.0, 0.4, 1.5, LIMITS, pose=here)
+    free = Knowledge(0.0, 0.4, 1.5, LIMITS, pose_in_map=here)
     assert Pursuit().decide(free, None)[0].heading == 0.4
 
 
@@ -123,7 +128,12 @@ def test_pursuer_turns_at_its_full_rate_around_a_pillar() -> None:
     pillar = Disc(0.6, 0.02, 0.15)
     here = Pose(0.0, 0.0, 0.0)
     known = Knowledge(
-        0.0, 0.0, 1.5, LIMITS, pose=here, obstacles=ObstacleSet((pillar,))
+        0.0,
+        0.0,
+        1.5,
+        LIMITS,
+        pose_in_map=here,
+        obstacles_in_map=ObstacleSet((pillar,)),
     )
     intent, _ = Pursuit().decide(known, None)
     corner = first_waypoint(
@@ -140,13 +150,23 @@ def test_pursuer_with_a_free_line_of_sight_avoids_a_pillar_ahead() -> None:
     here = Pose(0.0, 0.0, 0.0)
     other = atan2(-1.0, 0.1)
     shut = Knowledge(
-        0.0, other, 1.0, LIMITS, pose=here, obstacles=ObstacleSet((pillar,))
+        0.0,
+        other,
+        1.0,
+        LIMITS,
+        pose_in_map=here,
+        obstacles_in_map=ObstacleSet((pillar,)),
     )
     intent, _ = Pursuit().decide(shut, None)
     assert intent.heading == pytest.approx(-pi / 2)
     away = Disc(0.55, 0.0, 0.15)
     free = Knowledge(
-        0.0, other, 1.0, LIMITS, pose=here, obstacles=ObstacleSet((away,))
+        0.0,
+        other,
+        1.0,
+        LIMITS,
+        pose_in_map=here,
+        obstacles_in_map=ObstacleSet((away,)),
     )
     assert Pursuit().decide(free, None)[0].heading == other
 

@@ -293,10 +293,10 @@ def test_a_measured_pose_corrects_odometry() -> None:
     nothing = np.zeros(3)
     blind = Measurement(0.0, nothing, nothing, nothing, nothing, None)
     around.note(blind, body)
-    assert around.frame == Pose(1.0, 2.0, 0.5)
+    assert around.pose_odometry_in_map == Pose(1.0, 2.0, 0.5)
     place = Pose(-0.4, 0.7, 1.1)
     around.note(blind._replace(pose_in_room=place), body)
-    found = around.frame.compose(Pose(0.3, 0.1, 0.2))
+    found = around.pose_odometry_in_map.compose(Pose(0.3, 0.1, 0.2))
     np.testing.assert_allclose(found, place, atol=1e-12)
 
 

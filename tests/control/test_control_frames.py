@@ -108,7 +108,7 @@ class Around:
     map_error = 0.01
 
     def __init__(self, frame: Pose, room: Pose = HERE) -> None:
-        self.frame = frame
+        self.pose_odometry_in_map = frame
         discs = (1.0, 1.0, 0.2), (-0.4, 0.3, 0.1)
         self.solids = ObstacleSet(
             [Disc(*put(room, (x, y)), radius) for x, y, radius in discs]
@@ -146,15 +146,21 @@ def test_knowledge_has_poses_in_the_room_and_velocities_in_its_frame(
     """Wherever odometry lies; obstacles and poses are in the same frame."""
     plain = told(Pose(0.0, 0.0, 0.0), Pose(0.0, 0.0, 0.0))
     known = told(odometry, room)
-    assert plain.begins is not None and known.begins is not None
+    assert (
+        plain.step_start_in_map is not None
+        and known.step_start_in_map is not None
+    )
     for one, other in (
-        (known.pose, room.compose(plain.pose)),
-        (known.begins, room.compose(plain.begins)),
+        (known.pose_in_map, room.compose(plain.pose_in_map)),
+        (known.step_start_in_map, room.compose(plain.step_start_in_map)),
     ):
         assert one[:2] == pytest.approx(other[:2], abs=1e-9)
         off = wrap_angle(one.theta - other.theta)
         assert off == pytest.approx(0.0, abs=1e-9)
-    assert known.obstacles == plain.obstacles and known.obstacles
+    assert (
+        known.obstacles_in_map == plain.obstacles_in_map
+        and known.obstacles_in_map
+    )
     for name in (
         "distance",
         "age",
@@ -168,8 +174,8 @@ def test_knowledge_has_poses_in_the_room_and_velocities_in_its_frame(
     assert off == pytest.approx(0.0, abs=1e-9)
     assert known.velocity == pytest.approx(plain.velocity, abs=1e-9)
     # On the floor it walks at (-0.1, 0.2), whatever the own body does.
-    heading = plain.pose.theta
-    assert turned(plain.pose, plain.velocity or ()) == pytest.approx(
+    heading = plain.pose_in_map.theta
+    assert turned(plain.pose_in_map, plain.velocity or ()) == pytest.approx(
         (-0.1, 0.2), abs=1e-6
     )
     assert heading == pytest.approx(0.7)
@@ -190,7 +196,7 @@ def test_how_clear_a_maneuver_is_depends_on_no_odometry(
         standing=standing,
     )
     here: Any = Around(Pose(0.2, 0.1, 0.3))
-    there: Any = Around(here.frame.compose(odometry.inverse()))
+    there: Any = Around(here.pose_odometry_in_map.compose(odometry.inverse()))
     one, two = (
         Guard(around, OUTLINE, planner, margin=0.02)
         for around in (here, there)
@@ -212,9 +218,9 @@ def test_a_measured_pose_aligns_odometry_with_the_body(
     foot = (x, y, 0.0, yaw)
     body = BodyReference((x, y, 0.27), foot, foot)
     around.note(MEASUREMENT, body)
-    assert around.frame == start
+    assert around.pose_odometry_in_map == start
     around.note(MEASUREMENT._replace(pose_in_room=place), body)
-    found = around.frame.compose(planned)
+    found = around.pose_odometry_in_map.compose(planned)
     assert found[:2] == pytest.approx(place[:2], abs=1e-9)
     assert wrap_angle(found.theta - place.theta) == pytest.approx(0, abs=1e-9)
 
@@ -441,7 +447,7 @@ def test_a_sighting_is_of_where_the_body_was_then(late: int) -> None:
         if run.scheme.begun is not None and now > 0:
             known = run.scheme.decisions.memory[-1]
             then = noted.rows[now - late - 1].template
-            assert known.pose == then
+            assert known.pose_in_map == then
             bearing = headings[now - late] + 0.3 - then.theta
             assert known.bearing == pytest.approx(bearing)
     assert run.replans == 5

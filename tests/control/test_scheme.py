@@ -146,8 +146,8 @@ def test_the_bearing_counts_from_the_path_where_the_body_is() -> None:
     walked = -0.3 + 0.2 - run.asked[1]
     assert 0.6 < walked / run.landings[0][2].theta < 0.7
     (_, known) = run.scheme.decisions.memory
-    assert known.pose.theta == pytest.approx(walked)
-    assert 0.6 < known.pose.x / GAIT.stride < 0.7
+    assert known.pose_in_map.theta == pytest.approx(walked)
+    assert 0.6 < known.pose_in_map.x / GAIT.stride < 0.7
 
 
 def test_a_delayed_body_is_at_its_delayed_reference() -> None:

@@ -39,7 +39,11 @@ def test_knowledge_is_in_the_frame_of_the_template() -> None:
     (known,) = made.memory
     assert known.bearing == pytest.approx(0.4 + 0.2 - 0.5)
     assert known.time == 3.0 and known.age == 0.5 and known.distance == 1.5
-    assert known.pose == PLACE and known.moving and not known.obstacles
+    assert (
+        known.pose_in_map == PLACE
+        and known.moving
+        and not known.obstacles_in_map
+    )
     limits = known.limits
     assert (limits.speed, limits.gain) == (GAIT.speed, GAIT.gain)
     assert (limits.stride, limits.step_duration) == (GAIT.stride, STEP)
@@ -55,10 +59,10 @@ def test_a_step_begins_beside_the_foot_that_landed() -> None:
     made.decide(3.0, seen, moving=False, stands=(foot, Foot.LEFT))
     made.decide(3.0, seen, moving=True)
     known, *others = made.memory
-    back = foot.inverse().compose(known.begins)
+    back = foot.inverse().compose(known.step_start_in_map)
     half = 0.5 * GAIT.foot_spacing
     assert back == pytest.approx(Pose(0.0, -half, 0.0))
-    assert [each.begins for each in others] == [None, None]
+    assert [each.step_start_in_map for each in others] == [None, None]
     assert known.spread == 0.07
 
 
@@ -97,7 +101,7 @@ def test_line_of_sight_and_heading_are_of_one_instant() -> None:
             made.decide(seen + age, sighting, moving=True)
             known = made.memory[-1]
             assert known.bearing == pytest.approx(torso + 0.4 - template)
-            assert known.pose.theta == template
+            assert known.pose_in_map.theta == template
 
 
 def test_memory_of_the_starting_decision_is_discarded() -> None:

@@ -75,7 +75,7 @@ def test_it_knows_since_when_and_from_where(
         mind.decide(VelocityReport(now, way(now, start, rate), seen))
     known = strategy.known
     assert known.age == pytest.approx(PERIOD * late)
-    assert known.pose == then
+    assert known.pose_in_map == then
     assert wrap_angle(known.bearing - seen.bearing) == pytest.approx(0.0)
     assert known.velocity == pytest.approx((0.0, 0.0), abs=1e-6)
 

@@ -75,8 +75,8 @@ def test_a_template_walks_in_path_time(pace: float) -> None:
     assert begun == pytest.approx(wanted, abs=0.011)
     times = [known.time for known in rest]
     assert times[1] - times[0] == pytest.approx(period, abs=0.011)
-    way = rest[0].pose.x - rest[8].pose.x
-    back = rest[8].pose.inverse().compose(rest[0].pose)
+    way = rest[0].pose_in_map.x - rest[8].pose_in_map.x
+    back = rest[8].pose_in_map.inverse().compose(rest[0].pose_in_map)
     assert abs(way) == pytest.approx(8 * GAIT.stride, rel=0.05)
     assert back.x == pytest.approx(8 * GAIT.stride, rel=0.05)
 

@@ -72,7 +72,7 @@ def test_a_given_room_is_known_exactly(outline: BodyOutline) -> None:
     clearance = known(margin=0.07)
     assert clearance is not None
     assert clearance.outline is outline and clearance.margin == 0.07
-    assert clearance.surroundings.frame == FRAME
+    assert clearance.surroundings.pose_odometry_in_map == FRAME
     assert PILLAR in clearance.surroundings.solids.shapes
 
 
@@ -82,7 +82,7 @@ def test_a_mapped_room_is_known_by_the_map(
 ) -> None:
     clearance = known(source="seen", unseen=unseen)
     assert clearance is not None and clearance.outline is outline
-    assert clearance.surroundings.frame == Pose(0.0, 0.0, 0.0)
+    assert clearance.surroundings.pose_odometry_in_map == Pose(0.0, 0.0, 0.0)
     assert clearance.surroundings.solids.shapes == ()
     now: Any = SimpleNamespace(time=0.0)
     body: Any = SimpleNamespace(com=(0.1, 0.2, 0.26))

@@ -48,7 +48,7 @@ class Flickering:
     def decide(self, known: Knowledge, memory: Any) -> tuple[Intent, Any]:
         """Choose by what the map shows now."""
         shown: list[Obstacle] = []
-        for solid in known.obstacles:
+        for solid in known.obstacles_in_map:
             off = self.random.uniform(0.03, 0.09)
             if isinstance(solid, Disc):
                 shown.append(replace(solid, radius=solid.radius + off))
@@ -58,7 +58,9 @@ class Flickering:
                 points = middle + away + off * np.sign(away)
                 shown.append(Polygon(tuple(map(tuple, points.tolist()))))
         known = replace(
-            known, obstacles=ObstacleSet(shown), map_error=self.map_error
+            known,
+            obstacles_in_map=ObstacleSet(shown),
+            map_error=self.map_error,
         )
         intent, memory = self.inner.decide(known, memory)
         self.headings.append(intent.heading)
@@ -105,7 +107,7 @@ def test_a_map_that_is_exact_is_taken_at_its_word(
         0.1,
         0.6,
         LIMITS,
-        obstacles=ObstacleSet((Disc(2.0, 2.0, 0.1),)),
+        obstacles_in_map=ObstacleSet((Disc(2.0, 2.0, 0.1),)),
         map_error=map_error,
     )
     strategy.decide(known, strategy.begin())

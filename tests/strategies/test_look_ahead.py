@@ -52,7 +52,7 @@ def own_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 def know(
     bearing: float, distance: float, pose: Pose, time: float
 ) -> Knowledge:
-    return Knowledge(time, bearing, distance, NAO, pose=pose)
+    return Knowledge(time, bearing, distance, NAO, pose_in_map=pose)
 
 
 @pytest.mark.parametrize("angle", [pi / 2, pi / 8])
@@ -151,15 +151,17 @@ def test_it_knows_the_map_in_its_own_odometry() -> None:
     here = know(0.1, 0.8, Pose(0.0, 0.0, 0.0), 0.0)
     frame = Pose(2.0, -1.0, 1.3)
     there = replace(
-        here, pose=frame, obstacles=ObstacleSet((disc.moved(frame),))
+        here,
+        pose_in_map=frame,
+        obstacles_in_map=ObstacleSet((disc.moved(frame),)),
     )
     one, _ = mind.decide(
-        replace(here, obstacles=ObstacleSet((disc,))), mind.begin()
+        replace(here, obstacles_in_map=ObstacleSet((disc,))), mind.begin()
     )
     other, _ = mind.decide(there, mind.begin())
     assert other.heading == pytest.approx(one.heading, abs=1e-9)
     free, _ = mind.decide(
-        replace(here, obstacles=ObstacleSet((Disc(9.0, 0.0, 0.1),))),
+        replace(here, obstacles_in_map=ObstacleSet((Disc(9.0, 0.0, 0.1),))),
         mind.begin(),
     )
     assert free.heading != pytest.approx(one.heading, abs=0.1)
@@ -312,9 +314,11 @@ def test_a_walker_looks_ahead_from_where_its_step_begins() -> None:
     here, begins = Pose(0.0, 0.0, 0.2), Pose(-0.02, -0.003, 0.33)
     late = 0.1
     known = replace(
-        know(-0.2, 0.7, here, 1.0), obstacles=ObstacleSet((disc,)), age=late
+        know(-0.2, 0.7, here, 1.0),
+        obstacles_in_map=ObstacleSet((disc,)),
+        age=late,
     )
-    walker = replace(known, moving=True, begins=begins)
+    walker = replace(known, moving=True, step_start_in_map=begins)
     # The pursuer is at (0.7, 0) and looks here: along -x.
     on = 0.7 - NAO.stride * (0.5 + late / NAO.step_duration)
     x, y = on - begins.x, 0.0 - begins.y
@@ -322,11 +326,13 @@ def test_a_walker_looks_ahead_from_where_its_step_begins() -> None:
         known,
         bearing=float(np.arctan2(y, x)) - begins.theta,
         distance=hypot(x, y),
-        pose=begins,
+        pose_in_map=begins,
         age=0.0,
     )
     moved = predict_poses(
-        poses_at_sighting(note((), walker), pi), walker, walker.begins or here
+        poses_at_sighting(note((), walker), pi),
+        walker,
+        walker.step_start_in_map or here,
     )
     still = poses_at_sighting(note((), there), pi)
     assert moved == pytest.approx(still)

@@ -20,7 +20,9 @@ MIND = LookAhead(pieces=(2, 3), turns=3, tail=6, tight=0.0)
 
 
 def seen(distance: float, *solids: Disc, time: float = 0.0) -> Knowledge:
-    return Knowledge(time, 0.3, distance, NAO, obstacles=ObstacleSet(solids))
+    return Knowledge(
+        time, 0.3, distance, NAO, obstacles_in_map=ObstacleSet(solids)
+    )
 
 
 @pytest.mark.parametrize("distance", [0.4, 0.6])
@@ -54,8 +56,8 @@ def test_the_rest_of_a_plan_excludes_executed_steps() -> None:
 def test_knowledge_defaults_to_unknown() -> None:
     """A body that says no more stands, alone on an open floor."""
     known = Knowledge(1.0, 0.3, 2.0, NAO)
-    assert known.pose == Pose(0.0, 0.0, 0.0) and not known.moving
-    assert not known.obstacles and known.begins is None
+    assert known.pose_in_map == Pose(0.0, 0.0, 0.0) and not known.moving
+    assert not known.obstacles_in_map and known.step_start_in_map is None
     assert (known.bearing_rate, known.closing_speed) == (None, None)
     assert known.velocity is None
     assert known.age == known.spread == 0.0

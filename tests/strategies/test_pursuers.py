@@ -49,7 +49,7 @@ def test_direction_of_motion_is_exact_on_a_circle() -> None:
                 wrap_angle(sight - 0.7),
                 hypot(x - 5.0, y - 1.0),
                 NAO,
-                pose=pose,
+                pose_in_map=pose,
             ),
         )
         if n > 1:
@@ -180,13 +180,13 @@ def test_a_wall_turns_it_along_and_a_far_one_does_not() -> None:
     turn = Pose(0.0, 0.0, 0.4)  # so that it pushes along x and y
     wall = wall_between((-5.0, -0.55), (5.0, -0.55))  # its face at -0.5
     back = DeflectedEvasion(Evasion(angle=0.0, safety_radius=9.0))
-    known = Knowledge(0.0, 0.0, 1.0, NAO, pose=Pose(0.0, 0.0, 0.5))
+    known = Knowledge(0.0, 0.0, 1.0, NAO, pose_in_map=Pose(0.0, 0.0, 0.5))
     straight, _ = back.decide(known, back.begin())
     assert straight.heading == 0.0
     near = Knowledge(
         *(0.0, 0.0, 1.0, NAO),
-        pose=Pose(0.0, 0.0, 0.9),
-        obstacles=ObstacleSet((wall.moved(turn),)),
+        pose_in_map=Pose(0.0, 0.0, 0.9),
+        obstacles_in_map=ObstacleSet((wall.moved(turn),)),
     )
     turned, _ = back.decide(near, back.begin())
     push = back.strength * (1.0 / 0.3 - 1.0 / back.reach)
@@ -197,6 +197,11 @@ def test_a_wall_turns_it_along_and_a_far_one_does_not() -> None:
     far = wall_between((-5.0, -2.0), (5.0, -2.0))
     room = Room(obstacles=(far, Disc(0.0, 3.0, 0.1)))
     away = Knowledge(
-        0.0, 0.0, 1.0, NAO, pose=Pose(0.0, 0.0, 0.5), obstacles=room.solid_set
+        0.0,
+        0.0,
+        1.0,
+        NAO,
+        pose_in_map=Pose(0.0, 0.0, 0.5),
+        obstacles_in_map=room.solid_set,
     )
     assert back.decide(away, back.begin())[0] == straight

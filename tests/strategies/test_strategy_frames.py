@@ -72,7 +72,7 @@ def known(
         hypot(x, y),
         LIMITS,
         age=age,
-        pose=own,
+        pose_in_map=own,
         moving=True,
         **more,
     )
@@ -92,9 +92,11 @@ def asked(strategy: Any, frame: Pose, solids: Any = ()) -> list[Intent]:
             frame.compose(other),
             STEP * i + 0.1,
             0.1,
-            obstacles=stands,
+            obstacles_in_map=stands,
             velocity=velocity[:2],
-            begins=frame.compose(own.compose(Pose(-0.02, 0.0, 0.1))),
+            step_start_in_map=frame.compose(
+                own.compose(Pose(-0.02, 0.0, 0.1))
+            ),
             bearing_rate=0.1,
             closing_speed=0.02,
         )
@@ -293,8 +295,8 @@ def test_a_player_knows_the_opponents_velocity_in_its_own_frame(
         player.pose = here
         player.decide(time, atan2(y, x), hypot(x, y))
     first, last = strategy.told[0], strategy.told[-1]
-    assert first.velocity is None and last.pose == here
-    assert last.obstacles.shapes == SOLIDS and last.age == 0.0
+    assert first.velocity is None and last.pose_in_map == here
+    assert last.obstacles_in_map.shapes == SOLIDS and last.age == 0.0
     turned = Pose(0.0, 0.0, -here.theta).compose(Pose(u, v, 0.0))
     assert last.velocity == pytest.approx(turned[:2], abs=1e-6)
     assert last.moving and not first.moving

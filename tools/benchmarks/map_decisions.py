@@ -69,11 +69,11 @@ class Taken:
 
     Attributes:
         solids: Obstacles.
-        frame: Odometry frame.
+        pose_odometry_in_map: Odometry itself.
         map_error: Largest position error of the obstacles, in [m].
     """
 
-    frame = HERE
+    pose_odometry_in_map = HERE
     map_error = CELL
 
     def __init__(self, solids: ObstacleSet) -> None:
@@ -103,7 +103,12 @@ def knowledge(
     limits = Limits(GAIT.speed, GAIT.gain, GAIT.stride, GAIT.step_duration)
     bearing = wrap_angle(atan2(y, x) - here.theta)
     return Knowledge(
-        0.0, bearing, hypot(x, y), limits, pose=here, obstacles=solids
+        0.0,
+        bearing,
+        hypot(x, y),
+        limits,
+        pose_in_map=here,
+        obstacles_in_map=solids,
     )
 
 

@@ -143,8 +143,8 @@ class StrategyRunner(DecisionMaker):
         known = self._knowledge(now, sighting, moving=moving)
         if moving and stands is not None:
             begins = pose_beside_foot(*stands, self._spacing)
-            begins = self._surroundings.frame.compose(begins)
-            known = replace(known, begins=begins)
+            begins = self._surroundings.pose_odometry_in_map.compose(begins)
+            known = replace(known, step_start_in_map=begins)
         intent = self.evaluate(known)
         if self.turns is not None:
             intent = replace(
@@ -175,7 +175,7 @@ class StrategyRunner(DecisionMaker):
             template,
             sight,
             sighting._replace(bearing=sight - template.theta),
-            pose_odometry_in_map=self._surroundings.frame,
+            pose_odometry_in_map=self._surroundings.pose_odometry_in_map,
             moving=moving,
             obstacles=self._surroundings.solids,
             map_error=self._surroundings.map_error,

@@ -123,7 +123,7 @@ def _known(
         wrap_angle(atan2(y, x) - pose.theta),
         hypot(x, y),
         limits,
-        pose=pose,
+        pose_in_map=pose,
         moving=moving,
         velocity=velocity_in_evader[:2],
     )

@@ -96,9 +96,11 @@ class DecisionMaker:
             bearing_rate=rates.bearing_rate,
             closing_speed=rates.closing_speed,
             age=max(0.0, now - time),
-            pose=pose_odometry_in_map.compose(pose_template_in_odometry),
+            pose_in_map=pose_odometry_in_map.compose(
+                pose_template_in_odometry
+            ),
             moving=moving,
-            obstacles=obstacles,
+            obstacles_in_map=obstacles,
             velocity=self._velocity_in(
                 pose_template_in_odometry, time, bearing, distance
             ),

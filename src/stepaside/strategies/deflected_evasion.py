@@ -59,14 +59,14 @@ class DeflectedEvasion:
     ) -> tuple[Intent, EvasionMemory]:
         """Add the repulsive field to the direction of the paper's evader."""
         intent, memory = self.evasion.decide(knowledge, memory)
-        if not intent.walks or not knowledge.obstacles:
+        if not intent.walks or not knowledge.obstacles_in_map:
             return intent, memory
-        pose = knowledge.pose
+        pose = knowledge.pose_in_map
         back = pose.theta + intent.heading
         x, y = -cos(back), -sin(back)  # it walks backward
         points = [(pose.x, pose.y), (pose.x + STEP, pose.y)]
         points.append((pose.x, pose.y + STEP))
-        clearances = knowledge.obstacles.clearances(points)
+        clearances = knowledge.obstacles_in_map.clearances(points)
         for here, east, north in clearances.T.tolist():
             gap = max(here - self.body_radius, MIN_GAP)
             if gap >= self.reach:

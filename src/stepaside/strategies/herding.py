@@ -22,9 +22,9 @@ class HerdingPursuit:
 
     Attributes:
         center: Centre of the room (x, y) in the frame of
-            ``Knowledge.pose``, in [m]. The origin of a known room is its
-            centre; without a known room the frame is odometry, whose origin
-            was the initial pose of the pursuer.
+            ``Knowledge.pose_in_map``, in [m]. The origin of a known room is
+            its centre; without a known room the frame is odometry, whose
+            origin was the initial pose of the pursuer.
             pursuit: Pursuit of the target point.
     """
 
@@ -49,7 +49,7 @@ class HerdingPursuit:
         self, knowledge: Knowledge, memory: int | None
     ) -> tuple[Intent, int | None]:
         """Head for the point between the evader and the centre."""
-        x, y, theta = knowledge.pose
+        x, y, theta = knowledge.pose_in_map
         u, v = self.center[0] - x, self.center[1] - y
         inward = hypot(u, v)
         if inward < NEAR:

@@ -54,15 +54,15 @@ class Knowledge:
         closing_speed: Rate at which the distance decreases, in [m/s]; None
             until it is known.
         age: Time since the sighting, in [s].
-        pose: Pose of the frame in the own odometry, or in the frame of a
-            known room.
+        pose_in_map: Pose of the frame in the map: the frame of a known room,
+            else the own odometry.
         moving: Whether the body is walking.
-        obstacles: Known obstacles, walls included, in the frame of ``pose``;
-            iterate over it for single ones.
+        obstacles_in_map: Known obstacles, walls included; iterate over it
+            for single ones.
         velocity: Velocity of the opponent over the floor, components ahead
             and to the left in the frame, in [m/s]; None until it is known.
-        begins: Pose at which the decided step begins, in the frame of
-            ``pose``; None if that is ``pose`` itself. A walker decides when a
+        step_start_in_map: Pose at which the decided step begins; None if
+            that is ``pose_in_map``. A walker decides when a
             foot has landed, and its body passes that foot half a step later.
         spread: Standard deviation of the opponent's position, in [m].
         map_error: Largest position error of the obstacles, in [m].
@@ -75,11 +75,11 @@ class Knowledge:
     bearing_rate: float | None = None
     closing_speed: float | None = None
     age: float = 0.0
-    pose: Pose = Pose(0.0, 0.0, 0.0)
+    pose_in_map: Pose = Pose(0.0, 0.0, 0.0)
     moving: bool = False
-    obstacles: ObstacleSet = NO_OBSTACLES
+    obstacles_in_map: ObstacleSet = NO_OBSTACLES
     velocity: tuple[float, float] | None = None
-    begins: Pose | None = None
+    step_start_in_map: Pose | None = None
     spread: float = 0.0
     map_error: float = 0.0
 

@@ -217,9 +217,9 @@ class LookAhead:
         if not (memory.evading or near):
             return STAND, LookAheadMemory(False, trace)
         both = poses_at_sighting(trace, pursuer_heading(trace, rules))
-        if knowledge.begins is not None:
-            both = predict_poses(both, knowledge, knowledge.begins)
-        bounded = bool(knowledge.obstacles)
+        if knowledge.step_start_in_map is not None:
+            both = predict_poses(both, knowledge, knowledge.step_start_in_map)
+        bounded = bool(knowledge.obstacles_in_map)
         table = NO_VALUE
         if not bounded and self.cells and self.pieces:
             table = pursuit_table(self.cells, limits.speed / limits.gain)
@@ -239,7 +239,7 @@ class LookAhead:
             self._maneuvers(limits, valued=table is not NO_VALUE),
             rules,
             objective,
-            knowledge.obstacles.packed,
+            knowledge.obstacles_in_map.packed,
             table,
             planned=spot,
         )
@@ -280,7 +280,7 @@ class LookAhead:
     ) -> bool:
         """Return whether a step touches an obstacle and standing does not."""
         after = step_both(both, *half_turn(0.5 * turn), rules)
-        now, then = knowledge.obstacles.clearance(
+        now, then = knowledge.obstacles_in_map.clearance(
             [(both.ex, both.ey), (after.ex, after.ey)]
         )
         return bool(then < min(self.body_radius, now))

@@ -44,7 +44,7 @@ def note(trace: Trace, knowledge: Knowledge) -> Trace:
 
     A sighting with a known variance is fused with the predicted position.
     """
-    pose = knowledge.pose
+    pose = knowledge.pose_in_map
     sight = pose.theta + knowledge.bearing
     time = knowledge.time - knowledge.age
     x = pose.x + knowledge.distance * cos(sight)

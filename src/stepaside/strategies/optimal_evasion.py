@@ -48,5 +48,5 @@ class OptimalEvasion:
     ) -> tuple[Intent, LookAheadMemory]:
         """Take the step with the largest value."""
         return self.step.decide(
-            replace(knowledge, obstacles=NO_OBSTACLES), memory
+            replace(knowledge, obstacles_in_map=NO_OBSTACLES), memory
         )

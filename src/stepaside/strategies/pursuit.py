@@ -60,7 +60,7 @@ class Pursuit:
     ) -> tuple[Intent, int | None]:
         """Head for the evader by eq. (2), or along the path to it."""
         bearing, side = knowledge.bearing, None
-        if knowledge.obstacles:
+        if knowledge.obstacles_in_map:
             bearing = self._path_bearing(knowledge, memory or 0)
             aside = wrap_angle(bearing - knowledge.bearing)
             if abs(aside) > DETOUR:
@@ -83,22 +83,22 @@ class Pursuit:
 
     def _is_blocked(self, knowledge: Knowledge) -> bool:
         """Return whether the next straight steps violate the clearance."""
-        x, y, theta = knowledge.pose
+        x, y, theta = knowledge.pose_in_map
         ahead = FREE_STRIDES * knowledge.limits.stride
         path = [(x, y), (x + ahead * cos(theta), y + ahead * sin(theta))]
-        now, after = knowledge.obstacles.clearances(np.array(path))
+        now, after = knowledge.obstacles_in_map.clearances(np.array(path))
         nearer = after < np.minimum(self.body_radius, now - 1e-9)
         return bool(nearer.any())
 
     def _path_bearing(self, knowledge: Knowledge, side: int) -> float:
         """Return the bearing of the first vertex of the path, in [rad]."""
-        x, y, theta = knowledge.pose
+        x, y, theta = knowledge.pose_in_map
         sight = theta + knowledge.bearing
         evader = (
             x + knowledge.distance * cos(sight),
             y + knowledge.distance * sin(sight),
         )
         u, v = first_waypoint(
-            knowledge.obstacles, (x, y), evader, self.body_radius, side
+            knowledge.obstacles_in_map, (x, y), evader, self.body_radius, side
         )
         return wrap_angle(atan2(v - y, u - x) - theta)

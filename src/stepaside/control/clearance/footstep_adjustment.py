@@ -55,13 +55,14 @@ class FootstepAdjustment:
         self.radius = radius
 
     def adjust(
-        self, plan: ManeuverPlan, frame: Pose, solids: ObstacleSet
+        self, plan: ManeuverPlan, pose_plan_in_map: Pose, solids: ObstacleSet
     ) -> ManeuverPlan:
         """Return the plan with footsteps that keep clear, if they exist.
 
         Args:
             plan: Plan whose footsteps are adjusted.
-            frame: Pose of the plan frame in the frame of ``solids``.
+            pose_plan_in_map: Pose of the plan frame in the frame of
+                ``solids``.
             solids: Obstacles.
 
         Returns:
@@ -69,7 +70,7 @@ class FootstepAdjustment:
             no reachable footsteps do: the guard checks the result.
         """
         steps = plan.placements[2:]
-        rows, least = self._half_planes(plan, frame, solids)
+        rows, least = self._half_planes(plan, pose_plan_in_map, solids)
         if (
             not len(least)
             or (rows @ steps[:, :2].ravel() >= least - NEGLIGIBLE).all()
@@ -94,7 +95,7 @@ class FootstepAdjustment:
         return self._planner.placed(plan, placements)
 
     def _half_planes(
-        self, plan: ManeuverPlan, frame: Pose, solids: ObstacleSet
+        self, plan: ManeuverPlan, pose_plan_in_map: Pose, solids: ObstacleSet
     ) -> tuple[Array, Array]:
         """Return the half planes as rows and lower bounds on all footsteps.
 
@@ -104,8 +105,8 @@ class FootstepAdjustment:
         beside = _offsets_to_middle(plan)
         here = 0.5 * (plan.placements[0, :2] + plan.placements[1, :2])
         middles = plan.placements[2:, :2] + beside
-        places = frame.transform_points(np.vstack([here, middles]))
-        back, count = Pose(0.0, 0.0, -frame.theta), len(middles)
+        places = pose_plan_in_map.transform_points(np.vstack([here, middles]))
+        back, count = Pose(0.0, 0.0, -pose_plan_in_map.theta), len(middles)
         span = float(np.hypot(*(middles - here).T).max())
         rows: list[Array] = []
         least: list[float] = []

@@ -176,8 +176,12 @@ class Guard:
         """
         if self._footholds is None:
             return plan
-        frame = self.surroundings.frame.compose(support)
-        return self._footholds.adjust(plan, frame, self.surroundings.solids)
+        pose_plan_in_map = self.surroundings.pose_odometry_in_map.compose(
+            support
+        )
+        return self._footholds.adjust(
+            plan, pose_plan_in_map, self.surroundings.solids
+        )
 
     def accepts(
         self, plan: ManeuverPlan, support: Pose, *, standing: bool
@@ -199,12 +203,16 @@ class Guard:
 
     def evaluate(self, plan: ManeuverPlan, support: Pose) -> ManeuverClearance:
         """Return the clearance of the first step of a plan and its halt."""
-        frame = self.surroundings.frame.compose(support)
+        pose_plan_in_map = self.surroundings.pose_odometry_in_map.compose(
+            support
+        )
         landed = Pose(*plan.placements[2].tolist())
         halt = self.halt_after(plan)
         solids = self.surroundings.solids
-        step = self._outline.along(plan, frame, "step")
-        rest = self._outline.along(halt, frame.compose(landed), "all")
+        step = self._outline.along(plan, pose_plan_in_map, "step")
+        rest = self._outline.along(
+            halt, pose_plan_in_map.compose(landed), "all"
+        )
         corners = np.concatenate([step, rest])
         clear = solids.swept_clearances(corners)
         now, last = (

@@ -18,7 +18,8 @@ class Surroundings(Protocol):
 
     Attributes:
         solids: Known obstacles.
-        frame: Pose of the own odometry in the frame of the obstacles.
+        pose_odometry_in_map: Pose of the own odometry in the frame of the
+            obstacles.
         map_error: Largest position error of the obstacles, in [m].
     """
 
@@ -29,7 +30,7 @@ class Surroundings(Protocol):
         """Known obstacles."""
 
     @property
-    def frame(self) -> Pose:
+    def pose_odometry_in_map(self) -> Pose:
         """Pose of the own odometry in the frame of the obstacles."""
 
     def note(self, measurement: Measurement, body: BodyReference) -> None:
@@ -45,7 +46,7 @@ class OpenFloor:
     """No known obstacles."""
 
     solids = NO_OBSTACLES
-    frame = HERE
+    pose_odometry_in_map = HERE
     map_error = 0.0
 
     def note(self, measurement: Measurement, body: BodyReference) -> None:
@@ -62,7 +63,7 @@ class KnownRoom:
     Attributes:
         solids: Obstacles of the room, and the floor that moving obstacles
             cover until a halt begun with the next step has ended.
-        frame: Pose of the own odometry in the room.
+        pose_odometry_in_map: Pose of the own odometry in the room.
         map_error: 0: a given room is exact.
     """
 
@@ -77,14 +78,16 @@ class KnownRoom:
         """
         self._room, self._next = room, 0.0
         self.solids = ObstacleSet(room.solids_at(0.0, AHEAD))
-        self.frame = start
+        self.pose_odometry_in_map = start
 
     def note(self, measurement: Measurement, body: BodyReference) -> None:
         """Align odometry with the measured pose; update moving obstacles."""
         if measurement.pose_in_room is not None:
             x, y, _ = body.com
             planned = Pose(x, y, body.heading)
-            self.frame = measurement.pose_in_room.compose(planned.inverse())
+            self.pose_odometry_in_map = measurement.pose_in_room.compose(
+                planned.inverse()
+            )
         now = measurement.time
         if self._room.moving and now >= self._next - 1e-9:
             self._next = now + REFRESH_PERIOD
@@ -97,11 +100,11 @@ class MappedRoom:
     Attributes:
         solids: Occupied cells and, if unknown floor counts as occupied,
             unknown cells.
-        frame: Odometry itself.
+        pose_odometry_in_map: Odometry itself.
         map_error: Size of a cell of the map, in [m].
     """
 
-    frame = HERE
+    pose_odometry_in_map = HERE
     map_error = CELL
 
     def __init__(self, floor: FloorMap, *, unseen_is_free: bool) -> None:
