@@ -107,7 +107,8 @@ def test_endless_work_is_refused(
     result = CliRunner().invoke(main, words.replace("RUN", run).split())
     assert not list(tmp_path.iterdir())
     assert result.exit_code == 2 and result.output.count("\n") == 1
-    assert re.search("would take about|must be at most", result.output)
+    refusals = "would take about|must be at most|must lie in"
+    assert re.search(refusals, result.output)
 
 
 @pytest.mark.parametrize(

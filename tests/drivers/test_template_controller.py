@@ -1,6 +1,7 @@
 """Test the template controller, and the timing of its reports."""
 
 from math import atan2, hypot, pi
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -83,13 +84,14 @@ def test_it_knows_since_when_and_from_where(
 class Remembering:
     """Perception that records poses and has no detection."""
 
-    gaze = (0.0, 0.0)
+    head = SimpleNamespace(yaw=0.0, pitch=0.0)
 
     def __init__(self) -> None:
+        self.poses = self
         self.recalled: list[tuple[float, Any, Pose]] = []
         self.frames: list[Pose] = []
 
-    def recall_level(self, time: float, joints: Any, frame: Pose) -> None:
+    def add_level(self, time: float, joints: Any, frame: Pose) -> None:
         """Note it."""
         self.recalled.append((time, joints, frame))
 

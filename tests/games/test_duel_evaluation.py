@@ -30,6 +30,7 @@ from stepaside.games.sight_summary import (
 )
 from stepaside.games.trajectory import PlanningTimes
 from stepaside.strategies import Evasion
+from stepaside.theory.unicycle.unicycle_game import Unicycle
 
 
 def planned(
@@ -228,8 +229,7 @@ def test_a_person_is_compared_with_the_template_in_real_time(
     assert asked == {
         "person": Pose(0.0, 0.0, 0.1),
         "evader": Pose(1.0, 0.0, pi - 0.2),
-        "speed": pytest.approx(gait.speed * pace),
-        "gain": pytest.approx(gait.gain * pace),
+        "unicycle": Unicycle(gait.speed * pace, gait.gain * pace),
         "angle": 1.2,
         "safety_radius": 0.8,
         "duration": 120.0,

@@ -140,12 +140,14 @@ def test_herding_bisects_the_bearings_of_evader_and_center(
     strategy = HerdingPursuit(center)
     for bearing in (-2.0, -0.6, 0.3, 1.7, 3.0):
         aside = wrap_angle(middle - bearing)
-        found = heading(strategy, known(bearing, 0.8, pose=Pose(*pose)))
+        found = heading(strategy, known(bearing, 0.8, pose_in_map=Pose(*pose)))
         wanted = wrap_angle(bearing + 0.5 * aside)
         assert wrap_angle(found - wanted) == pytest.approx(0.0, abs=1e-9)
     # In the middle of the room there is nothing to keep it from.
     there = Pose(*center, theta)
-    assert heading(strategy, known(0.4, pose=there)) == pytest.approx(0.4)
+    assert heading(strategy, known(0.4, pose_in_map=there)) == pytest.approx(
+        0.4
+    )
 
 
 def test_herding_turns_with_the_room() -> None:

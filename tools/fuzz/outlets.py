@@ -23,14 +23,31 @@ LITTLE = {
     "bound": ["--json"],
     "replay": ["--width=64", "--height=64", "--duration=0.1", "--json"],
 }
+STUDY = """
+game = "tournament"
+settings.game.duration = 3.0
+[grid]
+evader = ["aside", "look-ahead"]
+seed = "0:5"
+"""
 FOUND = RequirementCheck("height", "pass", "0.3 m")
+
+
 # What they read that read no run, made in a folder.
+def _study(folder: Path) -> Path:
+    file = folder / "study.toml"
+    file.write_text(STUDY)
+    return file
+
+
 READ: dict[str, Callable[[Path], Path]] = {
+    "study": _study,
     "robot check": lambda _: Path("nao"),
     "robot init": mjcf,
 }
-# They write when others play with them; see test_play_full.py.
-APART = {"serve", "play"}
+# They write when others play with them, see test_play_full.py, or join the
+# records of campaigns, see test_campaign_commands.py.
+APART = {"serve", "play", "merge"}
 
 
 def outlets(name: str) -> list[click.Option]:
