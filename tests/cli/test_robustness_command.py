@@ -16,7 +16,7 @@ from stepaside.studies import robustness_campaign as campaign
 from stepaside.studies.result_files import read_result
 from stepaside.studies.robustness_campaign import MODULES
 from stepaside.studies.robustness_trial import RobustnessTrial
-from stepaside.studies.survival import bound_at
+from stepaside.studies.survival_statistics import bound_at
 
 ASKED = "--kind backlash --kind push --method mpc --seeds 3 --phases 1".split()
 

@@ -60,7 +60,7 @@ def test_each_protocol_loads_without_the_libraries_of_others(
 
 def test_a_run_is_recorded_without_a_simulator() -> None:
     """The run folder is written on board the robot."""
-    loads("import stepaside.cli.play_record, stepaside.games.run_archive")
+    loads("import stepaside.cli.play_recording, stepaside.games.run_archive")
 
 
 def test_help_of_play_loads_no_simulator() -> None:

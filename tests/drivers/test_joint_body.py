@@ -21,7 +21,7 @@ from stepaside.drivers.joint.joint_body import (
     JointInterface,
     SystemClock,
 )
-from stepaside.drivers.joint.safety import RobotState
+from stepaside.drivers.joint.safety_state_machine import RobotState
 from stepaside.drivers.lola.conventions import CODEC, joint_frame_of
 from stepaside.drivers.lola.lights import COLOURS
 from stepaside.drivers.lola.lola_frames import pack_sensors

@@ -17,7 +17,7 @@ from stepaside.drivers.joint.joint_body import (
     SystemClock,
 )
 from stepaside.drivers.joint.joint_map import JointMap, MotorTable, motors_of
-from stepaside.drivers.joint.safety import RobotState
+from stepaside.drivers.joint.safety_state_machine import RobotState
 from stepaside.robots.description import load_robot
 
 FILES = sorted(Path(stepaside.drivers.joint.__file__).parent.glob("*.py"))

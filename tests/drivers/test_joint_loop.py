@@ -20,7 +20,7 @@ from stepaside.drivers.joint.joint_body import (
     SystemClock,
 )
 from stepaside.drivers.joint.joint_loop import JointLoop
-from stepaside.drivers.joint.safety import RobotState
+from stepaside.drivers.joint.safety_state_machine import RobotState
 from stepaside.drivers.lola.conventions import CODEC
 from stepaside.drivers.lola.lola_frames import pack_sensors
 from stepaside.drivers.lola.nao_joints import NAO_MOTORS

@@ -27,7 +27,7 @@ from stepaside.drivers.joint.joint_body import (
     JointInterface,
     SystemClock,
 )
-from stepaside.drivers.joint.safety import RobotState
+from stepaside.drivers.joint.safety_state_machine import RobotState
 from stepaside.drivers.lola.conventions import CODEC
 from stepaside.drivers.lola.lola_address import LolaAddress
 from stepaside.drivers.lola.lola_connection import open_lola

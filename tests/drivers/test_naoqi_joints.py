@@ -18,7 +18,7 @@ pytest.importorskip("msgpack")
 from stepaside.drivers.guardian_process import SessionLost  # noqa: E402
 from stepaside.drivers.joint.joint_body import JointBody  # noqa: E402
 from stepaside.drivers.joint.joint_loop import JointLoop, JointTick  # noqa: E402
-from stepaside.drivers.joint.safety import RobotState  # noqa: E402
+from stepaside.drivers.joint.safety_state_machine import RobotState  # noqa: E402
 from stepaside.drivers.lola.conventions import (  # noqa: E402
     COUNTER,
     LOCK_STEP,

@@ -8,7 +8,7 @@ import pytest
 from made_up_robot import FIRST, STEP, Run
 from stepaside.core.poses import Array, Pose
 from stepaside.drivers.joint.joint_loop import JointTick
-from stepaside.drivers.joint.safety import RobotState
+from stepaside.drivers.joint.safety_state_machine import RobotState
 from stepaside.drivers.play_log import PlayLog
 from stepaside.drivers.row_file import read_rows
 from stepaside.drivers.velocity.velocity_body import VelocityCommand

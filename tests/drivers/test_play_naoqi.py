@@ -15,7 +15,7 @@ pytest.importorskip("qi")
 pytest.importorskip("msgpack")
 
 from stepaside.cli.main import main  # noqa: E402
-from stepaside.drivers.joint.safety import RobotState  # noqa: E402
+from stepaside.drivers.joint.safety_state_machine import RobotState  # noqa: E402
 from stepaside.drivers.naoqi.joint_server import (  # noqa: E402
     NaoqiJointServer,
 )

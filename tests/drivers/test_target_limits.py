@@ -9,7 +9,7 @@ from stepaside.drivers.joint.motion_states import (
     POSTURE_SPEED,
     JointMotionState,
 )
-from stepaside.drivers.joint.safety import RobotState
+from stepaside.drivers.joint.safety_state_machine import RobotState
 from stepaside.drivers.joint.target_limits import (
     HOT,
     MIN_STIFFNESS,

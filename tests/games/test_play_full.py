@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from stepaside.cli.connection_settings import ConnectionSettings
-from stepaside.cli.play_record import PlayRecord
+from stepaside.cli.play_recording import PlayRecord
 from stepaside.core.errors import OutputError
 from stepaside.core.poses import Pose
 from stepaside.drivers.velocity.velocity_body import VelocityCommand

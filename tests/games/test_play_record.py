@@ -14,7 +14,7 @@ from stepaside.cli.main import main
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array, Pose, wrap_angle
 from stepaside.drivers.joint.joint_loop import JointTick
-from stepaside.drivers.joint.safety import RobotState
+from stepaside.drivers.joint.safety_state_machine import RobotState
 from stepaside.drivers.play_log import PlayLog
 from stepaside.drivers.row_file import read_rows
 from stepaside.drivers.velocity.velocity_body import VelocityCommand

@@ -13,7 +13,7 @@ from stepaside.core.errors import ConfigurationError
 from stepaside.drivers.guardian_process import SessionLost
 from stepaside.drivers.joint.joint_body import JointBody
 from stepaside.drivers.joint.joint_loop import JointLoop, JointTick
-from stepaside.drivers.joint.safety import RobotState
+from stepaside.drivers.joint.safety_state_machine import RobotState
 from stepaside.drivers.joint.session_options import SessionOptions
 from stepaside.drivers.lola.camera_socket import CameraClient
 from stepaside.drivers.lola.lola_address import LolaAddress

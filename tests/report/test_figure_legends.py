@@ -9,8 +9,8 @@ from matplotlib.figure import Figure
 
 from invented_run import run_of
 from stepaside.games.trajectory import Trajectory
-from stepaside.report import bound_figure, people_figure
 from stepaside.report import figure_style as style
+from stepaside.report import people_figure, value_function_figure
 from stepaside.report.film_settings import FilmSettings
 from stepaside.report.film_strip import legend_entries
 from stepaside.theory.bound import Bound, Grid, solve_bound, two_car_game
@@ -20,7 +20,7 @@ from stepaside.theory.bound import Bound, Grid, solve_bound, two_car_game
 def kept(monkeypatch: pytest.MonkeyPatch) -> list[Figure]:
     """Figures that are written are kept."""
     figures: list[Figure] = []
-    for module in (bound_figure, people_figure):
+    for module in (value_function_figure, people_figure):
         monkeypatch.setattr(module, "save", lambda f, _: figures.append(f))
     return figures
 
@@ -79,7 +79,7 @@ def test_pictures_of_a_strip_have_every_line_named() -> None:
 
 
 def test_the_bound_s_lines_are_named(kept: list[Figure], bound: Bound) -> None:
-    bound_figure.draw_bound(bound, 0.4, "bound.png")
+    value_function_figure.draw_bound(bound, 0.4, "bound.png")
     told = names_of(kept[0])
     for name in ("capture distance 0.4 m", "certain", "pursuer's", "evader's"):
         assert name in told

@@ -16,7 +16,7 @@ from stepaside.planning import GaitSettings
 from stepaside.sim.body_settings import BODIES
 from stepaside.sim.push import Push
 from stepaside.studies import robustness_trial as robustness
-from stepaside.studies import survival
+from stepaside.studies import survival_statistics
 from stepaside.studies.push_limits import push_cases
 from stepaside.studies.robustness_trial import (
     RobustnessTrial,
@@ -27,7 +27,7 @@ from stepaside.studies.robustness_trial import (
     trials,
 )
 from stepaside.studies.settings_diff import OWN, changed_walk, changes_of
-from stepaside.studies.survival import (
+from stepaside.studies.survival_statistics import (
     bound_at,
     limit_rows,
     push_survival_rows,
@@ -108,7 +108,7 @@ def heavier(monkeypatch: pytest.MonkeyPatch, factor: float) -> WalkSettings:
     monkeypatch.setattr(
         robustness, "game_settings_from_description", lambda robot: None
     )
-    monkeypatch.setattr(survival, "mass_of", mass_of)
+    monkeypatch.setattr(survival_statistics, "mass_of", mass_of)
     bound_at.cache_clear()
     return WalkSettings(robot="heavy")
 

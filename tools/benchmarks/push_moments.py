@@ -35,7 +35,7 @@ from stepaside.studies.robustness_trial import (
     RobustnessTrial,
     settings_of,
 )
-from stepaside.studies.survival import PUSH, bound_at, walking_reach
+from stepaside.studies.survival_statistics import PUSH, bound_at, walking_reach
 
 GAIT = GaitSettings()
 

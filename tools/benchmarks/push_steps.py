@@ -29,7 +29,7 @@ from stepaside.planning.capturability import (
 from stepaside.planning.steady_gait import steady_plan
 from stepaside.studies.code_version import PLANNER
 from stepaside.studies.result_files import header, write_result
-from stepaside.studies.survival import walking_reach
+from stepaside.studies.survival_statistics import walking_reach
 
 TIMES, DIRECTIONS, LANDINGS = 60, 180, 24
 FOOTSTEPS = 4  # a further step is weighted by exp(-eta T), 0.04 or less
@@ -117,7 +117,7 @@ def main() -> None:
         "footsteps": FOOTSTEPS,
         "reach_m": reach._asdict(),
     }
-    modules = (*PLANNER, "studies/survival")
+    modules = (*PLANNER, "studies/survival_statistics")
     head = header(settings, modules=modules, libraries=("numpy",))
     write_result(output, head, rows=rows)
 

@@ -14,7 +14,7 @@ from stepaside.studies.result_files import header, write_result
 from stepaside.studies.result_store import ResultStore
 from stepaside.studies.robustness_campaign import push_study, robustness_study
 from stepaside.studies.robustness_trial import METHODS, STRENGTHS, trials
-from stepaside.studies.survival import (
+from stepaside.studies.survival_statistics import (
     limit_rows,
     push_survival_rows,
     survival_rows,

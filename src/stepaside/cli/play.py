@@ -74,7 +74,7 @@ def play(settings: DuelSettings, connection: ConnectionSettings) -> None:
         observers: list[Any] = [line]
         record = None
         if connection.record is not None:
-            from .play_record import PlayRecord
+            from .play_recording import PlayRecord
 
             used = with_feedback(settings) if joints else settings
             record = PlayRecord(connection.record, used, connection)
@@ -187,7 +187,7 @@ def _run_joints(
     import gc
 
     from ..drivers.guardian_process import SessionLost
-    from ..drivers.joint.safety import RobotState
+    from ..drivers.joint.safety_state_machine import RobotState
 
     gc.collect()
     gc.freeze()  # exclude loaded modules, so that collections stay short

@@ -81,7 +81,7 @@ def summarise_walks(
     The number of walks in the search for push limits is not known ahead.
     """
     from ..studies.robustness_trial import mass_of, push_scale
-    from ..studies.survival import (
+    from ..studies.survival_statistics import (
         limit_rows,
         push_survival_rows,
         summarise_limits,

@@ -11,7 +11,7 @@ from ..core.atomic_output import atomic_draft, check_folder
 from ..core.poses import Array
 from ..locomotion.walk_snapshots import Phase, StepStarted, WalkState
 from .joint.joint_loop import JointTick
-from .joint.safety import RobotState
+from .joint.safety_state_machine import RobotState
 from .row_file import RowWriter
 from .velocity.velocity_loop import DrivingState, VelocityTick
 

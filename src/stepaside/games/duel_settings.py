@@ -31,7 +31,7 @@ from ..strategies.registry import (
     describe_strategy,
     is_described,
 )
-from .strategy_objects import EVASION, resolve_strategies
+from .strategy_resolution import EVASION, resolve_strategies
 
 ERROR = ConfigurationError
 SENSING = ("ideal", "cameras")

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from ..core.poses import Array
-from ..drivers.joint.safety import RobotState
+from ..drivers.joint.safety_state_machine import RobotState
 from ..drivers.row_file import HEADER, ROWS
 from ..drivers.velocity.velocity_loop import DrivingState
 from ..robots.description import load_robot

@@ -5,7 +5,7 @@ from functools import partial
 from typing import Any
 
 from ..games.duel_settings import DuelSettings
-from ..games.strategy_objects import check_strategy_names
+from ..games.strategy_resolution import check_strategy_names
 from .campaign import Study, code_stamp
 from .duel_record import FIELDS, play_seed, settings_hash
 from .records import Record

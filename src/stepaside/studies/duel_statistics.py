@@ -8,7 +8,7 @@ import numpy as np
 
 from ..games.duel_circle import circle_of_theory
 from ..games.duel_settings import DuelSettings
-from .survival import CONFIDENCE, wilson
+from .survival_statistics import CONFIDENCE, wilson
 
 Record = dict[str, Any]
 BEFORE = 2.0 / 3.0  # of a duel; means are taken over the rest

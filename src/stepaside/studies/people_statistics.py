@@ -8,7 +8,7 @@ from ..planning import GaitSettings
 from ..theory.unicycle.side_step import side_clearance
 from .encounters import Encounter
 from .records import Record
-from .survival import wilson
+from .survival_statistics import wilson
 
 SEEN_AT = 3.5  # distance at which a depth camera detects people, in [m]
 

@@ -9,9 +9,11 @@ from .push_limits import RESOLUTION
 from .result_files import header
 from .robustness_trial import mass_of
 from .settings_diff import changes_of
-from .survival import DEFAULT, PUSH, summarise_limits, walking_reach
+from .survival_statistics import DEFAULT, PUSH, summarise_limits, walking_reach
 
-MODULES = ("studies/survival",)  # which finds the limits and their bounds
+MODULES = (
+    "studies/survival_statistics",
+)  # which finds the limits and their bounds
 
 
 def pushes_result(
@@ -26,7 +28,8 @@ def pushes_result(
     """Return the rows of limits with command, version and settings.
 
     Args:
-        rows: Rows of :func:`~stepaside.studies.survival.limit_rows`.
+        rows: Those of
+            :func:`~stepaside.studies.survival_statistics.limit_rows`.
         methods: Control methods of the campaign.
         body: Preset of the body.
         phases: Number of phases of the gait cycle at which pushes begin.

@@ -23,7 +23,7 @@ from ..strategies.registry import file_of
 from .campaign import Study, code_stamp
 from .case_grid import CaseGrid
 from .records import Record
-from .survival import CONFIDENCE
+from .survival_statistics import CONFIDENCE
 from .sweep_games import GAMES, SweepGame
 
 MODULES = ("studies/sweep_games",)  # which play the games

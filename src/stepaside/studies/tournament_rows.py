@@ -9,7 +9,7 @@ import numpy as np
 from ..strategies.strategy_game import StepGame
 from ..theory.unicycle.circle_equations import find_circle
 from .entrants import gain_ratio_of
-from .survival import CONFIDENCE, wilson
+from .survival_statistics import CONFIDENCE, wilson
 
 Record = dict[str, Any]
 

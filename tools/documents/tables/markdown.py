@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Sequence
 
-from stepaside.studies.survival import wilson
+from stepaside.studies.survival_statistics import wilson
 
 NONE = "-"  # shown for missing values
 

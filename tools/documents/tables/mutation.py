@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
-from stepaside.studies.survival import wilson
+from stepaside.studies.survival_statistics import wilson
 
 from .markdown import number, table
 

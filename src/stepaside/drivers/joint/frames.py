@@ -8,7 +8,7 @@ from ...core.poses import Array
 from ...perception.images import Percept, SonarEcho
 from ...perception.measurement import Measurement, Sighting
 from .joint_map import JointMap
-from .safety import RobotState
+from .safety_state_machine import RobotState
 
 
 class FrameError(StepAsideError, ValueError):

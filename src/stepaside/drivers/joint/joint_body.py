@@ -16,9 +16,9 @@ from .frames import Codec, JointCommand, JointFrame, measurement_of
 from .joint_map import JointMap, MotorTable
 from .link import FrameLink
 from .motion_states import JointMotionState
-from .safety import RobotState, Safety
 from .safety_conditions import SafetyInputs, SafetySettings
-from .safety_monitor import SafetyMonitor
+from .safety_inputs import SafetyMonitor
+from .safety_state_machine import RobotState, Safety
 from .stiffness_guardian import StiffnessGuardian
 
 log = logging.getLogger(__name__)

@@ -11,7 +11,7 @@ from ...locomotion.walk_snapshots import Phase, StepStarted, WalkState
 from ...perception.measurement import Measurement, Sighting
 from ...strategies import StandStill, Strategy
 from .joint_body import JointBody
-from .safety import RobotState
+from .safety_state_machine import RobotState
 
 MakeScheme = Callable[[Strategy], ControlScheme]
 

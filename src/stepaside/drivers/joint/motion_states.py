@@ -5,7 +5,7 @@ import numpy as np
 from ...core.poses import Array
 from .frames import JointFrame
 from .joint_map import JointMap, MotorTable
-from .safety import RobotState
+from .safety_state_machine import RobotState
 from .target_limits import StiffnessRamp, TargetLimiter, derated, legs_reached
 
 POSTURE_SPEED = 0.5  # of each joint in motions to a posture, in [rad/s]

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 
-from ..joint.safety import RobotState
+from ..joint.safety_state_machine import RobotState
 
 Colour = tuple[float, float, float]
 OFF: Colour = (0.0, 0.0, 0.0)

@@ -10,7 +10,7 @@ from time import sleep
 from ...core.poses import Array
 from ..guardian_process import SessionLost, open_with_retries
 from ..joint.joint_body import JointBody, JointInterface
-from ..joint.safety import RobotState
+from ..joint.safety_state_machine import RobotState
 from ..joint.session_options import PLAIN, SessionOptions
 from ..joint.stiffness_guardian import FADING, StiffnessGuardian
 from .conventions import CODEC

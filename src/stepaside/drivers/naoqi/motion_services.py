@@ -11,7 +11,7 @@ from typing import Any
 
 from ...planning import GaitSettings
 from ..velocity.velocity_body import REST, VelocityCommand
-from .footstep_requests import footstep_entry, read_steps, velocity_of
+from .footstep_validation import footstep_entry, read_steps, velocity_of
 from .joint_chains import joints_of, shares_of, values_of
 from .service_state import WalkServiceState
 

@@ -9,7 +9,7 @@ import viser
 from ...core.errors import StepAsideError
 from ...games.duel import Duel
 from ...games.duel_settings import SENSING, DuelSettings
-from ...games.strategy_objects import EVASION
+from ...games.strategy_resolution import EVASION
 from ...games.walker import SimulatedPlayer
 from ...locomotion.zmp.control_settings import (
     OPEN_LOOP,

@@ -12,7 +12,7 @@ import viser
 
 from ...core.errors import StepAsideError
 from ...games.duel_settings import PLAYERS, DuelSettings
-from ...games.strategy_objects import EVASION
+from ...games.strategy_resolution import EVASION
 from ..palette import THEMES
 from ..text_escaping import for_markdown
 from .camera_panel import CameraPanel

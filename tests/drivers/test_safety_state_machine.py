@@ -5,11 +5,11 @@ from typing import Any
 import pytest
 
 from stepaside.core.errors import ConfigurationError
-from stepaside.drivers.joint.safety import RobotState, Safety
 from stepaside.drivers.joint.safety_conditions import (
     SafetyInputs,
     SafetySettings,
 )
+from stepaside.drivers.joint.safety_state_machine import RobotState, Safety
 
 SETTINGS = SafetySettings()
 MOVING = [s for s in RobotState if s is not RobotState.LIMP]

@@ -19,7 +19,7 @@ from stepaside.studies.robustness_trial import (
     STRENGTHS,
     RobustnessTrial,
 )
-from stepaside.studies.survival import (
+from stepaside.studies.survival_statistics import (
     PUSH,
     bound_at,
     limit_rows,
