@@ -19,9 +19,9 @@ from stepaside.fitting.legs_measurement import (
     run_trial,
 )
 from stepaside.games.robot_settings import settings_from_description
-from stepaside.locomotion.policy.velocity_response import STILL, BodyVelocity
 from stepaside.robots.description import RobotDescription, load_robot
 from stepaside.sim.body_settings import BodySettings
+from stepaside.strategies.velocity_set import STILL, BodyVelocity
 
 # Delivered velocity by commanded one.
 GAINS = np.array([[0.8, 0.0, 0.02], [0.01, 0.5, 0.0], [0.0, -0.03, 0.9]])
@@ -98,7 +98,7 @@ def test_commands_that_led_to_a_fall_are_left_out(
         0,
         0.25,
     )
-    assert result.response.limits.forward == pytest.approx((-0.8, 0.2))
+    assert result.response.velocities.forward == pytest.approx((-0.8, 0.2))
 
 
 def test_legs_that_fall_while_standing_are_refused(

@@ -17,9 +17,9 @@ from stepaside.locomotion.policy.contract_checks import check_contract
 from stepaside.locomotion.policy.contract_reader import read_contract
 from stepaside.locomotion.policy.legs_settings import LegsSettings
 from stepaside.locomotion.policy.network import PolicyNetwork
-from stepaside.locomotion.policy.velocity_response import BodyVelocity
 from stepaside.robots.description import load_robot
 from stepaside.sim.body_settings import BodySettings
+from stepaside.strategies.velocity_set import BodyVelocity
 
 G1 = (
     Path(sysconfig.get_path("purelib"))

@@ -126,11 +126,11 @@ def _facts(result: "LegsMeasurement") -> dict[str, Any]:
     def number(value: float) -> float | None:
         return value if isfinite(value) else None
 
-    limits = result.response.limits
+    velocities = result.response.velocities
     return {
         "falls": result.falls,
         "gains": result.gains().tolist(),
-        "limits": limits._asdict(),
+        "limits": velocities.bounds,
         "lag_s": [axis.lag for axis in result.response.axes],
         "halting": [axis.halting for axis in result.response.axes],
         "odometry_ratio": result.odometry_ratio(),
@@ -160,8 +160,8 @@ def _print(result: "LegsMeasurement") -> None:
         echo(f"{asked}   {got if fell is None else f'fell at {fell:.1f} s'}")
     gains, rows = result.gains(), []
     units = (("m/s", "m"), ("m/s", "m"), ("rad/s", "rad"))
-    limits = result.response.limits._asdict().items()
-    for i, (name, (low, high)) in enumerate(limits):
+    velocities = result.response.velocities
+    for i, (name, (low, high)) in enumerate(velocities.bounds.items()):
         axis, (speed, length) = result.response.axes[i], units[i]
         cross = ", ".join(
             f"{gains[k, i]:+.3f} {other}"

@@ -3,7 +3,7 @@
 from time import process_time
 
 from ..core.poses import Array, Pose
-from ..locomotion.locomotion import IntentSource, VelocityBounds
+from ..locomotion.locomotion import IntentSource
 from ..locomotion.walk_snapshots import Phase, StepStarted, WalkState
 from ..locomotion.zmp.current_step import (
     CurrentStep,
@@ -16,6 +16,7 @@ from ..perception.measurement import Measurement
 from ..planning import CenterState, Foot, GaitSettings, ManeuverPlan
 from ..planning.steady_gait import landing_state
 from ..robots.leg_kinematics import BodyReference, LegKinematics
+from ..strategies.velocity_set import VelocitySet
 from .clearance.guard import Guard
 from .maneuver_selection import ManeuverSelection
 from .velocity_walk import velocity_limits
@@ -95,10 +96,10 @@ class ManeuverWalk:
         self.joint_targets: Array = kinematics.stand(self.reference)
 
     @property
-    def velocity_bounds(self) -> VelocityBounds:
-        """Greatest velocities of the gait."""
+    def velocities(self) -> VelocitySet:
+        """Velocities of the gait."""
         speed, turn = velocity_limits(self.gait)
-        return VelocityBounds(speed, 0.0, turn)
+        return VelocitySet((-speed, speed), (0.0, 0.0), (-turn, turn))
 
     @property
     def torso_heading(self) -> float:

@@ -10,6 +10,7 @@ from ..planning.template_path import pose_beside_foot
 from ..strategies.decision_maker import DecisionMaker
 from ..strategies.knowledge import ON_THE_SPOT, Intent, Knowledge, Limits
 from ..strategies.strategy import Strategy
+from ..strategies.velocity_set import VelocitySet
 from .clearance.surroundings import OpenFloor, Surroundings
 from .state_history import StateHistory
 from .turn_calibration import TurnCalibration
@@ -54,6 +55,7 @@ class StrategyRunner(DecisionMaker):
         tick: float,
         surroundings: Surroundings | None = None,
         turns: TurnCalibration | None = None,
+        velocities: VelocitySet | None = None,
     ) -> None:
         """Begin without a sighting.
 
@@ -63,10 +65,18 @@ class StrategyRunner(DecisionMaker):
             tick: Control period, in [s].
             surroundings: Known obstacles; none by default.
             turns: Calibration of the turning rate; none by default.
+            velocities: Velocities that the legs deliver; by default those of
+                a unicycle.
         """
         super().__init__(
             strategy,
-            Limits(gait.speed, gait.gain, gait.stride, gait.step_duration),
+            Limits(
+                gait.speed,
+                gait.gain,
+                gait.stride,
+                gait.step_duration,
+                velocities,
+            ),
         )
         self._surroundings = surroundings or OpenFloor()
         self.pace = 1.0

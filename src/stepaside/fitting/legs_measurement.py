@@ -19,9 +19,7 @@ from ..locomotion.policy.legs_settings import LegsSettings
 from ..locomotion.policy.policy_legs import PolicyLegs
 from ..locomotion.policy.velocity_response import (
     AXES,
-    STILL,
     AxisResponse,
-    BodyVelocity,
     VelocityResponse,
 )
 from ..locomotion.zmp.control_settings import ControlSettings
@@ -30,6 +28,7 @@ from ..robots.description import RobotDescription
 from ..sim.body_settings import BodySettings, at_tick
 from ..sim.physics_settings import PhysicsSettings
 from ..sim.world import World
+from ..strategies.velocity_set import STILL, BodyVelocity
 
 STANDING = 1.5  # before the command, in [s]: the gyro is calibrated in 1 s
 SETTLING = 3.0  # from the command to a steady walk, in [s]

@@ -162,7 +162,9 @@ def place_policy_player(
     policy = load_legs(legs, setup.description, tick=tick)
     robot = place_on_legs(world, setup, policy, sight=sight, truth=truth)
     scheme = LocomotionScheme(
-        StrategyRunner(strategy, setup.gait, tick),
+        StrategyRunner(
+            strategy, setup.gait, tick, velocities=policy.velocities
+        ),
         PolicyWalk(policy, setup.gait),
         MeasuredSight(),
     )

@@ -11,7 +11,7 @@ from ..planning import GaitSettings
 from ..planning.path import UnicycleTrajectory
 from ..sim.person_motion import PersonMotion, Place
 from ..strategies.knowledge import Intent, Knowledge, Limits
-from ..strategies.strategy import Strategy
+from ..strategies.strategy import Strategy, evaluate_strategy
 
 STEP = 0.01  # of the integration, in [s]
 
@@ -82,7 +82,7 @@ def play_template(
         if now >= decides_at - 1e-9:
             moving = intent is not None
             known = _known(now, pose, walk.pose, velocity, limits, moving)
-            intent, memory = strategy.decide(known, memory)
+            intent, memory = evaluate_strategy(strategy, known, memory)
             begun = pose
             if not intent.walks:
                 intent = None

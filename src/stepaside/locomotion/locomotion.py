@@ -7,29 +7,17 @@ from ..perception.measurement import Measurement
 from ..planning import Direction, Foot, GaitSettings
 from ..robots.leg_kinematics import LegKinematics
 from ..strategies.knowledge import Intent
+from ..strategies.velocity_set import VelocitySet
 from .walk_snapshots import Phase, StepStarted, WalkState
 from .zmp.current_step import CurrentStep
-
-
-class VelocityBounds(NamedTuple):
-    """Greatest velocities that a locomotion delivers, in its body frame.
-
-    Attributes:
-        forward: Speed ahead, in [m/s].
-        sideways: Speed to either side, in [m/s]; 0 for a unicycle.
-        turn: Turning rate, in [rad/s].
-    """
-
-    forward: float
-    sideways: float
-    turn: float
 
 
 class MotionRequest(NamedTuple):
     """Decision of a player, for its locomotion.
 
     Attributes:
-        intent: Desired heading and speed, in the frame of the decision.
+        intent: Desired heading and speed, in the frame of the decision, or
+            velocity, in that of the body.
         direction: Whether the body drives forward or backward.
         saturated: Whether it turns by (6) instead of (8).
     """
@@ -89,8 +77,8 @@ class Locomotion(Protocol):
     joint_targets: Array
 
     @property
-    def velocity_bounds(self) -> VelocityBounds:
-        """Greatest velocities that it delivers."""
+    def velocities(self) -> VelocitySet:
+        """Velocities that it delivers."""
 
     @property
     def torso_heading(self) -> float:

@@ -13,6 +13,9 @@ from ..core.errors import (
     shown,
 )
 from ..core.poses import Pose
+from .velocity_set import STILL, BodyVelocity, VelocitySet
+
+FASTEST = 100.0  # desired velocity; more is an error, in [m/s] and [rad/s]
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,12 +29,14 @@ class Limits:
             rate, in [rad/s].
         stride: Length of one step at speed factor 1, in [m].
         step_duration: Time between decisions while walking, in [s].
+        velocities: Velocities that the legs deliver; None for a unicycle.
     """
 
     speed: float
     gain: float
     stride: float
     step_duration: float
+    velocities: VelocitySet | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,7 +99,7 @@ class Knowledge:
 
 @dataclass(frozen=True, slots=True)
 class Intent:
-    """Intent of a player: desired heading and speed.
+    """Intent of a player: desired heading and speed, or body velocity.
 
     Attributes:
         heading: Desired heading in the frame of the knowledge, in [rad]; it
@@ -103,19 +108,25 @@ class Intent:
         moving: Whether to move at all.
         pace: Fraction of the gait's step rate, in (0, 1]: the same steps and
             turns in more time. Walkers go no slower than 0.5.
+        velocity: Desired velocity of the body in its present frame, in place
+            of heading and speed. Legs with a velocity set walk at the nearest
+            velocity in it, unicycles follow
+            :func:`~stepaside.strategies.unicycle_intent.unicycle_intent`.
     """
 
     heading: float = 0.0
     speed_factor: float = 1.0
     moving: bool = True
     pace: float = 1.0
+    velocity: BodyVelocity | None = None
 
     def __post_init__(self) -> None:
         """Validate the intent.
 
         Raises:
             PlanError: If the heading is not finite or beyond one turn, a
-                factor is out of its range, or moving is no boolean.
+                factor is out of its range, moving is no boolean, or a
+                velocity is not finite.
         """
         check_bearing(self.heading, "heading")
         if type(self.moving) is not bool and not isinstance(
@@ -127,11 +138,16 @@ class Intent:
         check_within(self.speed_factor, 0.0, 1.0, "speed_factor", "1")
         check_positive(self.pace, "pace", "1")
         check_within(self.pace, 0.0, 1.0, "pace", "1")
+        if self.velocity is not None:
+            for name, value in self.velocity._asdict().items():
+                unit = "rad/s" if name == "turn" else "m/s"
+                check_within(value, -FASTEST, FASTEST, name, unit)
 
     @property
     def walks(self) -> bool:
         """Whether it requests any motion."""
-        return self.moving and self.speed_factor > 0.0
+        moves = self.speed_factor > 0.0 and self.velocity != STILL
+        return bool(self.moving and moves)
 
 
 ON_THE_SPOT = 0.05  # speed factor of a turn on the spot

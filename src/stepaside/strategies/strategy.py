@@ -5,6 +5,7 @@ from typing import Any, Protocol
 from ..core.errors import StrategyError
 from ..planning import Direction
 from .knowledge import Intent, Knowledge
+from .unicycle_intent import unicycle_intent
 
 # sys.exit() in user code must not end the program.
 FAILURES = (Exception, SystemExit)
@@ -50,6 +51,9 @@ def evaluate_strategy(
 ) -> tuple[Intent, Any]:
     """Evaluate one decision of a strategy.
 
+    A body velocity becomes the nearest intent of a unicycle, unless the legs
+    have a velocity set.
+
     Args:
         strategy: Strategy, possibly user code.
         knowledge: Knowledge of the player.
@@ -67,4 +71,7 @@ def evaluate_strategy(
         raise StrategyError(f"{type(error).__name__}: {error}") from error
     if not isinstance(intent, Intent):
         raise StrategyError(f"decide must return an Intent, got {intent!r}")
+    limits = knowledge.limits
+    if intent.velocity is not None and limits.velocities is None:
+        intent = unicycle_intent(intent, limits, strategy.direction)
     return intent, memory

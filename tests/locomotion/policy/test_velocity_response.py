@@ -7,9 +7,9 @@ from stepaside.core.errors import PolicyError
 from stepaside.locomotion.policy.contract import CommandRanges
 from stepaside.locomotion.policy.velocity_response import (
     AxisResponse,
-    BodyVelocity,
     VelocityResponse,
 )
+from stepaside.strategies.velocity_set import BodyVelocity
 
 V = BodyVelocity
 MEASURED = VelocityResponse(
@@ -49,18 +49,18 @@ def test_a_deliverable_velocity_is_delivered(
 
 
 def test_the_nearest_velocity_keeps_the_path() -> None:
-    given = V(1.44, 0.1, 0.3)
-    found = MEASURED.nearest(given)
+    given = V(1.44, 0.0, 0.3)
+    found = MEASURED.velocities.nearest(given)
     assert found.forward == pytest.approx(0.72)
     np.testing.assert_allclose(found, np.array(given) / 2.0)
-    assert MEASURED.nearest(V(0.5, 0.1, 0.3)) == V(0.5, 0.1, 0.3)
+    assert MEASURED.velocities.nearest(V(0.5, 0.1, 0.3)) == V(0.5, 0.1, 0.3)
 
 
 def test_ideal_legs_deliver_commands() -> None:
     legs = VelocityResponse.ideal(CommandRanges(forward=(-0.5, 2.0)))
     velocity = V(1.2, -0.3, 0.4)
     assert legs.command_for(velocity) == pytest.approx(velocity)
-    assert legs.limits.forward == (-0.5, 2.0)
+    assert legs.velocities.forward == (-0.5, 2.0)
 
 
 def test_an_axis_that_does_not_follow_is_refused() -> None:

@@ -7,13 +7,14 @@ from ...core.poses import Array, Pose
 from ...perception.measurement import Measurement
 from ...robots.description import RobotDescription
 from ...robots.forward_kinematics import ForwardKinematics
-from .contract import CommandRanges, PolicyContract
+from ...strategies.velocity_set import STILL, BodyVelocity, VelocitySet
+from .contract import PolicyContract
 from .gravity_filter import GravityFilter
 from .initial_posture import InitialPosture
 from .leg_odometry import LegOdometry
 from .network import PolicyNetwork
 from .runner import BodyMotion, PolicyRunner
-from .velocity_response import STILL, BodyVelocity, VelocityResponse
+from .velocity_response import VelocityResponse
 
 LEARNING = 0.2  # integral gain of each velocity, in [1/s]: some gait cycles
 BOUND = 0.15  # greatest learned correction, in [m/s] and [rad/s]
@@ -104,9 +105,9 @@ class PolicyLegs:
         return self._gravity.tilt
 
     @property
-    def limits(self) -> CommandRanges:
-        """Least and greatest velocity along each axis alone."""
-        return self.response.limits
+    def velocities(self) -> VelocitySet:
+        """Velocities that the legs deliver, and how fast."""
+        return self.response.velocities
 
     def update(
         self, measurement: Measurement, velocity: BodyVelocity
@@ -124,7 +125,7 @@ class PolicyLegs:
         Raises:
             PolicyError: If the network returns NaN or infinity.
         """
-        self.intended = self.response.nearest(velocity)
+        self.intended = self.velocities.nearest(velocity)
         rate = self._note_imu(measurement)
         self._turned += rate * self._tick
         if self._ticks % self._every == 0:

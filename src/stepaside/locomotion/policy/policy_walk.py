@@ -3,17 +3,22 @@
 from ...core.poses import Array, Pose
 from ...perception.measurement import Measurement
 from ...planning import Foot, GaitSettings
-from ..locomotion import IntentSource, MotionRequest, VelocityBounds
+from ...strategies.velocity_set import STILL, BodyVelocity, VelocitySet
+from ..locomotion import IntentSource, MotionRequest
 from ..walk_snapshots import Phase, StepStarted
 from ..zmp.current_step import CurrentStep, resting_step
 from .policy_legs import PolicyLegs
-from .velocity_response import STILL, BodyVelocity
+
+VELOCITY_INTERVAL = 0.08  # between decisions on a body velocity, in [s]
 
 
 def template_velocity(
     request: MotionRequest, gait: GaitSettings
 ) -> BodyVelocity:
-    """Return the velocity of the template unicycle, (3) and (8).
+    """Return the desired velocity of the template.
+
+    It is the desired body velocity, or that of the template unicycle, (3)
+    and (8).
 
     Args:
         request: Decision of the player.
@@ -22,6 +27,8 @@ def template_velocity(
     intent = request.intent
     if not intent.walks:
         return STILL
+    if intent.velocity is not None:
+        return intent.velocity
     speed = request.direction.value * gait.speed * intent.speed_factor
     return BodyVelocity(
         speed * intent.pace, 0.0, gait.gain * intent.heading * intent.pace
@@ -30,6 +37,9 @@ def template_velocity(
 
 class PolicyWalk:
     """Walk of one robot by a policy, with decisions at fixed intervals.
+
+    A heading is walked for the step of the template, a body velocity for
+    0.08 s.
 
     Attributes:
         gait: Speed, steering gain and decision interval of the template.
@@ -61,10 +71,9 @@ class PolicyWalk:
         self._next_decision = 0.0
 
     @property
-    def velocity_bounds(self) -> VelocityBounds:
-        """Greatest velocities that it delivers."""
-        ahead, aside, turn = self.legs.limits
-        return VelocityBounds(ahead[1], aside[1], turn[1])
+    def velocities(self) -> VelocitySet:
+        """Velocities that it delivers, and how fast."""
+        return self.legs.velocities
 
     @property
     def torso_heading(self) -> float:
@@ -110,9 +119,11 @@ class PolicyWalk:
         request = decisions.decide(
             now, self._support, Foot.LEFT, moving=moving
         )
-        self._velocity = (
-            STILL if request is None else template_velocity(request, self.gait)
-        )
+        self._velocity, interval = STILL, self.gait.step_duration
+        if request is not None:
+            self._velocity = template_velocity(request, self.gait)
+            if request.intent.velocity is not None:
+                interval = VELOCITY_INTERVAL
         walks = self._velocity != STILL
         self.phase = Phase.WALKING if walks else Phase.STANDING
-        self._next_decision = now + self.gait.step_duration
+        self._next_decision = now + interval

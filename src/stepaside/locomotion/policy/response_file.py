@@ -6,12 +6,8 @@ from pathlib import Path
 from typing import Any
 
 from ...core.errors import PolicyError
-from .velocity_response import (
-    AXES,
-    AxisResponse,
-    BodyVelocity,
-    VelocityResponse,
-)
+from ...strategies.velocity_set import BodyVelocity
+from .velocity_response import AXES, AxisResponse, VelocityResponse
 
 
 def response_path(folder: Path, network: Path) -> Path:

@@ -9,27 +9,16 @@ from typing import NamedTuple
 import numpy as np
 
 from ...core.errors import PolicyError
+from ...strategies.velocity_set import (
+    STILL,
+    AxisValues,
+    BodyVelocity,
+    VelocitySet,
+)
 from .contract import CommandRanges
 
 AXES = ("forward", "lateral", "turn")
 SWEEPS = 12  # over the axes of the inverse; it converges before
-
-
-class BodyVelocity(NamedTuple):
-    """Velocity of a body in its own frame, over the floor.
-
-    Attributes:
-        forward: Ahead, in [m/s].
-        lateral: To the left, in [m/s].
-        turn: Turning rate, in [rad/s], positive to the left.
-    """
-
-    forward: float = 0.0
-    lateral: float = 0.0
-    turn: float = 0.0
-
-
-STILL = BodyVelocity()
 
 
 class AxisResponse(NamedTuple):
@@ -142,23 +131,13 @@ class VelocityResponse:
                 break
         return BodyVelocity(*command)
 
-    def nearest(self, velocity: BodyVelocity) -> BodyVelocity:
-        """Return the deliverable velocity with the curvature of another.
-
-        Forward, lateral and turning velocity are scaled alike, so that the
-        path stays the same and takes longer.
-        """
-        share = 1.0
-        for value, (low, high) in zip(velocity, self.limits, strict=True):
-            limit = high if value > 0.0 else -low
-            if abs(value) > limit:
-                share = min(share, limit / abs(value))
-        return BodyVelocity(*(share * value for value in velocity))
-
     @cached_property
-    def limits(self) -> CommandRanges:
-        """Least and greatest velocity delivered along each axis alone."""
-        return CommandRanges(*((own[0], own[-1]) for own in self._own))
+    def velocities(self) -> VelocitySet:
+        """Velocities that are delivered, and how fast."""
+        bounds = [(own[0], own[-1]) for own in self._own]
+        lags = AxisValues(*(axis.lag for axis in self.axes))
+        halting = AxisValues(*(axis.halting for axis in self.axes))
+        return VelocitySet(bounds[0], bounds[1], bounds[2], lags, halting)
 
 
 def _locate(values: Sequence[float], value: float) -> tuple[int, float]:

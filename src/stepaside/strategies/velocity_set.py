@@ -1,0 +1,89 @@
+"""Body velocities that legs deliver, and how fast they respond."""
+
+from math import hypot
+from typing import NamedTuple
+
+Bounds = tuple[float, float]
+"""Least and greatest value; zero is between them."""
+
+
+class BodyVelocity(NamedTuple):
+    """Velocity of a body in its own frame, over the floor.
+
+    Attributes:
+        forward: Ahead, in [m/s].
+        lateral: To the left, in [m/s].
+        turn: Turning rate, in [rad/s], positive to the left.
+    """
+
+    forward: float = 0.0
+    lateral: float = 0.0
+    turn: float = 0.0
+
+
+STILL = BodyVelocity()
+
+
+class AxisValues(NamedTuple):
+    """One value for each axis of a body velocity.
+
+    Attributes:
+        forward: Of the motion ahead.
+        lateral: Of the motion to the left.
+        turn: Of the turning.
+    """
+
+    forward: float = 0.0
+    lateral: float = 0.0
+    turn: float = 0.0
+
+
+class VelocitySet(NamedTuple):
+    """Velocities that legs deliver, in the frame of the body.
+
+    Horizontal velocities fill an ellipse whose half axes are the bounds
+    ahead, behind and to the sides: legs that walk obliquely deliver less of
+    both components. The turning rate is bounded by itself.
+
+    Attributes:
+        forward: Bounds ahead, in [m/s].
+        lateral: Bounds to the left, in [m/s]; (0, 0) for a unicycle.
+        turn: Bounds of the turning rate, in [rad/s].
+        lags: Time by which the motion along each axis is behind that of its
+            final velocity, in [s].
+        halting: Motion along each axis from the command to stand until the
+            body stands, at the greatest velocity, in [m, m, rad].
+    """
+
+    forward: Bounds
+    lateral: Bounds
+    turn: Bounds
+    lags: AxisValues = AxisValues()
+    halting: AxisValues = AxisValues()
+
+    @property
+    def bounds(self) -> dict[str, Bounds]:
+        """Bounds of each axis alone, by its name."""
+        return dict(zip(BodyVelocity._fields, self[:3], strict=True))
+
+    def nearest(self, velocity: BodyVelocity) -> BodyVelocity:
+        """Return the velocity in the set with the path of another.
+
+        A component that the legs do not deliver at all is left out. The
+        others are scaled alike, so that direction and curvature of the path
+        stay the same and it takes longer.
+
+        Args:
+            velocity: Any velocity.
+        """
+        share, relative, kept = 1.0, [], []
+        for value, (low, high) in zip(velocity, self[:3], strict=True):
+            limit = high if value > 0.0 else -low
+            kept.append(value if limit > 0.0 else 0.0)
+            relative.append(abs(value) / limit if limit > 0.0 else 0.0)
+            if relative[-1] > 1.0:
+                share = min(share, limit / abs(value))
+        oblique = hypot(*relative[:2])
+        if relative[0] and relative[1] and oblique > 1.0:
+            share = min(share, 1.0 / oblique)
+        return BodyVelocity(*(share * value for value in kept))
