@@ -481,7 +481,10 @@ def test_a_halt_has_the_pace_of_the_walk(pace: float, lost: bool) -> None:
     strategy.walks = lost
     if lost:
         run.scheme.senses = SimpleNamespace(
-            see=lambda *seen: None, turning=0.0, aim=lambda targets: None
+            see=lambda *seen: None,
+            turning=0.0,
+            in_sight=None,
+            aim=lambda targets: None,
         )
     run.until(FIRST + 8.0 * STEP / pace + 3.0)
     assert run.phase() is Phase.STANDING

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from stepaside.perception.measurement import Sighting
-from stepaside.sim.ideal_sensors import IdealLineOfSight
+from stepaside.sim.ideal_sensors import IdealLineOfSight, hides
 from stepaside.sim.physics_settings import SightSettings
 
 OWN: Any = SimpleNamespace(
@@ -71,7 +71,7 @@ def test_the_latest_of_several_sightings_is_returned() -> None:
 
 def test_noise_has_the_set_deviation_and_no_bias() -> None:
     sight = look(bearing_noise=0.05, distance_noise=0.1)
-    seen = np.array([read(sight, i * TICK) for i in range(4000)])
+    seen = np.array([read(sight, i * TICK)[:3] for i in range(4000)])
     true = atan2(-0.4, -1.5) - 2.5 + 2 * pi
     for values, mean, deviation in (
         (seen[:, 1], true, 0.05),
@@ -96,3 +96,57 @@ def test_noisy_bearings_wrap_and_distances_stay_positive() -> None:
     assert np.abs(seen[:, 1]).max() <= pi
     assert seen[:, 2].min() == 0.0
     assert seen[:, 2].max() > 5.0
+
+
+def body(x: float, y: float, *, reach: float = 0.4, com: float = 0.27) -> Any:
+    return SimpleNamespace(
+        position_reference_in_world=(x, y),
+        position_com_in_world=(x, y, com),
+        heading_in_world=0.0,
+        reach=reach,
+    )
+
+
+@pytest.mark.parametrize(
+    ("between", "hidden"),
+    [
+        (body(1.0, 0.1), True),
+        (body(1.0, -0.13), True),
+        (body(1.0, 0.2), False),  # beside the line
+        (body(2.5, 0.0), False),  # behind the player
+        (body(-0.5, 0.0), False),  # behind the eye
+        (body(1.0, 0.0, com=0.1), False),  # too low
+        (body(1.0, 0.3, reach=1.0), True),  # a wide one
+    ],
+)
+def test_a_body_hides_what_is_behind_it(between: Any, hidden: bool) -> None:
+    eye, seen = body(0.0, 0.0), body(2.0, 0.0)
+    assert hides(between, eye, seen) is hidden
+
+
+def test_a_hidden_player_is_seen_where_it_was() -> None:
+    eye, seen, between = body(0.0, 0.0), body(2.0, 0.0), body(1.0, 1.0)
+    sight = IdealLineOfSight(
+        eye,
+        seen,
+        SightSettings(),
+        np.random.default_rng(1),
+        between=(between,),
+    )
+    assert read(sight, 0.0) == Sighting(0.0, 0.0, 2.0)
+    between.position_reference_in_world = (1.0, 0.0)
+    seen.position_reference_in_world = (3.0, 0.0)
+    assert read(sight, TICK) == Sighting(0.0, 0.0, 2.0)
+    between.position_reference_in_world = (1.0, 1.0)
+    assert read(sight, 2 * TICK) == Sighting(2 * TICK, 0.0, 3.0)
+
+
+def test_a_player_that_was_never_visible_is_unknown() -> None:
+    sight = IdealLineOfSight(
+        body(0.0, 0.0),
+        body(2.0, 0.0),
+        SightSettings(),
+        np.random.default_rng(1),
+        between=(body(1.0, 0.0),),
+    )
+    assert sight.read(0.0) is None

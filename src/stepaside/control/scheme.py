@@ -67,6 +67,7 @@ class LocomotionScheme:
         decisions.calibrate(measurement, stands=walk.phase is Phase.STANDING)
         decisions.headings.note(now + walk.heading_delay, walk.torso_heading)
         self.sighting = self.senses.see(measurement, walk.step, walk.tilt)
+        decisions.note_players(self.senses.in_sight)
         targets = walk.update(measurement, self)
         decisions.templates.note(now + walk.pose_delay, walk.pose)
         if walk.phase is not Phase.FALLEN:

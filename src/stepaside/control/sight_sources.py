@@ -1,8 +1,9 @@
 """Sources of sightings of the opponent: measurements or camera."""
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
+from ..core.player_identity import PlayerIdentity
 from ..core.poses import Array
 from ..locomotion.zmp.current_step import CurrentStep
 from ..perception.attitude import AttitudeFilter
@@ -14,6 +15,19 @@ if TYPE_CHECKING:
 
 StepAt = Callable[[float], CurrentStep]
 CORRECTION = 0.5  # of the attitude filter by the accelerometer, in [1/s]
+NEARER = 0.9  # relative distance from which another opponent is taken
+
+
+class PlayersInSight(NamedTuple):
+    """Own identity and sightings of other players.
+
+    Attributes:
+        identity: Own identity.
+        sightings: Latest sighting of each other player, with its identity.
+    """
+
+    identity: PlayerIdentity
+    sightings: tuple[Sighting, ...]
 
 
 class SightSource(Protocol):
@@ -27,6 +41,10 @@ class SightSource(Protocol):
     @property
     def turning(self) -> float:
         """Turn on the spot for a scan: 1 left, -1 right, or 0."""
+
+    @property
+    def in_sight(self) -> PlayersInSight | None:
+        """All players seen; None from a source that knows one opponent."""
 
     def see(
         self,
@@ -52,9 +70,11 @@ class MeasuredSight:
 
     Attributes:
         turning: 0: it never scans.
+        in_sight: None: it knows one opponent.
     """
 
     turning = 0.0
+    in_sight: PlayersInSight | None = None
 
     def __init__(self, sighting: Sighting | None = None) -> None:
         """Begin with an initial sighting, if any."""
@@ -75,6 +95,74 @@ class MeasuredSight:
         """Leave the head as it is."""
 
 
+class SightOfPlayers:
+    """Latest sightings of several players, one of which is the opponent.
+
+    The opponent is the assigned target once it has been seen. Without a
+    target it is the nearest opponent, and another one only when that is
+    nearer by a tenth; in a game without opponents, the nearest player.
+
+    Attributes:
+        turning: 0: it never scans.
+    """
+
+    turning = 0.0
+
+    def __init__(self, identity: PlayerIdentity, target: str = "") -> None:
+        """Begin without sightings.
+
+        Args:
+            identity: Own identity.
+            target: Name of the assigned opponent; empty for the nearest.
+        """
+        self._identity, self._target = identity, target
+        self._latest: dict[str, Sighting] = {}
+        self._numbers: dict[str, int] = {}
+        self._chosen = ""
+
+    @property
+    def in_sight(self) -> PlayersInSight:
+        """Own identity, and the latest sighting of each player."""
+        return PlayersInSight(self._identity, tuple(self._latest.values()))
+
+    def see(
+        self,
+        measurement: Measurement,
+        step: StepAt,
+        tilt: tuple[float, float] | None,
+    ) -> Sighting | None:
+        """Return the newest sighting of the opponent."""
+        for sighting in measurement.players:
+            assert sighting.identity is not None
+            name = sighting.identity.name
+            number = self._numbers.setdefault(name, len(self._numbers) + 1)
+            self._latest[name] = sighting._replace(target_id=number)
+        self._chosen = self._choose()
+        return self._latest.get(self._chosen)
+
+    def _choose(self) -> str:
+        """Return the name of the opponent; empty if there is none."""
+        if self._target:
+            return self._target
+        opponents = [
+            seen
+            for seen in self._latest.values()
+            if seen.identity and self._identity.opposes(seen.identity)
+        ] or [*self._latest.values()]
+        if not opponents:
+            return ""
+        nearest = min(opponents, key=lambda seen: seen.distance)
+        assert nearest.identity is not None
+        present = self._latest.get(self._chosen)
+        if present in opponents and present is not None:
+            if nearest.distance > NEARER * present.distance:
+                return self._chosen
+        return nearest.identity.name
+
+    def aim(self, targets: Array) -> None:
+        """Leave the head as it is."""
+
+
 class CameraSight:
     """Sightings from images, relative to the support foot.
 
@@ -83,7 +171,10 @@ class CameraSight:
 
     Attributes:
         perception: Perception with its gaze.
+        in_sight: None: colours tell one opponent from the rest.
     """
+
+    in_sight: PlayersInSight | None = None
 
     def __init__(self, perception: "Perception", *, tick: float) -> None:
         """Wrap a perception, at a control period in [s]."""

@@ -1,21 +1,30 @@
 """Execution of the strategy of one robot, with its memory."""
 
 from dataclasses import replace
-from math import pi
+from math import atan2, cos, hypot, pi, sin
 
 from ..core.poses import Pose
 from ..perception.measurement import Measurement, Sighting
 from ..planning import Foot, GaitSettings
 from ..planning.template_path import pose_beside_foot
 from ..strategies.decision_maker import DecisionMaker
-from ..strategies.knowledge import ON_THE_SPOT, Intent, Knowledge, Limits
+from ..strategies.knowledge import (
+    ON_THE_SPOT,
+    Intent,
+    Knowledge,
+    Limits,
+    OtherPlayer,
+)
+from ..strategies.opponent_rates import FloorVelocity
 from ..strategies.strategy import Strategy
 from ..strategies.velocity_set import VelocitySet
 from .clearance.surroundings import OpenFloor, Surroundings
+from .sight_sources import PlayersInSight
 from .state_history import StateHistory
 from .turn_calibration import TurnCalibration
 
 MAX_PACE_CHANGE = 0.25  # from step to step
+RECENT = 1.0  # age up to which the own pose at a sighting is known, in [s]
 
 
 def next_pace(before: float, wanted: float, *, standing: bool) -> float:
@@ -85,6 +94,13 @@ class StrategyRunner(DecisionMaker):
         self.turns = turns
         self._spacing = gait.foot_spacing
         self._target_id = 0
+        self._in_sight: PlayersInSight | None = None
+        self._velocities: dict[str, FloorVelocity] = {}
+        self._positions: dict[str, tuple[float, float, float]] = {}
+
+    def note_players(self, in_sight: PlayersInSight | None) -> None:
+        """Store the sightings of all players for the next decision."""
+        self._in_sight = in_sight
 
     def calibrate(self, measurement: Measurement, *, stands: bool) -> None:
         """Update the turn calibration, if there is one.
@@ -180,7 +196,14 @@ class StrategyRunner(DecisionMaker):
             self.reset_rates()
         template = self.templates.at(sighting.time)
         sight = self.headings.at(sighting.time) + sighting.bearing
-        return self.observe(
+        if sighting.identity is not None:
+            x, y = self._position_of(sighting)
+            if now - sighting.time > RECENT:
+                template = self.templates.at(now)
+                sight = atan2(y - template.y, x - template.x)
+                distance = hypot(y - template.y, x - template.x)
+                sighting = sighting._replace(distance=distance)
+        known = self.observe(
             now,
             template,
             sight,
@@ -190,3 +213,54 @@ class StrategyRunner(DecisionMaker):
             obstacles=self._surroundings.solids,
             map_error=self._surroundings.map_error,
         )
+        if self._in_sight is None:
+            return known
+        identity, sightings = self._in_sight
+        others = tuple(self._other(now, template, s) for s in sightings)
+        return replace(known, identity=identity, others=others)
+
+    def _other(
+        self, now: float, template: Pose, sighting: Sighting
+    ) -> OtherPlayer:
+        """Return a player in the frame of the knowledge.
+
+        Args:
+            now: Time of the decision, in [s].
+            template: Pose of that frame in odometry.
+            sighting: Latest sighting of the player.
+        """
+        assert sighting.identity is not None
+        x, y = self._position_of(sighting)
+        estimate = self._velocities.setdefault(
+            sighting.identity.name, FloorVelocity(self.limits.step_duration)
+        )
+        velocity = estimate.note(sighting.time, x, y)
+        if velocity is not None:
+            turned = Pose(0.0, 0.0, -template.theta)
+            velocity = turned.compose(Pose(*velocity, 0.0))[:2]
+        u, v, _ = template.inverse().compose(Pose(x, y, 0.0))
+        return OtherPlayer(
+            sighting.identity,
+            atan2(v, u),
+            hypot(u, v),
+            velocity,
+            max(0.0, now - sighting.time),
+            sighting.spread,
+        )
+
+    def _position_of(self, sighting: Sighting) -> tuple[float, float]:
+        """Return the position of a recognised player in odometry, in [m].
+
+        It is computed when the player is sighted, since the history of own
+        poses is short and a hidden player may not be sighted for long.
+        """
+        assert sighting.identity is not None
+        name = sighting.identity.name
+        known = self._positions.get(name)
+        if known is None or known[0] != sighting.time:
+            taken = self.templates.at(sighting.time)
+            sight = self.headings.at(sighting.time) + sighting.bearing
+            x = taken.x + sighting.distance * cos(sight)
+            y = taken.y + sighting.distance * sin(sight)
+            known = self._positions[name] = sighting.time, x, y
+        return known[1:]

@@ -37,11 +37,7 @@ class SimulatedPlayer:
         self.robot, self.scheme, self.frame = robot, scheme, frame
         self.truth: GroundTruth = robot.truth
         # Exact sightings are read when a decision is due.
-        self._coasts = (
-            robot.eyes is None
-            and robot.sight is not None
-            and robot.sight.is_exact
-        )
+        self._coasts = robot.sees_exactly
 
     @property
     def begun(self) -> StepStarted | None:

@@ -2,6 +2,7 @@
 
 from typing import TYPE_CHECKING, NamedTuple
 
+from ..core.player_identity import PlayerIdentity
 from ..core.poses import Array, Pose
 
 if TYPE_CHECKING:
@@ -20,6 +21,7 @@ class Sighting(NamedTuple):
             0.
         settled: Whether it was observed long enough for its velocity.
         spread: Standard deviation of its position, in [m].
+        identity: Name, role and team, from sensors that recognise players.
     """
 
     time: float
@@ -28,6 +30,7 @@ class Sighting(NamedTuple):
     target_id: int = 0
     settled: bool = True
     spread: float = 0.0
+    identity: PlayerIdentity | None = None
 
 
 class Measurement(NamedTuple):
@@ -51,6 +54,8 @@ class Measurement(NamedTuple):
         joint_velocities: Joint velocities, in [rad/s], in the order of the
             joint angles, from a body that measures them; else None.
             Shape (joints,).
+        players: Latest sightings of all other players, with their
+            identities, from a sensor that recognises them.
     """
 
     time: float
@@ -62,3 +67,4 @@ class Measurement(NamedTuple):
     percepts: tuple["Percept", ...] = ()
     pose_in_room: Pose | None = None
     joint_velocities: Array | None = None
+    players: tuple[Sighting, ...] = ()

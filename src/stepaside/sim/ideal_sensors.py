@@ -1,22 +1,28 @@
 """Ideal sensors of the opponent and of the own pose."""
 
 from collections import deque
+from collections.abc import Sequence
 from math import atan2, hypot
 
 import numpy as np
 
+from ..core.player_identity import PlayerIdentity
 from ..core.poses import Pose, wrap_angle
 from ..perception.measurement import Sighting
 from .ground_truth import GroundTruth
 from .physics_settings import SightSettings
 
+HALF_WIDTH = 0.35  # of a body that hides others, relative to its reach
+TALL_ENOUGH = 0.8  # CoM height of a body that hides another, relative to it
+
 
 class IdealLineOfSight:
-    """Sensor of the true bearing and distance of the opponent.
+    """Sensor of the true bearing and distance of one player.
 
     The bearing is measured from the heading of the own torso, between the
     reference points. The sensor replaces cameras; its settings add noise,
-    delay and a rate.
+    delay and a rate. Bodies of other players may hide the player; then the
+    latest sighting stays.
     """
 
     def __init__(
@@ -25,14 +31,27 @@ class IdealLineOfSight:
         opponent: GroundTruth,
         settings: SightSettings,
         generator: np.random.Generator,
+        *,
+        identity: PlayerIdentity | None = None,
+        between: Sequence[GroundTruth] = (),
     ) -> None:
-        """Measure the opponent from a robot."""
+        """Measure a player from a robot.
+
+        Args:
+            own: True state of the robot.
+            opponent: True state of the player that is measured.
+            settings: Errors of the sensor.
+            generator: Random generator of the errors.
+            identity: Identity of the player, if the sensor recognises it.
+            between: True states of players that can hide it.
+        """
         self._own, self._opponent = own, opponent
         self._settings = settings
         self._generator = generator
         self._pending: deque[Sighting] = deque()
         self._latest: Sighting | None = None
         self._count = 0
+        self._identity, self._between = identity, tuple(between)
 
     @property
     def is_exact(self) -> bool:
@@ -47,13 +66,20 @@ class IdealLineOfSight:
         settings = self._settings
         if now * settings.rate >= self._count - 1e-9 or now == 0.0:
             self._count = 1 if now == 0.0 else self._count + 1
-            self._pending.append(self._measure(now))
+            if not self._is_hidden():
+                self._pending.append(self._measure(now))
         while (
             self._pending
             and self._pending[0].time <= now - settings.delay + 1e-9
         ):
             self._latest = self._pending.popleft()
         return self._latest
+
+    def _is_hidden(self) -> bool:
+        """Return whether another player hides the player."""
+        return any(
+            hides(other, self._own, self._opponent) for other in self._between
+        )
 
     def _measure(self, now: float) -> Sighting:
         x, y = self._own.position_reference_in_world
@@ -65,7 +91,41 @@ class IdealLineOfSight:
             bearing += settings.bearing_noise * self._generator.normal()
         if settings.distance_noise > 0.0:
             distance += settings.distance_noise * self._generator.normal()
-        return Sighting(now, wrap_angle(bearing), max(distance, 0.0))
+        return Sighting(
+            now,
+            wrap_angle(bearing),
+            max(distance, 0.0),
+            identity=self._identity,
+        )
+
+
+def hides(body: GroundTruth, eye: GroundTruth, seen: GroundTruth) -> bool:
+    """Return whether a body hides a player from another one.
+
+    The body is a cylinder around its reference point. It hides what is
+    behind it if the line between the reference points passes through it, and
+    if it is about as tall as the hidden player.
+
+    Args:
+        body: True state of the body in between.
+        eye: True state of the player that looks.
+        seen: True state of the player that is looked at.
+    """
+    (x, y), (u, v) = (
+        eye.position_reference_in_world,
+        seen.position_reference_in_world,
+    )
+    p, q = body.position_reference_in_world
+    dx, dy = u - x, v - y
+    length = hypot(dx, dy)
+    if length == 0.0:
+        return False
+    along = ((p - x) * dx + (q - y) * dy) / length
+    across = abs((p - x) * dy - (q - y) * dx) / length
+    if not (0.0 < along < length and across < HALF_WIDTH * body.reach):
+        return False
+    own, other = body.position_com_in_world, seen.position_com_in_world
+    return bool(own[2] >= TALL_ENOUGH * other[2])
 
 
 class IdealPose:

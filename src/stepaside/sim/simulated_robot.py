@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ..core.constants import GRAVITY
 from ..core.errors import ModelError
 from ..core.poses import Array, Pose
-from ..perception.measurement import Measurement
+from ..perception.measurement import Measurement, Sighting
 from ..robots.description import REMEDY, RobotDescription
 from .body_settings import BodySettings
 from .ground_truth import TrueRobotState
@@ -78,6 +78,8 @@ class SensorSetup:
         averages_imu: Whether the IMU averages between readings, as real ones
             do, instead of sampling.
         sight: Ideal line of sight to the opponent, if any.
+        players: Ideal lines of sight to all other players, in a game of any
+            number of players.
         eyes: Cameras and sonars, if any.
         truth: True state of the robot, if it exists already.
         knows_pose: Whether it has an ideal sensor of its pose.
@@ -86,6 +88,7 @@ class SensorSetup:
     generator: np.random.Generator | None = None
     averages_imu: bool = False
     sight: IdealLineOfSight | None = None
+    players: tuple[IdealLineOfSight, ...] = ()
     eyes: SensorSuite | None = None
     truth: TrueRobotState | None = None
     knows_pose: bool = False
@@ -133,6 +136,7 @@ class SimulatedRobot:
         self.world, self.name = world, name
         self.tick = world.physics.tick
         self.sight, self.eyes = setup.sight, setup.eyes
+        self._players = setup.players
         model, data = world.model, world.data
         names = kinematics.joint_names
         joints = [model.joint(f"{name}/{n}") for n in names]
@@ -271,6 +275,22 @@ class SimulatedRobot:
             None
             if self._dofs is None
             else self.world.data.qvel.take(self._dofs),
+            self._sightings(now),
+        )
+
+    def _sightings(self, now: float) -> tuple[Sighting, ...]:
+        """Return the latest sightings of all other players."""
+        read = (sight.read(now) for sight in self._players)
+        return tuple(seen for seen in read if seen is not None)
+
+    @property
+    def sees_exactly(self) -> bool:
+        """Whether all its sightings are ideal and without any error."""
+        sights = self._players if self.sight is None else (self.sight,)
+        return (
+            self.eyes is None
+            and bool(sights)
+            and all(sight.is_exact for sight in sights)
         )
 
     def write(self, joint_targets: Array) -> None:

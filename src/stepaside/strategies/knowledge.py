@@ -1,6 +1,7 @@
 """Input and output of a decision: knowledge and intent of a player."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from math import atan2, cos, hypot, sin
 
 import numpy as np
 
@@ -12,6 +13,7 @@ from ..core.errors import (
     check_within,
     shown,
 )
+from ..core.player_identity import PlayerIdentity
 from ..core.poses import Pose
 from .velocity_set import STILL, BodyVelocity, VelocitySet
 
@@ -40,8 +42,41 @@ class Limits:
 
 
 @dataclass(frozen=True, slots=True)
+class OtherPlayer:
+    """Knowledge of one other player, in the frame of :class:`Knowledge`.
+
+    Attributes:
+        identity: Name, role and team.
+        bearing: Direction in the frame, in [-pi, pi], in [rad].
+        distance: Horizontal distance at the sighting, in [m].
+        velocity: Velocity over the floor, components ahead and to the left
+            in the frame, in [m/s]; None until it is known.
+        age: Time since the sighting, in [s].
+        spread: Standard deviation of the position, in [m].
+    """
+
+    identity: PlayerIdentity
+    bearing: float
+    distance: float
+    velocity: tuple[float, float] | None = None
+    age: float = 0.0
+    spread: float = 0.0
+
+    @property
+    def position(self) -> tuple[float, float]:
+        """Position ahead and to the left in the frame, in [m]."""
+        return (
+            self.distance * cos(self.bearing),
+            self.distance * sin(self.bearing),
+        )
+
+
+@dataclass(frozen=True, slots=True)
 class Knowledge:
     """Knowledge of a player at a decision: the opponent, itself, obstacles.
+
+    In a game of several players the opponent is the assigned target, or else
+    the nearest one; ``others`` lists every player that has been seen.
 
     The frame is the pose of the template unicycle at the time of the
     sighting: for a walker midway between its feet, along its path. So the
@@ -71,6 +106,9 @@ class Knowledge:
             foot has landed, and its body passes that foot half a step later.
         spread: Standard deviation of the opponent's position, in [m].
         map_error: Largest position error of the obstacles, in [m].
+        identity: Own name, role and team; None in a game of two.
+        others: All other players that have been seen, the opponent among
+            them; empty in a game of two.
     """
 
     time: float
@@ -87,6 +125,8 @@ class Knowledge:
     step_start_in_map: Pose | None = None
     spread: float = 0.0
     map_error: float = 0.0
+    identity: PlayerIdentity | None = None
+    others: tuple[OtherPlayer, ...] = ()
 
     def __post_init__(self) -> None:
         """Check the bearing.
@@ -95,6 +135,57 @@ class Knowledge:
             PlanError: If the bearing is not finite, or beyond one turn.
         """
         check_bearing(self.bearing, "bearing")
+
+    @property
+    def opponents(self) -> tuple[OtherPlayer, ...]:
+        """The others that have an opposing role."""
+        own = self.identity
+        if own is None:
+            return ()
+        return tuple(o for o in self.others if own.opposes(o.identity))
+
+    @property
+    def teammates(self) -> tuple[OtherPlayer, ...]:
+        """The others of the own team."""
+        own = self.identity
+        if own is None:
+            return ()
+        return tuple(o for o in self.others if own.is_with(o.identity))
+
+    def about(self, other: OtherPlayer) -> "Knowledge":
+        """Return the same knowledge with another player as the opponent.
+
+        Rates of the line of sight are left out, as they are those of the
+        present opponent.
+        """
+        return replace(
+            self,
+            bearing=other.bearing,
+            distance=other.distance,
+            bearing_rate=None,
+            closing_speed=None,
+            age=other.age,
+            velocity=other.velocity,
+            spread=other.spread,
+        )
+
+    def towards(self, x: float, y: float) -> "Knowledge":
+        """Return the same knowledge with a resting point as the opponent.
+
+        Args:
+            x: Position ahead in the frame, in [m].
+            y: Position to the left in the frame, in [m].
+        """
+        return replace(
+            self,
+            bearing=atan2(y, x),
+            distance=hypot(x, y),
+            bearing_rate=None,
+            closing_speed=None,
+            age=0.0,
+            velocity=(0.0, 0.0),
+            spread=0.0,
+        )
 
 
 @dataclass(frozen=True, slots=True)
