@@ -129,12 +129,11 @@ def test_others_are_known_with_position_and_velocity_over_the_floor() -> None:
         ((-0.1, 0.0), (0.0, 0.2)),
         strict=True,
     ):
-        there = own.compose(Pose(*other.position, 0.0))
-        assert there[:2] == pytest.approx(position, abs=1e-9)
-        over_floor = Pose(0.0, 0.0, own.theta).compose(
-            Pose(*other.velocity, 0.0)
-        )
-        assert over_floor[:2] == pytest.approx(velocity, abs=1e-9)
+        there = own.transform_points([other.position])[0]
+        assert there == pytest.approx(position, abs=1e-9)
+        turned = Pose(0.0, 0.0, own.theta)
+        over_floor = turned.transform_points([other.velocity])[0]
+        assert over_floor == pytest.approx(velocity, abs=1e-9)
         assert other.age == 0.0
     nearest = min(known.others, key=lambda other: other.distance)
     assert known.bearing == pytest.approx(nearest.bearing)
@@ -153,8 +152,8 @@ def test_a_hidden_player_stays_where_it_was_seen() -> None:
         known, (other,) = Recorder.known[-1], Recorder.known[-1].others
         taken = now if now - 0.5 > 1.0 else 0.5
         frame = Pose(0.05 * taken, 0.0, 0.2 * taken)
-        there = frame.compose(Pose(*other.position, 0.0))
-        assert there[:2] == pytest.approx((1.0, 1.0), abs=1e-9)
+        there = frame.transform_points([other.position])[0]
+        assert there == pytest.approx((1.0, 1.0), abs=1e-9)
         assert known.bearing == pytest.approx(other.bearing)
         assert known.age == other.age == now - 0.5
 
