@@ -52,7 +52,7 @@ python:
 
 # Another Python, as in make other PYTHON=python3.13: the wheel with nothing
 # optional, and tests that need no more and take milliseconds.
-OTHER := cli/test_main cli/test_options core/test_errors core/test_interrupts \
+OTHER := cli/test_main cli/test_options core/test_errors core/test_signal_handling \
 	core/test_ranges games/test_configuration_file games/test_record \
 	planning/test_footsteps planning/test_path planning/test_plan \
 	planning/test_swing planning/test_zmp robots/test_description \

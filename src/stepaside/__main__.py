@@ -6,7 +6,7 @@ import os
 def main() -> None:
     """Run the command line; exit with status 130 on Ctrl-C during import."""
     try:
-        from .core.interrupts import interruptible
+        from .core.signal_handling import interruptible
 
         with interruptible():
             from .cli.main import main as run

@@ -49,7 +49,7 @@ from stepaside.drivers.naoqi.sensor_keys import (  # noqa: E402
 from stepaside.drivers.scheme_factory import control_scheme_factory  # noqa: E402
 from stepaside.games.duel import run_duel  # noqa: E402
 from stepaside.games.duel_settings import DuelSettings, StartSettings  # noqa: E402
-from stepaside.games.robot_offers import NaoqiJointsOffer  # noqa: E402
+from stepaside.games.robot_endpoints import NaoqiJointsOffer  # noqa: E402
 from stepaside.games.run_archive import results_of
 from stepaside.games.served_duel import serve_duel  # noqa: E402
 from stepaside.locomotion.zmp.control_settings import ControlSettings  # noqa: E402

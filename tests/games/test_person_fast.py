@@ -17,7 +17,7 @@ from stepaside.planning import PRESETS
 from stepaside.sim.person_motion import PersonMotion
 from stepaside.sim.person_settings import PersonSettings
 from stepaside.strategies import Evasion
-from stepaside.theory.unicycle.side_step import side_step
+from stepaside.theory.unicycle.lateral_evasion import lateral_displacement
 
 FAST = PRESETS["fast"]
 TIMED = Evasion(trigger="time")
@@ -90,7 +90,7 @@ def test_the_template_steps_aside_as_the_unicycle_of_theory() -> None:
     speed = 2.0  # so fast that it stops at nobody's side
     late = FAST.start_support
     time = TIMED.contact_time + TIMED.clearance / speed - late
-    aside = side_step(FAST.speed, 0.5 * pi * FAST.gain, time)
+    aside = lateral_displacement(FAST.speed, 0.5 * pi * FAST.gain, time)
     assert met(speed, far=9.0) == pytest.approx(aside, abs=0.02)
 
 

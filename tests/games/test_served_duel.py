@@ -21,7 +21,7 @@ from stepaside.drivers.lola.lola_connection import open_lola
 from stepaside.drivers.scheme_factory import control_scheme_factory
 from stepaside.games.duel import run_duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
-from stepaside.games.robot_offers import LolaOffer
+from stepaside.games.robot_endpoints import LolaOffer
 from stepaside.games.run import DuelRun
 from stepaside.games.run_archive import load_run, results_of
 from stepaside.games.served_duel import serve_duel

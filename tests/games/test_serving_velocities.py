@@ -20,7 +20,7 @@ from stepaside.drivers.velocity.watchdog import WatchSettings
 from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.match import Match, play
-from stepaside.games.robot_offers import Offer
+from stepaside.games.robot_endpoints import Offer
 from stepaside.games.served_duel import serve_duel
 from stepaside.games.velocity_walker import VelocityWalker
 from stepaside.games.walker import SimulatedPlayer
@@ -140,7 +140,7 @@ def test_over_ros2_in_lock_step_the_duel_is_the_one_in_one_process(
     from stepaside.drivers.ros2.dds_domain import DdsParticipant
     from stepaside.drivers.ros2.ros2_body import Ros2Body
     from stepaside.drivers.ros2.ros2_server import WorldClock
-    from stepaside.games.robot_offers import Ros2Offer
+    from stepaside.games.robot_endpoints import Ros2Offer
 
     dds = DdsParticipant(0, tag=TAG)
     clock = WorldClock(dds)

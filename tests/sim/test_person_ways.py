@@ -6,9 +6,9 @@ from pathlib import Path
 import pytest
 
 from stepaside.core.poses import Pose, wrap_angle
+from stepaside.sim.person_crossings import RADIUS, RepeatedCrossings
 from stepaside.sim.person_motion import PersonMotion
 from stepaside.sim.person_settings import PersonSettings
-from stepaside.sim.repeated_visits import RADIUS, RepeatedVisits
 
 GOLDEN = 0.5 * (5.0**0.5 - 1.0)
 
@@ -33,7 +33,7 @@ def test_a_recorded_person_heads_along_the_path(
 
 def test_visit_offsets_follow_the_golden_ratio() -> None:
     """Crossing k aims 1.5 m (2 frac(k / 1.618) - 1) to the left."""
-    visits, evader = RepeatedVisits(0.4), (0.7, -0.3)
+    visits, evader = RepeatedCrossings(0.4), (0.7, -0.3)
     x, y, course, step = evader[0] - RADIUS, evader[1] + 0.4, 0.0, 0.02
     aims: dict[int, float] = {}
     passed: dict[int, float] = {}

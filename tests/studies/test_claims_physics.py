@@ -12,7 +12,7 @@ from stepaside.core.poses import Array
 from stepaside.games import DuelSettings, run_duel
 from stepaside.games.duel_settings import PLAYERS
 from stepaside.games.outcome import Outcome
-from stepaside.studies import physics_readings as read
+from stepaside.studies import physics_measurements as read
 from stepaside.studies import walk_measures
 from stepaside.studies.claim_jobs import JOBS
 from stepaside.studies.claims import Claim, Readings
@@ -400,7 +400,7 @@ def test_every_claim_in_physics_has_a_fault() -> None:
         "slip": NO_SLIP,
     }
     seeded = {name for name, job in JOBS.items() if job.seeded}
-    # Claims on games in rooms are tested in test_claims_evading.
+    # Claims on games in rooms are tested in test_evasion_claims.
     assert set(faults) == seeded - {"evading", "rooms"}
     for name, by_key in faults.items():
         assert set(by_key) == set(claims(name))

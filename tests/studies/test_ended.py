@@ -19,7 +19,7 @@ from stepaside.core.atomic_output import (
     draft_prefix,
     remove_stale_drafts,
 )
-from stepaside.core.interrupts import interruptible
+from stepaside.core.signal_handling import interruptible
 from stepaside.core.worker_pool import worker_pool
 from tools.fuzz.case import complaint_of
 from tools.fuzz.moments import SIGNALS, moment_case

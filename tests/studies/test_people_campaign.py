@@ -16,10 +16,9 @@ from stepaside.core.poses import wrap_angle
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.planning import PRESETS
 from stepaside.report.people_figure import draw_people
-from stepaside.studies import encounters as study
 from stepaside.studies import people_campaign as campaign
+from stepaside.studies import person_encounters as study
 from stepaside.studies.campaign import CodeStamp, run_study
-from stepaside.studies.encounters import Encounter, encounters
 from stepaside.studies.people_campaign import people_study
 from stepaside.studies.people_statistics import (
     origin_rows,
@@ -27,6 +26,7 @@ from stepaside.studies.people_statistics import (
     people_rows,
     theory_room,
 )
+from stepaside.studies.person_encounters import Encounter, encounters
 from stepaside.studies.result_files import read_result
 from stepaside.studies.result_store import ResultStore
 

@@ -9,13 +9,13 @@ from hypothesis import strategies as st
 
 from reference_statistics import is_wilson
 from stepaside.games.walk_settings import WalkSettings
-from stepaside.studies.encounters import Encounter, encounters
 from stepaside.studies.people_statistics import (
     origin_rows,
     passing_rows,
     people_rows,
     theory_room,
 )
+from stepaside.studies.person_encounters import Encounter, encounters
 
 WAY: dict[str, Any] = {
     "bearings": (0, 90),

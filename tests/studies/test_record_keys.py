@@ -23,7 +23,7 @@ from stepaside.sim.passerby_settings import Passer
 from stepaside.sim.push import Push
 from stepaside.studies.duel_campaign import duel_study
 from stepaside.studies.duel_record import settings_hash
-from stepaside.studies.encounters import encounters
+from stepaside.studies.person_encounters import encounters
 from stepaside.studies.push_results import pushes_result
 from stepaside.studies.result_store import ResultStore
 from stepaside.studies.robustness_trial import RobustnessTrial

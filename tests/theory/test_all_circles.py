@@ -27,7 +27,10 @@ from stepaside.theory.unicycle.equilibria import (
 from stepaside.theory.unicycle.kernel import play_games
 from stepaside.theory.unicycle.ratio_map import map_ratios
 from stepaside.theory.unicycle.relative_coordinates import RelativeStart
-from stepaside.theory.unicycle.remedies import alternatives, try_remedies
+from stepaside.theory.unicycle.reversed_circle_remedies import (
+    alternatives,
+    try_remedies,
+)
 from stepaside.theory.unicycle.unicycle_game import Game, TurningLaw, make_game
 
 FAST = make_game(2.0, 1.0, 1.0, 4.0)

@@ -18,7 +18,10 @@ from stepaside.theory.unicycle.basins import (
 )
 from stepaside.theory.unicycle.kernel import Outcomes, play_games
 from stepaside.theory.unicycle.relative_coordinates import RelativeStart
-from stepaside.theory.unicycle.remedies import Remedy, alternatives
+from stepaside.theory.unicycle.reversed_circle_remedies import (
+    Remedy,
+    alternatives,
+)
 from stepaside.theory.unicycle.unicycle_game import Game, TurningLaw, make_game
 
 FAST = make_game(2.0, 1.0, 1.0, 4.0)

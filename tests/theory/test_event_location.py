@@ -16,15 +16,15 @@ from stepaside.theory.unicycle.game_parameters import (
     FlatParameters,
     flat_parameters,
 )
-from stepaside.theory.unicycle.relative_motion import (
-    RelativeState,
-    geometry_of,
-)
-from stepaside.theory.unicycle.smooth_pieces import (
+from stepaside.theory.unicycle.piecewise_dynamics import (
     Branch,
     Mode,
     SmoothPiece,
     piece_of,
+)
+from stepaside.theory.unicycle.relative_motion import (
+    RelativeState,
+    geometry_of,
 )
 from stepaside.theory.unicycle.unicycle_game import make_game
 

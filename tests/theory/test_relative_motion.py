@@ -5,6 +5,12 @@ import pytest
 
 from stepaside.core.poses import Pose
 from stepaside.theory.unicycle.game_parameters import flat_parameters
+from stepaside.theory.unicycle.piecewise_dynamics import (
+    Branch,
+    Mode,
+    SmoothPiece,
+    piece_of,
+)
 from stepaside.theory.unicycle.relative_coordinates import RelativeStart
 from stepaside.theory.unicycle.relative_motion import (
     RelativeState,
@@ -15,12 +21,6 @@ from stepaside.theory.unicycle.relative_motion import (
     rk4,
 )
 from stepaside.theory.unicycle.sampled_game import drive_along_arc
-from stepaside.theory.unicycle.smooth_pieces import (
-    Branch,
-    Mode,
-    SmoothPiece,
-    piece_of,
-)
 from stepaside.theory.unicycle.unicycle_game import make_game
 
 RULES = flat_parameters(make_game(1.2, 0.9, 0.5, 0.7, 1.1), 0.1)

@@ -20,8 +20,8 @@ from stepaside.locomotion.zmp.control_settings import STABILISED
 from stepaside.planning import PRESETS
 from stepaside.sim.body_settings import BODIES
 from stepaside.sim.camera_settings import CameraSettings, ColourSettings
-from stepaside.studies.encounters import Encounter, encounters, meet
 from stepaside.studies.people_statistics import passing_rows, people_rows
+from stepaside.studies.person_encounters import Encounter, encounters, meet
 from stepaside.studies.result_files import header, write_result
 
 AHEAD = (0, 45, -45, 90, -90)  # directions they come from, in [deg]

@@ -25,7 +25,7 @@ from stepaside.sim.body_settings import BODIES
 from stepaside.sim.camera_settings import SceneSettings
 from stepaside.sim.person_settings import PersonSettings
 from stepaside.strategies import Evasion
-from stepaside.studies.encounters import PASSING
+from stepaside.studies.person_encounters import PASSING
 from stepaside.studies.result_files import header, write_result
 
 MINUTE = 60.0  # between two memory measurements, in [s]
@@ -120,7 +120,11 @@ def main() -> None:
     played = 60.0 * given.minutes - max(left, 0.0)
     write_result(
         given.output,
-        header(settings, modules=("studies/encounters",), libraries=libraries),
+        header(
+            settings,
+            modules=("studies/person_encounters",),
+            libraries=libraries,
+        ),
         machine=machine(),
         played_s=played,
         wall_s=perf_counter() - began,

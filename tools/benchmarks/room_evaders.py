@@ -15,13 +15,13 @@ from benchmark_options import ask, machine, seeds_of
 
 from stepaside.arena import RoomRecipe
 from stepaside.studies.campaign import run_study
-from stepaside.studies.entrants import EVADERS
 from stepaside.studies.executors import open_engine
 from stepaside.studies.result_files import header, write_result
 from stepaside.studies.result_store import ResultStore
 from stepaside.studies.tournament_campaign import tournament_study
 from stepaside.studies.tournament_rows import tournament_rows
 from stepaside.studies.tournament_settings import MODULES, TournamentSettings
+from stepaside.studies.tournament_strategies import EVADERS
 
 WORLDS = {
     "open floor": RoomRecipe(None, None),

@@ -164,7 +164,7 @@ def main() -> None:
             asked.keep,
             header(
                 {"moments_s": list(MOMENTS)},
-                modules=("cli", "core/interrupts", "core/worker_pool"),
+                modules=("cli", "core/signal_handling", "core/worker_pool"),
                 command="python -m tools.fuzz.stopping --keep "
                 f"docs/results/{asked.keep.name}",
             ),

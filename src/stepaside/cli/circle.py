@@ -98,7 +98,7 @@ def circle(
 def _announce(game: Game, starts: int, *, remedies: bool) -> int:
     """Announce long simulations; return the number of games."""
     from ..theory.unicycle.basins import duration_and_step
-    from ..theory.unicycle.remedies import alternatives
+    from ..theory.unicycle.reversed_circle_remedies import alternatives
 
     played = [game, *(alternatives(game).values() if remedies else ())]
     steps = 0.0

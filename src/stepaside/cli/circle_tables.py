@@ -88,7 +88,7 @@ def describe_remedies(
 ) -> list[dict[str, Any]]:
     """Simulate alternative strategies of the evader; return their results."""
     from ..theory.unicycle.basins import random_starts
-    from ..theory.unicycle.remedies import try_remedies
+    from ..theory.unicycle.reversed_circle_remedies import try_remedies
 
     drawn = random_starts(game, starts, seed=seed)
     return [

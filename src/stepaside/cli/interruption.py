@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import NoReturn
 
-from ..core.interrupts import INTERRUPTED
+from ..core.signal_handling import INTERRUPTED
 from .terminal import echo
 
 NOTHING_SAVED = "nothing is saved"

@@ -10,7 +10,7 @@ import click
 from .. import __version__
 from ..core.errors import StepAsideError, shorten_words
 from ..core.extras import install_hint
-from ..core.interrupts import INTERRUPTED, interruptible
+from ..core.signal_handling import INTERRUPTED, interruptible
 
 COMMANDS = {
     "duel": "Simulate a duel of two humanoids in physics.",

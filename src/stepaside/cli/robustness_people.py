@@ -29,13 +29,13 @@ def meet_people(
     Returns:
         The results so far, and the run of the study.
     """
-    from ..studies.encounters import encounters
     from ..studies.people_campaign import people_study
     from ..studies.people_statistics import (
         origin_rows,
         passing_rows,
         people_rows,
     )
+    from ..studies.person_encounters import encounters
 
     grid = list(encounters(settings, sensings, seeds=seeds))
     run = run_campaign(people_study(grid), campaign, "games")

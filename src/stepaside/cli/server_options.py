@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 if TYPE_CHECKING:
-    from ..games.robot_offers import Offer
+    from ..games.robot_endpoints import Offer
 
 ADDRESS_FORMATS = {
     "lola": "ADDRESS",
@@ -29,20 +29,20 @@ def offers_of(
         ideal_sight: Whether the true line of sight is served.
     """
     from ..drivers.lola.lola_address import parse_address
-    from ..games.robot_offers import LolaOffer
+    from ..games.robot_endpoints import LolaOffer
 
     offers: dict[str, Offer] = {}
     for name, place in _entries("lola", options["lola"], offers):
         offers[name] = LolaOffer(parse_address(place), ideal_sight)
     if options["naoqi"]:
         from ..drivers.naoqi.naoqi_url import parse_url
-        from ..games.robot_offers import NaoqiOffer
+        from ..games.robot_endpoints import NaoqiOffer
 
         for name, place in _entries("naoqi", options["naoqi"], offers):
             offers[name] = NaoqiOffer(parse_url(place), ideal_sight)
     if options["naoqi_joints"]:
         from ..drivers.naoqi.naoqi_url import parse_url
-        from ..games.robot_offers import NaoqiJointsOffer
+        from ..games.robot_endpoints import NaoqiJointsOffer
 
         joints = options["naoqi_joints"]
         for name, place in _entries("naoqi-joints", joints, offers):
@@ -50,7 +50,7 @@ def offers_of(
     if options["ros2"]:
         from ..drivers.ros2.namespaces import parse_namespace
         from ..drivers.ros2.ros2_server import WorldClock
-        from ..games.robot_offers import Ros2Offer
+        from ..games.robot_endpoints import Ros2Offer
         from .connection_settings import join_domain
 
         dds = join_domain(options["domain"], network=options["network"])

@@ -190,8 +190,8 @@ def tournament(
     same folder.
     """
     from ..strategies.strategy_game import StepGame
-    from ..studies.entrants import EVADERS, evader_of, pursuer_of
     from ..studies.tournament_settings import TournamentSettings
+    from ..studies.tournament_strategies import EVADERS, evader_of, pursuer_of
 
     evaders, pursuers = evaders or tuple(EVADERS), pursuers or ("pure",)
     if "alpha" not in evaders:

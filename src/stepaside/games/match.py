@@ -8,7 +8,7 @@ from typing import NamedTuple, Protocol
 
 from ..core.constants import CAPTURE_DISTANCE
 from ..core.errors import ReachError, StrategyError
-from ..core.interrupts import DeferredInterrupt
+from ..core.signal_handling import DeferredInterrupt
 from ..sim.ground_truth import torsos_apart
 from ..sim.world import World
 from .outcome import Outcome

@@ -6,13 +6,13 @@ from typing import Any, NamedTuple
 
 from ..core.errors import ConfigurationError
 from ..drivers.lola.nao_joints import TICK
+from .client_synchroniser import ClientSynchroniser, RobotServer
 from .duel import Duel, make_duel_run
 from .duel_settings import DuelSettings
-from .lockstep import Lockstep, RobotServer
 from .match import Match, Progress, play
 from .player import Player
 from .recorder import Recorder
-from .robot_offers import Offer
+from .robot_endpoints import Offer
 from .run import DuelRun
 from .run_archive import results_of
 from .served_player import ServedPlayer
@@ -85,7 +85,7 @@ def serve_duel(
                 stack.callback(server.close)
                 servers.append(server)
             players.append(player)
-        exchange = Lockstep(servers, lock_step=lock_step)
+        exchange = ClientSynchroniser(servers, lock_step=lock_step)
         recorder = Recorder(players, tick=TICK)
         exchange.gather(patience)
         for player in players:

@@ -7,8 +7,8 @@ import numpy as np
 
 from ..core.poses import Array, Pose
 from .pedestrian_models import FIGURES, HIP, Colour, PedestrianModel
+from .person_crossings import RepeatedCrossings
 from .person_motion import PersonMotion
-from .repeated_visits import RepeatedVisits
 from .world import FLOOR_BIT, World
 
 SKIN = (0.85, 0.68, 0.56, 1.0)
@@ -162,7 +162,7 @@ class PersonBody:
         self._update_bodies()
 
     @property
-    def visits(self) -> RepeatedVisits:
+    def visits(self) -> RepeatedCrossings:
         """Repeated visits of the walk."""
         return self._motion.visits
 

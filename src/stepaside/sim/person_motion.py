@@ -11,8 +11,8 @@ from ..core.errors import ConfigurationError
 from ..core.poses import Array, Pose, wrap_angle
 from ..theory import laws
 from ..theory.unicycle.unicycle_game import Unicycle
+from .person_crossings import RepeatedCrossings
 from .person_settings import PATHS, PersonSettings
-from .repeated_visits import RepeatedVisits
 
 Place = tuple[float, float]
 
@@ -49,7 +49,7 @@ class PersonMotion:
             )
             heading = atan2(aim[1] - start.y, aim[0] - start.x)
         self._course = heading
-        self.visits = RepeatedVisits(settings.miss)
+        self.visits = RepeatedCrossings(settings.miss)
         self._walked, self._has_turned = 0.0, False
         self.pose = self._pose_facing(start.x, start.y)
         if settings.path not in PATHS:

@@ -6,14 +6,14 @@ from dataclasses import asdict
 from ..games.configuration_file import dump_configuration
 from ..games.duel_settings import DuelSettings
 from . import balance_claims as balance
-from . import evading_claims as evading
+from . import evasion_claims as evading
 from . import physics_claims as physics
-from . import physics_readings as read
+from . import physics_measurements as read
 from . import planner_claims as planner
 from . import unicycle_claims as unicycle
 from .claims import Claim, ClaimJob, Readings
 from .code_version import LIBRARIES
-from .evading_readings import (
+from .evasion_measurements import (
     TOURNAMENTS,
     measure_evading,
     measure_room,
@@ -24,8 +24,8 @@ from .evading_readings import (
 GAMES = ("studies/unicycle_claims",)
 PLANS = ("studies/planner_claims",)
 BALANCE = ("studies/balance_claims",)
-DUELS = ("studies/physics_readings",)
-EVADING = ("studies/evading_readings",)
+DUELS = ("studies/physics_measurements",)
+EVADING = ("studies/evasion_measurements",)
 
 
 def _game(

@@ -4,9 +4,9 @@ from collections.abc import Sequence
 
 from .campaign import Study, code_stamp
 from .code_version import LIBRARIES
-from .encounters import FIELDS, Encounter, meet
+from .person_encounters import FIELDS, Encounter, meet
 
-MODULES = ("studies/encounters",)  # which plays an encounter
+MODULES = ("studies/person_encounters",)  # which plays an encounter
 
 
 def people_study(encounters: Sequence[Encounter]) -> Study[Encounter]:

@@ -5,8 +5,8 @@ from collections.abc import Iterable
 from math import pi
 
 from ..planning import GaitSettings
-from ..theory.unicycle.side_step import side_clearance
-from .encounters import Encounter
+from ..theory.unicycle.lateral_evasion import lateral_clearance
+from .person_encounters import Encounter
 from .records import Record
 from .survival_statistics import wilson
 
@@ -136,7 +136,7 @@ def theory_room(gait: GaitSettings, speed: float) -> float:
         Clearance, in [m].
     """
     time_scale = gait.path_interval / gait.step_duration
-    return side_clearance(
+    return lateral_clearance(
         gait.speed * time_scale,
         0.5 * pi * gait.gain * time_scale,
         person_speed=speed,

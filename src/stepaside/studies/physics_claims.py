@@ -3,7 +3,7 @@
 from math import pi, sqrt
 
 from .claims import Claim
-from .physics_readings import SLIPPERY
+from .physics_measurements import SLIPPERY
 
 LEVEL = "physics"
 SPEED, GAIN = 0.1, 0.2  # of Sec. IV, in [m/s] and [1/s]

@@ -18,8 +18,8 @@ from ..robots.description import load_robot
 from ..sim.camera_settings import SceneSettings
 from ..sim.outline_measurement import measure_outline
 from ..strategies import Evasion
-from .entrants import ALWAYS, SIGHT, pursuer_strategy
 from .floor_used import floor_used
+from .tournament_strategies import ALWAYS, SIGHT, pursuer_strategy
 
 SEEN = "seen"
 PAPER: Mapping[str, Callable[[float], Evasion]] = {

@@ -10,10 +10,10 @@ from ..arena import Room
 from ..core.poses import Array, wrap_angle, wrap_angles
 from ..strategies.bound_cache import pursuit_bound
 from ..strategies.strategy_game import StepGame, StrategyTrack, play_strategies
-from .entrants import SIGHT, evader_of, pursuer_of
 from .floor_used import floor_used
 from .records import Record
 from .tournament_settings import HUMANOIDS, TournamentSettings
+from .tournament_strategies import SIGHT, evader_of, pursuer_of
 
 if TYPE_CHECKING:
     from ..games.run import DuelRun

@@ -8,8 +8,8 @@ import numpy as np
 
 from ..strategies.strategy_game import StepGame
 from ..theory.unicycle.circle_equations import find_circle
-from .entrants import gain_ratio_of
 from .survival_statistics import CONFIDENCE, wilson
+from .tournament_strategies import gain_ratio_of
 
 Record = dict[str, Any]
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from ...perception.images import ColourImage, DepthImage, Percept
 from ...perception.measurement import Measurement
-from ..cameras.image_wire import (
+from ..cameras.image_wire_format import (
     ImageError,
     ImageMessage,
     ImageReader,

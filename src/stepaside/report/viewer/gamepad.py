@@ -12,7 +12,7 @@ from urllib.parse import parse_qs, urlsplit
 from websockets.asyncio.server import ServerConnection
 from websockets.http11 import Request, Response
 
-from .page_scripts import Answer, PageScripts, respond
+from .script_injection import Answer, PageScripts, respond
 
 Steer = Callable[[float, bool], None]
 HEADER = "X-Stepaside"  # that pages of other origins cannot send

@@ -23,7 +23,7 @@ from .gamepad import GamepadInput
 from .page_address import PageAddress, listen
 from .page_layout import set_theme
 from .page_messages import MAX_SIZE, MessageFilter
-from .page_scripts import Answer, PageScripts
+from .script_injection import Answer, PageScripts
 
 STARTING = threading.Lock()
 ACCESSIBILITY_SCRIPT = "readable.js"

@@ -1,8 +1,8 @@
 """Adaptive simulation of one game, smooth piece by smooth piece.
 
 The integrator is SciPy's DOP853 with dense output. The end of each smooth
-piece (see :mod:`.smooth_pieces`), the capture and the closest approach are
-located on the dense output. A saturated evader that slides on zero error
+piece (see :mod:`.piecewise_dynamics`), the capture and the closest approach
+are located on the dense output. A saturated evader that slides on zero error
 turns with the line of sight, by Filippov's rule, so there is no chattering.
 """
 
@@ -20,6 +20,13 @@ from ...core.errors import StepAsideError, check_positive
 from ...core.poses import Pose
 from .event_location import EDGES, Event, StateView, cross, margin
 from .game_parameters import FlatParameters, flat_parameters
+from .piecewise_dynamics import (
+    Branch,
+    Mode,
+    SmoothPiece,
+    initial_mode,
+    piece_of,
+)
 from .relative_coordinates import RelativeStart, world_poses
 from .relative_motion import (
     RelativeState,
@@ -27,7 +34,6 @@ from .relative_motion import (
     geometry_of,
     geometry_of_arrays,
 )
-from .smooth_pieces import Branch, Mode, SmoothPiece, initial_mode, piece_of
 from .unicycle_game import Game
 
 Array = NDArray[np.float64]

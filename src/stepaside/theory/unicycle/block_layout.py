@@ -7,13 +7,13 @@ import numpy as np
 from ...core.compilation import compiled
 from .game_batch import Array, block_type
 from .game_parameters import FlatParameters
+from .piecewise_dynamics import SmoothPiece, initial_mode, piece_of
 from .relative_motion import (
     RelativeState,
     SightGeometry,
     geometry_of,
     geometry_of_arrays,
 )
-from .smooth_pieces import SmoothPiece, initial_mode, piece_of
 
 
 @compiled

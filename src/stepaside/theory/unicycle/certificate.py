@@ -19,8 +19,8 @@ so that, :math:`\Delta = |c(d) - c(0)|`,
 
 Integrated over the known decay of :math:`d` this bounds :math:`\rho`, and
 :math:`r \ge r^* - \rho`. No error wraps in a game that starts in the diamond
-:math:`|a| + |\psi| < \pi`, which no game leaves (:mod:`.diamond`). Proofs in
-``docs/unicycles.md``.
+:math:`|a| + |\psi| < \pi`, which no game leaves (:mod:`.invariant_set`).
+Proofs in ``docs/unicycles.md``.
 """
 
 from cmath import exp
@@ -32,7 +32,7 @@ import numpy as np
 from ...core.errors import PlanError
 from ..laws import evasion_heading, side_behind
 from .circle_equations import circle_of
-from .diamond import stays_unwrapped
+from .invariant_set import stays_unwrapped
 from .relative_coordinates import RelativeStart
 from .unicycle_game import Game
 

@@ -1,8 +1,8 @@
 """Location of events within one step of one game.
 
-A step that crosses an edge of its smooth piece (:mod:`.smooth_pieces`), that
-contains the closest approach or the capture, or that is long relative to the
-distance is divided there; each part is one step of
+A step that crosses an edge of its smooth piece (:mod:`.piecewise_dynamics`),
+that contains the closest approach or the capture, or that is long relative to
+the distance is divided there; each part is one step of
 :func:`.relative_motion.rk4`.
 """
 
@@ -12,6 +12,14 @@ from typing import Any, NamedTuple
 
 from ...core.compilation import inlined, shared
 from .game_parameters import FlatParameters
+from .piecewise_dynamics import (
+    Branch,
+    Edge,
+    Mode,
+    SmoothPiece,
+    next_mode,
+    piece_of,
+)
 from .relative_motion import (
     RelativeState,
     SightGeometry,
@@ -19,7 +27,6 @@ from .relative_motion import (
     recomputed_geometry,
     rk4,
 )
-from .smooth_pieces import Branch, Edge, Mode, SmoothPiece, next_mode, piece_of
 
 TURN_PER_STEP = 0.04  # longest step, in distances per sum of the speeds
 _SLACK = 1e-12  # margin below which an edge has been crossed

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from ...core.compilation import inlined
 from .event_location import TURN_PER_STEP, LocatedStep
 from .game_parameters import FlatParameters
+from .piecewise_dynamics import Mode, SmoothPiece, branch_from_code, piece_of
 from .relative_motion import (
     GeometryFunction,
     NearbyGeometry,
@@ -23,7 +24,6 @@ from .relative_motion import (
     SightGeometry,
     rk4,
 )
-from .smooth_pieces import Mode, SmoothPiece, branch_from_code, piece_of
 
 Array = NDArray[np.float64]
 NEAR = 0.02  # tolerance of being on a circle: 2 % and 0.02 rad

@@ -18,13 +18,13 @@ from .game_batch import (
     update_settling_times,
 )
 from .game_parameters import FlatParameters
+from .piecewise_dynamics import Mode, branch_from_code
 from .relative_motion import (
     RelativeState,
     SightGeometry,
     geometry_of,
     geometry_of_arrays,
 )
-from .smooth_pieces import Mode, branch_from_code
 
 _ALL = slice(None)
 

@@ -17,7 +17,7 @@ import numpy as np
 from ...core.compilation import inlined
 from .. import laws
 from .game_parameters import FlatParameters
-from .smooth_pieces import SmoothPiece, proportional_rate
+from .piecewise_dynamics import SmoothPiece, proportional_rate
 
 pursuit_heading = inlined(laws.pursuit_heading)
 

@@ -9,7 +9,7 @@ from ..drivers.lola.lola_address import LolaAddress
 from ..drivers.lola.lola_server import LolaServer
 from ..drivers.lola.nao_joints import TICK
 from ..drivers.velocity.velocity_body import VelocityCommand
-from .lockstep import RobotServer
+from .client_synchroniser import RobotServer
 from .player import Player
 from .served_player import ServedBody, ServedPlayer
 from .velocity_walker import VelocityWalker

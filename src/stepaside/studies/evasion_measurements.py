@@ -14,7 +14,7 @@ from ..games.run import DuelRun
 from ..sim.camera_settings import SceneSettings
 from ..strategies.strategy_game import StepGame, StrategyOutcome, StrategyTrack
 from .claims import Readings
-from .evading_claims import DURATION
+from .evasion_claims import DURATION
 from .physics_game import clearance, outcome_of, players_touched
 from .tournament_record import bound_of, play_track
 from .tournament_settings import TournamentSettings

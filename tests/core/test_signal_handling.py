@@ -5,7 +5,7 @@ from time import sleep
 
 import pytest
 
-from stepaside.core.interrupts import (
+from stepaside.core.signal_handling import (
     LONGEST_DELAY,
     DeferredInterrupt,
     interrupt,

@@ -6,7 +6,10 @@ import pytest
 
 from stepaside.core.errors import PlanError
 from stepaside.planning import PRESETS
-from stepaside.theory.unicycle.side_step import side_clearance, side_step
+from stepaside.theory.unicycle.lateral_evasion import (
+    lateral_clearance,
+    lateral_displacement,
+)
 
 
 @pytest.mark.parametrize("time", [0.3, 1.9, 4.0])
@@ -15,15 +18,19 @@ def test_displacement_solves_the_unicycle_equations(time: float) -> None:
     count, way = 20_000, 0.0
     for i in range(count):
         way += 0.25 * sin(min(0.8 * (i + 0.5) * time / count, pi / 2))
-    found = side_step(0.25, 0.8, time)
+    found = lateral_displacement(0.25, 0.8, time)
     assert found == pytest.approx(way * time / count, rel=1e-6)
 
 
 def test_limits_of_short_and_long_times() -> None:
-    assert side_step(0.25, 0.8, 1e-3) == pytest.approx(0.25 * 0.8e-6 / 2)
-    late = side_step(0.25, 0.8, 11.0) - side_step(0.25, 0.8, 10.0)
+    assert lateral_displacement(0.25, 0.8, 1e-3) == pytest.approx(
+        0.25 * 0.8e-6 / 2
+    )
+    late = lateral_displacement(0.25, 0.8, 11.0) - lateral_displacement(
+        0.25, 0.8, 10.0
+    )
     assert late == pytest.approx(0.25)
-    assert side_step(0.25, 1e6, 2.0) == pytest.approx(0.5, rel=1e-4)
+    assert lateral_displacement(0.25, 1e6, 2.0) == pytest.approx(0.5, rel=1e-4)
 
 
 def test_fast_gait_clears_a_person_and_the_gait_of_the_paper_does_not() -> (
@@ -34,7 +41,7 @@ def test_fast_gait_clears_a_person_and_the_gait_of_the_paper_does_not() -> (
     def room(name: str, person: float) -> float:
         gait = PRESETS[name]
         pace = gait.path_interval / gait.step_duration
-        return side_clearance(
+        return lateral_clearance(
             gait.speed * pace,
             0.5 * pi * gait.gain * pace,
             person_speed=person,

@@ -13,7 +13,7 @@ MAX_SLOPE = 0.5  # of the walk towards the circle, in [rad]
 Place = tuple[float, float]
 
 
-class RepeatedVisits:
+class RepeatedCrossings:
     """Course of a person who crosses the room repeatedly.
 
     Each visit aims past the current position of the evader at up to 1.5 m.

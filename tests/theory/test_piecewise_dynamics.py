@@ -9,7 +9,7 @@ from stepaside.theory.unicycle.game_parameters import (
     FlatParameters,
     flat_parameters,
 )
-from stepaside.theory.unicycle.smooth_pieces import (
+from stepaside.theory.unicycle.piecewise_dynamics import (
     Branch,
     Edge,
     Mode,

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from lola_fakes import JOINTS, MadeUpRobot
-from stepaside.drivers.cameras.image_wire import (
+from stepaside.drivers.cameras.image_wire_format import (
     HEADER,
     ImageError,
     ImageMessage,

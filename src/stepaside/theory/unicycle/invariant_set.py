@@ -44,7 +44,9 @@ def stays_unwrapped(game: Game, pursuer_error: float, bearing: float) -> bool:
     return game.angle <= 0.5 * pi and bearing < pi - game.angle
 
 
-def least_distance(game: Game, start: RelativeStart, time: float) -> float:
+def distance_lower_bound(
+    game: Game, start: RelativeStart, time: float
+) -> float:
     """Return a positive lower bound of the distance at a time.
 
     Args:

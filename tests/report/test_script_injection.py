@@ -12,7 +12,7 @@ from http import HTTPStatus
 from websockets.datastructures import Headers
 from websockets.http11 import Request, Response
 
-from stepaside.report.viewer.page_scripts import PageScripts
+from stepaside.report.viewer.script_injection import PageScripts
 
 
 @pytest.mark.parametrize("sent", [{}, {"Accept-Encoding": "gzip"}])

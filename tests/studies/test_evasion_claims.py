@@ -10,11 +10,11 @@ import pytest
 
 from stepaside.games.outcome import Outcome
 from stepaside.strategies.strategy_game import StrategyOutcome, StrategyTrack
-from stepaside.studies import evading_readings as read
+from stepaside.studies import evasion_measurements as read
 from stepaside.studies.claim_jobs import JOBS
 from stepaside.studies.claims import Claim
-from stepaside.studies.evading_claims import DURATION
-from stepaside.studies.evading_readings import GAME, PlayedGames
+from stepaside.studies.evasion_claims import DURATION
+from stepaside.studies.evasion_measurements import GAME, PlayedGames
 
 BEST = 1.0  # bound of all starts, in [m]
 Fault = Callable[[PlayedGames], PlayedGames]

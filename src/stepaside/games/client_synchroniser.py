@@ -54,7 +54,7 @@ class RobotServer(Protocol):
         """Stop serving."""
 
 
-class Lockstep:
+class ClientSynchroniser:
     """Match observer that synchronises a match with its clients.
 
     Attributes:

@@ -8,7 +8,11 @@ import pytest
 
 from stepaside.core.errors import ConfigurationError
 from stepaside.drivers.lola.nao_joints import TICK
-from stepaside.games.lockstep import PRESSED_TICKS, READY_TICKS, Lockstep
+from stepaside.games.client_synchroniser import (
+    PRESSED_TICKS,
+    READY_TICKS,
+    ClientSynchroniser,
+)
 
 from lola_fakes import Clock  # isort: skip
 
@@ -50,9 +54,9 @@ class FakeServer:
 
 def exchange_of(
     *servers: FakeServer, **changes: Any
-) -> tuple[Lockstep, Clock]:
+) -> tuple[ClientSynchroniser, Clock]:
     clock = Clock()
-    exchange = Lockstep(
+    exchange = ClientSynchroniser(
         servers,  # type: ignore[arg-type]
         clock=clock,
         pause=clock.pause,
@@ -121,7 +125,9 @@ def test_in_lock_step_a_silent_client_is_dropped_and_the_game_goes_on(
         assert waiting == [silent]
         clock.now += _[-1]
 
-    monkeypatch.setattr("stepaside.games.lockstep.select.select", select)
+    monkeypatch.setattr(
+        "stepaside.games.client_synchroniser.select.select", select
+    )
     exchange.before(None)  # type: ignore[arg-type]
     assert exchange.unanswered == 1
     assert not silent.connected and "no answer for 5 s" in silent.log[-1]

@@ -7,7 +7,7 @@ from ...core.errors import check_not_negative, check_positive
 HALF_WIDTHS = 0.55  # sum for a person and a NAO, with arms, in [m]
 
 
-def side_step(speed: float, turning: float, time: float) -> float:
+def lateral_displacement(speed: float, turning: float, time: float) -> float:
     r"""Return the lateral displacement of a unicycle that moves aside.
 
     It faces the person first and turns at its full rate until it drives
@@ -33,7 +33,7 @@ def side_step(speed: float, turning: float, time: float) -> float:
     return speed * ((1.0 - cos(turned)) / turning + straight)
 
 
-def side_clearance(
+def lateral_clearance(
     speed: float,
     turning: float,
     *,
@@ -62,4 +62,4 @@ def side_clearance(
     check_positive(person_speed, "person_speed", "m/s")
     check_not_negative(distance, "distance", "m")
     time = max(0.0, distance / person_speed - first_step)
-    return side_step(speed, turning, time) - half_widths
+    return lateral_displacement(speed, turning, time) - half_widths
