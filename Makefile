@@ -81,7 +81,7 @@ wheel: setup
 		--wheel-dir dist .
 	$(BIN)/python -m venv .venv-wheel
 	.venv-wheel/bin/python $(INSTALL) dist/*.whl
-	.venv-wheel/bin/python tests/from_wheel.py
+	.venv-wheel/bin/python tests/installed_package.py
 
 # Real ROS 2 nodes against our topics, on the loopback interface; their wheels
 # are for Python 3.12, and where there is none nothing is checked.

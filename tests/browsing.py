@@ -1,4 +1,4 @@
-"""Opens pages in Chromium, which draws only when somebody looks.
+"""Open pages in Chromium, which draws only visible pages.
 
 Without a graphics card a picture takes a second or two, and everything else
 on a page waits for it. So the calls that draw are switched off in each page

@@ -1,4 +1,4 @@
-"""A body that is not there: joints are at once where they are asked to be."""
+"""Fake body whose joints reach their targets at once."""
 
 import numpy as np
 

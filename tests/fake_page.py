@@ -1,4 +1,4 @@
-"""A page that is none: it keeps what is put on it and can be pressed."""
+"""Fake viser page: records its contents; its buttons can be pressed."""
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager

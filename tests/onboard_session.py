@@ -8,7 +8,7 @@ import pkgutil
 from importlib import import_module
 
 from fake_body import FakeBody
-from made_up_robot import FakeStrategy
+from fake_robot import FakeStrategy
 from stepaside.control.scheme_builder import build_scheme
 from stepaside.locomotion.zmp.control_settings import ControlSettings
 from stepaside.planning import GaitSettings

@@ -1,4 +1,4 @@
-"""Independent statistics, and records that differ in how they ended."""
+"""Independent statistics, and records with different outcomes."""
 
 from collections.abc import Sequence
 from math import comb, sqrt

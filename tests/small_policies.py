@@ -1,4 +1,4 @@
-"""Small walking policies that tests make themselves."""
+"""Small walking policies, made for tests."""
 
 import json
 from collections.abc import Mapping

@@ -1,4 +1,4 @@
-"""What stands at the packages' doors takes any path and only real angles."""
+"""Public functions accept any kind of path, and only finite angles."""
 
 import os
 from collections.abc import Callable, Iterator

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from made_up_robot import GAIT, FakeLegs, scheme_of
+from fake_robot import GAIT, FakeLegs, scheme_of
 from stepaside.arena import check_initial_poses, load_room
 from stepaside.control.clearance.guard import Guard
 from stepaside.control.clearance.surroundings import KnownRoom

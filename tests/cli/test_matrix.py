@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import pytest
 
-from invented_run import check_same
+from match_callbacks import observe_ticks
 from stepaside.cli.duel import print_duel
 from stepaside.core.errors import ConfigurationError
 from stepaside.games.duel import Duel, run_duel
@@ -48,7 +48,7 @@ from stepaside.sim.camera_settings import (
 from stepaside.sim.offscreen_rendering import RAYCAST, choose_renderer
 from stepaside.sim.person_settings import PURSUERS
 from stepaside.strategies import Evasion
-from tick_observers import observe_ticks
+from synthetic_run import check_same
 
 PUSHED = 0.24  # [s]; a push is over, and what it does has been felt
 LONG = 60.0  # [s]; no event of a loop that runs comes as late as this

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from made_up_robot import GAIT, FakeLegs, scheme_of
+from fake_robot import GAIT, FakeLegs, scheme_of
 from stepaside.arena import (
     Box,
     Disc,

@@ -10,15 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from made_up_robot import FIRST, GAIT, STEP, TICK, FakeStrategy, Run, walk_of
-from made_up_state import (
-    MEASUREMENT,
-    ROW,
-    SUPPORT,
-    FakeEstimator,
-    stabiliser,
-    step,
-)
+from fake_robot import FIRST, GAIT, STEP, TICK, FakeStrategy, Run, walk_of
 from stepaside.arena import Disc, Room
 from stepaside.arena.obstacles import ObstacleSet
 from stepaside.control.clearance.guard import Guard
@@ -47,6 +39,14 @@ from stepaside.robots.description import load_robot
 from stepaside.robots.forward_kinematics import ForwardKinematics
 from stepaside.robots.leg_kinematics import BodyReference
 from stepaside.strategies import Intent, Knowledge
+from synthetic_state import (
+    MEASUREMENT,
+    ROW,
+    SUPPORT,
+    FakeEstimator,
+    stabiliser,
+    step,
+)
 
 ANGLE = st.floats(-pi, pi)
 METRES = st.floats(-3.0, 3.0)

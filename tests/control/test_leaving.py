@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from made_up_robot import GAIT, FakeStrategy, Run
+from fake_robot import GAIT, FakeStrategy, Run
 from stepaside.arena import Box, Disc, ObstacleSet, Room
 from stepaside.control.clearance.guard import (
     GAINED,

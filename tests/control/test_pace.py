@@ -7,7 +7,7 @@ from math import pi
 import numpy as np
 import pytest
 
-from made_up_robot import FIRST, GAIT, STEP, FakeStrategy, Run
+from fake_robot import FIRST, GAIT, STEP, FakeStrategy, Run
 from stepaside.control.strategy_runner import MAX_PACE_CHANGE, next_pace
 from stepaside.core.errors import PlanError
 from stepaside.core.poses import Pose

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from made_up_robot import (
+from fake_robot import (
     FIRST,
     GAIT,
     STEP,

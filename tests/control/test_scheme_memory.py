@@ -6,8 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from made_up_robot import GAIT, STEP, TICK, FakeStrategy, Run, measure
-from made_up_state import FakeEstimator
+from fake_robot import GAIT, STEP, TICK, FakeStrategy, Run, measure
 from memory_size import reachable_values
 from stepaside.control.sight_sources import CameraSight
 from stepaside.control.state_history import DURATION
@@ -19,6 +18,7 @@ from stepaside.locomotion.zmp.control_settings import (
 from stepaside.locomotion.zmp.feedback_loop import ClosedLoop
 from stepaside.locomotion.zmp.stabiliser import Stabiliser
 from stepaside.robots.leg_kinematics import BodyReference, LegStates
+from synthetic_state import FakeEstimator
 
 # Four steps are a whole number of ticks: then the gait repeats on its clock.
 AGAIN = round(4 * STEP / TICK)

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from made_up_robot import FakePerception, measure
+from fake_robot import FakePerception, measure
 from stepaside.control.sight_sources import (
     CORRECTION,
     CameraSight,

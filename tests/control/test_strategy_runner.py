@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from made_up_robot import FIRST, GAIT, STEP, TICK, FakeStrategy, Run
+from fake_robot import FIRST, GAIT, STEP, TICK, FakeStrategy, Run
 from stepaside.control.strategy_runner import StrategyRunner
 from stepaside.core.errors import StrategyError
 from stepaside.core.poses import Pose

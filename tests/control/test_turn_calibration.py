@@ -5,8 +5,8 @@ from math import nan, pi
 import numpy as np
 import pytest
 
-from made_up_robot import TICK as FAKE_TICK
-from made_up_robot import FakeStrategy, Run, measure
+from fake_robot import TICK as FAKE_TICK
+from fake_robot import FakeStrategy, Run, measure
 from stepaside.control.turn_calibration import (
     BIAS_TIME,
     MAX_RATIO,

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from made_up_robot import FIRST, STEP, Run
+from fake_robot import FIRST, STEP, Run
 from stepaside.core.poses import Array, Pose
 from stepaside.drivers.joint.joint_loop import JointTick
 from stepaside.drivers.joint.safety_state_machine import RobotState

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from made_up_robot import FakeStrategy
+from fake_robot import FakeStrategy
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.drivers.velocity.template_controller import TemplateController
 from stepaside.drivers.velocity.velocity_body import (

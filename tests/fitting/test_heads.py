@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-import published_humanoid as stranger
+import vendor_humanoid as stranger
 from stepaside.fitting.model_analysis import analyse_model
 from stepaside.fitting.model_report import head_of
 

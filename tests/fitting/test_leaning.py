@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 import pytest
 
-import published_humanoid as stranger
+import vendor_humanoid as stranger
 from stepaside.core.errors import ModelError
 from stepaside.core.poses import Pose
 from stepaside.fitting import derivation as leaning

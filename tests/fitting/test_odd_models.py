@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 import pytest
 
-import published_humanoid as stranger
+import vendor_humanoid as stranger
 from stepaside.core.errors import ModelError
 from stepaside.fitting import com_height as stature
 from stepaside.fitting.com_height import choose_com_height

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-import published_humanoid as stranger
+import vendor_humanoid as stranger
 from stepaside.cli.main import main
 from stepaside.core.errors import ModelError
 from stepaside.fitting.derivation import DerivedDescription, derive

@@ -8,9 +8,9 @@ from typing import Any
 import pytest
 from click.testing import CliRunner
 
-import published_humanoid as stranger
 import stepaside.fitting.gait_search as tuning
 import stepaside.fitting.robot_verification as checking
+import vendor_humanoid as stranger
 from inline_executor import InlineExecutor
 from stepaside.cli.main import main
 from stepaside.fitting.derivation import derive

@@ -9,7 +9,7 @@ import mujoco
 import numpy as np
 import pytest
 
-import published_humanoid as stranger
+import vendor_humanoid as stranger
 from stepaside.core.errors import ModelError
 from stepaside.fitting.derivation import (
     derive,

@@ -6,15 +6,6 @@ from math import pi
 import numpy as np
 import pytest
 
-from made_up_record import (
-    CYCLE,
-    SETTINGS,
-    THEORY,
-    TIMES,
-    Record,
-    stepped,
-    still,
-)
 from stepaside.core.poses import Array
 from stepaside.games.duel_circle import (
     angle_between,
@@ -26,6 +17,15 @@ from stepaside.games.duel_circle import (
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.sim.person_settings import PersonSettings
 from stepaside.strategies import Evasion
+from synthetic_duel_record import (
+    CYCLE,
+    SETTINGS,
+    THEORY,
+    TIMES,
+    Record,
+    stepped,
+    still,
+)
 
 
 def since(record: Record, settings: DuelSettings = SETTINGS) -> float | None:

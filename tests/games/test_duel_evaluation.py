@@ -9,14 +9,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from made_up_record import (
-    SETTINGS,
-    THEORY,
-    TIMES,
-    Record,
-    stepped,
-    still,
-)
 from stepaside.core.poses import Array, Pose
 from stepaside.games import duel_evaluation as summary
 from stepaside.games.duel_evaluation import summarise
@@ -31,6 +23,14 @@ from stepaside.games.sight_summary import (
 from stepaside.games.trajectory import PlanningTimes
 from stepaside.strategies import Evasion
 from stepaside.theory.unicycle.unicycle_game import Unicycle
+from synthetic_duel_record import (
+    SETTINGS,
+    THEORY,
+    TIMES,
+    Record,
+    stepped,
+    still,
+)
 
 
 def planned(

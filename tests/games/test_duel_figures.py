@@ -7,7 +7,6 @@ from typing import Any
 
 import pytest
 
-from invented_run import figures
 from stepaside.core.errors import ConfigurationError
 from stepaside.games.archive_reader import parse_object
 from stepaside.games.duel_summary import (
@@ -21,6 +20,7 @@ from stepaside.games.sight_summary import (
     PerceptionSummary,
     SightSummary,
 )
+from synthetic_run import figures
 
 BLIND = figures(
     seed=3,

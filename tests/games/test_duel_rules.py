@@ -7,7 +7,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from made_up_players import clock, raising
+from fake_players import clock, raising
 from stepaside.core.constants import CAPTURE_DISTANCE
 from stepaside.core.errors import ReachError
 from stepaside.games.duel import Duel, run_duel

@@ -14,7 +14,6 @@ from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 from matplotlib.text import Annotation
 
-from invented_run import run_of
 from stepaside.arena import BODY_RADIUS, Disc, MovingBox, Room
 from stepaside.core.poses import Array
 from stepaside.games.duel_circle import circle_of_theory
@@ -35,6 +34,7 @@ from stepaside.report.cycle_means import whole_cycles
 from stepaside.report.figure_style import COLOURS, EVADER, PURSUER, THEORY, plt
 from stepaside.report.sole_outlines import draw_heading, draw_soles
 from stepaside.sim.camera_settings import SceneSettings
+from synthetic_run import run_of
 
 TIMES = np.linspace(0.0, 18.0, 901)
 SETTINGS = DuelSettings(seed=7)

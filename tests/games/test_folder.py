@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from invented_run import run_of
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array
 from stepaside.games.duel_settings import DuelSettings, StartSettings
@@ -24,6 +23,7 @@ from stepaside.games.run_archive import (
     write_run_files,
 )
 from stepaside.games.trajectory import Trajectory
+from synthetic_run import run_of
 
 ROWS = 6
 TIMES: Array = 0.02 * np.arange(float(ROWS))

@@ -9,7 +9,7 @@ import mujoco
 import numpy as np
 import pytest
 
-import published_humanoid as stranger
+import vendor_humanoid as stranger
 from stepaside.fitting.leg_detection import find_legs
 from stepaside.fitting.model_analysis import analyse_model
 from stepaside.games.duel import Duel

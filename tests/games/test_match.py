@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from made_up_players import TICK, FakeObserver, clock, game, raising
+from fake_players import TICK, FakeObserver, clock, game, raising
 from stepaside.core.errors import ReachError, StrategyError
 from stepaside.games.match import Progress, play
 from stepaside.games.outcome import Outcome

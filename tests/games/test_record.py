@@ -5,7 +5,7 @@ from math import pi
 import numpy as np
 import pytest
 
-from made_up_players import FakePlayer, FakeWorld, begun, game
+from fake_players import FakePlayer, FakeWorld, begun, game
 from stepaside.core.poses import Array, Pose
 from stepaside.games.match import Match
 from stepaside.games.outcome import Outcome

@@ -8,7 +8,6 @@ from threading import Thread
 import numpy as np
 import pytest
 
-from invented_run import check_same
 from stepaside.core.errors import ConfigurationError
 from stepaside.drivers.guardian_process import SessionLost
 from stepaside.drivers.joint.joint_body import JointBody
@@ -33,6 +32,7 @@ from stepaside.robots.description import load_robot
 from stepaside.sim.body_settings import BODIES
 from stepaside.sim.camera_settings import CameraSettings, ColourSettings
 from stepaside.strategies import Evasion, Pursuit, Strategy
+from synthetic_run import check_same
 
 FEEDBACK = ControlSettings(method="measured", feedback=True)
 

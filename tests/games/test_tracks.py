@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from by_hand import plan_of
-from invented_run import run_of
+from reference_plans import plan_of
 from stepaside.core.poses import Array
 from stepaside.games.trajectory import Trajectory, margin_of, tracks_in
+from synthetic_run import run_of
 
 SHAPES = {
     "com": (5, 3),

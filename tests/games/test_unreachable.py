@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from invented_run import check_same
 from stepaside.cli.main import main
 from stepaside.core.errors import ReachError
 from stepaside.games.configuration_file import dump_configuration
@@ -27,6 +26,7 @@ from stepaside.report.run_folder import write_run
 from stepaside.report.viewer.live_session import LiveSession
 from stepaside.robots import leg_kinematics as kinematics
 from stepaside.strategies import Evasion
+from synthetic_run import check_same
 
 # Four times the paper's stride: it can be stood, and begun.
 FAR = GaitSettings(stride=0.16)

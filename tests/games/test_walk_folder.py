@@ -13,7 +13,6 @@ from click.testing import CliRunner
 from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
-from invented_run import check_same
 from stepaside.cli.main import main
 from stepaside.core.errors import ConfigurationError
 from stepaside.games.duel import run_duel
@@ -30,6 +29,7 @@ from stepaside.report.scene import RunScene
 from stepaside.report.walk_figure import draw_walk
 from stepaside.report.walks_figure import mean_speed
 from stepaside.sim.push import Push
+from synthetic_run import check_same
 
 PUSHES = (Push(0.5, 1.0, pi / 2), Push(0.4, 1.1, 0.0))
 

@@ -7,8 +7,8 @@ import mujoco
 import numpy as np
 import pytest
 
-from made_up_players import begun
-from made_up_robot import walk_of
+from fake_players import begun
+from fake_robot import walk_of
 from stepaside.core.poses import Array, Pose
 from stepaside.games.outcome import Outcome
 from stepaside.games.recorder import Recorder

@@ -7,8 +7,8 @@ import mujoco
 import numpy as np
 import pytest
 
-from made_up_players import clock
-from made_up_robot import walk_of
+from fake_players import clock
+from fake_robot import walk_of
 from stepaside.core.errors import ConfigurationError, ReachError
 from stepaside.games.outcome import Outcome
 from stepaside.games.support_foot_columns import upright_samples

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from made_up_robot import FakeLegs, measure, walk_of
+from fake_robot import FakeLegs, measure, walk_of
 from stepaside.control.scheme_builder import build_balance, build_scheme
 from stepaside.control.sight_sources import CameraSight, MeasuredSight
 from stepaside.control.turn_calibration import TurnCalibration

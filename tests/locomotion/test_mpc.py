@@ -9,7 +9,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from scipy.optimize import linprog
 
-from by_hand import KINDS, corners_by_hand, plan_of
+from reference_plans import KINDS, plan_of, reference_corners
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array
 from stepaside.games.match import play
@@ -50,7 +50,7 @@ def solver(edge: float = EDGE, **changes: object) -> IntrinsicallyStableMpc:
     return IntrinsicallyStableMpc(GAIT, changed, edge=edge)
 
 
-class ByHand:
+class ReferenceQp:
     """The constraints of one tick, from the corners of the soles.
 
     The unknowns are the ZMP less the plan's at the end of each sample, and
@@ -67,7 +67,7 @@ class ByHand:
         changes = p.schedule.starts[1:-1]
         changes = changes[(changes > time) & (changes < ends[-1])]
         times = np.concatenate([ends, changes])
-        corners = [corners_by_hand(p, float(t)) for t in times]
+        corners = [reference_corners(p, float(t)) for t in times]
         size = 2 * n + sum(map(len, corners))
         planned = p.sample(times).zmp
         rows, right, weight = [], [], 2 * n
@@ -159,8 +159,11 @@ def test_infeasible_exactly_when_no_zmp_under_the_soles_holds(
     """Asked of another solver, with soles that were drawn by hand."""
     mpc, p, dcm = solver(edge=0.0), plan_of(kind, bearing), np.array([x, y])
     result = mpc.solve(p, time, dcm, ZERO)
-    by_hand = ByHand(mpc, p, time)
-    less, more = by_hand.holds(0.999 * dcm), by_hand.holds(1.001 * dcm)
+    reference = ReferenceQp(mpc, p, time)
+    less, more = (
+        reference.holds(0.999 * dcm),
+        reference.holds(1.001 * dcm),
+    )
     if less == more:  # not within a thousandth of the border
         assert result.feasible == less
 
@@ -189,7 +192,7 @@ def test_excess_is_the_least_there_is(
     if length < 1e-4:
         return
     heading = excess / length
-    least = float(heading @ dcm) - ByHand(mpc, p, time).farthest(heading)
+    least = float(heading @ dcm) - ReferenceQp(mpc, p, time).farthest(heading)
     assert length == pytest.approx(least, rel=0.0, abs=1e-6)
 
 

@@ -5,7 +5,7 @@ from math import exp
 import numpy as np
 import pytest
 
-from by_hand import KINDS, plan_of
+from reference_plans import KINDS, plan_of
 from stepaside.core.poses import Array
 from stepaside.locomotion.zmp.control_settings import MpcSettings
 from stepaside.locomotion.zmp.mpc import IntrinsicallyStableMpc

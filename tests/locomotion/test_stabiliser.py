@@ -7,7 +7,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from made_up_state import (
+from stepaside.locomotion.zmp.current_step import zmp_box
+from stepaside.planning import Foot
+from synthetic_state import (
     BODY,
     COM,
     DCM,
@@ -24,8 +26,6 @@ from made_up_state import (
     stabiliser,
     step,
 )
-from stepaside.locomotion.zmp.current_step import zmp_box
-from stepaside.planning import Foot
 
 
 def test_without_errors_the_plan_is_unchanged() -> None:

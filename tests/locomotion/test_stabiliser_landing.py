@@ -5,17 +5,6 @@ from math import pi
 import numpy as np
 import pytest
 
-from made_up_state import (
-    ETA,
-    GAINS,
-    GAIT,
-    SUPPORT,
-    TICK,
-    ZERO,
-    same,
-    stabiliser,
-    step,
-)
 from stepaside.core.poses import Pose
 from stepaside.locomotion.zmp.current_step import zmp_box
 from stepaside.locomotion.zmp.stabiliser import Stabiliser
@@ -27,6 +16,17 @@ from stepaside.planning import (
     ManeuverPlanner,
 )
 from stepaside.robots.forward_kinematics import MeasuredPosture
+from synthetic_state import (
+    ETA,
+    GAINS,
+    GAIT,
+    SUPPORT,
+    TICK,
+    ZERO,
+    same,
+    stabiliser,
+    step,
+)
 
 
 def land(

@@ -5,13 +5,13 @@ from math import degrees, radians
 import numpy as np
 import pytest
 
-from drawn_depth import Post, draw
 from stepaside.core.poses import Array
 from stepaside.perception.camera_model import CameraModel
 from stepaside.perception.camera_pose import CameraPose
 from stepaside.perception.depth_detector import DepthScene, detect_obstacles
 from stepaside.perception.images import DepthImage
 from stepaside.robots.head import rotation
+from synthetic_depth import Post, draw
 
 CAMERA = CameraModel.of_field_of_view(80, 60, radians(58.0), radians(45.0))
 EYE = np.array([0.0, 0.0, 0.5])

@@ -5,7 +5,6 @@ from math import atan2, cos, degrees, hypot, radians, sin
 import numpy as np
 import pytest
 
-from drawn_depth import Post, paint
 from stepaside.core.poses import Array
 from stepaside.perception.camera_model import CameraModel
 from stepaside.perception.camera_pose import CameraPose
@@ -17,6 +16,7 @@ from stepaside.perception.floor_colours import (
 )
 from stepaside.perception.images import ColourImage
 from stepaside.robots.head import rotation
+from synthetic_depth import Post, paint
 
 CAMERA = CameraModel.of_field_of_view(160, 120, radians(60.9), radians(47.6))
 EYE = np.array([0.05, 0.0, 0.46])

@@ -5,8 +5,6 @@ from math import atan2, cos, hypot, radians, sin
 import numpy as np
 import pytest
 
-from drawn_depth import Post, paint
-from made_up_eyes import HEAD, JOINTS, NAO, UP
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.perception.camera_model import CameraModel
 from stepaside.perception.camera_pose import CameraPose, camera_pose
@@ -18,6 +16,8 @@ from stepaside.perception.measurement import Measurement
 from stepaside.perception.perception_builder import build_perception
 from stepaside.perception.track import Observation, TargetTrack
 from stepaside.robots.head import Mount
+from synthetic_cameras import HEAD, JOINTS, NAO, UP
+from synthetic_depth import Post, paint
 
 CAMERA = CameraModel.of_field_of_view(160, 120, radians(60.9), radians(47.6))
 Legs = list[Post]

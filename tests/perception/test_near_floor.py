@@ -6,8 +6,6 @@ from math import atan2, cos, pi, radians, sin
 import numpy as np
 import pytest
 
-from drawn_depth import Post, draw, paint
-from made_up_eyes import HEAD, Eyes
 from stepaside.core.poses import Array
 from stepaside.perception.bottom_camera import NearFloorMapping
 from stepaside.perception.camera_model import CameraModel
@@ -22,6 +20,8 @@ from stepaside.perception.target_selection import RobotSelection
 from stepaside.perception.tracker import Tracker
 from stepaside.robots.body_pose import BodyPose
 from stepaside.robots.head import rotation
+from synthetic_cameras import HEAD, Eyes
+from synthetic_depth import Post, draw, paint
 
 CAMERA = CameraModel.of_field_of_view(160, 120, radians(60.9), radians(47.6))
 DEPTH = CameraModel.of_field_of_view(80, 60, radians(58.0), radians(45.0))

@@ -6,8 +6,6 @@ from math import atan2, cos, degrees, hypot, radians, sin
 import numpy as np
 import pytest
 
-from drawn_depth import Post, Wall, draw
-from made_up_eyes import HEAD, JOINTS, NAO, UP
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.perception.camera_model import CameraModel
 from stepaside.perception.camera_pose import camera_pose
@@ -21,6 +19,8 @@ from stepaside.perception.people_selection import (
 from stepaside.perception.perception_builder import build_perception
 from stepaside.perception.track import Observation, TargetTrack
 from stepaside.perception.tracker import Tracker
+from synthetic_cameras import HEAD, JOINTS, NAO, UP
+from synthetic_depth import Post, Wall, draw
 
 CAMERA = CameraModel.of_field_of_view(80, 60, radians(58.0), radians(45.0))
 TICK = 1.0 / 60.0  # an image is taken at every fourth, [s]

@@ -5,7 +5,10 @@ from math import atan2, cos, hypot, sin
 import numpy as np
 import pytest
 
-from made_up_eyes import (
+from stepaside.core.poses import Pose, wrap_angle
+from stepaside.perception.measurement import Measurement
+from stepaside.robots.head import rotation
+from synthetic_cameras import (
     HEAD,
     JOINTS,
     NAO,
@@ -16,9 +19,6 @@ from made_up_eyes import (
     colour,
     trim,
 )
-from stepaside.core.poses import Pose, wrap_angle
-from stepaside.perception.measurement import Measurement
-from stepaside.robots.head import rotation
 
 
 @pytest.fixture

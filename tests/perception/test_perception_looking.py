@@ -5,13 +5,13 @@ from typing import Any
 
 import pytest
 
-from made_up_eyes import TICK, Eyes
 from stepaside.core.poses import Pose
 from stepaside.perception.gaze import MAX_YAW, SCAN_SPEED
 from stepaside.perception.measurement import Sighting
 from stepaside.perception.perception_builder import FloorMapping
 from stepaside.perception.room_scan import RoomScan
 from stepaside.perception.target_selection import GAZE_RADIUS, MAX_GAZE_AGE
+from synthetic_cameras import TICK, Eyes
 
 
 @pytest.fixture

@@ -7,19 +7,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from made_up_eyes import (
-    CAMERA,
-    HEAD,
-    SUPPORT,
-    TICK,
-    Eyes,
-    axis_of,
-    colour,
-    depth,
-    obstacle,
-    show,
-    trim,
-)
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.perception.colour_detector import ColourDetection
 from stepaside.perception.depth_detector import Shadow
@@ -37,6 +24,19 @@ from stepaside.perception.track import (
     ROBOT_MOTION,
     Observation,
     TargetTrack,
+)
+from synthetic_cameras import (
+    CAMERA,
+    HEAD,
+    SUPPORT,
+    TICK,
+    Eyes,
+    axis_of,
+    colour,
+    depth,
+    obstacle,
+    show,
+    trim,
 )
 
 HEARD = [  # sonar, bearing from the heading in [deg], whether it is heard

@@ -5,7 +5,6 @@ from math import radians
 import numpy as np
 import pytest
 
-from made_up_eyes import HEAD
 from stepaside.core.poses import Array
 from stepaside.perception.gaze import Gaze, NoGlances
 from stepaside.perception.head_motion import HeadControl
@@ -15,6 +14,7 @@ from stepaside.perception.room_scan import (
     MAX_DURATION,
     RoomScan,
 )
+from synthetic_cameras import HEAD
 
 TICK = 0.02
 START = 3.0  # heading at first, near to a turn of pi, in [rad]

@@ -6,8 +6,8 @@ from math import exp, inf, nan, pi
 import numpy as np
 import pytest
 
-from brute_push import corners_of
-from by_hand import plan_of
+from push_linear_program import corners_of
+from reference_plans import plan_of
 from stepaside.core.convex import half_planes
 from stepaside.core.errors import PlanError
 from stepaside.planning import (
@@ -49,9 +49,9 @@ def walking(
 def test_the_outward_bound_is_that_of_the_sole() -> None:
     plan = walking()
     dcm = plan.sample([0.0]).dcm[0]
-    by_hand = MASS * GAIT.eta * (GAIT.sole.outer + dcm[1])
+    expected = MASS * GAIT.eta * (GAIT.sole.outer + dcm[1])
     bound = push_bound(plan, 0.0, OUTWARD[Foot.LEFT], MASS, REACH)
-    assert bound == pytest.approx(by_hand, rel=1e-9)
+    assert bound == pytest.approx(expected, rel=1e-9)
 
 
 def test_inward_bound_is_the_farthest_foot_and_the_inner_edge_until_then() -> (
@@ -64,9 +64,9 @@ def test_inward_bound_is_the_farthest_foot_and_the_inner_edge_until_then() -> (
     far = GAIT.foot_spacing + REACH.outward + GAIT.sole.outer
     held = fade * far + (1.0 - fade) * GAIT.sole.inner
     dcm = plan.sample([time]).dcm[0]
-    by_hand = MASS * GAIT.eta * (held - dcm[1])
+    expected = MASS * GAIT.eta * (held - dcm[1])
     bound = push_bound(plan, time, pi / 2.0, MASS, REACH)
-    assert bound == pytest.approx(by_hand, rel=1e-9)
+    assert bound == pytest.approx(expected, rel=1e-9)
 
 
 def test_bound_in_a_starting_double_support_waits_for_the_lift() -> None:
@@ -76,9 +76,9 @@ def test_bound_in_a_starting_double_support_waits_for_the_lift() -> None:
     fade = exp(-eta * (GAIT.start_support + GAIT.single_support - time))
     held = fade * (REACH.forward + sole.front) + (1.0 - fade) * sole.front
     dcm = plan.sample([time]).dcm[0]
-    by_hand = MASS * eta * (held - dcm[0])
+    expected = MASS * eta * (held - dcm[0])
     bound = push_bound(plan, time, 0.0, MASS, REACH)
-    assert bound == pytest.approx(by_hand, rel=1e-9)
+    assert bound == pytest.approx(expected, rel=1e-9)
     # To the other side of the foot that will stand, both feet hold more.
     side = push_bound(plan, time, pi / 2.0, MASS, REACH)
     alone = MASS * eta * (sole.inner - dcm[1])

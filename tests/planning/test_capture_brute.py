@@ -8,8 +8,14 @@ import numpy as np
 import pytest
 from scipy.spatial import ConvexHull
 
-from brute_push import brute_force, corners_of, interval, landing, two_steps
-from by_hand import plan_of
+from push_linear_program import (
+    brute_force,
+    corners_of,
+    interval,
+    landing,
+    two_steps,
+)
+from reference_plans import plan_of
 from stepaside.core.poses import Array
 from stepaside.planning import (
     Direction,

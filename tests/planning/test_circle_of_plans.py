@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from made_up_robot import FakeLegs, scheme_of
+from fake_robot import FakeLegs, scheme_of
 from stepaside.core.poses import Array, Pose, wrap_angle
 from stepaside.perception.measurement import Measurement, Sighting
 from stepaside.planning import Foot, GaitSettings

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from by_hand import plan_of
+from reference_plans import plan_of
 from stepaside.planning import Direction, Foot, GaitSettings, ManeuverPlanner
 from stepaside.planning.steady_gait import landing_state, steady_plan
 

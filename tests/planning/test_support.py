@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from by_hand import KINDS, corners_by_hand, feet_by_hand, plan_of
+from reference_plans import KINDS, plan_of, reference_corners, reference_feet
 from stepaside.core.convex import half_planes
 from stepaside.planning import Direction, Foot, ManeuverPlan
 from stepaside.planning.zmp import least_values
@@ -72,10 +72,10 @@ def test_feet_on_the_floor_are_those_worked_out_by_hand(
     phases = plan.support()
     for time in instants(plan):
         [phase] = [p for p in phases if p.start < time < p.end]
-        by_hand = corners_by_hand(plan, time)
-        assert phase.rows == feet_by_hand(plan, time)
-        assert phase.single == (by_hand.shape[0] == 4)
-        farthest = (AROUND @ by_hand.T).max(axis=1)
+        expected = reference_corners(plan, time)
+        assert phase.rows == reference_feet(plan, time)
+        assert phase.single == (expected.shape[0] == 4)
+        farthest = (AROUND @ expected.T).max(axis=1)
         np.testing.assert_allclose(
             (AROUND @ phase.corners.T).max(axis=1), farthest, atol=1e-12
         )

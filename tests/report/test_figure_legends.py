@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from invented_run import run_of
 from stepaside.games.trajectory import Trajectory
 from stepaside.report import figure_style as style
 from stepaside.report import people_figure, value_function_figure
 from stepaside.report.film_settings import FilmSettings
 from stepaside.report.film_strip import legend_entries
 from stepaside.theory.bound import Bound, Grid, solve_bound, two_car_game
+from synthetic_run import run_of
 
 
 @pytest.fixture

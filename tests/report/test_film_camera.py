@@ -7,7 +7,6 @@ import mujoco
 import numpy as np
 import pytest
 
-from invented_run import run_of
 from stepaside.core.poses import Array
 from stepaside.games.duel_settings import PLAYERS, DuelSettings
 from stepaside.games.run import Run
@@ -18,6 +17,7 @@ from stepaside.report.film_camera import MARGIN, FilmCamera, framing
 from stepaside.report.film_captions import caption, draw_title
 from stepaside.report.film_settings import AROUND, SLOWEST, VIEWS
 from stepaside.report.palette import PALETTES
+from synthetic_run import run_of
 
 FOVY, ASPECT = 45.0, 16.0 / 9.0
 TIMES = np.linspace(0.0, 30.0, 301)

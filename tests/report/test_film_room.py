@@ -6,7 +6,6 @@ import mujoco
 import numpy as np
 import pytest
 
-from invented_run import run_of
 from stepaside.arena import Door, Room
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.run import DuelRun
@@ -16,6 +15,7 @@ from stepaside.report.film_camera import FilmCamera
 from stepaside.report.film_captions import ring_labels
 from stepaside.sim.camera_settings import SceneSettings
 from stepaside.sim.obstacle_geoms import add_solids
+from synthetic_run import run_of
 
 SHAPES = [(3.0, 3.0), (2.0, 8.0), (9.0, 1.6)]
 

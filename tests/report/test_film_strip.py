@@ -8,13 +8,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from invented_run import run_of
 from stepaside.games.duel_settings import PLAYERS
 from stepaside.games.run import Run
 from stepaside.games.trajectory import Trajectory
 from stepaside.report import film_strip
 from stepaside.report.film import FilmSettings, frame_times_of
 from stepaside.report.film_strip import FRAMES, strip_settings, write_strip
+from synthetic_run import run_of
 
 TIMES = np.linspace(0.0, 30.0, 301)
 

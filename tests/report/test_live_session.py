@@ -10,6 +10,7 @@ from time import sleep
 import numpy as np
 import pytest
 
+from match_callbacks import observe_ticks, stop_observing
 from stepaside.core.errors import ConfigurationError, StepAsideError
 from stepaside.games.approach_forecast import CourseApproach
 from stepaside.games.duel import Duel
@@ -23,7 +24,6 @@ from stepaside.report.viewer import run_saving as saving
 from stepaside.report.viewer.live_session import LiveSession
 from stepaside.report.viewer.status_text import outlook, status_text
 from stepaside.strategies.teleoperation import TURN, TeleoperatedPursuit
-from tick_observers import observe_ticks, stop_observing
 
 START = StartSettings(distance=1.0, pursuer_offset=0.0, evader_offset=0.0)
 SETTINGS = DuelSettings(start=START)

@@ -25,6 +25,7 @@ from browsing import (
     until,
 )
 from injection_strings import HOSTILE
+from match_callbacks import observe_ticks, stop_observing
 from stepaside.cli.main import main
 from stepaside.games.configuration_file import dump_configuration
 from stepaside.games.duel import Duel
@@ -35,7 +36,6 @@ from stepaside.report.replay_page import write_page
 from stepaside.report.scene import RunScene
 from stepaside.report.text_escaping import visible
 from stepaside.report.viewer.live_session import LiveSession
-from tick_observers import observe_ticks, stop_observing
 
 SLOW = 0.02  # speed at which a sight of some seconds lasts for minutes
 

@@ -13,7 +13,6 @@ import mujoco
 import numpy as np
 import pytest
 
-from invented_run import changed, drifted
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array
 from stepaside.games.duel import run_duel
@@ -29,6 +28,7 @@ from stepaside.report.replay_page import write_page
 from stepaside.report.scene import RunScene
 from stepaside.report.visual_geoms import visual_geoms_of
 from stepaside.sim.offscreen_rendering import RAYCAST
+from synthetic_run import changed, drifted
 
 TIMES: Array = 0.02 * np.arange(102, dtype=float)  # 2.02 s
 

@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from invented_run import check_same, run_of
 from stepaside.core.errors import ConfigurationError, OutputError
 from stepaside.core.poses import Array
 from stepaside.games.duel import run_duel
@@ -26,6 +25,7 @@ from stepaside.report.run_folder import check_output, free_folder, write_run
 from stepaside.report.scene import RunScene
 from stepaside.sim.body_settings import BODIES
 from stepaside.strategies import Evasion
+from synthetic_run import check_same, run_of
 
 SETTINGS = DuelSettings(
     seed=3, duration=0.4, start=StartSettings(1.3, 0.4, -0.2)
@@ -219,7 +219,7 @@ def test_a_broken_file_is_refused(
 TIMES = np.linspace(0.0, 40.0, 401)
 
 
-def invented(**told: Any) -> DuelRun:
+def synthetic_duel(**told: Any) -> DuelRun:
     """Robots that wander, and then go round (3, -2) by halves."""
     angle = 0.5 * TIMES
     away = np.where(TIMES < 20.0, 5.0, 0.0)[:, None]
@@ -235,7 +235,7 @@ def invented(**told: Any) -> DuelRun:
 
 
 def test_a_run_tells_its_distance_and_angle_in_degrees() -> None:
-    run = invented()
+    run = synthetic_duel()
     np.testing.assert_array_equal(run.times, TIMES)
     np.testing.assert_allclose(run.distance, 1.2)
     np.testing.assert_allclose(run.orientation, degrees(1.2))
@@ -243,26 +243,26 @@ def test_a_run_tells_its_distance_and_angle_in_degrees() -> None:
 
 def test_theory_is_radius_distance_and_degrees() -> None:
     circle = circle_of_theory(DuelSettings())
-    assert invented().theory == pytest.approx(
+    assert synthetic_duel().theory == pytest.approx(
         (circle.radius_evader_m, circle.distance_m, 90.0)
     )
     back = DuelSettings(strategy=Evasion(angle=0.0))
-    assert replace(invented(), settings=back).theory is None
+    assert replace(synthetic_duel(), settings=back).theory is None
 
 
 def test_the_circle_lies_round_the_way_after_they_converged() -> None:
     """A whole turn takes 12.6 s; what was before has another middle."""
-    run = invented(converged_at_s=40.0 - 4.0 * np.pi)
+    run = synthetic_duel(converged_at_s=40.0 - 4.0 * np.pi)
     assert run.circle is not None and run.theory is not None
     assert run.circle[:2] == pytest.approx((3.0, -2.0), abs=0.02)
     assert run.circle[2] == run.theory[0]
-    late = invented(converged_at_s=20.0).circle
+    late = synthetic_duel(converged_at_s=20.0).circle
     assert late is not None and late[0] == pytest.approx(3.0, abs=0.05)
-    early = invented(converged_at_s=0.0).circle
+    early = synthetic_duel(converged_at_s=0.0).circle
     assert early is not None and early[0] == pytest.approx(5.5, abs=0.05)
     assert early[1] == pytest.approx(0.5, abs=0.05)
-    assert invented(converged_at_s=None).circle is None
-    assert invented().circle is None
+    assert synthetic_duel(converged_at_s=None).circle is None
+    assert synthetic_duel().circle is None
 
 
 COMING = "the pursuer walks; the evader stands"
@@ -285,7 +285,7 @@ ROUND = "both robots are on the circle"
     ],
 )
 def test_words_change_with_the_time(time: float, words: str) -> None:
-    run = invented(triggered_at_s=5.0, converged_at_s=30.0)
+    run = synthetic_duel(triggered_at_s=5.0, converged_at_s=30.0)
     assert describe_state(run, round(10.0 * time)) == words
 
 
@@ -304,7 +304,7 @@ def test_words_change_with_the_time(time: float, words: str) -> None:
 def test_the_last_words_are_how_it_ended(
     summary: dict[str, Any], words: str
 ) -> None:
-    run = invented(**summary)
+    run = synthetic_duel(**summary)
     assert describe_state(run, 400) == words
     before = EVADING if summary.get("triggered_at_s") == 5.0 else COMING
     assert describe_state(run, 394) == before

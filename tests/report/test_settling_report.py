@@ -6,7 +6,6 @@ from math import pi
 import numpy as np
 import pytest
 
-from invented_run import changed, run_of
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.outcome import Outcome
 from stepaside.games.run import DuelRun
@@ -15,6 +14,7 @@ from stepaside.report.settling_report import (
     explain_missing_circle,
     settling_time,
 )
+from synthetic_run import changed, run_of
 
 TIMES = np.linspace(0.0, 60.0, 601)
 STANDING = Trajectory(np.zeros((601, 3)), np.zeros((601, 3)))

@@ -10,7 +10,6 @@ import pytest
 from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
-from invented_run import run_of
 from stepaside.core.poses import Array
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.run import DuelRun
@@ -21,6 +20,7 @@ from stepaside.perception.images import ColourImage, DepthImage
 from stepaside.report.figure_style import COLOURS, THEORY, plt
 from stepaside.report.sight_figure import FOUND, TRUE, draw_sight, picture
 from stepaside.sim.camera_settings import RoomObject, SceneSettings
+from synthetic_run import run_of
 
 CAMERA = CameraModel(160, 120, 140.0, 140.0)
 

@@ -8,13 +8,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from invented_run import run_of
 from stepaside.games.approach_forecast import CourseApproach, estimate_approach
 from stepaside.games.run import DuelRun
 from stepaside.games.run_captions import describe_state
 from stepaside.games.trajectory import Trajectory
 from stepaside.locomotion.walk_snapshots import Phase
 from stepaside.report.viewer.status_text import outlook, status_text
+from synthetic_run import run_of
 
 SPEED = st.floats(-2.0, 2.0)
 PLACE = st.floats(-20.0, 20.0)

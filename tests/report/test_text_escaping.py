@@ -15,7 +15,6 @@ from hypothesis import strategies as st
 
 import stepaside
 from injection_strings import HOSTILE
-from invented_run import run_of
 from stepaside.cli.main import main
 from stepaside.games.run import DuelRun
 from stepaside.games.run_archive import write_run_files
@@ -29,6 +28,7 @@ from stepaside.report.text_escaping import (
     policy_of,
     visible,
 )
+from synthetic_run import run_of
 
 TEXTS = st.text() | st.sampled_from(HOSTILE)
 UNPAIRED = st.text(st.characters()) | st.sampled_from(HOSTILE)

@@ -1,4 +1,4 @@
-"""The live page and the replay behind a page that is none."""
+"""Test the live page and the replay on a fake page."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import fields, replace
@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from fake_page import Client, Gui, open_fake
-from invented_run import changed, drifted
+from match_callbacks import observe_ticks
 from stepaside.control.strategy_runner import StrategyRunner
 from stepaside.core.errors import ConfigurationError, StepAsideError
 from stepaside.core.poses import Array, wrap_angle
@@ -45,7 +45,7 @@ from stepaside.strategies import (
     Pursuit,
     TeleoperatedPursuit,
 )
-from tick_observers import observe_ticks
+from synthetic_run import changed, drifted
 
 START = StartSettings(distance=1.0, pursuer_offset=0.3, evader_offset=-0.2)
 SETTINGS = DuelSettings(start=START)

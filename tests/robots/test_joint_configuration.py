@@ -6,21 +6,21 @@ import mujoco
 import numpy as np
 import pytest
 
-from made_up_humanoid import made_up
 from stepaside.core.errors import ModelError
 from stepaside.core.poses import Array
 from stepaside.robots.description import RobotDescription, load_robot
 from stepaside.robots.joint_configuration import Configuration
 from stepaside.robots.tree_cache import load_tree
 from stepaside.robots.tree_compiler import compile_tree
+from synthetic_humanoid import synthetic_humanoid
 
-ROBOTS = ["nao", "made up", "made up, seven joints a leg"]
+ROBOTS = ["nao", "synthetic", "synthetic, seven joints a leg"]
 
 
 def robot(name: str, folder: Path) -> RobotDescription:
     if name == "nao":
         return load_robot("nao")
-    return made_up(folder, twists=name != "made up")
+    return synthetic_humanoid(folder, twists=name != "synthetic")
 
 
 def random_posture(
@@ -113,7 +113,7 @@ def test_a_tree_knows_masses_motors_and_ranges(
 
 
 def test_the_environment_is_not_part_of_the_tree(tmp_path: Path) -> None:
-    assert "rail" not in load_tree(made_up(tmp_path)).bodies
+    assert "rail" not in load_tree(synthetic_humanoid(tmp_path)).bodies
 
 
 def test_motors_move_their_followers_alone() -> None:

@@ -7,31 +7,31 @@ import mujoco
 import numpy as np
 import pytest
 
-from made_up_humanoid import made_up
 from stepaside.core.errors import ModelError, ReachError
 from stepaside.core.poses import Array
 from stepaside.robots.description import RobotDescription, load_robot
 from stepaside.robots.ik_solver import move_within, solver_of
 from stepaside.robots.leg_kinematics import ROWS, BodyReference, LegKinematics
 from stepaside.robots.tree_cache import load_tree
+from synthetic_humanoid import synthetic_humanoid
 
 NAO = load_robot("nao")
 TICK = 0.004
-FREE = {"nao": 11, "made up": 12}  # leg joints that are unknown
+FREE = {"nao": 11, "synthetic": 12}  # leg joints that are unknown
 
 
 @cache
 def stranger() -> RobotDescription:
     from tempfile import mkdtemp
 
-    return made_up(Path(mkdtemp()))
+    return synthetic_humanoid(Path(mkdtemp()))
 
 
 @cache
 def seven() -> RobotDescription:
     from tempfile import mkdtemp
 
-    return made_up(Path(mkdtemp()), twists=True)
+    return synthetic_humanoid(Path(mkdtemp()), twists=True)
 
 
 def robot(name: str) -> RobotDescription:
@@ -255,8 +255,8 @@ def test_other_joints_are_optimal_with_one_at_its_limit() -> None:
 def test_a_leg_joint_without_a_motor_is_refused_by_name(
     tmp_path: Path,
 ) -> None:
-    made_up(tmp_path)
-    for file in ("robot.toml", "made_up.xml"):
+    synthetic_humanoid(tmp_path)
+    for file in ("robot.toml", "synthetic.xml"):
         lines = (tmp_path / file).read_text()
         lines = lines.replace("l_knee = 8.0\n", "").replace(
             '<position name="l_knee" joint="l_knee" kp="10"/>', ""

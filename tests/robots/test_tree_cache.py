@@ -7,13 +7,13 @@ from typing import Any
 
 import pytest
 
-from made_up_humanoid import made_up
 from stepaside.cli.main import main
 from stepaside.core.errors import ModelError
 from stepaside.robots.description import load_robot
 from stepaside.robots.robot_tree import RobotTree
 from stepaside.robots.tree_cache import FILE, load_tree, store_tree
 from stepaside.robots.tree_compiler import compile_tree
+from synthetic_humanoid import synthetic_humanoid
 
 NAO = load_robot("nao")
 
@@ -48,7 +48,7 @@ def test_a_stored_tree_comes_back_as_it_was(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """From what was stored: nothing can be compiled."""
-    robot = made_up(tmp_path)
+    robot = synthetic_humanoid(tmp_path)
     tree = compile_tree(robot)
     store_tree(robot)
     without_mujoco(monkeypatch)
@@ -61,7 +61,7 @@ def test_a_stored_tree_comes_back_as_it_was(
 def test_a_file_that_is_not_a_tree_is_not_overwritten(
     tmp_path: Path, text: str
 ) -> None:
-    robot = made_up(tmp_path)
+    robot = synthetic_humanoid(tmp_path)
     (robot.folder / FILE).write_text(text)
     with pytest.raises(ModelError, match="must be a compiled tree"):
         store_tree(robot)
@@ -69,7 +69,7 @@ def test_a_file_that_is_not_a_tree_is_not_overwritten(
 
 
 def test_an_old_tree_is_compiled_again(tmp_path: Path) -> None:
-    robot = made_up(tmp_path)
+    robot = synthetic_humanoid(tmp_path)
     store_tree(robot)
     model = robot.folder / robot.model
     light = load_tree(robot).mass
@@ -92,7 +92,7 @@ def test_without_mujoco_a_stored_tree_is_required(
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    robot = made_up(tmp_path)
+    robot = synthetic_humanoid(tmp_path)
     if kept == "old":
         store_tree(robot)
         model = robot.folder / robot.model
@@ -107,7 +107,7 @@ def test_without_mujoco_a_stored_tree_is_required(
 
 def test_a_tree_is_checked_against_the_description(tmp_path: Path) -> None:
     """The description may change after the tree was stored."""
-    robot = made_up(tmp_path)
+    robot = synthetic_humanoid(tmp_path)
     store_tree(robot)
     text = (tmp_path / "robot.toml").read_text()
     text = text.replace('left_foot = "l_sole"', 'left_foot = "l_toe"')
@@ -131,7 +131,7 @@ def test_a_tree_with_entries_missing_is_refused(missing: str) -> None:
         (
             '<joint name="nod" axis="0 1 0" pos="0 0 0.03" range="-1 1"/>',
             '<joint name="nod" type="ball"/>',
-            "'nod' of Made up must be a hinge or a slide",
+            "'nod' of Synthetic must be a hinge or a slide",
         ),
         ('mass="8"', 'mass="0"', "does not compile"),
     ],
@@ -139,7 +139,7 @@ def test_a_tree_with_entries_missing_is_refused(missing: str) -> None:
 def test_a_model_that_cannot_be_moved_is_refused(
     old: str, new: str, words: str, tmp_path: Path
 ) -> None:
-    robot = made_up(tmp_path)
+    robot = synthetic_humanoid(tmp_path)
     model = robot.folder / robot.model
     text = model.read_text()
     assert old in text
@@ -149,7 +149,7 @@ def test_a_model_that_cannot_be_moved_is_refused(
 
 
 def test_the_command_line_stores_a_tree(tmp_path: Path) -> None:
-    robot = made_up(tmp_path)
+    robot = synthetic_humanoid(tmp_path)
     with pytest.raises(SystemExit) as ended:
         main(["robot", str(tmp_path), "--compile"])
     assert not ended.value.code

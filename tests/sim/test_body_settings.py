@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from made_up_robot import scheme_of
+from fake_robot import scheme_of
 from stepaside.control import ControlScheme
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array, Pose

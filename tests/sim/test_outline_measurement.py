@@ -3,7 +3,7 @@
 import mujoco
 import numpy as np
 
-from made_up_robot import GAIT
+from fake_robot import GAIT
 from stepaside.arena import BODY_RADIUS
 from stepaside.core.poses import Array, Pose
 from stepaside.games.duel import Duel

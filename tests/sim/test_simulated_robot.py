@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from made_up_robot import walk_of
+from fake_robot import walk_of
 from stepaside.control import ControlScheme
 from stepaside.control.sight_sources import CameraSight, MeasuredSight
 from stepaside.core.poses import Array, Pose

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from made_up_robot import GAIT
+from fake_robot import GAIT
 from stepaside.arena import (
     Disc,
     Obstacle,

@@ -6,12 +6,12 @@ from math import tau
 import numpy as np
 import pytest
 
-from invented_run import figures, run_of
-from made_up_record import Record
 from stepaside.games.duel_summary import PlanTimes
 from stepaside.games.run import DuelRun
 from stepaside.games.trajectory import Trajectory
 from stepaside.studies.physics_game import record_values_of
+from synthetic_duel_record import Record
+from synthetic_run import figures, run_of
 
 
 def played(turns: float = 0.0) -> DuelRun:

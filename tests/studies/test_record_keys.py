@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from every_field import changed
+from changed_settings import changed
 from stepaside.arena import Disc, Door, Room, RoomRecipe
 from stepaside.core.poses import Pose
 from stepaside.fitting import gait_search as tuning

@@ -1,4 +1,4 @@
-"""Test what is said of a bound's errors, on tables that are made up."""
+"""Test the error checks of a bound on synthetic tables."""
 
 from dataclasses import replace
 from statistics import fmean

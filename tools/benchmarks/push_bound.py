@@ -1,6 +1,6 @@
 """Compare the push bound with brute force, at 60 phases and directions.
 
-The linear programs are those of ``tests/brute_push.py``.
+The linear programs are those of ``tests/push_linear_program.py``.
 """
 
 import sys
@@ -12,7 +12,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "tests"))
 
-from brute_push import brute_force
+from push_linear_program import brute_force
 from stepaside.planning import (
     Direction,
     Foot,

@@ -235,7 +235,7 @@ def measure(humanoid: Humanoid, model: Path) -> dict[str, Any]:
             "speed_limits": len(asked["speed_limits"]),
         },
         "omitted_meshes": facts["left_out_meshes"],
-        "by_hand": [],
+        "reference_plans": [],
         "summary": {
             key: value
             for key, value in told.items()

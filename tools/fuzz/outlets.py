@@ -9,11 +9,11 @@ from unittest.mock import patch
 
 import click
 
-from published_humanoid import mjcf
 from stepaside.cli.main import all_commands
 from stepaside.cli.options.parameter_types import OutputFile
 from stepaside.fitting.requirements import RequirementCheck
 from stepaside.fitting.robot_verification import VerificationReport
+from vendor_humanoid import mjcf
 
 from .commands import base_of, options_of
 from .short_reproduce import few_claims

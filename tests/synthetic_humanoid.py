@@ -1,4 +1,4 @@
-"""Humanoids that are made up: none of them is like NAO.
+"""Synthetic humanoids whose geometry differs from that of NAO.
 
 Hip yaws are independent, the torso's frame lies behind the hips and is
 turned, hip axes do not meet, joints sit off their bodies' origins.
@@ -43,7 +43,7 @@ LEG = """
   </body>
 </body>"""
 MODEL = """
-<mujoco model="made up">
+<mujoco model="synthetic">
   <compiler angle="radian" inertiafromgeom="false"/>
   <asset><material name="paint" rgba="1 0 0 1"/></asset>
   <worldbody>
@@ -76,7 +76,9 @@ TURNED = """<body name="{s}_twist" pos="0 0 -0.05">
 <inertial mass="0.1" pos="0 0 0" diaginertia="0.001 0.001 0.001"/>"""
 
 
-def made_up(folder: Path, *, twists: bool = False) -> RobotDescription:
+def synthetic_humanoid(
+    folder: Path, *, twists: bool = False
+) -> RobotDescription:
     """Write a humanoid into a folder, and load it.
 
     Args:
@@ -93,15 +95,15 @@ def made_up(folder: Path, *, twists: bool = False) -> RobotDescription:
     actuators = "".join(
         f'<position name="{m}" joint="{m}" kp="10"/>' for m in motors
     )
-    (folder / "made_up.xml").write_text(
+    (folder / "synthetic.xml").write_text(
         MODEL.format(legs=legs, motors=actuators)
     )
     standing = {f"{s}_{n}": a for s in "lr" for n, a in BENT.items()}
     standing |= {"waist": 0.3, "mast": 0.05}
     quoted = ", ".join(f'"{name}"' for name in all_legs)
     lines = [
-        'name = "Made up"',
-        'model = "made_up.xml"',
+        'name = "Synthetic"',
+        'model = "synthetic.xml"',
         'torso = "trunk"',
         'left_foot = "l_sole"',
         'right_foot = "r_sole"',

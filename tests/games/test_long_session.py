@@ -11,7 +11,7 @@ CODE = """
 import sys
 for missing in ("mujoco", "scipy", "matplotlib"):
     sys.modules[missing] = None
-from day_of_maneuvers import main
+from long_session import main
 main({kind!r}, {count})
 """
 DAY = 86400.0  # in [s]

@@ -1,4 +1,4 @@
-"""Players and a world that are made up, to test the game itself."""
+"""Fake players and a fake world, for tests of matches and recorders."""
 
 from collections.abc import Callable, Iterator
 from types import SimpleNamespace

@@ -1,4 +1,4 @@
-"""Runs made by hand: what a duel leaves behind, as it is wanted."""
+"""Synthetic runs of duels with prescribed results."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -50,7 +50,7 @@ def run_of(
     tracks: Mapping[str, Trajectory],
     *,
     settings: DuelSettings | None = None,
-    name: str = "invented",
+    name: str = "synthetic",
     outcome: Outcome = Outcome.COMPLETED,
     message: str = "played 18.00 s",
     stills: Any = None,

@@ -1,4 +1,4 @@
-"""Perception of a robot that is made up to stand somewhere, turned."""
+"""Perception on synthetic images of a robot at a known pose."""
 
 from math import atan2, cos, sin
 from typing import Any

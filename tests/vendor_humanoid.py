@@ -1,7 +1,7 @@
-"""Humanoids as vendors publish them: none is ready to be controlled.
+"""Humanoid models as vendors publish them, without actuators or sensors.
 
-They have independent hip yaws, and legs, soles and arms whose joints and
-bodies follow nobody's names. One comes as MJCF with torque motors and a
+The models have independent hip yaws, and legs, soles and arms whose joints and
+bodies have names of their own. One comes as MJCF with torque motors and a
 floor of its own, one as URDF without a free joint.
 """
 

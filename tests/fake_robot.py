@@ -1,4 +1,4 @@
-"""A robot that is made up, to test what controls it."""
+"""Fake legs, strategy, feedback and perception, for tests of control."""
 
 from dataclasses import dataclass
 from types import SimpleNamespace

@@ -1,4 +1,4 @@
-"""A day of maneuvers on a fake body, with the memory in use after each.
+"""Many maneuvers on a fake body, with the memory in use after each.
 
 Run by a test in a process of its own, where no simulator is installed:
 stand, evade the other until it is gone, halt, stand. Between two

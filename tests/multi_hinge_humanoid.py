@@ -1,10 +1,10 @@
-"""A humanoid whose bodies carry several hinges each, as MJCF allows."""
+"""Humanoid whose bodies carry several hinges each, as MJCF allows."""
 
 from pathlib import Path
 
-import published_humanoid as stranger
+import vendor_humanoid as stranger
 
-# Bodies of a leg: name, joints of :data:`published_humanoid.LEG`, place of
+# Bodies of a leg: name, joints of :data:`vendor_humanoid.LEG`, place of
 # the body in the one above [m], mass [kg].
 BODIES = (
     ("thigh", 3, -0.12, 4.1),

@@ -1,4 +1,4 @@
-"""Feet and plans worked out by hand, beside what the package says."""
+"""Plans, and their feet and soles computed independently of the package."""
 
 from dataclasses import replace
 from typing import Any
@@ -18,7 +18,7 @@ from stepaside.planning import (
 KINDS = ("start", "walk", "halt")
 
 
-def sole_by_hand(plan: ManeuverPlan, row: int) -> Array:
+def reference_sole(plan: ManeuverPlan, row: int) -> Array:
     """Corners of the sole in a row of the placements. Shape (4, 2)."""
     sole = plan.schedule.settings.sole
     left = (plan.first_foot is Foot.LEFT) == (row % 2 == 0)
@@ -30,7 +30,7 @@ def sole_by_hand(plan: ManeuverPlan, row: int) -> Array:
     return Pose(x, y, theta).transform_points(corners)
 
 
-def feet_by_hand(plan: ManeuverPlan, time: float) -> tuple[int, ...]:
+def reference_feet(plan: ManeuverPlan, time: float) -> tuple[int, ...]:
     """Rows of the feet on the floor; at a change only those on both sides."""
     gait = plan.schedule.settings
     if plan.schedule.standing:
@@ -47,10 +47,10 @@ def feet_by_hand(plan: ManeuverPlan, time: float) -> tuple[int, ...]:
     return (plan.schedule.count, plan.schedule.count + 1)
 
 
-def corners_by_hand(plan: ManeuverPlan, time: float) -> Array:
+def reference_corners(plan: ManeuverPlan, time: float) -> Array:
     """Corners of all soles on the floor. Shape (4 or 8, 2)."""
-    feet = feet_by_hand(plan, time)
-    return np.concatenate([sole_by_hand(plan, row) for row in feet])
+    feet = reference_feet(plan, time)
+    return np.concatenate([reference_sole(plan, row) for row in feet])
 
 
 def plan_of(

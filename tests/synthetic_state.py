@@ -1,4 +1,4 @@
-"""Feedback of a robot whose state is made up."""
+"""Feedback of a robot in a prescribed state."""
 
 from typing import Any
 

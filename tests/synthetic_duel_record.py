@@ -1,4 +1,4 @@
-"""Records of duels that are made up: how far apart, when, how wide."""
+"""Duel records with prescribed distance, angle and radii over time."""
 
 from collections.abc import Callable
 

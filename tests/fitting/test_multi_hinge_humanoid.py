@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-import several_hinges
+import multi_hinge_humanoid
 from inline_executor import InlineExecutor
 from stepaside.cli.main import main
 from stepaside.core.errors import ModelError
@@ -35,7 +35,7 @@ def both(
     found = []
     for split in (False, True):
         folder = tmp_path_factory.mktemp("hinges")
-        model = several_hinges.write(folder, split=split)
+        model = multi_hinge_humanoid.write(folder, split=split)
         found.append(derive(model, folder, []))
         text = write_description(found[-1])
         (folder / FILE).write_text(text, encoding="utf-8")
@@ -83,7 +83,7 @@ def test_torques_of_a_step_stay_finite_without_a_mass(
 def test_a_robot_with_several_hinges_in_a_body_can_be_looked_at(
     tmp_path: Path,
 ) -> None:
-    model = several_hinges.write(tmp_path, split=False)
+    model = multi_hinge_humanoid.write(tmp_path, split=False)
     folder = tmp_path / "robot"
     words = ["robot", "init", str(model), "--output", str(folder)]
     shown = CliRunner().invoke(main, words)

@@ -1,4 +1,4 @@
-"""The largest push by linear programs: sampled ZMP, one landing at a time.
+"""Largest push by linear programs: sampled ZMP, one landing at a time.
 
 Nothing here uses what the bound is made of: no Minkowski sums, no hulls and
 no phases of the package. Corners of soles, times of the gait and a landing
@@ -11,7 +11,7 @@ from math import cos, sin
 import numpy as np
 from scipy.optimize import linprog
 
-from by_hand import sole_by_hand
+from reference_plans import reference_sole
 from stepaside.core.poses import Array
 from stepaside.planning import Foot, ManeuverPlan
 from stepaside.planning.capturability import FootReach
@@ -25,7 +25,7 @@ Supports = list[tuple[float, Array]]  # (how long, corners), one by one
 
 def corners_of(plan: ManeuverPlan, *rows: int) -> Array:
     """Corners of some soles where the plan has them."""
-    return np.concatenate([sole_by_hand(plan, row) for row in rows])
+    return np.concatenate([reference_sole(plan, row) for row in rows])
 
 
 def landing(plan: ManeuverPlan, row: int, x: float, y: float) -> Array:
