@@ -16,7 +16,7 @@ from stepaside.studies import robustness_campaign as campaign
 from stepaside.studies.result_files import read_result
 from stepaside.studies.robustness_campaign import MODULES
 from stepaside.studies.robustness_trial import RobustnessTrial
-from stepaside.studies.survival_statistics import bound_at
+from stepaside.studies.survival_statistics import push_bound_at
 
 ASKED = "--kind backlash --kind push --method mpc --seeds 3 --phases 1".split()
 
@@ -42,7 +42,7 @@ def run(*arguments: str) -> str:
 def test_push_limits_are_printed_with_their_bound(tmp_path: Path) -> None:
     asked = ("--kind", "push", "--method", "mpc", "--phases", "2")
     printed = run(*asked, "--output", str(tmp_path))
-    cells = " ".join(f"1.0/{bound_at('left', x):.1f}" for x in (0.0, 0.5))
+    cells = " ".join(f"1.0/{push_bound_at('left', x):.1f}" for x in (0.0, 0.5))
     assert f"left      {cells}" in printed
     assert "0 of 8" in printed
     made = read_result(tmp_path / "pushes.json")

@@ -60,7 +60,7 @@ def given() -> KnownRoom:
 
 
 def seen() -> MappedRoom:
-    return MappedRoom(FloorMap(), unseen_is_free=False)
+    return MappedRoom(FloorMap(), unknown_is_free=False)
 
 
 def test_a_step_sways_to_where_a_map_sees_a_wall() -> None:

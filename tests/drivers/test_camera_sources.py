@@ -12,7 +12,7 @@ import pytest
 cv2 = pytest.importorskip("cv2")
 
 from stepaside.core.poses import Pose  # noqa: E402
-from stepaside.drivers.cameras.image_source import LiveCamera, scaled  # noqa: E402
+from stepaside.drivers.cameras.image_source import LiveCamera, resize_model  # noqa: E402
 from stepaside.drivers.cameras.v4l2 import open_v4l2  # noqa: E402
 from stepaside.drivers.guardian_process import SessionLost  # noqa: E402
 from stepaside.perception.camera_model import CameraModel  # noqa: E402
@@ -92,9 +92,9 @@ def test_only_the_newest_recent_image_is_returned() -> None:
 
 
 def test_scaled_optics_see_as_far() -> None:
-    half = scaled(MODEL, 160, 120)
+    half = resize_model(MODEL, 160, 120)
     np.testing.assert_allclose(half.ray(0.0, 0.0), MODEL.ray(0.0, 0.0))
-    assert scaled(MODEL, 320, 240) is MODEL
+    assert resize_model(MODEL, 320, 240) is MODEL
 
 
 def test_a_naoqi_robot_offers_its_camera_images() -> None:

@@ -38,7 +38,10 @@ from stepaside.drivers.naoqi.joint_services import (  # noqa: E402
     JointMotionService,
     JointServiceState,
 )
-from stepaside.drivers.naoqi.joint_transport import fade, service_of
+from stepaside.drivers.naoqi.joint_transport import (
+    ramp_stiffness_down,
+    service_of,
+)
 from stepaside.drivers.naoqi.qi_session import connect, listen  # noqa: E402
 from stepaside.drivers.naoqi.sensor_keys import (  # noqa: E402
     KEYS,
@@ -457,7 +460,7 @@ def test_falling_stiffness_can_be_asked_for_from_elsewhere(
     scene: Scene,
 ) -> None:
     scene.ticks(12)
-    fade(scene.server.url, np.zeros(25), np.full(25, 0.8))
+    ramp_stiffness_down(scene.server.url, np.zeros(25), np.full(25, 0.8))
     assert scene.server.robot.stiffness.max() == 0.0
     np.testing.assert_array_equal(
         scene.server.joints.targets[:5], scene.server.robot.targets[:5]

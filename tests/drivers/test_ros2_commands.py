@@ -9,7 +9,7 @@ import pytest
 pytest.importorskip("cyclonedds")
 
 from stepaside.core.poses import Pose  # noqa: E402
-from stepaside.drivers.ros2.dds_domain import DdsParticipant, taken  # noqa: E402
+from stepaside.drivers.ros2.dds_domain import DdsParticipant, take_messages  # noqa: E402
 from stepaside.drivers.ros2.messages import (  # noqa: E402
     Header,
     Odometry,
@@ -21,7 +21,7 @@ from stepaside.drivers.ros2.messages import (  # noqa: E402
     TwistWithCovariance,
     Vector3,
 )
-from stepaside.drivers.ros2.ros2_body import Ros2Body, rest  # noqa: E402
+from stepaside.drivers.ros2.ros2_body import Ros2Body, command_standstill  # noqa: E402
 from stepaside.drivers.ros2.ros2_server import Ros2Server, WorldClock  # noqa: E402
 from stepaside.drivers.ros2.topics import (  # noqa: E402
     dds_topic,
@@ -106,7 +106,7 @@ def taken_by(robot: Robot, body: Ros2Body, kind: type[Any]) -> Any:
     def message() -> Any:
         heard(robot, body)
         body.command(ASKED)
-        found = taken(robot.readers[kind])
+        found = take_messages(robot.readers[kind])
         return found and found[-1]
 
     return until(message)
@@ -217,8 +217,8 @@ def test_one_that_only_reads_and_thinks_offers_no_commands() -> None:
 
 def test_rest_in_place_of_control_is_written_as_it_is_taken() -> None:
     robot = Robot(TwistStamped)
-    rest(DdsParticipant(0, tag=TAG), "/nao", 0.5)
-    found = taken(robot.readers[TwistStamped])
+    command_standstill(DdsParticipant(0, tag=TAG), "/nao", 0.5)
+    found = take_messages(robot.readers[TwistStamped])
     assert found and all(m.twist.linear.x == 0.0 for m in found)
     robot.close()
 

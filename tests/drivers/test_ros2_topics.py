@@ -16,7 +16,7 @@ pytest.importorskip("cyclonedds")
 from stepaside.core.errors import ConfigurationError  # noqa: E402
 from stepaside.core.poses import Pose  # noqa: E402
 from stepaside.drivers.ros2 import dds_domain as domain  # noqa: E402
-from stepaside.drivers.ros2.dds_domain import DdsParticipant, taken  # noqa: E402
+from stepaside.drivers.ros2.dds_domain import DdsParticipant, take_messages  # noqa: E402
 from stepaside.drivers.ros2.messages import (  # noqa: E402
     ClockMessage,
     Header,
@@ -31,13 +31,17 @@ from stepaside.drivers.ros2.messages import (  # noqa: E402
     Vector3,
 )
 from stepaside.drivers.ros2.namespaces import parse_namespace  # noqa: E402
-from stepaside.drivers.ros2.ros2_body import Ros2Body, register_stopper, rest
+from stepaside.drivers.ros2.ros2_body import (
+    Ros2Body,
+    command_standstill,
+    register_stopper,
+)
 from stepaside.drivers.ros2.ros2_server import EVERY, Ros2Server, WorldClock
 from stepaside.drivers.ros2.topics import (  # noqa: E402
-    about_the_vertical,
     dds_topic,
     pose_message,
     pose_of,
+    yaw_rotation,
 )
 from stepaside.drivers.velocity.velocity_body import REST, VelocityCommand  # noqa: E402
 from stepaside.perception.measurement import Sighting  # noqa: E402
@@ -189,7 +193,7 @@ def test_time_frames_and_joints_are_published(scene: Scene) -> None:
     def told() -> bool:
         scene.round()
         for kind, reader in readers.items():
-            for message in taken(reader):
+            for message in take_messages(reader):
                 found[kind] = message
         return len(found) == len(readers)
 
@@ -284,8 +288,8 @@ def test_a_report_lost_in_lock_step_is_repeated() -> None:
         writer.write(Twist(Vector3(), Vector3()))
         until(lambda: (scene.server.hear(), scene.server.connected)[1])
         scene.server.speak()
-        first = until(lambda: taken(reader))  # nobody answers it
-        again = until(lambda: scene.server.hear() or taken(reader))
+        first = until(lambda: take_messages(reader))  # nobody answers it
+        again = until(lambda: scene.server.hear() or take_messages(reader))
         assert again[0].header.stamp == first[-1].header.stamp
         writer.write(Twist(Vector3(0.05), Vector3()))
         until(scene.server.hear)
@@ -299,13 +303,14 @@ def test_in_place_of_control_rest_is_written_for_a_while() -> None:
     dds = DdsParticipant(0, tag=TAG)
     reader = dds.reader(dds_topic("/nao", "cmd_vel"), Twist)
     guardian = Thread(
-        target=rest, args=(DdsParticipant(0, tag=TAG), "/nao", 1.0)
+        target=command_standstill,
+        args=(DdsParticipant(0, tag=TAG), "/nao", 1.0),
     )
     guardian.start()
-    told = until(lambda: taken(reader))[0]
+    told = until(lambda: take_messages(reader))[0]
     assert (told.linear.x, told.angular.z) == (0.0, 0.0)
     guardian.join()
-    assert len(taken(reader)) > 1
+    assert len(take_messages(reader)) > 1
     dds.close()
 
 
@@ -319,7 +324,7 @@ def test_a_guardian_commands_nothing_until_it_acts() -> None:
     guardian = Thread(target=let_go)
     guardian.start()
     until(lambda: body.commanders == 1)
-    told = until(lambda: taken(reader))[0]
+    told = until(lambda: take_messages(reader))[0]
     assert (told.linear.x, told.angular.z) == (0.0, 0.0)
     guardian.join()
     body.close()
@@ -362,7 +367,7 @@ def test_poses_survive_their_messages(heading: float) -> None:
     pose = Pose(1.0, -2.0, heading)
     back = pose_of(pose_message(pose))
     assert back == pytest.approx(pose)
-    turned = about_the_vertical(heading)
+    turned = yaw_rotation(heading)
     assert turned.z == pytest.approx(sin(heading / 2.0))
     assert turned.w == pytest.approx(cos(heading / 2.0))
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from stepaside.drivers.joint.stiffness_guardian import StiffnessGuardian
-from stepaside.drivers.lola.lola_connection import let_go
+from stepaside.drivers.lola.lola_connection import ramp_stiffness_down
 from stepaside.drivers.lola.lola_frames import ActuatorFrame
 from stepaside.drivers.lola.lola_server import ActuatorFrameReader
 
@@ -38,7 +38,7 @@ def control_that(ends: str) -> tuple[int, socket.socket]:
     pid = os.fork()
     if pid == 0:
         far.close()
-        guardian = StiffnessGuardian(partial(let_go, near))
+        guardian = StiffnessGuardian(partial(ramp_stiffness_down, near))
         guardian.update(TARGETS, STIFF)
         if ends == "limp":
             guardian.update(TARGETS, np.zeros(25))

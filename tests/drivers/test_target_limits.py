@@ -16,7 +16,7 @@ from stepaside.drivers.joint.target_limits import (
     WARM,
     StiffnessRamp,
     TargetLimiter,
-    derated,
+    derate_stiffness,
 )
 from stepaside.drivers.lola.conventions import joint_frame_of
 from stepaside.drivers.lola.lights import COLOURS, lights_for
@@ -70,7 +70,7 @@ def test_targets_that_are_not_finite_are_ignored() -> None:
 
 def test_a_cool_joint_has_all_its_torque_and_a_hot_one_half() -> None:
     def share(degrees: float, status: int = 0) -> float:
-        hot = derated(ONES, np.full(25, degrees), (status,) * 25)
+        hot = derate_stiffness(ONES, np.full(25, degrees), (status,) * 25)
         return float(hot[0])
 
     assert share(20.0) == share(WARM) == 1.0
@@ -84,7 +84,7 @@ def test_a_cool_joint_has_all_its_torque_and_a_hot_one_half() -> None:
 def test_only_the_hot_joint_is_cut() -> None:
     temperature = np.full(25, 30.0)
     temperature[KNEE] = HOT
-    cut = derated(ONES, temperature, (0,) * 25)
+    cut = derate_stiffness(ONES, temperature, (0,) * 25)
     assert cut[KNEE] == MIN_STIFFNESS and cut.sum() == 24.0 + MIN_STIFFNESS
 
 

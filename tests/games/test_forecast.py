@@ -14,7 +14,7 @@ from stepaside.cli.main import main
 from stepaside.core.poses import wrap_angle
 from stepaside.games.duel_circle import (
     circle_of_theory,
-    no_circle_because,
+    missing_circle_reason,
     time_scale,
 )
 from stepaside.games.duel_settings import DuelSettings, StartSettings
@@ -145,7 +145,7 @@ def test_a_release_distance_within_the_circle_gives_no_circle(
     assert not circle_of_theory(settings).exists
     found = told(settings)
     assert found.expected is ExpectedEnd.NO_CIRCLE
-    assert found.words == no_circle_because(settings)
+    assert found.words == missing_circle_reason(settings)
     assert f"evasion ends at {release:g} m" in found.words
 
 
@@ -153,7 +153,7 @@ def test_an_evader_by_time_has_no_circle() -> None:
     settings = playing(trigger="time")
     assert not circle_of_theory(settings).exists
     assert told(settings).expected is ExpectedEnd.NO_CIRCLE
-    assert "time to contact" in no_circle_because(settings)
+    assert "time to contact" in missing_circle_reason(settings)
 
 
 @pytest.mark.parametrize(
@@ -173,7 +173,7 @@ def test_only_a_person_that_keeps_steering_has_a_circle(
     assert circle_of_theory(settings).exists is exists
     assert forecast(settings) is None
     if not exists:
-        assert "the person" in no_circle_because(settings)
+        assert "the person" in missing_circle_reason(settings)
 
 
 def test_other_games_have_no_forecast() -> None:
@@ -183,7 +183,7 @@ def test_other_games_have_no_forecast() -> None:
         replace(BASE, evader_strategy="walk"),
     ):
         assert forecast(settings) is None
-        assert no_circle_because(settings).startswith("no circle: the ")
+        assert missing_circle_reason(settings).startswith("no circle: the ")
 
 
 def duel(folder: Path, *options: str) -> Result:

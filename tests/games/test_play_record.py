@@ -23,7 +23,7 @@ from stepaside.games.configuration_file import dump_configuration
 from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.outcome import Outcome
-from stepaside.games.play_rows import one_clock
+from stepaside.games.play_rows import monotonic_times
 from stepaside.games.play_settings import PlaySettings
 from stepaside.games.player import Snapshot
 from stepaside.games.run_archive import complete_play, load_run
@@ -264,7 +264,7 @@ def test_without_a_sighting_a_play_has_one_player(tmp_path: Path) -> None:
 def test_record_time_continues_where_a_robot_clock_restarts() -> None:
     times = np.array([-0.024, -0.012, 0.0, 0.012, 900.0, 900.012, 0.0, 0.0])
     wanted = 0.012 * np.array([0, 1, 2, 3, 4, 5, 6, 6])
-    np.testing.assert_allclose(one_clock(times), wanted, atol=1e-9)
+    np.testing.assert_allclose(monotonic_times(times), wanted, atol=1e-9)
 
 
 def test_the_planning_time_of_a_play_is_in_microseconds(

@@ -37,7 +37,7 @@ SETUP = WalkerSetup(
 )
 MIND: Any = SimpleNamespace(
     floor=SimpleNamespace(
-        version=1, taken=lambda: (PILLAR,), unseen=lambda place: (UNSEEN,)
+        version=1, occupied=lambda: (PILLAR,), unknown=lambda place: (UNSEEN,)
     )
 )
 

@@ -67,7 +67,7 @@ def looked(
 
 def test_obstacles_are_mapped_at_their_positions() -> None:
     pillar, wall = Disc(1.2, 0.3, 0.15), Box(-1.4, 0.0, 0.1, 2.0)
-    found = looked(FloorMap(), (pillar, wall)).taken()
+    found = looked(FloorMap(), (pillar, wall)).occupied()
     near = np.array([[1.06, 0.25], [-1.34, 0.5], [-1.34, -0.5]])
     clearance = np.min([p.clearance(near) for p in found], axis=0)
     assert clearance.max() < 0.05  # all of it is on the map
@@ -80,9 +80,9 @@ def test_obstacles_are_mapped_at_their_positions() -> None:
 
 def test_cells_of_a_moved_obstacle_are_cleared() -> None:
     seen = looked(FloorMap(), (Disc(1.2, 0.3, 0.15),), times=4)
-    assert seen.taken()
+    assert seen.occupied()
     looked(seen, (), times=14)
-    assert not seen.taken()
+    assert not seen.occupied()
 
 
 def test_the_opponent_is_not_mapped() -> None:
@@ -90,26 +90,26 @@ def test_the_opponent_is_not_mapped() -> None:
     body = (Disc(1.2, 0.0, 0.12),)
     for _ in range(4):
         seen.take(*view_at(body, 0.0), (1.25, 0.05))
-    assert not seen.taken()
+    assert not seen.occupied()
 
 
 def test_unknown_floor_differs_from_free_floor() -> None:
     seen = FloorMap()
     for _ in range(2):
         seen.take(*view_at((), 0.0), None)
-    hidden = seen.unseen((0.0, 0.0))
+    hidden = seen.unknown((0.0, 0.0))
     ahead, behind = np.array([[0.8, 0.0]]), np.array([[-0.83, 0.02]])
     assert min(float(p.clearance(ahead)[0]) for p in hidden) > 0.0
     assert min(float(p.clearance(behind)[0]) for p in hidden) < 0.0
-    assert not seen.taken()
+    assert not seen.occupied()
 
 
 def test_floor_too_near_to_be_measured_stays_unknown() -> None:
     """It also hides the floor behind, so no ray frees the floor below."""
     near = Disc(0.55, 0.0, 0.15)
     seen = looked(FloorMap(), (near,))
-    assert not seen.taken()
-    hidden = seen.unseen((0.0, 0.0))
+    assert not seen.occupied()
+    hidden = seen.unknown((0.0, 0.0))
     inside = np.array([[0.45, 0.0], [0.55, 0.0], [0.6, 0.1], [0.6, -0.1]])
     clearance = np.min([p.clearance(inside) for p in hidden], axis=0)
     assert clearance.max() <= 0.0
@@ -125,7 +125,7 @@ def test_a_second_view_leaves_only_the_obstacle() -> None:
             image, eye, axes = view((near,), place, heading)
             for _ in range(2):
                 seen.take(image, CameraPose(eye, axes, place), None)
-    found = seen.unseen((0.0, 0.0)) + seen.taken()
+    found = seen.unknown((0.0, 0.0)) + seen.occupied()
     assert found
     for polygon in found:
         assert near.clearance(polygon.points).max() < 0.16
@@ -138,7 +138,7 @@ def test_the_floor_around_the_start_is_free() -> None:
         [[-FREE_AT_START + 1.5 * CELL, 0.0], [-FREE_AT_START - CELL, 0.02]]
     )
     clearance = np.min(
-        [p.clearance(behind) for p in seen.unseen((0.0, 0.0))], axis=0
+        [p.clearance(behind) for p in seen.unknown((0.0, 0.0))], axis=0
     )
     assert clearance[0] > 0.0 > clearance[1]
 
@@ -148,9 +148,9 @@ def test_hits_on_the_opponent_are_erased_when_it_is_recognised() -> None:
     seen, body = FloorMap(), (Disc(1.2, 0.0, 0.12),)
     for _ in range(4):
         seen.take(*view_at(body, 0.0), None)
-    assert seen.taken()
+    assert seen.occupied()
     seen.take(*view_at(body, 0.0), (1.2, 0.0))
-    assert not seen.taken()
+    assert not seen.occupied()
 
 
 def test_obstacles_beside_the_opponent_stay() -> None:

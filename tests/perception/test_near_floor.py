@@ -73,7 +73,7 @@ def lower_of(floor: FloorMap) -> BottomCameraStage:
 def hidden(floor: FloorMap, place: tuple[float, float]) -> bool:
     """Whether a place counts as unseen."""
     clear = [
-        part.clearance(np.array([place]))[0] for part in floor.unseen(HERE)
+        part.clearance(np.array([place]))[0] for part in floor.unknown(HERE)
     ]
     return min(clear, default=1.0) <= 0.0
 
@@ -84,7 +84,7 @@ def test_the_floor_before_a_thing_that_is_too_near_is_seen() -> None:
     near, axes = learnt(floor, [POST]), axes_of(39.7)
     near.show(image([POST], axes, low=True), eye(axes))
     assert not hidden(floor, BEFORE) and not hidden(floor, BESIDE)
-    assert hidden(floor, INSIDE) and not floor.taken()
+    assert hidden(floor, INSIDE) and not floor.occupied()
 
 
 def test_floor_that_is_lighter_close_by_is_seen() -> None:
@@ -99,7 +99,7 @@ def test_floor_that_is_lighter_close_by_is_seen() -> None:
     assert unknown[60, 80] or unknown[110, 20]
     near.show(replace(picture, pixels=lighter), eye(axes))
     assert not hidden(floor, BEFORE) and not hidden(floor, BESIDE)
-    assert hidden(floor, INSIDE) and not floor.taken()
+    assert hidden(floor, INSIDE) and not floor.occupied()
 
 
 @pytest.mark.parametrize("away", [0.45, 0.55, 0.7])
@@ -175,11 +175,11 @@ def test_what_rays_struck_stays_taken() -> None:
     """Colours only add floor that was seen."""
     post = [(1.2, 0.0, 0.1, 0.8)]
     floor = around(post)
-    before = len(floor.taken())
+    before = len(floor.occupied())
     near, axes = learnt(floor, post), axes_of(39.7)
     for _ in range(20):
         near.show(image([], axes, low=True), eye(axes))
-    assert before == len(floor.taken()) > 0
+    assert before == len(floor.occupied()) > 0
     assert atan2(0.0, 1.2) == 0.0 and floor.is_occupied(1.1, 0.0)
 
 

@@ -134,7 +134,7 @@ class Noting:
 
 def test_knowledge_contains_the_map_error() -> None:
     given = KnownRoom(Room(), Pose(0.0, 0.0, 0.0))
-    seen = MappedRoom(FloorMap(), unseen_is_free=False)
+    seen = MappedRoom(FloorMap(), unknown_is_free=False)
     for around, map_error in ((None, 0.0), (given, 0.0), (seen, CELL)):
         strategy = Noting()
         decisions = StrategyRunner(strategy, GAIT, 0.02, around)

@@ -23,7 +23,7 @@ from stepaside.studies.claims import (
     ClaimJob,
     ClaimRow,
     Readings,
-    farthest,
+    most_deviating,
 )
 from stepaside.studies.code_version import code_version
 from stepaside.studies.paper_figures import paper_figures
@@ -78,10 +78,10 @@ def test_row_has_mean_spread_and_runs() -> None:
 
 
 def test_farthest_value_may_be_on_either_side() -> None:
-    assert farthest([1.0, 0.5, 1.4], 1.0) == 0.5
-    assert farthest([1.0, 0.9, 1.4], 1.0) == 1.4
-    assert farthest([1.0, INF], 1.0) == INF
-    assert farthest([], 1.0) != farthest([], 1.0)  # NaN
+    assert most_deviating([1.0, 0.5, 1.4], 1.0) == 0.5
+    assert most_deviating([1.0, 0.9, 1.4], 1.0) == 1.4
+    assert most_deviating([1.0, INF], 1.0) == INF
+    assert most_deviating([], 1.0) != most_deviating([], 1.0)  # NaN
 
 
 # --- stored readings ---------------------------------------------------------

@@ -28,7 +28,7 @@ from stepaside.studies.duel_campaign import duel_study, versions_of
 from stepaside.studies.duel_record import FIELDS, play_record, settings_hash
 from stepaside.studies.duel_statistics import (
     certificate_row,
-    share,
+    proportion,
     summarise_duels,
     value_row,
 )
@@ -226,7 +226,7 @@ def test_in_time_is_before_the_last_third(duration: float) -> None:
 
 
 def test_a_share_has_wilsons_interval() -> None:
-    found = share([True] * 1000)
+    found = proportion([True] * 1000)
     assert found["number"] == found["of"] == 1000
     assert found["low"] == pytest.approx(0.99617, abs=1e-5)
     assert found["high"] == pytest.approx(1.0)

@@ -12,7 +12,7 @@ from reference_statistics import NORMAL, is_wilson
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.studies.duel_statistics import (
     VALUES,
-    share,
+    proportion,
     summarise_duels,
     value_row,
 )
@@ -97,7 +97,7 @@ def test_a_mean_has_the_interval_of_its_standard_error(
 @given(st.integers(1, 300), st.data())
 def test_a_share_counts_misses_too(number: int, data: st.DataObject) -> None:
     hits = data.draw(st.integers(0, number))
-    found = share(i < hits for i in range(number))
+    found = proportion(i < hits for i in range(number))
     assert (found["number"], found["of"]) == (hits, number)
     assert is_wilson(found["low"], found["high"], hits, number)
 

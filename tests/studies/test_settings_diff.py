@@ -28,10 +28,10 @@ from stepaside.studies.robustness_trial import (
 )
 from stepaside.studies.settings_diff import OWN, changed_walk, changes_of
 from stepaside.studies.survival_statistics import (
-    bound_at,
+    foot_reach,
     limit_rows,
+    push_bound_at,
     push_survival_rows,
-    walking_reach,
 )
 
 GAIT = GaitSettings(stride=0.03, single_support=0.3)
@@ -109,7 +109,7 @@ def heavier(monkeypatch: pytest.MonkeyPatch, factor: float) -> WalkSettings:
         robustness, "game_settings_from_description", lambda robot: None
     )
     monkeypatch.setattr(survival_statistics, "mass_of", mass_of)
-    bound_at.cache_clear()
+    push_bound_at.cache_clear()
     return WalkSettings(robot="heavy")
 
 
@@ -165,16 +165,18 @@ def test_limits_and_bounds_grow_with_the_mass_and_their_ratio_does_not(
 
 
 def test_bound_and_reach_are_those_of_the_walk_that_is_pushed() -> None:
-    assert walking_reach(WALK).forward == 0.05
-    usual = bound_at("forward", 0.3)
-    assert bound_at("forward", 0.3, WALK) != pytest.approx(usual, rel=1e-3)
+    assert foot_reach(WALK).forward == 0.05
+    usual = push_bound_at("forward", 0.3)
+    assert push_bound_at("forward", 0.3, WALK) != pytest.approx(
+        usual, rel=1e-3
+    )
     low = replace(WalkSettings(), gait=replace(GAIT, com_height=0.2))
-    assert bound_at("right", 0.0, low) != pytest.approx(
-        bound_at("right", 0.0), rel=1e-3
+    assert push_bound_at("right", 0.0, low) != pytest.approx(
+        push_bound_at("right", 0.0), rel=1e-3
     )
     back = replace(WalkSettings(), backward=True)
-    assert bound_at("backward", 0.1, back) != pytest.approx(
-        bound_at("backward", 0.1), rel=1e-3
+    assert push_bound_at("backward", 0.1, back) != pytest.approx(
+        push_bound_at("backward", 0.1), rel=1e-3
     )
 
 

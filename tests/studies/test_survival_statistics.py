@@ -21,12 +21,12 @@ from stepaside.studies.robustness_trial import (
 )
 from stepaside.studies.survival_statistics import (
     PUSH,
-    bound_at,
     limit_rows,
+    push_bound_at,
     push_survival_rows,
     summarise_limits,
     survival_rows,
-    wilson,
+    wilson_interval,
 )
 
 TRIAL = RobustnessTrial("backlash", 1.0, "", 0.0, 1, "mpc", "ideal")
@@ -62,7 +62,9 @@ def row(
 def test_wilson_interval_has_the_known_values(
     survived: int, number: int, low: float, high: float
 ) -> None:
-    assert wilson(survived, number) == pytest.approx((low, high), abs=1e-4)
+    assert wilson_interval(survived, number) == pytest.approx(
+        (low, high), abs=1e-4
+    )
 
 
 def test_survival_is_counted_over_the_seeds_of_each_strength() -> None:
@@ -76,7 +78,7 @@ def test_survival_is_counted_over_the_seeds_of_each_strength() -> None:
     )
     assert (one["strength"], one["survived"], one["trials"]) == (1.0, 4, 4)
     assert (two["strength"], two["survived"], two["trials"]) == (2.0, 3, 3)
-    assert (one["low"], one["high"]) == wilson(4, 4)
+    assert (one["low"], one["high"]) == wilson_interval(4, 4)
 
 
 def test_survival_of_pushes_is_the_share_of_phases_with_that_limit() -> None:
@@ -96,7 +98,7 @@ def test_limit_is_the_largest_push_survived_with_all_smaller_ones() -> None:
     record = {"strengths": [*tried], "survived": [*tried.values()]}
     [found] = limit_rows([(case, record)])
     assert found["limit_n_s"] == 0.6
-    assert found["bound_n_s"] == bound_at(case.direction, case.phase)
+    assert found["bound_n_s"] == push_bound_at(case.direction, case.phase)
     assert found["ratio"] == 0.6 / found["bound_n_s"]
     assert found["impulse_bound_n_s"] < found["bound_n_s"]
 
@@ -108,8 +110,8 @@ def test_bounds_half_a_cycle_apart_mirror_each_other(
     direction: str, phase: float, impulse: bool
 ) -> None:
     other = MIRRORED.get(direction, direction)
-    assert bound_at(direction, phase, impulse=impulse) == pytest.approx(
-        bound_at(other, phase + 0.5, impulse=impulse), rel=1e-9
+    assert push_bound_at(direction, phase, impulse=impulse) == pytest.approx(
+        push_bound_at(other, phase + 0.5, impulse=impulse), rel=1e-9
     )
 
 
@@ -123,10 +125,10 @@ def test_bound_is_of_the_walk_under_way() -> None:
     y = dcm_y * exp(eta * middle)
     fade = exp(-eta * (gait.single_support - middle))
     ahead = fade * (0.08 + sole.front) + (1.0 - fade) * sole.front
-    assert bound_at("forward", 0.0, impulse=True) == pytest.approx(
+    assert push_bound_at("forward", 0.0, impulse=True) == pytest.approx(
         mass * eta * (ahead - x), rel=1e-5
     )
-    assert bound_at("right", 0.0, impulse=True) == pytest.approx(
+    assert push_bound_at("right", 0.0, impulse=True) == pytest.approx(
         mass * eta * (sole.outer + y), rel=1e-5
     )
 
@@ -137,7 +139,7 @@ def test_a_push_that_lasts_may_be_harder_than_an_impulse_in_its_middle() -> (
     """The ZMP need not wait for the middle."""
     for direction in DIRECTIONS:
         for phase in (0.0, 0.1, 0.2):
-            assert bound_at(direction, phase) > 1.1 * bound_at(
+            assert push_bound_at(direction, phase) > 1.1 * push_bound_at(
                 direction, phase, impulse=True
             )
 
@@ -176,16 +178,16 @@ def test_wilsons_ends_are_as_unlikely_as_95_percent_says(
     number: int, data: st.DataObject
 ) -> None:
     hits = data.draw(st.integers(0, number))
-    low, high = wilson(hits, number)
+    low, high = wilson_interval(hits, number)
     assert is_wilson(low, high, hits, number)
     # A miss is the hit of the opposite share.
-    other = wilson(number - hits, number)
+    other = wilson_interval(number - hits, number)
     assert (1.0 - other[1], 1.0 - other[0]) == pytest.approx((low, high))
 
 
 @pytest.mark.parametrize("number", [50, 200])
 def test_wilsons_interval_holds_the_share_19_times_in_20(number: int) -> None:
-    bounds = [wilson(hits, number) for hits in range(number + 1)]
+    bounds = [wilson_interval(hits, number) for hits in range(number + 1)]
     shares = [0.01 * i for i in range(10, 91)]
     held = [coverage(bounds, share) for share in shares]
     assert sum(held) / len(held) == pytest.approx(0.95, abs=0.01)

@@ -21,7 +21,11 @@ from stepaside.planning import PRESETS
 from stepaside.sim.body_settings import BODIES
 from stepaside.sim.camera_settings import CameraSettings, ColourSettings
 from stepaside.studies.people_statistics import passing_rows, people_rows
-from stepaside.studies.person_encounters import Encounter, encounters, meet
+from stepaside.studies.person_encounters import (
+    Encounter,
+    encounters,
+    play_encounter,
+)
 from stepaside.studies.result_files import header, write_result
 
 AHEAD = (0, 45, -45, 90, -90)  # directions they come from, in [deg]
@@ -88,7 +92,7 @@ def main() -> None:
     head = header(
         settings, modules=("studies/people_statistics",), libraries=libraries
     )
-    rows = gather(output, head, jobs, meet, arguments.workers)
+    rows = gather(output, head, jobs, play_encounter, arguments.workers)
     found = {
         name: [(each, rows[each.key]) for each in group]
         for name, group in groups.items()

@@ -35,7 +35,11 @@ from stepaside.studies.robustness_trial import (
     RobustnessTrial,
     settings_of,
 )
-from stepaside.studies.survival_statistics import PUSH, bound_at, walking_reach
+from stepaside.studies.survival_statistics import (
+    PUSH,
+    foot_reach,
+    push_bound_at,
+)
 
 GAIT = GaitSettings()
 
@@ -72,7 +76,7 @@ def bound_with_landing(
         state=CenterState((x, y), (vx, vy)),
     )
     angle = radians(DIRECTIONS[trial.direction])
-    return push_bound(plan, 0.0, angle, mass, walking_reach(), lasts=PUSH)
+    return push_bound(plan, 0.0, angle, mass, foot_reach(), lasts=PUSH)
 
 
 def follow(trial: RobustnessTrial) -> dict[str, float | str | bool]:
@@ -152,7 +156,7 @@ def follow(trial: RobustnessTrial) -> dict[str, float | str | bool]:
         "direction": trial.direction,
         "phase": trial.phase,
         "impulse_n_s": trial.strength,
-        "bound_n_s": bound_at(trial.direction, trial.phase),
+        "bound_n_s": push_bound_at(trial.direction, trial.phase),
         "survived": stood,
         "until_landing_s": float(table[-1, 0]),
         "landed_too_early_by_s": float(early),

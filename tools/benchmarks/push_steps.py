@@ -29,7 +29,7 @@ from stepaside.planning.capturability import (
 from stepaside.planning.steady_gait import steady_plan
 from stepaside.studies.code_version import PLANNER
 from stepaside.studies.result_files import header, write_result
-from stepaside.studies.survival_statistics import walking_reach
+from stepaside.studies.survival_statistics import foot_reach
 
 TIMES, DIRECTIONS, LANDINGS = 60, 180, 24
 FOOTSTEPS = 4  # a further step is weighted by exp(-eta T), 0.04 or less
@@ -90,7 +90,7 @@ def ratios(plan: ManeuverPlan, reach: FootReach) -> tuple[Array, Array]:
 def main() -> None:
     """Compare the bounds at all times and directions."""
     output = ask(__doc__, "push-steps.json").parse_args().output
-    reach = walking_reach()
+    reach = foot_reach()
     along, aside = (np.abs(f(ANGLES)) < 1e-9 for f in (np.sin, np.cos))
     rows = []
     for name, gait in GAITS.items():

@@ -34,7 +34,7 @@ import numpy as np
 import ros2_peer as peer
 
 from stepaside.core.poses import Pose
-from stepaside.drivers.ros2.dds_domain import DdsParticipant, taken
+from stepaside.drivers.ros2.dds_domain import DdsParticipant, take_messages
 from stepaside.drivers.ros2.image_messages import pixels_of
 from stepaside.drivers.ros2.messages import (
     CompressedImage,
@@ -177,7 +177,7 @@ class Sensors:
     def look(self) -> None:
         """Read all new messages."""
         for name, (reader, right) in self._readers.items():
-            for message in taken(reader):
+            for message in take_messages(reader):
                 self.heard.note(name, right(message))
 
     def close(self) -> None:

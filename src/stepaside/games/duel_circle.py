@@ -17,7 +17,7 @@ def circle_of_theory(settings: DuelSettings) -> Circle:
     """Compute the circle that the unicycles of a duel converge to.
 
     The circle does not exist where the game differs from that of the paper;
-    :func:`no_circle_because` gives the reason.
+    :func:`missing_circle_reason` gives the reason.
     """
     if _differs(settings) is not None:
         return Circle(exists=False)
@@ -27,7 +27,7 @@ def circle_of_theory(settings: DuelSettings) -> Circle:
     return circle
 
 
-def no_circle_because(settings: DuelSettings) -> str:
+def missing_circle_reason(settings: DuelSettings) -> str:
     """Return the reason why the unicycles of a duel reach no circle.
 
     Args:

@@ -15,7 +15,7 @@ from .duel_circle import (
     circle_of_theory,
     convergence_time,
     distance_between,
-    no_circle_because,
+    missing_circle_reason,
     time_scale,
 )
 from .duel_settings import EVADER, PLAYERS, DuelSettings
@@ -98,7 +98,7 @@ def summarise(
 def _theory(settings: DuelSettings, converged: float | None) -> TheorySummary:
     """Summarise theory; no circle if the forecast is contact before it."""
     circle, expectation = circle_of_theory(settings), forecast(settings)
-    words = None if circle.exists else no_circle_because(settings)
+    words = None if circle.exists else missing_circle_reason(settings)
     if expectation is not None and converged is None:
         if expectation.expected is ExpectedEnd.CONTACT:
             circle = Circle(exists=False)

@@ -10,7 +10,7 @@ from ..sim.person_settings import PersonSettings
 from .duel_circle import (
     circle_of_theory,
     convergence_time,
-    no_circle_because,
+    missing_circle_reason,
     time_scale,
 )
 from .duel_settings import EVADER, PURSUER, DuelSettings
@@ -113,7 +113,10 @@ def _play(settings: DuelSettings) -> Forecast:
             f"{start.least:.2f} m on",
         )
     elif not circle.exists:
-        expected, words = ExpectedEnd.NO_CIRCLE, no_circle_because(settings)
+        expected, words = (
+            ExpectedEnd.NO_CIRCLE,
+            missing_circle_reason(settings),
+        )
     elif since is None:
         expected, words = (
             ExpectedEnd.LATER,

@@ -17,7 +17,7 @@ from .outcome import Outcome
 from .play_joint_path import OdometryPath, estimate_tilts
 from .play_rows import NOTES, PlayedRows, read_played
 from .play_settings import PlaySettings
-from .play_summary import Change, PlaySummary
+from .play_summary import PlayStateChange, PlaySummary
 from .run import PlayRun
 from .trajectory import Trajectory
 
@@ -150,10 +150,10 @@ def _last_third(rows: PlayedRows, walking: Array) -> Array:
     return late
 
 
-def _changes(rows: PlayedRows) -> tuple[Change, ...]:
+def _changes(rows: PlayedRows) -> tuple[PlayStateChange, ...]:
     times, changes = rows.times, rows.changes[:MAX_CHANGES]
     return tuple(
-        Change(float(times[change.tick]), change.state, change.reason)
+        PlayStateChange(float(times[change.tick]), change.state, change.reason)
         for change in changes
         if 0 <= change.tick < len(times)
     )

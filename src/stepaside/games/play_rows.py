@@ -56,7 +56,7 @@ class StateChange:
 
 
 @dataclass(frozen=True, slots=True)
-class PlayNotes:
+class PlayStateLog:
     """Content of ``play.json``.
 
     Attributes:
@@ -120,12 +120,12 @@ def read_played(folder: Path) -> PlayedRows:
     if not len(found["times_s"]):
         raise ConfigurationError(f"{ROWS} of {name} has no rows")
     notes = parse_object(
-        PlayNotes, read_json(folder / NOTES), f"{NOTES} of {name}"
+        PlayStateLog, read_json(folder / NOTES), f"{NOTES} of {name}"
     )
-    return PlayedRows(found, one_clock(found["times_s"]), notes.changes)
+    return PlayedRows(found, monotonic_times(found["times_s"]), notes.changes)
 
 
-def one_clock(times: Array) -> Array:
+def monotonic_times(times: Array) -> Array:
     """Convert robot times to monotonic times since the first row.
 
     A robot's clock restarts with each walk and after each lost connection.

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 
 @dataclass(frozen=True, slots=True)
-class Change:
+class PlayStateChange:
     """Change of the state of a robot.
 
     Attributes:
@@ -49,4 +49,4 @@ class PlaySummary:
     closest_m: float | None
     sighted_share: float | None
     plan_time_us: float | None
-    changes: tuple[Change, ...]
+    changes: tuple[PlayStateChange, ...]

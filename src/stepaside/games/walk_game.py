@@ -24,7 +24,7 @@ from .walker import SimulatedPlayer
 from .walker_factory import WalkerSetup, place_walker
 
 
-class WalkTally:
+class WalkCounts:
     """Match observer that counts steps and collects solver results.
 
     Attributes:
@@ -116,7 +116,7 @@ class WalkGame(Match):
         self.recorder = Recorder(
             [self.walker], tick=world.physics.tick, closely=True
         )
-        self.tally = WalkTally(self.walker, keeps_answers=recorded)
+        self.tally = WalkCounts(self.walker, keeps_answers=recorded)
         recorders: list[MatchObserver] = [self.tally]
         if recorded:
             recorders.append(self.recorder)

@@ -160,7 +160,7 @@ def clearance_in(
     if known.source == "seen":
         assert perception is not None and perception.floor is not None
         surroundings = MappedRoom(
-            perception.floor, unseen_is_free=known.unseen == "free"
+            perception.floor, unknown_is_free=known.unseen == "free"
         )
     outline = measure_outline(setup.description, setup.gait)
     return ClearanceSetup(surroundings, outline, known.margin)

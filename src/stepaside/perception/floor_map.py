@@ -235,7 +235,7 @@ class FloorMap:
         """Return the centres of known cells in odometry. Shape (n, 2)."""
         return _centres(self._known)
 
-    def taken(self) -> tuple[Polygon, ...]:
+    def occupied(self) -> tuple[Polygon, ...]:
         """Return the occupied cells as polygons in odometry."""
         return cover(self.occupied_cells(), CELL)
 
@@ -271,7 +271,7 @@ class FloorMap:
         distances: Array = self.occupied_cells() - (x, y)
         return distances
 
-    def unseen(self, position: tuple[float, float]) -> tuple[Polygon, ...]:
+    def unknown(self, position: tuple[float, float]) -> tuple[Polygon, ...]:
         """Return the unknown floor near a position as polygons in odometry.
 
         Args:

@@ -7,7 +7,7 @@ import numpy as np
 
 from ..planning import CenterState, Direction, Foot, ManeuverPlan
 from ..planning.maneuver import ManeuverPlanner
-from .claims import Claim, Readings, farthest
+from .claims import Claim, Readings, most_deviating
 from .planner_claims import BEARING, COUNT, GAIT
 
 REST = 4.0  # time after the last step that is evaluated, in [s]
@@ -36,7 +36,7 @@ def read_com() -> Readings:
         "bounded": float(np.hypot(*(samples.com - samples.zmp).T).max()),
         "pendulum": pendulum_error(left),
         "integral": quadrature_error(left),
-        "reached": farthest(ends, degrees(BEARING)),
+        "reached": most_deviating(ends, degrees(BEARING)),
     }
 
 

@@ -10,7 +10,7 @@ import numpy as np
 Readings = dict[str, float]
 
 
-def farthest(values: Sequence[float], expected: float) -> float:
+def most_deviating(values: Sequence[float], expected: float) -> float:
     """Return the value farthest from an expected one; NaN without values."""
     if not len(values):
         return nan

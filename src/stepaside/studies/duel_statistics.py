@@ -8,7 +8,7 @@ import numpy as np
 
 from ..games.duel_circle import circle_of_theory
 from ..games.duel_settings import DuelSettings
-from .survival_statistics import CONFIDENCE, wilson
+from .survival_statistics import CONFIDENCE, wilson_interval
 
 Record = dict[str, Any]
 BEFORE = 2.0 / 3.0  # of a duel; means are taken over the rest
@@ -58,14 +58,14 @@ def summarise_duels(
     return {
         "duels": len(records),
         "outcomes": {
-            name: share(r["outcome"] == name for r in records)
+            name: proportion(r["outcome"] == name for r in records)
             for name in outcomes
         },
-        "on_the_circle": share(
+        "on_the_circle": proportion(
             r["converged_at_s"] is not None for r in records
         ),
         "on_the_circle_by_s": BEFORE * settings.duration,
-        "on_the_circle_in_time": share(
+        "on_the_circle_in_time": proportion(
             r["converged_at_s"] is not None
             and r["converged_at_s"] < BEFORE * settings.duration
             for r in records
@@ -84,10 +84,10 @@ def summarise_duels(
     }
 
 
-def share(hits: Iterable[bool]) -> dict[str, float]:
+def proportion(hits: Iterable[bool]) -> dict[str, float]:
     """Return the number of hits and the 95 % interval of their proportion."""
     each = list(hits)
-    low, high = wilson(sum(each), len(each))
+    low, high = wilson_interval(sum(each), len(each))
     return {"number": sum(each), "of": len(each), "low": low, "high": high}
 
 
@@ -140,8 +140,8 @@ def certificate_row(records: Sequence[Record]) -> dict[str, Any]:
     over = [r["evading_min_distance_m"] - r["certified_m"] for r in both]
     nearest = int(np.argmin(over)) if over else None
     return {
-        "certified": share(r["certified_m"] is not None for r in records),
-        "nearer_than_certified": share(x < 0.0 for x in over),
+        "certified": proportion(r["certified_m"] is not None for r in records),
+        "nearer_than_certified": proportion(x < 0.0 for x in over),
         "least_excess_m": None if nearest is None else over[nearest],
         "median_excess_m": float(np.median(over)) if over else None,
         "worst_seed": None if nearest is None else both[nearest]["seed"],

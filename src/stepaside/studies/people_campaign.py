@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from .campaign import Study, code_stamp
 from .code_version import LIBRARIES
-from .person_encounters import FIELDS, Encounter, meet
+from .person_encounters import FIELDS, Encounter, play_encounter
 
 MODULES = ("studies/person_encounters",)  # which plays an encounter
 
@@ -14,7 +14,7 @@ def people_study(encounters: Sequence[Encounter]) -> Study[Encounter]:
     return Study(
         "people",
         encounters,
-        meet,
+        play_encounter,
         lambda encounter: encounter.key,
         lambda encounter: code_stamp(MODULES, LIBRARIES),
         FIELDS,

@@ -8,7 +8,7 @@ from ..planning import GaitSettings
 from ..theory.unicycle.lateral_evasion import lateral_clearance
 from .person_encounters import Encounter
 from .records import Record
-from .survival_statistics import wilson
+from .survival_statistics import wilson_interval
 
 SEEN_AT = 3.5  # distance at which a depth camera detects people, in [m]
 
@@ -47,7 +47,7 @@ def people_rows(
             for row in found
             if row["theory_closest_m"] is not None
         ]
-        low, high = wilson(contacts, len(found))
+        low, high = wilson_interval(contacts, len(found))
         rows.append(
             {
                 "sensing": sensing,

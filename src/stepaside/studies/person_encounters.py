@@ -91,7 +91,7 @@ class Encounter:
         )
 
 
-def base_of(walk: WalkSettings) -> DuelSettings:
+def base_settings(walk: WalkSettings) -> DuelSettings:
     """Return the game settings of a campaign.
 
     Args:
@@ -127,7 +127,7 @@ def encounters(
         bearings: Initial bearings of people, in [deg].
         offsets: Lateral offsets of their paths, in [m].
     """
-    base = base_of(walk)
+    base = base_settings(walk)
     for sensing in sensings:
         for speed in speeds:
             for bearing in bearings:
@@ -138,7 +138,7 @@ def encounters(
                         )
 
 
-def meet(encounter: Encounter) -> Record:
+def play_encounter(encounter: Encounter) -> Record:
     """Play an encounter and return its record."""
     run = run_duel(encounter.settings)
     if run.outcome is Outcome.INTERRUPTED:

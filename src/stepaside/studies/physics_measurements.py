@@ -15,7 +15,7 @@ from ..games.duel_settings import PLAYERS, DuelSettings, StartSettings
 from ..games.outcome import Outcome
 from ..planning import PRESETS
 from ..theory.unicycle.circle_fit import fit_circle
-from .claims import Readings, farthest
+from .claims import Readings, most_deviating
 from .instrumented_duel import InstrumentedDuel, play_instrumented
 from .walk_measures import (
     distance_walked,
@@ -68,7 +68,7 @@ def read_circle(duel: InstrumentedDuel) -> Readings:
     jumps = [reference_jumps(duel, name) for name in PLAYERS]
     on_feet = [replanning_support(duel, name) for name in PLAYERS]
     return last_circle(duel) | {
-        "landings": farthest(landings, gait.step_duration),
+        "landings": most_deviating(landings, gait.step_duration),
         "both_feet": float(np.min([share for share, _ in on_feet])),
         "at_its_end": float(np.max([late for _, late in on_feet])),
         "straight_part": float(np.max(shares)),
@@ -118,7 +118,7 @@ def read_durations(
         "upright_for": walked.duration,
         "tilt": largest_tilt(walked),
         "distance": min(distance_walked(walked, name) for name in PLAYERS),
-        "speed": farthest(speeds, gait.stride / gait.step_duration),
+        "speed": most_deviating(speeds, gait.stride / gait.step_duration),
     }
 
 

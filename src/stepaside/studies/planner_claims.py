@@ -12,7 +12,7 @@ from ..planning import (
     ManeuverPlanner,
     UnicycleTrajectory,
 )
-from .claims import Claim, Readings, farthest
+from .claims import Claim, Readings, most_deviating
 
 BEARING = 0.9  # desired heading, in [rad]
 GAIT = GaitSettings()
@@ -50,8 +50,8 @@ def read_path() -> Readings:
         angles.append(float(np.abs(wrap_angles(towards - bearing)).max()))
     return {
         "arc": max(deviations),
-        "way": farthest(lengths, GAIT.speed * ARC),
-        "heading": farthest(headings, 1.0),
+        "way": most_deviating(lengths, GAIT.speed * ARC),
+        "heading": most_deviating(headings, 1.0),
         "line": max(angles),
     }
 
@@ -115,7 +115,9 @@ class FootstepOffset(NamedTuple):
     heading: float
 
 
-def footholds(bearing: float, direction: Direction) -> list[FootstepOffset]:
+def footstep_offsets(
+    bearing: float, direction: Direction
+) -> list[FootstepOffset]:
     """Return the offsets of the footsteps of a plan from its path."""
     plan = ManeuverPlanner(GAIT).plan(
         bearing,
@@ -165,7 +167,7 @@ def read_footsteps() -> Readings:
     strides, laterals, headings = [], [], []
     sides = np.where(np.arange(COUNT) % 2 == 0, 1.0, -1.0)  # left foot first
     for bearing, direction in CASES:
-        offsets = footholds(bearing, direction)
+        offsets = footstep_offsets(bearing, direction)
         lengths = [0.0, *(offset.arc_length for offset in offsets)]
         strides += np.diff(lengths).tolist()
         laterals += [
@@ -173,8 +175,8 @@ def read_footsteps() -> Readings:
         ]
         headings += [abs(offset.heading) for offset in offsets]
     return {
-        "stepsize": farthest(strides, GAIT.stride),
-        "sides": farthest(laterals, 0.5 * GAIT.foot_spacing),
+        "stepsize": most_deviating(strides, GAIT.stride),
+        "sides": most_deviating(laterals, 0.5 * GAIT.foot_spacing),
         "tangent": max(headings),
     }
 

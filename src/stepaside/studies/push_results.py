@@ -9,7 +9,7 @@ from .push_limits import RESOLUTION
 from .result_files import header
 from .robustness_trial import mass_of
 from .settings_diff import changes_of
-from .survival_statistics import DEFAULT, PUSH, summarise_limits, walking_reach
+from .survival_statistics import DEFAULT, PUSH, foot_reach, summarise_limits
 
 MODULES = (
     "studies/survival_statistics",
@@ -46,7 +46,7 @@ def pushes_result(
         "seed": seed,
         "push_duration_s": PUSH,
         "resolution_n_s": RESOLUTION,
-        "reach_m": walking_reach(walk)._asdict(),
+        "reach_m": foot_reach(walk)._asdict(),
         "gait": asdict(walk.gait),
         "robot": walk.robot,
         "mass_kg": mass_of(walk.robot),

@@ -28,7 +28,7 @@ PUSH = 0.1  # duration of a push, in [s]
 DEFAULT = WalkSettings()
 
 
-def wilson(survived: int, number: int) -> tuple[float, float]:
+def wilson_interval(survived: int, number: int) -> tuple[float, float]:
     """Return the 95 % interval of a proportion, after Wilson (1927)."""
     if number == 0:
         return 0.0, 1.0
@@ -89,7 +89,7 @@ def _survival_row(
     strength: float,
     outcomes: Sequence[bool],
 ) -> dict[str, Any]:
-    low, high = wilson(sum(outcomes), len(outcomes))
+    low, high = wilson_interval(sum(outcomes), len(outcomes))
     return {
         "method": method,
         "kind": kind,
@@ -114,7 +114,7 @@ def limit_rows(
     for case, record in results:
         walk = walk_of(case)
         limit = limit_of(outcomes_of(record)) * push_scale(walk.robot)
-        bound = bound_at(case.direction, case.phase, walk)
+        bound = push_bound_at(case.direction, case.phase, walk)
         rows.append(
             {
                 "method": case.method,
@@ -122,7 +122,7 @@ def limit_rows(
                 "phase": case.phase,
                 "limit_n_s": limit,
                 "bound_n_s": bound,
-                "impulse_bound_n_s": bound_at(
+                "impulse_bound_n_s": push_bound_at(
                     case.direction, case.phase, walk, impulse=True
                 ),
                 "limit_m_s": limit / mass_of(walk.robot),
@@ -133,7 +133,7 @@ def limit_rows(
 
 
 @cache
-def bound_at(
+def push_bound_at(
     direction: str,
     phase: float,
     walk: WalkSettings = DEFAULT,
@@ -165,12 +165,12 @@ def bound_at(
         first_foot=foot,
     )
     passed %= gait.step_duration
-    angle, reach = radians(DIRECTIONS[direction]), walking_reach(walk)
+    angle, reach = radians(DIRECTIONS[direction]), foot_reach(walk)
     mass = mass_of(walk.robot)
     return push_bound(plan, passed, angle, mass, reach, lasts=lasts)
 
 
-def walking_reach(walk: WalkSettings = DEFAULT) -> FootReach:
+def foot_reach(walk: WalkSettings = DEFAULT) -> FootReach:
     """Return the foot placements that the feedback of a walk allows."""
     gains = walk.control.stabiliser
     return FootReach(

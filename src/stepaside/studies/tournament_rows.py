@@ -8,7 +8,7 @@ import numpy as np
 
 from ..strategies.strategy_game import StepGame
 from ..theory.unicycle.circle_equations import find_circle
-from .survival_statistics import CONFIDENCE, wilson
+from .survival_statistics import CONFIDENCE, wilson_interval
 from .tournament_strategies import gain_ratio_of
 
 Record = dict[str, Any]
@@ -71,7 +71,7 @@ def circle_distance(game: StepGame, pursuer: str) -> float | None:
 def _row(records: Sequence[Record]) -> Record:
     outcomes = [r["outcome"] for r in records]
     survived = outcomes.count("survived")
-    low, high = wilson(survived, len(records))
+    low, high = wilson_interval(survived, len(records))
     closest = np.array([r["closest_m"] for r in records])
     bound = np.array([r["bound_m"] for r in records])
     decisions = 1e3 * np.array([r["decision_s"] for r in records])

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Sequence
 
-from stepaside.studies.survival_statistics import wilson
+from stepaside.studies.survival_statistics import wilson_interval
 
 NONE = "-"  # shown for missing values
 
@@ -38,7 +38,7 @@ def interval(low: float | None, high: float | None, digits: int = 3) -> str:
 
 def counted(hits: int, of: int) -> str:
     """Return a proportion with its 95 % Wilson interval."""
-    low, high = wilson(hits, of)
+    low, high = wilson_interval(hits, of)
     return f"{hits} ({interval(100.0 * low, 100.0 * high, 0)} %)"
 
 

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
-from stepaside.studies.survival_statistics import wilson
+from stepaside.studies.survival_statistics import wilson_interval
 
 from .markdown import number, table
 
@@ -22,7 +22,7 @@ def score(result: Mapping[str, Any]) -> str:
     )
     low, high = (
         number(100.0 * share, 0)
-        for share in wilson(result["noticed"], result["faults"])
+        for share in wilson_interval(result["noticed"], result["faults"])
     )
     rows = [
         (

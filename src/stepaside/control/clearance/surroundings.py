@@ -107,14 +107,14 @@ class MappedRoom:
     pose_odometry_in_map = HERE
     map_error = CELL
 
-    def __init__(self, floor: FloorMap, *, unseen_is_free: bool) -> None:
+    def __init__(self, floor: FloorMap, *, unknown_is_free: bool) -> None:
         """Begin without obstacles.
 
         Args:
             floor: Map that perception updates.
-            unseen_is_free: Whether unknown floor counts as free.
+            unknown_is_free: Whether unknown floor counts as free.
         """
-        self._floor, self._unseen_is_free = floor, unseen_is_free
+        self._floor, self._unseen_is_free = floor, unknown_is_free
         self.solids = NO_OBSTACLES
         self._read, self._next = 0, 0.0
 
@@ -124,7 +124,7 @@ class MappedRoom:
         if now < self._next - 1e-9 or version == self._read:
             return
         self._read, self._next = version, now + REFRESH_PERIOD
-        known = self._floor.taken()
+        known = self._floor.occupied()
         if not self._unseen_is_free:
-            known += self._floor.unseen(body.com[:2])
+            known += self._floor.unknown(body.com[:2])
         self.solids = ObstacleSet(known)

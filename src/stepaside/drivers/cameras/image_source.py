@@ -48,7 +48,7 @@ class LiveCamera:
     The exposure is assumed a constant latency before the arrival.
 
     Attributes:
-        model: Optics, which are scaled to the size of each image.
+        model: Optics, which are resize_model to the size of each image.
     """
 
     def __init__(
@@ -87,7 +87,7 @@ class LiveCamera:
         if age > MAX_AGE:
             return []
         height, width = newest.pixels.shape[:2]
-        model = scaled(self.model, width, height)
+        model = resize_model(self.model, width, height)
         return [ColourImage(now - age, model, newest.pixels)]
 
     def close(self) -> None:
@@ -109,7 +109,7 @@ class LiveCamera:
             self._let_go()
 
 
-def scaled(model: CameraModel, width: int, height: int) -> CameraModel:
+def resize_model(model: CameraModel, width: int, height: int) -> CameraModel:
     """Return the same optics for another image size.
 
     Args:

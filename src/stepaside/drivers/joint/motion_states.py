@@ -6,7 +6,12 @@ from ...core.poses import Array
 from .frames import JointFrame
 from .joint_map import JointMap, MotorTable
 from .safety_state_machine import RobotState
-from .target_limits import StiffnessRamp, TargetLimiter, derated, legs_reached
+from .target_limits import (
+    StiffnessRamp,
+    TargetLimiter,
+    derate_stiffness,
+    posture_reached,
+)
 
 POSTURE_SPEED = 0.5  # of each joint in motions to a posture, in [rad/s]
 
@@ -47,7 +52,7 @@ class JointMotionState:
             return False
         if state is RobotState.REACHING and self._ramp.share < 1.0:
             return False
-        return legs_reached(
+        return posture_reached(
             self.targets, self._goal(state), measured, self._motors.legs
         )
 
@@ -84,7 +89,9 @@ class JointMotionState:
             self.targets = limiter.toward(self._goal(state), POSTURE_SPEED)
         share = self._ramp.toward(0.0 if state is RobotState.LIMP else 1.0)
         stiffness = np.full(self._motors.count, share)
-        stiffness = derated(stiffness, frame.temperature, frame.status)
+        stiffness = derate_stiffness(
+            stiffness, frame.temperature, frame.status
+        )
         return self.targets, stiffness
 
     def fade(self) -> tuple[Array, Array]:

@@ -196,7 +196,7 @@ CONDITIONS = (
 )
 
 
-class ConditionWatch:
+class ConditionMonitor:
     """Evaluation of all conditions, frame by frame."""
 
     def __init__(self, settings: SafetySettings) -> None:

@@ -3,7 +3,7 @@
 from enum import Enum
 
 from .safety_conditions import (
-    ConditionWatch,
+    ConditionMonitor,
     SafetyInputs,
     SafetyReaction,
     SafetySettings,
@@ -41,7 +41,7 @@ class Safety:
     def __init__(self, settings: SafetySettings) -> None:
         """Start limp, before the first frame."""
         self._settings = settings
-        self._watch = ConditionWatch(settings)
+        self._watch = ConditionMonitor(settings)
         self._afterwards = RobotState.RESTING
         self.state = RobotState.LIMP
         self.reason = "no frame received yet"

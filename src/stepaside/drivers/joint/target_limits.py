@@ -55,7 +55,7 @@ class TargetLimiter:
         return self.target
 
 
-def derated(
+def derate_stiffness(
     stiffness: Array, temperature: Array, status: Sequence[int]
 ) -> Array:
     """Reduce the stiffness of hot joints.
@@ -99,7 +99,7 @@ class StiffnessRamp:
         return self.share
 
 
-def legs_reached(
+def posture_reached(
     targets: Array, goal: Array, measured: Array, legs: NDArray[np.intp]
 ) -> bool:
     """Return whether targets and leg joints have reached a posture."""

@@ -56,7 +56,9 @@ def open_lola(
             log.info("no ideal line of sight at %s", address.sight)
         guardian = None
         if how.guards:
-            guardian = StiffnessGuardian(partial(let_go, link.socket))
+            guardian = StiffnessGuardian(
+                partial(ramp_stiffness_down, link.socket)
+            )
             stack.callback(guardian.dismiss)
         body = JointBody(
             JointInterface(link, NAO_MOTORS, CODEC),
@@ -97,7 +99,9 @@ def _ideal_sight(address: LolaAddress) -> SightClient | None:
         return None
 
 
-def let_go(robot: socket.socket, targets: Array, stiffness: Array) -> None:
+def ramp_stiffness_down(
+    robot: socket.socket, targets: Array, stiffness: Array
+) -> None:
     """Ramp the stiffness down over LoLA, as far as frames can be sent."""
     robot.setblocking(False)
     count = round(FADING / TICK)

@@ -156,16 +156,16 @@ def pack_actuators(frame: ActuatorFrame) -> bytes:
 
 
 def unpack_actuators(data: bytes) -> ActuatorFrame:
-    """Decode an actuator frame; see :func:`take_actuators`."""
+    """Decode an actuator frame; see :func:`clip_actuators`."""
     if len(data) > LONGEST_ANSWER:
         raise WireError(
             f"an actuator frame has at most {LONGEST_ANSWER} bytes, "
             f"got {len(data)}"
         )
-    return take_actuators(decode(data))
+    return clip_actuators(decode(data))
 
 
-def take_actuators(decoded: object) -> ActuatorFrame:
+def clip_actuators(decoded: object) -> ActuatorFrame:
     """Convert a decoded object to an actuator frame.
 
     Stiffness and lights are clipped to their range, as some peers send

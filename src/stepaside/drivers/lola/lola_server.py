@@ -10,7 +10,7 @@ from ...core.poses import Array
 from .camera_socket import CameraServer
 from .listener import ClientListener
 from .lola_address import LolaAddress
-from .lola_frames import ActuatorFrame, pack_sensors, take_actuators
+from .lola_frames import ActuatorFrame, clip_actuators, pack_sensors
 from .served_joints import ServedJointRobot, ServedJoints
 from .sight_socket import SightServer
 from .wire import LIMITS, LONGEST_ANSWER, WireError
@@ -46,7 +46,7 @@ class ActuatorFrameReader:
                 f"cannot decode an actuator frame: {name} {error}".strip()
             ) from error
         for answer in decoded:
-            frames.append(take_actuators(answer))
+            frames.append(clip_actuators(answer))
         self._pending = len(data) + (0 if frames else self._pending)
         if self._pending > 2 * LONGEST_ANSWER and not frames:
             raise WireError(

@@ -70,6 +70,6 @@ def _connect(url: str) -> "JointTransport":
 
 
 def _fade(url: str, targets: Array, stiffness: Array) -> None:
-    from .joint_transport import fade
+    from .joint_transport import ramp_stiffness_down
 
-    fade(url, targets, stiffness)
+    ramp_stiffness_down(url, targets, stiffness)

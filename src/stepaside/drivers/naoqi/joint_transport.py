@@ -276,7 +276,7 @@ def service_of(session: Any, name: str) -> Any:
     return answer_of(future, name, within=ANSWER_TIMEOUT)
 
 
-def fade(url: str, targets: Array, stiffness: Array) -> None:
+def ramp_stiffness_down(url: str, targets: Array, stiffness: Array) -> None:
     """Ramp the stiffness down when control has failed.
 
     Args:

@@ -155,7 +155,7 @@ class DdsParticipant:
         del self.participant
 
 
-def taken(reader: Any) -> list[Any]:
+def take_messages(reader: Any) -> list[Any]:
     """Take the messages that have arrived, oldest first, without waiting.
 
     Samples without data, which announce a change of a writer, are dropped.
@@ -195,4 +195,4 @@ def _environment_domain() -> int:
     return int(text)
 
 
-__all__ = ["DdsParticipant", "messages", "taken"]
+__all__ = ["DdsParticipant", "messages", "take_messages"]

@@ -6,8 +6,8 @@ import numpy as np
 
 from ...perception.camera_model import CameraModel
 from ...perception.images import ColourImage, Percept, Pixels
-from ..cameras.image_source import scaled
-from .dds_domain import DdsParticipant, taken
+from ..cameras.image_source import resize_model
+from .dds_domain import DdsParticipant, take_messages
 from .messages import CompressedImage, Header, Image
 from .topics import dds_topic
 
@@ -108,7 +108,7 @@ class TopicCamera:
             dds: DDS participant; closed with the camera.
             topic: Topic like ``/camera/image_raw``; one that ends in
                 ``/compressed`` has compressed images.
-            model: Optics, which are scaled to the size of each image.
+            model: Optics, which are resize_model to the size of each image.
             latency: Time from exposure to arrival, in [s].
         """
         self._dds, self._model, self._latency = dds, model, latency
@@ -118,7 +118,7 @@ class TopicCamera:
 
     def percepts(self, frame: int, now: float, tick: float) -> list[Percept]:
         """Return the newest image, if there is a new one."""
-        arrived = taken(self._reader)
+        arrived = take_messages(self._reader)
         if not arrived:
             return []
         newest = arrived[-1]
@@ -126,7 +126,7 @@ class TopicCamera:
         if pixels is None:
             return []
         height, width = pixels.shape[:2]
-        model = scaled(self._model, width, height)
+        model = resize_model(self._model, width, height)
         return [ColourImage(now - self._latency, model, pixels)]
 
     def close(self) -> None:

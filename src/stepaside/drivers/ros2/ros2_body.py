@@ -12,7 +12,7 @@ from ...core.poses import Pose
 from ...perception.measurement import Sighting
 from ..guardian_process import SessionLost
 from ..velocity.velocity_body import REST, VelocityCommand, VelocityReport
-from .dds_domain import DdsParticipant, taken
+from .dds_domain import DdsParticipant, take_messages
 from .endpoint_discovery import Endpoints
 from .messages import Header, Odometry, PointStamped, PoseStamped, Time
 from .topics import (
@@ -91,7 +91,7 @@ class Ros2Body:
         """
         deadline = monotonic() + patience
         while True:
-            arrived = taken(self._odometry)
+            arrived = take_messages(self._odometry)
             if arrived:
                 return self._report(arrived[-1])
             if monotonic() >= deadline:
@@ -130,7 +130,7 @@ class Ros2Body:
         self._header = Header(stamp, odometry.child_frame_id)
         self._poses.note(time, pose)
         for name, reader in self._sights.items():
-            for message in taken(reader):
+            for message in take_messages(reader):
                 if name == IDEAL and not self._is_ideal_logged:
                     self._is_ideal_logged = True
                     log.warning(
@@ -172,10 +172,10 @@ def register_stopper(
     """
     for kind in KINDS:
         dds.register(dds_topic(namespace, COMMAND), kind)
-    return partial(rest, dds, namespace)
+    return partial(command_standstill, dds, namespace)
 
 
-def rest(
+def command_standstill(
     dds: DdsParticipant, namespace: str, duration: float = GUARDIAN_DURATION
 ) -> None:
     """Command zero velocity when control has failed.

@@ -33,11 +33,11 @@ from .topics import (
     IMAGE,
     JOINTS,
     ODOMETRY,
-    about_the_vertical,
     dds_topic,
     frame,
     pose_message,
     vector,
+    yaw_rotation,
 )
 from .velocity_commands import CommandReader
 
@@ -269,7 +269,7 @@ class Ros2Server:
                 Header(stamp, ""), self._names, list(state.joints), [], []
             )
         )
-        rotation = about_the_vertical(pose.theta)
+        rotation = yaw_rotation(pose.theta)
         transform = Transform(vector(pose.x, pose.y), rotation)
         self._transforms.write(
             TFMessage([TransformStamped(fixed, own, transform)])

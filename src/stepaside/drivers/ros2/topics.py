@@ -37,14 +37,14 @@ def yaw(rotation: Quaternion) -> float:
     return atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
 
 
-def about_the_vertical(heading: float) -> Quaternion:
+def yaw_rotation(heading: float) -> Quaternion:
     """Return the rotation about the vertical by a heading, in [rad]."""
     return Quaternion(0.0, 0.0, sin(0.5 * heading), cos(0.5 * heading))
 
 
 def pose_message(pose: Pose) -> PoseMessage:
     """Convert a planar pose to a message."""
-    return PoseMessage(Point(pose.x, pose.y), about_the_vertical(pose.theta))
+    return PoseMessage(Point(pose.x, pose.y), yaw_rotation(pose.theta))
 
 
 def pose_of(message: PoseMessage) -> Pose:

@@ -8,7 +8,7 @@ import logging
 from typing import Any
 
 from ..velocity.velocity_body import VelocityCommand
-from .dds_domain import DdsParticipant, taken
+from .dds_domain import DdsParticipant, take_messages
 from .endpoint_discovery import Endpoints
 from .messages import Header, Twist, TwistStamped
 from .topics import COMMAND, dds_topic, vector
@@ -107,7 +107,7 @@ class CommandReader:
                 sample.sample_info.publication_handle % HANDLES,
                 sample if self._kind is Twist else sample.twist,
             )
-            for sample in taken(self._reader)
+            for sample in take_messages(self._reader)
         ]
 
     def choose(self) -> None:

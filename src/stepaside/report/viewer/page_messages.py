@@ -101,14 +101,16 @@ class MessageFilter:
         control = self._controls.get(uuid) if isinstance(uuid, str) else None
         if control is None or not isinstance(updates, dict):
             return False
-        if set(updates) == {"value"} and can_take(control, updates["value"]):
+        if set(updates) == {"value"} and accepts_value(
+            control, updates["value"]
+        ):
             return True
         label = getattr(control, "label", "a control")
         self.notify(f"invalid value for {label}")
         return False
 
 
-def can_take(control: Any, value: Any) -> bool:
+def accepts_value(control: Any, value: Any) -> bool:
     """Return whether a control can take a value.
 
     Args:
