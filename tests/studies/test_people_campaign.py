@@ -110,11 +110,11 @@ def test_recorded_encounters_are_not_repeated(
 ) -> None:
     met: list[str] = []
 
-    def meet(each: Encounter) -> dict[str, Any]:
+    def play(each: Encounter) -> dict[str, Any]:
         met.append(each.key)
         return record(closest_m=each.speed)
 
-    monkeypatch.setattr(campaign, "meet", meet)
+    monkeypatch.setattr(campaign, "play_encounter", play)
     store = ResultStore(tmp_path)
     first = run_study(people_study(grid(seeds=1)), store)
     again = run_study(people_study(grid(seeds=2)), store)
