@@ -175,7 +175,7 @@ def test_the_map_has_a_point_for_each_direction(tmp_path: Path) -> None:
 def test_the_command_writes_table_and_map(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(campaign, "meet", lambda each: record())
+    monkeypatch.setattr(campaign, "play_encounter", lambda each: record())
     monkeypatch.setattr(pools, "worker_pool", ThreadPoolExecutor)
     line = "robustness --kind person --gait fast --seeds 1 --workers 1"
     told = CliRunner().invoke(
