@@ -229,8 +229,8 @@ def test_an_invalid_name_is_refused_at_once(key: str, name: str) -> None:
     with pytest.raises(ConfigurationError) as caught:
         DuelSettings(**{key: name})  # type: ignore[arg-type]
     assert str(caught.value) == (
-        f"{key} must be one of {', '.join(STRATEGIES)}, pursuit-xRATIO or "
-        f"FILE.py:NAME, got {name!r}"
+        f"{key} must be one of {', '.join(STRATEGIES)}, pursuit-xRATIO, "
+        f"FILE.py:NAME or FILE.onnx, got {name!r}"
     )
 
 

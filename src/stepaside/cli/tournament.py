@@ -104,7 +104,8 @@ def _levels() -> tuple[str, ...]:
     multiple=True,
     metavar="NAME",
     help="Strategy of an evader: look-ahead, aside, saturated, alpha, "
-    "deflected, optimal or FILE.py:NAME; repeatable.  [default: all]",
+    "deflected, optimal, FILE.py:NAME or FILE.onnx; repeatable.  "
+    "[default: all]",
 )
 @click.option(
     "--pursuer",
@@ -114,7 +115,8 @@ def _levels() -> tuple[str, ...]:
     help="Strategy of a pursuer: pure (the paper's), pure-xRATIO (with RATIO "
     "times the evader's gain), sharp (turns by the whole bearing, up to the "
     "maximum), herding (aims halfway between the evader and the centre of "
-    "the room), lead, optimal or FILE.py:NAME; repeatable.  [default: pure]",
+    "the room), lead, optimal, FILE.py:NAME or FILE.onnx; repeatable.  "
+    "[default: pure]",
 )
 @click.option(
     "--room",

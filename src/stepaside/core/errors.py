@@ -44,7 +44,7 @@ class ModelError(StepAsideError, ValueError):
 
 
 class PolicyError(StepAsideError, ValueError):
-    """A walking policy does not fit its contract or its robot."""
+    """A learned policy does not fit its contract or its robot."""
 
 
 class OutputError(StepAsideError, OSError):

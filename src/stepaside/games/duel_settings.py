@@ -38,7 +38,8 @@ SENSING = ("ideal", "cameras")
 PLAYERS = PURSUER, EVADER = ("pursuer", "evader")
 PURSUIT = "pursuit"  # of the paper, like EVASION
 STRATEGY_NAMES = (
-    f"{', '.join(STRATEGIES)}, pursuit-xRATIO, or FILE.py:NAME for your own"
+    f"{', '.join(STRATEGIES)}, pursuit-xRATIO, FILE.py:NAME for your own, or "
+    "FILE.onnx for a learned one"
 )
 GAIT_HELP = (
     "Gait preset: the paper's, the paper's with durations as printed, or a "

@@ -85,7 +85,7 @@ def check_strategy_names(settings: Any) -> None:
         played = getattr(settings, name)
         if not isinstance(played, str):
             raise ConfigurationError(
-                f"{name} must be a name or FILE.py:NAME where records are "
+                f"{name} must be a name or a file where records are "
                 f"stored, got a Python object, {type(played).__name__}"
             )
 

@@ -6,6 +6,7 @@ from .evasion import Evasion, EvasionMemory
 from .herding import HerdingPursuit
 from .knowledge import STAND, Intent, Knowledge, Limits
 from .lead_pursuit import LeadPursuit
+from .learned import LearnedStrategy
 from .look_ahead import LookAhead
 from .optimal_evasion import OptimalEvasion
 from .optimal_pursuit import OptimalPursuit
@@ -32,6 +33,7 @@ __all__ = [
     "Intent",
     "Knowledge",
     "LeadPursuit",
+    "LearnedStrategy",
     "Limits",
     "LookAhead",
     "OptimalEvasion",

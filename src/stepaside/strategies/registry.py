@@ -18,6 +18,7 @@ from .deflected_evasion import DeflectedEvasion
 from .evasion import Evasion
 from .herding import HerdingPursuit
 from .lead_pursuit import LeadPursuit
+from .learned import load_learned_strategy
 from .look_ahead import LookAhead
 from .optimal_evasion import OptimalEvasion
 from .optimal_pursuit import OptimalPursuit
@@ -45,6 +46,8 @@ _OBJECT = re.compile(r"object [\w.<>]+\(.*\)", re.DOTALL)
 _WITH_GAIN = re.compile(r"pursuit-x(?P<ratio>\d+(?:\.\d*)?)", re.ASCII)
 """The paper's pursuer with another gain than its gait's."""
 _IN_FILE = re.compile(r"(?P<file>.+\.py):(?P<name>[^:]*)", re.DOTALL)
+_NETWORK = re.compile(r"(?P<file>.+\.onnx)", re.DOTALL)
+"""A learned strategy."""
 
 
 def describe_strategy(strategy: str | Strategy) -> str:
@@ -85,7 +88,8 @@ def check_strategy_name(
 
     Args:
         name: One of :data:`STRATEGIES`, pursuit-xRATIO (the pursuer of the
-            paper with RATIO times the gain of its gait), or FILE.py:NAME.
+            paper with RATIO times the gain of its gait), FILE.py:NAME, or
+            FILE.onnx.
         what: Name of the setting, for the message.
         recorded: Whether text of :func:`describe_strategy` is valid, too.
 
@@ -101,11 +105,13 @@ def check_strategy_name(
             float(with_gain["ratio"]), f"RATIO of {what} pursuit-xRATIO"
         )
         return
+    if _NETWORK.fullmatch(name):
+        return
     found = _IN_FILE.fullmatch(name)
     if not (found and found["name"].isidentifier()):
         raise ConfigurationError(
-            f"{what} must be one of {', '.join(STRATEGIES)}, pursuit-xRATIO "
-            f"or FILE.py:NAME, got {name!r}"
+            f"{what} must be one of {', '.join(STRATEGIES)}, "
+            f"pursuit-xRATIO, FILE.py:NAME or FILE.onnx, got {name!r}"
         )
 
 
@@ -115,10 +121,11 @@ def load_strategy(
     """Load a strategy by name, or check a strategy object.
 
     Args:
-        name: One of :data:`STRATEGIES`, pursuit-xRATIO, or FILE.py:NAME;
-            there NAME is a strategy, or a class or function without
-            required arguments that returns one. The file is executed. A
-            strategy object is returned as it is.
+        name: One of :data:`STRATEGIES`, pursuit-xRATIO, FILE.py:NAME, or
+            FILE.onnx, a learned strategy. In a Python file NAME is a
+            strategy, or a class or function without required arguments that
+            returns one. The file is executed. A strategy object is returned
+            as it is.
         evasion: Settings of the paper's evader; its defaults if not given.
 
     Returns:
@@ -139,6 +146,10 @@ def load_strategy(
     check_strategy_name(name)
     if with_gain := _WITH_GAIN.fullmatch(name):
         return Pursuit(gain_ratio=float(with_gain["ratio"]))
+    if _NETWORK.fullmatch(name):
+        learned = load_learned_strategy(name)
+        validate_strategy(learned, name)
+        return learned
     found = _IN_FILE.fullmatch(name)
     if found is None:
         return STRATEGIES[name](evasion or Evasion())
@@ -150,16 +161,17 @@ def load_strategy(
 
 def absolute_name(name: str) -> str:
     """Return the name with an absolute file path."""
-    found = _IN_FILE.fullmatch(name)
-    if name in STRATEGIES or found is None:
+    file = file_of(name)
+    if file is None:
         return name
-    file = Path(found["file"]).expanduser().resolve()
-    return f"{file}:{found['name']}"
+    found = _IN_FILE.fullmatch(name)
+    path = str(file.resolve())
+    return f"{path}:{found['name']}" if found else path
 
 
 def file_of(name: str) -> Path | None:
     """Return the file of a strategy; None for one of :data:`STRATEGIES`."""
-    found = None if name in STRATEGIES else _IN_FILE.fullmatch(name)
+    found = _IN_FILE.fullmatch(name) or _NETWORK.fullmatch(name)
     return None if found is None else Path(found["file"]).expanduser()
 
 

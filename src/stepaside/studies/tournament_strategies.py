@@ -13,6 +13,7 @@ from ..strategies import (
     Strategy,
     load_strategy,
 )
+from ..strategies.registry import file_of
 
 SIGHT = radians(148.0)  # greatest bearing in view of a turned head, in [rad]
 ALWAYS = 1e6  # safety radius that always triggers evasion, in [m]
@@ -39,7 +40,7 @@ _WITH_GAIN = re.compile(r"pure-x(?P<ratio>\d+(?:\.\d*)?)", re.ASCII)
 
 
 def evader_of(name: str, angle: float = pi / 2) -> Strategy:
-    """Return the evader of a name, or of FILE.py:NAME.
+    """Return the evader of a name, FILE.py:NAME or FILE.onnx.
 
     Raises:
         ConfigurationError: If there is none.
@@ -50,7 +51,7 @@ def evader_of(name: str, angle: float = pi / 2) -> Strategy:
 
 
 def pursuer_of(name: str) -> Strategy:
-    """Return the pursuer of a name, of pure-xRATIO, or of FILE.py:NAME.
+    """Return the pursuer of a name, pure-xRATIO, or of a file.
 
     Raises:
         ConfigurationError: If there is none.
@@ -73,9 +74,9 @@ def gain_ratio_of(name: str) -> float | None:
 
 
 def _own(name: str, what: str, names: Iterable[str]) -> Strategy:
-    if ".py:" not in name:
+    if file_of(name) is None:
         raise ConfigurationError(
-            f"{what} must be one of {', '.join(names)} or FILE.py:NAME, "
-            f"got {name!r:.60}"
+            f"{what} must be one of {', '.join(names)}, FILE.py:NAME or "
+            f"FILE.onnx, got {name!r:.60}"
         )
     return load_strategy(name)

@@ -272,9 +272,9 @@ class RoomType(click.ParamType[int | Path]):
 
 
 class StrategyType(click.ParamType[str]):
-    """Strategy: a name of the registry, or FILE.py:NAME."""
+    """Strategy: a name of the registry, FILE.py:NAME or FILE.onnx."""
 
-    name = "NAME|FILE.py:NAME"
+    name = "NAME|FILE.py:NAME|FILE.onnx"
 
     def convert(
         self,
