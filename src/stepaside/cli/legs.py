@@ -1,17 +1,18 @@
-"""``stepaside legs``: inspect and measure walking policies."""
+"""``stepaside legs``: convert, inspect and measure walking policies."""
 
 from typing import Any
 
 import click
 
+from .legs_convert import convert
 from .legs_inspect import inspect
 from .legs_measure import measure
 
 
 @click.group("legs")
 def legs(**_: Any) -> None:
-    """Inspect a walking policy, or measure how a robot walks with it."""
+    """Convert or inspect a walking policy, or measure how a robot walks."""
 
 
-for command in (inspect, measure):
+for command in (convert, inspect, measure):
     legs.add_command(command)

@@ -6,7 +6,7 @@ EXTRAS = {  # as in ``pyproject.toml``, with the names of the modules
     "slurm": ("dask_jobqueue",),
     "tables": ("polars",),
     "fast": ("numba",),
-    "legs": ("onnxruntime", "yaml"),
+    "legs": ("onnx", "onnxruntime", "yaml"),
     "mpc": ("daqp",),
     "robot": ("msgpack",),
     "naoqi": ("msgpack", "qi"),

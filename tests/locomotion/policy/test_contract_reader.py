@@ -159,6 +159,45 @@ def test_legged_gym_reads_the_deployment_file(tmp_path: Path) -> None:
     assert scales["command"] == (2.0, 2.0, 0.25)
 
 
+def test_a_converted_network_contains_its_contract(tmp_path: Path) -> None:
+    entries: dict[str, Any] = {"convention": "booster_gym"}
+    entries |= {"stiffness": [9.0, 8.0, 7.0]}
+    entries |= {"damping": 1.0, "default_posture": 0.0, "action_clip": 2.0}
+    metadata = {"stepaside_contract": entries}
+    path = network_of(tmp_path / "a.onnx", metadata, 20)
+    contract = check_contract(*read(path), JOINTS)
+    assert contract.convention == "booster_gym"
+    assert contract.stiffness == (9.0, 8.0, 7.0)
+    assert contract.action_clip == 2.0
+    robot = {"stiffness": 5.0}
+    assert read(path, "", robot)[0].contract().stiffness == (5.0,) * 3
+    for wrong in ("[1]", {"gain": 1}):
+        changed = {"stepaside_contract": wrong}
+        path = network_of(tmp_path / "b.onnx", changed, 20)
+        with pytest.raises(PolicyError, match="stepaside_contract|gain"):
+            read(path)
+
+
+def test_booster_gym_moves_the_last_joints_of_its_file(
+    tmp_path: Path,
+) -> None:
+    pytest.importorskip("yaml")
+    path = network_of(tmp_path / "legs.onnx", {}, 20)
+    (tmp_path / "legs.yaml").write_text(
+        "common: {dt: 0.005, stiffness: [1, 2, 3, 4], damping: [5, 6, 7, 8],"
+        " default_qpos: [0.1, 0.2, 0.3, 0.4]}\n"
+        "policy: {num_actions: 3, normalization: {gravity: 1, lin_vel: 2,"
+        " ang_vel: 3, dof_pos: 1, dof_vel: 0.1, clip_actions: 1.5},"
+        " control: {action_scale: 0.5, decimation: 4}}\n"
+    )
+    contract = check_contract(*read(path, "booster_gym"), JOINTS)
+    assert contract.stiffness == (2.0, 3.0, 4.0)
+    assert contract.default_posture == (0.2, 0.3, 0.4)
+    assert (contract.action_clip, contract.period) == (1.5, 0.02)
+    scales = {term.name: term.scale for term in contract.terms}
+    assert scales["command"] == (2.0, 2.0, 3.0)
+
+
 def test_a_malformed_deployment_file_is_named(tmp_path: Path) -> None:
     pytest.importorskip("yaml")
     path = network_of(tmp_path / "motion.onnx", {}, 20)

@@ -4,7 +4,6 @@ import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from math import isfinite
-from pathlib import Path
 from typing import Any
 
 from ...core.errors import PolicyError
@@ -15,6 +14,7 @@ from .contract import (
     PhaseClock,
     PolicyContract,
 )
+from .deployment_file import DEPLOYMENTS, read_deployment
 from .network import PolicyNetwork
 from .trainer_conventions import (
     COMMON_VALUES,
@@ -29,6 +29,9 @@ ENTRIES = (
     "network",
 )
 """Entries of ``[locomotion]`` in a robot description."""
+
+OWN_ENTRY = "stepaside_contract"
+"""Metadata entry with such entries as JSON."""
 
 
 @dataclass
@@ -95,13 +98,15 @@ def read_contract(
     Raises:
         PolicyError: If an entry is unknown or malformed.
     """
-    for key in entries:
+    own = _own_entries(network)
+    for key in (*entries, *own):
         if key not in ENTRIES:
             raise PolicyError(
                 f"unknown entry locomotion.{key}; there are "
                 f"{', '.join(ENTRIES)}"
             )
-    name = convention or str(entries.get("convention", ""))
+    named = entries.get("convention", own.get("convention", ""))
+    name = convention or str(named)
     used = find_convention(name) if name else recognise(network.metadata)
     reading = ContractReading(convention=used)
     for key, value in COMMON_VALUES.items():
@@ -115,19 +120,39 @@ def read_contract(
             if text not in ("null", ""):
                 value = _from_metadata(key, target, text)
                 reading.put(target, value, f"metadata {key}")
-        if used.name == "legged_gym":
-            _put_yaml(reading, network.path.with_suffix(".yaml"))
+        beside = network.path.with_suffix(".yaml")
+        if used.name in DEPLOYMENTS and beside.is_file():
+            _put_entries(reading, read_deployment(beside, used), beside.name)
     else:
         reading.put("convention", "none", "default")
-    for key, value in entries.items():
-        if key not in ("network", "convention"):
-            reading.put(key, _from_entry(key, value), "robot.toml")
+    _put_entries(reading, own, f"metadata {OWN_ENTRY}")
+    _put_entries(reading, entries, "robot.toml")
     _put_joints(reading, network, motors, legs)
     if used is not None:
         _put_robot_values(reading, used)
     _spread(reading)
     _drop_unobserved_velocity(reading, network)
     return reading
+
+
+def _own_entries(network: PolicyNetwork) -> dict[str, Any]:
+    """Return the entries that ``stepaside legs convert`` wrote."""
+    text = network.metadata.get(OWN_ENTRY, "{}")
+    try:
+        return dict(json.loads(text))
+    except (TypeError, ValueError) as error:
+        raise PolicyError(
+            f"legs: metadata entry {OWN_ENTRY!r} is malformed: {text[:60]!r}"
+        ) from error
+
+
+def _put_entries(
+    reading: ContractReading, entries: Mapping[str, Any], source: str
+) -> None:
+    """Set values of entries as in ``[locomotion]``."""
+    for key, value in entries.items():
+        if key not in ("network", "convention"):
+            reading.put(key, _from_entry(key, value), source)
 
 
 def _put_joints(
@@ -286,37 +311,3 @@ def _ranges(value: Mapping[str, Any]) -> CommandRanges:
             low, high = map(float, limits)
             found[name] = (low, high)
     return CommandRanges(**found)
-
-
-def _put_yaml(reading: ContractReading, path: Path) -> None:
-    """Add the values of a deployment file of legged_gym, if it exists."""
-    if not path.is_file():
-        return
-    import yaml
-
-    try:
-        given = yaml.safe_load(path.read_text(encoding="utf-8"))
-        put, source = reading.put, path.name
-        put("stiffness", tuple(map(float, given["kps"])), source)
-        put("damping", tuple(map(float, given["kds"])), source)
-        angles = tuple(map(float, given["default_angles"]))
-        put("default_posture", angles, source)
-        put("action_scale", float(given["action_scale"]), source)
-        period = given["simulation_dt"] * given["control_decimation"]
-        put("period", round(float(period), 9), source)
-        scales = {
-            "base_ang_vel": (float(given["ang_vel_scale"]),),
-            "joint_pos": (float(given["dof_pos_scale"]),),
-            "joint_vel": (float(given["dof_vel_scale"]),),
-            "command": tuple(map(float, given["cmd_scale"])),
-        }
-    except (yaml.YAMLError, KeyError, TypeError, ValueError) as error:
-        raise PolicyError(
-            f"legs: {path} is not a deployment file of legged_gym: it needs "
-            "kps, kds, default_angles, scales and periods"
-        ) from error
-    terms = tuple(
-        term._replace(scale=scales.get(term.name, term.scale))
-        for term in reading.values["terms"]
-    )
-    reading.put("terms", terms, source)
