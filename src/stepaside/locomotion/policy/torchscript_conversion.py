@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...core.errors import PolicyError
-from .network_graph import GraphTensor, NetworkGraph, WidthFound
+from .tensor_graph import GraphTensor, TensorGraph, WidthFound
 from .torchscript_archive import TorchScriptArchive, read_archive
 from .torchscript_interpreter import ScriptInterpreter
 
@@ -23,7 +23,7 @@ class ConvertedNetwork(NamedTuple):
         action: Its output.
     """
 
-    graph: NetworkGraph
+    graph: TensorGraph
     observation: GraphTensor
     action: GraphTensor
 

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from ...core.errors import PolicyError
-from .network_graph import GraphTensor, NetworkGraph
+from .tensor_graph import GraphTensor, TensorGraph
 from .torchscript_archive import (
     ScriptModule,
     StoredTensor,
@@ -47,7 +47,7 @@ class ScriptInterpreter:
         Args:
             archive: Modules and code.
         """
-        self.graph = NetworkGraph()
+        self.graph = TensorGraph()
         self._archive = archive
         self._tensors: dict[tuple[Any, ...], GraphTensor] = {}
         self._depth = 0

@@ -8,7 +8,7 @@ import numpy as np
 
 from ...core.errors import PolicyError
 from ...core.poses import Array
-from .network_graph import GraphTensor, NetworkGraph, WidthFound, broadcast
+from .tensor_graph import GraphTensor, TensorGraph, WidthFound, broadcast
 
 Operator = Callable[..., Any]
 LAST = 2**62  # an end of a slice beyond this is the end of the axis
@@ -33,7 +33,7 @@ class UnknownWidth:
     __hash__ = None  # type: ignore[assignment]
 
 
-def _tensor(graph: NetworkGraph, value: Any) -> GraphTensor:
+def _tensor(graph: TensorGraph, value: Any) -> GraphTensor:
     """Return a tensor; a number becomes a constant."""
     if isinstance(value, GraphTensor):
         return value
@@ -48,7 +48,7 @@ def _unary(operation: str, **names: float) -> Operator:
         names: Attributes in the order of the arguments, with their defaults.
     """
 
-    def apply(graph: NetworkGraph, x: GraphTensor, *given: Any) -> GraphTensor:
+    def apply(graph: TensorGraph, x: GraphTensor, *given: Any) -> GraphTensor:
         values = (*given, *list(names.values())[len(given) :])
         chosen = zip(names, values, strict=False)
         attributes = {name: float(value) for name, value in chosen}
@@ -61,7 +61,7 @@ def _binary(operation: str) -> Operator:
     """Return an operation on elements of two tensors, or of numbers."""
 
     def apply(
-        graph: NetworkGraph, x: Any, y: Any, alpha: float = 1
+        graph: TensorGraph, x: Any, y: Any, alpha: float = 1
     ) -> GraphTensor | float:
         if not isinstance(x, GraphTensor) and not isinstance(y, GraphTensor):
             value: float = NUMBERS[operation](x, y)
@@ -85,14 +85,14 @@ NUMBERS: dict[str, Callable[[Any, Any], Any]] = {
 
 
 def apply_scale(
-    graph: NetworkGraph, x: GraphTensor, factor: float
+    graph: TensorGraph, x: GraphTensor, factor: float
 ) -> GraphTensor:
     """Return a tensor times a number."""
     return graph.add("Mul", [x, graph.constant(factor)], x.shape)
 
 
 def _linear(
-    graph: NetworkGraph,
+    graph: TensorGraph,
     x: GraphTensor,
     weight: GraphTensor,
     bias: GraphTensor | None = None,
@@ -109,7 +109,7 @@ def _linear(
 
 
 def _matmul(
-    graph: NetworkGraph, x: GraphTensor, weight: GraphTensor
+    graph: TensorGraph, x: GraphTensor, weight: GraphTensor
 ) -> GraphTensor:
     """Matrix product."""
     inputs, outputs = weight.shape
@@ -118,7 +118,7 @@ def _matmul(
 
 
 def _addmm(
-    graph: NetworkGraph,
+    graph: TensorGraph,
     bias: GraphTensor,
     x: GraphTensor,
     weight: GraphTensor,
@@ -153,7 +153,7 @@ def _recurrent(kind: str) -> Operator:
     """Return an LSTM or GRU of one or several layers."""
 
     def apply(
-        graph: NetworkGraph,
+        graph: TensorGraph,
         x: GraphTensor,
         states: Any,
         weights: Sequence[GraphTensor],
@@ -185,7 +185,7 @@ def _recurrent(kind: str) -> Operator:
 
 
 def _layer(
-    graph: NetworkGraph,
+    graph: TensorGraph,
     kind: str,
     x: GraphTensor,
     states: Sequence[GraphTensor],
@@ -226,7 +226,7 @@ def _axis(x: GraphTensor, axis: int) -> int:
 
 
 def _sliced(
-    graph: NetworkGraph,
+    graph: TensorGraph,
     x: GraphTensor,
     axis: int = 0,
     start: int | None = None,
@@ -254,7 +254,7 @@ def _sliced(
 
 
 def _selected(
-    graph: NetworkGraph, x: GraphTensor, axis: int, index: int
+    graph: TensorGraph, x: GraphTensor, axis: int, index: int
 ) -> GraphTensor:
     """Element of an axis, which disappears."""
     axis = _axis(x, axis)
@@ -264,7 +264,7 @@ def _selected(
 
 
 def _squeezed(
-    graph: NetworkGraph, x: GraphTensor, axis: int | None = None
+    graph: TensorGraph, x: GraphTensor, axis: int | None = None
 ) -> GraphTensor:
     """Tensor without one axis of size 1, or without all of them."""
     gone = None if axis is None else _axis(x, axis)
@@ -276,14 +276,14 @@ def _squeezed(
     return graph.reshape(x, shape)
 
 
-def _unsqueezed(graph: NetworkGraph, x: GraphTensor, axis: int) -> GraphTensor:
+def _unsqueezed(graph: TensorGraph, x: GraphTensor, axis: int) -> GraphTensor:
     """Tensor with another axis of size 1."""
     axis = axis + len(x.shape) + 1 if axis < 0 else axis
     return graph.reshape(x, (*x.shape[:axis], 1, *x.shape[axis:]))
 
 
 def _reshaped(
-    graph: NetworkGraph, x: GraphTensor, sizes: Sequence[Any]
+    graph: TensorGraph, x: GraphTensor, sizes: Sequence[Any]
 ) -> GraphTensor:
     """Tensor in another shape; -1 stands for the rest."""
     shape = [None if isinstance(s, UnknownWidth) else int(s) for s in sizes]
@@ -296,7 +296,7 @@ def _reshaped(
 
 
 def _flattened(
-    graph: NetworkGraph, x: GraphTensor, start: int = 0, end: int = -1
+    graph: TensorGraph, x: GraphTensor, start: int = 0, end: int = -1
 ) -> GraphTensor:
     """Tensor with several axes joined to one."""
     first, last = _axis(x, start), _axis(x, end)
@@ -305,7 +305,7 @@ def _flattened(
 
 
 def _permuted(
-    graph: NetworkGraph, x: GraphTensor, axes: Sequence[int]
+    graph: TensorGraph, x: GraphTensor, axes: Sequence[int]
 ) -> GraphTensor:
     """Tensor with its axes in another order."""
     order = [_axis(x, axis) for axis in axes]
@@ -314,7 +314,7 @@ def _permuted(
 
 
 def _transposed(
-    graph: NetworkGraph, x: GraphTensor, first: int = 0, second: int = 1
+    graph: TensorGraph, x: GraphTensor, first: int = 0, second: int = 1
 ) -> GraphTensor:
     """Tensor with two axes exchanged."""
     axes = list(range(len(x.shape)))
@@ -323,7 +323,7 @@ def _transposed(
 
 
 def _joined(
-    graph: NetworkGraph, parts: Sequence[GraphTensor], axis: int = 0
+    graph: TensorGraph, parts: Sequence[GraphTensor], axis: int = 0
 ) -> GraphTensor:
     """Tensors joined along an axis."""
     if len(parts) == 1:
@@ -336,7 +336,7 @@ def _joined(
 
 
 def _clipped(
-    graph: NetworkGraph,
+    graph: TensorGraph,
     x: GraphTensor,
     low: float | None = None,
     high: float | None = None,
@@ -346,14 +346,14 @@ def _clipped(
     return graph.add("Clip", [x, *limits], x.shape)
 
 
-def _silu(graph: NetworkGraph, x: GraphTensor) -> GraphTensor:
+def _silu(graph: TensorGraph, x: GraphTensor) -> GraphTensor:
     """Sigmoid linear unit."""
     share = graph.add("Sigmoid", [x], x.shape)
     return graph.add("Mul", [x, share], x.shape)
 
 
 def _gelu(
-    graph: NetworkGraph, x: GraphTensor, approximate: str = "none"
+    graph: TensorGraph, x: GraphTensor, approximate: str = "none"
 ) -> GraphTensor:
     """Gaussian error linear unit."""
     if approximate != "none":
@@ -366,7 +366,7 @@ def _gelu(
 
 
 def _layer_norm(
-    graph: NetworkGraph,
+    graph: TensorGraph,
     x: GraphTensor,
     normalised: Sequence[int],
     weight: GraphTensor | None = None,
@@ -387,7 +387,7 @@ def _layer_norm(
 
 
 def _batch_norm(
-    graph: NetworkGraph,
+    graph: TensorGraph,
     x: GraphTensor,
     weight: GraphTensor,
     bias: GraphTensor,
@@ -404,7 +404,7 @@ def _batch_norm(
     return graph.add("BatchNormalization", inputs, x.shape, epsilon=eps)
 
 
-def _size(_: NetworkGraph, x: GraphTensor, axis: int | None = None) -> Any:
+def _size(_: TensorGraph, x: GraphTensor, axis: int | None = None) -> Any:
     """Return the size of an axis, or of all axes."""
     sizes = [UnknownWidth() if s is None else s for s in x.shape]
     return sizes if axis is None else sizes[axis]
@@ -414,27 +414,27 @@ def _filled(value: float) -> Operator:
     """Return a tensor of one value, in a given shape."""
 
     def create(
-        graph: NetworkGraph, shape: Sequence[int], *_: Any, **__: Any
+        graph: TensorGraph, shape: Sequence[int], *_: Any, **__: Any
     ) -> GraphTensor:
         return graph.constant(np.full(shape, value))
 
     return create
 
 
-def _same(_: NetworkGraph, x: Any, *__: Any, **___: Any) -> Any:
+def _same(_: TensorGraph, x: Any, *__: Any, **___: Any) -> Any:
     """Return what is given: this operation only matters in training."""
     return x
 
 
 def _renamed(
-    graph: NetworkGraph, x: GraphTensor, *_: Any, **__: Any
+    graph: TensorGraph, x: GraphTensor, *_: Any, **__: Any
 ) -> GraphTensor:
     """Return a copy, which operations in place do not share."""
     return graph.add("Identity", [x], x.shape)
 
 
 def _set(
-    graph: NetworkGraph, x: GraphTensor, value: Any, *_: Any
+    graph: TensorGraph, x: GraphTensor, value: Any, *_: Any
 ) -> GraphTensor:
     """Copy values into a tensor."""
     given = _tensor(graph, value)

@@ -58,7 +58,7 @@ class WidthFound(Exception):
         self.width = width
 
 
-class NetworkGraph:
+class TensorGraph:
     """Graph that grows by one node with each operation.
 
     Attributes:
