@@ -76,12 +76,16 @@ class SimulatedUnicycle:
     def __init__(self) -> None:
         self.time = 0.0
         self.pose = Pose(0.0, 0.0, 0.0)
-        self.velocity = REST
+        self.velocity = self.commanded = REST
         self.sighting: Sighting | None = None
         self.head: dict[str, float] = {}
         self.leads: list[Foot] = []
         self.step: FootCommand | None = None
         self.steps = 0
+
+    def command(self, velocity: VelocityCommand) -> None:
+        """Store the command."""
+        self.commanded = velocity
 
     def look(self, angles: Mapping[str, float]) -> None:
         """Note where it is to look."""

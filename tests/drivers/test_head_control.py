@@ -8,6 +8,7 @@ import pytest
 
 pytest.importorskip("cv2")
 
+from commanded_robots import VelocityCommands, commanded_robots  # noqa: E402
 from stepaside.core.poses import wrap_angle  # noqa: E402
 from stepaside.drivers.scheme_factory import perception_factory  # noqa: E402
 from stepaside.drivers.velocity.head_control import PERIOD, CameraBody
@@ -20,11 +21,9 @@ from stepaside.drivers.velocity.velocity_body import (
 from stepaside.drivers.velocity.velocity_limits import VelocityLimits  # noqa: E402
 from stepaside.drivers.velocity.velocity_loop import VelocityLoop  # noqa: E402
 from stepaside.drivers.velocity.watchdog import WatchSettings  # noqa: E402
-from stepaside.games.duel import Duel  # noqa: E402
 from stepaside.games.duel_settings import DuelSettings, StartSettings  # noqa: E402
 from stepaside.games.match import Match, play  # noqa: E402
 from stepaside.games.velocity_walker import VelocityWalker  # noqa: E402
-from stepaside.games.walker import SimulatedPlayer  # noqa: E402
 from stepaside.locomotion.zmp.control_settings import STABILISED  # noqa: E402
 from stepaside.perception.images import Percept  # noqa: E402
 from stepaside.planning import GaitSettings  # noqa: E402
@@ -98,16 +97,11 @@ class NoWire:
 
 
 def test_players_with_cameras_detect_each_other_and_walk() -> None:
-    duel = Duel(SETTINGS, recorded=False)
-    wires, players = {}, []
+    world, players = commanded_robots(SETTINGS)
     plays: dict[str, Strategy] = {"pursuer": Pursuit(), "evader": Evasion()}
-    for player in duel.players:
-        assert isinstance(player, SimulatedPlayer)
-        robot = VelocityWalker(player)
-        robot.commander = wire = NoWire(robot, player.name, plays[player.name])
-        wires[player.name] = wire
-        players.append(robot)
-    play(Match(duel.world, players), SETTINGS.duration)
+    wires = {p.name: NoWire(p, p.name, plays[p.name]) for p in players}
+    commands = VelocityCommands({p: wires[p.name].act for p in players})
+    play(Match(world, players, [commands]), SETTINGS.duration)
     heard = [set(player.state().echoes) for player in players]
     assert heard == [set(), {"left", "right"}]  # the evader has sonars
     one, other = (player.truth for player in players)

@@ -65,7 +65,8 @@ class Scene:
     def round(self) -> VelocityCommand:
         """One tick of the world."""
         self.server.speak()
-        velocity = self.server.act()
+        self.server.act()
+        velocity = self.walker.commanded
         self.walker.move(velocity, TICK)
         return velocity
 

@@ -52,7 +52,7 @@ from stepaside.drivers.naoqi.sensor_keys import (  # noqa: E402
 from stepaside.drivers.scheme_factory import control_scheme_factory  # noqa: E402
 from stepaside.games.duel import run_duel  # noqa: E402
 from stepaside.games.duel_settings import DuelSettings, StartSettings  # noqa: E402
-from stepaside.games.robot_endpoints import NaoqiJointsOffer  # noqa: E402
+from stepaside.games.robot_endpoints import NaoqiJointsEndpoint  # noqa: E402
 from stepaside.games.run_archive import results_of
 from stepaside.games.served_duel import serve_duel  # noqa: E402
 from stepaside.locomotion.zmp.control_settings import ControlSettings  # noqa: E402
@@ -510,8 +510,8 @@ def test_in_lock_step_a_walk_is_the_one_played_in_one_process() -> None:
     player = Thread(target=client, args=(url, ticks))
     player.start()
     try:
-        offers = {"evader": NaoqiJointsOffer(url)}
-        over = serve_duel(SETTINGS, offers, lock_step=True)
+        endpoints = {"evader": NaoqiJointsEndpoint(url)}
+        over = serve_duel(SETTINGS, endpoints, lock_step=True)
     finally:
         player.join(60.0)
     assert not player.is_alive()

@@ -18,14 +18,13 @@ from stepaside.drivers.naoqi.naoqi_server import SILENCE, NaoqiServer
 from stepaside.drivers.naoqi.service_state import WalkServiceState  # noqa: E402
 from stepaside.drivers.velocity.footstep_commands import FootCommand  # noqa: E402
 from stepaside.drivers.velocity.velocity_body import REST, VelocityCommand  # noqa: E402
-from stepaside.games.duel import Duel  # noqa: E402
 from stepaside.games.duel_settings import DuelSettings, StartSettings  # noqa: E402
 from stepaside.games.velocity_walker import VelocityWalker  # noqa: E402
-from stepaside.games.walker import SimulatedPlayer  # noqa: E402
 from stepaside.locomotion.zmp.control_settings import STABILISED  # noqa: E402
 from stepaside.planning import Foot, GaitSettings  # noqa: E402
 from stepaside.sim.body_settings import BODIES  # noqa: E402
 
+from commanded_robots import commanded_robots  # isort: skip  # noqa: E402
 from naoqi_fakes import Direct  # isort: skip  # noqa: E402
 from velocity_fakes import SimulatedUnicycle, until  # isort: skip  # noqa: E402
 
@@ -183,9 +182,14 @@ def test_velocity_and_rest_clear_the_footsteps() -> None:
 
 
 @pytest.fixture
-def server() -> Iterator[NaoqiServer]:
+def unicycle() -> SimulatedUnicycle:
+    return SimulatedUnicycle()
+
+
+@pytest.fixture
+def server(unicycle: SimulatedUnicycle) -> Iterator[NaoqiServer]:
     served = NaoqiServer(
-        *("tcp://127.0.0.1:0", SimulatedUnicycle(), ["a", "b"], FASTEST),
+        *("tcp://127.0.0.1:0", unicycle, ["a", "b"], FASTEST),
         tick=TICK,
     )
     yield served
@@ -193,7 +197,7 @@ def server() -> Iterator[NaoqiServer]:
 
 
 def test_footsteps_end_with_their_client(
-    server: NaoqiServer,
+    server: NaoqiServer, unicycle: SimulatedUnicycle
 ) -> None:
     def by_steps(motion: Any, clock: Any) -> FootstepMover:
         return FootstepMover(motion, GAIT, clock)
@@ -203,15 +207,16 @@ def test_footsteps_end_with_their_client(
     def walks() -> VelocityCommand:
         body.command(AHEAD)
         server.speak()
-        return server.act()
+        server.act()
+        return unicycle.commanded
 
     pace = GAIT.path_interval / GAIT.step_duration
     velocity = until(lambda: (v := walks()) != REST and v)
     assert velocity == pytest.approx((0.1 * pace, 0.1 * pace))
     for _ in range(round(SILENCE / TICK) + 2):
         server.speak()
-        last = server.act()
-    assert last == REST and not server.robot.steps
+        server.act()
+    assert unicycle.commanded == REST and not server.robot.steps
     body.close()
 
 
@@ -224,14 +229,10 @@ def walked() -> tuple[VelocityWalker, list[VelocityCommand]]:
         body=replace(BODIES["delayed"], cycle=TICK),
         control=STABILISED,
     )
-    duel = Duel(settings, recorded=False)
-    player = duel.players[0]
-    assert isinstance(player, SimulatedPlayer)
-    walker = VelocityWalker(player)
+    world, (walker, _) = commanded_robots(settings)
     served = NaoqiServer(
         *("tcp://127.0.0.1:0", walker, ["a"] * 24, FASTEST), tick=TICK
     )
-    walker.commander = served
     service = ALMotion(served.robot, FASTEST, GAIT)
     asked = []
     service.wakeUp()
@@ -245,8 +246,9 @@ def walked() -> tuple[VelocityWalker, list[VelocityCommand]]:
     for _ in range(760):
         service.moveInit()
         served.speak()
+        served.act()
         walker.tick()
-        duel.world.step()
+        world.step()
         asked.append(walker.state().velocity)
     served.close()
     return walker, asked

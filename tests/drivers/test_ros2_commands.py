@@ -237,7 +237,8 @@ def test_a_served_robot_follows_either_type(kind: type[Any]) -> None:
     def obeys() -> bool:
         writers[0].write(message)
         server.speak()
-        return server.act() == VelocityCommand(0.05, 0.1)
+        server.act()
+        return walker.commanded == VelocityCommand(0.05, 0.1)
 
     until(obeys)
     assert server.connected and not server.refused
@@ -245,7 +246,8 @@ def test_a_served_robot_follows_either_type(kind: type[Any]) -> None:
 
     def left() -> bool:
         server.speak()
-        return not server.connected and server.act() == REST
+        server.act()
+        return not server.connected and walker.commanded == REST
 
     until(left)
     server.close()
@@ -256,15 +258,17 @@ def test_a_served_robot_follows_either_type(kind: type[Any]) -> None:
 def test_a_served_robot_goes_from_one_type_to_the_other() -> None:
     """One type at a time: the second commander waits for the first."""
     dds, other = DdsParticipant(0, tag=TAG), DdsParticipant(0, tag=TAG)
+    walker = SimulatedUnicycle()
     server = Ros2Server(
-        dds, "/nao", SimulatedUnicycle(), ["a"], WorldClock(dds), tick=0.012
+        dds, "/nao", walker, ["a"], WorldClock(dds), tick=0.012
     )
     writers = [other.writer(TOPIC, Twist)]
 
     def asked(message: Any, forward: float) -> bool:
         writers[-1].write(message)
         server.speak()
-        return server.act().forward == forward
+        server.act()
+        return walker.commanded.forward == forward
 
     first = Twist(Vector3(0.01), Vector3())
     until(lambda: asked(first, 0.01))

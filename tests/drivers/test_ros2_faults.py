@@ -49,8 +49,8 @@ while True:
     walker.sighting = Sighting(walker.time, 0.3, 2.0)
     server.speak()
     server.hear()
-    velocity = server.act()
-    walker.move(velocity, 0.012)
+    server.act()
+    walker.move(walker.commanded, 0.012)
     sleep(0.012)
 """
 
@@ -156,7 +156,8 @@ class Scene:
         from stepaside.drivers.ros2.ros2_server import Ros2Server, WorldClock
         from velocity_fakes import SimulatedUnicycle
 
-        self.dds, walker = DdsParticipant(0, tag=TAG), SimulatedUnicycle()
+        self.dds = DdsParticipant(0, tag=TAG)
+        self.walker = walker = SimulatedUnicycle()
         clock, names = WorldClock(self.dds), ["a", "b"]
         self.server = Ros2Server(
             self.dds, "/nao", walker, names, clock, tick=0.012
@@ -167,7 +168,8 @@ class Scene:
         end = monotonic() + LONGEST
         while monotonic() < end:
             self.server.speak()
-            if done(self.server.act().forward):
+            self.server.act()
+            if done(self.walker.commanded.forward):
                 return
             sleep(0.012)
         raise AssertionError("it never was asked for that")

@@ -145,11 +145,8 @@ def test_only_the_evader_has_a_depth_camera(
 
     monkeypatch.setattr(seeing, "SensorSuite", open_eyes)
     both, world = prepared(), object()
-    sensing: list[Any] = [both.of_robot(world, name) for name in PLAYERS]  # type: ignore[arg-type]
-    assert sensing == [
-        ("eyes 1", both.perceptions["pursuer"]),
-        ("eyes 2", both.perceptions["evader"]),
-    ]
+    eyes: list[Any] = [both.eyes_of(world, name) for name in PLAYERS]  # type: ignore[arg-type]
+    assert eyes == ["eyes 1", "eyes 2"]
     assert [(a[0], a[1], a[-1]) for a in opened] == [
         (world, "pursuer", False),
         (world, "evader", True),

@@ -20,7 +20,7 @@ from stepaside.drivers.lola.lola_connection import open_lola
 from stepaside.drivers.scheme_factory import control_scheme_factory
 from stepaside.games.duel import run_duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
-from stepaside.games.robot_endpoints import LolaOffer
+from stepaside.games.robot_endpoints import LolaEndpoint
 from stepaside.games.run import DuelRun
 from stepaside.games.run_archive import load_run, results_of
 from stepaside.games.served_duel import serve_duel
@@ -115,8 +115,8 @@ def test_in_lock_step_the_duel_is_the_one_played_in_one_process(
         control=FEEDBACK,
     )
     with clients(tmp_path) as (addresses, ticks):
-        offers = {name: LolaOffer(a) for name, a in addresses.items()}
-        over = serve_duel(settings, offers, lock_step=True)
+        endpoints = {name: LolaEndpoint(a) for name, a in addresses.items()}
+        over = serve_duel(settings, endpoints, lock_step=True)
     served, played = over.to_json(), run_duel(settings)
     alone = results_of(played)
     check_record(over.run, played, tmp_path / "kept")
@@ -148,8 +148,8 @@ def test_with_cameras_a_served_duel_is_the_one_played_in_one_process(
         cameras=CameraSettings(colour=ColourSettings(renderer="raycast")),
     )
     with clients(tmp_path, see=True) as (addresses, ticks):
-        offers = {name: LolaOffer(a) for name, a in addresses.items()}
-        over = serve_duel(settings, offers, lock_step=True)
+        endpoints = {name: LolaEndpoint(a) for name, a in addresses.items()}
+        over = serve_duel(settings, endpoints, lock_step=True)
     played = run_duel(settings)
     for name, track in over.run.tracks.items():
         found, wanted = track.qpos, played.tracks[name].qpos
@@ -177,10 +177,10 @@ def check_record(served: DuelRun, played: DuelRun, folder: Path) -> None:
 def test_the_wait_for_clients_is_limited(
     tmp_path: Path,
 ) -> None:
-    offers = {"evader": LolaOffer(LolaAddress(path=str(tmp_path / "e")))}
+    endpoints = {"evader": LolaEndpoint(LolaAddress(path=str(tmp_path / "e")))}
     settings = DuelSettings(body=BODIES["delayed"])
     with pytest.raises(ConfigurationError, match="1 of 1 robots had no"):
-        serve_duel(settings, offers, patience=0.02)
+        serve_duel(settings, endpoints, patience=0.02)
     assert list(tmp_path.iterdir()) == []
 
 

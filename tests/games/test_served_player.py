@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.games.served_player import MOVING, ServedBody
+from stepaside.games.served_player import MOVING, ServedPlayer
 from stepaside.perception.measurement import Measurement
 
 
@@ -14,6 +14,7 @@ class FakeRobot:
     """Simulated robot that records commands."""
 
     def __init__(self) -> None:
+        self.name, self.truth = "evader", None
         self.world = SimpleNamespace(ticks=0)
         self.readings = 0
         self.written: list[Any] = []
@@ -38,7 +39,7 @@ class FakeRobot:
 
 def body_of() -> tuple[Any, FakeRobot]:
     robot: Any = FakeRobot()
-    return ServedBody(robot), robot
+    return ServedPlayer(robot), robot
 
 
 def test_sensors_are_read_once_per_tick() -> None:
@@ -54,7 +55,7 @@ def test_a_waiting_robot_reports_the_sensors_of_one_at_rest() -> None:
     held = body.sensors()
     assert held.accelerometer.tolist() == [0.0, 0.0, 9.81]
     assert held.foot_forces.sum() == pytest.approx(48.0)
-    body.let_go()
+    body.begin()
     assert not body.sensors().accelerometer.any()
     assert body.sensors().time == held.time
 
@@ -63,7 +64,7 @@ def test_a_waiting_robot_ignores_commands() -> None:
     body, robot = body_of()
     body.command(np.ones(3), np.ones(3))
     assert robot.written == robot.shares == []
-    body.let_go()
+    body.begin()
     body.command(np.ones(3), np.full(3, 0.5))
     assert robot.written[0].tolist() == [1.0] * 3
     assert robot.shares[0].tolist() == [0.5] * 3
@@ -71,7 +72,7 @@ def test_a_waiting_robot_ignores_commands() -> None:
 
 def test_a_robot_moves_once_a_target_has_left_the_stance() -> None:
     body, _ = body_of()
-    body.let_go()
+    body.begin()
     stance = np.array([0.1, 0.2])
     for offset, moves in (
         (0.0, False),
@@ -85,8 +86,8 @@ def test_a_robot_moves_once_a_target_has_left_the_stance() -> None:
 
 def test_head_motion_does_not_count_as_moving() -> None:
     robot: Any = FakeRobot()
-    body = ServedBody(robot, head=[1])
-    body.let_go()
+    body = ServedPlayer(robot, head=[1])
+    body.begin()
     for turned in (0.0, 1.0):
         body.command(np.array([0.1, turned]), np.ones(2))
         assert not body.is_moving

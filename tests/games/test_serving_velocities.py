@@ -7,6 +7,7 @@ from threading import Event, Thread
 
 import pytest
 
+from commanded_robots import VelocityCommands, commanded_robots
 from stepaside.drivers.velocity.template_controller import TemplateController
 from stepaside.drivers.velocity.velocity_body import (
     REST,
@@ -17,13 +18,11 @@ from stepaside.drivers.velocity.velocity_body import (
 from stepaside.drivers.velocity.velocity_limits import VelocityLimits
 from stepaside.drivers.velocity.velocity_loop import DrivingState, VelocityLoop
 from stepaside.drivers.velocity.watchdog import WatchSettings
-from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.match import Match, play
-from stepaside.games.robot_endpoints import Offer
+from stepaside.games.robot_endpoints import RobotEndpoint
 from stepaside.games.served_duel import serve_duel
 from stepaside.games.velocity_walker import VelocityWalker
-from stepaside.games.walker import SimulatedPlayer
 from stepaside.locomotion.zmp.control_settings import STABILISED
 from stepaside.planning import GaitSettings
 from stepaside.sim.body_settings import BODIES
@@ -81,14 +80,9 @@ class NoWire:
 @pytest.fixture(scope="module")
 def distance_without_a_wire() -> float:
     """Return the final distance of a duel in one process, in [m]."""
-    duel = Duel(SETTINGS, recorded=False)
-    players = []
-    for player in duel.players:
-        assert isinstance(player, SimulatedPlayer)
-        robot = VelocityWalker(player)
-        robot.commander = NoWire(robot, ROLES[player.name])
-        players.append(robot)
-    match = Match(duel.world, players)
+    world, robots = commanded_robots(SETTINGS)
+    sources = {robot: NoWire(robot, ROLES[robot.name]).act for robot in robots}
+    match = Match(world, robots, [VelocityCommands(sources)])
     play(match, SETTINGS.duration)
     assert match.min_distance is not None
     return match.min_distance
@@ -109,7 +103,7 @@ def client(
 
 
 def served(
-    offers: dict[str, Offer],
+    endpoints: dict[str, RobotEndpoint],
     bodies: dict[str, Callable[[], VelocityBody]],
 ) -> tuple[float, list[DrivingState]]:
     """Return the smallest distance of a served duel, and its plays."""
@@ -122,7 +116,7 @@ def served(
     for thread in threads:
         thread.start()
     try:
-        found = serve_duel(SETTINGS, offers, lock_step=True)
+        found = serve_duel(SETTINGS, endpoints, lock_step=True)
     finally:
         over.set()
         for thread in threads:
@@ -140,18 +134,18 @@ def test_over_ros2_in_lock_step_the_duel_is_the_one_in_one_process(
     from stepaside.drivers.ros2.dds_domain import DdsParticipant
     from stepaside.drivers.ros2.ros2_body import Ros2Body
     from stepaside.drivers.ros2.ros2_server import WorldClock
-    from stepaside.games.robot_endpoints import Ros2Offer
+    from stepaside.games.robot_endpoints import Ros2Endpoint
 
     dds = DdsParticipant(0, tag=TAG)
     clock = WorldClock(dds)
-    offers: dict[str, Offer] = {
-        name: Ros2Offer(dds, clock, f"/{name}") for name in ROLES
+    endpoints: dict[str, RobotEndpoint] = {
+        name: Ros2Endpoint(dds, clock, f"/{name}") for name in ROLES
     }
 
     def opener(name: str) -> Callable[[], VelocityBody]:
         return lambda: Ros2Body(DdsParticipant(0, tag=TAG), f"/{name}")
 
-    least, states = served(offers, {name: opener(name) for name in ROLES})
+    least, states = served(endpoints, {name: opener(name) for name in ROLES})
     assert least == pytest.approx(distance_without_a_wire, abs=1e-6)
     assert DrivingState.WALKING in states
     dds.close()

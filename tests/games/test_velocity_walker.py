@@ -6,12 +6,11 @@ from math import atan2, hypot
 import numpy as np
 import pytest
 
+from commanded_robots import commanded_robots
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.drivers.velocity.velocity_body import REST, VelocityCommand
-from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.velocity_walker import VelocityWalker
-from stepaside.games.walker import SimulatedPlayer
 from stepaside.locomotion.zmp.control_settings import STABILISED
 from stepaside.sim.body_settings import BODIES
 
@@ -24,38 +23,19 @@ SETTINGS = DuelSettings(
 STEP = 0.547  # of the gait, in [s]
 
 
-class Told:
-    """Source of a constant velocity, until it is changed."""
-
-    def __init__(self, velocity: VelocityCommand) -> None:
-        self.velocity = velocity
-
-    def act(self) -> VelocityCommand:
-        """What the robot is to do."""
-        return self.velocity
-
-    def close(self) -> None:
-        """Nothing to let go of."""
-
-
 @pytest.fixture(scope="module")
 def walked() -> tuple[VelocityWalker, VelocityWalker, list[VelocityCommand]]:
     """Return two robots that walked for 5 s, then rested for 3 s."""
-    duel = Duel(SETTINGS, recorded=False)
-    told = [Told(VelocityCommand(0.06, 0.1)), Told(VelocityCommand(-0.2, 0.2))]
-    players = []
-    for player, commander in zip(duel.players, told, strict=True):
-        assert isinstance(player, SimulatedPlayer)
-        players.append(VelocityWalker(player))
-        players[-1].commander = commander
+    world, players = commanded_robots(SETTINGS)
     before = [player.state().velocity for player in players]
+    players[0].command(VelocityCommand(0.06, 0.1))
+    players[1].command(VelocityCommand(-0.2, 0.2))
     for tick in range(667):
-        if tick == 417:
-            for commander in told:
-                commander.velocity = REST
         for player in players:
+            if tick == 417:
+                player.command(REST)
             player.tick()
-        duel.world.step()
+        world.step()
     return players[0], players[1], before
 
 
@@ -102,32 +82,25 @@ def test_the_served_sighting_is_in_odometry(
 
 
 def test_a_robot_may_serve_no_sighting() -> None:
-    player = Duel(SETTINGS, recorded=False).players[0]
-    assert isinstance(player, SimulatedPlayer)
-    assert VelocityWalker(player).state().sighting is not None
-    silent = VelocityWalker(player, offers_sight=False)
-    assert silent.state().sighting is None
+    for offered in (True, False):
+        _, robots = commanded_robots(SETTINGS, ideal_sight=offered)
+        for robot in robots:
+            assert (robot.state().sighting is not None) == offered
 
 
 def test_turns_of_a_commanded_robot_are_calibrated_once() -> None:
     """Against commands; its controller does not calibrate them again."""
     control = replace(SETTINGS.control, learn_turns=True)
-    duel = Duel(replace(SETTINGS, control=control), recorded=False)
-    player = duel.players[0]
-    assert isinstance(player, SimulatedPlayer)
-    assert player.scheme.decisions.turns is not None
-    assert VelocityWalker(player).scheme.decisions.turns is None
+    _, robots = commanded_robots(replace(SETTINGS, control=control))
+    assert [robot.scheme.decisions.turns for robot in robots] == [None, None]
 
 
 def test_a_hardware_like_robot_turns_by_its_command() -> None:
     """Feet twist and joints yield, which only the gyro measures."""
     hardware = replace(SETTINGS, seed=7, body=BODIES["hardware"])
-    duel = Duel(hardware, recorded=False)
-    players = []
-    for player, forward in zip(duel.players, (0.06, -0.06), strict=True):
-        assert isinstance(player, SimulatedPlayer)
-        players.append(VelocityWalker(player))
-        players[-1].commander = Told(VelocityCommand(forward, 0.12))
+    world, players = commanded_robots(hardware)
+    for player, forward in zip(players, (0.06, -0.06), strict=True):
+        player.command(VelocityCommand(forward, 0.12))
     turned = np.zeros(2)
     headings = np.zeros(2)
     learnt, cycles = round(12.0 / 0.012), round(14 * STEP / 0.012)
@@ -138,27 +111,23 @@ def test_a_hardware_like_robot_turns_by_its_command() -> None:
         headings = now
         for player in players:
             player.tick()
-        duel.world.step()
+        world.step()
     rates = turned / (14 * STEP)
     np.testing.assert_allclose(rates, 0.12, rtol=0.03)
 
 
 def test_a_served_sighting_is_relative_to_the_heading_of_its_time() -> None:
     """Also while the robot turns."""
-    duel = Duel(SETTINGS, recorded=False)
-    players = []
-    for player in duel.players:
-        assert isinstance(player, SimulatedPlayer)
-        robot = VelocityWalker(player)
-        robot.commander = Told(VelocityCommand(0.05, 0.12))
-        players.append((robot, player.frame))
+    world, players = commanded_robots(SETTINGS)
+    for robot in players:
+        robot.command(VelocityCommand(0.05, 0.12))
     poses: list[dict[int, tuple[Pose, float]]] = [{}, {}]
     checked = 0
     for _ in range(420):
-        for i, (robot, frame) in enumerate(players):
-            other = players[1 - i][0].truth.position_reference_in_world
+        for i, robot in enumerate(players):
+            other = players[1 - i].truth.position_reference_in_world
             state = robot.state()
-            pose = frame.compose(state.pose)
+            pose = robot.frame.compose(state.pose)
             own = robot.truth.position_reference_in_world
             sight = atan2(other[1] - own[1], other[0] - own[0])
             poses[i][round(1000 * state.time)] = pose, sight
@@ -170,7 +139,7 @@ def test_a_served_sighting_is_relative_to_the_heading_of_its_time() -> None:
                 # 0.0124 by the odometry; 0.0156 from headings a tick older.
                 assert abs(off) < 0.0135
                 checked += state.time > 2.5
-        for robot, _ in players:
+        for robot in players:
             robot.tick()
-        duel.world.step()
+        world.step()
     assert checked > 50

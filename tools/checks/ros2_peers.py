@@ -255,6 +255,10 @@ class Walker:
         """Begin at a time and a place."""
         self.time, self.velocity = 3.0, REST
 
+    def command(self, velocity: VelocityCommand) -> None:
+        """Take a command."""
+        self.velocity = velocity
+
     def look(self, angles: Any) -> None:
         """Nothing to turn."""
 
@@ -289,7 +293,7 @@ def our_robot(python: str, kind: str) -> Iterator[dict[str, Any]]:
             nonlocal obeyed
             server.speak()
             walker.time += TICK
-            walker.velocity = server.act()
+            server.act()
             obeyed += walker.velocity == ASKED
             sleep(TICK)
             return node.complete and obeyed >= peer.ENOUGH

@@ -111,18 +111,20 @@ def serve(
     import gc
 
     from ..games.served_duel import serve_duel
-    from .server_options import offers_of
+    from .server_options import endpoints_of
 
     if not languages["ros2"]:
         refuse_options({"domain", "network"}, "--ros2")
     check_run_folder(output)
     with ExitStack() as stack:
-        offers = offers_of(languages, stack, ideal_sight=sight == "ideal")
+        endpoints = endpoints_of(
+            languages, stack, ideal_sight=sight == "ideal"
+        )
         gc.collect()
         gc.freeze()
         served = serve_duel(
             with_feedback(_with_cycle(settings)),
-            offers,
+            endpoints,
             lock_step=lockstep,
             patience=wait,
         )

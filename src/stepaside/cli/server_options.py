@@ -1,4 +1,4 @@
-"""Addresses at which ``stepaside serve`` offers simulated robots."""
+"""Addresses at which ``stepaside serve`` serves simulated robots."""
 
 from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 if TYPE_CHECKING:
-    from ..games.robot_endpoints import Offer
+    from ..games.robot_endpoints import RobotEndpoint
 
 ADDRESS_FORMATS = {
     "lola": "ADDRESS",
@@ -17,10 +17,10 @@ ADDRESS_FORMATS = {
 }
 
 
-def offers_of(
+def endpoints_of(
     options: Mapping[str, Any], stack: ExitStack, *, ideal_sight: bool
-) -> "dict[str, Offer]":
-    """Return the offer of each served player.
+) -> "dict[str, RobotEndpoint]":
+    """Return the endpoint of each served player.
 
     Args:
         options: Options of the command: players and addresses by interface,
@@ -29,38 +29,40 @@ def offers_of(
         ideal_sight: Whether the true line of sight is served.
     """
     from ..drivers.lola.lola_address import parse_address
-    from ..games.robot_endpoints import LolaOffer
+    from ..games.robot_endpoints import LolaEndpoint
 
-    offers: dict[str, Offer] = {}
-    for name, place in _entries("lola", options["lola"], offers):
-        offers[name] = LolaOffer(parse_address(place), ideal_sight)
+    endpoints: dict[str, RobotEndpoint] = {}
+    for name, place in _entries("lola", options["lola"], endpoints):
+        endpoints[name] = LolaEndpoint(parse_address(place), ideal_sight)
     if options["naoqi"]:
         from ..drivers.naoqi.naoqi_url import parse_url
-        from ..games.robot_endpoints import NaoqiOffer
+        from ..games.robot_endpoints import NaoqiEndpoint
 
-        for name, place in _entries("naoqi", options["naoqi"], offers):
-            offers[name] = NaoqiOffer(parse_url(place), ideal_sight)
+        for name, place in _entries("naoqi", options["naoqi"], endpoints):
+            endpoints[name] = NaoqiEndpoint(parse_url(place), ideal_sight)
     if options["naoqi_joints"]:
         from ..drivers.naoqi.naoqi_url import parse_url
-        from ..games.robot_endpoints import NaoqiJointsOffer
+        from ..games.robot_endpoints import NaoqiJointsEndpoint
 
         joints = options["naoqi_joints"]
-        for name, place in _entries("naoqi-joints", joints, offers):
-            offers[name] = NaoqiJointsOffer(parse_url(place), ideal_sight)
+        for name, place in _entries("naoqi-joints", joints, endpoints):
+            endpoints[name] = NaoqiJointsEndpoint(
+                parse_url(place), ideal_sight
+            )
     if options["ros2"]:
         from ..drivers.ros2.namespaces import parse_namespace
         from ..drivers.ros2.ros2_server import WorldClock
-        from ..games.robot_endpoints import Ros2Offer
+        from ..games.robot_endpoints import Ros2Endpoint
         from .connection_settings import join_domain
 
         dds = join_domain(options["domain"], network=options["network"])
         stack.callback(dds.close)
         clock = WorldClock(dds)
-        for name, place in _entries("ros2", options["ros2"], offers):
-            offers[name] = Ros2Offer(
-                dds, clock, parse_namespace(place), ideal_sight=ideal_sight
+        for name, place in _entries("ros2", options["ros2"], endpoints):
+            endpoints[name] = Ros2Endpoint(
+                dds, clock, parse_namespace(place), ideal_sight
             )
-    if not offers:
+    if not endpoints:
         raise click.UsageError(
             "at least one player must be served: "
             + " or ".join(
@@ -68,11 +70,13 @@ def offers_of(
                 for interface, address in ADDRESS_FORMATS.items()
             )
         )
-    return offers
+    return endpoints
 
 
 def _entries(
-    interface: str, entries: Sequence[str], taken: "Mapping[str, Offer]"
+    interface: str,
+    entries: Sequence[str],
+    taken: "Mapping[str, RobotEndpoint]",
 ) -> list[tuple[str, str]]:
     """Parse players and addresses; each player may be served once."""
     from ..games.duel_settings import PLAYERS

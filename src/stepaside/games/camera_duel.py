@@ -35,7 +35,6 @@ from .match import Match
 from .outcome import Outcome
 from .sight_evaluation import EvaluatedImage, SightEvaluator
 from .sight_summary import PerceptionSummary, SightReport
-from .walker_factory import CameraSensing
 
 GLANCES = {"pursuer": SELDOM, "evader": OFTEN}  # between glances for the map
 STILLS = 5  # images that a run stores per camera
@@ -62,8 +61,8 @@ class CameraSenses:
         Args:
             settings: Settings of the duel, with the initial poses filled in.
             description: Description of the robots; all are of one model.
-            directions: Driving direction of each player that is a robot; one
-                that walks backward scans the room behind.
+            directions: Driving direction of each robot that perceives in
+                this process; one that walks backward scans the room behind.
             tick: Control period, in [s].
 
         Raises:
@@ -105,10 +104,10 @@ class CameraSenses:
             people=self._settings.pursuer == "person",
         )
 
-    def of_robot(self, world: World, name: str) -> CameraSensing:
-        """Return the cameras and the perception of a robot of a world."""
-        perception = self.perceptions[name]
-        eyes = SensorSuite(
+    def eyes_of(self, world: World, name: str) -> SensorSuite:
+        """Return the cameras and sonars of a robot of a world."""
+        perception = self.perceptions.get(name)
+        return SensorSuite(
             world,
             name,
             self._description,
@@ -116,9 +115,10 @@ class CameraSenses:
             self._shared_screen(world),
             self._settings.seed,
             with_depth=self._maps or name == "evader",
-            looks_low=perception.looks_low if self._low else None,
+            looks_low=perception.looks_low
+            if perception is not None and self._low
+            else None,
         )
-        return CameraSensing(eyes, perception)
 
     def _shared_screen(self, world: World) -> OffscreenRenderer | None:
         """Return the renderer of all robots; None for ray casting."""

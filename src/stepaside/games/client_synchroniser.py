@@ -44,7 +44,7 @@ class RobotServer(Protocol):
     def hear(self) -> bool:
         """Receive pending commands; return whether none is awaited."""
 
-    def act(self) -> object:
+    def act(self) -> None:
         """Apply the last command to the robot."""
 
     def drop(self, why: str) -> None:
@@ -120,13 +120,13 @@ class ClientSynchroniser:
                     f"{idle} of {len(self._servers)} robots had no client "
                     f"that was ready within {longest:g} s"
                 )
-            self._round()
+            self._exchange()
             ready = all(server.ready for server in self._servers)
             ready_ticks = ready_ticks + 1 if ready else 0
         for server in self._servers:
             server.press(True)
         for _ in range(PRESSED_TICKS):
-            self._round()
+            self._exchange()
         for server in self._servers:
             server.press(False)
         self.lateness.clear()
@@ -142,13 +142,8 @@ class ClientSynchroniser:
     def ended(self, match: Match, outcome: Outcome) -> None:
         """Nothing to do."""
 
-    def _round(self) -> None:
-        """Exchange frames for one tick without advancing the simulation."""
-        self._exchange()
-        for server in self._servers:
-            server.act()
-
     def _exchange(self) -> None:
+        """Exchange measurements and commands of one tick."""
         now = self._clock()
         if not self._lock_step:
             if now < self._due:
@@ -165,6 +160,8 @@ class ClientSynchroniser:
         for server in self._servers:
             server.speak()
         self._receive(deadline)
+        for server in self._servers:
+            server.act()
 
     def _receive(self, deadline: float) -> None:
         """Receive commands until all have arrived or time is up."""

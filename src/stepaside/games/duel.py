@@ -4,12 +4,9 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-import mujoco
-
 from ..core.compilation import expect_work
-from ..sim.push import pushes_by_robot
 from .duel_evaluation import summarise
-from .duel_settings import PLAYERS, DuelSettings
+from .duel_settings import DuelSettings
 from .duel_world import DuelWorld
 from .initial_poses import initial_poses, with_initial_poses
 from .match import Match, MatchObserver, Progress, play
@@ -55,12 +52,6 @@ class Duel(Match):
         self.settings = settings = with_initial_poses(settings)
         self.frames = frames = initial_poses(settings)
         stage = DuelWorld(settings, frames, rendered=rendered)
-        mujoco.mj_forward(stage.world.model, stage.world.data)
-        for name, pushes in pushes_by_robot(
-            settings.pushes, settings.robots
-        ).items():
-            if pushes:
-                stage.players[PLAYERS.index(name)].push(*pushes)
         tick = stage.world.physics.tick
         self.recorder = Recorder(stage.players, tick=tick)
         self.sight_observer = None
@@ -74,9 +65,7 @@ class Duel(Match):
             stage.world,
             stage.players,
             (*(recorders if recorded else ()), *observers),
-            has_things=bool(
-                settings.room.things or settings.room.plan or settings.passers
-            ),
+            has_things=stage.has_things,
         )
 
     def run(self, outcome: Outcome, wall_time: float) -> DuelRun:

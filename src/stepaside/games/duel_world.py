@@ -1,37 +1,68 @@
 """World of a duel with its players."""
 
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import TYPE_CHECKING, NamedTuple
+
+import mujoco
 
 from ..core.errors import ConfigurationError
 from ..core.poses import Pose
 from ..core.random_streams import named_generator
+from ..locomotion.zmp.reference_table import standing_reference
 from ..planning import Direction
 from ..robots.description import load_robot
+from ..robots.head import load_head
+from ..robots.leg_kinematics import LegKinematics
 from ..sim.body_settings import at_tick, with_control_period
 from ..sim.ground_truth import GroundTruth
 from ..sim.ideal_sensors import IdealLineOfSight
 from ..sim.pedestrian_models import FIGURES
 from ..sim.person_body import PersonBody
 from ..sim.person_motion import PersonMotion
+from ..sim.push import pushes_by_robot
 from ..sim.world import World
 from ..strategies import load_strategy
 from .duel_furnishing import furnishing_of, movers_in
 from .duel_settings import EVADER, PLAYERS, PURSUER, DuelSettings
 from .person_player import PersonPlayer
 from .player import Player
+from .served_player import ServedPlayer
+from .velocity_walker import place_velocity_walker
 from .walker import SimulatedPlayer
-from .walker_factory import WalkerSetup, clearance_in, place_walker
+from .walker_factory import (
+    CameraSensing,
+    WalkerSetup,
+    clearance_in,
+    place_robot,
+    place_walker,
+)
 
 if TYPE_CHECKING:
+    from ..sim.sensor_suite import SensorSuite
     from .camera_duel import CameraSenses, SightObserver
 
 
+class RemoteControl(NamedTuple):
+    """How another process controls a robot.
+
+    Attributes:
+        balances: Whether the robot balances itself and follows commanded
+            velocities; otherwise its joints are commanded.
+        ideal_sight: Whether the true line of sight is measured.
+    """
+
+    balances: bool
+    ideal_sight: bool
+
+
 class DuelWorld:
-    """World of a duel with its players.
+    """World of a duel with its players, ready for the first tick.
 
     Attributes:
         world: World with robots, people and obstacles.
         players: Pursuer and evader.
+        has_things: Whether there are obstacles besides the players.
     """
 
     def __init__(
@@ -40,6 +71,7 @@ class DuelWorld:
         frames: tuple[Pose, Pose],
         *,
         rendered: bool,
+        remote: Mapping[str, RemoteControl] = MappingProxyType({}),
     ) -> None:
         """Build the world and place the players in it.
 
@@ -47,12 +79,17 @@ class DuelWorld:
             settings: Settings of the duel, with the initial poses filled in.
             frames: Initial poses of pursuer and evader in the world.
             rendered: Whether to render the world; cameras do so anyway.
+            remote: Control of the robots that other processes control, by
+                name of the player.
 
         Raises:
             StepAsideError: If the settings contradict each other or cannot
                 be met by the robots.
         """
-        self._settings = settings
+        self._settings, self._remote = settings, remote
+        self.has_things = bool(
+            settings.room.things or settings.room.plan or settings.passers
+        )
         self._setups = {
             name: _setup_of(settings, name, frames[PLAYERS.index(name)])
             for name in settings.robots
@@ -64,7 +101,7 @@ class DuelWorld:
         self._strategies = {
             name: load_strategy(strategy, settings.strategy)
             for name, strategy in zip(PLAYERS, named, strict=True)
-            if name in self._setups
+            if name in self._setups and name not in remote
         }
         directions = {n: s.direction for n, s in self._strategies.items()}
         self._senses = _camera_senses(
@@ -95,47 +132,62 @@ class DuelWorld:
         if person is not None:
             self._truths[PURSUER] = person.truth
         pursuer: Player = (
-            self._walker(PURSUER)
+            self._robot(PURSUER)
             if person is None
             else PersonPlayer(person, self._truths[EVADER])
         )
-        evader = self._walker(EVADER)
-        self.players = (pursuer, evader)
+        self.players = (pursuer, self._robot(EVADER))
+        mujoco.mj_forward(self.world.model, self.world.data)
+        for name, pushes in pushes_by_robot(
+            settings.pushes, settings.robots
+        ).items():
+            if pushes:
+                self.players[PLAYERS.index(name)].push(*pushes)
 
-    def _walker(self, name: str) -> Player:
+    def _robot(self, name: str) -> Player:
         """Place a robot in the world, with the sensors of the settings."""
-        settings, setup = self._settings, self._setups[name]
-        sight, cameras = None, None
-        if self._senses is None:
-            other = PURSUER if name == EVADER else EVADER
+        remote = self._remote.get(name)
+        sight, eyes = None, None
+        if self._senses is not None:
+            eyes = self._senses.eyes_of(self.world, name)
+        elif remote is None or remote.ideal_sight:
+            settings = self._settings
             sight = IdealLineOfSight(
                 self._truths[name],
-                self._truths[other],
+                self._truths[PURSUER if name == EVADER else EVADER],
                 settings.sight,
                 named_generator(settings.seed, f"sight/{name}"),
             )
-        else:
-            cameras = self._senses.of_robot(self.world, name)
-        played = self._strategies[name]
+        if remote is None:
+            return self._controlled_robot(name, sight, eyes)
+        return self._remote_robot(name, sight, eyes, balances=remote.balances)
+
+    def _controlled_robot(
+        self,
+        name: str,
+        sight: IdealLineOfSight | None,
+        eyes: "SensorSuite | None",
+    ) -> Player:
+        """Place a robot that this process controls."""
+        settings, setup = self._settings, self._setups[name]
+        played, truth = self._strategies[name], self._robot_truths[name]
         legs = settings.robot_of(name).legs
         if legs.walks:
             from .policy_player import place_policy_player
 
             return place_policy_player(
-                self.world,
-                setup,
-                legs,
-                played,
-                sight=sight,
-                truth=self._robot_truths[name],
+                self.world, setup, legs, played, sight=sight, truth=truth
             )
+        cameras = None
+        if self._senses is not None and eyes is not None:
+            cameras = CameraSensing(eyes, self._senses.perceptions[name])
         return place_walker(
             self.world,
             setup,
             played,
             sight=sight,
             cameras=cameras,
-            truth=self._robot_truths[name],
+            truth=truth,
             clearance=clearance_in(
                 settings.room.plan,
                 settings.map,
@@ -143,6 +195,50 @@ class DuelWorld:
                 None if cameras is None else cameras.perception,
             ),
         )
+
+    def _remote_robot(
+        self,
+        name: str,
+        sight: IdealLineOfSight | None,
+        eyes: "SensorSuite | None",
+        *,
+        balances: bool,
+    ) -> Player:
+        """Place a robot that another process controls."""
+        settings, setup = self._settings, self._setups[name]
+        truth = self._robot_truths[name]
+        clearance = None
+        if settings.map.source == "given":  # it builds no map of its own
+            clearance = clearance_in(settings.room.plan, settings.map, setup)
+        if balances:
+            return place_velocity_walker(
+                self.world,
+                setup,
+                truth=truth,
+                sight=sight,
+                eyes=eyes,
+                clearance=clearance,
+            )
+        description, gait = setup.description, setup.gait
+        kinematics = LegKinematics(description, tick=self.world.physics.tick)
+        half = 0.5 * gait.foot_spacing
+        left, right = Pose(0.0, half, 0.0), Pose(0.0, -half, 0.0)
+        kinematics.stand(standing_reference(left, right, gait))
+        robot = place_robot(
+            self.world,
+            setup,
+            kinematics,
+            sight=sight,
+            eyes=eyes,
+            truth=truth,
+            clearance=clearance,
+        )
+        head: tuple[int, ...] = ()
+        if eyes is not None:
+            joints = load_head(description)
+            names = kinematics.joint_names
+            head = names.index(joints.yaw), names.index(joints.pitch)
+        return ServedPlayer(robot, head)
 
     def sight_observer(self, *, every: int) -> "SightObserver | None":
         """Return the evaluation of perception, if sensing is by cameras."""

@@ -7,16 +7,16 @@ from typing import Any, NamedTuple
 from ..core.errors import ConfigurationError
 from ..drivers.lola.nao_joints import TICK
 from .client_synchroniser import ClientSynchroniser, RobotServer
-from .duel import Duel, make_duel_run
+from .duel import make_duel_run
 from .duel_settings import DuelSettings
+from .duel_world import DuelWorld
+from .initial_poses import initial_poses, with_initial_poses
 from .match import Match, Progress, play
-from .player import Player
 from .recorder import Recorder
-from .robot_endpoints import Offer
+from .robot_endpoints import RobotEndpoint
 from .run import DuelRun
 from .run_archive import results_of
 from .served_player import ServedPlayer
-from .walker import SimulatedPlayer
 
 
 class ServedDuel(NamedTuple):
@@ -45,7 +45,7 @@ class ServedDuel(NamedTuple):
 
 def serve_duel(
     settings: DuelSettings,
-    offers: Mapping[str, Offer],
+    endpoints: Mapping[str, RobotEndpoint],
     *,
     lock_step: bool = False,
     patience: float = 60.0,
@@ -53,12 +53,12 @@ def serve_duel(
 ) -> ServedDuel:
     """Play a duel whose robots are controlled by other processes.
 
-    Robots without an offer are controlled by this process.
+    Robots without an endpoint are controlled by this process.
 
     Args:
         settings: Settings of the duel; its control period must be that of
             LoLA.
-        offers: Protocol and address of each served robot, by player.
+        endpoints: Protocol and address of each served robot, by player.
         lock_step: Whether the simulation waits for commands instead of for
             the clock.
         patience: Longest time to wait for clients, in [s].
@@ -68,33 +68,45 @@ def serve_duel(
         StepAsideError: If the settings cannot be met, a robot cannot be
             served, or a client does not connect.
     """
-    duel = Duel(settings, recorded=False)
-    if duel.world.physics.tick != TICK:
+    for name in endpoints:
+        if name not in settings.robots or settings.robot_of(name).legs.walks:
+            raise ConfigurationError(
+                "a served player must be a robot that walks by maneuvers, "
+                f"got {name}"
+            )
+    settings = with_initial_poses(settings)
+    stage = DuelWorld(
+        settings,
+        initial_poses(settings),
+        rendered=False,
+        remote={name: each.control for name, each in endpoints.items()},
+    )
+    world, players = stage.world, stage.players
+    if world.physics.tick != TICK:
         raise ConfigurationError(
             f"a served duel needs a tick of {TICK:g} [s], "
-            f"got {duel.world.physics.tick:g}; choose --body delayed or "
+            f"got {world.physics.tick:g}; choose --body delayed or "
             "hardware"
         )
     with ExitStack() as stack:
-        players: list[Player] = []
         servers: list[RobotServer] = []
-        for player in duel.players:
-            if player.name in offers and isinstance(player, SimulatedPlayer):
-                offer = offers[player.name]
-                player, server = offer.serve(player, lock_step=lock_step)
-                stack.callback(server.close)
-                servers.append(server)
-            players.append(player)
+        for player in players:
+            if player.name in endpoints:
+                endpoint = endpoints[player.name]
+                servers.append(endpoint.serve(player, lock_step=lock_step))
+                stack.callback(servers[-1].close)
         exchange = ClientSynchroniser(servers, lock_step=lock_step)
         recorder = Recorder(players, tick=TICK)
         exchange.gather(patience)
         for player in players:
             if isinstance(player, ServedPlayer):
-                player.body.let_go()
-        match = Match(duel.world, players, (exchange, recorder))
+                player.begin()
+        match = Match(
+            world, players, (exchange, recorder), has_things=stage.has_things
+        )
         outcome, wall = play(match, settings.duration, report)
     return ServedDuel(
-        make_duel_run(duel.settings, match, outcome, recorder, None, wall),
+        make_duel_run(settings, match, outcome, recorder, None, wall),
         exchange.late,
         exchange.histogram(),
         exchange.unanswered,

@@ -1,7 +1,7 @@
 """Players whose joints another process commands."""
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -21,25 +21,25 @@ if TYPE_CHECKING:
 MOVING = 0.05  # change of a target from which a robot moves, in [rad]
 
 
-class JointServer(Protocol):
-    """Server of a robot whose joints another process commands."""
-
-    def act(self) -> None:
-        """Apply the last command to the robot."""
-
-    def close(self) -> None:
-        """Stop serving."""
-
-
-class ServedBody:
-    """Simulated robot as seen by the server of its joints.
+class ServedPlayer:
+    """Simulated robot whose joints another process commands.
 
     Until the game begins the simulation does not advance: the sensors
     constantly report a robot at rest, and commands are ignored.
 
     Attributes:
+        name: Name of the player.
+        robot: Simulated robot.
+        truth: True state.
         is_moving: Whether its targets have left the initial stance.
+        is_ready: True: its server waits for the client before the match.
+        begun: None: its plans are unknown to this process.
+        reports: Empty: its detections are unknown to this process.
     """
+
+    is_ready = True
+    begun: StepStarted | None = None
+    reports: "Sequence[FrameReport]" = ()
 
     def __init__(
         self, robot: SimulatedRobot, head: Sequence[int] = ()
@@ -51,22 +51,24 @@ class ServedBody:
             head: Indices of the head joints, whose motion does not count as
                 moving.
         """
-        self._robot, self._head = robot, list(head)
+        self.name, self.robot = robot.name, robot
+        self.truth: GroundTruth = robot.truth
+        self.is_moving = False
+        self._head = list(head)
         self._waiting = True
         self._measurement: Measurement | None = None
         self._ticks = -1
         self._stance: Array | None = None
-        self.is_moving = False
 
-    def let_go(self) -> None:
+    def begin(self) -> None:
         """Begin the game: apply commands from now on."""
         self._waiting = False
 
     def sensors(self) -> Measurement:
         """Return the measurement of this tick; noise is drawn once."""
-        ticks = self._robot.world.ticks
+        ticks = self.robot.world.ticks
         if self._measurement is None or ticks != self._ticks:
-            self._measurement, self._ticks = self._robot.read(), ticks
+            self._measurement, self._ticks = self.robot.read(), ticks
         if self._waiting:
             return self._at_rest(self._measurement)
         return self._measurement
@@ -78,7 +80,7 @@ class ServedBody:
         """
         forces = np.full_like(
             measurement.foot_forces,
-            self._robot.weight / measurement.foot_forces.size,
+            self.robot.weight / measurement.foot_forces.size,
         )
         return measurement._replace(
             accelerometer=np.array([0.0, 0.0, GRAVITY]), foot_forces=forces
@@ -93,39 +95,8 @@ class ServedBody:
         change = np.abs(targets - self._stance)
         change[self._head] = 0.0
         self.is_moving = self.is_moving or bool(change.max() > MOVING)
-        self._robot.servos.soften(stiffness)
-        self._robot.write(targets)
-
-
-class ServedPlayer:
-    """Simulated robot that another process controls.
-
-    Attributes:
-        name: Name of the player.
-        server: Server of its joints.
-        body: Body that the server commands.
-        truth: True state.
-        is_ready: True: its server waits for the client before the match.
-        begun: None: its plans are unknown to this process.
-        reports: Empty: its detections are unknown to this process.
-    """
-
-    is_ready = True
-    begun: StepStarted | None = None
-    reports: "Sequence[FrameReport]" = ()
-
-    def __init__(
-        self, robot: SimulatedRobot, body: ServedBody, server: JointServer
-    ) -> None:
-        """Combine a robot, its served body and its server."""
-        self.name = robot.name
-        self.robot, self.body, self.server = robot, body, server
-        self.truth: GroundTruth = robot.truth
-
-    @property
-    def is_moving(self) -> bool:
-        """Whether its joint targets have left the initial stance."""
-        return self.body.is_moving
+        self.robot.servos.soften(stiffness)
+        self.robot.write(targets)
 
     @property
     def has_fallen(self) -> bool:
@@ -136,8 +107,7 @@ class ServedPlayer:
         """Do nothing: its client begins with the released chest button."""
 
     def tick(self) -> None:
-        """Apply the last command of the client."""
-        self.server.act()
+        """Do nothing: the server has applied the last command."""
 
     def snapshot(self) -> Snapshot:
         """Return the state at this instant, without plans."""
@@ -152,6 +122,5 @@ class ServedPlayer:
         self.robot.push(*pushes)
 
     def close(self) -> None:
-        """Close the server and the cameras."""
-        self.server.close()
+        """Close the cameras."""
         self.robot.close()

@@ -1,8 +1,11 @@
 """Simulated robots with their own walk, commanded by velocities."""
 
 from collections.abc import Mapping
-from typing import Protocol
+from dataclasses import replace
+from typing import TYPE_CHECKING
 
+from ..control import ControlScheme
+from ..control.scheme_builder import ClearanceSetup, build_scheme
 from ..control.sight_sources import MeasuredSight
 from ..control.turn_calibration import TurnCalibration
 from ..control.velocity_walk import limit_velocity, strategy_at_velocity
@@ -14,48 +17,40 @@ from ..locomotion.walk_snapshots import Phase
 from ..perception.images import ColourImage, SonarEcho
 from ..perception.measurement import Measurement, Sighting
 from ..planning import Direction, Foot
+from ..sim.ground_truth import TrueRobotState
+from ..sim.ideal_sensors import IdealLineOfSight
+from ..sim.simulated_robot import SimulatedRobot
+from ..sim.world import World
 from ..strategies import StandStill
 from .walker import SimulatedPlayer
+from .walker_factory import WalkerSetup, place_robot
+
+if TYPE_CHECKING:
+    from ..sim.sensor_suite import SensorSuite
 
 HEAD_SPEED = 3.0  # of a head commanded by a client, in [rad/s]
 # Placeholder that lets the walk start: commands do not depend on sightings.
 PLACEHOLDER = Sighting(0.0, 0.0, 1.0)
 
 
-class VelocitySource(Protocol):
-    """Source of velocity commands."""
-
-    def act(self) -> VelocityCommand:
-        """Return the command of this tick."""
-
-    def close(self) -> None:
-        """Close the connection to the client."""
-
-
 class VelocityWalker(SimulatedPlayer):
     """Simulated robot that walks at commanded velocities.
 
-    Attributes:
-        commander: Source of the commands; None while there is none, and the
-            robot stands.
+    At every tick its scheme adopts the strategy that follows the command.
     """
 
     def __init__(
-        self, walker: SimulatedPlayer, *, offers_sight: bool = True
+        self, robot: SimulatedRobot, scheme: ControlScheme, frame: Pose
     ) -> None:
-        """Take over a walker.
+        """Combine a robot and its controller.
 
         Args:
-            walker: The robot; it must not be used afterwards.
-            offers_sight: Whether the true line of sight is reported.
+            robot: The robot.
+            scheme: Controller that does not calibrate turns: they are
+                calibrated here, against the commanded turns.
+            frame: Pose of its odometry in the world.
         """
-        super().__init__(walker.robot, walker.scheme, walker.frame)
-        self.commander: VelocitySource | None = None
-        self.scheme.senses = MeasuredSight(PLACEHOLDER)
-        self.scheme.decisions.adopt(StandStill())
-        # Turns are calibrated below, against the commanded turns.
-        self.scheme.decisions.turns = None
-        self._offers_sight = offers_sight
+        super().__init__(robot, scheme, frame)
         self._walking_direction: Direction | None = None
         self._velocity = REST
         self._measurement: Measurement | None = None
@@ -66,13 +61,15 @@ class VelocityWalker(SimulatedPlayer):
         self._ticks = -1
         self._steps = 0
         self._updated = False
-        self._turns = TurnCalibration(walker.robot.world.physics.tick)
+        self._turns = TurnCalibration(robot.world.physics.tick)
+
+    def command(self, velocity: VelocityCommand) -> None:
+        """Walk at a velocity from the next tick on."""
+        self._velocity = velocity
 
     def tick(self) -> None:
         """Walk at the commanded velocity."""
         scheme = self.scheme
-        if self.commander is not None:
-            self._velocity = self.commander.act()
         if scheme.phase is Phase.STANDING:
             self._walking_direction = None
         measurement = self._read()
@@ -158,12 +155,6 @@ class VelocityWalker(SimulatedPlayer):
             changed[joint] = self._head_targets[joint]
         return changed
 
-    def close(self) -> None:
-        """Close the commander and the cameras."""
-        if self.commander is not None:
-            self.commander.close()
-        super().close()
-
     def _read(self) -> Measurement:
         """Return the measurement of this tick; noise is drawn once."""
         ticks = self.robot.world.ticks
@@ -179,7 +170,7 @@ class VelocityWalker(SimulatedPlayer):
     def _sighting(self, measurement: Measurement) -> Sighting | None:
         """Return the sighting with its bearing relative to the template."""
         sighting, decisions = measurement.sighting, self.scheme.decisions
-        if sighting is None or not self._offers_sight:
+        if sighting is None:
             return None
         torso_heading = (
             decisions.headings.at(sighting.time)
@@ -191,3 +182,48 @@ class VelocityWalker(SimulatedPlayer):
             torso_heading + sighting.bearing - template_heading
         )
         return Sighting(sighting.time, bearing, sighting.distance)
+
+
+def place_velocity_walker(
+    world: World,
+    setup: WalkerSetup,
+    *,
+    truth: TrueRobotState,
+    sight: IdealLineOfSight | None = None,
+    eyes: "SensorSuite | None" = None,
+    clearance: ClearanceSetup | None = None,
+) -> VelocityWalker:
+    """Place a robot that walks at commanded velocities in a world.
+
+    Args:
+        world: World that contains the robot.
+        setup: The robot.
+        truth: True state of the robot.
+        sight: Ideal sensor of the opponent, reported to the client.
+        eyes: Cameras and sonars, reported to the client.
+        clearance: Knowledge of the room and required clearance.
+
+    Raises:
+        ReachError: If the legs cannot reach the initial stance of the gait.
+    """
+    tick = world.physics.tick
+    scheme = build_scheme(
+        StandStill(),
+        setup.description,
+        setup.gait,
+        replace(setup.control, learn_turns=False),
+        tick=tick,
+        delay=setup.body.delay_cycles * tick,
+        senses=MeasuredSight(PLACEHOLDER),
+        clearance=clearance,
+    )
+    robot = place_robot(
+        world,
+        setup,
+        scheme.kinematics,
+        sight=sight,
+        eyes=eyes,
+        truth=truth,
+        clearance=clearance,
+    )
+    return VelocityWalker(robot, scheme, setup.odometry_in_world)

@@ -19,6 +19,7 @@ from ..locomotion.zmp.control_settings import ControlSettings
 from ..perception.measurement import Sighting
 from ..planning import GaitSettings
 from ..robots.description import RobotDescription
+from ..robots.leg_kinematics import LegKinematics
 from ..sim.body_settings import BodySettings
 from ..sim.ground_truth import TrueRobotState
 from ..sim.ideal_sensors import IdealLineOfSight
@@ -116,24 +117,57 @@ def place_walker(
         else CameraSight(cameras.perception, tick=tick),
         clearance=clearance,
     )
-    robot = SimulatedRobot(
+    robot = place_robot(
+        world,
+        setup,
+        scheme.kinematics,
+        sight=sight,
+        eyes=None if cameras is None else cameras.eyes,
+        truth=truth,
+        clearance=clearance,
+    )
+    return SimulatedPlayer(robot, scheme, setup.odometry_in_world)
+
+
+def place_robot(
+    world: World,
+    setup: WalkerSetup,
+    kinematics: LegKinematics,
+    *,
+    sight: IdealLineOfSight | None = None,
+    eyes: "SensorSuite | None" = None,
+    truth: TrueRobotState | None = None,
+    clearance: ClearanceSetup | None = None,
+) -> SimulatedRobot:
+    """Place one robot without a controller in a world.
+
+    Args:
+        world: World that contains the robot.
+        setup: The robot.
+        kinematics: Kinematics in the standing posture.
+        sight: Ideal sensor of the opponent, with ideal sensing.
+        eyes: Cameras and sonars, with camera sensing.
+        truth: True state of the robot, if it exists already.
+        clearance: Knowledge of the room; a robot that knows the room also
+            knows its pose in it.
+    """
+    return SimulatedRobot(
         world,
         setup.name,
         setup.description,
-        scheme.kinematics,
+        kinematics,
         setup.odometry_in_world,
         setup.body,
         SensorSetup(
             generator=named_generator(setup.seed, f"sensors/{setup.name}"),
             averages_imu=setup.control.feedback,
             sight=sight,
-            eyes=None if cameras is None else cameras.eyes,
+            eyes=eyes,
             truth=truth or setup.true_state_in(world),
             knows_pose=clearance is not None
             and isinstance(clearance.surroundings, KnownRoom),
         ),
     )
-    return SimulatedPlayer(robot, scheme, setup.odometry_in_world)
 
 
 def clearance_in(

@@ -100,6 +100,7 @@ class SimulatedRobot:
     Attributes:
         name: Name of the robot in the world.
         tick: Control period, in [s].
+        joint_names: Names of the actuated joints.
         sight: Ideal line of sight to the opponent, if any.
         eyes: Cameras and sonars, if any.
         place: Ideal sensor of its pose in a room, if any.
@@ -138,7 +139,7 @@ class SimulatedRobot:
         self.sight, self.eyes = setup.sight, setup.eyes
         self._players = setup.players
         model, data = world.model, world.data
-        names = kinematics.joint_names
+        self.joint_names = names = kinematics.joint_names
         joints = [model.joint(f"{name}/{n}") for n in names]
         self._qpos = np.array([j.qposadr[0] for j in joints])
         ids = np.array([motor_of(model, j.id) for j in joints])

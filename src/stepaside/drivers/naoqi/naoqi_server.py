@@ -104,8 +104,8 @@ class NaoqiServer:
         """Return True: the simulation does not wait for clients."""
         return True
 
-    def act(self) -> VelocityCommand:
-        """Return the velocity command for this tick."""
+    def act(self) -> None:
+        """Command the robot for one tick."""
         with self.robot.lock:
             robot = self.robot
             if not self.connected and (robot.steps or robot.asked != REST):
@@ -116,10 +116,11 @@ class NaoqiServer:
         if head:
             self._walker.look(head)
         if following is None:
-            return asked
-        step, velocity = following
-        self._walker.lead_with(step.foot)
-        return velocity
+            self._walker.command(asked)
+        else:
+            step, velocity = following
+            self._walker.lead_with(step.foot)
+            self._walker.command(velocity)
 
     def drop(self, why: str) -> None:
         """Stop the robot, and log why."""

@@ -217,12 +217,12 @@ class Ros2Server:
         if self._polls % REPEAT == 0 and self._state is not None:
             self._publish(self._state)
 
-    def act(self) -> VelocityCommand:
-        """Return the velocity command for this tick."""
+    def act(self) -> None:
+        """Command the robot for one tick."""
         self._silent += 1
         if self._silent * self._tick > SILENCE and not self._lock_step:
             self._velocity = REST
-        return self._velocity
+        self._robot.command(self._velocity)
 
     def drop(self, why: str) -> None:
         """Disconnect the commander, and log why; another may connect."""

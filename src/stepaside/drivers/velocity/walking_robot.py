@@ -49,6 +49,9 @@ class WalkingRobot(Protocol):
     def state(self) -> WalkerState:
         """Return the state now."""
 
+    def command(self, velocity: VelocityCommand) -> None:
+        """Walk at a velocity from now on."""
+
     def look(self, angles: Mapping[str, float]) -> None:
         """Command the angles of the head joints, in [rad], by name."""
 

@@ -1,0 +1,49 @@
+"""Simulated robots of a duel that are commanded by velocities."""
+
+from collections.abc import Callable, Mapping
+
+from stepaside.drivers.velocity.velocity_body import VelocityCommand
+from stepaside.games.duel_settings import PLAYERS, DuelSettings
+from stepaside.games.duel_world import DuelWorld, RemoteControl
+from stepaside.games.initial_poses import initial_poses, with_initial_poses
+from stepaside.games.match import Match
+from stepaside.games.outcome import Outcome
+from stepaside.games.velocity_walker import VelocityWalker
+from stepaside.sim.world import World
+
+
+def commanded_robots(
+    settings: DuelSettings, *, ideal_sight: bool = True
+) -> tuple[World, list[VelocityWalker]]:
+    """Return a world with two robots that are commanded by velocities."""
+    settings = with_initial_poses(settings)
+    control = RemoteControl(balances=True, ideal_sight=ideal_sight)
+    stage = DuelWorld(
+        settings,
+        initial_poses(settings),
+        rendered=False,
+        remote=dict.fromkeys(PLAYERS, control),
+    )
+    robots = [p for p in stage.players if isinstance(p, VelocityWalker)]
+    assert len(robots) == 2
+    return stage.world, robots
+
+
+class VelocityCommands:
+    """Match observer that commands a velocity to each robot at each tick."""
+
+    def __init__(
+        self, sources: Mapping[VelocityWalker, Callable[[], VelocityCommand]]
+    ) -> None:
+        self._sources = sources
+
+    def before(self, match: Match) -> None:
+        """Command all robots."""
+        for robot, source in self._sources.items():
+            robot.command(source())
+
+    def acted(self, match: Match) -> None:
+        """Do nothing."""
+
+    def ended(self, match: Match, outcome: Outcome) -> None:
+        """Do nothing."""
