@@ -296,9 +296,12 @@ class Server:
 
 def open_fake(host: str, port: int) -> Any:
     """Return a fake server without access control."""
+    from stepaside.report.viewer.page_server import Notices
+
+    server: Any = Server(host=host, port=port)
     return SimpleNamespace(
-        server=Server(host=host, port=port),
+        server=server,
         gate=None,
-        messages=SimpleNamespace(notify=None),
+        notices=Notices(server),
         joystick=SimpleNamespace(connect=lambda steer: None),
     )

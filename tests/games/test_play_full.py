@@ -63,7 +63,7 @@ def play(folder: Path, strike: Callable[[], None]) -> None:
             if number == TICKS // 2:
                 strike()
             record.note(tick(number))
-        record.ended = "long enough"
+        record.end("long enough")
 
 
 @pytest.mark.parametrize("gone", [shutil.rmtree, taken])

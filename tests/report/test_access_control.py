@@ -145,7 +145,7 @@ def test_a_control_takes_its_own_values_alone(served: PageServer) -> None:
     gui = served.server.gui
     told: list[Any] = []
     refused: list[str] = []
-    served.messages.notify = refused.append
+    served.messages.watch(gui, served.server.scene, refused.append)
     speed = gui.add_dropdown("Speed", ("1", "2"))
     gain = gui.add_number("Gain", 1.5, min=0.0, max=9.0)
     seed = gui.add_number("Seed", 1)

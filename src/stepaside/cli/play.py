@@ -104,7 +104,7 @@ def play(settings: DuelSettings, connection: ConnectionSettings) -> None:
                 session, connection.reconnect if joints else None
             )
             if record is not None:
-                record.ended = ended
+                record.end(ended)
         except SessionLost as error:
             raise click.ClickException(str(error)) from error
 

@@ -33,7 +33,6 @@ class PlayRecord:
 
     Attributes:
         log: Recorded rows.
-        ended: Why the last session ended; empty before that.
     """
 
     def __init__(
@@ -59,7 +58,7 @@ class PlayRecord:
         }
         text = dump_configuration(self._settings)
         self.log = PlayLog(folder, about, {CONFIGURATION: text})
-        self.ended = ""
+        self._ended = ""
         self._failed: OutputError | None = None
 
     def note(self, tick: "JointTick | VelocityTick") -> None:
@@ -77,6 +76,10 @@ class PlayRecord:
         self._failed = error
         logging.warning("recording stopped: %s", error)
 
+    def end(self, reason: str) -> None:
+        """Note why the last session ended."""
+        self._ended = reason
+
     def leave(
         self,
         kind: type[BaseException] | None,
@@ -89,7 +92,7 @@ class PlayRecord:
             OutputError: If the requested folder could not be written, and
                 there was no other error.
         """
-        ending = _outcome_of(error, self.ended)
+        ending = _outcome_of(error, self._ended)
         folder = self.log.folder
         try:
             if self._failed is None:

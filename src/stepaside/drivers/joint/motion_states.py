@@ -58,7 +58,7 @@ class JointMotionState:
 
     def weaken(self, share: float) -> None:
         """Limit the stiffness to a value that the robot reports."""
-        self._ramp.share = min(self._ramp.share, share)
+        self._ramp.limit(share)
 
     def move(
         self, state: RobotState, frame: JointFrame, wanted: Array

@@ -98,6 +98,10 @@ class StiffnessRamp:
         self.share = min(max(self.share + change, 0.0), 1.0)
         return self.share
 
+    def limit(self, share: float) -> None:
+        """Limit the stiffness now, from 0 to 1; it may rise again."""
+        self.share = min(self.share, share)
+
 
 def posture_reached(
     targets: Array, goal: Array, measured: Array, legs: NDArray[np.intp]

@@ -140,10 +140,11 @@ class DuelPanel:
             return
         self._notify("")
         session = self._session
-        session.settings = replace(
-            session.settings, strategy=strategy, evader_strategy=EVASION
+        session.adopt_settings(
+            replace(
+                session.settings, strategy=strategy, evader_strategy=EVASION
+            )
         )
-        session.update_theory()
 
         def change(duel: Duel) -> None:
             evader = duel.players[1]

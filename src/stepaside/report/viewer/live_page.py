@@ -8,7 +8,6 @@ from time import perf_counter, sleep
 from typing import Any
 
 import numpy as np
-import viser
 
 from ...core.errors import StepAsideError
 from ...games.duel_settings import PLAYERS, DuelSettings
@@ -34,39 +33,6 @@ LOG = logging.getLogger(__name__)
 RATE = 30.0  # updates of the scene per second
 PLOT_RATE = 4.0  # updates of plots and camera images per second
 SPEEDS = ("0.25", "0.5", "1", "2", "4", "as fast as possible")
-NOTICE_TIME = 8.0  # for which a message is shown, in [s]
-
-
-class Notices:
-    """Messages over the scene, one at a time, shown to all viewers."""
-
-    def __init__(self, server: viser.ViserServer) -> None:
-        """Start without a message.
-
-        Args:
-            server: Server of the page.
-        """
-        self._server = server
-        self._lock = threading.Lock()
-        self._open: list[Any] = []
-
-    def show(self, text: str) -> None:
-        """Replace the message that is shown.
-
-        Args:
-            text: Plain text; empty to show none.
-        """
-        with self._lock:
-            for notice in self._open:
-                notice.remove()
-            self._open = []
-            if not text:
-                return
-            for client in self._server.get_clients().values():
-                notice = client.add_notification(
-                    "stepaside", text, auto_close_seconds=NOTICE_TIME
-                )
-                self._open.append(notice)
 
 
 class Page:
@@ -101,8 +67,7 @@ class Page:
         except BaseException:
             self.server.stop()
             raise
-        self._notify = Notices(self.server).show
-        served.messages.notify = self._notify
+        self._notify = served.notices.show
         self._closing = threading.Event()
         self.layers, self._viewers = self._set_scene()
         self._generation = self.session.generation

@@ -166,18 +166,18 @@ class LiveSession:
         )
         self._close_duel()
         self._open = duel
-        self.settings = settings
         self.duel = duel
         self.outcome: Outcome | None = None
         self.trail = trail
         self.driven = False
-        self.update_theory()
+        self.adopt_settings(settings)
         self.commands: list[dict[str, float | str | bool]] = []
         self.generation += 1
 
-    def update_theory(self) -> None:
-        """Compute the predictions of the theory for the current settings."""
-        self._predicted = predict(self.settings)
+    def adopt_settings(self, settings: DuelSettings) -> None:
+        """Take settings that changed during the duel, with their theory."""
+        self.settings = settings
+        self._predicted = predict(settings)
         self.settling = self._predicted.settling
 
     @property

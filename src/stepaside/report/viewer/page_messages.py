@@ -38,24 +38,28 @@ class MessageFilter:
 
     viser sets any attribute that a message names to any value; this filter
     runs before it and accepts only values that a control can take.
-
-    Attributes:
-        notify: Called with the reason for a refusal.
     """
 
     def __init__(self) -> None:
         """Start without controls."""
         self._controls: Mapping[str, Any] = {}
         self._nodes: Mapping[str, Any] = {}
-        self.notify: Callable[[str], None] = lambda text: None
+        self._notify: Callable[[str], None] = lambda text: None
 
-    def watch(self, gui: viser.GuiApi, scene: viser.SceneApi) -> None:
+    def watch(
+        self,
+        gui: viser.GuiApi,
+        scene: viser.SceneApi,
+        notify: Callable[[str], None],
+    ) -> None:
         """Accept messages of a page's controls and scene.
 
         Args:
             gui: Controls; controls that are added later count, too.
             scene: Scene; nodes that are added later count, too.
+            notify: Called with the reason for a refusal.
         """
+        self._notify = notify
         self._controls = gui._gui_input_handle_from_uuid
         self._nodes = scene._handle_from_node_name
 
@@ -106,7 +110,7 @@ class MessageFilter:
         ):
             return True
         label = getattr(control, "label", "a control")
-        self.notify(f"invalid value for {label}")
+        self._notify(f"invalid value for {label}")
         return False
 
 

@@ -26,10 +26,43 @@ from .page_messages import MAX_SIZE, MessageFilter
 from .script_injection import Answer, PageScripts
 
 STARTING = threading.Lock()
+NOTICE_TIME = 8.0  # for which a message is shown, in [s]
 ACCESSIBILITY_SCRIPT = "readable.js"
 # Invalid requests must not print tracebacks on the terminal.
 REQUEST_LOG = logging.getLogger(f"{__name__}.requests")
 REQUEST_LOG.addFilter(lambda record: record.msg != "opening handshake failed")
+
+
+class Notices:
+    """Messages over the scene, one at a time, shown to all viewers."""
+
+    def __init__(self, server: viser.ViserServer) -> None:
+        """Start without a message.
+
+        Args:
+            server: Server of the page.
+        """
+        self._server = server
+        self._lock = threading.Lock()
+        self._open: list[Any] = []
+
+    def show(self, text: str) -> None:
+        """Replace the message that is shown.
+
+        Args:
+            text: Plain text; empty to show none.
+        """
+        with self._lock:
+            for notice in self._open:
+                notice.remove()
+            self._open = []
+            if not text:
+                return
+            for client in self._server.get_clients().values():
+                notice = client.add_notification(
+                    "stepaside", text, auto_close_seconds=NOTICE_TIME
+                )
+                self._open.append(notice)
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,12 +73,14 @@ class PageServer:
         server: viser's server.
         gate: Access control.
         messages: Filter of the messages of pages.
+        notices: Messages shown to viewers, such as refused input.
         joystick: Joystick and gamepad input.
     """
 
     server: viser.ViserServer
     gate: AccessControl
     messages: MessageFilter
+    notices: Notices
     joystick: GamepadInput
 
 
@@ -78,9 +113,10 @@ def open_server(host: str, port: int) -> PageServer:
             "viser must start a websockets server, so that access can be "
             f"controlled; version {viser.__version__} does not"
         )
-    messages.watch(server.gui, server.scene)
+    notices = Notices(server)
+    messages.watch(server.gui, server.scene, notices.show)
     set_theme(server.gui, "light")
-    return PageServer(server, gate, messages, joystick)
+    return PageServer(server, gate, messages, notices, joystick)
 
 
 @contextmanager
