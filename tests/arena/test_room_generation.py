@@ -16,10 +16,9 @@ from stepaside.arena import (
     draw_initial_poses,
     generate_room,
 )
+from stepaside.arena.free_space import CELL, measure_room, path_exists
 from stepaside.arena.moving_box import MovingBox
-from stepaside.arena.reachability import path_exists
 from stepaside.arena.room_generation import FARTHEST, NEAREST
-from stepaside.arena.room_metrics import CELL, measure_room
 from stepaside.arena.shortest_path import first_waypoint
 from stepaside.core.poses import Pose, wrap_angle
 

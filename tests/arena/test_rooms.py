@@ -29,7 +29,7 @@ from stepaside.arena import (
     room_to_toml,
     wall_between,
 )
-from stepaside.arena.room_metrics import measure_room
+from stepaside.arena.free_space import measure_room
 from stepaside.cli.main import main
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Pose, wrap_angle

@@ -11,7 +11,7 @@ from click.testing import CliRunner, Result
 
 from stepaside.cli.main import main
 from stepaside.cli.options.settings_command import changed
-from stepaside.cli.plan_settings import PlanSettings
+from stepaside.cli.plan import PlanSettings
 from stepaside.games.configuration_file import (
     dump_configuration,
     parse_settings,

@@ -7,10 +7,10 @@ import click
 import pytest
 from click.testing import CliRunner, Result
 
-from stepaside.cli.interruption import resume_message
 from stepaside.cli.main import LazyGroup, all_commands, main
 from stepaside.cli.output_files import OutputFile, attempt, writes_files
 from stepaside.cli.run_output import SavedRun
+from stepaside.cli.terminal import resume_message
 from stepaside.core.atomic_output import atomic_draft
 from stepaside.games.outcome import Outcome
 from tools.fuzz import stopping

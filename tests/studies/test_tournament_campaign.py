@@ -14,6 +14,7 @@ from click.testing import CliRunner, Result
 
 from stepaside.arena import Room, RoomRecipe
 from stepaside.cli.main import main
+from stepaside.core.convex import grown_hull_area
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Pose, wrap_angles
 from stepaside.games.outcome import Outcome
@@ -22,7 +23,6 @@ from stepaside.strategies import bound_cache as tables
 from stepaside.studies import tournament_campaign as campaign
 from stepaside.studies import tournament_record as studied
 from stepaside.studies.campaign import CodeStamp, run_study
-from stepaside.studies.floor_used import floor_used
 from stepaside.studies.physics_game import outcome_of, players_touched
 from stepaside.studies.result_store import ResultStore
 from stepaside.studies.tournament_campaign import tournament_study
@@ -49,12 +49,12 @@ def coarse_table(tmp_path_factory: pytest.TempPathFactory) -> Any:
 
 def test_floor_used_has_three_closed_forms() -> None:
     """A point, a line and a circle, each grown by the body."""
-    assert floor_used(np.zeros((5, 2)), 0.2) == pytest.approx(0.04 * pi)
+    assert grown_hull_area(np.zeros((5, 2)), 0.2) == pytest.approx(0.04 * pi)
     line = np.linspace([0.0, 0.0], [3.0, 4.0], 9)
-    assert floor_used(line, 0.2) == pytest.approx(2.0 + 0.04 * pi)
+    assert grown_hull_area(line, 0.2) == pytest.approx(2.0 + 0.04 * pi)
     turns = np.linspace(0.0, 2 * pi, 2000)
     ring = np.stack([0.637 * np.cos(turns), 0.637 * np.sin(turns)], axis=-1)
-    assert floor_used(ring, 0.2) == pytest.approx(
+    assert grown_hull_area(ring, 0.2) == pytest.approx(
         pi * (0.637 + 0.2) ** 2, rel=1e-5
     )
 
@@ -109,7 +109,7 @@ def test_the_figures_of_a_game_are_those_of_its_track(
     assert record["turning_rad_s"] == pytest.approx(12 * 0.1 / seconds)
     assert record["unseen"] == pytest.approx(3 / 13)
     assert record["floor_m2"] == pytest.approx(
-        floor_used(places, SHORT.body_radius)
+        grown_hull_area(places, SHORT.body_radius)
     )
     assert record["bound_m"] == 9 and asked[0][2] is SHORT
     np.testing.assert_array_equal(asked[0][0], track.pursuer[0])

@@ -6,7 +6,7 @@ from pathlib import Path
 from random import Random
 from typing import Any
 
-from stepaside.cli.plan_settings import PlanSettings
+from stepaside.cli.plan import PlanSettings
 from stepaside.core.errors import StepAsideError
 from stepaside.core.setting import ranges_of
 from stepaside.games.configuration_file import read_settings

@@ -1,6 +1,6 @@
 """Rooms: walls, discs, boxes and polygons on the floor."""
 
-from .initial_pose_checks import BODY_RADIUS, check_initial_poses
+from .free_space import BODY_RADIUS, check_initial_poses, path_exists
 from .moving_box import MovingBox
 from .obstacles import (
     NO_OBSTACLES,
@@ -8,7 +8,6 @@ from .obstacles import (
     ObstacleSet,
     clearance_between,
 )
-from .reachability import path_exists
 from .room import OPEN_FLOOR, Door, Room
 from .room_file import (
     load_room,

@@ -10,10 +10,9 @@ from ..core.poses import Array, Pose
 from ..core.random_streams import named_generator
 from ..core.ranges import Range
 from ..core.setting import check_settings, setting
-from .initial_pose_checks import BODY_RADIUS
+from .free_space import BODY_RADIUS, path_exists
 from .obstacles import Obstacle, clearance_between
 from .polygon_checks import check_coordinate
-from .reachability import path_exists
 from .room import LARGEST, MAX_COUNT, SIDES, SMALLEST, Door, Room
 from .shapes import Box, Disc, Polygon
 

@@ -14,12 +14,11 @@ from .bound_tables import (
     played_games,
     print_bound,
 )
-from .effort_estimate import CELLS, announce_effort
 from .options.common_options import figure_option, figure_width, json_option
 from .options.parameter_types import NameType, OutputFile, positive
 from .options.setting_options import refuse_options, takes
 from .output_files import attempt, writes_files
-from .progress import show_progress
+from .progress import CELLS, announce_effort, show_progress
 from .terminal import print_json
 
 if TYPE_CHECKING:

@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING, TypeVar
 import click
 
 from .campaign_options import CampaignOptions
-from .interruption import exit_interrupted, resume_message
 from .progress import show_progress
-from .terminal import echo
+from .terminal import echo, exit_interrupted, resume_message
 
 if TYPE_CHECKING:
     from ..studies.campaign import CampaignProgress, Study, StudyRun

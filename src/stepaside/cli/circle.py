@@ -7,7 +7,6 @@ import click
 from ..core.atomic_output import FIGURES
 from ..theory.unicycle.unicycle_game import Game
 from .circle_tables import describe_circles, describe_remedies, print_circles
-from .effort_estimate import STEPS, announce_effort
 from .options.common_options import (
     capture_option,
     delay_option,
@@ -18,7 +17,7 @@ from .options.common_options import (
     seed_option,
 )
 from .output_files import OutputFile, attempt, writes_files
-from .progress import show_progress
+from .progress import STEPS, announce_effort, show_progress
 from .terminal import print_json
 from .unicycle_options import describe_game, finite, game_options
 

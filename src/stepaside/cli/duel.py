@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 import click
 
 from ..core.constants import CAPTURE_DISTANCE
-from .effort_estimate import SIMULATED, announce_effort
 from .options.common_options import (
     figure_option,
     figure_width,
@@ -16,7 +15,7 @@ from .options.common_options import (
 from .options.duel_options import duel_options
 from .options.settings_command import SettingsCommand
 from .output_files import attempt, writes_files
-from .progress import show_progress
+from .progress import SIMULATED, announce_effort, show_progress
 from .run_output import save_run
 from .tables import print_table
 from .terminal import echo, print_json

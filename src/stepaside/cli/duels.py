@@ -9,7 +9,6 @@ import click
 
 from .campaign_options import CampaignOptions, campaign_options
 from .campaign_reports import finish_campaign, run_campaign
-from .effort_estimate import SIMULATED, announce_effort
 from .options.common_options import (
     figure_option,
     figure_width,
@@ -18,6 +17,7 @@ from .options.common_options import (
 from .options.duel_options import duel_options
 from .options.settings_command import SettingsCommand
 from .output_files import attempt, writes_files
+from .progress import SIMULATED, announce_effort
 from .tables import label_of
 from .terminal import echo, print_json
 

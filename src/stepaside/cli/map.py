@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import click
 
 from ..theory.unicycle.unicycle_game import Game
-from .effort_estimate import STEPS, announce_effort
 from .options.common_options import (
     capture_option,
     figure_option,
@@ -16,7 +15,7 @@ from .options.common_options import (
 )
 from .options.parameter_types import ANGLE, METERS, NumberType
 from .output_files import attempt, writes_files
-from .progress import show_progress
+from .progress import STEPS, announce_effort, show_progress
 from .tables import print_table, scalar_rows, table_rows
 from .terminal import print_json
 from .unicycle_options import describe_game, finite, game_options

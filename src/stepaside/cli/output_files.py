@@ -11,8 +11,8 @@ import click
 
 from ..core.atomic_output import check_file
 from ..core.errors import ConfigurationError, OutputError
-from .interruption import NOTHING_SAVED, exit_interrupted
 from .options.parameter_types import OutputFile
+from .terminal import NOTHING_SAVED, exit_interrupted
 
 overwrite_option = click.option(
     "--overwrite/--no-overwrite",

@@ -12,7 +12,6 @@ import click
 from ..core.atomic_output import FIGURES, reason_of
 from ..core.errors import OutputError
 from ..report.film_settings import AROUND, SLOWEST, FilmSettings
-from .effort_estimate import IMAGES, announce_effort
 from .options.common_options import (
     browser_option,
     figure_width,
@@ -22,7 +21,7 @@ from .options.common_options import (
 )
 from .options.setting_options import refuse_options, takes
 from .output_files import OutputFile, attempt, writes_files
-from .progress import show_progress
+from .progress import IMAGES, announce_effort, show_progress
 from .terminal import echo, print_json
 
 if TYPE_CHECKING:

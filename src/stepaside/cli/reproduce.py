@@ -10,13 +10,12 @@ from ..core.atomic_output import atomic_draft
 from ..core.errors import OutputError
 from .campaign_options import CampaignOptions, campaign_options
 from .campaign_reports import finish_campaign, run_campaign
-from .effort_estimate import announce_effort
-from .interruption import exit_interrupted, resume_message
 from .options.common_options import (
     json_option,
     seed_option,
 )
-from .terminal import echo, print_json
+from .progress import announce_effort
+from .terminal import echo, exit_interrupted, print_json, resume_message
 
 
 @click.command("reproduce")

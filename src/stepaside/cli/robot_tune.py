@@ -7,11 +7,10 @@ import click
 
 from ..core.atomic_output import atomic_draft
 from .campaign_options import executor_option
-from .interruption import exit_interrupted, resume_message
 from .options.common_options import json_option, workers_option
 from .progress import show_progress
 from .tables import print_table
-from .terminal import echo, print_json
+from .terminal import echo, exit_interrupted, print_json, resume_message
 
 if TYPE_CHECKING:
     from ..fitting.gait_search import RatedCandidate, SearchResult

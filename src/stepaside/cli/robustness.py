@@ -9,7 +9,6 @@ import click
 from ..games.duel_settings import SENSING
 from ..games.walk_settings import WalkSettings
 from .campaign_options import CampaignOptions, campaign_options
-from .interruption import exit_interrupted, resume_message
 from .options.common_options import (
     figure_option,
     figure_width,
@@ -20,7 +19,7 @@ from .options.parameter_types import NameType
 from .options.setting_options import refuse_options
 from .options.settings_command import SettingsCommand, takes_settings
 from .output_files import attempt, writes_files
-from .plan_settings import ENTRIES_OF_GAMES
+from .plan import ENTRIES_OF_GAMES
 from .robustness_people import meet_people, print_people, write_people
 from .robustness_walks import (
     CampaignRequest,
@@ -29,7 +28,7 @@ from .robustness_walks import (
     summarise_walks,
     write_walks,
 )
-from .terminal import echo, print_json
+from .terminal import echo, exit_interrupted, print_json, resume_message
 
 if TYPE_CHECKING:
     from ..studies.campaign import StudyRun

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from .campaign_options import CampaignOptions
 from .campaign_reports import run_campaign
-from .effort_estimate import SIMULATED, announce_effort
+from .progress import SIMULATED, announce_effort
 
 if TYPE_CHECKING:
     from ..games.walk_settings import WalkSettings

@@ -56,7 +56,7 @@ def room(
     Prints free floor, obstacles and clearances of the room.
     """
     from ..arena import check_initial_poses, generate_room, load_room
-    from ..arena.room_metrics import measure_room
+    from ..arena.free_space import measure_room
 
     if file is None:
         width, depth = size or (None, None)

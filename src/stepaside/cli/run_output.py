@@ -4,8 +4,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from ..core.errors import OutputError
-from .interruption import NOTHING_SAVED, exit_interrupted
-from .terminal import echo
+from .terminal import NOTHING_SAVED, echo, exit_interrupted
 
 if TYPE_CHECKING:
     from ..games.outcome import Outcome

@@ -1,4 +1,4 @@
-"""Output of commands to a terminal, and JSON on standard output."""
+"""Output of commands: text, JSON on standard output, interruptions."""
 
 import json
 import os
@@ -10,12 +10,15 @@ from contextlib import (
     nullcontext,
     redirect_stdout,
 )
-from typing import Any, TextIO
+from pathlib import Path
+from typing import Any, NoReturn, TextIO
 
 import click
 
+from ..core.signal_handling import INTERRUPTED
 from ..report.text_escaping import visible
 
+NOTHING_SAVED = "nothing is saved"
 STDOUT, STDERR = 1, 2  # file descriptors
 
 
@@ -93,3 +96,25 @@ def write_result(text: str) -> None:
     """Write a result to standard output, even while that is reserved."""
     with redirect_stdout(_reserved[-1]) if _reserved else nullcontext():
         echo(text, nl=False)
+
+
+def exit_interrupted(message: str = NOTHING_SAVED) -> NoReturn:
+    """Report what is saved, and exit with the status of an interruption.
+
+    Args:
+        message: Sentence about what is saved.
+    """
+    echo(f"stepaside: interrupted; {message}", err=True)
+    raise SystemExit(INTERRUPTED)
+
+
+def resume_message(done: str, path: Path | None) -> str:
+    """Return a sentence about the saved part of a campaign.
+
+    Args:
+        done: Finished part, like ``3 of 10 duels``.
+        path: File or folder of the records; None if nothing is recorded.
+    """
+    if path is None:
+        return f"{done} finished; {NOTHING_SAVED} without --output"
+    return f"{done} are saved in {path}; run the same command to continue"

@@ -14,7 +14,6 @@ from ..core.errors import ConfigurationError
 from .campaign_options import CampaignOptions, campaign_options
 from .campaign_reports import finish_campaign, run_campaign
 from .duels import seeds_option
-from .effort_estimate import DECISIONS, SIMULATED, announce_effort
 from .options.common_options import (
     figure_option,
     game_time_option,
@@ -28,6 +27,7 @@ from .options.parameter_types import (
 )
 from .options.setting_options import refuse_options, takes
 from .output_files import attempt, writes_files
+from .progress import DECISIONS, SIMULATED, announce_effort
 from .terminal import echo, print_json
 
 if TYPE_CHECKING:

@@ -9,12 +9,6 @@ from ..core.setting import settings_of
 from ..games.duel_settings import DuelSettings
 from ..theory.unicycle.unicycle_game import Game
 from .circle import describe_circle
-from .effort_estimate import (
-    DECISIONS,
-    SAMPLES,
-    TIME_CONSTANTS,
-    announce_effort,
-)
 from .options.common_options import (
     delay_option,
     figure_option,
@@ -25,6 +19,12 @@ from .options.common_options import (
 )
 from .options.parameter_types import ANGLE, METERS, StrategyType
 from .output_files import attempt, writes_files
+from .progress import (
+    DECISIONS,
+    SAMPLES,
+    TIME_CONSTANTS,
+    announce_effort,
+)
 from .tables import format_value, label_of, print_table, table_rows
 from .terminal import print_json
 from .unicycle_options import describe_game, finite, game_options

@@ -6,12 +6,11 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..games.walk_settings import WalkSettings
-from .effort_estimate import SIMULATED, announce_effort
 from .options.common_options import figure_option, folder_option, json_option
 from .options.duel_options import WALK
 from .options.settings_command import SettingsCommand, takes_settings
 from .output_files import attempt, writes_files
-from .progress import show_progress
+from .progress import SIMULATED, announce_effort, show_progress
 from .run_output import check_run_folder, save_run
 from .tables import print_table
 from .terminal import print_json

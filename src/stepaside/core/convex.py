@@ -1,6 +1,7 @@
 """Convex polygons in the plane: hull, half planes and area."""
 
 from collections.abc import Sequence
+from math import pi
 
 import numpy as np
 from numpy.typing import NDArray
@@ -86,3 +87,20 @@ def signed_area(polygon: Array) -> float:
     after = next_corners(polygon)
     doubled = polygon[:, 0] * after[:, 1] - polygon[:, 1] * after[:, 0]
     return 0.5 * float(doubled.sum())
+
+
+def grown_hull_area(points: Array, radius: float) -> float:
+    """Return the area of the convex hull of points, grown by a radius.
+
+    For positions of a disc it is the smallest convex floor for its path.
+
+    Args:
+        points: Points (x, y) in one frame, in [m]. Shape (n, 2).
+        radius: Radius of the disc, in [m].
+
+    Returns:
+        Area, in [m^2].
+    """
+    hull = convex_hull(np.asarray(points, dtype=np.float64))
+    perimeter = float(np.hypot(*(np.roll(hull, -1, axis=0) - hull).T).sum())
+    return signed_area(hull) + perimeter * radius + pi * radius**2

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..arena import ObstacleSet, Room
 from ..control.clearance.map_settings import MapSettings
+from ..core.convex import grown_hull_area
 from ..core.poses import Array, Pose, wrap_angles
 from ..games.duel_settings import PLAYERS, DuelSettings
 from ..games.outcome import Outcome
@@ -18,7 +19,6 @@ from ..robots.description import load_robot
 from ..sim.camera_settings import SceneSettings
 from ..sim.outline_measurement import measure_outline
 from ..strategies import Evasion
-from .floor_used import floor_used
 from .tournament_strategies import ALWAYS, SIGHT, pursuer_strategy
 
 SEEN = "seen"
@@ -113,7 +113,7 @@ def record_values_of(run: DuelRun, radius: float) -> dict[str, Any]:
         if summary.captured_at_s is None
         else summary.captured_at_s,
         "closest_m": summary.min_distance_m,
-        "floor_m2": floor_used(evader[:, :2], radius),
+        "floor_m2": grown_hull_area(evader[:, :2], radius),
         "walked_m": float(np.hypot(*np.diff(evader[:, :2], axis=0).T).sum()),
         "turning_rad_s": float(np.abs(np.diff(evader[:, 2])).sum()) / seconds,
         "unseen": float((np.abs(wrap_angles(bearings)) > SIGHT).mean()),

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..arena import Room
+from ..core.convex import grown_hull_area
 from ..core.poses import Array, wrap_angle, wrap_angles
 from ..strategies.bound_cache import pursuit_bound
 from ..strategies.strategy_game import StepGame, StrategyTrack, play_strategies
-from .floor_used import floor_used
 from .records import Record
 from .tournament_settings import HUMANOIDS, TournamentSettings
 from .tournament_strategies import SIGHT, evader_of, pursuer_of
@@ -135,7 +135,7 @@ def _step_values(
         "closest_m": float(distances.min()),
         "bound_m": bound_of(track.pursuer[0], track.evader[0], game),
         "clearance_m": clear if isfinite(clear) else None,
-        "floor_m2": floor_used(track.evader[:, :2], game.body_radius),
+        "floor_m2": grown_hull_area(track.evader[:, :2], game.body_radius),
         "walked_m": float(np.hypot(*moved.T).sum()),
         "turning_rad_s": float(np.abs(turns).sum()) / max(seconds, 1e-9),
         "unseen": float((np.abs(track.bearings) > SIGHT).mean()),

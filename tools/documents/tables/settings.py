@@ -10,7 +10,7 @@ import click
 from stepaside.cli.main import all_commands
 from stepaside.cli.options.parameter_types import NumberType
 from stepaside.cli.options.setting_options import SettingOption
-from stepaside.cli.plan_settings import PlanSettings
+from stepaside.cli.plan import PlanSettings
 from stepaside.core.ranges import Range
 from stepaside.core.setting import settings_of
 from stepaside.games.duel_settings import DuelSettings

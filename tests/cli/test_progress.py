@@ -7,13 +7,13 @@ import click
 import pytest
 from click.testing import CliRunner, Result
 
-from stepaside.cli.effort_estimate import (
+from stepaside.cli.main import main
+from stepaside.cli.progress import (
     ANNOUNCED,
     LONGEST,
     announce_effort,
     duration_text,
 )
-from stepaside.cli.main import main
 from tools.fuzz.case import Reached
 from tools.fuzz.invoking import without_work
 from tools.fuzz.kinds import make_run
@@ -131,6 +131,6 @@ def test_long_work_is_announced_before_it_begins(
     def end(*_: object, err: bool = False) -> None:
         raise Reached(_[0])
 
-    monkeypatch.setattr("stepaside.cli.effort_estimate.echo", end)
+    monkeypatch.setattr("stepaside.cli.progress.echo", end)
     with pytest.raises(Reached, match=wanted):
         main(words.replace("RUN", run).split())
