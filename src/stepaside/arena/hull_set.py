@@ -25,7 +25,8 @@ class RoundedHull(NamedTuple):
     """Convex hull of points, grown by a radius (0 for several points).
 
     Attributes:
-        points: Corners, counter-clockwise, in [m]. Shape (m, 2).
+        points: Corners in the frame of the set, counter-clockwise, in [m].
+            Shape (m, 2).
         radius: Radius by which the hull is grown, in [m].
     """
 
@@ -37,7 +38,8 @@ def rounded_hull(points: ArrayLike, radius: float = 0.0) -> RoundedHull:
     """Return the hull of corners, grown by a radius; the array is read-only.
 
     Args:
-        points: Corners of a convex polygon, counter-clockwise, in [m], or
+        points: Corners of a convex polygon in any frame, counter-clockwise,
+            in [m], or
             one point. Shape (m, 2).
         radius: Radius, in [m]; 0 unless there is a single point.
     """
@@ -110,7 +112,8 @@ class HullSet:
         """Return the signed distances from each hull, negative inside.
 
         Args:
-            points: Points (x, y), in [m]. Shape (n, 2).
+            points: Points (x, y) in the frame of the set, in [m]. Shape
+                (n, 2).
 
         Returns:
             Distances, in [m]. Shape (n, hulls).
@@ -129,7 +132,8 @@ class HullSet:
         """Return the distances from the nearest hull; inf without hulls.
 
         Args:
-            points: Points (x, y), in [m]. Shape (n, 2).
+            points: Points (x, y) in the frame of the set, in [m]. Shape
+                (n, 2).
 
         Returns:
             Signed distances, in [m]. Shape (n,).
@@ -146,7 +150,8 @@ class HullSet:
         """Return the gradients of the signed distances from each hull.
 
         Args:
-            points: Points (x, y), in [m]. Shape (n, 2).
+            points: Points (x, y) in the frame of the set, in [m]. Shape
+                (n, 2).
 
         Returns:
             Unit vectors away from each hull; zero at the centre of a disc.
@@ -173,7 +178,8 @@ class HullSet:
         """Return whether line segments touch each hull.
 
         Args:
-            starts: Start points (x, y), in [m]. Shape (n, 2), or (1, 2) for
+            starts: Start points (x, y) in the frame of the set, in [m].
+                Shape (n, 2), or (1, 2) for
                 a common start.
             ends: End points (x, y), in [m]. Shape (n, 2).
 
@@ -197,7 +203,8 @@ class HullSet:
         Args:
             allowed: Required distance from each hull, in [m]; starts and ends
                 must satisfy it. Shape (hulls,).
-            starts: Start points, in [m]. Shape (n, 2), or (1, 2) for a
+            starts: Start points in the frame of the set, in [m]. Shape (n,
+                2), or (1, 2) for a
                 common start.
             ends: End points, in [m]. Shape (n, 2).
 
@@ -226,7 +233,8 @@ class HullSet:
         conservative.
 
         Args:
-            corners: Corners of the outline at successive instants, between
+            corners: Corners of the outline in the frame of the set at
+                successive instants, between
                 which they move along straight lines, in [m]. Shape
                 (instants, corners, 2).
 

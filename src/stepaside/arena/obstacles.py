@@ -68,7 +68,8 @@ class Obstacle(ABC):
         """Return the signed distances of points from the edge.
 
         Args:
-            points: Points (x, y), in [m]. Shape (n, 2).
+            points: Points (x, y) in the frame of the shape, in [m]. Shape
+                (n, 2).
 
         Returns:
             Distances, negative inside, in [m]. Shape (n,).

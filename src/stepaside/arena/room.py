@@ -61,7 +61,7 @@ class Room:
         obstacles: Obstacles at rest, which may touch each other. They are
             sorted as in files: discs, then boxes, then polygons.
         doors: Gaps in the walls; the floor continues beyond them.
-        starts: Initial poses of pursuer and evader, or None.
+        starts: Initial poses of pursuer and evader in the room, or None.
         moving: Boxes that move back and forth.
     """
 

@@ -28,7 +28,7 @@ CIRCLE_CORNERS = 72  # of the polygon that a disc is drawn as
 
 @dataclass(frozen=True)
 class Disc(Obstacle):
-    """Round obstacle: a pillar, a bin.
+    """Round obstacle: a pillar, a bin; in the frame of its room or map.
 
     Attributes:
         x: x of its centre, in [m].
@@ -64,7 +64,7 @@ class Disc(Obstacle):
         return outline
 
     def moved(self, pose: Pose) -> "Disc":
-        """Transform the disc; see :meth:`.Obstacle.moved`."""
+        """Take the disc out of a frame with a pose in the parent frame."""
         moved = pose.compose(Pose(self.x, self.y, 0.0))
         return Disc(moved.x, moved.y, self.radius)
 
@@ -74,8 +74,8 @@ class Polygon(Obstacle):
     """Convex polygonal obstacle: a table.
 
     Attributes:
-        corners: Corners (x, y) in order along the edge, in [m]; stored
-            counter-clockwise.
+        corners: Corners (x, y) in the frame of its room or map, in order
+            along the edge, in [m]; stored counter-clockwise.
     """
 
     corners: tuple[tuple[float, float], ...]
@@ -93,7 +93,7 @@ class Polygon(Obstacle):
         return rounded_hull(self.corners)
 
     def moved(self, pose: Pose) -> "Polygon":
-        """Transform the polygon; see :meth:`.Obstacle.moved`."""
+        """Take the polygon out of a frame with a pose in the parent frame."""
         moved = pose.transform_points(self.points).tolist()
         return Polygon(tuple((x, y) for x, y in moved))
 
@@ -103,8 +103,8 @@ class Box(Obstacle):
     """Rectangular obstacle: a crate, a wall.
 
     Attributes:
-        x: x of its centre, in [m].
-        y: y of its centre, in [m].
+        x: x of its centre in the frame of its room or map, in [m].
+        y: y of its centre in the same frame, in [m].
         width: Side along its heading, in [m].
         depth: Side across its heading, in [m].
         heading: Direction of its width, in [rad].
@@ -145,7 +145,7 @@ class Box(Obstacle):
         return self.x, self.y
 
     def moved(self, pose: Pose) -> "Box":
-        """Transform the box; see :meth:`.Obstacle.moved`."""
+        """Take the box out of a frame with a pose in the parent frame."""
         x, y, heading = pose.compose(Pose(self.x, self.y, self.heading))
         return Box(x, y, self.width, self.depth, wrap_angle(heading))
 
@@ -158,8 +158,8 @@ def wall_between(
     """Return the wall whose centre line runs from one point to another.
 
     Args:
-        start: First end (x, y) of the centre line, in [m].
-        end: Second end (x, y) of the centre line, in [m].
+        start: First end (x, y) of the centre line in the room, in [m].
+        end: Second end (x, y) of the centre line in the room, in [m].
         thickness: Thickness, in [m].
 
     Raises:
@@ -181,7 +181,8 @@ def hull(points: ArrayLike) -> Polygon:
     """Return the convex hull of points.
 
     Args:
-        points: Points (x, y), in [m]. Shape (n, 2).
+        points: Points (x, y) in the frame of the polygon, in [m]. Shape
+            (n, 2).
 
     Raises:
         ConfigurationError: If they are collinear.

@@ -86,7 +86,8 @@ class LocomotionScheme:
     ) -> MotionRequest | None:
         """Decide on the next step; None if the opponent is lost.
 
-        See :class:`~stepaside.locomotion.locomotion.IntentSource`.
+        ``support`` is the pose in odometry of the foot that has landed. See
+        :class:`~stepaside.locomotion.locomotion.IntentSource`.
         """
         turning = self.senses.turning
         if self.sighting is None and not turning:

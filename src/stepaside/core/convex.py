@@ -16,7 +16,7 @@ def convex_hull(points: Array, tolerance: float = 0.0) -> Array:
     Andrew's monotone chain.
 
     Args:
-        points: Points (x, y), in [m]. Shape (n, 2).
+        points: Points (x, y) in any frame, in [m]. Shape (n, 2).
         tolerance: Corners are dropped when the triangle with their two
             neighbours has at most half this area, in [m^2].
 
@@ -64,7 +64,7 @@ def half_planes(polygon: Array) -> tuple[Array, Array]:
     """Return the half planes whose intersection is a convex polygon.
 
     Args:
-        polygon: Corners, counter-clockwise, in [m]. Shape (n, 2).
+        polygon: Corners in any frame, counter-clockwise, in [m]. Shape (n, 2).
 
     Returns:
         Unit normals a that point outwards, and offsets b in [m]: a point p
@@ -82,7 +82,7 @@ def signed_area(polygon: Array) -> float:
     """Return the area of a polygon, negative if clockwise, in [m^2].
 
     Args:
-        polygon: Corners, in [m]. Shape (n, 2).
+        polygon: Corners in any frame, in [m]. Shape (n, 2).
     """
     after = next_corners(polygon)
     doubled = polygon[:, 0] * after[:, 1] - polygon[:, 1] * after[:, 0]

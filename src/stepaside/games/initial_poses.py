@@ -58,7 +58,7 @@ def with_initial_poses(settings: DuelSettings) -> DuelSettings:
 
 
 def start_of(starts: tuple[Pose, Pose]) -> StartSettings:
-    """Return the start settings of poses of pursuer and evader."""
+    """Return the start settings of poses of both players in the world."""
     (x, y, pursuer), (u, v, evader) = starts
     line_of_sight = atan2(v - y, u - x)
     return StartSettings(

@@ -19,7 +19,8 @@ class Trajectory:
     Attributes:
         com: CoM (x, y, z). Shape (n, 3).
         torso: Origin and heading of the torso (x, y, heading). Shape (n, 3).
-        place: Reference point and heading (x, y, heading). Shape (n, 3).
+        place: Reference point and heading (x, y, heading) in the world, in
+            [m] and [rad]. Shape (n, 3).
         com_reference: Planned CoM (x, y). Shape (n, 2).
         zmp_reference: Planned ZMP (x, y). Shape (n, 2).
         zmp: Center of the foot forces (x, y); NaN in flight. Shape (n, 2).

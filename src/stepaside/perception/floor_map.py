@@ -240,7 +240,7 @@ class FloorMap:
         return cover(self.occupied_cells(), CELL)
 
     def is_occupied(self, x: float, y: float) -> bool:
-        """Return whether a point lies at an occupied cell; in [m]."""
+        """Return whether a point in odometry, in [m], is occupied."""
         distances = self._vectors_to_occupied(x, y)
         return bool(
             np.hypot(distances[:, 0], distances[:, 1]).min(initial=inf)

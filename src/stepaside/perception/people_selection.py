@@ -38,7 +38,10 @@ class PeopleSelection:
         self._glanced: dict[TargetTrack, float] = {}
 
     def main(self, now: float, x: float, y: float) -> TargetTrack | None:
-        """Return the walking track that will be nearest, else the nearest."""
+        """Return the walking track that will be nearest, else the nearest.
+
+        ``x`` and ``y`` are the own position in odometry, in [m].
+        """
         self._tracker.prune(now)
         confirmed = [t for t in self._tracker.tracks if t.confirmed]
         walkers = [track for track in confirmed if track.has_walked]
@@ -54,7 +57,10 @@ class PeopleSelection:
     def look(
         self, main: TargetTrack | None, now: float, x: float, y: float
     ) -> TargetTrack | None:
-        """Return an approaching track, else one that is due for a glance."""
+        """Return an approaching track, else one that is due for a glance.
+
+        ``x`` and ``y`` are the own position in odometry, in [m].
+        """
         tracks = self._tracker.tracks
         candidates = recent_tracks(tracks, main, now)
         for track in candidates:

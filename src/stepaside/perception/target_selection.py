@@ -83,13 +83,19 @@ class RobotSelection:
         self._tracker = tracker
 
     def main(self, now: float, x: float, y: float) -> TargetTrack | None:
-        """Return the track recognised recently, else the nearest."""
+        """Return the track recognised recently, else the nearest.
+
+        ``x`` and ``y`` are the own position in odometry, in [m].
+        """
         return self._tracker.main(now, x, y)
 
     def look(
         self, main: TargetTrack | None, now: float, x: float, y: float
     ) -> TargetTrack | None:
-        """Return the recognised track, else one that is near or moves."""
+        """Return the recognised track, else one that is near or moves.
+
+        ``x`` and ``y`` are the own position in odometry, in [m].
+        """
         for track in recent_tracks(self._tracker.tracks, main, now):
             recognised = now - track.identified_at < MAX_GAZE_AGE
             moves = hypot(*track.velocity) > MOVING and track.confirmed
@@ -104,7 +110,7 @@ class RobotSelection:
     def settled(
         self, track: TargetTrack, now: float, x: float, y: float
     ) -> bool:
-        """Return true: the position of a robot is enough."""
+        """Return true: the position of a robot in odometry is enough."""
         return True
 
     def target_id(self, track: TargetTrack) -> int:

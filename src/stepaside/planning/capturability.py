@@ -158,9 +158,11 @@ def ray_interval(
     """Intersect a ray with a convex polygon.
 
     Args:
-        start: Origin of the ray, in [m]. Shape (2,).
+        start: Origin of the ray in the frame of the polygon, in [m]. Shape
+            (2,).
         heading: Unit vector. Shape (2,).
-        polygon: Corners, counter-clockwise, in [m]. Shape (n, 2).
+        polygon: Corners in any frame, counter-clockwise, in [m]. Shape
+            (n, 2).
 
     Returns:
         Distances of entry and exit, in [m]; (0, 0) if it misses.

@@ -26,8 +26,9 @@ class BoundedCom:
     Attributes:
         zmp: ZMP reference.
         eta: Rate of the pendulum, in [1/s].
-        dcm_polynomial: Polynomial part of the DCM, laid out like the ZMP's.
-        com_polynomial: Polynomial part of the CoM.
+        dcm_polynomial: Polynomial part of the DCM, in the frame of the ZMP
+            and laid out like it.
+        com_polynomial: Polynomial part of the CoM, in the frame of the ZMP.
         growth: DCM less its polynomial at the end of each piece, in [m].
             Shape (n, ...).
         decay: Coefficient of exp(-eta s) in the CoM of each piece, in [m].
@@ -50,7 +51,8 @@ class BoundedCom:
         Args:
             zmp: ZMP reference, constant after its end.
             eta: Rate of the pendulum, in [1/s].
-            com_start: CoM at the start, in [m]. Shape (...), as the ZMP.
+            com_start: CoM at the start in the frame of the ZMP, in [m].
+                Shape (...), as the ZMP.
 
         Returns:
             The solution; its velocity at the start follows from (16).

@@ -89,7 +89,7 @@ class ManeuverPlan:
 
     @property
     def landing(self) -> Pose:
-        """Pose of the first footstep."""
+        """Pose of the first footstep in the plan frame."""
         return Pose(*self.placements[2].tolist())
 
     @property

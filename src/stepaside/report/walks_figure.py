@@ -55,7 +55,7 @@ def mean_speed(places: Array, times: Array, period: float) -> Array:
     """Return the mean speed over the gait cycle around each sample.
 
     Args:
-        places: Positions, in [m]. Shape (n, 2) or more columns.
+        places: Positions in the world, in [m]. Shape (n, 2) or more columns.
         times: Their times, in [s]. Shape (n,).
         period: Duration of a gait cycle, in [s].
 

@@ -57,6 +57,6 @@ def matrix_of(quaternion: Array) -> Array:
 
 
 def rotate_vector(quaternion: Array, vector: Array) -> Array:
-    """Rotate a vector by a quaternion. Shape (3,)."""
+    """Rotate a vector by a quaternion, within its frame. Shape (3,)."""
     rotated: Array = matrix_of(quaternion) @ vector
     return rotated

@@ -118,7 +118,7 @@ class StepGame:
         return np.array([self.period / self.decisions])
 
     def move(self, player: TemplatePlayer, intent: Intent) -> list[Pose]:
-        """Return the pose after a decision: the exact arc of the maneuver."""
+        """Return the pose in the room after the exact arc of a maneuver."""
         if not intent.walks:
             return [player.pose]
         if player.strategy.saturated:  # rate of (6), up to the bearing
@@ -199,7 +199,7 @@ class UnicycleMatch:
         return self.period * np.arange(1, SAMPLES + 1) / SAMPLES
 
     def move(self, player: TemplatePlayer, intent: Intent) -> list[Pose]:
-        """Return the poses at the sample times after a decision."""
+        """Return the poses in the room at the sample times of a decision."""
         if not intent.walks:
             return [player.pose] * SAMPLES
         limits = player.limits

@@ -172,7 +172,7 @@ class Guard:
 
         Args:
             plan: The plan.
-            support: Pose of its frame in odometry.
+            support: Pose of the plan frame in odometry.
         """
         if self._footholds is None:
             return plan
@@ -190,7 +190,7 @@ class Guard:
 
         Args:
             plan: The maneuver.
-            support: Pose of its frame in odometry.
+            support: Pose of the plan frame in odometry.
             standing: Whether the robot stands; inside the margin it may then
                 move out of it.
         """

@@ -17,7 +17,7 @@ class Surroundings(Protocol):
     """Obstacles known to a robot.
 
     Attributes:
-        solids: Known obstacles.
+        solids: Known obstacles in the frame of the map.
         pose_odometry_in_map: Pose of the own odometry in the frame of the
             obstacles.
         map_error: Largest position error of the obstacles, in [m].
@@ -27,7 +27,7 @@ class Surroundings(Protocol):
 
     @property
     def solids(self) -> ObstacleSet:
-        """Known obstacles."""
+        """Known obstacles in the frame of the map."""
 
     @property
     def pose_odometry_in_map(self) -> Pose:
@@ -61,8 +61,8 @@ class KnownRoom:
     boxes, now and predicted.
 
     Attributes:
-        solids: Obstacles of the room, and the floor that moving obstacles
-            cover until a halt begun with the next step has ended.
+        solids: Obstacles in the room, and the floor there that moving
+            obstacles cover until a halt begun with the next step has ended.
         pose_odometry_in_map: Pose of the own odometry in the room.
         map_error: 0: a given room is exact.
     """
@@ -98,8 +98,8 @@ class MappedRoom:
     """Map from the own depth camera, in odometry.
 
     Attributes:
-        solids: Occupied cells and, if unknown floor counts as occupied,
-            unknown cells.
+        solids: Occupied cells in odometry and, if unknown floor counts as
+            occupied, unknown cells.
         pose_odometry_in_map: Odometry itself.
         map_error: Size of a cell of the map, in [m].
     """

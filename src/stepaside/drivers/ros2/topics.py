@@ -43,7 +43,7 @@ def yaw_rotation(heading: float) -> Quaternion:
 
 
 def pose_message(pose: Pose) -> PoseMessage:
-    """Convert a planar pose to a message."""
+    """Convert a planar pose to a message in the same frame."""
     return PoseMessage(Point(pose.x, pose.y), yaw_rotation(pose.theta))
 
 

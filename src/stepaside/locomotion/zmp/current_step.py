@@ -47,7 +47,10 @@ class CurrentStep(NamedTuple):
 
 
 def resting_step(support: Pose, foot: Foot) -> CurrentStep:
-    """Return the step of a standing robot; ``foot`` is the other foot."""
+    """Return the step of a standing robot on a support, in odometry.
+
+    ``foot`` is the other foot.
+    """
     return CurrentStep(support, foot, support, 0.0, 1.0, False)
 
 
@@ -111,7 +114,7 @@ def clip_to(value: tuple[float, float], box: Box) -> tuple[float, float]:
 
 
 def beyond(x: float, y: float, radius: float) -> tuple[float, float]:
-    """Return the part of a vector beyond a radius."""
+    """Return the part of a vector beyond a radius, in the same frame."""
     length = hypot(x, y)
     if length <= radius:
         return 0.0, 0.0

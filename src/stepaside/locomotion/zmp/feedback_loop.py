@@ -109,7 +109,10 @@ class Balance(Protocol):
         velocity: Vector,
         step: CurrentStep,
     ) -> tuple[Pose, Vector, Vector]:
-        """Return the estimated landing, CoM and velocity after a step."""
+        """Return the estimated landing, CoM and velocity after a step.
+
+        The landing is in odometry, CoM and velocity in the landed foot.
+        """
 
     def fit(
         self, plan_from: PlanFrom, state: CenterState, support: Pose
@@ -226,7 +229,7 @@ class OpenLoop:
         velocity: Vector,
         step: CurrentStep,
     ) -> tuple[Pose, Vector, Vector]:
-        """Return the planned state."""
+        """Return the planned landing, CoM and velocity, unchanged."""
         return landed, position, velocity
 
     def fit(

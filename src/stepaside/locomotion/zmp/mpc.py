@@ -207,7 +207,7 @@ class IntrinsicallyStableMpc:
             passed: Time since its start, in [s].
             dcm: Deviation of the DCM from the plan, in the plan frame, in
                 [m]. Shape (2,).
-            zmp: Deviation of the ZMP, likewise. Shape (2,).
+            zmp: Deviation of the ZMP, also in the plan frame. Shape (2,).
 
         Returns:
             Deviation that the velocities of the ZMP in the horizon have to

@@ -66,7 +66,7 @@ def polyline(points: Array, height: float, *, closed: bool = False) -> Array:
     """Return the segments of a horizontal polyline, in [m].
 
     Args:
-        points: (x, y) in [m]. Shape (m, 2).
+        points: (x, y) in the world, in [m]. Shape (m, 2).
         height: Height over the floor, in [m].
         closed: Whether the last point is connected to the first.
 
@@ -85,8 +85,8 @@ def ring(x: float, y: float, radius: float, height: float) -> Array:
     """Return the segments of a circle, in [m]. Shape (n, 2, 3).
 
     Args:
-        x: Coordinate of its center, in [m].
-        y: Coordinate of its center, in [m].
+        x: Coordinate of its center in the world, in [m].
+        y: Coordinate of its center in the world, in [m].
         radius: In [m].
         height: Height over the floor, in [m].
     """

@@ -27,8 +27,8 @@ class DistanceField(NamedTuple):
     Attributes:
         packed: All obstacles.
         enough: Largest distance of interest, in [m].
-        x: Least x of the cells, in [m].
-        y: Least y of the cells, in [m].
+        x: Least x of the cells in the frame of the obstacles, in [m].
+        y: Least y of the cells in the same frame, in [m].
         cell: Side of a cell, in [m].
         bounds: Lower bound of the clearance in each cell, in [m]; NaN until
             it is asked for. Shape (columns, rows).
@@ -54,8 +54,8 @@ def distance_field(
     Args:
         packed: Obstacles.
         enough: Largest distance of interest, in [m].
-        x: Centre of the cells, in [m].
-        y: Likewise.
+        x: Centre of the cells in the frame of the obstacles, in [m].
+        y: Its other coordinate there, in [m].
         reach: Half the side of the square of cells, in [m]; beyond it all
             obstacles are measured.
     """
@@ -75,7 +75,10 @@ def distance_field(
 def hull_clearance(
     packed: PackedObstacles, k: int, x: float, y: float, nearest: float
 ) -> float:
-    """Return the clearance of a point from one hull, at most ``nearest``."""
+    """Return the clearance of a point from one hull, at most ``nearest``.
+
+    The point is in the frame of the obstacles, in [m].
+    """
     edges, firsts, circles = packed.edges, packed.firsts, packed.circles
     dx, dy = x - circles[k, 0], y - circles[k, 1]
     reach = nearest + circles[k, 2]
@@ -114,8 +117,8 @@ def clearance_at(
 
     Args:
         packed: Obstacles.
-        x: Coordinate of the point, in [m].
-        y: Coordinate of the point, in [m].
+        x: Coordinate of the point in the frame of the obstacles, in [m].
+        y: Its other coordinate there, in [m].
         enough: Largest distance of interest, in [m].
 
     Returns:
@@ -148,7 +151,10 @@ def bound_cell(field: DistanceField, i: int, j: int) -> None:
 
 @inlined
 def field_clearance(field: DistanceField, x: float, y: float) -> float:
-    """Return the clearance of a point; see :func:`clearance_at`."""
+    """Return the clearance of a point in the frame of the obstacles.
+
+    See :func:`clearance_at`.
+    """
     u, v = (x - field.x) / field.cell, (y - field.y) / field.cell
     columns, rows = field.bounds.shape
     if not (0.0 <= u < columns and 0.0 <= v < rows):

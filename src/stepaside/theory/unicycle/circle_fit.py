@@ -44,7 +44,7 @@ def fit_circle(points: Array) -> tuple[Array, float]:
     """Fit a circle to points by linear least squares.
 
     Args:
-        points: Points (x, y), in [m]. Shape (n, 2).
+        points: Points (x, y) in any frame, in [m]. Shape (n, 2).
 
     Returns:
         Centre, shape (2,), and radius, in [m].

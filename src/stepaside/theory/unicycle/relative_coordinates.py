@@ -66,7 +66,7 @@ class RelativeStart:
         )
 
     def poses(self) -> tuple[Pose, Pose]:
-        """Return the poses of the pursuer, at the origin, and the evader."""
+        """Return the poses of both in the initial frame of the pursuer."""
         origin = Pose(0.0, 0.0, 0.0)
         return origin, self.evader_pose(origin)
 
