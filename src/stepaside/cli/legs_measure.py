@@ -40,6 +40,13 @@ BODIES = ("ideal", "delayed", "hardware")
     default="ideal",
     help="Imperfections of the body.  [default: ideal]",
 )
+@click.option(
+    "--random-walks",
+    type=click.IntRange(0, 1000),
+    default=0,
+    help="Also walk so many times for 60 s at random commands, and count "
+    "falls.  [default: 0]",
+)
 @seed_option(default=1, show_default=True, help="Seed of sensor errors.")
 @workers_option()
 @figure_option(help="Write a figure of commands and delivered velocities.")
@@ -50,6 +57,7 @@ def measure(
     legs: str,
     legs_contract: str,
     body: str,
+    random_walks: int,
     seed: int,
     workers: int | None,
     figure: str | None,
@@ -79,7 +87,9 @@ def measure(
         )
     settings = LegsSettings(network, legs_contract)
     file = response_path(description.folder, Path(network))
-    result = _measure(description, settings, body, seed, workers)
+    result = _measure(
+        description, settings, body, (seed, random_walks), workers
+    )
     with atomic_draft(file) as draft:
         entries = response_entries(result.response, Path(network))
         draft.write_text(tomli_w.dumps(entries), encoding="utf-8")
@@ -88,7 +98,7 @@ def measure(
 
         attempt(lambda: draw_response(result.response, Path(figure)))
     if as_json:
-        print_json(_facts(result) | {"file": str(file)})
+        print_json(measurement_facts(result) | {"file": str(file)})
     else:
         _print(result)
         echo(f"\nwrote {file}")
@@ -98,10 +108,18 @@ def _measure(
     description: "RobotDescription",
     legs: "LegsSettings",
     body: str,
-    seed: int,
+    draws: tuple[int, int],
     workers: int | None,
 ) -> "LegsMeasurement":
-    """Measure with a progress bar on standard error."""
+    """Measure with a progress bar on standard error.
+
+    Args:
+        description: Description of the robot.
+        legs: Walking policy.
+        body: Imperfections of the body.
+        draws: Seed, and number of walks at random commands.
+        workers: Number of processes.
+    """
     from ..core.worker_pool import worker_pool
     from ..fitting.legs_measurement import measure_legs
     from ..sim.body_settings import BODIES
@@ -116,11 +134,17 @@ def _measure(
             bar.refresh()
 
         return measure_legs(
-            description, legs, BODIES[body], executor, report, seed=seed
+            description,
+            legs,
+            BODIES[body],
+            executor,
+            report,
+            seed=draws[0],
+            random_walks=draws[1],
         )
 
 
-def _facts(result: "LegsMeasurement") -> dict[str, Any]:
+def measurement_facts(result: "LegsMeasurement") -> dict[str, Any]:
     """Return a measurement as JSON values; NaN becomes None."""
 
     def number(value: float) -> float | None:
@@ -134,6 +158,10 @@ def _facts(result: "LegsMeasurement") -> dict[str, Any]:
         "lag_s": [axis.lag for axis in result.response.axes],
         "halting": [axis.halting for axis in result.response.axes],
         "odometry_ratio": result.odometry_ratio(),
+        "random_walks": {
+            "walks": len(result.random_walks),
+            "falls_at_s": [t for t in result.random_walks if t is not None],
+        },
         "combined_error_m_s": result.combined_error[0],
         "combined_error_rad_s": result.combined_error[1],
         "trials": [
@@ -176,8 +204,17 @@ def _print(result: "LegsMeasurement") -> None:
                 f"{axis.halting:.2f} {length}",
             )
         )
+    rows.append(("falls", str(result.falls)))
+    if result.random_walks:
+        falls = [f"{t:.1f} s" for t in result.random_walks if t is not None]
+        rows.append(
+            (
+                "random commands",
+                f"{len(falls)} falls in {len(result.random_walks)} walks"
+                + "".join(f", at {fall}" for fall in falls),
+            )
+        )
     rows += [
-        ("falls", str(result.falls)),
         (
             "leg odometry",
             f"true motion is {result.odometry_ratio():.3f} of it",

@@ -11,6 +11,7 @@ import numpy as np
 
 from ..core.errors import PolicyError
 from ..core.poses import Array, Pose
+from ..core.random_streams import named_generator
 from ..games.policy_player import place_on_legs
 from ..games.walker_factory import WalkerSetup
 from ..locomotion.policy.contract import CommandRanges
@@ -33,6 +34,8 @@ from ..strategies.velocity_set import STILL, BodyVelocity
 STANDING = 1.5  # before the command, in [s]: the gyro is calibrated in 1 s
 SETTLING = 3.0  # from the command to a steady walk, in [s]
 STEADY = 6.0  # over which the velocity is averaged, in [s]
+RANDOM_WALK = 60.0  # of random commands, in [s]
+HOLDS = 1.0, 4.0  # shortest and longest time of a random command, in [s]
 HALTING = 2.0  # from the end of the command to the end of a trial, in [s]
 SHARES = (-1.0, -0.75, -0.5, -0.25, 0.0, 0.25, 0.5, 0.75, 1.0)
 # Combined commands, as shares of the range, that check the sum of the axes.
@@ -93,46 +96,96 @@ def run_trial(trial: LegsTrial) -> LegsTrialResult:
     Raises:
         PolicyError: If the network cannot run on the robot.
     """
-    physics, description = PhysicsSettings(), trial.description
-    contract, network = load_policy(trial.legs, description)
-    world = World({"robot": description}, physics, trial.body, trial.seed)
-    legs = PolicyLegs(
-        contract,
-        network,
-        description,
-        tick=physics.tick,
-        learns=False,
-    )
-    setup = WalkerSetup(
-        "robot",
-        description,
-        GaitSettings(zmp_forward=0.0),
-        ControlSettings(),
-        at_tick(trial.body, physics.tick),
-        Pose(0.0, 0.0, 0.0),
-        trial.seed,
-    )
-    truth = setup.true_state_in(world)
-    robot = place_on_legs(world, setup, legs, truth=truth)
-    mujoco.mj_forward(world.model, world.data)
+    walk = _LegsWalk(trial)
+    tick = walk.world.physics.tick
     ends = STANDING + SETTLING + STEADY
     poses, estimates = [], []
-    while world.time < ends + HALTING:
-        walks = STANDING <= world.time + 1e-9 < ends
-        place = truth.position_reference_in_world
-        poses.append((*place, truth.heading_in_world))
-        estimates.append(legs.pose)
-        if truth.has_fallen:
+    while walk.world.time < ends + HALTING:
+        walks = STANDING <= walk.world.time + 1e-9 < ends
+        place = walk.truth.position_reference_in_world
+        poses.append((*place, walk.truth.heading_in_world))
+        estimates.append(walk.legs.pose)
+        if not walk.advance(trial.command if walks else STILL):
             nothing = BodyVelocity(*[float("nan")] * 3)
+            fell_at = walk.world.time
             return LegsTrialResult(
-                trial.command, nothing, nothing[0], nothing[0], world.time
+                trial.command, nothing, nothing[0], nothing[0], fell_at
             )
-        command = trial.command if walks else STILL
-        robot.write(legs.update(robot.read(), command))
-        world.step()
-    result = _evaluate(trial.command, np.array(poses), physics.tick)
-    estimated = _evaluate(trial.command, np.array(estimates), physics.tick)
+    result = _evaluate(trial.command, np.array(poses), tick)
+    estimated = _evaluate(trial.command, np.array(estimates), tick)
     return result._replace(odometry=estimated.delivered[:2])
+
+
+def run_random_walk(trial: LegsTrial) -> float | None:
+    """Walk for a minute at commands that change at random.
+
+    Each command is drawn from the ranges of the contract, and holds for 1 to
+    4 s. The seed of the trial decides; its command does not matter.
+
+    Returns:
+        Time of a fall, in [s]; None without one.
+
+    Raises:
+        PolicyError: If the network cannot run on the robot.
+    """
+    walk = _LegsWalk(trial)
+    generator = named_generator(trial.seed, "random walk")
+    low, high = np.array(walk.legs.contract.command_ranges).T
+    command, until = STILL, STANDING
+    while walk.world.time < RANDOM_WALK:
+        if walk.world.time + 1e-9 >= until:
+            command = BodyVelocity(*generator.uniform(low, high).tolist())
+            until += float(generator.uniform(*HOLDS))
+        if not walk.advance(command):
+            return walk.world.time
+    return None
+
+
+class _LegsWalk:
+    """Robot on a policy in a world of its own.
+
+    Attributes:
+        world: World with the robot.
+        legs: Learned legs.
+        truth: True state of the robot.
+    """
+
+    def __init__(self, trial: LegsTrial) -> None:
+        """Stand in the default posture of the policy."""
+        physics, description = PhysicsSettings(), trial.description
+        contract, network = load_policy(trial.legs, description)
+        self.world = World(
+            {"robot": description}, physics, trial.body, trial.seed
+        )
+        self.legs = PolicyLegs(
+            contract,
+            network,
+            description,
+            tick=physics.tick,
+            learns=False,
+        )
+        setup = WalkerSetup(
+            "robot",
+            description,
+            GaitSettings(zmp_forward=0.0),
+            ControlSettings(),
+            at_tick(trial.body, physics.tick),
+            Pose(0.0, 0.0, 0.0),
+            trial.seed,
+        )
+        self.truth = setup.true_state_in(self.world)
+        self._robot = place_on_legs(
+            self.world, setup, self.legs, truth=self.truth
+        )
+        mujoco.mj_forward(self.world.model, self.world.data)
+
+    def advance(self, command: BodyVelocity) -> bool:
+        """Run one tick; return whether the robot stands."""
+        if self.truth.has_fallen:
+            return False
+        self._robot.write(self.legs.update(self._robot.read(), command))
+        self.world.step()
+        return True
 
 
 def _evaluate(
@@ -209,11 +262,14 @@ class LegsMeasurement:
         combined_error: Greatest difference between the velocity of a combined
             command and the sum of its axes: of the horizontal velocity, in
             [m/s], and of the turning rate, in [rad/s].
+        random_walks: Time of the fall in each walk at random commands, in
+            [s]; None without one.
     """
 
     trials: tuple[LegsTrialResult, ...]
     response: VelocityResponse
     combined_error: tuple[float, float]
+    random_walks: tuple[float | None, ...] = ()
 
     @property
     def falls(self) -> int:
@@ -251,6 +307,7 @@ def measure_legs(
     report: Callable[[int, int], None],
     *,
     seed: int = 1,
+    random_walks: int = 0,
 ) -> LegsMeasurement:
     """Walk a grid of commands, and tabulate the velocities that result.
 
@@ -260,7 +317,8 @@ def measure_legs(
         body: Deviations of the body from an ideal one.
         executor: Runs the walks.
         report: Called with the number of finished walks and of all walks.
-        seed: Seed of sensor errors.
+        seed: Seed of sensor errors, and the first one of random commands.
+        random_walks: Number of walks at random commands.
 
     Raises:
         PolicyError: If the network cannot run on the robot, the robot falls
@@ -275,12 +333,20 @@ def measure_legs(
     results = []
     for result in executor.map(run_trial, trials):
         results.append(result)
-        report(len(results), len(trials))
+        report(len(results), len(trials) + random_walks)
     if results[0].fell_at is not None:
         raise PolicyError(
             f"legs: the robot fell at {results[0].fell_at:.2f} s while it "
             "was to stand: the contract does not fit the network"
         )
+    random = [
+        LegsTrial(description, legs, body, STILL, seed + i)
+        for i in range(random_walks)
+    ]
+    falls = []
+    for fall in executor.map(run_random_walk, random):
+        falls.append(fall)
+        report(len(trials) + len(falls), len(trials) + random_walks)
     singles = results[: -len(COMBINED)]
     axes = [_axis(i, singles) for i in range(3)]
     response = VelocityResponse((axes[0], axes[1], axes[2]))
@@ -288,6 +354,7 @@ def measure_legs(
         tuple(results),
         response,
         _combined_error(response, results[-len(COMBINED) :]),
+        tuple(falls),
     )
 
 
