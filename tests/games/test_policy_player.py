@@ -10,7 +10,7 @@ pytest.importorskip("onnxruntime")
 
 from legs_robot import nao_on_legs
 from stepaside.core.errors import ConfigurationError, PolicyError
-from stepaside.games.duel import run_duel
+from stepaside.games.duel import Duel, run_duel
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.outcome import Outcome
 from stepaside.games.robot_settings import with_legs, with_robot
@@ -77,6 +77,19 @@ def test_a_period_that_the_tick_does_not_divide_is_refused(
     settings = with_robot(DuelSettings(duration=1.0), str(folder))
     with pytest.raises(PolicyError, match="tick must divide .* 0.021"):
         run_duel(settings)
+
+
+@pytest.mark.parametrize(
+    ("body", "tick"),
+    [("ideal", 0.02), ("delayed", 0.004), ("hardware", 0.004)],
+)
+def test_an_ideal_body_is_controlled_at_the_period_of_its_policy(
+    body: str, tick: float, standing: DuelSettings
+) -> None:
+    """One that delays or disturbs keeps its shorter tick."""
+    duel = Duel(replace(standing, body=BODIES[body]))
+    assert duel.world.physics.tick == pytest.approx(tick)
+    duel.close()
 
 
 def test_cameras_are_refused(standing: DuelSettings) -> None:

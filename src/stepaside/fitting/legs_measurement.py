@@ -12,7 +12,7 @@ import numpy as np
 from ..core.errors import PolicyError
 from ..core.poses import Array, Pose
 from ..core.random_streams import named_generator
-from ..games.policy_player import place_on_legs
+from ..games.policy_player import place_on_legs, policy_physics
 from ..games.walker_factory import WalkerSetup
 from ..locomotion.policy.contract import CommandRanges
 from ..locomotion.policy.legs_loader import load_policy
@@ -152,7 +152,10 @@ class _LegsWalk:
 
     def __init__(self, trial: LegsTrial) -> None:
         """Stand in the default posture of the policy."""
-        physics, description = PhysicsSettings(), trial.description
+        description = trial.description
+        physics = policy_physics(
+            PhysicsSettings(), trial.body, [(trial.legs, description)]
+        )
         contract, network = load_policy(trial.legs, description)
         self.world = World(
             {"robot": description}, physics, trial.body, trial.seed

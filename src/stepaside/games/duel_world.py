@@ -20,6 +20,7 @@ from ..sim.ideal_sensors import IdealLineOfSight
 from ..sim.pedestrian_models import FIGURES
 from ..sim.person_body import PersonBody
 from ..sim.person_motion import PersonMotion
+from ..sim.physics_settings import PhysicsSettings
 from ..sim.push import pushes_by_robot
 from ..sim.world import World
 from ..strategies import load_strategy
@@ -94,9 +95,7 @@ class DuelWorld:
             name: _setup_of(settings, name, frames[PLAYERS.index(name)])
             for name in settings.robots
         }
-        physics = settings.physics
-        if not any(settings.robot_of(n).legs.walks for n in self._setups):
-            physics = with_control_period(physics, settings.body)
+        physics = _physics_of(settings, self._setups)
         named = settings.pursuer_strategy, settings.evader_strategy
         self._strategies = {
             name: load_strategy(strategy, settings.strategy)
@@ -255,6 +254,21 @@ class DuelWorld:
                     wears_trim=not isinstance(other, PersonPlayer),
                 )
         return SightObserver(evaluators, self._senses.renderer, every=every)
+
+
+def _physics_of(
+    settings: DuelSettings, setups: Mapping[str, WalkerSetup]
+) -> PhysicsSettings:
+    """Return the physics of a duel, at the control period of its robots."""
+    legs = {name: settings.robot_of(name).legs for name in setups}
+    if not any(each.walks for each in legs.values()):
+        return with_control_period(settings.physics, settings.body)
+    if not all(each.walks for each in legs.values()):
+        return settings.physics
+    from .policy_player import policy_physics
+
+    walkers = [(legs[name], own.description) for name, own in setups.items()]
+    return policy_physics(settings.physics, settings.body, walkers)
 
 
 def _setup_of(settings: DuelSettings, name: str, frame: Pose) -> WalkerSetup:

@@ -1,6 +1,7 @@
 """Player that is a simulated robot on learned legs."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from ..control.scheme import LocomotionScheme
@@ -9,13 +10,16 @@ from ..control.strategy_runner import StrategyRunner
 from ..core.errors import PolicyError
 from ..core.poses import Pose
 from ..core.random_streams import named_generator
-from ..locomotion.policy.legs_loader import load_legs
+from ..locomotion.policy.legs_loader import load_legs, load_policy
 from ..locomotion.policy.legs_settings import LegsSettings
 from ..locomotion.policy.policy_legs import PolicyLegs
 from ..locomotion.policy.policy_walk import PolicyWalk
 from ..locomotion.walk_snapshots import Phase, StepStarted
+from ..robots.description import RobotDescription
+from ..sim.body_settings import BodySettings
 from ..sim.ground_truth import GroundTruth, TrueRobotState
 from ..sim.ideal_sensors import IdealLineOfSight
+from ..sim.physics_settings import PhysicsSettings
 from ..sim.push import Push
 from ..sim.simulated_robot import SensorSetup, SimulatedRobot
 from ..sim.world import World
@@ -99,6 +103,36 @@ class PolicyPlayer:
         self.robot.close()
 
 
+def policy_physics(
+    physics: PhysicsSettings,
+    body: BodySettings,
+    walkers: Sequence[tuple[LegsSettings, RobotDescription]],
+) -> PhysicsSettings:
+    """Return physics settings whose tick is the period of the policies.
+
+    With an ideal body nothing happens between two evaluations of a policy:
+    the actuators apply its gains at every time step.
+
+    Args:
+        physics: Settings of the physics.
+        body: Settings of the body; one with delays or sensor errors keeps
+            its tick.
+        walkers: Policy and robot of each player.
+
+    Raises:
+        PolicyError: If a network cannot run on its robot.
+    """
+    if body.has_sensor_errors or not body.has_ideal_servos:
+        return physics
+    periods = {load_policy(*walker)[0].period for walker in walkers}
+    if len(periods) != 1:
+        return physics
+    steps = periods.pop() / physics.time_step
+    if round(steps) < 1 or abs(steps - round(steps)) > 1e-6:
+        return physics
+    return replace(physics, tick=round(steps) * physics.time_step)
+
+
 def place_on_legs(
     world: World,
     setup: WalkerSetup,
@@ -128,6 +162,7 @@ def place_on_legs(
         SensorSetup(
             generator=named_generator(setup.seed, f"sensors/{setup.name}"),
             averages_imu=True,
+            integrates_imu=not setup.body.has_sensor_errors,
             sight=sight,
             truth=truth,
         ),

@@ -56,6 +56,9 @@ class Measurement(NamedTuple):
             Shape (joints,).
         players: Latest sightings of all other players, with their
             identities, from a sensor that recognises them.
+        latest_gyro: Angular velocity of the torso at this instant, in
+            [rad/s], where ``gyro`` is a mean since the last tick; None where
+            it is the only reading. Shape (3,).
     """
 
     time: float
@@ -68,3 +71,4 @@ class Measurement(NamedTuple):
     pose_in_room: Pose | None = None
     joint_velocities: Array | None = None
     players: tuple[Sighting, ...] = ()
+    latest_gyro: Array | None = None

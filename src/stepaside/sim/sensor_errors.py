@@ -1,6 +1,7 @@
 """Errors of encoders, IMU, foot sensors and of the mass model."""
 
 from collections import deque
+from math import atan2, sqrt
 
 import mujoco
 import numpy as np
@@ -41,6 +42,102 @@ class AveragedImu:
         self._accelerometer_sum.fill(0.0)
         self._count = 0
         return gyro, accelerometer
+
+
+class StrapdownImu:
+    """Gyro and accelerometer that integrate between readings.
+
+    The means follow from the change of orientation and velocity of the torso
+    over the whole interval, as an IMU with delta angles and delta velocities
+    gives them. Nothing has to be read in between.
+    """
+
+    def __init__(
+        self, model: mujoco.MjModel, data: mujoco.MjData, root: int, site: int
+    ) -> None:
+        """Integrate from the present state.
+
+        Args:
+            model: Compiled model.
+            data: Its state.
+            root: Body with the free joint, on which the IMU is.
+            site: Site of the IMU.
+        """
+        joint = model.body_jntadr[root]
+        at, dof = model.jnt_qposadr[joint], model.jnt_dofadr[joint]
+        self._quaternion: Array = data.qpos[at + 3 : at + 7]  # views
+        self._velocity: Array = data.qvel[dof : dof + 3]
+        self._rate: Array = data.qvel[dof + 3 : dof + 6]
+        self._data = data
+        self._gravity: Array = model.opt.gravity.copy()
+        self._place: list[float] = model.site_pos[site].tolist()
+        self._axes: Array = axes_of(model.site_quat[site].tolist())
+        self._last: tuple[float, Array, Array, Array] | None = None
+
+    def read(self) -> tuple[Array, Array, Array]:
+        """Return mean rate and specific force since the last call, and rate.
+
+        Returns:
+            Mean angular velocity, in [rad/s], and mean specific force, in
+            [m/s^2], since the last call, and the present angular velocity, in
+            the frame of the IMU. Shape (3,) each.
+        """
+        now, quaternion = self._data.time, self._quaternion.copy()
+        torso = axes_of(quaternion.tolist())
+        (a, b, c), (x, y, z) = self._rate.tolist(), self._place
+        swing = np.array([b * z - c * y, c * x - a * z, a * y - b * x])
+        velocity = self._velocity + torso @ swing
+        rate = self._rate.copy()
+        mean, force = rate, -self._gravity @ torso
+        if self._last is not None and now > self._last[0]:
+            before, last, axes, moved = self._last
+            mean = turn_between(last, quaternion) / (now - before)
+            change = (velocity - moved) / (now - before) - self._gravity
+            force = 0.5 * (change @ (axes + torso))
+        self._last = now, quaternion, torso, velocity
+        return mean @ self._axes, force @ self._axes, rate @ self._axes
+
+
+def axes_of(quaternion: list[float]) -> Array:
+    """Return the rotation matrix of a unit quaternion (w, x, y, z)."""
+    w, x, y, z = quaternion
+    xx, yy, zz = x * x, y * y, z * z
+    xy, xz, yz = x * y, x * z, y * z
+    wx, wy, wz = w * x, w * y, w * z
+    return np.array(
+        [
+            [1 - 2 * (yy + zz), 2 * (xy - wz), 2 * (xz + wy)],
+            [2 * (xy + wz), 1 - 2 * (xx + zz), 2 * (yz - wx)],
+            [2 * (xz - wy), 2 * (yz + wx), 1 - 2 * (xx + yy)],
+        ]
+    )
+
+
+def turn_between(first: Array, second: Array) -> Array:
+    """Return the rotation vector between two orientations, in [rad].
+
+    Args:
+        first: Unit quaternion (w, x, y, z) of a frame.
+        second: That of the frame into which it turns, in less than a turn.
+
+    Returns:
+        Axis times angle, in either frame. Shape (3,).
+    """
+    (a, b, c, d), (w, x, y, z) = first.tolist(), second.tolist()
+    cosine = a * w + b * x + c * y + d * z
+    sine = np.array(
+        [
+            a * x - b * w - c * z + d * y,
+            a * y + b * z - c * w - d * x,
+            a * z - b * y + c * x - d * w,
+        ]
+    )
+    if cosine < 0.0:
+        cosine, sine = -cosine, -sine
+    half = atan2(sqrt(sine.dot(sine)), cosine)
+    # half / sin(half), without dividing by half = 0
+    turn: Array = 2.0 * sine / np.sinc(half / np.pi)
+    return turn
 
 
 class SensorErrors:

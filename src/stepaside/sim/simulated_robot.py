@@ -20,7 +20,7 @@ from .ideal_sensors import IdealLineOfSight, IdealPose
 from .push import Push, ScheduledPush
 from .push_forces import PushApplier
 from .robot_state_log import RobotStateLog, centers_of_pressure
-from .sensor_errors import AveragedImu, SensorErrors
+from .sensor_errors import AveragedImu, SensorErrors, StrapdownImu
 from .servos import (
     IdealServos,
     JointGains,
@@ -77,6 +77,9 @@ class SensorSetup:
             sensors.
         averages_imu: Whether the IMU averages between readings, as real ones
             do, instead of sampling.
+        integrates_imu: Whether it gives the change of orientation and
+            velocity between readings, as far as it is on the body with the
+            free joint.
         sight: Ideal line of sight to the opponent, if any.
         players: Ideal lines of sight to all other players, in a game of any
             number of players.
@@ -87,6 +90,7 @@ class SensorSetup:
 
     generator: np.random.Generator | None = None
     averages_imu: bool = False
+    integrates_imu: bool = False
     sight: IdealLineOfSight | None = None
     players: tuple[IdealLineOfSight, ...] = ()
     eyes: SensorSuite | None = None
@@ -167,7 +171,11 @@ class SimulatedRobot:
         self._stance = StanceWatch(model, data, name, description)
         self.place = IdealPose(self.truth) if setup.knows_pose else None
         self._imu: AveragedImu | None = None
-        if setup.averages_imu:
+        self._strapdown: StrapdownImu | None = None
+        site = self._imu_site(description.sensors.gyro)
+        if setup.integrates_imu and model.site_bodyid[site] == root.id:
+            self._strapdown = StrapdownImu(model, data, root.id, site)
+        elif setup.averages_imu:
             self._imu = AveragedImu(data, self._gyro, self._accelerometer)
             world.before_step.append(self._imu.before_step)
 
@@ -230,6 +238,11 @@ class SimulatedRobot:
             ) from None
         return slice(int(found.adr[0]), int(found.adr[0] + found.dim[0]))
 
+    def _imu_site(self, gyro: str) -> int:
+        """Return the index of the site of a gyro."""
+        model = self.world.model
+        return int(model.sensor_objid[model.sensor(f"{self.name}/{gyro}").id])
+
     def _place_in_world(
         self, kinematics: JointPosture, pose: Pose, at: int
     ) -> None:
@@ -250,7 +263,10 @@ class SimulatedRobot:
         now = self.world.time
         sighting = None if self.sight is None else self.sight.read(now)
         angles = self._qpos_view.take(self._qpos)
-        if self._imu is None:
+        latest = None
+        if self._strapdown is not None:
+            gyro, specific_force, latest = self._strapdown.read()
+        elif self._imu is None:
             gyro, specific_force = (
                 self._gyro_view.copy(),
                 self._accelerometer_view.copy(),
@@ -277,6 +293,7 @@ class SimulatedRobot:
             if self._dofs is None
             else self.world.data.qvel.take(self._dofs),
             self._sightings(now),
+            latest,
         )
 
     def _sightings(self, now: float) -> tuple[Sighting, ...]:

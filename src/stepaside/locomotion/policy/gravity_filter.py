@@ -1,5 +1,7 @@
 """Direction of gravity in the torso frame, from gyro and accelerometer."""
 
+from math import asin, atan2, sqrt
+
 import numpy as np
 
 from ...core.constants import GRAVITY
@@ -44,7 +46,7 @@ class GravityFilter:
     def tilt(self) -> tuple[float, float]:
         """Roll and pitch of the torso, in [rad]."""
         x, y, z = self.up.tolist()
-        return float(np.arctan2(y, z)), -float(np.arcsin(min(1, max(-1, x))))
+        return atan2(y, z), -asin(min(1.0, max(-1.0, x)))
 
     def update(
         self,
@@ -63,17 +65,18 @@ class GravityFilter:
                 Shape (3,).
             duration: Time since the last reading, in [s].
         """
-        gyro = np.nan_to_num(gyro)  # a gyro with two axes
         if not self.ready:
             self._calibrate(specific_force, duration)
             return
+        if np.isnan(gyro).any():  # a gyro with two axes
+            gyro = np.nan_to_num(gyro)
         self.rate = gyro - self._bias
         force = (specific_force - acceleration) / GRAVITY
         error = _cross(force, self.up)
         self._bias = self._bias - duration * BIAS_CORRECTION * error
         turn = self.rate + CORRECTION * error
         up = self.up + duration * _cross(self.up, turn)
-        self.up = up / np.linalg.norm(up)
+        self.up = up / sqrt(up.dot(up))
 
     def _calibrate(self, specific_force: Array, duration: float) -> None:
         """Average the direction of gravity of a robot that stands."""

@@ -167,7 +167,9 @@ class PolicyLegs:
         motion = BodyMotion(
             measurement.joint_positions[self._joints],
             velocities[self._joints],
-            np.array(measurement.gyro),
+            measurement.gyro
+            if measurement.latest_gyro is None
+            else measurement.latest_gyro,
             -self._gravity.up,
             self.odometry.velocity,
         )

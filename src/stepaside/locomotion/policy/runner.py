@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...core.poses import Array
-from .contract import ObservationTerm, PolicyContract
+from .contract import PolicyContract
 from .network import PolicyNetwork
 
 STANDS_BELOW = 0.01  # magnitude of a command that counts as zero
@@ -44,10 +44,20 @@ class PolicyRunner:
         self.contract, self._network = contract, network
         self._default = np.array(contract.default_posture)
         self._scale = np.array(contract.action_scale)
-        self._previous = np.zeros(len(contract.joints))
+        self._previous: Array = np.zeros(len(contract.joints))
         self._targets = self._default
         self._command = np.zeros(3)
-        self._history: list[list[Array]] = []
+        self._history: list[Array] = []
+        widths = [contract.width_of(term) for term in contract.terms]
+        self._parts = np.cumsum(widths)[:-1]
+        self._scales = np.concatenate(
+            [
+                np.broadcast_to(term.scale, width)
+                for term, width in zip(contract.terms, widths, strict=True)
+            ]
+        )
+        clips = np.repeat([term.clip for term in contract.terms], widths)
+        self._clips = clips if np.isfinite(clips).any() else None
         clock = contract.clock
         self._phases = np.array(() if clock is None else clock.offsets)
         self._stands = True
@@ -69,16 +79,23 @@ class PolicyRunner:
         """
         contract = self.contract
         change = contract.command_rate * contract.period
-        self._command = self._command + np.clip(
-            command - self._command, -change, change
+        missing = command - self._command
+        self._command = self._command + np.minimum(
+            np.maximum(missing, -change), change
         )
         self._advance_clock()
-        frame = [self._value(term, body) for term in contract.terms]
+        frame = np.concatenate(
+            [self._measured(term.name, body) for term in contract.terms]
+        )
+        if self._clips is not None:
+            frame = np.minimum(np.maximum(frame, -self._clips), self._clips)
+        frame *= self._scales
         if not self._history:
             self._history = [frame] * contract.history
         self._history = [*self._history[1:], frame]
         raw = self._network.evaluate(self._flat_history())
-        clipped = np.clip(raw, -contract.action_clip, contract.action_clip)
+        limit = contract.action_clip
+        clipped = np.minimum(np.maximum(raw, -limit), limit)
         self._previous = clipped if contract.observes_clipped else raw
         share = contract.action_filter
         self._targets = share * self._targets + (1.0 - share) * (
@@ -101,12 +118,6 @@ class PolicyRunner:
             self._phases = (self._phases + step + pi) % (2.0 * pi) - pi
         self._stands = stands
 
-    def _value(self, term: ObservationTerm, body: BodyMotion) -> Array:
-        """Return the values of one term, clipped and scaled."""
-        value = np.clip(self._measured(term.name, body), -term.clip, term.clip)
-        scaled: Array = value * np.array(term.scale)
-        return scaled
-
     def _measured(self, name: str, body: BodyMotion) -> Array:
         if name in ("sin_phase", "cos_phase"):
             clock = self.contract.clock
@@ -115,23 +126,37 @@ class PolicyRunner:
             wave = np.sin if name == "sin_phase" else np.cos
             found: Array = wave(self._phases)
             return found
-        values: dict[str, Array] = {
-            "base_lin_vel": body.velocity,
-            "base_ang_vel": body.angular_velocity,
-            "projected_gravity": body.gravity,
-            "command": self._command,
-            "command_lin_vel": self._command[:2],
-            "command_ang_vel": self._command[2:],
-            "joint_pos": body.joint_positions - self._default,
-            "joint_vel": body.joint_velocities,
-            "actions": self._previous,
-        }
-        return values[name]
+        match name:
+            case "base_lin_vel":
+                return body.velocity
+            case "base_ang_vel":
+                return body.angular_velocity
+            case "projected_gravity":
+                return body.gravity
+            case "command":
+                return self._command
+            case "command_lin_vel":
+                return self._command[:2]
+            case "command_ang_vel":
+                return self._command[2:]
+            case "joint_pos":
+                angles: Array = body.joint_positions - self._default
+                return angles
+            case "joint_vel":
+                return body.joint_velocities
+        return self._previous
 
     def _flat_history(self) -> Array:
         """Return the input of the network. Shape (observation width,)."""
         frames = self._history
+        if len(frames) == 1:
+            return frames[0]
         if self.contract.history_order == "frame":
-            return np.concatenate([value for f in frames for value in f])
-        by_term = zip(*frames, strict=True)
-        return np.concatenate([value for term in by_term for value in term])
+            return np.concatenate(frames)
+        by_term = zip(
+            *(np.split(frame, self._parts) for frame in frames), strict=True
+        )
+        joined: Array = np.concatenate(
+            [value for term in by_term for value in term]
+        )
+        return joined

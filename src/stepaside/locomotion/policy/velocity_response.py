@@ -18,6 +18,7 @@ from ...strategies.velocity_set import (
 from .contract import CommandRanges
 
 AXES = ("forward", "lateral", "turn")
+TOLERANCE = 1e-9  # of the share of an interval
 SWEEPS = 12  # over the axes of the inverse; it converges before
 
 
@@ -117,18 +118,31 @@ class VelocityResponse:
         Each axis in turn is solved for what the others leave; the cross terms
         of walking policies are small.
         """
-        command = [0.0, 0.0, 0.0]
-        effects = [STILL, STILL, STILL]
+        found = [(0, 0.0)] * 3
+        effects: list[tuple[float, ...]] = [STILL, STILL, STILL]
         for _ in range(SWEEPS):
-            before = tuple(command)
-            for i in range(3):
-                cross = sum(effects[j][i] for j in range(3) if j != i)
-                own, given = self._own[i], self.axes[i].commands
-                k, share = _locate(own, velocity[i] - cross)
-                command[i] = given[k] + share * (given[k + 1] - given[k])
-                effects[i] = self._effect(i, command[i])
-            if before == tuple(command):
+            changed = False
+            for i, own in enumerate(self._own):
+                others = effects[i - 1][i] + effects[i - 2][i]
+                k, share = _locate(own, velocity[i] - others)
+                changed |= k != found[i][0] or (
+                    abs(share - found[i][1]) > TOLERANCE
+                )
+                found[i] = k, share
+                rows = self._effects[i]
+                (a, b, c), (u, v, w) = rows[k], rows[k + 1]
+                effects[i] = (
+                    a + share * (u - a),
+                    b + share * (v - b),
+                    c + share * (w - c),
+                )
+            if not changed:
                 break
+        command = (
+            axis.commands[k]
+            + share * (axis.commands[k + 1] - axis.commands[k])
+            for axis, (k, share) in zip(self.axes, found, strict=True)
+        )
         return BodyVelocity(*command)
 
     @cached_property
