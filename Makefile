@@ -10,7 +10,8 @@ INSTALL := -m pip install --disable-pip-version-check --no-warn-script-location 
 	--root-user-action=ignore --constraint constraints.txt
 
 .PHONY: setup duel test-tools test types suite python other other-setup other-test mutate \
-	fuzz bench figures wheel clean constraints ros2-peers
+	fuzz bench figures docs docs-run docs-setup wheel clean constraints \
+	ros2-peers
 
 setup: $(STAMP)
 
@@ -119,6 +120,20 @@ bench: setup
 # Tables, numbers and figures of README and docs/, from docs/results/.
 figures: setup
 	$(BIN)/python -m tools.documents
+
+# The documentation site, in build/site; open build/site/index.html.
+docs: docs-setup
+	$(BIN)/sphinx-build --quiet --fail-on-warning --keep-going \
+		-d build/site-cache docs build/site
+	@echo "the site is build/site/index.html"
+
+# Tutorials whose outputs are older than the code, or make docs-run ONLY=name.
+docs-run: docs-setup
+	$(BIN)/python -m tools.documents.notebooks $(ONLY)
+
+docs-setup: setup
+	@$(BIN)/python -c "import furo, jupytext, myst_nb, sphinx_click" \
+		2>/dev/null || $(BIN)/python $(INSTALL) --editable ".[docs]"
 
 constraints:
 	uv pip compile --universal --python-version 3.11 --all-extras \

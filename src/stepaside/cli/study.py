@@ -77,9 +77,16 @@ def study(
 def _print(rows: list[dict[str, Any]]) -> None:
     """Print one line per combination of settings."""
     for row in rows:
-        settings = ", ".join(f"{k}={v}" for k, v in row["settings"].items())
+        settings = ", ".join(
+            f"{name}={value:.6g}"
+            if isinstance(value, float)
+            else f"{name}={value}"
+            for name, value in row["settings"].items()
+        )
+        number = row["cases"]
+        cases = "1 case" if number == 1 else f"{number} cases"
         outcomes = ", ".join(f"{n} {k}" for k, n in row["outcomes"].items())
-        echo(f"{settings or 'all'}: {row['cases']} cases, {outcomes}")
+        echo(f"{settings or 'all'}: {cases}, {outcomes}")
         for name in list(row)[3:]:
             found = row[name]
             echo(

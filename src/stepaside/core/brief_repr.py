@@ -1,10 +1,12 @@
-"""Short text of values, for interactive sessions."""
+"""Short text of values, for interactive sessions and notebooks."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import MISSING, fields, is_dataclass
+from html import escape
 from typing import Any
 
 MOST = 4  # longest list or mapping written out, in [entries]
+DIGITS = 6  # significant ones of a number
 LONGEST = 80  # longest text of one entry, in [characters]
 
 
@@ -23,6 +25,37 @@ def brief_repr(value: Any) -> str:
         if not _equals(getattr(value, name), default)
     ]
     return f"{type(value).__name__}({', '.join(shown)})"
+
+
+def html_repr(value: Any) -> str:
+    """Write a dataclass or a named tuple as a table in HTML.
+
+    Fields that differ from their default are bold; nested values are rows of
+    their own, with the names of their fields joined by dots.
+
+    Args:
+        value: Instance of a dataclass or of a named tuple.
+    """
+    rows = "".join(
+        f"<tr><td>{escape(name)}</td><td>{_marked(text, changed)}</td></tr>"
+        for name, text, changed in _rows(value)
+    )
+    return f"<table><caption>{type(value).__name__}</caption>{rows}</table>"
+
+
+def _rows(value: Any, prefix: str = "") -> Iterator[tuple[str, str, bool]]:
+    """Yield name, text and whether it differs from the default."""
+    for name, default in _defaults(value):
+        inner = getattr(value, name)
+        if is_dataclass(inner) and not isinstance(inner, type):
+            yield from _rows(inner, f"{prefix}{name}.")
+        else:
+            changed = default is not MISSING and not _equals(inner, default)
+            yield prefix + name, _brief(inner), changed
+
+
+def _marked(text: str, is_bold: bool) -> str:
+    return f"<b>{escape(text)}</b>" if is_bold else escape(text)
 
 
 def _defaults(value: Any) -> Iterator[tuple[str, Any]]:
@@ -50,6 +83,10 @@ def _equals(value: Any, default: Any) -> bool:
 def _brief(value: Any) -> str:
     if getattr(value, "shape", ()):
         return f"array{tuple(value.shape)}"
+    if isinstance(value, float):
+        return (
+            f"{value:.{DIGITS}g}" if len(repr(value)) > DIGITS else repr(value)
+        )
     if is_dataclass(value) and not isinstance(value, type):
         return brief_repr(value)
     if isinstance(value, Mapping | list | tuple | set | frozenset):

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from html import escape
 from math import degrees, isfinite
 from typing import (
     TYPE_CHECKING,
@@ -15,6 +16,7 @@ from typing import (
 import numpy as np
 
 from ..arena import Room
+from ..core.brief_repr import html_repr
 from ..core.poses import Array
 from ..sim.camera_settings import RoomObject
 from .duel_circle import angle_between, circle_of_theory, distance_between
@@ -116,6 +118,10 @@ class GameRun(Generic[SettingsT, SummaryT]):
             f"{self.game.capitalize()}Run({self.name!r}, {self.message!r}, "
             f"{len(self.times)} samples of {' and '.join(self.players)})"
         )
+
+    def _repr_html_(self) -> str:
+        """Return the description and the summary, for notebooks."""
+        return f"<p>{escape(repr(self))}</p>{html_repr(self.summary)}"
 
     @property
     def game(self) -> str:

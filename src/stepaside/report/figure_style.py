@@ -1,5 +1,7 @@
 """Common style of all figures: colours, fonts, saving."""
 
+import os
+import sys
 from collections.abc import Iterable, Mapping
 from io import BytesIO
 from itertools import cycle
@@ -7,7 +9,9 @@ from typing import Any
 
 import matplotlib
 
-matplotlib.use("Agg")
+# Figures go to files. A session that plots itself keeps its own backend.
+if "MPLBACKEND" not in os.environ and "matplotlib.pyplot" not in sys.modules:
+    matplotlib.use("Agg")
 
 import matplotlib.pyplot as plt  # noqa: E402
 from cycler import cycler  # noqa: E402

@@ -1,0 +1,88 @@
+# modules: games/duel strategies report/duel_figure
+# %% [markdown]
+# # Your own evader in 15 lines
+#
+# A strategy is a function: what a player knows goes in, what it wants comes
+# out. You write one, play it with unicycles in milliseconds, and then on
+# humanoids in physics.
+#
+# `Knowledge` holds the bearing and distance of the other player, in the frame
+# of the player's own pose. `Intent` asks for a heading relative to the
+# player's own. The paper's evader turns its back across the line of sight, at
+# an angle of 90°. Yours moves straight back while the pursuer is near, and
+# across while it is far.
+
+# %%
+from dataclasses import dataclass
+from math import pi
+
+from stepaside import Evasion
+
+
+@dataclass(frozen=True)
+class BackAndAside(Evasion):
+    """Blends "move back" into "move aside" as the distance grows."""
+
+    def decide(self, knowledge, memory):
+        share = min(max(2.0 * knowledge.distance - 1.0, 0.0), 1.0)
+        evader = Evasion(angle=0.5 * pi * share)
+        return evader.decide(knowledge, memory)
+
+
+# %% [markdown]
+# ## With unicycles
+#
+# The same rules without legs: both players are unicycles at 0.1 m/s that
+# decide every 0.4 s. A game of one minute takes milliseconds.
+
+# %%
+from stepaside import Pursuit, RelativeStart
+from stepaside import strategies as st
+from stepaside.theory.unicycle.unicycle_game import Unicycle
+
+body = Unicycle(0.1, 0.2)  # speed in [m/s], gain in [1/s]
+rules = st.UnicycleMatch((body, body), 0.4, 60.0)
+start = RelativeStart(0.7, 0.3, -0.2).poses()
+games = {
+    "paper": st.play_strategies(Pursuit(), Evasion(), start, game=rules),
+    "own": st.play_strategies(Pursuit(), BackAndAside(), start, game=rules),
+}
+for name, game in games.items():
+    print(f"{name}: closest approach {game.closest_distance:.3f} m")
+
+# %% [markdown]
+# ## With humanoids
+#
+# Settings take the strategy object itself.
+
+# %%
+from stepaside import DuelSettings, StartSettings, run_duel
+
+settings = DuelSettings(
+    duration=40.0,
+    start=StartSettings(0.7, -0.3, 0.2),
+    evader_strategy=BackAndAside(),
+)
+own = run_duel(settings)
+print(f"closest approach {own.summary.min_distance_m:.3f} m")
+
+# %%
+import matplotlib.pyplot as plt
+
+figure, axes = plt.subplots(figsize=(6, 4))
+axes.plot(*own.pursuer.torso[:, :2].T, color="#c8321f", label="pursuer")
+axes.plot(*own.evader.torso[:, :2].T, color="#1f5fbf", label="evader")
+for track, marker in ((own.pursuer, "s"), (own.evader, "o")):
+    axes.plot(*track.torso[-1, :2], marker, color="0.2")
+axes.set_aspect("equal")
+axes.set_xlabel("x [m]")
+axes.set_ylabel("y [m]")
+axes.legend()
+
+# %% [markdown]
+# ## From the command line
+#
+# In a file of its own, the class plays in every command:
+# `stepaside duel --strategy evader.py:BackAndAside`, also in `tournament`,
+# `view`, and `play` on a robot. A strategy must be pure: what it remembers
+# goes through `memory` ([strategies](../strategies.md)).

@@ -1,0 +1,68 @@
+"""Test that the documentation site holds every page and public name."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+import stepaside
+from tools.documents import notebooks
+
+DOCS = Path(__file__).parents[2] / "docs"
+TREE = re.compile(r"```{toctree}\n(.*?)```", re.DOTALL)
+NOT_ON_THE_SITE = {"images/README"}
+
+
+def entries(page: Path) -> set[str]:
+    """Return the pages that the tables of contents of a page list."""
+    lines = "\n".join(TREE.findall(page.read_text(encoding="utf-8")))
+    return {
+        (page.parent / line).relative_to(DOCS).as_posix()
+        for line in lines.splitlines()
+        if line and not line.startswith(":")
+    }
+
+
+def test_every_page_is_in_one_table_of_contents() -> None:
+    pages = [*DOCS.rglob("*.md")]
+    found = [entry for page in pages for entry in entries(page)]
+    assert len(found) == len(set(found))
+    names = {p.relative_to(DOCS).with_suffix("").as_posix() for p in pages}
+    names |= {f"tutorials/{script.stem}" for script in notebooks.scripts()}
+    assert names - NOT_ON_THE_SITE - {"index"} == set(found)
+
+
+def test_every_public_name_is_in_the_reference() -> None:
+    page = (DOCS / "api.md").read_text(encoding="utf-8")
+    listed = set(re.findall(r"^\.\. [\w:]+:: (\w+)$", page, re.MULTILINE))
+    assert listed == set(stepaside.__all__) - {"__version__"}
+
+
+def test_outputs_older_than_script_or_code_are_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    nbformat = pytest.importorskip("nbformat")
+    monkeypatch.setattr(notebooks, "ROOT", tmp_path)
+    script = tmp_path / "lesson.py"
+    script.write_text("# modules: theory/laws\n# %%\n1 + 1\n")
+    assert "no outputs" in (notebooks.complaint(script) or "")
+    book = nbformat.v4.new_notebook()
+    book.metadata[notebooks.KEY] = notebooks.fingerprint(script)
+    nbformat.write(book, script.with_suffix(".ipynb"))
+    assert notebooks.complaint(script) is None
+    script.write_text("# modules: theory/laws\n# %%\n1 + 2\n")
+    assert "older than its script" in (notebooks.complaint(script) or "")
+    script.write_text("# modules: planning/com\n# %%\n1 + 1\n")
+    assert notebooks.complaint(script) is not None
+
+
+def test_a_script_must_name_what_it_runs(tmp_path: Path) -> None:
+    script = tmp_path / "lesson.py"
+    script.write_text("# %%\n1 + 1\n")
+    with pytest.raises(ValueError, match="# modules: "):
+        notebooks.fingerprint(script)
+
+
+@pytest.mark.parametrize("script", notebooks.scripts(), ids=lambda s: s.stem)
+def test_every_tutorial_names_modules_that_exist(script: Path) -> None:
+    assert set(notebooks.fingerprint(script)) == {"script", "code"}
