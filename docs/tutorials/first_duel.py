@@ -54,9 +54,8 @@ Image("duel.png", width=720)
 from math import pi, sqrt
 
 v, k = 0.1, 0.2  # speed in [m/s], gain in [1/s]
-print(
-    f"radius {4 * v / (pi * k):.3f} m, distance {4 * sqrt(2) * v / (pi * k):.3f} m"
-)
+radius = 4.0 * v / (pi * k)
+print(f"radius {radius:.3f} m, distance {sqrt(2.0) * radius:.3f} m")
 
 # %% [markdown]
 # ## Change the start

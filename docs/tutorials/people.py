@@ -27,7 +27,8 @@ Image("person/duel.png", width=720)
 # %% language="bash"
 # for speed in 0.4 0.7 1.0 1.3; do
 #     stepaside duel --gait fast --pursuer person --person-path straight \
-#         --person-speed $speed --duration 25 --seed 3 --json > speed-$speed.json
+#         --person-speed $speed --duration 25 --seed 3 --json \
+#         > speed-$speed.json
 # done
 
 # %%

@@ -11,7 +11,8 @@
 # A seed makes a room; a file describes one by hand (`stepaside room --help`).
 
 # %% language="bash"
-# stepaside room --seed 4 --size 3x3 --discs 3 --figure room.png --output room.toml
+# stepaside room --seed 4 --size 3x3 --discs 3 --figure room.png \
+#     --output room.toml
 
 # %%
 from IPython.display import Image
@@ -25,7 +26,8 @@ Image("room.png", width=420)
 # strategy decides how well the robot evades and not whether it hits a wall.
 
 # %% language="bash"
-# stepaside duel --room room.toml --strategy look-ahead --duration 60 --seed 3 --output game
+# stepaside duel --room room.toml --strategy look-ahead \
+#     --duration 60 --seed 3 --output game
 
 # %%
 Image("game/duel.png", width=720)

@@ -52,7 +52,9 @@ import matplotlib.pyplot as plt
 plt.figure(figsize=(6, 3.5))
 for distance, marker in ((0.8, "o-"), (1.2, "s--")):
     curve = [row[1:] for row in rows if row[0] == distance]
-    plt.plot(*zip(*curve), marker, label=f"{distance} m apart at first")
+    plt.plot(
+        *zip(*curve, strict=True), marker, label=f"{distance} m apart at first"
+    )
 plt.xlabel("angle of the evader [rad]")
 plt.ylabel("closest approach [m]")
 plt.legend()

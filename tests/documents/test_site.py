@@ -34,7 +34,9 @@ def test_every_page_is_in_one_table_of_contents() -> None:
 
 def test_every_public_name_is_in_the_reference() -> None:
     page = (DOCS / "api.md").read_text(encoding="utf-8")
-    listed = set(re.findall(r"^\.\. [\w:]+:: (\w+)$", page, re.MULTILINE))
+    listed = set(
+        re.findall(r"^\.\. (?!py:c)[\w:]+:: (\w+)$", page, re.MULTILINE)
+    ) - {"stepaside"}
     assert listed == set(stepaside.__all__) - {"__version__"}
 
 
