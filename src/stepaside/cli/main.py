@@ -34,6 +34,7 @@ COMMANDS = {
     "reproduce": "Measure every claim of the paper and write a report.",
     "robot": "Show, describe, check or tune a robot.",
     "legs": "Inspect or measure a learned walking policy.",
+    "doctor": "Report what is installed, what is missing, and how to get it.",
 }
 
 
