@@ -345,6 +345,11 @@ def test_invalid_settings_are_refused_in_one_line(
         ("serve --domain 3", "--domain requires --ros2"),
         ("tournament --evader aside --alpha 1", "requires --evader alpha"),
         ("bound --pursuer-turn 2", "--pursuer-turn requires --against any"),
+        ("bound --response 1", "--response requires --against person"),
+        (
+            "bound --against person --horizon 2",
+            "--horizon requires --against pursuit or any, got person",
+        ),
         ("robustness --kind push --sensing cameras", "requires --kind person"),
     ],
 )

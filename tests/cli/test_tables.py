@@ -23,6 +23,7 @@ TABLES = [
     "map --grid 3 --distances 2 --duration 5",
     "bound --grid 16 --refine 1 --games 10 --horizon 0.1",
     "bound --grid 16 --refine 0 --games 0 --horizon 0.1 --against any",
+    "bound --against person --evader-speed 0.6 --grid 16 --refine 0",
     "tournament --seeds 0:1 --duration 1 --evader aside --workers 1",
     "room --discs 2 --doors 1",
     "robot nao",

@@ -8,6 +8,7 @@ import click
 
 from ..core.ranges import Range
 from ..core.setting import check_settings, setting
+from .bound_person import person_report, print_person_bound
 from .bound_tables import (
     describe,
     describe_refinement,
@@ -25,7 +26,23 @@ if TYPE_CHECKING:
     from ..theory.bound import Bound, BoundGame, DiscretisationScheme, Grid
     from ..theory.bound.grid_refinement import Refinement
 
-AGAINST = ("pursuit", "any")
+AGAINST = ("pursuit", "any", "person")
+
+OF_CARS = {
+    "pursuer_gain",
+    "evader_turn",
+    "nearest",
+    "horizon",
+    "games",
+    "scheme",
+    "output",
+}
+OF_PERSON = {
+    "person_turning_radius",
+    "evader_forward",
+    "evader_sideways",
+    "response",
+}
 
 
 def _schemes() -> tuple[str, ...]:
@@ -40,7 +57,8 @@ class BoundOptions:
 
     against: str = setting(
         AGAINST[0],
-        "The pursuer of eqs. (1)-(2), or any with a bounded turning rate",
+        "The pursuer of eqs. (1)-(2), any with a bounded turning rate, or a "
+        "person whom an evader escapes that moves in any direction",
         names=AGAINST,
         option="--against",
     )
@@ -72,6 +90,36 @@ class BoundOptions:
         positive("rad/s", None),
         option="--evader-turn",
         default_text="the pursuer's",
+    )
+    person_turning_radius: float | None = setting(
+        None,
+        "Tightest turning radius of the person {unit}, for --against person",
+        positive("m", None),
+        option="--person-turning-radius",
+        default_text="2.5",
+    )
+    evader_forward: float | None = setting(
+        None,
+        "Speed of the evader towards the person {unit}, for --against person",
+        positive("m/s", None),
+        option="--evader-forward",
+        default_text="--evader-speed",
+    )
+    evader_sideways: float | None = setting(
+        None,
+        "Speed of the evader across the line of sight {unit}, for --against "
+        "person",
+        positive("m/s", None),
+        option="--evader-sideways",
+        default_text="--evader-speed",
+    )
+    response: float | None = setting(
+        None,
+        "Time for which a standing evader still stands {unit}, for --against "
+        "person",
+        Range(0.0, 60.0, "s", "a robot starts sooner", also=(None,)),
+        option="--response",
+        default_text="0.4",
     )
     capture: float | None = setting(
         None,
@@ -124,8 +172,13 @@ class BoundOptions:
     def __post_init__(self) -> None:
         """Validate ranges and names."""
         check_settings(self)
-        if self.against == "pursuit":
-            refuse_options({"pursuer_turn"}, "--against any, got pursuit")
+        if self.against != "any":
+            given = f"--against any, got {self.against}"
+            refuse_options({"pursuer_turn"}, given)
+        if self.against == "person":
+            refuse_options(OF_CARS, "--against pursuit or any, got person")
+        else:
+            refuse_options(OF_PERSON, f"--against person, got {self.against}")
 
     def game(self) -> "BoundGame":
         """Return the game."""
@@ -169,6 +222,10 @@ def bound(
 
     Solves the Hamilton-Jacobi equation of the game on a grid.
     """
+    if options.against == "person":
+        report = person_report(options, figure, quiet=as_json)
+        print_json(report) if as_json else print_person_bound(report)
+        return
     from ..theory.bound import DiscretisationScheme
 
     capture = options.capture

@@ -41,6 +41,7 @@ TABLES: dict[str, Callable[..., str]] = {
     "campaign-parents": campaigns.parents,
     "certified": many_duels.certified,
     "certified-starts": unicycles.certified_starts,
+    "chauffeur": bounds.chauffeur,
     "comers": people.comers,
     "driven": served.driven,
     "stepped": served.stepped,

@@ -105,3 +105,28 @@ def evaders(result: Result) -> str:
         for row in found
     ]
     return table(head, rows)
+
+
+def chauffeur(result: Result) -> str:
+    """Compare grids of the chauffeur's game with the closed form."""
+    cells = [grid["cells"] for grid in result["rows"][0]["grids"]]
+    head = (
+        "γ",
+        "closed form [R]",
+        *(f"{n} cells [R]" for n in cells),
+        "off [%]",
+        "barrier off, worst [cells]",
+    )
+    rows = [
+        (
+            number(row["ratio"], 3),
+            number(row["closed"], 4),
+            *(number(grid["guaranteed"], 4) for grid in row["grids"]),
+            f"{100.0 * row['grids'][-1]['error']:.2f}",
+            NONE
+            if row["barrier"] is None
+            else number(row["barrier"]["worst_cells"], 2),
+        )
+        for row in result["rows"]
+    ]
+    return table(head, rows)
