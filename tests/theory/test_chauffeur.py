@@ -11,7 +11,7 @@ from stepaside.core.errors import PlanError
 from stepaside.theory.chauffeur import (
     ChauffeurGame,
     ChauffeurTable,
-    VelocitySet,
+    SpeedEllipse,
     solve_chauffeur,
 )
 from stepaside.theory.chauffeur.chauffeur_checks import (
@@ -32,7 +32,7 @@ CELLS = 60
 
 
 def game_of(ratio: float, radius: float = 1.0) -> ChauffeurGame:
-    return ChauffeurGame(1.0, radius, VelocitySet.disc(ratio))
+    return ChauffeurGame(1.0, radius, SpeedEllipse.disc(ratio))
 
 
 @pytest.fixture(scope="module")
@@ -116,27 +116,27 @@ def test_simulated_evader_keeps_what_the_table_guarantees(
 
 def test_lengths_scale_with_the_turning_radius(table: ChauffeurTable) -> None:
     wide = solve_chauffeur(
-        ChauffeurGame(1.4, 2.5, VelocitySet.disc(1.4 * RATIO)), CELLS
+        ChauffeurGame(1.4, 2.5, SpeedEllipse.disc(1.4 * RATIO)), CELLS
     )
     np.testing.assert_allclose(wide.values, table.values, atol=1e-9)
     assert wide.guaranteed == pytest.approx(2.5 * table.guaranteed)
 
 
 def test_ellipse_lies_between_its_discs() -> None:
-    ellipse = VelocitySet(0.6, 0.6, 0.4)
+    ellipse = SpeedEllipse(0.6, 0.6, 0.4)
     found = [
         solve_chauffeur(ChauffeurGame(1.0, 1.0, each), 24).guaranteed
         for each in (
-            VelocitySet.disc(ellipse.smallest),
+            SpeedEllipse.disc(ellipse.smallest),
             ellipse,
-            VelocitySet.disc(ellipse.largest),
+            SpeedEllipse.disc(ellipse.largest),
         )
     ]
     assert found[0] < found[1] < found[2]
 
 
 def test_boundary_of_a_set_has_its_three_speeds() -> None:
-    rows = VelocitySet(0.3, 0.2, 0.1).boundary(48)
+    rows = SpeedEllipse(0.3, 0.2, 0.1).boundary(48)
     assert rows[:, 0].max() == pytest.approx(0.2)
     assert rows[:, 0].min() == pytest.approx(-0.3)
     assert rows[:, 1].max() == pytest.approx(0.1)
@@ -179,7 +179,7 @@ def test_evader_that_is_as_fast_is_refused(speed: float) -> None:
 def test_barrier_without_a_closed_form_is_refused() -> None:
     with pytest.raises(PlanError, match="barrier is known for one speed"):
         chauffeur_barrier(game_of(0.95), 0.2)
-    ellipse = replace(game_of(0.5), velocities=VelocitySet(0.5, 0.5, 0.4))
+    ellipse = replace(game_of(0.5), velocities=SpeedEllipse(0.5, 0.5, 0.4))
     with pytest.raises(PlanError, match="barrier is known for one speed"):
         chauffeur_barrier(ellipse, 0.05)
     with pytest.raises(PlanError, match="capture must lie in"):

@@ -14,7 +14,7 @@ from stepaside.core.errors import PlanError
 from stepaside.studies.result_files import header, write_result
 from stepaside.theory.chauffeur import (
     ChauffeurGame,
-    VelocitySet,
+    SpeedEllipse,
     solve_chauffeur,
 )
 from stepaside.theory.chauffeur.chauffeur_checks import (
@@ -33,7 +33,7 @@ DURATION = 8.0  # of a game, in turning radii per pursuer speed
 
 def row_of(ratio: float) -> dict[str, Any]:
     """Return the values of one speed ratio."""
-    game = ChauffeurGame(1.0, 1.0, VelocitySet.disc(ratio))
+    game = ChauffeurGame(1.0, 1.0, SpeedEllipse.disc(ratio))
     closed = game.guaranteed_distance
     assert closed is not None
     row: dict[str, Any] = {"ratio": ratio, "closed": closed, "grids": []}

@@ -66,14 +66,14 @@ def _scaled(bar: Any, share: float) -> "Callable[[float], object]":
 
 def _game(options: "BoundOptions") -> "ChauffeurGame":
     """Return the game of the options."""
-    from ..theory.chauffeur import ChauffeurGame, VelocitySet
+    from ..theory.chauffeur import ChauffeurGame, SpeedEllipse
 
     speed = options.evader_speed
     radius = options.person_turning_radius
     return ChauffeurGame(
         options.pursuer_speed,
         RADIUS if radius is None else radius,
-        VelocitySet(
+        SpeedEllipse(
             options.evader_forward or speed,
             speed,
             options.evader_sideways or speed,

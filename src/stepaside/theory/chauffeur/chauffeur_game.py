@@ -24,7 +24,7 @@ ROUND = 1e-9  # relative difference of speeds that count as equal
 
 
 @dataclass(frozen=True, slots=True)
-class VelocitySet:
+class SpeedEllipse:
     """Velocities of a robot that faces its pursuer.
 
     The set is bounded by two half ellipses through the three speeds; that
@@ -47,7 +47,7 @@ class VelocitySet:
         check_positive(self.sideways, "sideways", "m/s")
 
     @classmethod
-    def disc(cls, speed: float) -> "VelocitySet":
+    def disc(cls, speed: float) -> "SpeedEllipse":
         """Return the set with one speed in every direction, in [m/s]."""
         return cls(speed, speed, speed)
 
@@ -96,7 +96,7 @@ class ChauffeurGame:
 
     pursuer_speed: float
     turning_radius: float
-    velocities: VelocitySet
+    velocities: SpeedEllipse
 
     def __post_init__(self) -> None:
         """Check the values.
