@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from ..theory.chauffeur import ChauffeurGame, ChauffeurTable
-    from .bound import BoundOptions
+    from .bound_options import BoundOptions
 
 RADIUS = 2.5  # of a person's turns by default, in [m]
 CONTACT = 0.55  # sum of the half widths of a robot and a person, in [m]
