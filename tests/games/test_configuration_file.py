@@ -12,7 +12,7 @@ from stepaside.core.errors import ConfigurationError
 from stepaside.games.configuration_file import (
     dump_configuration,
     load_configuration,
-    parse_configuration,
+    parse_settings,
 )
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.initial_poses import draw_start
@@ -288,14 +288,14 @@ def test_a_configuration_is_read_as_written(tmp_path: Path) -> None:
 
 
 def test_integers_are_converted_to_floats_but_not_conversely() -> None:
-    settings = parse_configuration({"duration": 30}, "here")
+    settings = parse_settings(DuelSettings, {"duration": 30}, "here")
     assert settings.duration == 30.0 and isinstance(settings.duration, float)
-    given = parse_configuration({"start": {"distance": 1}}, "here")
+    given = parse_settings(DuelSettings, {"start": {"distance": 1}}, "here")
     assert given.start.distance == 1.0
     assert isinstance(given.start.distance, float)
     for entries in ({"seed": 1.5}, {"seed": "2"}, {"duration": "1"}):
         with pytest.raises(ConfigurationError, match="here: .* must be"):
-            parse_configuration(entries, "here")
+            parse_settings(DuelSettings, entries, "here")
 
 
 @pytest.mark.parametrize(
@@ -311,7 +311,7 @@ def test_booleans_are_not_accepted_as_numbers(
 ) -> None:
     """Python converts them to 1 and 0: a duel of one second."""
     with pytest.raises(ConfigurationError, match=message):
-        parse_configuration(entries, "here")
+        parse_settings(DuelSettings, entries, "here")
 
 
 @pytest.mark.parametrize(
@@ -327,7 +327,7 @@ def test_errors_in_a_configuration_are_named(
     entries: dict[str, Any], message: str
 ) -> None:
     with pytest.raises(ConfigurationError, match=message):
-        parse_configuration(entries, "here")
+        parse_settings(DuelSettings, entries, "here")
 
 
 def test_invalid_configuration_files_are_refused(tmp_path: Path) -> None:

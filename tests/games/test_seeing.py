@@ -14,7 +14,7 @@ from stepaside.core.poses import wrap_angle
 from stepaside.games import DuelSettings, Outcome, Run, run_duel
 from stepaside.games.configuration_file import (
     dump_configuration,
-    parse_configuration,
+    parse_settings,
 )
 from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import StartSettings
@@ -242,7 +242,9 @@ def test_a_scene_is_part_of_the_configuration() -> None:
     text = dump_configuration(settings)
     import tomllib
 
-    assert parse_configuration(tomllib.loads(text), "test") == settings
+    assert (
+        parse_settings(DuelSettings, tomllib.loads(text), "test") == settings
+    )
 
 
 @pytest.mark.parametrize(

@@ -91,7 +91,8 @@ def test_the_rows_are_the_derivative_of_their_errors(name: str) -> None:
         )
     legs.stand(stance)
     legs.track(stance)
-    arguments = np.array(legs._arguments(legs._row(stance)))
+    position, torso_heading, free, _ = legs.stance
+    arguments = np.array([*free, *position, torso_heading, *stance.row()])
     solver = solver_of(description, load_tree(description))
     error, jacobian = solver.linearise(*arguments.tolist())
     assert np.abs(error).max() < 1e-8

@@ -191,11 +191,6 @@ def load_configuration(path: AnyPath) -> DuelSettings:
     return load_settings(DuelSettings, as_path(path, "path"))
 
 
-def parse_configuration(entries: dict[str, Any], source: str) -> DuelSettings:
-    """Parse the settings of a duel; see :func:`parse_settings`."""
-    return parse_settings(DuelSettings, entries, source)
-
-
 def dump_configuration(settings: Any) -> str:
     """Return the TOML text from which the same settings are read."""
     return tomli_w.dumps(settings_entries(settings))

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Protocol
 
 from ...control import ControlScheme
 from ...core.errors import ReachError, StrategyError
@@ -56,13 +55,6 @@ class JointTick:
         if self.refused:
             text += f", {self.refused} frames refused"
         return text
-
-
-class TickObserver(Protocol):
-    """Receiver of ticks, such as a status line or a log."""
-
-    def note(self, tick: JointTick) -> None:
-        """Process one tick."""
 
 
 class JointLoop:
