@@ -12,7 +12,6 @@ from stepaside.theory.bound.compiled_stage import (
     mark_active_rows,
     stage_blocks,
 )
-from stepaside.theory.bound.numpy_stage import stage_arrays
 from stepaside.theory.bound.state_grid import fill_ghosts
 from stepaside.theory.bound.upwind_scheme import (
     lax_friedrichs,
@@ -22,7 +21,10 @@ from stepaside.theory.bound.upwind_scheme import (
     upwind_product,
     weno5,
 )
-from stepaside.theory.bound.value_solver import make_stage_parameters
+from stepaside.theory.bound.value_solver import (
+    make_stage_parameters,
+    stage_arrays,
+)
 
 EPS = 12e-6
 
@@ -118,10 +120,10 @@ def test_numpy_stage_equals_the_compiled_stage(
     scheme: DiscretisationScheme, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     from stepaside.theory.bound import (
-        numpy_stage as arrays,
+        upwind_scheme as numerics,
     )
     from stepaside.theory.bound import (
-        upwind_scheme as numerics,
+        value_solver as arrays,
     )
 
     for name in ("upwind_product", "maximum", "minimum"):
