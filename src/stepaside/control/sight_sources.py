@@ -9,13 +9,13 @@ from ..locomotion.zmp.current_step import CurrentStep
 from ..perception.attitude import AttitudeFilter
 from ..perception.measurement import Measurement, Sighting
 from ..planning import Foot
+from ..strategies.opponent_choice import choose_opponent
 
 if TYPE_CHECKING:
     from ..perception.perception import Perception
 
 StepAt = Callable[[float], CurrentStep]
 CORRECTION = 0.5  # of the attitude filter by the accelerometer, in [1/s]
-NEARER = 0.9  # relative distance from which another opponent is taken
 
 
 class PlayersInSight(NamedTuple):
@@ -98,9 +98,7 @@ class MeasuredSight:
 class SightOfPlayers:
     """Latest sightings of several players, one of which is the opponent.
 
-    The opponent is the assigned target once it has been seen. Without a
-    target it is the nearest opponent, and another one only when that is
-    nearer by a tenth; in a game without opponents, the nearest player.
+    See :func:`stepaside.strategies.opponent_choice.choose_opponent`.
 
     Attributes:
         turning: 0: it never scans.
@@ -137,27 +135,17 @@ class SightOfPlayers:
             name = sighting.identity.name
             number = self._numbers.setdefault(name, len(self._numbers) + 1)
             self._latest[name] = sighting._replace(target_id=number)
-        self._chosen = self._choose()
+        self._chosen = choose_opponent(
+            self._identity,
+            {
+                seen.identity: seen.distance
+                for seen in self._latest.values()
+                if seen.identity is not None
+            },
+            target=self._target,
+            present=self._chosen,
+        )
         return self._latest.get(self._chosen)
-
-    def _choose(self) -> str:
-        """Return the name of the opponent; empty if there is none."""
-        if self._target:
-            return self._target
-        opponents = [
-            seen
-            for seen in self._latest.values()
-            if seen.identity and self._identity.opposes(seen.identity)
-        ] or [*self._latest.values()]
-        if not opponents:
-            return ""
-        nearest = min(opponents, key=lambda seen: seen.distance)
-        assert nearest.identity is not None
-        present = self._latest.get(self._chosen)
-        if present in opponents and present is not None:
-            if nearest.distance > NEARER * present.distance:
-                return self._chosen
-        return nearest.identity.name
 
     def aim(self, targets: Array) -> None:
         """Leave the head as it is."""

@@ -26,7 +26,7 @@ T = TypeVar("T")
 
 MAX_TEXT_BYTES = 2**20  # of a configuration or a summary
 MAX_ARRAY_BYTES = 2**30  # of all arrays together; a game of a day has less
-MAX_ARRAYS = 128  # in one file
+MAX_ARRAYS = 1024  # in one file
 MAX_HEADER_BYTES = 512  # of one array
 
 

@@ -38,10 +38,21 @@ def with_tuples(kind: Any, entries: dict[str, Any]) -> dict[str, Any]:
     for key in entries.keys() & hints.keys():
         value, hint = entries[key], hints[key]
         if isinstance(value, list) and get_origin(hint) is tuple:
-            changed[key] = tuple(value)
+            changed[key] = _with_inner_tuples(hint, value)
         elif isinstance(value, dict) and is_dataclass(hint):
             changed[key] = with_tuples(hint, value)
     return changed
+
+
+def _with_inner_tuples(hint: Any, values: list[Any]) -> tuple[Any, ...]:
+    """Return a list as a tuple, with tuples in its tables of settings."""
+    kind = get_args(hint)[0]
+    if not is_dataclass(kind):
+        return tuple(values)
+    return tuple(
+        with_tuples(kind, value) if isinstance(value, dict) else value
+        for value in values
+    )
 
 
 S = TypeVar("S")  # a frozen dataclass of settings

@@ -54,6 +54,7 @@ class Match:
         observers: The observers.
         message: Reason for the end, as text; empty during the game.
         touched: Names of the bodies in contact, if contact ended the game.
+        fallen: Names of the players that have fallen.
         min_distance: Smallest distance so far between the first two torsos,
             in [m].
         captured_at: Time at which that distance first was at most the
@@ -87,6 +88,7 @@ class Match:
         self.observers = tuple(observers)
         self.message = ""
         self.touched: tuple[str, ...] = ()
+        self.fallen: tuple[str, ...] = ()
         self._has_things = has_things
         self._pairs = [
             (one.truth, other.truth, one.truth.reach + other.truth.reach)
@@ -176,6 +178,7 @@ class Match:
                 self.captured_at = now
         fallen = [p.name for p in self.players if p.has_fallen]
         if fallen:
+            self.fallen = tuple(fallen)
             self.message = f"{' and '.join(fallen)} fell at {now:.2f} s"
             return Outcome.FALL
         if self._can_touch(apart) and self.world.robots_touch():
@@ -234,7 +237,7 @@ def play(
     finally:
         match.close()
     wall = perf_counter() - began
-    if outcome is Outcome.COMPLETED:
+    if outcome is Outcome.COMPLETED and not match.message:
         match.message = f"played {match.world.time:.2f} s"
     for observer in match.observers:
         observer.ended(match, outcome)

@@ -5,7 +5,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from ..control.scheme import LocomotionScheme
-from ..control.sight_sources import MeasuredSight
+from ..control.sight_sources import MeasuredSight, SightOfPlayers
 from ..control.strategy_runner import StrategyRunner
 from ..core.errors import PolicyError
 from ..core.poses import Pose
@@ -25,7 +25,7 @@ from ..sim.simulated_robot import SensorSetup, SimulatedRobot
 from ..sim.world import World
 from ..strategies import Strategy
 from .player import MotionLog, Snapshot, snapshot_of
-from .walker_factory import WalkerSetup
+from .walker_factory import PlayerSensing, WalkerSetup, sensors_of
 
 if TYPE_CHECKING:
     from ..perception.percept_stages import FrameReport
@@ -138,7 +138,7 @@ def place_on_legs(
     setup: WalkerSetup,
     legs: PolicyLegs,
     *,
-    sight: IdealLineOfSight | None = None,
+    sight: IdealLineOfSight | PlayerSensing | None = None,
     truth: TrueRobotState | None = None,
 ) -> SimulatedRobot:
     """Place a robot in a world, driven by the torques of its policy.
@@ -147,7 +147,7 @@ def place_on_legs(
         world: World that contains the robot.
         setup: Robot with its settings.
         legs: Learned legs of the robot.
-        sight: Ideal sensor of the opponent.
+        sight: Ideal sensor of the opponent, or of all other players.
         truth: True state of the robot, if it exists already.
     """
     contract = legs.contract
@@ -163,7 +163,8 @@ def place_on_legs(
             generator=named_generator(setup.seed, f"sensors/{setup.name}"),
             averages_imu=True,
             integrates_imu=not setup.body.has_sensor_errors,
-            sight=sight,
+            sight=sight if isinstance(sight, IdealLineOfSight) else None,
+            players=sensors_of(sight),
             truth=truth,
         ),
         gains=dict(zip(contract.joints, gains, strict=True)),
@@ -176,7 +177,7 @@ def place_policy_player(
     legs: LegsSettings,
     strategy: Strategy,
     *,
-    sight: IdealLineOfSight | None,
+    sight: IdealLineOfSight | PlayerSensing | None,
     truth: TrueRobotState,
 ) -> PolicyPlayer:
     """Place one robot on learned legs in a world, with its controller.
@@ -187,7 +188,7 @@ def place_policy_player(
             decision interval of its template.
         legs: Walking policy.
         strategy: Strategy of the player.
-        sight: Ideal sensor of the opponent.
+        sight: Ideal sensor of the opponent, or of all other players.
         truth: True state of the robot.
 
     Raises:
@@ -201,6 +202,8 @@ def place_policy_player(
             strategy, setup.gait, tick, velocities=policy.velocities
         ),
         PolicyWalk(policy, setup.gait),
-        MeasuredSight(),
+        SightOfPlayers(sight.identity, sight.target)
+        if isinstance(sight, PlayerSensing)
+        else MeasuredSight(),
     )
     return PolicyPlayer(robot, scheme, setup.odometry_in_world)

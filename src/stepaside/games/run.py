@@ -17,11 +17,14 @@ import numpy as np
 
 from ..arena import Room
 from ..core.brief_repr import html_repr
+from ..core.player_identity import PlayerIdentity, Role
 from ..core.poses import Array
 from ..sim.camera_settings import RoomObject
 from .duel_circle import angle_between, circle_of_theory, distance_between
 from .duel_settings import EVADER, PURSUER, DuelSettings
 from .duel_summary import DuelSummary
+from .game_settings import GameSettings
+from .game_summary import GameSummary
 from .outcome import Outcome
 from .play_settings import PlaySettings
 from .play_summary import PlaySummary
@@ -32,10 +35,12 @@ from .walk_summary import WalkSummary
 if TYPE_CHECKING:
     from .sight_evaluation import EvaluatedImage
 
-GameSettings: TypeAlias = DuelSettings | WalkSettings | PlaySettings
-GameSummary: TypeAlias = DuelSummary | WalkSummary | PlaySummary
-SettingsT = TypeVar("SettingsT", bound=GameSettings, covariant=True)
-SummaryT = TypeVar("SummaryT", bound=GameSummary, covariant=True)
+AnySettings: TypeAlias = (
+    DuelSettings | GameSettings | WalkSettings | PlaySettings
+)
+AnySummary: TypeAlias = DuelSummary | GameSummary | WalkSummary | PlaySummary
+SettingsT = TypeVar("SettingsT", bound=AnySettings, covariant=True)
+SummaryT = TypeVar("SummaryT", bound=AnySummary, covariant=True)
 
 
 class SafetyArea(NamedTuple):
@@ -125,7 +130,7 @@ class GameRun(Generic[SettingsT, SummaryT]):
 
     @property
     def game(self) -> str:
-        """Name of the game: "duel", "walk" or "play"."""
+        """Name of the game: "duel", "game", "walk" or "play"."""
         return self.settings.game
 
     @property
@@ -151,9 +156,26 @@ class GameRun(Generic[SettingsT, SummaryT]):
     @property
     def persons(self) -> tuple[str, ...]:
         """Names of the players that are drawn as persons."""
-        if not isinstance(self.settings, DuelSettings):
+        settings = self.settings
+        if isinstance(settings, GameSettings):
+            return tuple(
+                p.name for p in settings.players if p.body == "person"
+            )
+        if not isinstance(settings, DuelSettings):
             return ()
         return tuple(n for n in self.players if n not in self.robots)
+
+    @property
+    def identities(self) -> Mapping[str, PlayerIdentity]:
+        """Identity of each player that has a role, by name."""
+        if isinstance(self.settings, GameSettings):
+            return self.settings.identities
+        roles = {role.value: role for role in Role}
+        return {
+            name: PlayerIdentity(name, roles[name], name)
+            for name in self.players
+            if name in roles
+        }
 
     @property
     def pursuer(self) -> Trajectory:
@@ -255,7 +277,7 @@ class GameRun(Generic[SettingsT, SummaryT]):
     def safety(self) -> SafetyArea | None:
         """Safety area of an evader; None if it always evades."""
         settings = self.settings
-        if isinstance(settings, WalkSettings):
+        if isinstance(settings, WalkSettings | GameSettings):
             return None
         if isinstance(settings, PlaySettings) and settings.role != EVADER:
             return None
@@ -265,6 +287,8 @@ class GameRun(Generic[SettingsT, SummaryT]):
     @property
     def plan(self) -> Room | None:
         """Room of the game; None on an open floor."""
+        if isinstance(self.settings, GameSettings):
+            return self.settings.room
         if not isinstance(self.settings, DuelSettings):
             return None
         return self.settings.room.plan
@@ -308,8 +332,9 @@ class GameRun(Generic[SettingsT, SummaryT]):
         return found
 
 
-Run: TypeAlias = GameRun[GameSettings, GameSummary]
+Run: TypeAlias = GameRun[AnySettings, AnySummary]
 DuelRun: TypeAlias = GameRun[DuelSettings, DuelSummary]
+MatchRun: TypeAlias = GameRun[GameSettings, GameSummary]
 WalkRun: TypeAlias = GameRun[WalkSettings, WalkSummary]
 PlayRun: TypeAlias = GameRun[PlaySettings, PlaySummary]
 
@@ -317,6 +342,11 @@ PlayRun: TypeAlias = GameRun[PlaySettings, PlaySummary]
 def is_duel(run: Run) -> TypeGuard[DuelRun]:
     """Return whether a run is one of a duel."""
     return isinstance(run.settings, DuelSettings)
+
+
+def is_match(run: Run) -> TypeGuard[MatchRun]:
+    """Return whether a run is one of a game file."""
+    return isinstance(run.settings, GameSettings)
 
 
 def is_walk(run: Run) -> TypeGuard[WalkRun]:

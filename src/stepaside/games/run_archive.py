@@ -28,11 +28,14 @@ from .array_checks import check_times, check_tracks
 from .configuration_file import dump_configuration, read_settings
 from .duel_settings import DuelSettings
 from .duel_summary import DuelSummary
+from .game_settings import GameSettings
+from .game_summary import GameSummary
 from .outcome import Outcome
 from .play_conversion import has_play_rows, run_of_play
 from .play_settings import PlaySettings
 from .play_summary import PlaySummary
-from .run import DuelRun, GameRun, PlayRun, Run, WalkRun
+from .player_names import MOST_PLAYERS, PLAYER_NAME
+from .run import DuelRun, GameRun, MatchRun, PlayRun, Run, WalkRun
 from .trajectory import FIELDS, tracks_in
 from .walk_settings import WalkSettings
 from .walk_summary import WalkSummary
@@ -42,8 +45,6 @@ CONFIGURATION = "configuration.toml"
 SUMMARY = "summary.json"
 TRAJECTORIES = "trajectories.npz"
 CHECKSUMS = "checksums.txt"
-MAX_PLAYERS = 6
-PLAYER_NAME = re.compile(r"[a-z][a-z0-9-]{0,31}")
 CHECKSUM_LINE = re.compile(r"([0-9a-f]{64})  ([\w.-]+)")
 READ_ERRORS = (  # raised for damaged files
     ValueError,
@@ -72,6 +73,7 @@ class GameKind(NamedTuple):
 
 GAMES = {
     "duel": GameKind(DuelSettings, DuelSummary),
+    "game": GameKind(GameSettings, GameSummary),
     "walk": GameKind(WalkSettings, WalkSummary),
     "play": GameKind(PlaySettings, PlaySummary),
 }
@@ -162,6 +164,8 @@ def load_run(folder: AnyPath) -> Run: ...
 @overload
 def load_run(folder: AnyPath, game: Literal["duel"]) -> DuelRun: ...
 @overload
+def load_run(folder: AnyPath, game: Literal["game"]) -> MatchRun: ...
+@overload
 def load_run(folder: AnyPath, game: Literal["walk"]) -> WalkRun: ...
 @overload
 def load_run(folder: AnyPath, game: Literal["play"]) -> PlayRun: ...
@@ -170,7 +174,8 @@ def load_run(folder: AnyPath, game: str | None = None) -> GameRun[Any, Any]:
 
     Args:
         folder: The run folder.
-        game: Required game, "duel", "walk" or "play"; by default any.
+        game: Required game, "duel", "game", "walk" or "play"; by default
+            any.
 
     Returns:
         The run.
@@ -292,8 +297,8 @@ def read_header(plain: Any, run: str) -> RunHeader:
             )
     if not _are_player_names(entries.get("players")):
         raise ConfigurationError(
-            f"players of run {run} must be 1 to {MAX_PLAYERS} unique names in "
-            f"lower case, got {entries.get('players')!r:.80}"
+            f"players of run {run} must be 1 to {MOST_PLAYERS} unique names "
+            f"in lower case, got {entries.get('players')!r:.80}"
         )
     return parse_object(RunHeader, entries, source)
 
@@ -305,7 +310,7 @@ def _are_player_names(players: Any) -> bool:
             isinstance(n, str) and PLAYER_NAME.fullmatch(n) for n in players
         )
         and len(set(players)) == len(players)
-        and 1 <= len(players) <= MAX_PLAYERS
+        and 1 <= len(players) <= MOST_PLAYERS
     )
 
 

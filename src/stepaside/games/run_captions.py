@@ -1,11 +1,24 @@
 """Captions: the state of a recorded game at a sample, in words."""
 
+from itertools import combinations
+from math import hypot
+
 from .approach_forecast import (
     CourseApproach,
     describe_motion,
     estimate_approach,
 )
-from .run import DuelRun, PlayRun, Run, WalkRun, is_duel, is_play, is_walk
+from .run import (
+    DuelRun,
+    MatchRun,
+    PlayRun,
+    Run,
+    WalkRun,
+    is_duel,
+    is_match,
+    is_play,
+    is_walk,
+)
 
 
 def describe_state(run: Run, index: int) -> str:
@@ -19,6 +32,8 @@ def describe_state(run: Run, index: int) -> str:
         return run.message
     if is_play(run):
         return _describe_play(run, index)
+    if is_match(run):
+        return _describe_match(run, index)
     if is_walk(run) and len(run.tracks) == 1:
         return _describe_walk(run, index)
     pushed = run.pushed_at(float(run.times[index]))
@@ -29,6 +44,30 @@ def describe_state(run: Run, index: int) -> str:
     if is_duel(run):
         return _describe_duel(run, index)
     return f"{' and '.join(run.players)} in motion"
+
+
+def _describe_match(run: MatchRun, index: int) -> str:
+    """Describe the nearest pair of opponents, or of any players."""
+    identities = run.identities
+    pairs = [*combinations(run.players, 2)]
+    opposed = [
+        (one, other)
+        for one, other in pairs
+        if identities[one].opposes(identities[other])
+    ]
+    if not pairs:
+        return f"{run.players[0]} in motion"
+    apart = {
+        pair: hypot(
+            *(
+                run.tracks[pair[0]].torso[index, :2]
+                - run.tracks[pair[1]].torso[index, :2]
+            ).tolist()
+        )
+        for pair in opposed or pairs
+    }
+    (one, other), least = min(apart.items(), key=lambda item: item[1])
+    return f"nearest: {one} and {other}, {least:.2f} m"
 
 
 def _describe_duel(run: DuelRun, index: int) -> str:

@@ -12,7 +12,13 @@ from ..control.clearance.surroundings import (
 )
 from ..control.clearance.swept_outline import lateral_sway
 from ..control.scheme_builder import ClearanceSetup, build_scheme
-from ..control.sight_sources import CameraSight, MeasuredSight
+from ..control.sight_sources import (
+    CameraSight,
+    MeasuredSight,
+    SightOfPlayers,
+    SightSource,
+)
+from ..core.player_identity import PlayerIdentity
 from ..core.poses import Pose
 from ..core.random_streams import named_generator
 from ..locomotion.zmp.control_settings import ControlSettings
@@ -66,6 +72,20 @@ class WalkerSetup(NamedTuple):
         )
 
 
+class PlayerSensing(NamedTuple):
+    """Ideal sensing of all other players by one robot.
+
+    Attributes:
+        identity: Identity of the robot.
+        target: Name of its target; empty for the nearest opponent.
+        sights: Ideal sensors, one for each other player.
+    """
+
+    identity: PlayerIdentity
+    target: str
+    sights: tuple[IdealLineOfSight, ...]
+
+
 class CameraSensing(NamedTuple):
     """Camera sensing of one robot.
 
@@ -84,7 +104,7 @@ def place_walker(
     strategy: Strategy,
     *,
     sighting: Sighting | None = None,
-    sight: IdealLineOfSight | None = None,
+    sight: IdealLineOfSight | PlayerSensing | None = None,
     cameras: CameraSensing | None = None,
     truth: TrueRobotState | None = None,
     clearance: ClearanceSetup | None = None,
@@ -96,7 +116,8 @@ def place_walker(
         setup: The robot.
         strategy: Strategy of the player.
         sighting: Sighting before the first measurement, if known.
-        sight: Ideal sensor of the opponent, with ideal sensing.
+        sight: Ideal sensor of the opponent, or of all other players, with
+            ideal sensing.
         cameras: Cameras and perception, with camera sensing.
         truth: True state of the robot, if it exists already.
         clearance: Knowledge of the room and required clearance.
@@ -112,7 +133,7 @@ def place_walker(
         setup.control,
         tick=tick,
         delay=setup.body.delay_cycles * tick,
-        senses=MeasuredSight(sighting)
+        senses=_sight_source(sighting, sight)
         if cameras is None
         else CameraSight(cameras.perception, tick=tick),
         clearance=clearance,
@@ -134,7 +155,7 @@ def place_robot(
     setup: WalkerSetup,
     kinematics: LegKinematics,
     *,
-    sight: IdealLineOfSight | None = None,
+    sight: IdealLineOfSight | PlayerSensing | None = None,
     eyes: "SensorSuite | None" = None,
     truth: TrueRobotState | None = None,
     clearance: ClearanceSetup | None = None,
@@ -145,7 +166,8 @@ def place_robot(
         world: World that contains the robot.
         setup: The robot.
         kinematics: Kinematics in the standing posture.
-        sight: Ideal sensor of the opponent, with ideal sensing.
+        sight: Ideal sensor of the opponent, or of all other players, with
+            ideal sensing.
         eyes: Cameras and sonars, with camera sensing.
         truth: True state of the robot, if it exists already.
         clearance: Knowledge of the room; a robot that knows the room also
@@ -161,13 +183,30 @@ def place_robot(
         SensorSetup(
             generator=named_generator(setup.seed, f"sensors/{setup.name}"),
             averages_imu=setup.control.feedback,
-            sight=sight,
+            sight=sight if isinstance(sight, IdealLineOfSight) else None,
+            players=sensors_of(sight),
             eyes=eyes,
             truth=truth or setup.true_state_in(world),
             knows_pose=clearance is not None
             and isinstance(clearance.surroundings, KnownRoom),
         ),
     )
+
+
+def sensors_of(
+    sight: IdealLineOfSight | PlayerSensing | None,
+) -> tuple[IdealLineOfSight, ...]:
+    """Return the sensors of a sensing of several players; else none."""
+    return sight.sights if isinstance(sight, PlayerSensing) else ()
+
+
+def _sight_source(
+    sighting: Sighting | None, sight: IdealLineOfSight | PlayerSensing | None
+) -> SightSource:
+    """Return the source of sightings for the sensors of a robot."""
+    if isinstance(sight, PlayerSensing):
+        return SightOfPlayers(sight.identity, sight.target)
+    return MeasuredSight(sighting)
 
 
 def clearance_in(

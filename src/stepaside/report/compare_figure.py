@@ -36,7 +36,7 @@ def draw_comparison(runs: Sequence[Run], file: AnyPath) -> None:
         line = LINES[number % len(LINES)]
         cycle = run.settings.cycle
         shade = 1.0 - 0.6 * (number // len(LINES)) / max(1, len(runs))
-        for name, colour in colours_of(run.players).items():
+        for name, colour in colours_of(run.players, run.identities).items():
             place = run.tracks[name].torso
             axes["path"].plot(
                 place[:, 0],

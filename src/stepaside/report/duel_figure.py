@@ -98,7 +98,7 @@ def draw_top(axes: Any, run: Run, index: int) -> None:
     low, high = _frame(run)
     size = max(0.28, 0.07 * float((high - low).max()))
     _draw_solids(axes, run, float(run.times[index]))
-    for name, colour in colours_of(run.players).items():
+    for name, colour in colours_of(run.players, run.identities).items():
         track = run.tracks[name]
         axes.plot(*track.com[: index + 1, :2].T, color=colour, lw=1.0)
         draw_heading(axes, track.torso[index], colour, size)
@@ -139,7 +139,7 @@ def draw_paths(axes: Any, run: Run) -> None:
     extent = float(np.ptp(every, axis=0).max())
     # As large as a robot, larger for long paths.
     size = min(max(0.2, 0.04 * extent), 0.1 * extent + 0.02)
-    colours = colours_of(run.players)
+    colours = colours_of(run.players, run.identities)
     for name, colour in colours.items():
         track = run.tracks[name]
         if track.landings is not None:
@@ -192,7 +192,7 @@ def _draw_over_time(figure: Any, run: Run) -> None:
         axes.margins(x=0.0)
     if np.isfinite(radius):
         name = f"safety radius\n{radius:.3g} m"
-        colour = colours_of(run.players)[guarded]
+        colour = colours_of(run.players, run.identities)[guarded]
         above = theory_distance is not None and theory_distance <= radius
         va = "bottom" if above else "top"
         mark_level(shown[0], radius, name, colour, ":", va=va)
@@ -209,7 +209,7 @@ def _draw_over_time(figure: Any, run: Run) -> None:
 def _draw_balance(axes: Any, run: Run, name: str) -> None:
     """Draw CoM and ZMP of one robot during the last steps, leftward."""
     times, track = run.times, run.tracks[name]
-    colour = colours_of(run.players)[name]
+    colour = colours_of(run.players, run.identities)[name]
     span = 0.5 * STEPS * run.settings.cycle
     show = times >= times[-1] - span
     heading = float(track.torso[show][:, 2].mean())

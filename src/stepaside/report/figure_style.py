@@ -18,10 +18,14 @@ from cycler import cycler  # noqa: E402
 
 from ..core.atomic_output import atomic_draft  # noqa: E402
 from ..core.errors import AnyPath, as_path  # noqa: E402
+from ..core.player_colours import from_hex, shades_of, to_hex  # noqa: E402
+from ..core.player_identity import PlayerIdentity, Role  # noqa: E402
 from .figure_sizes import sheet  # noqa: E402
 
 PURSUER = "#c8321f"
 EVADER = "#1f5fbf"
+BYSTANDER = "#6f7275"
+NO_IDENTITIES: Mapping[str, PlayerIdentity] = {}
 THEORY = "#444444"
 LEFT, RIGHT = "#0f7b6c", "#b5651d"
 MEAN = "#5b2a86"  # mean over a gait cycle
@@ -177,17 +181,30 @@ def mark_level(
     )
 
 
-def colours_of(players: Iterable[str]) -> dict[str, str]:
+def colours_of(
+    players: Iterable[str],
+    identities: Mapping[str, PlayerIdentity] = NO_IDENTITIES,
+) -> dict[str, str]:
     """Return the colour of each player: its role's, or the next free one.
 
     Args:
         players: Their names.
+        identities: Identities by name; players of one role have shades of
+            its colour.
     """
-    found: dict[str, str] = {}
+    base = {
+        Role.PURSUER: from_hex(PURSUER),
+        Role.EVADER: from_hex(EVADER),
+        Role.BYSTANDER: from_hex(BYSTANDER),
+    }
+    shades = shades_of(identities, base)
     others = cycle(OTHERS)
-    for name in players:
-        found[name] = COLOURS.get(name) or next(others)
-    return found
+    return {
+        name: to_hex(shades[name])
+        if name in shades
+        else COLOURS.get(name) or next(others)
+        for name in players
+    }
 
 
 def save(figure: Any, file: AnyPath) -> None:

@@ -60,7 +60,9 @@ def caption(
     size = round(FONT_SIZE * height)
     image = Image.fromarray(picture)
     pen = ImageDraw.Draw(image, "RGBA")
-    for name, colour in colours_in("light", run.players).items():
+    for name, colour in colours_in(
+        "light", run.players, run.identities
+    ).items():
         position = run.tracks[name].torso[index, :2]
         top = max(HEIGHT, 1.9 * float(run.tracks[name].com[index, 2]))
         projected = view.project(np.array([*position, top]), fovy)
@@ -104,7 +106,7 @@ def ring_labels(run: Run, index: int) -> list[tuple[str, Array, str]]:
     if run.safety is not None:
         player, radius = run.safety
         x, y = run.tracks[player].torso[index, :2].tolist()
-        colour = colours_in("light", run.players)[player]
+        colour = colours_in("light", run.players, run.identities)[player]
         position = np.array([x + radius * dx, y + radius * dy, 0.0])
         labels.append((f"safety radius {radius:.2g} m", position, colour))
     circle = run.circle

@@ -92,7 +92,9 @@ class FilmInsets:
             width = max(2, bottom // 90)
             pen.line((x, 0.9 * bottom, x, bottom), ESTIMATE_COLOUR, width)
         size = max(9, self._height // 16)
-        colour = colours_in("light", self._run.players)[name]
+        colour = colours_in("light", self._run.players, self._run.identities)[
+            name
+        ]
         at = 0.28 * self._width, 1.9 * size
         draw_label(pen, f"{name}'s camera", at, colour, size)
         return np.asarray(image)

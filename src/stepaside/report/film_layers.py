@@ -33,7 +33,7 @@ def add_layers(
     now = float(run.times[index])
     first = int(np.searchsorted(run.times, now - trail))
     every = max(1, (index - first) // TRACE_POINTS)
-    for name, colour in colours_of(run.players).items():
+    for name, colour in colours_of(run.players, run.identities).items():
         track = run.tracks[name]
         com = track.com[first : index + 1 : every, :2]
         _add_lines(scene, com, 0.004, colour)
@@ -54,7 +54,7 @@ def add_layers(
     if run.safety is not None:
         player, radius = run.safety
         center = run.tracks[player].torso[index, :2]
-        colour = colours_of(run.players)[player]
+        colour = colours_of(run.players, run.identities)[player]
         _add_lines(scene, _ring(center, radius), 0.003, colour)
     if run.circle is not None:
         x, y, radius = run.circle

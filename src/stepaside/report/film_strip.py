@@ -90,7 +90,7 @@ def legend_entries(
         run: The run.
         settings: Settings of the film.
     """
-    colours = colours_of(run.players)
+    colours = colours_of(run.players, run.identities)
     entries = [(f"path of the {n}", c, 1.5) for n, c in colours.items()]
     if settings.layers and run.safety is not None:
         player, radius = run.safety

@@ -1,10 +1,14 @@
 """Colours of pages in the light and the dark theme."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from itertools import cycle
 from typing import NamedTuple
 
+from ..core.player_colours import from_hex, shades_of, to_hex
+from ..core.player_identity import PlayerIdentity, Role
+
 THEMES = ("light", "dark")
+NO_IDENTITIES: Mapping[str, PlayerIdentity] = {}
 
 
 class Palette(NamedTuple):
@@ -119,17 +123,34 @@ def on_both_floors(colour: str) -> str:
     return ON_BOTH_FLOORS.get(colour, colour)
 
 
-def colours_in(theme: str, players: Iterable[str]) -> dict[str, str]:
+def colours_in(
+    theme: str,
+    players: Iterable[str],
+    identities: Mapping[str, PlayerIdentity] = NO_IDENTITIES,
+) -> dict[str, str]:
     """Return the colour of each player: its role's, or the next free one.
 
     Args:
         theme: One of ``THEMES``.
         players: Their names.
+        identities: Identities by name; players of one role have shades of
+            its colour.
     """
     palette = PALETTES[theme]
+    base = {
+        Role.PURSUER: from_hex(palette.pursuer),
+        Role.EVADER: from_hex(palette.evader),
+        Role.BYSTANDER: from_hex(palette.soft),
+    }
+    shades = shades_of(identities, base)
     roles = {"pursuer": palette.pursuer, "evader": palette.evader}
     others = cycle(palette.others)
-    return {name: roles.get(name) or next(others) for name in players}
+    return {
+        name: to_hex(shades[name])
+        if name in shades
+        else roles.get(name) or next(others)
+        for name in players
+    }
 
 
 def contrast(first: str, second: str) -> float:

@@ -59,7 +59,7 @@ def _draw_command(axes: Any, run: PlayRun) -> None:
     """Draw the desired velocity and the command that was sent."""
     command = _own(run).command
     assert command is not None
-    colour = colours_of(run.players)[run.settings.role]
+    colour = colours_of(run.players, run.identities)[run.settings.role]
     turns = axes.twinx()
     for part, name, look in ((0, "desired", ":"), (2, "command", "-")):
         speed, turn = command[:, part], command[:, part + 1]

@@ -175,7 +175,8 @@ def _player_data(
         "landings": _rows(track.landings),
         "pushes": _rows(track.pushes),
         "colours": {
-            theme: colours_in(theme, run.players)[name] for theme in PALETTES
+            theme: colours_in(theme, run.players, run.identities)[name]
+            for theme in PALETTES
         },
     }
 

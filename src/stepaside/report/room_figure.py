@@ -95,7 +95,7 @@ def draw_clearance(axes: Any, run: Run) -> None:
     assert run.plan is not None
     every = slice(None, None, max(1, len(run.times) // MAX_SAMPLES))
     times = run.times[every]
-    for name, colour in colours_of(run.players).items():
+    for name, colour in colours_of(run.players, run.identities).items():
         places = run.tracks[name].unicycle[every, :2]
         clearance = clearance_of(run.plan, places, times)
         axes.plot(times, clearance, color=colour, lw=1.4, label=name)

@@ -14,7 +14,7 @@ from ..core.atomic_output import (
 )
 from ..core.errors import AnyPath, OutputError, as_path
 from ..games.outcome import Outcome
-from ..games.run import Run, is_play
+from ..games.run import Run, is_match, is_play
 from ..games.run_archive import write_checksums, write_run_files
 
 SIGHT = "sight.png"
@@ -56,6 +56,10 @@ def draw_run(run: Run, file: Path) -> None:
         from .play_figure import draw_play
 
         draw_play(run, file)
+    elif is_match(run):
+        from .game_figure import draw_game
+
+        draw_game(run, file)
     elif run.pair is None:
         from .walk_figure import draw_walk
 

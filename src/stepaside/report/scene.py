@@ -6,9 +6,11 @@ import numpy as np
 from ..core.errors import ConfigurationError
 from ..core.poses import Array, Pose
 from ..games.duel_furnishing import Mover, furnishing_of, movers_in
+from ..games.game_furnishing import colours_in_world, furnish_game
 from ..games.play_settings import PlaySettings
-from ..games.run import Run, is_duel
+from ..games.run import Run, is_duel, is_match
 from ..robots.description import load_robot
+from ..sim.obstacle_geoms import obstacle_mover
 from ..sim.pedestrian_models import FIGURES
 from ..sim.person_body import mocap_indices, set_person_pose
 from ..sim.physics_settings import PhysicsSettings
@@ -48,14 +50,25 @@ class RunScene:
             physics,
             seed=seed,
             furnish=self._furnishing_of(run),
+            colours=colours_in_world(run.settings) if is_match(run) else None,
         )
         hide_walls(self.model)
         self.data = mujoco.MjData(self.model)
         self._movers: list[Mover] = []
-        self._figure = FIGURES["adult"]
+        self._figures = dict.fromkeys(persons, FIGURES["adult"])
         if is_duel(run):
-            self._figure = FIGURES[run.settings.person.figure]
+            figure = FIGURES[run.settings.person.figure]
+            self._figures = dict.fromkeys(persons, figure)
             self._movers = movers_in(run.settings, self.model, self.data)
+        if is_match(run):
+            self._figures = {
+                name: FIGURES[run.settings.player(name).person.figure]
+                for name in persons
+            }
+            room = run.settings.room
+            if room is not None and room.moving:
+                move = obstacle_mover(self.model, self.data, room)
+                self._movers.append(move)
         self._persons = {
             name: mocap_indices(self.model, name) for name in persons
         }
@@ -70,6 +83,9 @@ class RunScene:
         furnish_duel = furnishing_of(run.settings) if is_duel(run) else None
 
         def furnish(spec: mujoco.MjSpec) -> None:
+            if is_match(run):
+                furnish_game(spec, run.settings, templates=self._templates)
+                return
             if furnish_duel is not None:
                 furnish_duel(spec)
             for name in self._templates:
@@ -100,7 +116,8 @@ class RunScene:
         for name, parts in self._persons.items():
             pose = Pose(*self._tracks[name].torso[index].tolist())
             walked = float(self._walked[name][index])
-            set_person_pose(self.data, parts, pose, walked, self._figure)
+            figure = self._figures[name]
+            set_person_pose(self.data, parts, pose, walked, figure)
         for name in self._templates:
             pose = Pose(*self._tracks[name].torso[index].tolist())
             pose_template(self.model, self.data, name, pose)

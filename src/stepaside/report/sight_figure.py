@@ -129,7 +129,7 @@ def _draw_top(axes: Any, run: Run, time: float) -> None:
     """Draw the top view at a time, with the paths so far."""
     times = run.times
     index = min(int(np.searchsorted(times, time)), len(times) - 1)
-    for name, colour in colours_of(run.players).items():
+    for name, colour in colours_of(run.players, run.identities).items():
         track = run.tracks[name]
         path = track.torso[: index + 1]
         axes.plot(path[:, 0], path[:, 1], color=colour, lw=1.0)
@@ -169,7 +169,7 @@ def _draw_errors(figure: Any, grid: Any, run: Run) -> None:
     """Draw the errors of bearing and distance over time."""
     upper = figure.add_subplot(grid[-2, :])
     lower = figure.add_subplot(grid[-1, :], sharex=upper)
-    for name, colour in colours_of(run.players).items():
+    for name, colour in colours_of(run.players, run.identities).items():
         rows = run.tracks[name].sight
         if rows is None:
             continue

@@ -20,7 +20,11 @@ REACH = 0.4  # of an adult around the trunk with arms hanging, in [m]
 
 
 def add_person(
-    spec: mujoco.MjSpec, name: str, figure: PedestrianModel = ADULT
+    spec: mujoco.MjSpec,
+    name: str,
+    figure: PedestrianModel = ADULT,
+    *,
+    shirt: Colour | None = None,
 ) -> None:
     """Add the bodies of a person to a world; physics does not move them.
 
@@ -28,6 +32,7 @@ def add_person(
         spec: Specification of the world.
         name: Prefix of the bodies.
         figure: Pedestrian model.
+        shirt: Colour of the shirt; that of the model by default.
     """
 
     def capsule(
@@ -47,7 +52,7 @@ def add_person(
             conaffinity=0,
         )
 
-    shirt, trousers = figure.shirt, figure.trousers
+    shirt, trousers = shirt or figure.shirt, figure.trousers
     trunk = spec.worldbody.add_body(name=f"{name}/trunk", mocap=True)
     capsule(trunk, (0, 0, 1.0), (0, 0, 1.35), TRUNK, shirt)
     capsule(trunk, (0, -0.16, SHOULDER), (0, 0.16, SHOULDER), 0.07, shirt)

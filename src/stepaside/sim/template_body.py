@@ -5,6 +5,7 @@ from math import cos, sin
 import mujoco
 
 from ..core.poses import Pose
+from .pedestrian_models import Colour
 
 DISC_RADIUS = 0.07  # in [m]
 DISC_HALF_HEIGHT = 0.006  # in [m]
@@ -18,14 +19,17 @@ COLOURS = {
 OTHER_COLOUR = (0.35, 0.35, 0.38, 1.0)
 
 
-def add_template(spec: mujoco.MjSpec, name: str) -> None:
+def add_template(
+    spec: mujoco.MjSpec, name: str, colour: Colour | None = None
+) -> None:
     """Add the marker of a template to a world, without contacts.
 
     Args:
         spec: Specification of the world.
         name: Name of the player, which is the prefix of the body.
+        colour: Red to opacity; by default that of the role by this name.
     """
-    colour = COLOURS.get(name, OTHER_COLOUR)
+    colour = colour or COLOURS.get(name, OTHER_COLOUR)
     body = spec.worldbody.add_body(name=f"{name}/trunk", mocap=True)
     kinds = mujoco.mjtGeom
     _part(

@@ -14,13 +14,14 @@ from ..robots.description import RobotDescription
 from ..robots.tree_cache import load_tree
 from .body_settings import BodySettings
 from .floor import add_floor, tilt_gravity
+from .pedestrian_models import Colour
 from .physics_settings import PhysicsSettings
 from .sensor_errors import perturb_masses
 
 FLOOR_BIT = 1
 NO_SENSORS = int(mujoco.mjtDisableBit.mjDSBL_SENSOR)
 CONTACT_BITS = 0x7FFFFFFF  # of MuJoCo's contact masks, without the sign
-COLOURS = {
+COLOURS: Mapping[str, Colour] = {
     "pursuer": (0.80, 0.16, 0.14, 1.0),
     "evader": (0.10, 0.36, 0.75, 1.0),
 }
@@ -34,6 +35,7 @@ def build_model(
     furnish: Callable[[mujoco.MjSpec], None] | None = None,
     *,
     rendered: bool = True,
+    colours: Mapping[str, Colour] | None = None,
 ) -> mujoco.MjModel:
     """Compile a floor and robots that collide with it and each other.
 
@@ -46,7 +48,10 @@ def build_model(
         furnish: Function that adds to the world after the robots.
         rendered: Whether to include geoms and materials that do not
             collide and only serve images.
+        colours: Colours of robots by name, red to opacity; by default those
+            of the two roles.
     """
+    colours = COLOURS if colours is None else colours
     spec = mujoco.MjSpec()
     spec.compiler.discardvisual = not rendered
     spec.option.timestep = physics.time_step
@@ -79,8 +84,8 @@ def build_model(
                 generator,
                 length_unit=description.game.get("length_unit", 1.0),
             )
-        if name in COLOURS:
-            _set_colour(part, description, COLOURS[name])
+        if name in colours:
+            _set_colour(part, description, colours[name])
         # Otherwise MuJoCo warns that the options differ.
         part.option = spec.option
         frame = spec.worldbody.add_frame()
@@ -105,7 +110,7 @@ def _contact_types() -> Iterator[int]:
 def _set_colour(
     part: mujoco.MjSpec,
     description: RobotDescription,
-    colour: tuple[float, float, float, float],
+    colour: Colour,
 ) -> None:
     """Set the colour of a role on the accent of a robot, or its torso."""
     if description.accent:
@@ -141,6 +146,7 @@ class World:
         furnish: Callable[[mujoco.MjSpec], None] | None = None,
         *,
         rendered: bool = False,
+        colours: Mapping[str, Colour] | None = None,
     ) -> None:
         """Compile a world whose robots are not placed yet.
 
@@ -153,7 +159,13 @@ class World:
             load_tree(robot)  # raises if model and description differ
         self.physics = physics
         self.model = build_model(
-            robots, physics, body, seed, furnish, rendered=rendered
+            robots,
+            physics,
+            body,
+            seed,
+            furnish,
+            rendered=rendered,
+            colours=colours,
         )
         self.data = mujoco.MjData(self.model)
         self.before_step: list[Callable[[float], None]] = []

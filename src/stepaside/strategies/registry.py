@@ -16,6 +16,7 @@ from ..core.setting import ranges_of
 from .constant_walk import StandStill, Walk
 from .deflected_evasion import DeflectedEvasion
 from .evasion import Evasion
+from .goal_walk import GoalWalk
 from .herding import HerdingPursuit
 from .lead_pursuit import LeadPursuit
 from .learned import load_learned_strategy
@@ -25,6 +26,13 @@ from .optimal_pursuit import OptimalPursuit
 from .pursuit import Pursuit
 from .strategy import FAILURES, Strategy
 from .strategy_validation import validate_strategy
+from .team_evasion import TeamEvasion
+from .team_pursuit import (
+    AssignedPursuit,
+    CyclicPursuit,
+    Encirclement,
+    Pincer,
+)
 
 STRATEGIES: Mapping[str, Callable[[Evasion], Strategy]] = {
     "evasion": lambda evasion: evasion,
@@ -36,6 +44,12 @@ STRATEGIES: Mapping[str, Callable[[Evasion], Strategy]] = {
     "herding": lambda evasion: HerdingPursuit(),
     "lead": lambda evasion: LeadPursuit(),
     "optimal-pursuit": lambda evasion: OptimalPursuit(),
+    "cyclic": lambda evasion: CyclicPursuit(),
+    "assigned": lambda evasion: AssignedPursuit(),
+    "encircle": lambda evasion: Encirclement(),
+    "pincer": lambda evasion: Pincer(),
+    "team-evasion": lambda evasion: TeamEvasion(),
+    "goal": lambda evasion: GoalWalk(),
     "stand": lambda evasion: StandStill(),
     "walk": lambda evasion: Walk(),
 }

@@ -210,7 +210,7 @@ class ReplayPage:
     def _draw(self, index: int) -> None:
         run, layers = self._run, self._layers
         first, now = max(0, index - 1500), float(run.times[index])
-        colours = colours_of(run.players)
+        colours = colours_of(run.players, run.identities)
         for name, track in run.tracks.items():
             trace = track.com[first : index + 1 : 5, :2]
             lines = polyline(trace, HEIGHTS["CoM trace"])

@@ -1,0 +1,318 @@
+"""Players that physics does not move: people, unicycles, recorded motions.
+
+A body on the floor shows the player and gives its true state; a steering
+moves it from tick to tick.
+"""
+
+from collections.abc import Mapping, Sequence
+from math import hypot
+from typing import TYPE_CHECKING, Protocol
+
+import numpy as np
+
+from ..core.errors import ConfigurationError
+from ..core.player_identity import PlayerIdentity
+from ..core.poses import Array, Pose
+from ..locomotion.walk_snapshots import StepStarted
+from ..planning import GaitSettings
+from ..sim.crowd_motion import RADIUS, CrowdMotion, Neighbour
+from ..sim.ground_truth import GroundTruth
+from ..sim.pedestrian_models import PedestrianModel
+from ..sim.person_body import REACH, mocap_indices, set_person_pose
+from ..sim.person_motion import PersonMotion
+from ..sim.push import Push
+from ..sim.template_body import pose_template
+from ..sim.world import World
+from ..strategies.template_agent import PlayerState, TemplateAgent
+from .player import Snapshot, TruthLog
+from .recorded_motion import RecordedMotion
+from .template_level import PERIOD, UnicycleMotion
+
+if TYPE_CHECKING:
+    from ..perception.percept_stages import FrameReport
+
+ROBOT_RADIUS = 0.14  # of a robot, for people who give way to it, in [m]
+MARKER_HEIGHT = 0.27  # that stands for the CoM of a marker, in [m]
+MARKER_REACH = 0.1  # of a marker, which touches nothing, in [m]
+
+
+class FloorTruth:
+    """True state of a player that physics does not move.
+
+    Attributes:
+        pose: Pose in the world.
+        reach: Radius that contains the whole body, in [m].
+    """
+
+    def __init__(self, pose: Pose, *, reach: float, height: float) -> None:
+        """Begin at a pose.
+
+        Args:
+            pose: Initial pose in the world.
+            reach: Radius that contains the whole body, in [m].
+            height: Height that stands for that of the CoM, in [m].
+        """
+        self.pose, self.reach, self._height = pose, reach, height
+
+    def move(self, pose: Pose) -> None:
+        """Move to a pose in the world."""
+        self.pose = pose
+
+    @property
+    def position_com_in_world(self) -> Array:
+        """Position at the height of the CoM, in [m]. Shape (3,)."""
+        return np.array([*self.pose[:2], self._height])
+
+    @property
+    def position_torso_in_world(self) -> tuple[float, float]:
+        """Position, in [m]."""
+        return self.pose[:2]
+
+    @property
+    def position_reference_in_world(self) -> tuple[float, float]:
+        """Position, in [m]."""
+        return self.pose[:2]
+
+    @property
+    def heading_in_world(self) -> float:
+        """Heading, in [rad]."""
+        return self.pose.theta
+
+    @property
+    def has_fallen(self) -> bool:
+        """Return false: it does not fall."""
+        return False
+
+
+class FloorBody(Protocol):
+    """Body on the floor.
+
+    Attributes:
+        name: Name of the player.
+        world: The world.
+        truth: True state.
+    """
+
+    name: str
+    world: World
+    truth: FloorTruth
+
+    def move(self, pose: Pose) -> None:
+        """Move to a pose in the world."""
+
+
+class PedestrianBody:
+    """Body of a person, whose legs swing with the distance walked.
+
+    Attributes:
+        name: Name of the player.
+        world: The world.
+        truth: True state.
+    """
+
+    def __init__(
+        self, world: World, name: str, pose: Pose, figure: PedestrianModel
+    ) -> None:
+        """Set the bodies to a pose."""
+        self.name, self.world, self._figure = name, world, figure
+        self.truth = FloorTruth(
+            pose, reach=REACH * figure.size, height=figure.size
+        )
+        self._parts, self._walked = mocap_indices(world.model, name), 0.0
+        self.move(pose)
+
+    def move(self, pose: Pose) -> None:
+        """Move to a pose in the world."""
+        before = self.truth.pose
+        self._walked += hypot(pose.x - before.x, pose.y - before.y)
+        self.truth.move(pose)
+        data, walked = self.world.data, self._walked
+        set_person_pose(data, self._parts, pose, walked, self._figure)
+
+
+class MarkerBody:
+    """Marker of a unicycle or of a recorded player, without contacts.
+
+    Attributes:
+        name: Name of the player.
+        world: The world.
+        truth: True state.
+    """
+
+    def __init__(self, world: World, name: str, pose: Pose) -> None:
+        """Set the marker to a pose."""
+        self.name, self.world = name, world
+        self.truth = FloorTruth(pose, reach=MARKER_REACH, height=MARKER_HEIGHT)
+        self.move(pose)
+
+    def move(self, pose: Pose) -> None:
+        """Move to a pose in the world."""
+        self.truth.move(pose)
+        pose_template(self.world.model, self.world.data, self.name, pose)
+
+
+class Steering(Protocol):
+    """Motion of a body on the floor."""
+
+    def next_pose(self, time: float) -> Pose:
+        """Return the pose at the end of the tick that begins at a time [s]."""
+
+
+class CrowdSteering:
+    """Walk of a person to a goal."""
+
+    def __init__(
+        self,
+        motion: CrowdMotion,
+        others: Mapping[str, GroundTruth],
+        people: set[str],
+        tick: float,
+    ) -> None:
+        """Take the walk, all other players and the names of people."""
+        self._motion, self._others = motion, others
+        self._people, self._tick = people, tick
+
+    def next_pose(self, time: float) -> Pose:
+        """Return the pose at the end of a tick."""
+        neighbours = [
+            Neighbour(
+                *truth.position_torso_in_world,
+                name in self._people,
+                RADIUS if name in self._people else ROBOT_RADIUS,
+            )
+            for name, truth in self._others.items()
+        ]
+        self._motion.advance(time + self._tick, self._tick, neighbours)
+        return self._motion.pose
+
+
+class PathSteering:
+    """Walk of a person along a path relative to another player."""
+
+    def __init__(
+        self, motion: PersonMotion, target: GroundTruth, tick: float
+    ) -> None:
+        """Take the walk and the true state of the other player."""
+        self._motion, self._target, self._tick = motion, target, tick
+
+    def next_pose(self, time: float) -> Pose:
+        """Return the pose at the end of a tick."""
+        target = self._target.position_torso_in_world
+        self._motion.advance(time + self._tick, self._tick, target)
+        return self._motion.pose
+
+
+class RecordedSteering:
+    """Motion that was recorded."""
+
+    def __init__(self, motion: RecordedMotion, tick: float) -> None:
+        """Take a recorded motion."""
+        self._motion, self._tick = motion, tick
+
+    def next_pose(self, time: float) -> Pose:
+        """Return the pose at the end of a tick."""
+        return self._motion.pose_at(time + self._tick)
+
+
+class StrategySteering:
+    """Template unicycle that decides at steps; it moves every 20 ms."""
+
+    def __init__(
+        self,
+        agent: TemplateAgent,
+        pose: Pose,
+        gait: GaitSettings,
+        identities: dict[str, PlayerIdentity],
+        others: Mapping[str, GroundTruth],
+    ) -> None:
+        """Take a strategy, and the true states of all other players."""
+        self._name, self._others = agent.identity.name, others
+        self._motion = UnicycleMotion(
+            agent, pose, gait, identities, steps=True
+        )
+        self._players = self._states({})
+        self._due = 0.0
+
+    def next_pose(self, time: float) -> Pose:
+        """Return the pose at the end of a tick."""
+        if time >= self._due - 1e-9:
+            self._players = self._states(self._players)
+            self._motion.advance(time, self._players)
+            self._due += PERIOD
+        return self._motion.pose
+
+    def _states(
+        self, before: Mapping[str, PlayerState]
+    ) -> dict[str, PlayerState]:
+        """Return the states of all players, one period after others."""
+        poses = {
+            name: Pose(*truth.position_reference_in_world, 0.0)
+            for name, truth in self._others.items()
+        } | {self._name: self._motion.pose}
+        states = {}
+        for name, pose in poses.items():
+            last = before[name].pose if name in before else pose
+            dx, dy = pose.x - last.x, pose.y - last.y
+            states[name] = PlayerState(pose, (dx / PERIOD, dy / PERIOD))
+        return states
+
+
+class FloorPlayer:
+    """Player that physics does not move.
+
+    Attributes:
+        name: Name of the player.
+        truth: Its true state.
+        begun: None: it plans no footsteps.
+        reports: Empty: it has no cameras.
+        is_ready: True.
+        is_moving: True.
+        has_fallen: False: it does not fall.
+    """
+
+    begun: StepStarted | None = None
+    reports: "Sequence[FrameReport]" = ()
+    is_ready = True
+    is_moving = True
+    has_fallen = False
+
+    def __init__(self, body: FloorBody, steering: Steering) -> None:
+        """Combine a body and its motion."""
+        self.name, self._body, self._steering = body.name, body, steering
+        self.truth: GroundTruth = body.truth
+
+    def start(self) -> None:
+        """Do nothing: it begins with the simulation."""
+
+    def tick(self) -> None:
+        """Advance the motion by one tick."""
+        self._body.move(self._steering.next_pose(self._body.world.time))
+
+    def snapshot(self) -> Snapshot:
+        """Return the state at this instant."""
+        x, y, z = self.truth.position_com_in_world.tolist()
+        pose = self._body.truth.pose
+        return Snapshot(
+            name=self.name,
+            time=self._body.world.time,
+            place=pose,
+            torso=pose,
+            com=(x, y, z),
+        )
+
+    def motion_log(self, *, closely: bool) -> TruthLog:
+        """Return an empty log of its motion; it has no estimates."""
+        return TruthLog(self.truth)
+
+    def push(self, *pushes: Push) -> None:
+        """Reject pushes.
+
+        Raises:
+            ConfigurationError: Always.
+        """
+        raise ConfigurationError(
+            f"a push needs a robot, got {self.name}, which is none"
+        )
+
+    def close(self) -> None:
+        """Do nothing: it holds no resources."""

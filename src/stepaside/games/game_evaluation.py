@@ -1,0 +1,184 @@
+"""Summary of a finished game of any number of players."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import combinations
+from math import isfinite
+
+import numpy as np
+
+from ..core.constants import CAPTURE_DISTANCE
+from ..core.poses import Array
+from ..sim.crowd_motion import RADIUS
+from ..theory.unicycle.circle_fit import fit_circle
+from .duel_circle import angle_between, distance_between
+from .duel_summary import PlanTimes
+from .game_settings import GameSettings, PlayerSettings
+from .game_summary import CrowdResult, GameSummary, PairResult, PlayerResult
+from .outcome import Outcome
+from .trajectory import PlanningTimes, Trajectory
+
+MOVED = 0.02  # distance from the start that counts as motion, in [m]
+INTRUSIONS = (0.45, 1.2)  # of crowd navigation: intimate and personal, [m]
+ROBOT_RADIUS = 0.14  # of a robot or a unicycle among people, in [m]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class GameRecord:
+    """Record of a finished game.
+
+    Attributes:
+        settings: Settings with the initial poses filled in.
+        outcome: How it ended.
+        message: Reason for the end, as text.
+        duration: Simulated time, in [s].
+        times: Times of the samples, in [s]. Shape (n,).
+        tracks: Trajectory of each player, by name.
+        planning: Planning times of each player, by name.
+        goals_at: Time at which players reached their goals, in [s], by name.
+        touched: Names of the bodies in contact, if contact ended the game.
+        fallen: Names of the players that fell.
+    """
+
+    settings: GameSettings
+    outcome: Outcome
+    message: str
+    duration: float
+    times: Array
+    tracks: Mapping[str, Trajectory]
+    planning: Mapping[str, PlanningTimes]
+    goals_at: Mapping[str, float]
+    touched: tuple[str, ...]
+    fallen: tuple[str, ...]
+
+
+def summarise_game(record: GameRecord, wall_time: float) -> GameSummary:
+    """Compute the summary of a finished game.
+
+    Args:
+        record: Record of the game.
+        wall_time: Time that the computation took, in [s].
+    """
+    settings, planning = record.settings, record.planning.values()
+    pairs = [
+        _pair(record, one, other)
+        for one, other in combinations(settings.names, 2)
+    ]
+    people = [p for p in settings.players if p.body == "person"]
+    plans = 1e6 * np.concatenate([p.times for p in planning])
+    return GameSummary(
+        seed=settings.seed,
+        level=settings.level,
+        players=[_player(record, p, pairs) for p in settings.players],
+        pairs=pairs,
+        crowd=[
+            _crowd(record, p, people)
+            for p in settings.players
+            if p.decides and people
+        ],
+        replans=len(plans),
+        max_com_velocity_jump_m_s=max(p.velocity_jump for p in planning),
+        min_zmp_margin_m=min(
+            (p.zmp_margin for p in planning if p.zmp_margin is not None),
+            default=None,
+        ),
+        plan_time_us=PlanTimes(
+            float(np.median(plans)) if len(plans) else None,
+            float(np.quantile(plans, 0.99)) if len(plans) else None,
+        ),
+        real_time_factor=record.duration / max(wall_time, 1e-9),
+        touched=list(record.touched),
+        fallen=list(record.fallen),
+    )
+
+
+def _tail(times: Array) -> Array:
+    """Return the mask of the samples of the last third. Shape (n,)."""
+    tail: Array = times >= times[-1] * 2.0 / 3.0
+    return tail
+
+
+def _pair(record: GameRecord, one: str, other: str) -> PairResult:
+    """Summarise two players."""
+    times, identities = record.times, record.settings.identities
+    first, second = record.tracks[one], record.tracks[other]
+    apart = distance_between(first.torso, second.torso)
+    closest = int(apart.argmin())
+    caught = np.flatnonzero(apart <= CAPTURE_DISTANCE)
+    opposed = identities[one].opposes(identities[other])
+    tail = _tail(times)
+    last = first.unicycle[tail], second.unicycle[tail]
+    return PairResult(
+        players=[one, other],
+        closest_m=float(apart[closest]),
+        closest_at_s=float(times[closest]),
+        captured_at_s=float(times[caught[0]])
+        if opposed and caught.size
+        else None,
+        distance_m=float(distance_between(*last).mean()),
+        angle_deg=float(np.degrees(angle_between(*last)).mean()),
+    )
+
+
+def _player(
+    record: GameRecord, own: PlayerSettings, pairs: list[PairResult]
+) -> PlayerResult:
+    """Summarise one player."""
+    poses, times = record.tracks[own.name].unicycle, record.times
+    moved = np.hypot(*(poses[:, :2] - poses[0, :2]).T) > MOVED
+    first = np.flatnonzero(moved)
+    steps = np.diff(poses[:, :2], axis=0)
+    radius = fit_circle(poses[_tail(times), :2])[1] if first.size else np.nan
+    return PlayerResult(
+        name=own.name,
+        role=own.role,
+        team=own.identity.team,
+        body=own.body,
+        path_m=float(np.hypot(steps[:, 0], steps[:, 1]).sum()),
+        radius_m=float(radius) if isfinite(radius) else None,
+        moved_at_s=float(times[first[0]]) if first.size else None,
+        fell=own.name in record.fallen,
+        touched=own.name in record.touched,
+        goal_at_s=record.goals_at.get(own.name),
+        closest_m=min(
+            (pair.closest_m for pair in pairs if own.name in pair.players),
+            default=None,
+        ),
+    )
+
+
+def _crowd(
+    record: GameRecord, own: PlayerSettings, people: list[PlayerSettings]
+) -> CrowdResult:
+    """Measure the encounter of a robot with people."""
+    poses, times = record.tracks[own.name].unicycle, record.times
+    apart = np.array(
+        [
+            distance_between(poses, record.tracks[person.name].unicycle)
+            for person in people
+        ]
+    )
+    touching = apart < ROBOT_RADIUS + RADIUS
+    begun = int(np.count_nonzero(np.diff(touching.astype(int), axis=1) > 0))
+    collisions = begun + int(np.count_nonzero(touching[:, 0]))
+    nearest = apart.min(axis=0)
+    period = float(times[1] - times[0]) if len(times) > 1 else 0.0
+    intimate, personal = (
+        period * int(np.count_nonzero(nearest < limit)) for limit in INTRUSIONS
+    )
+    arrived = record.goals_at.get(own.name)
+    reached = (
+        arrived is not None
+        if own.goal
+        else (record.outcome is Outcome.COMPLETED)
+    )
+    unharmed = own.name not in (*record.touched, *record.fallen)
+    return CrowdResult(
+        name=own.name,
+        people=len(people),
+        success=reached and unharmed and collisions == 0,
+        collisions=collisions,
+        time_s=arrived,
+        below_0_45_m_s=intimate,
+        below_1_2_m_s=personal,
+    )

@@ -1,0 +1,335 @@
+"""Settings of a game of any number of players: equal settings repeat it."""
+
+from dataclasses import dataclass, replace
+from math import pi
+from typing import ClassVar
+
+from ..arena import Room
+from ..control.clearance.map_settings import MapSettings
+from ..core.brief_repr import brief_repr
+from ..core.errors import ConfigurationError
+from ..core.player_identity import PlayerIdentity, Role
+from ..core.poses import Pose
+from ..core.ranges import RUNTIME, SEEDS, Range, check_count
+from ..core.setting import REQUIRED, check_settings, setting
+from ..locomotion.policy.legs_settings import LegsSettings
+from ..locomotion.zmp.control_settings import ControlSettings
+from ..planning import GaitSettings
+from ..sim.body_settings import BODIES, BodySettings
+from ..sim.crowd_motion import CrowdSettings
+from ..sim.person_settings import PersonSettings
+from ..sim.physics_settings import PhysicsSettings, SightSettings
+from ..sim.push import MOST_PUSHES, Push, check_pushes
+from ..strategies import Evasion
+from ..strategies.registry import check_strategy_name
+from .duel_settings import BODY_HELP, RobotSettings
+from .player_names import MOST_PLAYERS, PLAYER_NAME
+
+BODY_KINDS = ("robot", "unicycle", "person", "run")
+GAME_LEVELS = ("physics", "steps", "unicycles")
+MOST_ROBOTS = 12  # in physics
+USUAL_STRATEGIES = {"pursuer": "pursuit", "evader": "evasion"}
+POSITION = Range(-100.0, 100.0, "m", "the farthest initial distance")
+TURN = Range(-pi, pi, "rad", "half a turn")
+
+
+@dataclass(frozen=True, slots=True)
+class PlayerSettings:
+    """Settings of one player."""
+
+    name: str = setting(
+        REQUIRED, "Name of the player: lower case, digits and hyphens"
+    )
+    role: str = setting(
+        "bystander", "Role of the player", names=tuple(r.value for r in Role)
+    )
+    team: str = setting("", "Team of the player; that of its role if empty")
+    body: str = setting(
+        "robot",
+        "Body of the player: a robot; its template unicycle; a person; or "
+        "the recorded motion of a player of a run",
+        names=BODY_KINDS,
+    )
+    robot: str = setting(
+        "nao", "Name of a robot, or folder of its description"
+    )
+    gait: GaitSettings = setting(
+        GaitSettings(), "Gait of a robot or a unicycle"
+    )
+    control: ControlSettings = setting(
+        ControlSettings(), "Walking control of a robot"
+    )
+    legs: LegsSettings = setting(
+        LegsSettings(), "Learned legs of a robot", needs=("body", "robot")
+    )
+    strategy: str = setting(
+        "",
+        "Strategy of a robot or a unicycle; if empty, that of the paper for "
+        "its role, and a bystander stands",
+    )
+    evasion: Evasion = setting(
+        Evasion(), "Settings of the paper's evasion strategy"
+    )
+    target: str = setting(
+        "",
+        "Name of the player that it plays against; the nearest opponent if "
+        "empty",
+    )
+    start: tuple[float, ...] = setting(
+        (),
+        "Initial position (x, y) [m] and heading [rad] in the world; drawn "
+        "from the seed if empty",
+    )
+    goal: tuple[float, ...] = setting(
+        (), "Position (x, y) in the world that the player walks to [m]"
+    )
+    senses: str = setting(
+        "ideal", "Sensing of other players", names=("ideal", "cameras")
+    )
+    sight: SightSettings = setting(SightSettings(), "Errors of ideal sensing")
+    person: PersonSettings = setting(
+        PersonSettings(),
+        "Motion of a person without a goal",
+        needs=("body", "person"),
+    )
+    crowd: CrowdSettings = setting(
+        CrowdSettings(),
+        "Motion of a person with a goal",
+        needs=("body", "person"),
+    )
+    run: str = setting(
+        "", "Run folder of a replayed player", needs=("body", "run")
+    )
+    run_player: str = setting(
+        "", "Name of the player in that run", needs=("body", "run")
+    )
+
+    def __post_init__(self) -> None:
+        """Validate ranges, name and combinations of settings."""
+        if not isinstance(self.name, str) or not PLAYER_NAME.fullmatch(
+            self.name
+        ):
+            raise ConfigurationError(
+                "player name must be lower case letters, digits and hyphens, "
+                f"at most 32, got {self.name!r:.40}"
+            )
+        prefix = f"{self.name}: "
+        check_settings(self, prefix=prefix)
+        if self.strategy:
+            check_strategy_name(self.strategy, f"{prefix}strategy")
+        for name, counts in (("start", (0, 3)), ("goal", (0, 2))):
+            values = getattr(self, name)
+            if len(values) not in counts:
+                raise ConfigurationError(
+                    f"{prefix}{name} must have {counts[1]} numbers, got "
+                    f"{len(values)}"
+                )
+            for value, allowed in zip(
+                values, (POSITION, POSITION, TURN), strict=False
+            ):
+                allowed.check(value, f"{prefix}{name}")
+        if self.senses == "cameras":
+            raise ConfigurationError(
+                f"{prefix}senses must be ideal in a game file, as cameras "
+                "tell one opponent by its colour, and not several; got "
+                "'cameras'"
+            )
+        if (self.body == "run") != bool(self.run):
+            raise ConfigurationError(
+                f"{prefix}run must be a run folder with body 'run' only, got "
+                f"{self.run!r} with body {self.body!r}"
+            )
+
+    @property
+    def identity(self) -> PlayerIdentity:
+        """Name, role and team."""
+        return PlayerIdentity(
+            self.name, Role(self.role), self.team or self.role
+        )
+
+    @property
+    def strategy_name(self) -> str:
+        """Name of its strategy; that of its role by default."""
+        if self.strategy:
+            return self.strategy
+        return USUAL_STRATEGIES.get(self.role, "stand")
+
+    @property
+    def pose(self) -> Pose | None:
+        """Initial pose in the world; None if it is drawn."""
+        return Pose(*self.start) if self.start else None
+
+    @property
+    def decides(self) -> bool:
+        """Whether it has a strategy: a robot or a unicycle."""
+        return self.body in ("robot", "unicycle")
+
+
+@dataclass(frozen=True, slots=True)
+class GameSettings:
+    """Settings of a game of any number of players."""
+
+    game: ClassVar[str] = "game"
+    __repr__ = brief_repr
+
+    seed: int = setting(1, "Random seed", SEEDS, option="--seed")
+    duration: float = setting(
+        120.0, "Simulated time", RUNTIME, option="--duration"
+    )
+    level: str = setting(
+        "physics",
+        "Level of the game: bodies in physics, templates that decide at "
+        "steps, or unicycles that decide continuously",
+        names=GAME_LEVELS,
+        option="--level",
+    )
+    players: tuple[PlayerSettings, ...] = setting((), "The players")
+    near: float = setting(
+        0.8,
+        "Smallest distance between two initial positions that are drawn",
+        Range(0.0, 100.0, "m", "beyond, they never meet"),
+    )
+    far: float = setting(
+        2.0,
+        "Greatest distance from the origin of a position that is drawn on "
+        "an open floor",
+        Range(0.0, 100.0, "m", "beyond, they never meet"),
+    )
+    physics: PhysicsSettings = setting(
+        PhysicsSettings(), "Physics, floor and clock"
+    )
+    body: BodySettings = setting(
+        BodySettings(),
+        "Deviations of the bodies from ideal ones",
+        presets=BODIES,
+        option="--body",
+        option_help=BODY_HELP,
+    )
+    room: Room | None = setting(
+        None, "Room in which the game is played; an open floor without"
+    )
+    map: MapSettings = setting(
+        MapSettings(), "Map of the room that robots have", needs=("room", "")
+    )
+    pushes: tuple[Push, ...] = setting((), "Pushes on the robots")
+
+    def __post_init__(self) -> None:
+        """Validate ranges, and that the players fit together."""
+        check_settings(self)
+        check_count(self.players, MOST_PLAYERS, "players")
+        check_players(self.players)
+        robots = self.robots
+        if self.level == "physics":
+            check_count(robots, MOST_ROBOTS, "robots in physics")
+        check_count(self.pushes, MOST_PUSHES, "pushes")
+        if self.pushes and not robots:
+            raise ConfigurationError("pushes need a robot, got none")
+        check_pushes(self.pushes, robots)
+        if self.room is not None and self.map.source == "seen":
+            raise ConfigurationError(
+                "map.source must be given or none in a game file, got 'seen'"
+            )
+        if self.room is not None and any(p.legs.walks for p in self.players):
+            raise ConfigurationError(
+                "legs.network must be empty in rooms, got a network"
+            )
+
+    def player(self, name: str) -> PlayerSettings:
+        """Return the settings of the player with a name."""
+        return {p.name: p for p in self.players}[name]
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the players, in the order in which they act."""
+        return tuple(p.name for p in self.players)
+
+    @property
+    def robots(self) -> tuple[str, ...]:
+        """Names of the players that are robots."""
+        return tuple(p.name for p in self.players if p.body == "robot")
+
+    def robot_of(self, player: str) -> RobotSettings:
+        """Return robot, gait, control and legs of a player.
+
+        Args:
+            player: Name of the player.
+        """
+        own = self.player(player)
+        return RobotSettings(own.robot, own.gait, own.control, own.legs)
+
+    @property
+    def gait(self) -> GaitSettings:
+        """Gait of the slowest stepping robot or unicycle."""
+        gaits = [p.gait for p in self.players if p.decides]
+        return max(
+            gaits or [GaitSettings()], key=lambda gait: gait.step_duration
+        )
+
+    @property
+    def cycle(self) -> float:
+        """Duration of a gait cycle, two steps of the slowest, in [s]."""
+        return 2.0 * self.gait.step_duration
+
+    @property
+    def identities(self) -> dict[str, PlayerIdentity]:
+        """Identity of each player, by name."""
+        return {p.name: p.identity for p in self.players}
+
+    def opponents_of(self, name: str) -> tuple[str, ...]:
+        """Return the names of the players of the opposing role."""
+        own = self.player(name).identity
+        return tuple(p.name for p in self.players if own.opposes(p.identity))
+
+    def with_starts(self, poses: tuple[Pose, ...]) -> "GameSettings":
+        """Return the settings with the initial poses filled in."""
+        players = tuple(
+            replace(p, start=tuple(map(float, pose)))
+            for p, pose in zip(self.players, poses, strict=True)
+        )
+        return replace(self, players=players)
+
+
+def check_players(players: tuple[PlayerSettings, ...]) -> None:
+    """Check that names are unique and that roles and targets fit.
+
+    Raises:
+        ConfigurationError: If there is no player, two have one name, a role
+            has no opponent, or a target does not exist.
+    """
+    if not players:
+        raise ConfigurationError("players must be at least 1, got 0")
+    names = [p.name for p in players]
+    twice = next((n for n in names if names.count(n) > 1), None)
+    if twice is not None:
+        raise ConfigurationError(
+            f"player names must be unique, got {twice!r} "
+            f"{names.count(twice)} times"
+        )
+    roles = {Role(p.role) for p in players}
+    for role, needed in (
+        (Role.PURSUER, {Role.EVADER}),
+        (Role.EVADER, {Role.PURSUER, Role.BYSTANDER}),
+    ):
+        # Pursuers that are assigned to each other need no evader.
+        alone = [p for p in players if p.role == role and not p.target]
+        if alone and not roles & needed and not _is_cyclic(alone):
+            wanted = " or ".join(sorted(needed))
+            raise ConfigurationError(
+                f"role {role} of {alone[0].name} needs an opponent: a player "
+                f"of role {wanted}, or a target, got none"
+            )
+    for player in players:
+        if player.target and player.target not in names:
+            raise ConfigurationError(
+                f"{player.name}: target must be a player, one of "
+                f"{', '.join(names)}, got {player.target!r}"
+            )
+        if player.target == player.name:
+            raise ConfigurationError(
+                f"{player.name}: target must be another player, got itself"
+            )
+
+
+def _is_cyclic(players: list[PlayerSettings]) -> bool:
+    """Return whether all of several players pursue the next of their team."""
+    return len(players) > 1 and all(p.strategy == "cyclic" for p in players)

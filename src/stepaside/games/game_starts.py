@@ -1,0 +1,145 @@
+"""Initial poses of the players of a game."""
+
+from math import atan2, cos, hypot, pi, radians, sin
+
+import numpy as np
+
+from ..core.errors import ConfigurationError
+from ..core.poses import Pose, wrap_angle
+from ..core.random_streams import named_generator
+from ..robots.description import load_robot
+from ..sim.crowd_motion import RADIUS
+from .game_settings import GameSettings, PlayerSettings
+from .recorded_motion import RecordedMotion
+
+MOST_DRAWS = 2000  # of one position, before the floor counts as full
+WALL_MARGIN = 0.3  # clearance of a start from walls and obstacles, in [m]
+ROBOT = 0.4  # least distance of two robots without one of their own, in [m]
+
+
+def with_starts(settings: GameSettings) -> GameSettings:
+    """Return the settings of the same game with all starts filled in.
+
+    Positions are drawn from the seed where they are omitted, then headings:
+    as in a duel, pursuers look up to a right angle beside their opponent,
+    evaders up to 30 degrees beside theirs, others anywhere.
+
+    Raises:
+        ConfigurationError: If given starts overlap, or there is no space.
+    """
+    generator = named_generator(settings.seed, "starts")
+    poses: dict[str, Pose] = {}
+    for player in settings.players:
+        given = player.pose
+        if player.body == "run":
+            given = RecordedMotion(player.run, player.run_player).pose_at(0.0)
+        if given is not None:
+            poses[player.name] = given
+    _check_apart(settings, poses)
+    drawn = [p for p in settings.players if p.name not in poses]
+    for player in drawn:
+        x, y = _draw_position(settings, player, poses, generator)
+        poses[player.name] = Pose(x, y, 0.0)
+    for player in drawn:
+        heading = _draw_heading(settings, player, poses, generator)
+        poses[player.name] = Pose(*poses[player.name][:2], heading)
+    return settings.with_starts(
+        tuple(
+            Pose(*poses[name][:2], wrap_angle(poses[name].theta))
+            for name in settings.names
+        )
+    )
+
+
+def least_distance(one: PlayerSettings, other: PlayerSettings) -> float:
+    """Return the distance at which two bodies cannot overlap, in [m]."""
+    return _radius(one) + _radius(other)
+
+
+def _radius(player: PlayerSettings) -> float:
+    """Return the radius within which a body stands, in [m]."""
+    if player.body == "person":
+        return RADIUS
+    if player.body != "robot":
+        return 0.0
+    least = load_robot(player.robot).game.get("start_least", ROBOT)
+    return 0.5 * float(least)
+
+
+def _check_apart(settings: GameSettings, poses: dict[str, Pose]) -> None:
+    """Check that given starts keep clear of each other and of the room."""
+    names = list(poses)
+    for i, name in enumerate(names):
+        for other in names[:i]:
+            least = least_distance(
+                settings.player(name), settings.player(other)
+            )
+            (x, y, _), (u, v, _) = poses[name], poses[other]
+            away = hypot(u - x, v - y)
+            if away < least - 1e-9:
+                raise ConfigurationError(
+                    f"starts of {other} and {name} must be at least "
+                    f"{least:g} [m] apart, or they overlap, got {away:.3g}"
+                )
+    room = settings.room
+    if room is None or not names:
+        return
+    gaps = room.clearance([poses[name][:2] for name in names])
+    for name, gap in zip(names, gaps.tolist(), strict=True):
+        if gap < 0.0:
+            raise ConfigurationError(
+                f"start of {name} must be on the free floor of the room, got "
+                f"a clearance of {gap:.3g} [m]"
+            )
+
+
+def _draw_position(
+    settings: GameSettings,
+    player: PlayerSettings,
+    poses: dict[str, Pose],
+    generator: np.random.Generator,
+) -> tuple[float, float]:
+    room = settings.room
+    for _ in range(MOST_DRAWS):
+        if room is None or room.width is None or room.depth is None:
+            away = settings.far * float(np.sqrt(generator.uniform()))
+            angle = generator.uniform(-pi, pi)
+            x, y = away * cos(angle), away * sin(angle)
+        else:
+            x = generator.uniform(-0.5 * room.width, 0.5 * room.width)
+            y = generator.uniform(-0.5 * room.depth, 0.5 * room.depth)
+        if room is not None:
+            if float(room.clearance([(x, y)])[0]) < WALL_MARGIN:
+                continue
+        if all(
+            hypot(other.x - x, other.y - y)
+            >= max(
+                settings.near, least_distance(player, settings.player(name))
+            )
+            for name, other in poses.items()
+        ):
+            return float(x), float(y)
+    raise ConfigurationError(
+        f"start of {player.name} must be at least {settings.near:g} [m] from "
+        f"all others, and there is no such place among {len(poses)} players"
+    )
+
+
+def _draw_heading(
+    settings: GameSettings,
+    player: PlayerSettings,
+    poses: dict[str, Pose],
+    generator: np.random.Generator,
+) -> float:
+    own = poses[player.name]
+    names = [player.target] if player.target else []
+    names = names or [*settings.opponents_of(player.name)]
+    if not names or player.role == "bystander":
+        return float(generator.uniform(-pi, pi))
+    nearest = min(
+        (poses[name] for name in names),
+        key=lambda pose: hypot(pose.x - own.x, pose.y - own.y),
+    )
+    sight = atan2(nearest.y - own.y, nearest.x - own.x)
+    most = pi / 2 if player.role == "pursuer" else radians(30.0)
+    return wrap_angle(sight + float(generator.uniform(-most, most)))

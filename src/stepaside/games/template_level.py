@@ -1,0 +1,338 @@
+"""Games of any number of players without bodies: templates on the floor.
+
+Robots are their template unicycles, which decide at steps or continuously;
+people and recorded motions are those of a game in physics. Times are gait
+times.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from ..arena import NO_OBSTACLES
+from ..core.errors import ConfigurationError
+from ..core.interrupts import DeferredInterrupt
+from ..core.player_identity import PlayerIdentity
+from ..core.poses import Array, Pose
+from ..planning import GaitSettings
+from ..planning.path import UnicycleTrajectory
+from ..sim.crowd_motion import CrowdMotion, Neighbour
+from ..sim.person_motion import PersonMotion
+from ..strategies.knowledge import Intent, Limits
+from ..strategies.strategy import Strategy
+from ..strategies.template_agent import PlayerState, TemplateAgent
+from .duel_circle import time_scale
+from .game_settings import GameSettings, PlayerSettings
+from .game_strategies import strategy_of
+from .recorded_motion import RecordedMotion
+
+PERIOD = 0.02  # between two samples, in [s]
+World = dict[str, PlayerState]
+
+
+class TemplateMotion(Protocol):
+    """Motion of a player without a body.
+
+    Attributes:
+        pose: Present pose in the world.
+    """
+
+    @property
+    def pose(self) -> Pose:
+        """Present pose in the world."""
+
+    def advance(self, time: float, players: World) -> None:
+        """Advance by one sample.
+
+        Args:
+            time: Present time, in [s].
+            players: States of all players now.
+        """
+
+
+class UnicycleMotion:
+    """Template of a robot that decides at steps, or at every sample.
+
+    Attributes:
+        pose: Present pose in the world.
+    """
+
+    def __init__(
+        self,
+        agent: TemplateAgent,
+        pose: Pose,
+        gait: GaitSettings,
+        identities: dict[str, PlayerIdentity],
+        *,
+        steps: bool,
+    ) -> None:
+        """Begin standing.
+
+        Args:
+            agent: Strategy of the player.
+            pose: Initial pose in the world.
+            gait: Gait of the robot.
+            identities: Identities of all players, by name.
+            steps: Whether it decides at steps.
+        """
+        self.pose = pose
+        self._agent, self._gait = agent, gait
+        self._others = {
+            identity.name: identity
+            for identity in identities.values()
+            if identity.name != agent.identity.name
+        }
+        self._scale = time_scale(gait)
+        self._period = gait.step_duration if steps else PERIOD
+        self._waits = round(gait.start_support / PERIOD) if steps else 0
+        self._ahead: list[Pose] = []
+        self._moving = False
+
+    def advance(self, time: float, players: World) -> None:
+        """Advance by one sample; decide if the last step is over."""
+        if not self._ahead:
+            self._ahead = self._plan(time, players)
+        self.pose = self._ahead.pop(0)
+
+    def _plan(self, time: float, players: World) -> list[Pose]:
+        """Decide, and return the poses until the next decision."""
+        own = players[self._agent.identity.name]
+        intent = self._agent.decide(
+            time,
+            own,
+            {known: players[name] for name, known in self._others.items()},
+            moving=self._moving,
+        )
+        if intent is None or not intent.walks:
+            self._moving = False
+            return [self.pose]
+        starts = [] if self._moving else [self.pose] * self._waits
+        self._moving = True
+        return starts + self._path(intent)
+
+    def _path(self, intent: Intent) -> list[Pose]:
+        """Return the poses of a step, or of one sample."""
+        gait, strategy = self._gait, self._agent.strategy
+        count = max(1, round(self._period / intent.pace / PERIOD))
+        turn = gait.gain * intent.heading * gait.path_interval
+        share = min(intent.speed_factor, gait.stride_share(turn))
+        path = UnicycleTrajectory(
+            intent.heading,
+            share * gait.speed,
+            gait.gain,
+            strategy.direction,
+            strategy.saturated,
+        )
+        # All samples together take the path time of one decision.
+        span = intent.pace * self._scale * self._period / intent.pace
+        poses = path.poses(span * np.arange(1, count + 1) / count)
+        poses[:, :2] = self.pose.transform_points(poses[:, :2])
+        poses[:, 2] += self.pose.theta
+        return [Pose(*pose) for pose in poses.tolist()]
+
+
+class CrowdTemplate:
+    """Person who walks to a goal, without a body."""
+
+    def __init__(
+        self, name: str, motion: CrowdMotion, people: set[str]
+    ) -> None:
+        """Take the motion of a person, and the names of all people."""
+        self._name, self._motion, self._people = name, motion, people
+
+    @property
+    def pose(self) -> Pose:
+        """Present pose in the world."""
+        return self._motion.pose
+
+    def advance(self, time: float, players: World) -> None:
+        """Advance by one sample."""
+        others = [
+            Neighbour(*state.pose[:2], name in self._people)
+            for name, state in players.items()
+            if name != self._name
+        ]
+        self._motion.advance(time + PERIOD, PERIOD, others)
+
+
+class PersonTemplate:
+    """Person who walks a path relative to another player, without a body."""
+
+    def __init__(self, motion: PersonMotion, target: str) -> None:
+        """Take the motion of a person, and the name of its target."""
+        self._motion, self._target = motion, target
+
+    @property
+    def pose(self) -> Pose:
+        """Present pose in the world."""
+        return self._motion.pose
+
+    def advance(self, time: float, players: World) -> None:
+        """Advance by one sample."""
+        target = players[self._target].pose
+        self._motion.advance(time + PERIOD, PERIOD, target[:2])
+
+
+class RecordedTemplate:
+    """Player whose motion was recorded."""
+
+    def __init__(self, motion: RecordedMotion) -> None:
+        """Take a recorded motion."""
+        self._motion = motion
+        self.pose = motion.pose_at(0.0)
+
+    def advance(self, time: float, players: World) -> None:
+        """Advance by one sample."""
+        self.pose = self._motion.pose_at(time + PERIOD)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class TemplateRecord:
+    """Motion of all players in a game of templates.
+
+    Attributes:
+        times: Times of the samples, in [s]. Shape (n,).
+        poses: Poses (x, y, heading) in the world of each player, by name,
+            in [m] and [rad]. Shapes (n, 3).
+        interrupted: Whether the user interrupted it.
+    """
+
+    times: Array
+    poses: dict[str, Array]
+    interrupted: bool
+
+
+def play_templates(
+    settings: GameSettings,
+    report: Callable[[float], None] | None = None,
+) -> TemplateRecord:
+    """Play a game of templates.
+
+    Args:
+        settings: Settings with the initial poses filled in.
+        report: Called with the time of the game, in [s], now and then.
+
+    Raises:
+        StepAsideError: If a strategy fails or a recorded run is unreadable.
+    """
+    motions = {p.name: _motion(settings, p) for p in settings.players}
+    count = round(settings.duration / PERIOD)
+    rows = {name: [motion.pose] for name, motion in motions.items()}
+    players = {name: PlayerState(m.pose) for name, m in motions.items()}
+    interrupted = False
+    try:
+        with DeferredInterrupt() as interrupt:
+            for k in range(count):
+                interrupt.let_through()
+                for motion in motions.values():
+                    motion.advance(k * PERIOD, players)
+                players = {
+                    name: _moved(players[name].pose, motion.pose)
+                    for name, motion in motions.items()
+                }
+                for name, motion in motions.items():
+                    rows[name].append(motion.pose)
+                if report is not None and k % 100 == 0:
+                    report(k * PERIOD)
+                if _all_arrived(settings, players):
+                    break
+    except KeyboardInterrupt:
+        interrupted = True
+    length = min(len(row) for row in rows.values())
+    return TemplateRecord(
+        PERIOD * np.arange(length, dtype=np.float64),
+        {name: np.array(row[:length]) for name, row in rows.items()},
+        interrupted,
+    )
+
+
+def has_arrived(player: PlayerSettings, pose: Pose) -> bool:
+    """Return whether a robot or unicycle with a goal has reached it."""
+    if not (player.goal and player.decides):
+        return False
+    return bool(
+        np.hypot(pose.x - player.goal[0], pose.y - player.goal[1]) < ARRIVAL
+    )
+
+
+ARRIVAL = 0.3  # distance from a goal at which it is reached, in [m]
+
+
+def _all_arrived(settings: GameSettings, players: World) -> bool:
+    going = [p for p in settings.players if p.goal and p.decides]
+    return bool(going) and all(
+        has_arrived(p, players[p.name].pose) for p in going
+    )
+
+
+def _moved(before: Pose, now: Pose) -> PlayerState:
+    """Return the state at a pose, one sample after another pose."""
+    return PlayerState(
+        now, ((now.x - before.x) / PERIOD, (now.y - before.y) / PERIOD)
+    )
+
+
+def _motion(settings: GameSettings, own: PlayerSettings) -> TemplateMotion:
+    """Return the motion of a player."""
+    pose = own.pose
+    assert pose is not None
+    room = settings.room
+    obstacles = NO_OBSTACLES if room is None else room.solid_set
+    if own.decides:
+        return UnicycleMotion(
+            agent_of(settings, own),
+            pose,
+            own.gait,
+            settings.identities,
+            steps=settings.level == "steps",
+        )
+    if own.body == "run":
+        return RecordedTemplate(RecordedMotion(own.run, own.run_player))
+    if own.goal:
+        people = {p.name for p in settings.players if p.body == "person"}
+        motion = CrowdMotion(own.crowd, pose, own.goal[:2], obstacles)  # type: ignore[arg-type]
+        return CrowdTemplate(own.name, motion, people)
+    target = target_of_person(settings, own)
+    aim = settings.player(target).pose
+    assert aim is not None
+    return PersonTemplate(PersonMotion(own.person, pose, aim[:2]), target)
+
+
+def agent_of(settings: GameSettings, own: PlayerSettings) -> TemplateAgent:
+    """Return the strategy of a template, which knows the room.
+
+    Args:
+        settings: Settings of the game.
+        own: Settings of the player.
+    """
+    gait, room = own.gait, settings.room
+    strategy: Strategy = strategy_of(own, Pose(0.0, 0.0, 0.0))
+    knows_room = room is not None and settings.map.source != "none"
+    return TemplateAgent(
+        strategy,
+        Limits(gait.speed, gait.gain, gait.stride, gait.step_duration),
+        own.identity,
+        target=own.target,
+        obstacles=room.solid_set if room and knows_room else NO_OBSTACLES,
+    )
+
+
+def target_of_person(settings: GameSettings, own: PlayerSettings) -> str:
+    """Return the name of the player that a person without a goal walks to.
+
+    Raises:
+        ConfigurationError: If there is no other player.
+    """
+    others = [p for p in settings.players if p.name != own.name]
+    if own.target:
+        return own.target
+    opposing = [p for p in others if own.identity.opposes(p.identity)]
+    deciding = [p for p in others if p.decides]
+    for candidates in (opposing, deciding, others):
+        if candidates:
+            return candidates[0].name
+    raise ConfigurationError(
+        f"{own.name}: a person without a goal needs another player, got none"
+    )

@@ -1,0 +1,234 @@
+"""Pursuit in teams: cyclic, encircling, assigned, and from both sides."""
+
+from dataclasses import dataclass, field, replace
+from math import atan2, cos, hypot, pi, sin, tau
+from typing import Any
+
+import numpy as np
+
+from ..core.poses import wrap_angle
+from ..core.ranges import Range
+from ..core.setting import check_settings, setting
+from ..planning import Direction
+from .assignment import assign
+from .knowledge import STAND, Intent, Knowledge
+from .pursuit import Pursuit
+
+APART = 0.7  # from teammates from which pursuers turn away, in [m]
+TOO_NEAR = 0.45  # to a teammate ahead at which a pursuer halts, in [m]
+BESIDE = -0.6  # cosine of the bearing from which a teammate is behind
+ON_SLOT = 0.1  # distance from a slot at which a pursuer halts, in [m]
+OFF_SLOT = 0.25  # distance at which it walks again, in [m]
+Point = tuple[float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class _TeamPursuit:
+    """Base of pursuers that choose a point and head for it as the paper's."""
+
+    pursuit: Pursuit = field(default_factory=Pursuit)
+
+    @property
+    def direction(self) -> Direction:
+        """Forward, eq. (1)."""
+        return Direction.FORWARD
+
+    @property
+    def saturated(self) -> bool:
+        """Whether it turns by (6) instead of (8)."""
+        return self.pursuit.saturated
+
+    def begin(self) -> Any:
+        """Return the memory of :class:`Pursuit` before the first decision."""
+        return self.pursuit.begin()
+
+
+@dataclass(frozen=True, slots=True)
+class CyclicPursuit(_TeamPursuit):
+    """Pursuer of the next player of its own team, in the order of names.
+
+    With all players of a team in cyclic pursuit they end on a regular
+    polygon, see :mod:`stepaside.theory.cyclic_pursuit`. Without a team it
+    pursues the opponent.
+    """
+
+    def decide(self, knowledge: Knowledge, memory: Any) -> tuple[Intent, Any]:
+        """Head for the next player by eq. (2)."""
+        own = knowledge.identity
+        if own is not None:
+            team = {o.identity.name: o for o in knowledge.teammates}
+            if not team:
+                return STAND, memory
+            names = sorted([own.name, *team])
+            following = names[(names.index(own.name) + 1) % len(names)]
+            knowledge = knowledge.about(team[following])
+        return self.pursuit.decide(knowledge, memory)
+
+
+@dataclass(frozen=True, slots=True)
+class AssignedPursuit(_TeamPursuit):
+    """Pursuer of the evader that its team assigns to it.
+
+    Every pursuer computes the assignment with the least total distance from
+    what it knows; with equal knowledge all compute the same.
+    """
+
+    def decide(self, knowledge: Knowledge, memory: Any) -> tuple[Intent, Any]:
+        """Head for the assigned evader by eq. (2)."""
+        evaders = sorted(
+            knowledge.opponents, key=lambda other: other.identity.name
+        )
+        if evaders:
+            hunters = fellows_of(knowledge)
+            places = np.array(list(hunters.values()))
+            goals = np.array([other.position for other in evaders])
+            costs = np.hypot(*np.moveaxis(places[:, None] - goals[None], 2, 0))
+            own = knowledge.identity
+            assert own is not None
+            row = list(hunters).index(own.name)
+            knowledge = knowledge.about(evaders[assign(costs)[row]])
+        intent, memory = self.pursuit.decide(knowledge, memory)
+        return keep_apart(knowledge, intent), memory
+
+
+@dataclass(frozen=True, slots=True)
+class Encirclement(_TeamPursuit):
+    """Pursuer that takes its place on a ring around the evader.
+
+    The places are evenly spaced, and turned so that the pursuers keep their
+    order around the evader and walk the least.
+    """
+
+    radius: float = setting(
+        0.8,
+        "Radius of the ring",
+        Range(0.1, 100.0, "m", "the bodies have a width"),
+    )
+
+    def __post_init__(self) -> None:
+        """Validate the settings."""
+        check_settings(self)
+
+    def begin(self) -> tuple[bool, Any]:
+        """Return whether it is in its place, and the memory of pursuit."""
+        return False, self.pursuit.begin()
+
+    def decide(
+        self, knowledge: Knowledge, memory: tuple[bool, Any]
+    ) -> tuple[Intent, tuple[bool, Any]]:
+        """Head for the own place on the ring, and halt there."""
+        halted, inner = memory
+        x, y = self._slot(knowledge)
+        away = hypot(x, y)
+        if away < (OFF_SLOT if halted else ON_SLOT):
+            return STAND, (True, inner)
+        intent, inner = self.pursuit.decide(knowledge.towards(x, y), inner)
+        return keep_apart(knowledge, intent), (False, inner)
+
+    def _slot(self, knowledge: Knowledge) -> Point:
+        """Return the own place on the ring in the frame, in [m]."""
+        u, v = position_of_opponent(knowledge)
+        angles = {
+            name: atan2(y - v, x - u)
+            for name, (x, y) in fellows_of(knowledge).items()
+        }
+        own = knowledge.identity.name if knowledge.identity else ""
+        ordered = sorted(angles, key=lambda name: (angles[name], name))
+        spacing = tau / len(ordered)
+        # The mean, on the circle, of what each place would have to turn by.
+        turns = [angles[n] - spacing * k for k, n in enumerate(ordered)]
+        turn = atan2(sum(map(sin, turns)), sum(map(cos, turns)))
+        angle = turn + spacing * ordered.index(own)
+        return u + self.radius * cos(angle), v + self.radius * sin(angle)
+
+
+@dataclass(frozen=True, slots=True)
+class Pincer(_TeamPursuit):
+    """Pursuer that approaches from one side while teammates take others.
+
+    It aims beside the evader, by an angle seen from there, and straight at
+    it from near by.
+    """
+
+    spread: float = setting(
+        pi / 2,
+        "Angle from the middle of the team to its outermost pursuers, seen "
+        "from the evader",
+        Range(0.0, pi, "rad", "half a turn"),
+    )
+    near: float = setting(
+        0.7,
+        "Distance from which it heads straight for the evader",
+        Range(0.0, 100.0, "m", "beyond, they never meet"),
+    )
+
+    def __post_init__(self) -> None:
+        """Validate the settings."""
+        check_settings(self)
+
+    def decide(self, knowledge: Knowledge, memory: Any) -> tuple[Intent, Any]:
+        """Head for a point beside the evader, or for the evader itself."""
+        hunters = fellows_of(knowledge)
+        if len(hunters) > 1 and knowledge.distance > self.near:
+            u, v = position_of_opponent(knowledge)
+            x, y = np.mean(list(hunters.values()), axis=0).tolist()
+            middle = atan2(y - v, x - u)
+            sides = {
+                name: wrap_angle(atan2(q - v, p - u) - middle)
+                for name, (p, q) in hunters.items()
+            }
+            own = knowledge.identity.name if knowledge.identity else ""
+            ordered = sorted(sides, key=lambda name: (sides[name], name))
+            share = 2.0 * ordered.index(own) / (len(ordered) - 1) - 1.0
+            angle = middle + self.spread * share
+            out = 0.6 * knowledge.distance
+            knowledge = knowledge.towards(
+                u + out * cos(angle), v + out * sin(angle)
+            )
+        intent, memory = self.pursuit.decide(knowledge, memory)
+        return keep_apart(knowledge, intent), memory
+
+
+def fellows_of(knowledge: Knowledge) -> dict[str, Point]:
+    """Return positions of the own team's pursuers in the frame, in [m].
+
+    They are those of the same role, by name and sorted by it; the own
+    position is the origin.
+    """
+    own = knowledge.identity
+    if own is None:
+        return {"": (0.0, 0.0)}
+    found: dict[str, Point] = {own.name: (0.0, 0.0)}
+    for other in knowledge.teammates:
+        if other.identity.role is own.role:
+            found[other.identity.name] = other.position
+    return dict(sorted(found.items()))
+
+
+def keep_apart(knowledge: Knowledge, intent: Intent) -> Intent:
+    """Return an intent that keeps a pursuer away from its teammates.
+
+    Near a teammate ahead or beside the heading turns away from it; nearer
+    still, the pursuer halts while the teammate walks on.
+
+    Args:
+        knowledge: Knowledge of the pursuer.
+        intent: What it wants.
+    """
+    heading = intent.heading
+    for mate in knowledge.teammates:
+        ahead = cos(mate.bearing)
+        if mate.distance >= APART or ahead < BESIDE:
+            continue
+        if mate.distance < TOO_NEAR and ahead > 0.5:
+            return STAND
+        side = 1.0 if mate.bearing > 0.0 else -1.0
+        closeness = 1.0 - mate.distance / APART
+        heading -= side * pi * min(3.0 * closeness, 1.0)
+    return replace(intent, heading=min(max(heading, -pi), pi))
+
+
+def position_of_opponent(knowledge: Knowledge) -> Point:
+    """Return the position of the opponent in the frame, in [m]."""
+    bearing, distance = knowledge.bearing, knowledge.distance
+    return distance * cos(bearing), distance * sin(bearing)
