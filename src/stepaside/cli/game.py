@@ -137,7 +137,7 @@ def print_game(run: "MatchRun") -> None:
         ]
     )
     lines = []
-    for player in summary.players:
+    for player in summary.results:
         facts = [f"path {player.path_m:.2f} m"]
         if player.radius_m is not None:
             facts.append(f"radius {player.radius_m:.3f} m")

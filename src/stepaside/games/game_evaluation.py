@@ -69,7 +69,7 @@ def summarise_game(record: GameRecord, wall_time: float) -> GameSummary:
     return GameSummary(
         seed=settings.seed,
         level=settings.level,
-        players=[_player(record, p, pairs) for p in settings.players],
+        results=[_player(record, p, pairs) for p in settings.players],
         pairs=pairs,
         crowd=[
             _crowd(record, p, people)

@@ -93,7 +93,7 @@ class GameSummary:
     Attributes:
         seed: Seed of every random draw.
         level: Level of the game.
-        players: Summary of each player.
+        results: Summary of each player.
         pairs: Summary of each pair of players.
         crowd: Encounter of each robot with people, if there are people.
         replans: Maneuvers planned by all robots.
@@ -109,7 +109,7 @@ class GameSummary:
 
     seed: int
     level: str
-    players: list[PlayerResult]
+    results: list[PlayerResult]
     pairs: list[PairResult]
     crowd: list[CrowdResult]
     replans: int

@@ -13,9 +13,9 @@ import numpy as np
 
 from ..arena import NO_OBSTACLES
 from ..core.errors import ConfigurationError
-from ..core.interrupts import DeferredInterrupt
 from ..core.player_identity import PlayerIdentity
 from ..core.poses import Array, Pose
+from ..core.signal_handling import DeferredInterrupt
 from ..planning import GaitSettings
 from ..planning.path import UnicycleTrajectory
 from ..sim.crowd_motion import CrowdMotion, Neighbour

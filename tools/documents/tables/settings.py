@@ -14,6 +14,7 @@ from stepaside.cli.plan import PlanSettings
 from stepaside.core.ranges import Range
 from stepaside.core.setting import settings_of
 from stepaside.games.duel_settings import DuelSettings
+from stepaside.games.game_settings import GameSettings, PlayerSettings
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.sim.camera_settings import RoomObject
 from stepaside.sim.passerby_settings import Passer
@@ -21,8 +22,14 @@ from stepaside.sim.push import Push
 
 from .markdown import table
 
-KINDS = (DuelSettings, WalkSettings, PlanSettings)
+CONFIGURATIONS = (
+    DuelSettings(),
+    WalkSettings(),
+    PlanSettings(),
+    GameSettings(players=(PlayerSettings("one"),)),
+)
 LISTS: Mapping[str, type[Any]] = {
+    "players": PlayerSettings,
     "room.things": RoomObject,
     "pushes": Push,
     "passers": Passer,
@@ -48,8 +55,8 @@ class Setting(NamedTuple):
 def all_settings() -> dict[str, Setting]:
     """Return every entry of every configuration, by its path."""
     found: dict[str, Setting] = {}
-    for kind in KINDS:
-        for setting in _in(kind(), ""):
+    for configuration in CONFIGURATIONS:
+        for setting in _in(configuration, ""):
             found.setdefault(setting.path, setting)
     for path, kind in LISTS.items():
         for field in fields(kind):

@@ -1,0 +1,86 @@
+"""Test ``stepaside game``: tables, JSON, run folder and bad input."""
+
+import json
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+
+from stepaside.cli.main import main
+from stepaside.games.run_archive import load_run
+
+FILE = """
+level = "steps"
+duration = 3.0
+
+[[players]]
+name = "red"
+role = "pursuer"
+
+[[players]]
+name = "ruby"
+role = "pursuer"
+
+[[players]]
+name = "blue"
+role = "evader"
+strategy = "team-evasion"
+"""
+
+
+@pytest.fixture
+def file(tmp_path: Path) -> Path:
+    made = tmp_path / "game.toml"
+    made.write_text(FILE)
+    return made
+
+
+def run(*arguments: str | Path) -> Result:
+    return CliRunner().invoke(main, ["game", *map(str, arguments)])
+
+
+def test_a_game_prints_players_and_pairs_and_writes_a_folder(
+    file: Path, tmp_path: Path
+) -> None:
+    folder = tmp_path / "out"
+    done = run(file, "--seed", "3", "--duration", "2", "--output", folder)
+    assert done.exit_code == 0, done.output
+    for text in ("red - ruby", "ruby - blue", "closest approach", "path"):
+        assert text in done.output
+    loaded = load_run(folder, "game")
+    assert loaded.settings.seed == 3 and loaded.duration == 2.0
+    assert (folder / "game.png").is_file()
+
+
+def test_json_holds_every_result_and_repeats(file: Path) -> None:
+    first, again = (
+        json.loads(run(file, "--json", "--level", "unicycles").stdout)
+        for _ in range(2)
+    )
+    assert [r["name"] for r in first["results"]] == ["red", "ruby", "blue"]
+    assert first["level"] == "unicycles" and len(first["pairs"]) == 3
+    first.pop("real_time_factor"), again.pop("real_time_factor")
+    assert first == again
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (FILE.replace("ruby", "red"), "player names must be unique"),
+        (FILE.replace("blue", "Blue"), "lower case"),
+        (FILE.replace("evader", "pursuer"), "needs an opponent"),
+        (FILE + "wings = 2\n", "unknown entry wings"),
+        ("seed = 1", "players must be at least 1"),
+        ("players = 3", "players must be tables"),
+        ("[[players", "game.toml"),
+    ],
+)
+def test_bad_files_are_refused_in_one_line(
+    file: Path, tmp_path: Path, text: str, message: str
+) -> None:
+    file.write_text(text)
+    done = run(file, "--output", tmp_path / "out")
+    assert done.exit_code == 2
+    (line,) = done.stderr.strip().splitlines()
+    assert message in line
+    assert not (tmp_path / "out").exists()

@@ -1,0 +1,99 @@
+"""Test game files: players, defaults of their robots, and bad input."""
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from stepaside.core.errors import ConfigurationError
+from stepaside.core.player_identity import Role
+from stepaside.games.configuration_file import (
+    dump_configuration,
+    read_settings,
+)
+from stepaside.games.game_file import load_game, parse_game
+from stepaside.games.game_settings import MOST_ROBOTS, GameSettings
+from stepaside.games.robot_settings import LEGS_GAIT
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+HUNTER = {"name": "red", "role": "pursuer"}
+PREY = {"name": "blue", "role": "evader"}
+
+
+def game(*players: dict[str, Any], **entries: Any) -> GameSettings:
+    return parse_game(entries | {"players": list(players)}, "game")
+
+
+def test_players_have_the_gait_of_their_robot_changed_by_the_file() -> None:
+    settings = game(HUNTER | {"gait": {"speed": 0.08}}, PREY, seed=4)
+    red, blue = settings.players
+    assert red.gait.speed == 0.08 and blue.gait.speed == 0.1
+    assert red.gait.gain == blue.gait.gain and red.control == blue.control
+    legs = game(HUNTER | {"legs": {"network": "walk.onnx"}}, PREY).players[0]
+    assert legs.gait.speed == LEGS_GAIT["speed"] and legs.legs.walks
+    assert red.identity.role is Role.PURSUER and red.identity.team == "pursuer"
+    assert (red.strategy_name, blue.strategy_name) == ("pursuit", "evasion")
+    assert settings.seed == 4 and settings.robots == ("red", "blue")
+    assert settings.opponents_of("red") == ("blue",)
+
+
+def test_the_configuration_of_a_game_is_read_back_equal() -> None:
+    settings = game(
+        HUNTER | {"start": [0.0, 1.0, 0.5], "sight": {"delay": 0.1}},
+        PREY | {"goal": [2.0, 0.0]},
+        {"name": "guest", "body": "person", "crowd": {"speed": 1.0}},
+        room={"width": 4.0, "depth": 3.0},
+    )
+    text = dump_configuration(settings)
+    assert read_settings(GameSettings, text, "text") == settings
+
+
+@pytest.mark.parametrize(
+    "name", sorted(EXAMPLES.glob("*.toml")), ids=lambda file: file.stem
+)
+def test_the_example_games_are_valid(name: Path) -> None:
+    assert load_game(name).players
+
+
+@pytest.mark.parametrize(
+    ("players", "message"),
+    [
+        ([], "players must be at least 1"),
+        ([HUNTER, HUNTER, PREY], "names must be unique, got 'red' 2 times"),
+        ([HUNTER], "role pursuer of red needs an opponent"),
+        ([PREY], "role evader of blue needs an opponent"),
+        ([HUNTER, PREY | {"target": "green"}], "target must be a player"),
+        ([HUNTER, PREY | {"target": "blue"}], "must be another player"),
+        ([HUNTER, PREY | {"name": "Big Blue"}], "lower case letters"),
+        ([HUNTER, {"role": "evader"}], "player 2 must have a name"),
+        ([HUNTER, PREY | {"role": "hare"}], "role must be one of pursuer"),
+        ([HUNTER, PREY | {"strategy": "fly"}], "strategy must be one of"),
+        ([HUNTER, PREY | {"start": [1.0]}], "start must have 3 numbers"),
+        ([HUNTER, PREY | {"start": [1.0, 1e3, 0.0]}], "start must lie in"),
+        ([HUNTER, PREY | {"goal": [1.0]}], "goal must have 2 numbers"),
+        ([HUNTER, PREY | {"senses": "cameras"}], "senses must be ideal"),
+        ([HUNTER, PREY | {"body": "run"}], "run must be a run folder"),
+        ([HUNTER, PREY | {"wings": 2}], "unknown entry wings"),
+        (["red"], "must be a table"),
+    ],
+)
+def test_bad_players_are_refused_in_one_line(
+    players: list[Any], message: str
+) -> None:
+    with pytest.raises(ConfigurationError, match=message) as error:
+        game(*players)
+    assert "\n" not in str(error.value)
+
+
+def test_more_robots_than_a_world_holds_are_refused() -> None:
+    many = [HUNTER | {"name": f"red-{i}"} for i in range(MOST_ROBOTS)]
+    with pytest.raises(ConfigurationError, match="robots in physics must be"):
+        game(*many, PREY)
+    assert len(game(*many, PREY, level="steps").players) == MOST_ROBOTS + 1
+    with pytest.raises(ConfigurationError, match="players must be a list of"):
+        game(*(HUNTER | {"name": f"red-{i}"} for i in range(33)), PREY)
+
+
+def test_players_in_cyclic_pursuit_need_no_evader() -> None:
+    cycle = [HUNTER | {"name": n, "strategy": "cyclic"} for n in "abc"]
+    assert game(*cycle).names == ("a", "b", "c")

@@ -1,0 +1,213 @@
+"""Test games of several players: levels, bodies, rules and summary."""
+
+from dataclasses import replace
+from functools import cache
+from math import pi, sin
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from stepaside.core.errors import ConfigurationError
+from stepaside.games.game_file import load_game, parse_game
+from stepaside.games.game_match import GameMatch, run_game
+from stepaside.games.game_settings import GameSettings
+from stepaside.games.match import play
+from stepaside.games.outcome import Outcome
+from stepaside.games.run import MatchRun
+from stepaside.games.run_archive import load_run
+from stepaside.report.run_folder import write_run
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+
+
+def game(*players: dict[str, Any], **entries: Any) -> GameSettings:
+    return parse_game(entries | {"players": list(players)}, "game")
+
+
+def robot(name: str, role: str, *start: float, **more: Any) -> dict[str, Any]:
+    return {"name": name, "role": role, "start": list(start)} | more
+
+
+THREE = (
+    robot("red", "pursuer", 1.0, 0.0, pi),
+    robot("ruby", "pursuer", 0.0, 1.0, -pi / 2),
+    robot("blue", "evader", 0.0, 0.0, 0.8, evasion={"safety_radius": 2.0}),
+)
+GUEST = {
+    "name": "guest",
+    "body": "person",
+    "start": [-3.0, 0.0, 0.0],
+    "goal": [3.0, 0.0],
+}
+GHOST = robot("ghost", "pursuer", 2.0, 1.0, pi, body="unicycle")
+
+
+@cache
+def played() -> MatchRun:
+    """Return three robots, a person and a unicycle after 2 s in physics."""
+    return run_game(game(*THREE, GUEST, GHOST, duration=2.0))
+
+
+def test_robots_people_and_unicycles_play_in_one_world() -> None:
+    run = played()
+    assert run.outcome is Outcome.COMPLETED and run.duration == 2.0
+    assert run.players == ("red", "ruby", "blue", "guest", "ghost")
+    assert run.robots == ("red", "ruby", "blue")
+    assert run.persons == ("guest",)
+    for name in run.players:
+        moved = (
+            run.tracks[name].unicycle[-1, :2]
+            - run.tracks[name].unicycle[0, :2]
+        )
+        assert np.hypot(*moved) > 0.05, name
+    # A person walks at its speed, a unicycle at the gait's in gait time.
+    assert run.tracks["guest"].torso[-1, 0] == pytest.approx(-1.8, abs=0.4)
+    ghost = run.summary.results[4]
+    gait = run.settings.player("ghost").gait
+    speed = gait.stride / gait.step_duration
+    assert ghost.path_m == pytest.approx(
+        speed * (2.0 - gait.start_support), abs=0.01
+    )
+
+
+def test_the_summary_has_every_player_and_every_pair() -> None:
+    run = played()
+    assert [p.name for p in run.summary.results] == [*run.players]
+    assert len(run.summary.pairs) == 10
+    for pair in run.summary.pairs:
+        one, other = (run.tracks[name].torso[:, :2] for name in pair.players)
+        apart = np.hypot(*(one - other).T)
+        assert pair.closest_m == apart.min()
+        assert pair.closest_at_s == run.times[apart.argmin()]
+    (blue,) = [p for p in run.summary.results if p.name == "blue"]
+    assert blue.closest_m == min(
+        p.closest_m for p in run.summary.pairs if "blue" in p.players
+    )
+    assert not (blue.fell or blue.touched)
+    assert [c.name for c in run.summary.crowd] == [
+        "red",
+        "ruby",
+        "blue",
+        "ghost",
+    ]
+
+
+def test_a_game_is_written_and_read_back_equal(tmp_path: Path) -> None:
+    run = played()
+    write_run(tmp_path / "run", run, drawn=False)
+    again = load_run(tmp_path / "run", "game")
+    assert again.settings == run.settings and again.summary == run.summary
+    for name, track in run.tracks.items():
+        for key, values in track.arrays(name).items():
+            np.testing.assert_array_equal(again.arrays()[key], values)
+
+
+def test_a_recorded_player_repeats_its_motion(tmp_path: Path) -> None:
+    run = played()
+    write_run(tmp_path / "run", run, drawn=False)
+    ghost = {
+        "name": "echo",
+        "role": "pursuer",
+        "body": "run",
+        "run": str(tmp_path / "run"),
+        "run_player": "red",
+    }
+    again = run_game(game(ghost, THREE[2], duration=1.0, level="steps"))
+    poses = run.tracks["red"].unicycle
+    expected = [
+        np.interp(again.times, run.times, column) for column in poses.T
+    ]
+    np.testing.assert_allclose(
+        again.tracks["echo"].unicycle[:, :2], np.array(expected).T[:, :2]
+    )
+    with pytest.raises(ConfigurationError, match="run_player must be one of"):
+        run_game(game(ghost | {"run_player": "nobody"}, THREE[2]))
+
+
+def test_equal_settings_give_equal_games() -> None:
+    settings = game(*THREE, duration=0.5)
+    first, second = run_game(settings), run_game(settings)
+    for name, values in first.arrays().items():
+        np.testing.assert_array_equal(values, second.arrays()[name])
+
+
+def test_a_fall_ends_the_game_and_is_counted_for_its_player() -> None:
+    push = {
+        "impulse": 8.0,
+        "time": 0.1,
+        "direction": 0.0,
+        "player": "ruby",
+    }
+    match = GameMatch(game(*THREE, duration=3.0, pushes=[push]))
+    run = match.run(*play(match, 3.0))
+    assert run.outcome is Outcome.FALL and run.summary.fallen == ["ruby"]
+    assert [p.name for p in run.summary.results if p.fell] == ["ruby"]
+
+
+def test_a_contact_names_the_two_players() -> None:
+    near = (
+        robot("red", "pursuer", 0.0, 0.0, 0.0),
+        robot("blue", "evader", 2.0, 0.0, pi, strategy="stand"),
+        {
+            "name": "guest",
+            "body": "person",
+            "start": [-0.6, 0.0, 0.0],
+            "goal": [3.0, 0.0],
+            "crowd": {"speed": 1.5, "reaction": "none"},
+        },
+    )
+    run = run_game(game(*near, duration=3.0))
+    assert run.outcome is Outcome.CONTACT
+    assert run.summary.touched == ["guest", "red"]
+    (red,) = [c for c in run.summary.crowd if c.name == "red"]
+    assert not red.success and red.collisions >= 1
+    assert red.below_0_45_m_s > 0.0 and red.below_1_2_m_s >= red.below_0_45_m_s
+
+
+@pytest.mark.parametrize("level", ["steps", "unicycles"])
+def test_a_player_walks_to_its_goal_around_a_person(level: str) -> None:
+    settings = game(
+        robot(
+            "blue",
+            "bystander",
+            0.0,
+            0.0,
+            0.0,
+            goal=[2.5, 0.0],
+            gait={"speed": 0.3, "stride": 0.12, "gain": 0.6},
+        ),
+        GUEST | {"start": [3.0, 0.05, pi], "goal": [-3.0, 0.05]},
+        level=level,
+        duration=60.0,
+    )
+    run = run_game(settings)
+    (crowd,) = run.summary.crowd
+    assert crowd.success and crowd.collisions == 0
+    assert crowd.time_s is not None and crowd.time_s < 40.0
+    assert run.duration == pytest.approx(crowd.time_s, abs=0.05)
+    assert run.tracks["blue"].torso[-1, :2] == pytest.approx(
+        (2.5, 0.0), abs=0.31
+    )
+
+
+def test_in_steps_robots_end_on_the_polygon_of_cyclic_pursuit() -> None:
+    """R = n v / (pi k) of the continuous law, within the sampling."""
+    settings = replace(
+        load_game(EXAMPLES / "cyclic-pursuit.toml"), level="steps"
+    )
+    run = run_game(settings)
+    radius = 3 * 0.1 / (pi * 0.2)
+    tail = run.times > 80.0
+    centre = np.mean(
+        [t.torso[tail, :2].mean(axis=0) for t in run.tracks.values()], axis=0
+    )
+    for track in run.tracks.values():
+        away = np.hypot(*(track.torso[tail, :2] - centre).T)
+        assert away.mean() == pytest.approx(radius, rel=0.01)
+    for pair in run.summary.pairs:
+        assert pair.distance_m == pytest.approx(
+            2 * radius * sin(pi / 3), rel=0.01
+        )
+        assert pair.angle_deg == pytest.approx(120.0, abs=0.5)

@@ -1,0 +1,87 @@
+"""Test the initial poses of any number of players."""
+
+from dataclasses import replace
+from itertools import combinations
+from math import atan2, hypot, pi, radians
+from typing import Any
+
+import pytest
+
+from stepaside.core.errors import ConfigurationError
+from stepaside.core.poses import wrap_angle
+from stepaside.games.game_file import parse_game
+from stepaside.games.game_settings import GameSettings
+from stepaside.games.game_starts import least_distance, with_starts
+
+
+def game(*more: dict[str, Any], **entries: Any) -> GameSettings:
+    players = [
+        {"name": "red", "role": "pursuer"},
+        {"name": "ruby", "role": "pursuer"},
+        {"name": "blue", "role": "evader"},
+        *more,
+    ]
+    return parse_game(entries | {"players": players}, "game")
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_drawn_starts_keep_their_distance_and_face_opponents(
+    seed: int,
+) -> None:
+    settings = with_starts(game(seed=seed))
+    poses = {p.name: p.pose for p in settings.players}
+    for one, other in combinations(poses.values(), 2):
+        assert one is not None and other is not None
+        assert hypot(other.x - one.x, other.y - one.y) >= settings.near
+    for name, most in (("red", pi / 2), ("ruby", pi / 2)):
+        own, blue = poses[name], poses["blue"]
+        assert own is not None and blue is not None
+        assert hypot(own.x, own.y) <= settings.far
+        sight = atan2(blue.y - own.y, blue.x - own.x)
+        assert abs(wrap_angle(own.theta - sight)) <= most
+    blue = poses["blue"]
+    hunters = [poses["red"], poses["ruby"]]
+    assert blue is not None
+    sights = [
+        abs(wrap_angle(atan2(p.y - blue.y, p.x - blue.x) - blue.theta))
+        for p in hunters
+        if p is not None
+    ]
+    assert min(sights) <= radians(30.0)
+
+
+def test_equal_seeds_draw_equal_starts_and_given_ones_stay() -> None:
+    settings = game(seed=3)
+    assert with_starts(settings) == with_starts(settings)
+    assert with_starts(settings) != with_starts(replace(settings, seed=4))
+    assert with_starts(with_starts(settings)) == with_starts(settings)
+
+
+def test_overlapping_starts_are_refused() -> None:
+    near = {"name": "guest", "body": "person", "start": [0.1, 0.0, 0.0]}
+    also = {"name": "host", "body": "person", "start": [0.4, 0.0, 0.0]}
+    with pytest.raises(
+        ConfigurationError,
+        match=r"guest and host must be at least 0.5 \[m\].*got 0.3$",
+    ):
+        with_starts(game(near, also))
+    guest = game(near).player("guest")
+    assert least_distance(guest, guest) == 0.5
+    assert least_distance(guest, game().player("red")) == 0.45
+
+
+def test_a_room_without_space_and_a_start_in_a_wall_are_refused() -> None:
+    room = {"width": 1.2, "depth": 1.2}
+    with pytest.raises(ConfigurationError, match="there is no such place"):
+        with_starts(game(room=room))
+    outside = {"name": "guest", "body": "person", "start": [3.0, 0.0, 0.0]}
+    with pytest.raises(ConfigurationError, match="free floor of the room"):
+        with_starts(game(outside, room=room))
+
+
+def test_starts_in_a_room_keep_clear_of_its_walls() -> None:
+    settings = with_starts(game(room={"width": 4.0, "depth": 4.0}))
+    assert settings.room is not None
+    poses = [p.pose for p in settings.players]
+    points = [pose[:2] for pose in poses if pose is not None]
+    assert settings.room.clearance(points).min() >= 0.3

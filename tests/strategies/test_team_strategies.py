@@ -1,0 +1,226 @@
+"""Test strategies of teams: cyclic, assigned, encircling, pincer, evasion."""
+
+from dataclasses import replace
+from itertools import permutations
+from math import atan2, cos, hypot, pi, sin
+from typing import Any
+
+import numpy as np
+import pytest
+
+from stepaside.core.player_identity import PlayerIdentity, Role
+from stepaside.core.poses import Pose
+from stepaside.strategies.assignment import assign
+from stepaside.strategies.goal_walk import GoalWalk
+from stepaside.strategies.knowledge import Knowledge, Limits, OtherPlayer
+from stepaside.strategies.pursuit import Pursuit
+from stepaside.strategies.team_evasion import (
+    SeveralPursuers,
+    TeamEvasion,
+    candidate_turns,
+    closest_approaches,
+)
+from stepaside.strategies.team_pursuit import (
+    AssignedPursuit,
+    CyclicPursuit,
+    Encirclement,
+    Pincer,
+    keep_apart,
+)
+
+LIMITS = Limits(0.1, 0.2, 0.04, 0.547)
+ROLES = {"r": Role.PURSUER, "b": Role.EVADER, "g": Role.BYSTANDER}
+
+
+def identity(name: str) -> PlayerIdentity:
+    role = ROLES[name[0]]
+    return PlayerIdentity(name, role, role.value)
+
+
+def known(own: str, **others: tuple[float, float]) -> Knowledge:
+    """Return what a player at the origin knows; names begin with a role."""
+    seen = tuple(
+        OtherPlayer(identity(name), atan2(y, x), hypot(x, y), (0.0, 0.0))
+        for name, (x, y) in others.items()
+    )
+    opposed = [s for s in seen if identity(own).opposes(s.identity)] or seen
+    nearest = min(opposed, key=lambda other: other.distance)
+    return Knowledge(
+        0.0,
+        nearest.bearing,
+        nearest.distance,
+        LIMITS,
+        velocity=(0.0, 0.0),
+        identity=identity(own),
+        others=seen,
+    )
+
+
+def heading(strategy: Any, knowledge: Knowledge) -> float:
+    intent, _ = strategy.decide(knowledge, strategy.begin())
+    assert intent.walks
+    return float(intent.heading)
+
+
+def test_in_cyclic_pursuit_each_heads_for_the_next_name() -> None:
+    far = {"r2": (0.0, 2.0), "r3": (-2.0, 0.1)}
+    assert heading(CyclicPursuit(), known("r1", **far)) == pytest.approx(
+        pi / 2
+    )
+    back = {"r1": (1.0, 1.0), "r2": (0.0, 2.0)}
+    assert heading(CyclicPursuit(), known("r3", **back)) == pytest.approx(
+        pi / 4
+    )
+    alone = Knowledge(0.0, 0.3, 1.0, LIMITS)
+    assert heading(CyclicPursuit(), alone) == 0.3
+
+
+@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize("shape", [(3, 3), (4, 2), (2, 4), (5, 3)])
+def test_the_assignment_has_the_least_total_cost(
+    shape: tuple[int, int], seed: int
+) -> None:
+    costs = np.random.default_rng(seed).uniform(size=shape)
+    rows, columns = shape
+    slots = list(range(columns)) * -(-rows // columns)
+    every = [
+        option
+        for option in permutations(slots, rows)
+        if max(map(option.count, option)) - min(map(option.count, option)) < 2
+        and (rows < columns or set(option) == set(range(columns)))
+    ]
+    best = min(costs[range(rows), list(option)].sum() for option in every)
+    found = assign(costs)
+    assert costs[range(rows), list(found)].sum() == pytest.approx(best)
+
+
+def test_a_large_assignment_cannot_be_improved_by_a_swap() -> None:
+    costs = np.random.default_rng(3).uniform(size=(9, 9))
+    found = assign(costs)
+    assert sorted(found) == list(range(9))
+    for i in range(9):
+        for j in range(i):
+            a, b = found[i], found[j]
+            assert costs[i, a] + costs[j, b] <= costs[i, b] + costs[j, a]
+
+
+def test_assigned_pursuers_take_different_evaders() -> None:
+    """The nearest evader of both is b1, but one of them takes b2."""
+    first = known("r1", r2=(0.0, -2.0), b1=(2.0, 0.0), b2=(0.0, 4.0))
+    assert heading(AssignedPursuit(), first) == pytest.approx(pi / 2)
+    second = known("r2", r1=(0.0, 2.0), b1=(2.0, 2.0), b2=(0.0, 6.0))
+    assert heading(AssignedPursuit(), second) == pytest.approx(pi / 4)
+
+
+def test_encircling_pursuers_have_evenly_spaced_places() -> None:
+    positions = {"r1": (0.0, 0.0), "r2": (4.0, 1.0), "r3": (3.0, -2.0)}
+    evader = (2.0, 0.5)
+    places = []
+    for own, (x, y) in positions.items():
+        others = {
+            name: (u - x, v - y)
+            for name, (u, v) in (positions | {"b1": evader}).items()
+            if name != own
+        }
+        aim = heading(Encirclement(radius=1.0), known(own, **others))
+        # The place is where the heading meets the ring first.
+        dx, dy = x - evader[0], y - evader[1]
+        along = dx * cos(aim) + dy * sin(aim)
+        way = -along - (along**2 - dx * dx - dy * dy + 1.0) ** 0.5
+        places.append(atan2(dy + way * sin(aim), dx + way * cos(aim)))
+    assert len(places) == 3
+
+
+def test_a_pursuer_halts_in_its_place_and_leaves_it_with_a_margin() -> None:
+    ring = Encirclement(radius=1.0)
+    there = known("r1", r2=(2.0, 0.0), b1=(1.0, 0.0))
+    intent, memory = ring.decide(there, ring.begin())
+    assert not intent.walks
+    moved = known("r1", r2=(2.2, 0.0), b1=(1.2, 0.0))
+    assert not ring.decide(moved, memory)[0].walks
+    assert ring.decide(moved, ring.begin())[0].walks
+
+
+def test_the_pincer_closes_from_both_sides() -> None:
+    left = known("r1", r2=(0.0, -1.0), b1=(3.0, -0.5))
+    right = known("r2", r1=(0.0, 1.0), b1=(3.0, 0.5))
+    straight = atan2(-0.5, 3.0)
+    assert heading(Pincer(), left) > straight + 0.1
+    assert heading(Pincer(), right) == pytest.approx(-heading(Pincer(), left))
+    near = known("r1", r2=(0.0, -1.0), b1=(0.6, 0.1))
+    assert heading(Pincer(), near) == pytest.approx(atan2(0.1, 0.6))
+
+
+def test_pursuers_turn_away_from_teammates_that_are_near() -> None:
+    intent, _ = Pursuit().decide(known("r1", b1=(2.0, 0.0)), None)
+    for side in (1.0, -1.0):
+        near = known("r1", r2=(0.4, 0.4 * side), b1=(2.0, 0.0))
+        assert keep_apart(near, intent).heading * side < -0.1
+        behind = known("r1", r2=(-0.5, 0.1 * side), b1=(2.0, 0.0))
+        assert keep_apart(behind, intent) == intent
+    blocked = known("r1", r2=(0.4, 0.0), b1=(2.0, 0.0))
+    assert not keep_apart(blocked, intent).walks
+
+
+def test_the_rollout_agrees_with_a_step_by_step_game() -> None:
+    turns = candidate_turns(0.25)
+    pursuers = SeveralPursuers(
+        np.array([1.0, 0.2]), np.array([0.3, -1.1]), np.array([3.0, 1.5])
+    )
+    closest, final = closest_approaches(pursuers, turns, 0.04, 0.08)
+    row = 123
+    own, hunters = (
+        Pose(0.0, 0.0, 0.0),
+        [Pose(*p) for p in zip(*pursuers, strict=True)],
+    )
+    least = [hypot(p.x, p.y) for p in hunters]
+    for turn in turns[row]:
+        middle = own.theta + 0.5 * turn
+        own = Pose(
+            own.x - 0.04 * cos(middle),
+            own.y - 0.04 * sin(middle),
+            own.theta + turn,
+        )
+        for i, p in enumerate(hunters):
+            error = atan2(own.y - p.y, own.x - p.x) - p.theta
+            error = 0.08 * ((error + pi) % (2 * pi) - pi)
+            middle = p.theta + 0.5 * error
+            hunters[i] = p = Pose(
+                p.x + 0.04 * cos(middle),
+                p.y + 0.04 * sin(middle),
+                p.theta + error,
+            )
+            least[i] = min(least[i], hypot(own.x - p.x, own.y - p.y))
+    assert closest[row] == pytest.approx(least)
+    assert final[row] == pytest.approx(
+        [hypot(own.x - p.x, own.y - p.y) for p in hunters]
+    )
+
+
+def test_an_evader_between_two_pursuers_leaves_through_the_gap() -> None:
+    """Moving away from one of them would lead into the other."""
+    evasion = TeamEvasion(safety_radius=2.0)
+    pair = known("b1", r1=(0.9, 0.0), r2=(-0.9, 0.2))
+    turn = heading(evasion, pair)
+    mirrored = known("b1", r1=(0.9, 0.0), r2=(-0.9, -0.2))
+    assert heading(evasion, mirrored) == pytest.approx(-turn)
+    assert abs(turn) > 1.0
+    alone = known("b1", r1=(0.9, 0.0))
+    assert abs(heading(evasion, alone)) < 0.1
+    far = known("b1", r1=(3.0, 0.0))
+    assert not evasion.decide(far, False)[0].walks
+
+
+def test_a_walker_heads_for_its_goal_and_gives_way() -> None:
+    walk = GoalWalk(goal=(5.0, 0.0))
+    assert heading(walk, known("g1", g2=(-3.0, 0.0))) == pytest.approx(0.0)
+    ahead = known("g1", g2=(1.5, 0.05))
+    (other,) = ahead.others
+    comes = replace(ahead, others=(replace(other, velocity=(-0.3, 0.0)),))
+    assert heading(walk, comes) < -0.2
+    at_once = known("g1", g2=(0.5, 0.0))
+    (other,) = at_once.others
+    hit = replace(at_once, others=(replace(other, velocity=(-1.0, 0.0)),))
+    assert not walk.decide(hit, walk.begin())[0].walks
+    there = GoalWalk(goal=(0.1, 0.0))
+    assert not there.decide(ahead, there.begin())[0].walks
