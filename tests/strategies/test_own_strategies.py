@@ -133,7 +133,8 @@ def test_strategies_have_names() -> None:
     assert load_strategy("sharp") == Pursuit(gain_ratio=inf)
     assert load_strategy("herding") == HerdingPursuit()
     others = {"look-ahead", "optimal", "lead", "optimal-pursuit"}
-    others |= {"sharp", "herding"}
+    others |= {"sharp", "herding", "cyclic", "assigned", "encircle"}
+    others |= {"pincer", "team-evasion", "goal"}
     paper = {"evasion", "deflected", "pursuit", "stand", "walk"}
     assert set(STRATEGIES) == paper | others
 
