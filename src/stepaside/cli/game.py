@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from .effort_estimate import SIMULATED, announce_effort
 from .options.common_options import (
     figure_option,
     figure_width,
@@ -17,7 +16,7 @@ from .options.common_options import (
 )
 from .options.parameter_types import NameType
 from .output_files import attempt, writes_files
-from .progress import show_progress
+from .progress import SIMULATED, announce_effort, show_progress
 from .run_output import save_run
 from .tables import print_table
 from .terminal import echo, print_json
