@@ -1,0 +1,60 @@
+"""Test robots on a policy that walks, made from our own walk."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+pytest.importorskip("onnxruntime")
+pytest.importorskip("onnx")
+
+from imitated_walk import nao_on_imitated_walk
+from stepaside.fitting.legs_measurement import LegsTrial, run_trial
+from stepaside.games.duel import run_duel
+from stepaside.games.duel_settings import DuelSettings
+from stepaside.games.outcome import Outcome
+from stepaside.games.robot_settings import with_robot
+from stepaside.locomotion.policy.legs_settings import LegsSettings
+from stepaside.robots.description import load_robot
+from stepaside.sim.body_settings import BodySettings
+from stepaside.strategies.velocity_set import BodyVelocity
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return nao_on_imitated_walk(tmp_path_factory.mktemp("imitated") / "nao")
+
+
+@pytest.mark.parametrize(
+    "command", [(0.07, 0.0, 0.0), (-0.07, 0.0, 0.0), (0.0, 0.0, 0.2)]
+)
+def test_a_policy_walks_as_it_is_commanded(
+    command: tuple[float, float, float], folder: Path
+) -> None:
+    trial = LegsTrial(
+        load_robot(folder),
+        LegsSettings(str(folder / "policy.onnx")),
+        BodySettings(),
+        BodyVelocity(*command),
+        1,
+    )
+    result = run_trial(trial)
+    assert result.fell_at is None
+    np.testing.assert_allclose(result.delivered, command, atol=0.02)
+    # The leg odometry has seen the same motion.
+    assert result.odometry == pytest.approx(result.delivered[:2], abs=0.005)
+
+
+def test_two_robots_pursue_and_evade_on_policies(folder: Path) -> None:
+    settings = with_robot(DuelSettings(duration=12.0, seed=3), str(folder))
+    gait = replace(settings.gait, speed=0.06, gain=0.2)
+    start = replace(settings.start, distance=0.75)
+    run = run_duel(replace(settings, gait=gait, start=start))
+    assert run.outcome is Outcome.COMPLETED
+    for track in run.tracks.values():
+        paths = np.hypot(*np.diff(track.torso[:, :2], axis=0).T).sum()
+        assert paths > 0.4
+    evader = run.tracks["evader"].torso
+    ahead = np.array([np.cos(evader[0, 2]), np.sin(evader[0, 2])])
+    assert (evader[-1, :2] - evader[0, :2]) @ ahead < -0.2  # backward
