@@ -73,6 +73,10 @@ def main() -> None:
     parser.add_argument("--random-walks", type=int, default=10)
     parser.add_argument("--workers", type=int, default=1)
     asked = parser.parse_args()
+    head = header(
+        {"seeds": [asked.seeds.start, asked.seeds.stop], "duel_s": DURATION},
+        modules=(*PHYSICS, "fitting/legs_measurement"),
+    )
     description, legs = (
         load_robot(asked.robot),
         LegsSettings(str(asked.network)),
@@ -109,10 +113,6 @@ def main() -> None:
         ):
             rows[str(seed)] = row
             report(len(rows), len(games))
-    head = header(
-        {"seeds": [asked.seeds.start, asked.seeds.stop], "duel_s": DURATION},
-        modules=(*PHYSICS, "fitting.legs_measurement"),
-    )
     facts = measurement_facts(found)
     write_result(asked.output, head, measured=facts, duels=rows)
 
