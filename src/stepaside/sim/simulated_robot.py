@@ -19,6 +19,7 @@ from .ground_truth import TrueRobotState
 from .ideal_sensors import IdealLineOfSight, IdealPose
 from .push import Push, ScheduledPush
 from .push_forces import PushApplier
+from .robot_sensor_log import RobotSensorLog, SensorAddresses
 from .robot_state_log import RobotStateLog, centers_of_pressure
 from .sensor_errors import AveragedImu, SensorErrors, StrapdownImu
 from .servos import (
@@ -161,9 +162,11 @@ class SimulatedRobot:
             unit = description.game.get("force_unit", 1.0)
             self._errors = SensorErrors(body, setup.generator, force_unit=unit)
         root = model.body(f"{name}/{description.torso}")
-        self._place_in_world(
-            kinematics, pose, int(model.jnt_qposadr[root.jntadr[0]])
-        )
+        free = int(root.jntadr[0])
+        self._place_in_world(kinematics, pose, int(model.jnt_qposadr[free]))
+        first = int(model.jnt_dofadr[free])
+        count = kinematics.posture.size - 1  # a quaternion has three dofs
+        self._dof_slice = slice(first, first + count)
         self.servos.reset(kinematics.joint_targets)
         self._torso = root.id
         self.pusher: PushApplier | None = None
@@ -359,6 +362,18 @@ class SimulatedRobot:
             self.qpos_slice,
             self._force_addresses,
             self._corner_sites,
+        )
+
+    def sensor_log(self) -> RobotSensorLog:
+        """Return an empty log of exact sensor values and joint efforts."""
+        return RobotSensorLog(
+            self,
+            SensorAddresses(
+                self._dof_slice,
+                self._gyro,
+                self._accelerometer,
+                self._force_addresses,
+            ),
         )
 
     def close(self) -> None:

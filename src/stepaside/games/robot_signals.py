@@ -1,0 +1,293 @@
+"""Signals of robots that a run folder does not hold, from a repeated game.
+
+A duel or a walk follows from its configuration, bit by bit. Playing it again
+gives what was not recorded: joint velocities and efforts, exact IMU and foot
+forces, plans, the memory of the strategy, and camera images.
+"""
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, fields, is_dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..core.poses import Array, Pose
+from ..locomotion.walk_snapshots import StepStarted
+from ..perception.images import ColourImage, DepthImage
+from .duel import Duel
+from .match import Match, Progress, play
+from .outcome import Outcome
+from .policy_player import PolicyPlayer
+from .recorder import Recorder
+from .run import Run, is_duel, is_walk
+from .walk_game import WalkGame
+from .walker import SimulatedPlayer
+
+Image = ColourImage | DepthImage
+RobotPlayer = SimulatedPlayer | PolicyPlayer
+
+
+class PlannedFootsteps(NamedTuple):
+    """Footsteps of a maneuver, planned when its first step begins.
+
+    Attributes:
+        time: Time at which the first step begins, in [s].
+        footsteps: Rows (side: 1 left, -1 right; x [m], y [m], heading
+            [rad]) in the world. Shape (steps, 4).
+    """
+
+    time: float
+    footsteps: Array
+
+
+class PhaseChange(NamedTuple):
+    """Change of the phase of motion.
+
+    Attributes:
+        time: Time of the sample, in [s].
+        phase: New phase, as ``standing`` or ``walking``.
+    """
+
+    time: float
+    phase: str
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class RobotSignals:
+    """Signals of one robot at the samples of its run.
+
+    Velocities, efforts and sensor values are true: without sensor errors.
+
+    Attributes:
+        torso_velocity: Linear velocity of the torso in the world, in [m/s],
+            and angular velocity in the torso, in [rad/s]. Shape (n, 6).
+        joint_velocity: Joint velocities, in the order of qpos, in [rad/s].
+            Shape (n, joints).
+        joint_effort: Motor torques at the joints, in [N m]. Shape (n,
+            joints).
+        gyro: Angular velocity in the torso, in [rad/s]. Shape (n, 3).
+        accelerometer: Specific force in the torso, in [m/s^2]. Shape (n, 3).
+        foot_forces: Normal force at the corners of the soles, in the order
+            of ``Measurement.foot_forces``, in [N]. Shape (n, 8).
+        com_velocity: Velocity of the CoM (x, y) in the world, in [m/s].
+            Shape (n, 2).
+        dcm: DCM in the world, in [m]; None for a robot that does not walk
+            by maneuvers. Shape (n, 2).
+        plans: Planned footsteps.
+        phases: Changes of the phase of motion.
+        strategy: Numbers of the strategy by name, one per sample: sighting,
+            desired heading, entries of its memory; NaN where there is none.
+        images: Images of its cameras, with the times of their exposure.
+    """
+
+    torso_velocity: Array
+    joint_velocity: Array
+    joint_effort: Array
+    gyro: Array
+    accelerometer: Array
+    foot_forces: Array
+    com_velocity: Array
+    dcm: Array | None
+    plans: tuple[PlannedFootsteps, ...]
+    phases: tuple[PhaseChange, ...]
+    strategy: Mapping[str, Array]
+    images: tuple[Image, ...]
+
+
+class RepeatedGame(NamedTuple):
+    """Signals of a game that was played again.
+
+    Attributes:
+        robots: Signals of each robot, by name; empty if the game differed
+            from its run, or cannot be repeated.
+        reason: Why there are none; empty if there are.
+    """
+
+    robots: Mapping[str, RobotSignals]
+    reason: str = ""
+
+
+class RobotSignalRecord:
+    """Signals of one robot while its game is played."""
+
+    def __init__(self, player: RobotPlayer) -> None:
+        """Begin without samples."""
+        self._player = player
+        self._log = player.robot.sensor_log()
+        self._numbers: list[dict[str, float]] = []
+        self._plans: list[PlannedFootsteps] = []
+        self._phases: list[PhaseChange] = []
+        self._images: list[Image] = []
+
+    def sample(self, now: float) -> None:
+        """Sample the present state."""
+        self._log.add()
+        phase = self._player.scheme.phase.value
+        if not self._phases or self._phases[-1].phase != phase:
+            self._phases.append(PhaseChange(now, phase))
+        self._numbers.append(dict(_strategy_numbers(self._player)))
+
+    def act(self, now: float) -> None:
+        """Record a plan that begins and images that were taken."""
+        begun = self._player.begun
+        if begun is not None and isinstance(self._player, SimulatedPlayer):
+            self._plans.append(self._plan(self._player, begun))
+        eyes = self._player.robot.eyes
+        for percept in () if eyes is None else eyes.exposed:
+            if isinstance(percept, ColourImage | DepthImage):
+                if percept.time >= now - 1e-9:
+                    self._images.append(percept)
+
+    def _plan(
+        self, player: SimulatedPlayer, begun: StepStarted
+    ) -> PlannedFootsteps:
+        frame = player.frame.compose(player.scheme.state.plan_frame)
+        rows = [
+            (float(step.foot.value), *frame.compose(Pose(*pose)))
+            for step in begun.plan.footsteps
+            for pose in [(step.x, step.y, step.theta)]
+        ]
+        return PlannedFootsteps(begun.started, np.array(rows))
+
+    def signals(self, com: Array) -> RobotSignals:
+        """Return the signals.
+
+        Args:
+            com: Recorded CoM at the samples. Shape (n, 3).
+        """
+        count = len(com)
+        self._log.truncate(count)
+        arrays = self._log.arrays()
+        dcm = None
+        if isinstance(self._player, SimulatedPlayer):
+            eta = self._player.scheme.gait.eta
+            dcm = com[:, :2] + arrays["com_velocity"] / eta
+        keys = dict.fromkeys(key for row in self._numbers for key in row)
+        strategy = {
+            key: np.array(
+                [row.get(key, np.nan) for row in self._numbers[:count]]
+            )
+            for key in keys
+        }
+        return RobotSignals(
+            **arrays,
+            dcm=dcm,
+            plans=tuple(self._plans),
+            phases=tuple(self._phases),
+            strategy=strategy,
+            images=tuple(self._images),
+        )
+
+
+class SignalRecorder:
+    """Match observer that records the signals of all robots.
+
+    Samples are taken when :class:`Recorder` takes its own.
+    """
+
+    def __init__(self) -> None:
+        """Begin without a match."""
+        self._records: dict[str, RobotSignalRecord] = {}
+        self._last = -1.0
+
+    def before(self, match: Match) -> None:
+        """Take a sample when one is due."""
+        if not self._records:
+            self._records = {
+                player.name: RobotSignalRecord(player)
+                for player in match.players
+                if isinstance(player, RobotPlayer)
+            }
+            self._every = Recorder((), tick=match.world.physics.tick).every
+        if match.world.ticks % self._every == 0:
+            self._sample(match)
+
+    def acted(self, match: Match) -> None:
+        """Record plans and images of this tick."""
+        for record in self._records.values():
+            record.act(match.world.time)
+
+    def ended(self, match: Match, outcome: Outcome) -> None:
+        """Take the last sample, unless one of this instant exists."""
+        if self._last < match.world.time:
+            self._sample(match)
+
+    def _sample(self, match: Match) -> None:
+        self._last = match.world.time
+        for record in self._records.values():
+            record.sample(match.world.time)
+
+    def signals(self, run: Run) -> dict[str, RobotSignals]:
+        """Return the signals of all robots of a run, by name."""
+        return {
+            name: record.signals(run.tracks[name].com)
+            for name, record in self._records.items()
+        }
+
+
+def repeat_game(
+    run: Run, report: Callable[[Progress], None] | None = None
+) -> RepeatedGame:
+    """Play a duel or a walk again and record the signals of its robots.
+
+    Args:
+        run: The run.
+        report: Called about five times a second with the progress.
+
+    Returns:
+        Signals of the robots; none, with a reason, if the game cannot be
+        repeated or moved differently.
+
+    Raises:
+        StepAsideError: If the settings cannot be met on this computer, for
+            example for want of a renderer.
+    """
+    recorder = SignalRecorder()
+    game: Duel | WalkGame
+    if is_duel(run):
+        game = Duel(run.settings, (recorder,))
+    elif is_walk(run):
+        game = WalkGame(run.settings, observers=(recorder,))
+    else:
+        return RepeatedGame({}, f"a {run.game} cannot be repeated")
+    play(game, run.duration, report)
+    again, times = game.recorder.tracks(), game.recorder.times
+    for name in run.robots:
+        then, now = run.tracks[name].qpos, again[name].qpos
+        if then is None or now is None:
+            return RepeatedGame({}, f"{name} has no recorded joint angles")
+        if not np.array_equal(times, run.times) or not np.array_equal(
+            then, now
+        ):
+            return RepeatedGame(
+                {},
+                f"played again, {name} moved differently: its commands came "
+                "from elsewhere, or this computer calculates differently",
+            )
+    return RepeatedGame(recorder.signals(run))
+
+
+def _strategy_numbers(player: RobotPlayer) -> Iterator[tuple[str, float]]:
+    """Yield name and value of the numbers of a player's strategy."""
+    scheme = player.scheme
+    sighting = scheme.sighting
+    if sighting is not None:
+        yield "sighting_bearing_rad", sighting.bearing
+        yield "sighting_distance_m", sighting.distance
+    if isinstance(player, SimulatedPlayer):
+        plan = player.scheme.state.plan
+        if plan is not None:
+            yield "desired_heading_rad", plan.bearing
+    yield "pace", scheme.decisions.pace
+    for name, value in _entries(scheme.decisions.memory):
+        if isinstance(value, bool | int | float):
+            yield f"memory_{name}", float(value)
+
+
+def _entries(memory: Any) -> Iterator[tuple[str, Any]]:
+    """Yield the named entries of a strategy's memory."""
+    if hasattr(memory, "_asdict"):
+        yield from memory._asdict().items()
+    elif is_dataclass(memory):
+        for field in fields(memory):
+            yield field.name, getattr(memory, field.name)

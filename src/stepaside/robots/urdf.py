@@ -1,0 +1,218 @@
+"""URDF of a robot, from the compiled MuJoCo model of its description.
+
+The file needs no other file: shapes are primitives. A capsule becomes a
+cylinder with two spheres, an ellipsoid a row of spheres, and any other shape,
+such as a mesh, its bounding box. Joint angles mean the same as in the model.
+"""
+
+from collections.abc import Iterator
+from math import asin, atan2
+from xml.etree import ElementTree
+
+import mujoco
+import numpy as np
+
+from ..core.poses import Array
+from .description import RobotDescription
+from .urdf_tree import rotation_of, urdf_tree
+
+UNLIMITED = 1e6  # effort of a motor without a limit, in [N m]
+VISIBLE_GROUP = 2  # geoms of higher groups are not drawn
+_GEOMS = mujoco.mjtGeom
+
+
+def urdf_of(description: RobotDescription) -> str:
+    """Return the URDF of a robot, as XML text; see :func:`urdf_tree`.
+
+    Args:
+        description: Description of the robot.
+
+    Raises:
+        ModelError: If MuJoCo cannot compile the model, or it has a joint
+            that URDF cannot express.
+    """
+    model = description.compile()
+    tree = urdf_tree(description, model)
+    coupled = description.coupled_joints(model)
+    name = "_".join(description.name.lower().split())
+    robot = ElementTree.Element("robot", name=name)
+    for link in tree.links:
+        element = ElementTree.SubElement(robot, "link", name=link.name)
+        if link.body == -1:
+            _add_carrier(element)
+        elif link.body is not None:
+            _add_body(element, model, link.body, link.anchor)
+    for joint in tree.joints:
+        element = ElementTree.SubElement(
+            robot, "joint", name=joint.name, type=joint.kind
+        )
+        ElementTree.SubElement(element, "parent", link=joint.parent)
+        ElementTree.SubElement(element, "child", link=joint.child)
+        _add_origin(element, joint.position, joint.axes)
+        if joint.number is not None:
+            ElementTree.SubElement(element, "axis", xyz=_texts(joint.axis))
+            _add_limits(element, model, joint.number, description)
+        if joint.name in coupled:
+            leader = coupled[joint.name]
+            ElementTree.SubElement(element, "mimic", joint=leader)
+    ElementTree.indent(robot)
+    header = f"<!-- {description.name}, from {description.path.name} -->\n"
+    return header + ElementTree.tostring(robot, encoding="unicode") + "\n"
+
+
+def _add_carrier(link: ElementTree.Element) -> None:
+    """Add a negligible inertia to a link between two hinges of a body.
+
+    Simulators reject moving links without inertia.
+    """
+    inertial = ElementTree.SubElement(link, "inertial")
+    ElementTree.SubElement(inertial, "mass", value="1e-06")
+    ElementTree.SubElement(
+        inertial,
+        "inertia",
+        dict.fromkeys(("ixx", "iyy", "izz"), "1e-09")
+        | dict.fromkeys(("ixy", "ixz", "iyz"), "0"),
+    )
+
+
+def _add_body(
+    link: ElementTree.Element,
+    model: mujoco.MjModel,
+    body: int,
+    anchor: Array,
+) -> None:
+    """Add inertia and shapes of a body to its link."""
+    mass = float(model.body_mass[body])
+    if mass > 0.0:
+        inertial = ElementTree.SubElement(link, "inertial")
+        axes = rotation_of(model.body_iquat[body])
+        _add_origin(inertial, model.body_ipos[body] - anchor, axes)
+        ElementTree.SubElement(inertial, "mass", value=_text(mass))
+        x, y, z = (_text(value) for value in model.body_inertia[body])
+        ElementTree.SubElement(
+            inertial, "inertia", ixx=x, iyy=y, izz=z, ixy="0", ixz="0", iyz="0"
+        )
+    first = int(model.body_geomadr[body])
+    for geom in range(first, first + int(model.body_geomnum[body])):
+        if model.geom_group[geom] <= VISIBLE_GROUP:
+            _add_shapes(link, "visual", model, geom, anchor)
+        if model.geom_contype[geom] or model.geom_conaffinity[geom]:
+            _add_shapes(link, "collision", model, geom, anchor)
+
+
+def _add_shapes(
+    link: ElementTree.Element,
+    kind: str,
+    model: mujoco.MjModel,
+    geom: int,
+    anchor: Array,
+) -> None:
+    axes = rotation_of(model.geom_quat[geom])
+    position = model.geom_pos[geom] - anchor
+    material = model.geom_matid[geom]
+    rgba = model.geom_rgba[geom] if material < 0 else model.mat_rgba[material]
+    for tag, values, offset, turn in _primitives(model, geom):
+        element = ElementTree.SubElement(link, kind)
+        _add_origin(element, position + axes @ offset, axes @ turn)
+        geometry = ElementTree.SubElement(element, "geometry")
+        ElementTree.SubElement(geometry, tag, values)
+        if kind == "visual":
+            name = "_".join(f"{round(255 * part)}" for part in rgba[:3])
+            colour = ElementTree.SubElement(
+                element, "material", name=f"rgb_{name}"
+            )
+            ElementTree.SubElement(
+                colour, "color", rgba=_texts([*rgba[:3], 1.0])
+            )
+
+
+def _primitives(
+    model: mujoco.MjModel, geom: int
+) -> Iterator[tuple[str, dict[str, str], Array, Array]]:
+    """Yield tag, attributes, position and axes in the frame of a geom."""
+    kind, size = int(model.geom_type[geom]), model.geom_size[geom]
+    none, straight = np.zeros(3), np.eye(3)
+    if kind == _GEOMS.mjGEOM_BOX:
+        yield "box", {"size": _texts(2.0 * size)}, none, straight
+    elif kind == _GEOMS.mjGEOM_SPHERE:
+        yield "sphere", {"radius": _text(size[0])}, none, straight
+    elif kind in (_GEOMS.mjGEOM_CYLINDER, _GEOMS.mjGEOM_CAPSULE):
+        radius, half = size[0], size[1]
+        length = {"radius": _text(radius), "length": _text(2.0 * half)}
+        yield "cylinder", length, none, straight
+        if kind == _GEOMS.mjGEOM_CAPSULE:
+            for end in (-half, half):
+                offset = np.array([0.0, 0.0, end])
+                yield "sphere", {"radius": _text(radius)}, offset, straight
+    elif kind == _GEOMS.mjGEOM_ELLIPSOID:
+        along = int(np.argmax(size))
+        across = np.delete(size, along)
+        radius = float(np.sqrt(across.prod()))
+        for share in (-1.0, 0.0, 1.0):
+            offset = np.zeros(3)
+            offset[along] = share * max(float(size[along]) - radius, 0.0)
+            yield "sphere", {"radius": _text(radius)}, offset, straight
+    else:
+        center, half_sizes = model.geom_aabb[geom].reshape(2, 3)
+        yield "box", {"size": _texts(2.0 * half_sizes)}, center, straight
+
+
+def _add_limits(
+    element: ElementTree.Element,
+    model: mujoco.MjModel,
+    joint: int,
+    description: RobotDescription,
+) -> None:
+    """Add range, effort and speed of a joint, and its damping."""
+    name = model.joint(joint).name
+    limit = ElementTree.SubElement(element, "limit")
+    if model.jnt_limited[joint]:
+        lower, upper = model.jnt_range[joint]
+        limit.set("lower", _text(lower))
+        limit.set("upper", _text(upper))
+    limit.set("effort", _text(_effort(model, joint)))
+    limit.set("velocity", _text(description.speed_limits.get(name, UNLIMITED)))
+    dof = int(model.jnt_dofadr[joint])
+    ElementTree.SubElement(
+        element,
+        "dynamics",
+        damping=_text(model.dof_damping[dof]),
+        friction=_text(model.dof_frictionloss[dof]),
+    )
+
+
+def _effort(model: mujoco.MjModel, joint: int) -> float:
+    """Return the greatest torque of a joint's motor, in [N m]."""
+    greatest = UNLIMITED
+    if model.jnt_actfrclimited[joint]:
+        greatest = float(np.abs(model.jnt_actfrcrange[joint]).max())
+    for motor in np.flatnonzero(model.actuator_trnid[:, 0] == joint):
+        if model.actuator_forcelimited[motor]:
+            force = float(np.abs(model.actuator_forcerange[motor]).max())
+            gear = abs(float(model.actuator_gear[motor, 0]))
+            greatest = min(greatest, force * gear)
+    return greatest
+
+
+def _add_origin(
+    parent: ElementTree.Element, position: Array, axes: Array
+) -> None:
+    """Add an origin with roll, pitch and yaw about fixed axes."""
+    pitch = asin(max(-1.0, min(1.0, -float(axes[2, 0]))))
+    if abs(float(axes[2, 0])) > 1.0 - 1e-12:  # gimbal lock: yaw is free
+        roll = 0.0
+        yaw = atan2(-float(axes[0, 1]), float(axes[1, 1]))
+    else:
+        roll = atan2(float(axes[2, 1]), float(axes[2, 2]))
+        yaw = atan2(float(axes[1, 0]), float(axes[0, 0]))
+    ElementTree.SubElement(
+        parent, "origin", xyz=_texts(position), rpy=_texts([roll, pitch, yaw])
+    )
+
+
+def _text(value: float) -> str:
+    return f"{float(value):.12g}"
+
+
+def _texts(values: Array | list[float]) -> str:
+    return " ".join(_text(0.0 if abs(v) < 1e-12 else v) for v in values)

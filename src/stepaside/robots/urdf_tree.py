@@ -1,0 +1,243 @@
+"""Links and joints of a robot as URDF has them, from its MuJoCo model.
+
+Joint angles mean the same in both. Transforms of a recording follow from the
+same tree.
+"""
+
+from typing import NamedTuple
+
+import mujoco
+import numpy as np
+
+from ..core.errors import ModelError
+from ..core.poses import Array
+from .description import RobotDescription
+from .head import Mount, load_head
+
+BASE = "base_link"
+SOLES = ("l_sole", "r_sole")  # as in REP 120
+IMU = "imu_link"
+OPTICAL = "_optical_frame"  # z forward, x right, as in REP 103
+CAMERA_AXES = np.array([[0.0, 0.0, 1.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0]])
+_JOINTS = mujoco.mjtJoint
+
+
+class UrdfLink(NamedTuple):
+    """Link of a robot.
+
+    Attributes:
+        name: Name of the link.
+        body: Index of its body in the model; None for a frame without mass,
+            -1 for a link between two hinges of one body.
+        anchor: Origin of the link in the body, in [m]: joint anchors of
+            MuJoCo need not be at the origin of a body, those of URDF are.
+            Shape (3,).
+    """
+
+    name: str
+    body: int | None
+    anchor: Array
+
+
+class UrdfJoint(NamedTuple):
+    """Joint between two links.
+
+    Attributes:
+        name: Name of the joint.
+        kind: "fixed", "revolute", "continuous" or "prismatic".
+        parent: Name of the parent link.
+        child: Name of the child link.
+        position: Position of the child in the parent at angle 0, in [m].
+            Shape (3,).
+        axes: Axes of the child in the parent at angle 0, as columns. Shape
+            (3, 3).
+        number: Index of the joint in the model; None if it is fixed.
+        axis: Axis in the child. Shape (3,).
+    """
+
+    name: str
+    kind: str
+    parent: str
+    child: str
+    position: Array
+    axes: Array
+    number: int | None = None
+    axis: Array = np.array([0.0, 0.0, 1.0])
+
+
+class UrdfTree(NamedTuple):
+    """Links and joints of a robot, from the root to the tips.
+
+    Attributes:
+        links: Links; the first is the root.
+        joints: Joints; each has a link as child that no other has.
+    """
+
+    links: tuple[UrdfLink, ...]
+    joints: tuple[UrdfJoint, ...]
+
+
+def urdf_tree(
+    description: RobotDescription, model: mujoco.MjModel
+) -> UrdfTree:
+    """Return links and joints of a robot, as they are in its URDF.
+
+    The root is ``base_link``, at the origin of the torso. The soles are
+    ``l_sole`` and ``r_sole``; cameras of a described head have a frame each,
+    with an optical frame.
+
+    Args:
+        description: Description of the robot.
+        model: Its compiled model.
+
+    Raises:
+        ModelError: If it has a joint that URDF cannot express.
+    """
+    none, torso = np.zeros(3), model.body(description.torso).id
+    links = [
+        UrdfLink(BASE, None, none),
+        UrdfLink(description.torso, torso, none),
+    ]
+    joints = [_fixed(BASE, description.torso, none, np.eye(3))]
+    parents = {torso: links[1]}
+    for body in range(torso + 1, model.nbody):
+        parent = parents.get(int(model.body_parentid[body]))
+        if parent is not None:
+            added = _joints_of(model, body, parent)
+            links += [UrdfLink(joint.child, -1, none) for joint in added[:-1]]
+            own = UrdfLink(added[-1].child, body, _anchor_of(model, body))
+            links.append(own)
+            joints += added
+            parents[body] = own
+    anchors = {link.name: link.anchor for link in links}
+    for frame in _frames_of(description, model):
+        position = frame.position - anchors[frame.parent]
+        joints.append(frame._replace(position=position))
+        links.append(UrdfLink(frame.child, None, none))
+        if frame.child.endswith("camera"):
+            optical = frame.child + OPTICAL
+            joints.append(_fixed(frame.child, optical, none, CAMERA_AXES))
+            links.append(UrdfLink(optical, None, none))
+    return UrdfTree(tuple(links), tuple(joints))
+
+
+def _frames_of(
+    description: RobotDescription, model: mujoco.MjModel
+) -> list[UrdfJoint]:
+    """Return the frames of soles, IMU and cameras, placed in their bodies."""
+    sites = dict(
+        zip(
+            SOLES,
+            (description.left_foot, description.right_foot),
+            strict=True,
+        )
+    )
+    frames = []
+    for name, site in sites.items():
+        frames.append(_site_frame(model, name, model.site(site).id))
+    gyro = model.sensor(description.sensors.gyro)
+    frames.append(_site_frame(model, IMU, int(gyro.objid[0])))
+    try:
+        head = load_head(description)
+    except ModelError:
+        return frames  # it has no cameras
+    mounts: dict[str, Mount | None] = {
+        "camera": head.top,
+        "bottom_camera": head.bottom,
+        "depth_camera": head.depth,
+    }
+    for name, mount in mounts.items():
+        if mount is not None:
+            position, axes = mount.position_in_body, mount.axes_in_body
+            frames.append(_fixed(head.body, name, position, axes))
+    return frames
+
+
+def _site_frame(model: mujoco.MjModel, name: str, site: int) -> UrdfJoint:
+    link = link_name(model, int(model.site_bodyid[site]))
+    axes = rotation_of(model.site_quat[site])
+    return _fixed(link, name, model.site_pos[site].copy(), axes)
+
+
+def _joints_of(
+    model: mujoco.MjModel, body: int, parent: UrdfLink
+) -> list[UrdfJoint]:
+    """Return the joints of a body; several hinges get links between them.
+
+    Raises:
+        ModelError: If one is a ball or a free joint.
+    """
+    position = model.body_pos[body] - parent.anchor
+    axes = rotation_of(model.body_quat[body])
+    own = link_name(model, body)
+    first, count = int(model.body_jntadr[body]), int(model.body_jntnum[body])
+    if count == 0:
+        return [_fixed(parent.name, own, position, axes)]
+    joints: list[UrdfJoint] = []
+    link, anchor = parent.name, np.zeros(3)
+    for index in range(first, first + count):
+        name, kind = model.joint(index).name, _kind_of(model, index)
+        child = own if index == first + count - 1 else f"{name}_link"
+        position = position + axes @ (model.jnt_pos[index] - anchor)
+        axis = model.jnt_axis[index].copy()
+        zero = float(model.qpos0[model.jnt_qposadr[index]])
+        if kind == "prismatic":
+            position = position - axes @ (zero * axis)
+        else:
+            axes = axes @ _about(axis, -zero)
+        joints.append(
+            UrdfJoint(name, kind, link, child, position, axes, index, axis)
+        )
+        link, anchor = child, model.jnt_pos[index]
+        position, axes = np.zeros(3), np.eye(3)
+    return joints
+
+
+def _anchor_of(model: mujoco.MjModel, body: int) -> Array:
+    """Return the origin of a body's link in the body, in [m]."""
+    count = int(model.body_jntnum[body])
+    if count == 0:
+        return np.zeros(3)
+    last = int(model.body_jntadr[body]) + count - 1
+    anchor: Array = model.jnt_pos[last].copy()
+    return anchor
+
+
+def _kind_of(model: mujoco.MjModel, joint: int) -> str:
+    """Return the type of a joint in URDF.
+
+    Raises:
+        ModelError: If it is a ball or a free joint.
+    """
+    kind = int(model.jnt_type[joint])
+    if kind == _JOINTS.mjJNT_SLIDE:
+        return "prismatic"
+    if kind == _JOINTS.mjJNT_HINGE:
+        return "revolute" if model.jnt_limited[joint] else "continuous"
+    raise ModelError(
+        f"joint {model.joint(joint).name!r} must be a hinge or a slide to be "
+        "written as URDF, got a ball or free joint"
+    )
+
+
+def _fixed(parent: str, child: str, position: Array, axes: Array) -> UrdfJoint:
+    return UrdfJoint(f"{child}_fixed", "fixed", parent, child, position, axes)
+
+
+def rotation_of(quaternion: Array) -> Array:
+    """Return the axes of a unit quaternion (w, x, y, z). Shape (3, 3)."""
+    matrix = np.zeros(9)
+    mujoco.mju_quat2Mat(matrix, quaternion)
+    return matrix.reshape(3, 3)
+
+
+def _about(axis: Array, angle: float) -> Array:
+    quaternion = np.zeros(4)
+    mujoco.mju_axisAngle2Quat(quaternion, axis, angle)
+    return rotation_of(quaternion)
+
+
+def link_name(model: mujoco.MjModel, body: int) -> str:
+    """Return the name of the link of a body."""
+    name: str = model.body(body).name
+    return name or f"body_{body}"

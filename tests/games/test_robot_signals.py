@@ -1,0 +1,121 @@
+"""Test the signals of a game that is played again."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from stepaside.core.constants import GRAVITY
+from stepaside.games.duel import run_duel
+from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.games.robot_signals import RobotSignals, repeat_game
+from stepaside.games.run import DuelRun, Run, WalkRun
+from stepaside.games.walk_game import run_walk
+from stepaside.games.walk_settings import WALKER, WalkSettings
+from stepaside.robots.description import load_robot
+
+
+@pytest.fixture(scope="module")
+def walk() -> WalkRun:
+    return run_walk(WalkSettings(duration=4.0))
+
+
+@pytest.fixture(scope="module")
+def signals(walk: WalkRun) -> RobotSignals:
+    repeated = repeat_game(walk)
+    assert repeated.reason == ""
+    return repeated.robots[WALKER]
+
+
+@pytest.fixture(scope="module")
+def duel() -> DuelRun:
+    start = StartSettings(distance=0.9, pursuer_offset=0.0, evader_offset=0.0)
+    return run_duel(DuelSettings(duration=3.0, start=start))
+
+
+def test_joint_velocities_are_the_rates_of_the_recorded_angles(
+    walk: WalkRun, signals: RobotSignals
+) -> None:
+    assert walk.walker.qpos is not None
+    angles = walk.walker.qpos[:, 7:].astype(float)
+    period = walk.times[1] - walk.times[0]
+    rates = (angles[2:] - angles[:-2]) / (2.0 * period)
+    deviation = np.abs(rates - signals.joint_velocity[1:-1])
+    # Angles are in single precision, and the rate is a mean over 40 ms.
+    assert np.median(deviation) < 0.01
+    walking = np.abs(rates) > 0.5
+    assert walking.sum() > 100
+    agree = np.sign(rates) == np.sign(signals.joint_velocity[1:-1])
+    assert agree[walking].mean() > 0.99
+
+
+def test_foot_forces_carry_the_weight_and_the_accelerometer_feels_it(
+    signals: RobotSignals,
+) -> None:
+    model = load_robot("nao").compile()
+    weight = GRAVITY * float(model.body_mass.sum())
+    total = signals.foot_forces.sum(axis=1)[10:]
+    assert total.mean() == pytest.approx(weight, rel=0.03)
+    assert signals.accelerometer[10:, 2].mean() == pytest.approx(
+        GRAVITY, rel=0.03
+    )
+
+
+def test_a_straight_knee_holds_against_the_weight(
+    signals: RobotSignals, walk: WalkRun
+) -> None:
+    model = load_robot("nao").compile()
+    knee = model.joint("LKneePitch").qposadr[0] - 7
+    standing = signals.joint_effort[walk.times < 0.5, knee][5:]
+    # A bent knee that is loaded from above needs a torque that stretches it.
+    assert (standing < -0.1).all()
+
+
+def test_the_dcm_leads_the_com_by_its_velocity(
+    walk: WalkRun, signals: RobotSignals
+) -> None:
+    assert signals.dcm is not None
+    eta = walk.settings.gait.eta
+    lead = eta * (signals.dcm - walk.walker.com[:, :2])
+    np.testing.assert_allclose(lead, signals.com_velocity, atol=1e-12)
+    assert walk.walker.velocity is not None
+    np.testing.assert_array_equal(signals.com_velocity, walk.walker.velocity)
+
+
+def test_first_footstep_of_each_plan_is_the_recorded_landing(
+    walk: WalkRun, signals: RobotSignals
+) -> None:
+    landings = walk.walker.landings
+    assert landings is not None and len(landings) == len(signals.plans) > 4
+    for landing, plan in zip(landings, signals.plans, strict=True):
+        np.testing.assert_allclose(plan.footsteps[0], landing[1:], atol=1e-12)
+    assert [p.phase for p in signals.phases][:2] == ["standing", "walking"]
+
+
+def test_strategy_numbers_say_what_the_evader_sees_and_remembers(
+    duel: DuelRun,
+) -> None:
+    signals = repeat_game(duel).robots
+    seen = signals["evader"].strategy
+    assert np.isfinite(seen["memory_side"]).all()
+    assert set(seen["memory_evading"]) <= {0.0, 1.0}
+    known = np.isfinite(seen["sighting_distance_m"])
+    apart = np.abs(seen["sighting_distance_m"] - duel.distance)[known]
+    # A sighting is as old as the last decision: at most one step.
+    assert known.sum() > 100 and apart.max() < 0.1
+
+
+def test_a_game_that_differs_gives_no_signals_but_a_reason(
+    duel: DuelRun,
+) -> None:
+    track = duel.evader
+    assert track.qpos is not None
+    qpos = track.qpos.copy()
+    qpos[50, 20] += 1e-6
+    changed: Run = replace(
+        duel,
+        tracks={**duel.tracks, "evader": replace(track, qpos=qpos)},
+    )
+    repeated = repeat_game(changed)
+    assert not repeated.robots
+    assert "evader moved differently" in repeated.reason

@@ -1,0 +1,179 @@
+"""Test that a URDF moves like the model it was written from."""
+
+from pathlib import Path
+
+import mujoco
+import numpy as np
+import pytest
+
+from stepaside.core.errors import ModelError
+from stepaside.core.poses import Array
+from stepaside.robots.description import RobotDescription, load_robot
+from stepaside.robots.description_types import SensorNames
+from stepaside.robots.urdf import urdf_of
+from stepaside.robots.urdf_tree import BASE, urdf_tree
+
+# Anchors off the origin, two hinges on one body, a zero that is not 0, a
+# slide, rotated bodies, a mesh-free ellipsoid and a continuous joint.
+ODD = """
+<mujoco>
+  <compiler angle="radian" autolimits="true"/>
+  <worldbody>
+    <body name="chest" pos="0 0 1">
+      <freejoint/>
+      <geom type="box" size="0.1 0.2 0.3" mass="3"/>
+      <site name="imu" pos="0.01 0.02 0.03" euler="0.1 0.2 0.3"/>
+      <body name="upper" pos="0.1 0.2 -0.3" euler="0.4 -0.3 0.2">
+        <joint name="first" axis="0 1 0" pos="0.02 0.01 -0.03" ref="0.3"
+          range="-1 1"/>
+        <joint name="second" axis="1 1 0" pos="-0.01 0 0.05"/>
+        <geom type="ellipsoid" size="0.05 0.04 0.1" mass="1"/>
+        <body name="lower" pos="0 0 -0.4" quat="0 1 0 0">
+          <joint name="third" type="slide" axis="0 0 1" pos="0.1 0 0"
+            ref="0.05" range="-0.1 0.2"/>
+          <geom type="capsule" size="0.03 0.1" pos="0.1 0 0" mass="0.5"/>
+          <site name="left"/>
+          <body name="tip" pos="0.1 0 0.1" euler="0 1.5707963267948966 0">
+            <geom type="cylinder" size="0.02 0.05" mass="0.1"/>
+            <site name="right"/>
+          </body>
+        </body>
+      </body>
+    </body>
+  </worldbody>
+  <actuator>
+    <motor joint="first" gear="2" forcerange="-3 5"/>
+  </actuator>
+  <sensor><gyro name="turns" site="imu"/></sensor>
+</mujoco>"""
+
+
+def odd_robot(folder: Path, text: str = ODD) -> RobotDescription:
+    (folder / "odd.xml").write_text(text)
+    return RobotDescription(
+        folder=folder,
+        name="Odd robot",
+        model="odd.xml",
+        torso="chest",
+        left_foot="left",
+        right_foot="right",
+        accent="",
+        legs=(),
+        standing={},
+        speed_limits={"first": 7.0},
+        sensors=SensorNames(gyro="turns"),
+    )
+
+
+def loaded(text: str) -> mujoco.MjModel:
+    """Load a URDF by MuJoCo's own reader, with every link."""
+    spec = mujoco.MjSpec.from_string(text)
+    spec.compiler.fusestatic = False
+    spec.compiler.discardvisual = False
+    return spec.compile()
+
+
+def pose_in(data: mujoco.MjData, root: str, body: str) -> Array:
+    """Return position and axes of a body in another one, as (3, 4)."""
+    base, own = data.body(root), data.body(body)
+    axes = base.xmat.reshape(3, 3).T
+    position = axes @ (own.xpos - base.xpos)
+    return np.column_stack([position, axes @ own.xmat.reshape(3, 3)])
+
+
+@pytest.mark.parametrize("robot", ["nao", "odd"])
+def test_links_move_as_in_the_model(robot: str, tmp_path: Path) -> None:
+    description = load_robot("nao") if robot == "nao" else odd_robot(tmp_path)
+    original = description.compile()
+    copy = loaded(urdf_of(description))
+    assert copy.body_mass.sum() == pytest.approx(
+        original.body_mass.sum(), rel=1e-6
+    )
+    first, second = mujoco.MjData(original), mujoco.MjData(copy)
+    generator = np.random.default_rng(1)
+    for joint in range(original.njnt):
+        name = original.joint(joint).name
+        if original.jnt_type[joint] != mujoco.mjtJoint.mjJNT_FREE:
+            first.joint(name).qpos = angle = generator.uniform(-1.0, 1.0)
+            second.joint(name).qpos = angle
+    mujoco.mj_kinematics(original, first)
+    mujoco.mj_kinematics(copy, second)
+    mujoco.mj_comPos(original, first)
+    mujoco.mj_comPos(copy, second)
+    torso, compared = description.torso, 0
+    for body in range(1, original.nbody):
+        name = original.body(body).name
+        expected = pose_in(first, torso, name)
+        found = pose_in(second, BASE, name)
+        if original.body_jntnum[body] and robot == "odd":
+            if original.jnt_type[original.body_jntadr[body]] != 0:
+                last = original.body_jntadr[body] + original.body_jntnum[body]
+                anchor = original.jnt_pos[last - 1]
+                expected[:, 0] += expected[:, 1:] @ anchor
+        np.testing.assert_allclose(found, expected, atol=1e-7)
+        compared += 1
+    assert compared == original.nbody - 1
+    root = first.body(torso)
+    center = root.xmat.reshape(3, 3).T @ (root.subtree_com - root.xpos)
+    np.testing.assert_allclose(
+        second.body(BASE).subtree_com, center, atol=1e-6
+    )
+    for side in ("left", "right"):
+        site = first.site(getattr(description, f"{side}_foot"))
+        axes = root.xmat.reshape(3, 3).T
+        expected = np.column_stack(
+            [axes @ (site.xpos - root.xpos), axes @ site.xmat.reshape(3, 3)]
+        )
+        found = pose_in(second, BASE, f"{side[0]}_sole")
+        np.testing.assert_allclose(found, expected, atol=1e-7)
+
+
+def test_each_link_but_the_root_has_one_joint_above_it() -> None:
+    nao = load_robot("nao")
+    tree = urdf_tree(nao, nao.compile())
+    children = [joint.child for joint in tree.joints]
+    assert [link.name for link in tree.links] == [BASE, *children]
+
+
+def test_an_optical_frame_looks_along_z() -> None:
+    data = mujoco.MjData(copy := loaded(urdf_of(load_robot("nao"))))
+    mujoco.mj_kinematics(copy, data)
+    camera = pose_in(data, BASE, "camera")[:, 1:]
+    optical = pose_in(data, BASE, "camera_optical_frame")[:, 1:]
+    np.testing.assert_allclose(optical[:, 2], camera[:, 0], atol=1e-9)
+    np.testing.assert_allclose(optical[:, 0], -camera[:, 1], atol=1e-9)
+    np.testing.assert_allclose(optical[:, 1], -camera[:, 2], atol=1e-9)
+
+
+def test_another_reader_finds_tree_limits_and_shared_motor(
+    tmp_path: Path,
+) -> None:
+    yourdfpy = pytest.importorskip("yourdfpy", reason="not installed")
+    file = tmp_path / "robot.urdf"
+    file.write_text(urdf_of(load_robot("nao")))
+    robot = yourdfpy.URDF.load(str(file))
+    assert robot.validate()
+    assert robot.base_link == BASE
+    pitch = robot.joint_map["RHipYawPitch"]
+    assert pitch.mimic.joint == "LHipYawPitch"
+    knee = robot.joint_map["LKneePitch"].limit
+    model = load_robot("nao").compile()
+    np.testing.assert_allclose(
+        (knee.lower, knee.upper), model.joint("LKneePitch").range, atol=1e-6
+    )
+    file.write_text(urdf_of(odd_robot(tmp_path)))
+    robot = yourdfpy.URDF.load(str(file))
+    first = robot.joint_map["first"].limit
+    assert (first.effort, first.velocity) == (10.0, 7.0)
+    assert robot.joint_map["second"].type == "continuous"
+    assert robot.joint_map["third"].type == "prismatic"
+
+
+def test_a_ball_joint_is_refused(tmp_path: Path) -> None:
+    ball = ODD.replace(
+        '<joint name="second" axis="1 1 0" pos="-0.01 0 0.05"/>',
+        '<joint name="second" type="ball"/>',
+    ).replace('<joint name="first" axis="0 1 0"', '<joint name="first"')
+    robot = odd_robot(tmp_path, ball)
+    with pytest.raises(ModelError, match="second' must be a hinge or a slide"):
+        urdf_of(robot)
