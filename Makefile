@@ -11,7 +11,7 @@ INSTALL := -m pip install --disable-pip-version-check --no-warn-script-location 
 
 .PHONY: setup duel test-tools test types suite python other other-setup other-test mutate \
 	fuzz bench figures docs docs-run docs-setup wheel clean constraints \
-	ros2-peers
+	ros2-peers test-export
 
 setup: $(STAMP)
 
@@ -104,6 +104,20 @@ endif
 		--quiet $(ROS2_PACKAGES:%=ros-$*-%)
 	touch $@
 
+# Exported runs, read back by large libraries that `make setup` leaves out.
+test-export: .venv-export/.installed
+	.venv-export/bin/python -m pytest --numprocesses 2 \
+		tests/report/test_export.py tests/report/test_large_exports.py \
+		tests/robots/test_urdf.py
+
+.venv-export/.installed: pyproject.toml
+	$(PYTHON) -m venv .venv-export
+	.venv-export/bin/python $(INSTALL) --quiet --editable \
+		".[export,lerobot,rerun,tables,vision]" "rerun-sdk[catalog]" \
+		hypothesis mcap mcap-ros2-support pandas pytest pytest-timeout \
+		pytest-xdist yourdfpy
+	touch $@
+
 # Faults that the tests should notice; goes on where it was cut short.
 SAMPLE ?= 400
 CAP ?= 40
@@ -141,4 +155,4 @@ constraints:
 		pyproject.toml
 
 clean:
-	rm -rf $(VENV) .venv-other .venv-wheel .venv-ros2-* dist runs
+	rm -rf $(VENV) .venv-other .venv-wheel .venv-export .venv-ros2-* dist runs

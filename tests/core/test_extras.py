@@ -15,6 +15,7 @@ from tools.documents.store import ROOT
 
 PACKAGES = {  # where the name of the package differs
     "cv2": "opencv-python-headless",
+    "rerun": "rerun-sdk",
     "dask_jobqueue": "dask-jobqueue",
     "yaml": "pyyaml",
 }
@@ -22,6 +23,8 @@ SHORT = "--duration 0.02 --json"
 WORKS = (
     f"duel {SHORT} --output run",
     "compare run",
+    "export run --to csv",
+    "export run --to urdf",
     f"walk {SHORT}",
     "plan --role evader --bearing 0.1 --json",
     "unicycles --duration 1 --json",
@@ -36,6 +39,10 @@ NEEDS = {
     "view --no-open --serve-for 0.1": "viewer",
     "replay run --no-open --serve-for 0.1": "viewer",
     "replay run --html page.html": "viewer",
+    "export run --to mcap": "export",
+    "export run --to rerun": "rerun",
+    "export run --to parquet": "tables",
+    "export run --to lerobot": "lerobot",
     "replay run --video film.mp4": "viewer",
     "play --role evader --robot lola:none": "robot",
     "serve --lola evader=socket --wait 0.1": "robot",

@@ -37,6 +37,7 @@ def test_joint_velocities_are_the_rates_of_the_recorded_angles(
     walk: WalkRun, signals: RobotSignals
 ) -> None:
     assert walk.walker.qpos is not None
+    assert signals.joint_velocity is not None
     angles = walk.walker.qpos[:, 7:].astype(float)
     period = walk.times[1] - walk.times[0]
     rates = (angles[2:] - angles[:-2]) / (2.0 * period)
@@ -54,6 +55,8 @@ def test_foot_forces_carry_the_weight_and_the_accelerometer_feels_it(
 ) -> None:
     model = load_robot("nao").compile()
     weight = GRAVITY * float(model.body_mass.sum())
+    assert signals.foot_forces is not None
+    assert signals.accelerometer is not None
     total = signals.foot_forces.sum(axis=1)[10:]
     assert total.mean() == pytest.approx(weight, rel=0.03)
     assert signals.accelerometer[10:, 2].mean() == pytest.approx(
@@ -66,6 +69,7 @@ def test_a_straight_knee_holds_against_the_weight(
 ) -> None:
     model = load_robot("nao").compile()
     knee = model.joint("LKneePitch").qposadr[0] - 7
+    assert signals.joint_effort is not None
     standing = signals.joint_effort[walk.times < 0.5, knee][5:]
     # A bent knee that is loaded from above needs a torque that stretches it.
     assert (standing < -0.1).all()
@@ -74,7 +78,7 @@ def test_a_straight_knee_holds_against_the_weight(
 def test_the_dcm_leads_the_com_by_its_velocity(
     walk: WalkRun, signals: RobotSignals
 ) -> None:
-    assert signals.dcm is not None
+    assert signals.dcm is not None and signals.com_velocity is not None
     eta = walk.settings.gait.eta
     lead = eta * (signals.dcm - walk.walker.com[:, :2])
     np.testing.assert_allclose(lead, signals.com_velocity, atol=1e-12)
@@ -119,3 +123,19 @@ def test_a_game_that_differs_gives_no_signals_but_a_reason(
     repeated = repeat_game(changed)
     assert not repeated.robots
     assert "evader moved differently" in repeated.reason
+
+
+def test_joints_follow_their_targets(
+    walk: WalkRun, signals: RobotSignals
+) -> None:
+    targets = signals.joint_targets
+    assert targets is not None and walk.walker.qpos is not None
+    names = signals.target_names
+    assert targets.shape == (len(walk.times), len(names))
+    model = load_robot("nao").compile()
+    columns = [model.joint(name).qposadr[0] for name in names]
+    angles = walk.walker.qpos[:, columns]
+    # Ideal joints are where they were sent a tick of 4 ms before.
+    aligned = np.abs(angles - targets).mean()
+    assert aligned < 0.004
+    assert np.abs(angles[1:] - targets[:-1]).mean() > 2.0 * aligned

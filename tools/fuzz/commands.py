@@ -31,6 +31,7 @@ BASES = {
     "duels": ["--seeds=0:1", *SHORT],
     "view": ["--no-open", "--serve-for=0.01", "--port=8601"],
     "replay": ["--no-open", "--serve-for=0.01", "--port=8602"],
+    "export": ["--to=urdf", "--json"],
     "walk": SHORT,
     "robustness": ["--kind=friction", "--seeds=1", "--json"],
     "plan": ["--role=evader", "--bearing=0.3", "--steps=4", "--json"],

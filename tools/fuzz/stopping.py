@@ -46,6 +46,7 @@ LONG = {
 # What is through before anybody would stop it.
 SHORT = {
     "compare",
+    "export",
     "merge",
     "legs inspect",
     "plan",

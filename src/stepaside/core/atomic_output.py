@@ -118,6 +118,38 @@ def atomic_draft(file: Path) -> Iterator[Path]:
                 os.unlink(draft)
 
 
+@contextmanager
+def folder_draft(folder: Path) -> Iterator[Path]:
+    """Yield an unfinished folder beside a folder that is to be written.
+
+    The caller renames it when it is complete; otherwise it is removed.
+
+    Args:
+        folder: Folder to write. Missing parents are created.
+
+    Raises:
+        OutputError: If it cannot be written.
+    """
+    draft = None
+    try:
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        remove_stale_drafts(folder.parent)
+        draft = Path(
+            tempfile.mkdtemp(prefix=draft_prefix(), dir=folder.parent)
+        )
+        draft.chmod(0o777 & ~_mask())
+        yield draft
+    except OutputError:
+        raise
+    except OSError as error:
+        raise OutputError(
+            f"{folder} could not be written: {reason_of(error)}"
+        ) from error
+    finally:
+        if draft is not None:
+            shutil.rmtree(draft, ignore_errors=True)
+
+
 def draft_prefix() -> str:
     """Return the prefix of drafts of this process on this machine."""
     return f"{DRAFT}{_machine()}-{os.getpid()}-"

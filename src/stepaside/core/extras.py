@@ -5,6 +5,8 @@ EXTRAS = {  # as in ``pyproject.toml``, with the names of the modules
     "mpi": ("mpi4py",),
     "slurm": ("dask_jobqueue",),
     "tables": ("polars",),
+    "export": ("rosbags",),
+    "rerun": ("rerun",),
     "fast": ("numba",),
     "legs": ("onnx", "onnxruntime", "yaml"),
     "mpc": ("daqp",),
@@ -13,6 +15,7 @@ EXTRAS = {  # as in ``pyproject.toml``, with the names of the modules
     "ros2": ("cyclonedds",),
     "viewer": ("av", "msgspec", "trimesh", "viser", "websockets"),
     "vision": ("cv2",),
+    "lerobot": ("av", "pyarrow"),
 }
 
 

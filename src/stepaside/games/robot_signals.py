@@ -6,12 +6,13 @@ forces, plans, the memory of the strategy, and camera images.
 """
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, fields, is_dataclass
+from dataclasses import dataclass, field, fields, is_dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..core.poses import Array, Pose
+from ..core.row_table import RowTable
 from ..locomotion.walk_snapshots import StepStarted
 from ..perception.images import ColourImage, DepthImage
 from .duel import Duel
@@ -54,9 +55,10 @@ class PhaseChange(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RobotSignals:
-    """Signals of one robot at the samples of its run.
+    """Signals of one robot at the samples of its run; None if unknown.
 
-    Velocities, efforts and sensor values are true: without sensor errors.
+    Those of a repeated game are true: without sensor errors. Those of a play
+    are measurements of the robot.
 
     Attributes:
         torso_velocity: Linear velocity of the torso in the world, in [m/s],
@@ -71,6 +73,9 @@ class RobotSignals:
             of ``Measurement.foot_forces``, in [N]. Shape (n, 8).
         com_velocity: Velocity of the CoM (x, y) in the world, in [m/s].
             Shape (n, 2).
+        target_names: Names of the actuated joints.
+        joint_targets: Targets that control sends to the actuated joints at
+            the samples, in [rad]. Shape (n, actuated joints).
         dcm: DCM in the world, in [m]; None for a robot that does not walk
             by maneuvers. Shape (n, 2).
         plans: Planned footsteps.
@@ -80,18 +85,20 @@ class RobotSignals:
         images: Images of its cameras, with the times of their exposure.
     """
 
-    torso_velocity: Array
-    joint_velocity: Array
-    joint_effort: Array
-    gyro: Array
-    accelerometer: Array
-    foot_forces: Array
-    com_velocity: Array
-    dcm: Array | None
-    plans: tuple[PlannedFootsteps, ...]
-    phases: tuple[PhaseChange, ...]
-    strategy: Mapping[str, Array]
-    images: tuple[Image, ...]
+    torso_velocity: Array | None = None
+    joint_velocity: Array | None = None
+    joint_effort: Array | None = None
+    gyro: Array | None = None
+    accelerometer: Array | None = None
+    foot_forces: Array | None = None
+    com_velocity: Array | None = None
+    target_names: tuple[str, ...] = ()
+    joint_targets: Array | None = None
+    dcm: Array | None = None
+    plans: tuple[PlannedFootsteps, ...] = ()
+    phases: tuple[PhaseChange, ...] = ()
+    strategy: Mapping[str, Array] = field(default_factory=dict)
+    images: tuple[Image, ...] = ()
 
 
 class RepeatedGame(NamedTuple):
@@ -118,17 +125,23 @@ class RobotSignalRecord:
         self._plans: list[PlannedFootsteps] = []
         self._phases: list[PhaseChange] = []
         self._images: list[Image] = []
+        self._targets = RowTable(len(player.robot.joint_names))
+        self._awaits_targets = False
 
     def sample(self, now: float) -> None:
         """Sample the present state."""
         self._log.add()
+        self._awaits_targets = True
         phase = self._player.scheme.phase.value
         if not self._phases or self._phases[-1].phase != phase:
             self._phases.append(PhaseChange(now, phase))
         self._numbers.append(dict(_strategy_numbers(self._player)))
 
     def act(self, now: float) -> None:
-        """Record a plan that begins and images that were taken."""
+        """Record targets, a plan that begins, and images that were taken."""
+        if self._awaits_targets:
+            self._awaits_targets = False
+            self._targets.append()[:] = self._player.scheme.joint_targets
         begun = self._player.begun
         if begun is not None and isinstance(self._player, SimulatedPlayer):
             self._plans.append(self._plan(self._player, begun))
@@ -162,6 +175,9 @@ class RobotSignalRecord:
         if isinstance(self._player, SimulatedPlayer):
             eta = self._player.scheme.gait.eta
             dcm = com[:, :2] + arrays["com_velocity"] / eta
+        targets = self._targets.rows[:count]
+        # No command follows the last sample of a finished game.
+        missing = targets[-1:].repeat(count - len(targets), axis=0)
         keys = dict.fromkeys(key for row in self._numbers for key in row)
         strategy = {
             key: np.array(
@@ -170,7 +186,15 @@ class RobotSignalRecord:
             for key in keys
         }
         return RobotSignals(
-            **arrays,
+            torso_velocity=arrays["torso_velocity"],
+            joint_velocity=arrays["joint_velocity"],
+            joint_effort=arrays["joint_effort"],
+            gyro=arrays["gyro"],
+            accelerometer=arrays["accelerometer"],
+            foot_forces=arrays["foot_forces"],
+            com_velocity=arrays["com_velocity"],
+            target_names=self._player.robot.joint_names,
+            joint_targets=np.concatenate([targets, missing]),
             dcm=dcm,
             plans=tuple(self._plans),
             phases=tuple(self._phases),
@@ -241,6 +265,7 @@ def repeat_game(
     Raises:
         StepAsideError: If the settings cannot be met on this computer, for
             example for want of a renderer.
+        KeyboardInterrupt: If it was interrupted.
     """
     recorder = SignalRecorder()
     game: Duel | WalkGame
@@ -250,7 +275,9 @@ def repeat_game(
         game = WalkGame(run.settings, observers=(recorder,))
     else:
         return RepeatedGame({}, f"a {run.game} cannot be repeated")
-    play(game, run.duration, report)
+    outcome, _ = play(game, run.duration, report)
+    if outcome is Outcome.INTERRUPTED:
+        raise KeyboardInterrupt
     again, times = game.recorder.tracks(), game.recorder.times
     for name in run.robots:
         then, now = run.tracks[name].qpos, again[name].qpos
@@ -289,5 +316,5 @@ def _entries(memory: Any) -> Iterator[tuple[str, Any]]:
     if hasattr(memory, "_asdict"):
         yield from memory._asdict().items()
     elif is_dataclass(memory):
-        for field in fields(memory):
-            yield field.name, getattr(memory, field.name)
+        for entry in fields(memory):
+            yield entry.name, getattr(memory, entry.name)

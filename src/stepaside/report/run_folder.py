@@ -2,16 +2,10 @@
 
 import errno
 import os
-import shutil
 import tempfile
 from pathlib import Path
 
-from ..core.atomic_output import (
-    check_folder,
-    draft_prefix,
-    reason_of,
-    remove_stale_drafts,
-)
+from ..core.atomic_output import check_folder, folder_draft
 from ..core.errors import AnyPath, OutputError, as_path
 from ..games.outcome import Outcome
 from ..games.run import Run, is_match, is_play
@@ -87,16 +81,10 @@ def write_run(folder: AnyPath, run: Run, *, drawn: bool = True) -> Path:
     Raises:
         OutputError: If it cannot be written; partial output is removed.
     """
-    draft = None
     folder = as_path(folder, "folder")
     if folder.name in ("", ".."):
         folder = folder.resolve()  # ``.`` has neither name nor parent
-    try:
-        folder.parent.mkdir(parents=True, exist_ok=True)
-        remove_stale_drafts(folder.parent)
-        draft = Path(
-            tempfile.mkdtemp(prefix=draft_prefix(), dir=folder.parent)
-        )
+    with folder_draft(folder) as draft:
         write_run_files(draft, run)
         figure = figure_name(run)
         if drawn:
@@ -106,17 +94,7 @@ def write_run(folder: AnyPath, run: Run, *, drawn: bool = True) -> Path:
 
             draw_sight(run, draft / SIGHT)
         write_checksums(draft)
-        draft.chmod(0o755)
         return _move(draft, folder) / figure
-    except OutputError:
-        raise
-    except OSError as error:
-        raise OutputError(
-            f"{folder} could not be written: {reason_of(error)}"
-        ) from error
-    finally:
-        if draft is not None:
-            shutil.rmtree(draft, ignore_errors=True)
 
 
 def _move(draft: Path, folder: Path) -> Path:

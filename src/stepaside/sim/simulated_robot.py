@@ -108,6 +108,7 @@ class SimulatedRobot:
         joint_names: Names of the actuated joints.
         sight: Ideal line of sight to the opponent, if any.
         eyes: Cameras and sonars, if any.
+        joint_names: Names of its actuated joints, in the order of targets.
         place: Ideal sensor of its pose in a room, if any.
         truth: True state, for ideal sensors and for records.
     """

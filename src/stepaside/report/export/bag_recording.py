@@ -1,0 +1,436 @@
+"""Recordings as ROS 2 bags in MCAP, for Foxglove, PlotJuggler and rosbag2.
+
+Each player has a namespace. Frames follow REP 105 and REP 120: ``map``, then
+``NAME/odom``, ``NAME/base_footprint``, ``NAME/base_link`` and the links.
+"""
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ...core.poses import Array, Pose
+from ...games.robot_signals import RobotSignals
+from ...perception.images import ColourImage
+from ...planning.gait_settings import SoleRectangle
+from ...robots.urdf_tree import IMU, OPTICAL
+from ..palette import colours_in
+from .bag_messages import BOX, MessageFactory, nanoseconds
+from .foxglove_layout import write_layout
+from .recorded_transforms import (
+    base_poses,
+    joint_poses,
+    landed_footsteps,
+    quaternion_of,
+)
+from .recording import Recording, RobotModel, foot_wrenches
+from .room_markers import room_markers
+
+MAP = "map"
+THICKNESS = 0.004  # of the marker of a footstep, in [m]
+POINTS = ("com", "com_reference", "zmp", "zmp_reference")
+
+
+class TopicMessage(NamedTuple):
+    """Message on a topic.
+
+    Attributes:
+        time: Time, in [s].
+        topic: Name of the topic.
+        kind: Type, like ``std_msgs/msg/String``.
+        message: The message.
+        stays: Whether late subscribers get it, too (transient local).
+    """
+
+    time: float
+    topic: str
+    kind: str
+    message: Any
+    stays: bool = False
+
+
+def write_bag(
+    folder: Path,
+    recording: Recording,
+    report: Callable[[int, int], None] | None = None,
+) -> None:
+    """Write a ROS 2 bag in MCAP with URDF files and a Foxglove layout.
+
+    Args:
+        folder: Existing folder; gets ``NAME.mcap`` and ``metadata.yaml``, so
+            that it is a bag itself.
+        recording: The recording.
+        report: Called with the samples done and their number.
+    """
+    from rosbags.rosbag2 import CompressionMode, StoragePlugin, Writer
+    from rosbags.rosbag2.enums import CompressionFormat
+
+    factory = MessageFactory()
+    bag = folder / recording.run.name
+    writer = Writer(bag, version=9, storage_plugin=StoragePlugin.MCAP)
+    writer.set_compression(CompressionMode.STORAGE, CompressionFormat.ZSTD)
+    connections: dict[str, Any] = {}
+    with writer:
+        for time, topic, kind, message, stays in messages_of(
+            recording, factory, report
+        ):
+            if topic not in connections:
+                connections[topic] = writer.add_connection(
+                    topic,
+                    kind,
+                    typestore=factory.store,
+                    offered_qos_profiles=[_quality(stays=stays)],
+                )
+            data = factory.store.serialize_cdr(message, kind)
+            writer.write(connections[topic], nanoseconds(time), data)
+    for file in bag.iterdir():
+        file.rename(folder / file.name)
+    bag.rmdir()
+    for name, model in recording.models.items():
+        (folder / f"{name}.urdf").write_text(model.urdf, encoding="utf-8")
+    write_layout(folder / "foxglove-layout.json", recording)
+
+
+def _quality(*, stays: bool) -> Any:
+    """Return the quality of service with which a topic is played back."""
+    from rosbags.interfaces import (
+        Qos,
+        QosDurability,
+        QosHistory,
+        QosLiveliness,
+        QosReliability,
+        QosTime,
+    )
+
+    forever = QosTime(2147483647, 4294967295)
+    return Qos(
+        QosHistory.KEEP_LAST,
+        1 if stays else 10,
+        QosReliability.RELIABLE,
+        QosDurability.TRANSIENT_LOCAL if stays else QosDurability.VOLATILE,
+        forever,
+        forever,
+        QosLiveliness.AUTOMATIC,
+        forever,
+        False,
+    )
+
+
+def messages_of(
+    recording: Recording,
+    factory: MessageFactory,
+    report: Callable[[int, int], None] | None = None,
+) -> Iterator[TopicMessage]:
+    """Yield all messages of a recording, in the order of their times.
+
+    Args:
+        recording: The recording.
+        factory: Maker of messages.
+        report: Called with the samples done and their number.
+    """
+    run = recording.run
+    players = [PlayerTopics(recording, name, factory) for name in run.players]
+    times = run.times
+    static = [t for player in players for t in player.static_transforms()]
+    tf = "tf2_msgs/msg/TFMessage"
+    first = float(times[0])
+    yield TopicMessage(
+        first, "/tf_static", tf, factory.make(tf, static), stays=True
+    )
+    events = [m for player in players for m in player.events()]
+    events += [
+        TopicMessage(time, "/room", f"{MARKERS}", message, stays=True)
+        for time, message in room_markers(run, factory)
+    ]
+    events.sort(key=lambda event: event.time)
+    pending = iter(events)
+    event = next(pending, None)
+    for index, time in enumerate(times.tolist()):
+        while event is not None and event.time <= time:
+            yield event._replace(time=max(event.time, first))
+            event = next(pending, None)
+        moved = [t for p in players for t in p.transforms(index, time)]
+        yield TopicMessage(time, "/tf", tf, factory.make(tf, moved))
+        for player in players:
+            yield from player.sample(index, time)
+        yield from _pair_numbers(recording, factory, index, time)
+        if report is not None and index % 50 == 0:
+            report(index, len(times))
+
+
+MARKERS = "visualization_msgs/msg/MarkerArray"
+NUMBER = "std_msgs/msg/Float64"
+
+
+def _pair_numbers(
+    recording: Recording, factory: MessageFactory, index: int, time: float
+) -> Iterator[TopicMessage]:
+    """Yield distance and angle between the first two players."""
+    run = recording.run
+    if run.pair is not None:
+        value = float(run.distance[index])
+        message = factory.number(value)
+        yield TopicMessage(time, "/distance_m", NUMBER, message)
+    if run.has_orientation:
+        value = float(np.radians(run.orientation[index]))
+        message = factory.number(value)
+        yield TopicMessage(time, "/angle_rad", NUMBER, message)
+
+
+class PlayerTopics:
+    """Messages of one player."""
+
+    def __init__(
+        self, recording: Recording, name: str, factory: MessageFactory
+    ) -> None:
+        """Prepare the arrays of a player.
+
+        Args:
+            recording: The recording.
+            name: Name of the player.
+            factory: Maker of messages.
+        """
+        run = recording.run
+        self._name, self._factory = name, factory
+        self._times, self._track = run.times, run.tracks[name]
+        self._signals = recording.signals.get(name, RobotSignals())
+        self._model: RobotModel | None = None
+        self._colour = colours_in("light", run.players)[name]
+        self._footprints = self._track.unicycle
+        self._odometry = Pose(*self._footprints[0].tolist())
+        inverse = self._odometry.inverse()
+        self._footprints_in_odometry = np.array(
+            [
+                inverse.compose(Pose(*pose))
+                for pose in self._footprints.tolist()
+            ]
+        )
+        qpos = self._track.qpos
+        if qpos is not None and name in recording.models:
+            self._model = recording.models[name]
+            self._base = base_poses(qpos, self._footprints)
+            self._joints = joint_poses(self._model, qpos)
+            self._sole = run.settings.robot_of(name).gait.sole
+        self._wrenches = (
+            ()
+            if self._signals.foot_forces is None or self._model is None
+            else foot_wrenches(self._model, self._signals.foot_forces)
+        )
+
+    def _frame(self, name: str) -> str:
+        return f"{self._name}/{name}"
+
+    def _topic(self, name: str) -> str:
+        return f"/{self._name}/{name}"
+
+    def static_transforms(self) -> list[Any]:
+        """Return the transforms that do not change."""
+        make, first = self._factory, float(self._times[0])
+        x, y, heading = self._odometry
+        found = [
+            make.transform(
+                make.header(first, MAP),
+                self._frame("odom"),
+                (x, y, 0.0),
+                make.upright(heading),
+            )
+        ]
+        for joint in () if self._model is None else self._model.tree.joints:
+            if joint.number is None:
+                found.append(
+                    make.transform(
+                        make.header(first, self._frame(joint.parent)),
+                        self._frame(joint.child),
+                        joint.position.tolist(),
+                        make.rotation(quaternion_of(joint.axes).tolist()),
+                    )
+                )
+        return found
+
+    def transforms(self, index: int, time: float) -> Iterator[Any]:
+        """Yield the transforms of a sample."""
+        make = self._factory
+        x, y, heading = self._footprints_in_odometry[index].tolist()
+        yield make.transform(
+            make.header(time, self._frame("odom")),
+            self._frame("base_footprint"),
+            (x, y, 0.0),
+            make.upright(heading),
+        )
+        if self._model is None:
+            return
+        yield make.transform(
+            make.header(time, self._frame("base_footprint")),
+            self._frame("base_link"),
+            self._base.positions[index].tolist(),
+            make.rotation(self._base.quaternions[index].tolist()),
+        )
+        for joint, positions, quaternions in self._joints:
+            yield make.transform(
+                make.header(time, self._frame(joint.parent)),
+                self._frame(joint.child),
+                positions[index].tolist(),
+                make.rotation(quaternions[index].tolist()),
+            )
+
+    def sample(self, index: int, time: float) -> Iterator[TopicMessage]:
+        """Yield the messages of a sample, other than transforms."""
+        make = self._factory
+        in_map = make.header(time, MAP)
+        points: dict[str, Array | None] = {
+            name: getattr(self._track, name) for name in POINTS
+        }
+        points["dcm"] = self._signals.dcm
+        kind = "geometry_msgs/msg/PointStamped"
+        for name, rows in points.items():
+            if rows is not None and np.isfinite(rows[index]).all():
+                message = make.point_stamped(in_map, rows[index].tolist())
+                yield TopicMessage(time, self._topic(name), kind, message)
+        x, y, heading = self._footprints[index].tolist()
+        kind = "geometry_msgs/msg/PoseStamped"
+        pose = make.pose((x, y, 0.0), make.upright(heading))
+        message = make.make(kind, in_map, pose)
+        yield TopicMessage(time, self._topic("pose"), kind, message)
+        for name, values in self._signals.strategy.items():
+            if np.isfinite(values[index]):
+                topic = self._topic(f"strategy/{name}")
+                message = make.number(float(values[index]))
+                yield TopicMessage(time, topic, NUMBER, message)
+        if self._model is not None:
+            yield from self._robot_sample(self._model, index, time)
+
+    def _robot_sample(
+        self, model: RobotModel, index: int, time: float
+    ) -> Iterator[TopicMessage]:
+        make, signals = self._factory, self._signals
+        assert self._track.qpos is not None
+        kind = "sensor_msgs/msg/JointState"
+        message = make.joint_state(
+            make.header(time, ""),
+            model.joints,
+            self._track.qpos[index, 7:],
+            _row(signals.joint_velocity, index),
+            _row(signals.joint_effort, index),
+        )
+        yield TopicMessage(time, self._topic("joint_states"), kind, message)
+        gyro = _row(signals.gyro, index)
+        accelerometer = _row(signals.accelerometer, index)
+        if gyro is not None and accelerometer is not None:
+            kind = "sensor_msgs/msg/Imu"
+            header = make.header(time, self._frame(IMU))
+            message = make.imu(header, gyro, accelerometer)
+            yield TopicMessage(time, self._topic("imu"), kind, message)
+        kind = "geometry_msgs/msg/WrenchStamped"
+        for wrench in self._wrenches:
+            header = make.header(time, self._frame(wrench.frame))
+            force, torque = float(wrench.force[index]), wrench.torque[index]
+            message = make.wrench(header, force, torque)
+            topic = self._topic(f"{wrench.frame}/wrench")
+            yield TopicMessage(time, topic, kind, message)
+
+    def events(self) -> list[TopicMessage]:
+        """Return the messages that are not at samples."""
+        make, first = self._factory, float(self._times[0])
+        found: list[TopicMessage] = []
+        if self._model is not None:
+            topic, kind = self._topic("robot_description"), TEXT
+            message = make.text(self._model.urdf)
+            found.append(TopicMessage(first, topic, kind, message, stays=True))
+            found += self._footstep_markers(self._model)
+        for time, phase in self._signals.phases:
+            topic, message = self._topic("phase"), make.text(phase)
+            found.append(TopicMessage(time, topic, TEXT, message, stays=True))
+        return found + list(self._images())
+
+    def _footstep_markers(self, model: RobotModel) -> Iterator[TopicMessage]:
+        """Yield planned footsteps, landings as planned and as they were."""
+        track = self._track
+        assert track.qpos is not None
+        topic = self._topic("footsteps/planned")
+        for plan in self._signals.plans:
+            marks = self._soles(plan.time, plan.footsteps, "planned", 0.4)
+            yield TopicMessage(plan.time, topic, MARKERS, marks)
+        if track.landings is None:
+            return
+        topic = self._topic("footsteps/landed")
+        rows = landed_footsteps(model, self._times, track.qpos, track.landings)
+        for number, row in enumerate(rows):
+            time = float(row[0])
+            marks = self._soles(time, row[None, 1:], "landed", 0.8, number)
+            yield TopicMessage(time, topic, MARKERS, marks)
+
+    def _soles(
+        self,
+        time: float,
+        rows: Array,
+        namespace: str,
+        alpha: float,
+        first: int = 0,
+    ) -> Any:
+        """Return markers of soles: rows (side, x, y, heading)."""
+        make, sole = self._factory, self._sole
+        header = make.header(time, MAP)
+        colour = (*(part / 255.0 for part in self._rgb()), alpha)
+        markers = []
+        for number, (side, x, y, heading) in enumerate(rows.tolist(), first):
+            size, middle = _sole_box(sole, side)
+            center = Pose(x, y, heading).compose(Pose(*middle, 0.0))
+            pose = make.pose(
+                (center.x, center.y, 0.5 * THICKNESS), make.upright(heading)
+            )
+            scale = (*size, THICKNESS)
+            markers.append(
+                make.marker(
+                    header, namespace, number, BOX, pose, scale, colour
+                )
+            )
+        return make.markers(markers)
+
+    def _rgb(self) -> tuple[int, int, int]:
+        text = self._colour.lstrip("#")
+        red, green, blue = (int(text[i : i + 2], 16) for i in (0, 2, 4))
+        return red, green, blue
+
+    def _images(self) -> Iterator[TopicMessage]:
+        """Yield images with their calibration."""
+        make = self._factory
+        for image in self._signals.images:
+            if isinstance(image, ColourImage):
+                name = "bottom_camera" if image.low else "camera"
+                kind = "sensor_msgs/msg/CompressedImage"
+                topic = self._topic(f"{name}/image_raw/compressed")
+            else:
+                name, kind = "depth_camera", "sensor_msgs/msg/Image"
+                topic = self._topic(f"{name}/image_raw")
+            header = make.header(image.time, self._frame(name + OPTICAL))
+            message = (
+                make.jpeg(header, image.pixels)
+                if isinstance(image, ColourImage)
+                else make.depth_image(header, image.depths)
+            )
+            yield TopicMessage(image.time, topic, kind, message)
+            yield TopicMessage(
+                image.time,
+                self._topic(f"{name}/camera_info"),
+                "sensor_msgs/msg/CameraInfo",
+                make.camera_info(header, image.camera),
+            )
+
+
+TEXT = "std_msgs/msg/String"
+
+
+def _row(rows: Array | None, index: int) -> Array | None:
+    return None if rows is None else rows[index]
+
+
+def _sole_box(
+    sole: SoleRectangle, side: float
+) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Return size and center of a sole in its foot frame, in [m]."""
+    length = sole.front - sole.back
+    width = sole.outer + sole.inner
+    ahead = 0.5 * (sole.front + sole.back)
+    aside = 0.5 * side * (sole.outer - sole.inner)
+    return (length, width), (ahead, aside)

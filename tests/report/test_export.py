@@ -1,0 +1,328 @@
+"""Test exported runs with readers that are not ours."""
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import mujoco
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from stepaside.cli.main import main
+from stepaside.core.constants import GRAVITY
+from stepaside.core.poses import Array
+from stepaside.games.duel import run_duel
+from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.games.run import Run
+from stepaside.games.run_archive import load_run, write_run_files
+from stepaside.robots.description import load_robot
+
+
+class Bag(NamedTuple):
+    """Messages of a bag.
+
+    Attributes:
+        folder: Folder of the bag.
+        topics: Times, in [s], and messages, by topic.
+    """
+
+    folder: Path
+    topics: dict[str, list[tuple[float, Any]]]
+
+
+def export(run: Path, name: str, *words: str) -> Path:
+    """Export a run by the command line; return the folder."""
+    folder = run.with_name(f"{run.name}-{name}")
+    words = ("export", str(run), "--to", name, *words)
+    result = CliRunner().invoke(main, words)
+    assert result.exit_code == 0, result.output
+    return folder
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Run folder of a duel of 3 s; the evader begins to walk at once."""
+    start = StartSettings(distance=0.75, pursuer_offset=0.3, evader_offset=0.2)
+    run = run_duel(DuelSettings(duration=3.0, start=start))
+    folder = tmp_path_factory.mktemp("export") / "duel"
+    folder.mkdir()
+    write_run_files(folder, run)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def run(folder: Path) -> Run:
+    return load_run(folder)
+
+
+@pytest.fixture(scope="module")
+def bag(folder: Path) -> Bag:
+    pytest.importorskip("rosbags", reason="rosbags is not installed")
+    decoder = pytest.importorskip(
+        "mcap_ros2.decoder", reason="mcap-ros2-support is not installed"
+    )
+    from mcap.reader import make_reader
+
+    exported = export(folder, "mcap")
+    topics: dict[str, list[tuple[float, Any]]] = {}
+    with (exported / "duel.mcap").open("rb") as stream:
+        reader = make_reader(
+            stream, decoder_factories=[decoder.DecoderFactory()]
+        )
+        for _, channel, record, message in reader.iter_decoded_messages():
+            entry = (1e-9 * record.log_time, message)
+            topics.setdefault(channel.topic, []).append(entry)
+    return Bag(exported, topics)
+
+
+def matrix(transform: Any) -> Array:
+    """Return the 4 by 4 matrix of a transform message."""
+    t, q = transform.translation, transform.rotation
+    axes = np.zeros(9)
+    mujoco.mju_quat2Mat(axes, np.array([q.w, q.x, q.y, q.z]))
+    found = np.eye(4)
+    found[:3, :3] = axes.reshape(3, 3)
+    found[:3, 3] = t.x, t.y, t.z
+    return found
+
+
+def poses_in_map(bag: Bag, index: int) -> dict[str, Array]:
+    """Return the poses of all frames at a sample, by walking the tree."""
+    above: dict[str, tuple[str, Array]] = {}
+    for topic, number in (("/tf_static", 0), ("/tf", index)):
+        for each in bag.topics[topic][number][1].transforms:
+            assert each.child_frame_id not in above
+            above[each.child_frame_id] = (
+                each.header.frame_id,
+                matrix(each.transform),
+            )
+    found: dict[str, Array] = {"map": np.eye(4)}
+
+    def pose(frame: str) -> Array:
+        if frame not in found:
+            parent, step = above[frame]
+            found[frame] = pose(parent) @ step
+        return found[frame]
+
+    for frame in above:
+        pose(frame)
+    return found
+
+
+@pytest.mark.parametrize("index", [0, 100, -1])
+def test_every_link_is_where_mujoco_puts_it(
+    bag: Bag, run: Run, index: int
+) -> None:
+    model = load_robot("nao").compile()
+    data = mujoco.MjData(model)
+    poses = poses_in_map(bag, index)
+    for name in run.players:
+        qpos = run.tracks[name].qpos
+        assert qpos is not None
+        data.qpos[:] = qpos[index]
+        data.qpos[3:7] /= np.linalg.norm(data.qpos[3:7])
+        mujoco.mj_kinematics(model, data)
+        for body in range(1, model.nbody):
+            own = data.body(body)
+            expected = np.column_stack([own.xmat.reshape(3, 3), own.xpos])
+            found = poses[f"{name}/{model.body(body).name}"][:3]
+            np.testing.assert_allclose(found, expected, atol=2e-6)
+        sole = data.site("r_sole_center")
+        found = poses[f"{name}/r_sole"][:3]
+        np.testing.assert_allclose(found[:, 3], sole.xpos, atol=2e-6)
+
+
+def test_footprints_are_on_the_floor_under_the_reference_points(
+    bag: Bag, run: Run
+) -> None:
+    poses = poses_in_map(bag, 90)
+    for name in run.players:
+        x, y, heading = run.tracks[name].unicycle[90]
+        found = poses[f"{name}/base_footprint"]
+        np.testing.assert_allclose(found[:3, 3], (x, y, 0.0), atol=1e-9)
+        turned = (np.cos(heading), np.sin(heading), 0.0)
+        np.testing.assert_allclose(found[:3, 0], turned, atol=1e-9)
+
+
+def test_joint_states_have_names_velocities_and_efforts(
+    bag: Bag, run: Run
+) -> None:
+    states = [m for _, m in bag.topics["/evader/joint_states"]]
+    assert len(states) == len(run.times)
+    state, model = states[60], load_robot("nao").compile()
+    track = run.evader.qpos
+    assert track is not None
+    column = model.joint("LKneePitch").qposadr[0]
+    number = list(state.name).index("LKneePitch")
+    assert state.position[number] == track[60, column]
+    rate = (track[61, column] - track[59, column]) / 0.04
+    assert state.velocity[number] == pytest.approx(rate, abs=0.3)
+    assert len(state.effort) == len(state.name) == 24
+
+
+def test_soles_carry_the_robot_and_the_imu_feels_gravity(bag: Bag) -> None:
+    weight = GRAVITY * float(load_robot("nao").compile().body_mass.sum())
+    sides = [bag.topics[f"/evader/{side}_sole/wrench"] for side in "lr"]
+    total = [
+        a.wrench.force.z + b.wrench.force.z
+        for (_, a), (_, b) in zip(*sides, strict=True)
+    ]
+    assert np.mean(total[5:]) == pytest.approx(weight, rel=0.05)
+    up = [m.linear_acceleration.z for _, m in bag.topics["/evader/imu"]]
+    assert np.mean(up[5:]) == pytest.approx(GRAVITY, rel=0.05)
+
+
+def test_the_zmp_follows_from_the_wrenches_of_the_soles(
+    bag: Bag, run: Run
+) -> None:
+    """Moments about the soles' frames give the recorded ZMP again."""
+    zmp = run.evader.zmp
+    assert zmp is not None
+    for index in (10, 70, 120):
+        poses = poses_in_map(bag, index)
+        force, moment = 0.0, np.zeros(2)
+        for side in "lr":
+            pose = poses[f"evader/{side}_sole"]
+            wrench = bag.topics[f"/evader/{side}_sole/wrench"][index][1].wrench
+            up = wrench.force.z
+            local = np.array([-wrench.torque.y, wrench.torque.x, 0.0])
+            force += up
+            moment += up * pose[:2, 3] + (pose[:3, :3] @ local)[:2]
+        np.testing.assert_allclose(moment / force, zmp[index], atol=2e-3)
+
+
+def test_points_footsteps_and_strategy_are_those_of_the_run(
+    bag: Bag, run: Run
+) -> None:
+    com = bag.topics["/evader/com"][50][1].point
+    np.testing.assert_allclose((com.x, com.y, com.z), run.evader.com[50])
+    landings = run.evader.landings
+    assert landings is not None
+    landed = bag.topics["/evader/footsteps/landed"]
+    assert 2 < len(landed) <= len(landings)
+    planned = bag.topics["/evader/footsteps/planned"]
+    assert all(len(m.markers) == 5 for _, m in planned)
+    for (_, one), (_, other) in zip(landed, planned, strict=False):
+        real, plan = one.markers[0].pose.position, other.markers[0].pose
+        apart = np.hypot(real.x - plan.position.x, real.y - plan.position.y)
+        assert 0.0 < apart < 0.01
+    bearing = bag.topics["/evader/strategy/sighting_bearing_rad"]
+    assert abs(bearing[-1][1].data) < np.pi
+    sides = {m.data for _, m in bag.topics["/evader/strategy/memory_side"]}
+    assert sides <= {-1.0, 0.0, 1.0}
+    distances = [m.data for _, m in bag.topics["/distance_m"]]
+    np.testing.assert_allclose(distances, run.distance)
+
+
+def test_the_model_travels_with_the_bag_and_late_readers_get_it(
+    bag: Bag,
+) -> None:
+    [(_, text)] = bag.topics["/pursuer/robot_description"]
+    model = mujoco.MjModel.from_xml_string(text.data)
+    assert model.joint("HeadYaw").id >= 0
+    assert (bag.folder / "pursuer.urdf").read_text() == text.data
+    from rosbags.highlevel import AnyReader
+    from rosbags.interfaces import ConnectionExtRosbag2, QosDurability
+
+    with AnyReader([bag.folder]) as reader:
+        kept = set()
+        for connection in reader.connections:
+            assert isinstance(connection.ext, ConnectionExtRosbag2)
+            [quality] = connection.ext.offered_qos_profiles
+            if quality.durability is QosDurability.TRANSIENT_LOCAL:
+                kept.add(connection.topic)
+        assert reader.message_count == sum(
+            len(messages) for messages in bag.topics.values()
+        )
+    assert {"/tf_static", "/pursuer/robot_description"} <= kept
+    assert "/tf" not in kept
+
+
+def test_the_layout_names_topics_and_frames_of_the_bag(bag: Bag) -> None:
+    layout = json.loads((bag.folder / "foxglove-layout.json").read_text())
+    panels = layout["configById"]
+    topics = {*panels["3D!scene"]["topics"]}
+    topics |= {
+        layer["topic"]
+        for layer in panels["3D!scene"]["layers"].values()
+        if "topic" in layer
+    }
+    for panel in panels.values():
+        topics |= {p["value"].split(".")[0] for p in panel.get("paths", ())}
+    assert topics - {"/room"} <= set(bag.topics)
+    frames = {"frame:" + frame for frame in poses_in_map(bag, 0)}
+    assert set(panels["3D!scene"]["transforms"]) <= frames
+
+    def leaves(node: Any) -> Iterator[str]:
+        if isinstance(node, str):
+            yield node
+        else:
+            yield from leaves(node["first"])
+            yield from leaves(node["second"])
+
+    assert sorted(leaves(layout["layout"])) == sorted(panels)
+
+
+def test_tables_hold_the_samples(folder: Path, run: Run) -> None:
+    polars = pytest.importorskip("polars", reason="polars is not installed")
+    text = polars.read_csv(export(folder, "csv") / "samples.csv")
+    binary = export(folder, "parquet")
+    table = polars.read_parquet(binary / "samples.parquet")
+    assert text.columns == table.columns
+    np.testing.assert_array_equal(table["time_s"], run.times)
+    for column, values in (
+        ("evader/com/z_m", run.evader.com[:, 2]),
+        ("distance/m", run.distance),
+    ):
+        np.testing.assert_array_equal(table[column], values)
+        np.testing.assert_array_equal(text[column], values)
+    steps = polars.read_parquet(binary / "evader-footsteps-planned.parquet")
+    assert run.evader.landings is not None
+    np.testing.assert_array_equal(steps.to_numpy(), run.evader.landings)
+
+
+def test_without_a_repeated_game_channels_are_absent_and_said_to_be(
+    folder: Path,
+) -> None:
+    words = ["export", str(folder), "--to", "csv", "--no-repeat", "--json"]
+    words += ["--output", str(folder.with_name("recorded"))]
+    result = CliRunner().invoke(main, words)
+    assert result.exit_code == 0, result.output
+    plain = json.loads(result.stdout)
+    assert "IMU" in plain["absent"][0]
+    header = (folder.with_name("recorded") / "samples.csv").read_text()
+    columns = header.partition("\n")[0].split(",")
+    assert "evader/com/x_m" in columns
+    assert not any("effort" in column for column in columns)
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["--to", "ulog"], "'ulog' is not one of"),
+        (["--to", "csv", "--output", "."], "must be a new or an empty folder"),
+    ],
+)
+def test_bad_words_are_refused_in_one_line(
+    folder: Path, words: list[str], message: str
+) -> None:
+    before = sorted(folder.parent.iterdir())
+    result = CliRunner().invoke(main, ["export", str(folder), *words])
+    assert result.exit_code == 2
+    assert message in result.stderr and result.stderr.count("\n") == 1
+    assert sorted(folder.parent.iterdir()) == before
+
+
+def test_an_incomplete_run_is_refused_and_leaves_nothing(
+    folder: Path, tmp_path: Path
+) -> None:
+    broken = tmp_path / "broken"
+    broken.mkdir()
+    for name in ("configuration.toml", "summary.json"):
+        (broken / name).write_bytes((folder / name).read_bytes())
+    words = ["export", str(broken), "--to", "csv"]
+    result = CliRunner().invoke(main, words)
+    assert result.exit_code == 2 and "trajectories.npz" in result.stderr
+    assert list(tmp_path.iterdir()) == [broken]
