@@ -32,7 +32,7 @@ FORMATS = ("mcap", "rerun", "urdf", "lerobot", "csv", "parquet")
 )
 @click.option(
     "--output",
-    type=click.Path(path_type=Path),
+    type=click.Path(file_okay=False, path_type=Path),
     help="Folder to create; RUN-FORMAT by default.",
 )
 @click.option(

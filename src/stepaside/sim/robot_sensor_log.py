@@ -1,15 +1,14 @@
 """Exact sensor values, joint velocities and efforts of a robot, as rows."""
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
+import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
 from ..core.poses import Array
 from ..core.row_table import RowTable
-
-if TYPE_CHECKING:
-    from .simulated_robot import SimulatedRobot
+from .true_stance import StanceWatch
 
 
 class SensorAddresses(NamedTuple):
@@ -35,16 +34,19 @@ class RobotSensorLog:
     """
 
     def __init__(
-        self, robot: "SimulatedRobot", addresses: SensorAddresses
+        self,
+        data: mujoco.MjData,
+        stance: StanceWatch,
+        addresses: SensorAddresses,
     ) -> None:
         """Begin without samples.
 
         Args:
-            robot: The robot.
-            addresses: Places of its values.
+            data: State of the world.
+            stance: Reader of the velocity of the robot's CoM.
+            addresses: Places of the robot's values.
         """
-        self._robot = robot
-        data = robot.world.data
+        self._stance = stance
         self._sources: tuple[Array, ...] = (
             data.qvel[addresses.dofs],
             data.qfrc_actuator[addresses.dofs],
@@ -63,7 +65,7 @@ class RobotSensorLog:
             (
                 *self._sources,
                 self._sensors.take(self._forces),
-                self._robot.stance.velocity,
+                self._stance.read().velocity,
             ),
             out=self._table.append(),
         )

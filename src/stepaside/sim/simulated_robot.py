@@ -368,7 +368,8 @@ class SimulatedRobot:
     def sensor_log(self) -> RobotSensorLog:
         """Return an empty log of exact sensor values and joint efforts."""
         return RobotSensorLog(
-            self,
+            self.world.data,
+            self._stance,
             SensorAddresses(
                 self._dof_slice,
                 self._gyro,
