@@ -98,7 +98,7 @@ def test_the_table_matches_the_package_metadata() -> None:
         wanted = {PACKAGES.get(module, module) for module in modules}
         assert wanted == {re.split(r"[><=!]", e)[0] for e in extras[name]}
     others = set(extras) - set(EXTRAS)
-    assert others == {"all", "bench", "dev"}
+    assert others == {"all", "bench", "dev", "docs"}
 
 
 def test_a_missing_core_dependency_names_the_package() -> None:
