@@ -65,6 +65,19 @@ def test_steering_turns_the_short_way_and_walks_on(
     )
 
 
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_a_person_turns_no_tighter_than_its_radius(side: float) -> None:
+    """Steering at someone inside its circle, it walks the circle."""
+    radius = 0.5
+    person = PersonSettings("steer", 1.0, 50.0, turning_radius=radius)
+    motion = PersonMotion(person, Pose(0.0, 0.0, 0.0), EVADER)
+    inside = (0.0, 0.8 * side * radius)
+    for i in range(1, 400):
+        motion.advance(0.01 * i, 0.01, inside)
+        x, y, _ = motion.pose
+        assert hypot(x, y - side * radius) == pytest.approx(radius, rel=0.02)
+
+
 def recorded(folder: Path, lines: str) -> Path:
     file = folder / "walk.csv"
     file.write_text("time, x, y\n" + lines, encoding="utf-8")

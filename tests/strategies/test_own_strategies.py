@@ -135,6 +135,7 @@ def test_strategies_have_names() -> None:
     others = {"look-ahead", "optimal", "lead", "optimal-pursuit"}
     others |= {"sharp", "herding", "cyclic", "assigned", "encircle"}
     others |= {"pincer", "team-evasion", "goal"}
+    others |= {"step-aside", "matador"}
     paper = {"evasion", "deflected", "pursuit", "stand", "walk"}
     assert set(STRATEGIES) == paper | others
 

@@ -12,8 +12,8 @@ from ..strategies.knowledge import (
     ON_THE_SPOT,
     Intent,
     Knowledge,
-    Limits,
     OtherPlayer,
+    limits_of,
 )
 from ..strategies.opponent_rates import FloorVelocity
 from ..strategies.strategy import Strategy
@@ -77,16 +77,7 @@ class StrategyRunner(DecisionMaker):
             velocities: Velocities that the legs deliver; by default those of
                 a unicycle.
         """
-        super().__init__(
-            strategy,
-            Limits(
-                gait.speed,
-                gait.gain,
-                gait.stride,
-                gait.step_duration,
-                velocities,
-            ),
-        )
+        super().__init__(strategy, limits_of(gait, velocities))
         self._surroundings = surroundings or OpenFloor()
         self.pace = 1.0
         self.headings: StateHistory[float] = StateHistory(tick)

@@ -6,7 +6,10 @@ from math import degrees, isfinite, pi
 import numpy as np
 
 from ..core.poses import Array, Pose
+from ..locomotion.policy.legs_loader import load_legs
+from ..robots.description import load_robot
 from ..sim.person_motion import PersonMotion, template_approach
+from ..strategies import load_strategy
 from ..theory.unicycle.circle_equations import Circle
 from ..theory.unicycle.circle_fit import fit_circle
 from ..theory.unicycle.unicycle_game import Unicycle
@@ -29,7 +32,7 @@ from .duel_summary import (
 from .forecast import ExpectedEnd, forecast
 from .match import Match
 from .sight_summary import SightReport
-from .template_game import play_template
+from .template_game import play_point, play_template
 from .trajectory import PlanningTimes, Trajectory
 
 
@@ -140,16 +143,30 @@ def _player(
 
 def _closest_approach(settings: DuelSettings) -> float | None:
     """Compute the closest approach of a person to the evader's template."""
-    start, gait = settings.start, settings.robot_of(EVADER).gait
+    start, own = settings.start, settings.robot_of(EVADER)
+    gait, legs = own.gait, own.legs
     if settings.pursuer == "robot" or start.distance is None:
         return None
-    if not settings.is_of_the_paper or settings.person.path == "visits":
+    if settings.person.path == "visits":
+        return None
+    if not (settings.is_of_the_paper or legs.walks):
         return None
     initial = (
         lambda pose, evader: PersonMotion(settings.person, pose, evader),
         Pose(0.0, 0.0, start.pursuer_offset or 0.0),
         Pose(start.distance, 0.0, pi + (start.evader_offset or 0.0)),
     )
+    if legs.walks:
+        policy = load_legs(
+            legs, load_robot(own.robot), tick=settings.physics.tick
+        )
+        return play_point(
+            *initial,
+            load_strategy(settings.evader_strategy, settings.strategy),
+            gait,
+            policy.velocities,
+            duration=settings.duration,
+        ).closest_m
     if settings.strategy.trigger == "time":
         return play_template(
             *initial, settings.strategy, gait, duration=settings.duration

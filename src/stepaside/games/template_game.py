@@ -7,11 +7,17 @@ from math import atan2, hypot
 import numpy as np
 
 from ..core.poses import Array, Pose, wrap_angle
+from ..locomotion.locomotion import MotionRequest
+from ..locomotion.policy.policy_walk import (
+    decision_interval,
+    template_velocity,
+)
 from ..planning import GaitSettings
 from ..planning.path import UnicycleTrajectory
 from ..sim.person_motion import PersonMotion, Place
-from ..strategies.knowledge import Intent, Knowledge, Limits
+from ..strategies.knowledge import Intent, Knowledge, Limits, limits_of
 from ..strategies.strategy import Strategy, evaluate_strategy
+from ..strategies.velocity_set import STILL, VelocitySet, respond
 
 STEP = 0.01  # of the integration, in [s]
 
@@ -69,7 +75,7 @@ def play_template(
     Returns:
         Motion of both.
     """
-    limits = Limits(gait.speed, gait.gain, gait.stride, gait.step_duration)
+    limits = limits_of(gait)
     memory = strategy.begin()
     pose = begun = evader
     walk = motion(start, (evader.x, evader.y))
@@ -100,6 +106,69 @@ def play_template(
             pose = _pose_in_step(
                 begun, intent, gait, strategy, now + step - drives_from
             )
+        rows.append((*walk.pose, *pose))
+    poses = np.array(rows)
+    times: Array = step * np.arange(len(rows), dtype=np.float64)
+    return TemplateGame(times, poses[:, :3], poses[:, 3:])
+
+
+def play_point(
+    motion: Callable[[Pose, Place], PersonMotion],
+    start: Pose,
+    evader: Pose,
+    strategy: Strategy,
+    gait: GaitSettings,
+    velocities: VelocitySet,
+    *,
+    duration: float,
+    step: float = STEP,
+) -> TemplateGame:
+    """Play the point that stands for legs against a prescribed motion.
+
+    The point walks in any direction. Its velocity follows the commands with
+    the lags of the legs, and it knows position and velocity of its opponent
+    exactly.
+
+    Args:
+        motion: Returns the motion of the pursuer from its initial pose and
+            the evader's position.
+        start: Initial pose of the pursuer in the world.
+        evader: Initial pose of the evader in the world.
+        strategy: Strategy of the evader.
+        gait: Speed, steering gain and decision interval of headings.
+        velocities: Velocities that the legs deliver, and how fast.
+        duration: Duration of the game, in [s].
+        step: Step of the integration, in [s].
+
+    Returns:
+        Motion of both.
+    """
+    limits = limits_of(gait, velocities)
+    memory, pose = strategy.begin(), evader
+    walk = motion(start, (evader.x, evader.y))
+    rows = [(*walk.pose, *pose)]
+    command = actual = STILL
+    over_floor, decides_at = (0.0, 0.0), 0.0
+    for i in range(round(duration / step)):
+        now = i * step
+        if now >= decides_at - 1e-9:
+            moving = command != STILL
+            known = _known(now, pose, walk.pose, over_floor, limits, moving)
+            intent, memory = evaluate_strategy(strategy, known, memory)
+            request = MotionRequest(
+                intent, strategy.direction, strategy.saturated
+            )
+            command = velocities.nearest(template_velocity(request, gait))
+            if command != STILL:
+                decides_at = now + decision_interval(intent, gait)
+        before = walk.pose
+        walk.advance(now + step, step, (pose.x, pose.y))
+        over_floor = (
+            (walk.pose.x - before.x) / step,
+            (walk.pose.y - before.y) / step,
+        )
+        actual = respond(actual, command, velocities.lags, step)
+        pose = pose.compose(Pose(*(step * value for value in actual)))
         rows.append((*walk.pose, *pose))
     poses = np.array(rows)
     times: Array = step * np.arange(len(rows), dtype=np.float64)

@@ -84,8 +84,11 @@ class PersonMotion:
             # (1)-(2) of the paper, held over one tick.
             sight = atan2(evader[1] - y, evader[0] - x)
             aim = laws.pursuit_heading(wrap_angle(sight - self._course))
-            rate = laws.proportional_rate(aim, settings.gain)
-            self._course += rate * duration
+            turn = laws.proportional_rate(aim, settings.gain) * duration
+            if settings.turning_radius > 0.0:
+                most = step_length / settings.turning_radius
+                turn = min(max(turn, -most), most)
+            self._course += turn
         self._walked += step_length
         course = self._course
         self.pose = self._pose_facing(

@@ -42,6 +42,12 @@ class PersonSettings:
         Range(-10.0, 10.0, "m", "beyond, out of sight"),
         option="--person-miss",
     )
+    turning_radius: float = setting(
+        0.0,
+        "Smallest turning radius of a person who steers",
+        Range(0.0, 100.0, "m", "beyond, hardly a turn; 0 for no limit"),
+        option="--person-turning-radius",
+    )
     halt_after: float = setting(
         inf,
         "Path length after which the person halts",

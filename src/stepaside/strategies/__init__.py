@@ -1,6 +1,7 @@
 """Strategies: from knowledge and memory to an intent (paper, Sec. II)."""
 
 from .constant_walk import StandStill, Walk
+from .dash_evasion import DashEvasion
 from .deflected_evasion import DeflectedEvasion
 from .evasion import Evasion, EvasionMemory
 from .herding import HerdingPursuit
@@ -25,6 +26,7 @@ from .teleoperation import TeleoperatedPursuit
 __all__ = [
     "STAND",
     "STRATEGIES",
+    "DashEvasion",
     "DeflectedEvasion",
     "TeleoperatedPursuit",
     "Evasion",

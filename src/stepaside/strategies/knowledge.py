@@ -15,6 +15,7 @@ from ..core.errors import (
 )
 from ..core.player_identity import PlayerIdentity
 from ..core.poses import Pose
+from ..planning import GaitSettings
 from .velocity_set import STILL, BodyVelocity, VelocitySet
 
 FASTEST = 100.0  # desired velocity; more is an error, in [m/s] and [rad/s]
@@ -39,6 +40,20 @@ class Limits:
     stride: float
     step_duration: float
     velocities: VelocitySet | None = None
+
+
+def limits_of(
+    gait: GaitSettings, velocities: VelocitySet | None = None
+) -> Limits:
+    """Return the limits of a gait.
+
+    Args:
+        gait: Gait of a walker, or template of legs.
+        velocities: Velocities that the legs deliver; None for a unicycle.
+    """
+    return Limits(
+        gait.speed, gait.gain, gait.stride, gait.step_duration, velocities
+    )
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,6 +14,7 @@ from typing import Any
 from ..core.errors import ConfigurationError
 from ..core.setting import ranges_of
 from .constant_walk import StandStill, Walk
+from .dash_evasion import CHASER_RADIUS, DashEvasion
 from .deflected_evasion import DeflectedEvasion
 from .evasion import Evasion
 from .goal_walk import GoalWalk
@@ -39,6 +40,8 @@ STRATEGIES: Mapping[str, Callable[[Evasion], Strategy]] = {
     "deflected": lambda evasion: DeflectedEvasion(evasion),
     "look-ahead": lambda evasion: LookAhead(),
     "optimal": lambda evasion: OptimalEvasion(),
+    "step-aside": lambda evasion: DashEvasion(),
+    "matador": lambda evasion: DashEvasion(CHASER_RADIUS, enough=inf),
     "pursuit": lambda evasion: Pursuit(),
     "sharp": lambda evasion: Pursuit(gain_ratio=inf),
     "herding": lambda evasion: HerdingPursuit(),

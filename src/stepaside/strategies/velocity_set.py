@@ -1,6 +1,6 @@
 """Body velocities that legs deliver, and how fast they respond."""
 
-from math import hypot
+from math import expm1, hypot
 from typing import NamedTuple
 
 Bounds = tuple[float, float]
@@ -87,3 +87,36 @@ class VelocitySet(NamedTuple):
         if relative[0] and relative[1] and oblique > 1.0:
             share = min(share, 1.0 / oblique)
         return BodyVelocity(*(share * value for value in kept))
+
+
+def response_share(duration: float, lag: float) -> float:
+    """Return the share of a change of velocity that a duration brings.
+
+    Args:
+        duration: Duration, in [s].
+        lag: Time constant, in [s].
+    """
+    return -expm1(-duration / lag) if lag > 0.0 else 1.0
+
+
+def respond(
+    velocity: BodyVelocity,
+    command: BodyVelocity,
+    lags: AxisValues,
+    duration: float,
+) -> BodyVelocity:
+    """Return the velocity of legs some time after a command.
+
+    Args:
+        velocity: Velocity at the command.
+        command: The command.
+        lags: Time constant of each axis, in [s].
+        duration: Time since then, in [s].
+    """
+    shares = [response_share(duration, lag) for lag in lags]
+    return BodyVelocity(
+        *(
+            v + share * (c - v)
+            for v, c, share in zip(velocity, command, shares, strict=True)
+        )
+    )

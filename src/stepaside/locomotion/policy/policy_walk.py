@@ -3,6 +3,7 @@
 from ...core.poses import Array, Pose
 from ...perception.measurement import Measurement
 from ...planning import Foot, GaitSettings
+from ...strategies.knowledge import Intent
 from ...strategies.velocity_set import STILL, BodyVelocity, VelocitySet
 from ..locomotion import IntentSource, MotionRequest
 from ..walk_snapshots import Phase, StepStarted
@@ -33,6 +34,18 @@ def template_velocity(
     return BodyVelocity(
         speed * intent.pace, 0.0, gait.gain * intent.heading * intent.pace
     )
+
+
+def decision_interval(intent: Intent, gait: GaitSettings) -> float:
+    """Return the time until the next decision of a walking robot, in [s].
+
+    Args:
+        intent: Present intent.
+        gait: Template, which walks by a heading for one step.
+    """
+    if intent.velocity is None:
+        return gait.step_duration
+    return VELOCITY_INTERVAL
 
 
 class PolicyWalk:
@@ -122,8 +135,7 @@ class PolicyWalk:
         self._velocity, interval = STILL, self.gait.step_duration
         if request is not None:
             self._velocity = template_velocity(request, self.gait)
-            if request.intent.velocity is not None:
-                interval = VELOCITY_INTERVAL
+            interval = decision_interval(request.intent, self.gait)
         walks = self._velocity != STILL
         self.phase = Phase.WALKING if walks else Phase.STANDING
         self._next_decision = now + interval

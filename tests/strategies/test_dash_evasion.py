@@ -1,0 +1,163 @@
+"""Test evasion by dashes, on the point that stands for legs."""
+
+from functools import lru_cache
+from math import asin, atan2, cos, inf, pi, radians, sin, sqrt
+
+import numpy as np
+import pytest
+
+from stepaside.core.errors import ConfigurationError
+from stepaside.core.poses import Pose
+from stepaside.games.template_game import TemplateGame, play_point
+from stepaside.planning import GaitSettings
+from stepaside.sim.person_motion import PersonMotion, Place
+from stepaside.sim.person_settings import PersonSettings
+from stepaside.strategies import (
+    STAND,
+    DashEvasion,
+    Knowledge,
+    Limits,
+    Strategy,
+    load_strategy,
+)
+from stepaside.strategies.velocity_set import AxisValues, VelocitySet
+
+LEGS = VelocitySet(
+    (-0.7, 0.7), (-0.35, 0.35), (-0.9, 0.9), AxisValues(0.3, 0.4, 0.1)
+)
+GAIT = GaitSettings(
+    speed=0.5, gain=0.4, stride=0.2, single_support=0.3, double_support=0.1
+)
+STEP_ASIDE = DashEvasion()
+
+
+def play(
+    person: PersonSettings,
+    bearing: float,
+    *,
+    strategy: Strategy = STEP_ASIDE,
+    legs: VelocitySet = LEGS,
+    distance: float = 7.0,
+    duration: float = 7.0,
+) -> TemplateGame:
+    """Play a person who comes from a bearing, in [rad]."""
+
+    def motion(start: Pose, evader: Place) -> PersonMotion:
+        return PersonMotion(person, start, evader)
+
+    start = Pose(
+        distance * cos(bearing), distance * sin(bearing), bearing + pi
+    )
+    evader = Pose(0.0, 0.0, 0.0)
+    return play_point(
+        motion,
+        start,
+        evader,
+        strategy,
+        GAIT,
+        legs,
+        duration=duration,
+        step=0.02,
+    )
+
+
+@lru_cache(maxsize=8)
+def walker(bearing: int, miss: float = 0.0) -> TemplateGame:
+    """Return the game of a straight walker at 1.4 m/s."""
+    person = PersonSettings("straight", 1.4, miss=miss)
+    return play(person, radians(bearing))
+
+
+@pytest.mark.parametrize("bearing", [0, 60, 90, 135, 180])
+def test_a_straight_walker_is_avoided(bearing: int) -> None:
+    game = walker(bearing)
+    assert game.closest_m > 1.0
+    moved = np.hypot(*(game.evader[-1] - game.evader[0])[:2])
+    assert moved < 2.0  # it stands again
+    speed = np.hypot(*np.diff(game.evader[-20:, :2], axis=0).T) / 0.02
+    assert speed.max() < 0.02
+
+
+def test_standing_is_hit_and_passers_by_are_let_pass() -> None:
+    stands = play(
+        PersonSettings("straight", 1.4), 0.0, strategy=load_strategy("stand")
+    )
+    assert stands.closest_m < 0.05
+    passing = walker(30, miss=1.5)
+    assert np.ptp(passing.evader, axis=0).max() == 0.0
+
+
+def test_mirrored_walkers_are_avoided_on_mirrored_paths() -> None:
+    left, right = walker(60, miss=0.3), walker(-60, miss=-0.3)
+    np.testing.assert_allclose(
+        left.evader[:, :2] * [1, -1], right.evader[:, :2], atol=1e-6
+    )
+
+
+@pytest.mark.parametrize("bearing", [0, 60, 90])
+def test_the_body_turns_its_fast_axis_along_the_dash(bearing: int) -> None:
+    path = walker(bearing).evader
+    moved = path[-1] - path[0]
+    assert np.hypot(*moved[:2]) > 0.8
+    across = moved[1] * cos(path[-1, 2]) - moved[0] * sin(path[-1, 2])
+    assert abs(across) < 0.35 * np.hypot(*moved[:2])
+
+
+def test_a_chaser_keeps_near_the_distance_of_the_homicidal_chauffeur() -> None:
+    """A point of 0.9 m/s and a person of 1.4 m/s who turns within 4 m."""
+    point = VelocitySet((-0.9, 0.9), (-0.9, 0.9), (-1.0, 1.0))
+    radius, ratio = 4.0, 0.9 / 1.4
+    bound = radius * (sqrt(1 - ratio**2) + ratio * asin(ratio) - 1)
+    person = PersonSettings("steer", 1.4, 10.0, turning_radius=radius)
+    matador = DashEvasion(turning_radius=radius, enough=inf)
+    game = play(person, 0.0, strategy=matador, legs=point, duration=20.0)
+    assert 0.85 * bound < game.closest_m < 1.15 * bound
+
+
+def test_the_matador_assumes_a_chaser() -> None:
+    matador, aside = load_strategy("matador"), load_strategy("step-aside")
+    assert isinstance(matador, DashEvasion)
+    assert matador.turning_radius == 2.5
+    assert matador.enough == inf
+    assert aside == STEP_ASIDE
+
+
+@pytest.mark.parametrize("legs", [None, LEGS])
+def test_without_a_threat_it_stands(legs: VelocitySet | None) -> None:
+    limits = Limits(0.1, 0.2, 0.04, 0.4, legs)
+    far = Knowledge(0.0, 0.3, 9.0, limits)
+    intent, memory = STEP_ASIDE.decide(far, STEP_ASIDE.begin())
+    assert intent == STAND
+    assert memory.angle is None
+
+
+def test_a_unicycle_dashes_along_its_own_axis() -> None:
+    """A person from the left makes the paper's walk go straight."""
+    limits = Limits(0.1, 0.2, 0.04, 0.4)
+    memory = STEP_ASIDE.begin()
+    for i in range(12):
+        time = 0.05 * i
+        known = Knowledge(time, pi / 2, 2.5 - 1.0 * time, limits)
+        intent, memory = STEP_ASIDE.decide(known, memory)
+    assert intent.velocity is not None
+    assert abs(intent.velocity.forward) > 0.05
+    assert intent.velocity.lateral == 0.0
+    course = atan2(intent.velocity.lateral, intent.velocity.forward)
+    assert abs(sin(course)) < 0.2
+
+
+@pytest.mark.parametrize(
+    ("wrong", "words"),
+    [
+        ({"turning_radius": 0.0}, "turning_radius must be > 0"),
+        ({"enough": -1.0}, "enough must be > 0"),
+        ({"contact_time": inf}, "contact_time must"),
+        ({"horizon": 0.1}, "horizon must lie in"),
+        ({"directions": 3}, "directions must lie in"),
+    ],
+)
+def test_invalid_settings_are_refused(
+    wrong: dict[str, float], words: str
+) -> None:
+    with pytest.raises(ConfigurationError, match=words):
+        DashEvasion(**wrong)  # type: ignore[arg-type]

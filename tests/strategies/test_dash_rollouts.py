@@ -1,0 +1,135 @@
+"""Test rollouts of dashes against their closed forms."""
+
+from dataclasses import replace
+from math import atan2, inf, pi
+
+import numpy as np
+import pytest
+
+from stepaside.core.poses import Pose
+from stepaside.strategies.dash_rollouts import (
+    STEP,
+    Opponent,
+    closest_approaches,
+    greatest_velocities,
+    make_dashes,
+    roll_out,
+)
+from stepaside.strategies.velocity_set import (
+    STILL,
+    AxisValues,
+    BodyVelocity,
+    VelocitySet,
+    respond,
+)
+
+FAST, SLOW = 0.8, 0.4
+AT_ONCE = VelocitySet((-FAST, FAST), (-SLOW, SLOW), (-1.0, 1.0))
+WITH_LAG = AT_ONCE._replace(lags=AxisValues(0.3, 0.5, 0.0))
+HERE = Pose(1.0, -2.0, 0.4)
+NO_FEINT = np.zeros(1)
+
+
+def test_the_body_turns_the_nearer_end_of_its_faster_axis() -> None:
+    dashes = make_dashes(8, HERE, AT_ONCE, 0.6)
+    turns = dashes.headings[1:9] - HERE.theta
+    np.testing.assert_allclose(
+        np.rad2deg(turns), [0, 45, 90, -45, 0, 45, -90, -45], atol=1e-9
+    )
+    crab = VelocitySet((-SLOW, SLOW), (-FAST, FAST), (-1.0, 1.0))
+    sideways = make_dashes(8, HERE, crab, 0.6).headings[3] - HERE.theta
+    assert sideways == pytest.approx(0.0)  # to the left, by its faster axis
+
+
+def test_dashes_end_where_velocities_lead() -> None:
+    dashes = make_dashes(4, HERE, AT_ONCE, 0.6)
+    paths = roll_out(HERE, STILL, dashes, AT_ONCE, 3.0)
+    moved = np.hypot(*(paths[-1] - paths[0]).T)
+    assert moved[0] == 0.0
+    assert moved[1] == pytest.approx(FAST * 3.0)
+    assert moved[5] == pytest.approx(FAST * 2.4)
+    # To the left, turning by a right angle at 1 rad/s: slow at first.
+    assert SLOW * 3.0 < moved[2] < FAST * 3.0
+    ahead = paths[-1, 1] - paths[0, 1]
+    assert atan2(ahead[1], ahead[0]) == pytest.approx(HERE.theta)
+
+
+def test_a_lag_delays_motion_by_its_own_length() -> None:
+    dashes = make_dashes(4, HERE, WITH_LAG, 0.6)
+    paths = roll_out(HERE, STILL, dashes, WITH_LAG, 6.0)
+    moved = np.hypot(*(paths[-1] - paths[0]).T)
+    assert moved[1] == pytest.approx(FAST * (6.0 - 0.3), abs=FAST * STEP)
+    walking = BodyVelocity(FAST)
+    same = roll_out(HERE, walking, dashes, WITH_LAG, 6.0)
+    assert np.hypot(*(same[-1, 1] - same[0, 1])) == pytest.approx(FAST * 6.0)
+    assert respond(walking, STILL, WITH_LAG.lags, 0.3)[0] == pytest.approx(
+        FAST / np.e
+    )
+
+
+def test_the_greatest_velocity_is_on_the_edge_of_the_set() -> None:
+    angles = np.linspace(-pi, pi, 17)
+    ahead, left = greatest_velocities(angles, AT_ONCE)
+    np.testing.assert_allclose((ahead / FAST) ** 2 + (left / SLOW) ** 2, 1.0)
+    np.testing.assert_allclose(
+        np.cos(np.arctan2(left, ahead) - angles), 1.0, atol=1e-12
+    )
+    unicycle = AT_ONCE._replace(lateral=(0.0, 0.0))
+    ahead, left = greatest_velocities(np.array([pi / 3, pi / 2]), unicycle)
+    np.testing.assert_allclose(ahead, [0.5 * FAST, 0.0], atol=1e-12)
+    np.testing.assert_allclose(left, 0.0)
+
+
+@pytest.mark.parametrize("offset", [0.0, 0.7])
+def test_a_straight_opponent_passes_at_its_offset(offset: float) -> None:
+    opponent = Opponent(-4.0, offset, 0.0, 1.4, inf)
+    stands = np.zeros((61, 1, 2))
+    found = closest_approaches(stands, opponent, NO_FEINT, 0.0)
+    assert found[0] == pytest.approx(offset, abs=0.5 * 1.4 * STEP)
+
+
+def test_an_opponent_cannot_turn_within_its_radius() -> None:
+    """A point that stands beside it, inside its circle, is not reached."""
+    radius, aside = 2.0, 1.2
+    opponent = Opponent(0.0, 0.0, 0.0, 1.0, radius)
+    stands = np.zeros((21, 1, 2))
+    stands[..., 1] = aside
+    found = closest_approaches(stands, opponent, NO_FEINT, 0.0)
+    assert found[0] == pytest.approx(aside, abs=0.5 * STEP**2)
+    assert (
+        closest_approaches(
+            stands, replace(opponent, turning_radius=0.3), NO_FEINT, 0.0
+        )[0]
+        < 0.2
+    )
+
+
+def test_feints_only_reduce_the_worst_case() -> None:
+    opponent = Opponent(-3.0, 0.2, 0.1, 1.4, 2.5)
+    dashes = make_dashes(12, HERE, WITH_LAG, 0.6)
+    pose = Pose(0.0, 0.0, 0.0)
+    paths = roll_out(pose, STILL, dashes, WITH_LAG, 4.0)
+    plain = closest_approaches(paths, opponent, NO_FEINT, 0.6)
+    feints = np.array([0.0, 1.0, -1.0])
+    worst = closest_approaches(paths, opponent, feints, 0.6)
+    assert (worst <= plain).all()
+    assert (worst < plain - 0.01).any()
+
+
+def test_mirrored_games_mirror_the_values() -> None:
+    count = 12
+    pose = Pose(0.0, 0.0, 0.0)
+    dashes = make_dashes(count, pose, WITH_LAG, 0.6)
+    paths = roll_out(pose, STILL, dashes, WITH_LAG, 4.0)
+    left = Opponent(-3.0, 0.3, 0.1, 1.4, 2.5)
+    right = replace(left, y=-left.y, course=-left.course)
+    one, other = (
+        closest_approaches(paths, each, np.array([0.0, 1.0, -1.0]), 0.6)
+        for each in (left, right)
+    )
+    mirrored = 1 + (-np.arange(count)) % count
+    quarter = [1 + count // 4, 1 + 3 * count // 4]  # the body may turn either
+    kept = [i for i in range(count) if i + 1 not in quarter]
+    np.testing.assert_allclose(
+        one[1 : count + 1][kept], other[mirrored][kept], atol=1e-9
+    )
