@@ -12,10 +12,16 @@ from legs_robot import nao_on_legs
 from stepaside.core.errors import ConfigurationError, PolicyError
 from stepaside.games.duel import Duel, run_duel
 from stepaside.games.duel_settings import DuelSettings
+from stepaside.games.match import play
 from stepaside.games.outcome import Outcome
+from stepaside.games.policy_player import PolicyPlayer
 from stepaside.games.robot_settings import with_legs, with_robot
-from stepaside.planning import GaitSettings
+from stepaside.locomotion.policy.policy_walk import PolicyWalk
+from stepaside.planning import Direction, GaitSettings
 from stepaside.sim.body_settings import BODIES, BodySettings, at_tick
+from stepaside.sim.person_settings import PersonSettings
+from stepaside.strategies import Intent, Knowledge
+from stepaside.strategies.velocity_set import BodyVelocity
 from stepaside.theory.unicycle.circle_equations import find_circle
 
 
@@ -101,3 +107,58 @@ def test_a_body_keeps_its_delays_at_another_tick() -> None:
     body = at_tick(BODIES["hardware"], 0.004)
     assert (body.cycle, body.delay_cycles, body.imu_delay_cycles) == (0, 9, 3)
     assert at_tick(BodySettings(), 0.004) == BodySettings()
+
+
+class Sidestepper:
+    """Strategy that walks to the left, and counts its decisions."""
+
+    direction, saturated = Direction.BACKWARD, False
+
+    def __init__(self) -> None:
+        self.told: list[Knowledge] = []
+
+    def begin(self) -> None:
+        """Return no memory."""
+
+    def decide(self, known: Knowledge, memory: None) -> tuple[Intent, None]:
+        """Walk to the left."""
+        self.told.append(known)
+        return Intent(velocity=BodyVelocity(0.0, 0.2, 0.1)), None
+
+
+def test_a_body_velocity_reaches_the_policy_every_80_ms(
+    standing: DuelSettings,
+) -> None:
+    strategy = Sidestepper()
+    duel = Duel(replace(standing, evader_strategy=strategy))
+    _, evader = duel.players
+    assert isinstance(evader, PolicyPlayer)
+    walk = evader.scheme.locomotion
+    assert isinstance(walk, PolicyWalk)
+    play(duel, 1.3)
+    assert walk.legs.intended == BodyVelocity(0.0, 0.2, 0.1)
+    velocities = strategy.told[-1].limits.velocities
+    assert velocities == walk.velocities
+    assert velocities is not None and velocities.lateral == (-1.0, 1.0)
+    told = [each for each in strategy.told if each.limits.velocities]
+    times = np.unique([known.time for known in told if known.moving])
+    np.testing.assert_allclose(np.diff(times), 0.08, atol=1e-9)
+
+
+def test_a_person_is_evaded_on_learned_legs_as_the_template_is(
+    standing: DuelSettings,
+) -> None:
+    """The policy only stands: the template, which walks, keeps away."""
+    settings = replace(
+        standing,
+        pursuer="person",
+        person=PersonSettings("straight", 1.4),
+        evader_strategy="step-aside",
+        start=replace(standing.start, distance=6.0),
+        duration=5.0,
+    )
+    run = run_duel(settings)
+    assert run.outcome is Outcome.CONTACT
+    assert run.summary.triggered_at_s is not None
+    theory = run.summary.theory.closest_approach_m
+    assert theory is not None and theory > 1.0 > run.summary.min_distance_m

@@ -83,7 +83,7 @@ def test_standing_is_hit_and_passers_by_are_let_pass() -> None:
         PersonSettings("straight", 1.4), 0.0, strategy=load_strategy("stand")
     )
     assert stands.closest_m < 0.05
-    passing = walker(30, miss=1.5)
+    passing = walker(30, miss=1.2)
     assert np.ptp(passing.evader, axis=0).max() == 0.0
 
 

@@ -10,10 +10,13 @@ from typing import Any
 import pytest
 from click.testing import CliRunner
 
+from legs_robot import nao_on_legs
 from stepaside.cli.main import main
 from stepaside.core import worker_pool as pools
+from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import wrap_angle
 from stepaside.games.walk_settings import WalkSettings
+from stepaside.locomotion.policy.legs_settings import LegsSettings
 from stepaside.planning import PRESETS
 from stepaside.report.people_figure import draw_people
 from stepaside.studies import people_campaign as campaign
@@ -202,3 +205,23 @@ def test_a_robot_that_sees_stands_far_from_walls() -> None:
                 assert room == each.base.room
             else:
                 assert room.walls > distance + study.PAST
+
+
+def test_robots_on_learned_legs_step_aside_of_people_all_around(
+    tmp_path: Path,
+) -> None:
+    pytest.importorskip("onnxruntime")
+    folder = nao_on_legs(tmp_path / "nao")
+    legs = LegsSettings(str(folder / "policy.onnx"))
+    walk = WalkSettings(robot=str(folder))
+    each = list(encounters(walk, ("ideal",), seeds=1, legs=legs))
+    assert {e.speed for e in each} == {0.5, 1.0, 1.4, 1.8}
+    assert len({e.bearing for e in each if not e.passes}) == 12
+    settings = each[0].settings
+    assert settings.evader_strategy == "step-aside"
+    assert settings.legs == legs
+    assert settings.gait.speed == 0.5
+    with pytest.raises(ConfigurationError, match="legs.network must be empty"):
+        next(encounters(walk, ("cameras",), seeds=1, legs=legs))
+    (row,) = people_rows([(each[0], record())])
+    assert row["theory_room_m"] is None

@@ -31,6 +31,7 @@ from .robustness_walks import (
 from .terminal import echo, exit_interrupted, print_json, resume_message
 
 if TYPE_CHECKING:
+    from ..locomotion.policy.legs_settings import LegsSettings
     from ..studies.campaign import StudyRun
 
 
@@ -142,6 +143,12 @@ def _methods() -> Collection[str]:
     show_default=True,
     help="Number of walks for each disturbance other than pushes.",
 )
+@click.option(
+    "--legs",
+    default="",
+    help="ONNX file of a walking policy, with --kind person; by default that "
+    "of the robot's description.",
+)
 @campaign_options(
     "Folder of results; an interrupted campaign in it is continued. "
     "runs/robustness-BODY by default, none with --json."
@@ -169,6 +176,7 @@ def robustness(
     methods: tuple[str, ...],
     phases: int,
     seeds: int,
+    legs: str,
     campaign: CampaignOptions,
     figure: str | None,
     as_json: bool,
@@ -183,7 +191,7 @@ def robustness(
 
     kinds = _unique(kinds) or tuple(k for k in _kinds() if k != PERSON)
     if PERSON not in kinds:
-        refuse_options({"sensings"}, f"--kind {PERSON}")
+        refuse_options({"sensings", "legs"}, f"--kind {PERSON}")
     if "push" not in kinds:
         refuse_options({"phases"}, "--kind push")
     body, changes = changes_of(settings)
@@ -208,15 +216,19 @@ def robustness(
             folder = output
             attempt(lambda: write_walks(folder, settings, request, answer))
     if PERSON in kinds and (last is None or last.completed):
+        policy = _legs_of(settings.robot, legs)
         people = {
             "kind": PERSON,
             "sensings": _unique(sensings),
             "body": body,
             "seeds": seeds,
             "seed": settings.seed,
+            **({"legs": Path(policy.network).name} if policy.walks else {}),
             **({"changes": changes} if changes else {}),
         }
-        found, last = meet_people(settings, _unique(sensings), seeds, campaign)
+        found, last = meet_people(
+            settings, _unique(sensings), seeds, policy, campaign
+        )
         answer["person"] = found
         if output is not None and last.completed and campaign.is_whole:
             folder = output
@@ -258,6 +270,19 @@ def _print_all(
         else f"{people['done']} of {people['planned']} encounters"
     )
     exit_interrupted(resume_message(done, output))
+
+
+def _legs_of(robot: str, network: str) -> "LegsSettings":
+    """Return the walking policy of a robot, if it has one.
+
+    Args:
+        robot: Name of the robot, or folder of its description.
+        network: Network that is used instead; empty for that of the robot.
+    """
+    from ..games.robot_settings import settings_of_robot
+    from ..locomotion.policy.legs_settings import LegsSettings
+
+    return LegsSettings(network) if network else settings_of_robot(robot).legs
 
 
 def _unique(names: tuple[str, ...]) -> tuple[str, ...]:

@@ -9,6 +9,7 @@ from .terminal import echo
 
 if TYPE_CHECKING:
     from ..games.walk_settings import WalkSettings
+    from ..locomotion.policy.legs_settings import LegsSettings
     from ..studies.campaign import StudyRun
 
 
@@ -16,6 +17,7 @@ def meet_people(
     settings: "WalkSettings",
     sensings: tuple[str, ...],
     seeds: int,
+    legs: "LegsSettings",
     campaign: CampaignOptions,
 ) -> "tuple[dict[str, Any], StudyRun[Any]]":
     """Simulate encounters with people, with a progress bar.
@@ -24,6 +26,7 @@ def meet_people(
         settings: Settings of the robot; its seed is the first one.
         sensings: Kinds of sensing.
         seeds: Number of encounters of each kind.
+        legs: Walking policy of the robot, if it walks by one.
         campaign: Options of the campaign.
 
     Returns:
@@ -37,7 +40,7 @@ def meet_people(
     )
     from ..studies.person_encounters import encounters
 
-    grid = list(encounters(settings, sensings, seeds=seeds))
+    grid = list(encounters(settings, sensings, seeds=seeds, legs=legs))
     run = run_campaign(people_study(grid), campaign, "games")
     found = list(run.items())
     return {
@@ -78,11 +81,13 @@ def print_people(answer: dict[str, Any]) -> None:
     for row in answer["people"]:
         template = row["template_closest_m"]
         simulated = "-" if template is None else f"{template:.2f} m"
+        room = row["theory_room_m"]
+        in_theory = "-" if room is None else f"{room:.2f} m"
         echo(
             f"{row['sensing']:<8} {row['speed_m_s']:>5g} m/s "
             f"{row['contacts']:>4}/{row['number']:<4} "
             f"{row['closest_m']:>6.2f} m {simulated:>9} "
-            f"{row['theory_room_m']:>6.2f} m"
+            f"{in_theory:>8}"
         )
     for row in answer["passers_by"]:
         echo(

@@ -19,6 +19,7 @@ from .dash_rollouts import (
 from .knowledge import STAND, Intent, Knowledge, Limits
 from .velocity_set import STILL, BodyVelocity, VelocitySet, respond
 
+INTERVAL = 0.08  # between comparisons of a standing robot, in [s]
 WINDOW = 0.4  # of the fit of the opponent's velocity, in [s]
 SPACING = 0.03  # least time between sightings of the fit, in [s]
 STILL_OPPONENT = 0.1  # speed below which it is expected to stand, in [m/s]
@@ -57,6 +58,7 @@ class DashMemory(NamedTuple):
         command: Velocity that was desired since then.
         angle: Direction of the dash in the map, in [rad]; None while the
             robot stands.
+        compared: Time at which dashes were last compared, in [s].
     """
 
     trace: tuple[TimedPosition, ...] = ()
@@ -64,6 +66,7 @@ class DashMemory(NamedTuple):
     velocity: BodyVelocity = STILL
     command: BodyVelocity = STILL
     angle: float | None = None
+    compared: float = -inf
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,14 +85,17 @@ class DashEvasion:
     Attributes:
         turning_radius: Assumed turning radius of the opponent, in [m].
         enough: Closest approach beyond which no more is gained, in [m].
+        clearance: Closest approach at which a standing robot need not move,
+            in [m].
         contact_time: A standing robot begins if the opponent could be nearer
-            than ``enough`` within this time, in [s].
+            than the clearance within this time, in [s].
         horizon: Duration of a rollout, in [s].
         directions: Number of directions of dashes.
     """
 
     turning_radius: float = inf
     enough: float = 1.2
+    clearance: float = 1.0
     contact_time: float = 3.5
     horizon: float = 6.0
     directions: int = 24
@@ -97,7 +103,7 @@ class DashEvasion:
     def __post_init__(self) -> None:
         """Validate the settings."""
         error = ConfigurationError
-        for name in ("turning_radius", "enough"):
+        for name in ("turning_radius", "enough", "clearance"):
             if not getattr(self, name) > 0.0:
                 raise error(
                     f"{name} must be > 0 [m], got {getattr(self, name)}"
@@ -137,17 +143,20 @@ class DashEvasion:
             velocity = respond(
                 memory.velocity, memory.command, velocities.lags, passed
             )
-        stands = DashMemory(trace, now, velocity)
-        if memory.angle is None and not self._is_near(pose, opponent):
-            return STAND, stands
+        stands = DashMemory(trace, now, velocity, compared=memory.compared)
+        if memory.angle is None:
+            # A standing robot decides at every tick.
+            waits = now - memory.compared < INTERVAL - 1e-9
+            if waits or not self._is_near(pose, opponent):
+                return STAND, stands
         angle, heading = self._best(
             pose, velocity, velocities, opponent, memory.angle
         )
         if angle is None:
-            return STAND, stands
+            return STAND, stands._replace(compared=now)
         command = _dash_velocity(pose.theta, angle, heading, velocities)
         return Intent(velocity=command), DashMemory(
-            trace, now, velocity, command, angle
+            trace, now, velocity, command, angle, now
         )
 
     def _is_near(self, pose: Pose, opponent: Opponent) -> bool:
@@ -157,14 +166,13 @@ class DashEvasion:
         """
         x, y = opponent.x - pose.x, opponent.y - pose.y
         distance = hypot(x, y)
-        reach = min(self.enough, distance)
-        if distance > reach + self.contact_time * opponent.speed:
+        if distance > self.clearance + self.contact_time * opponent.speed:
             return False
         if self.turning_radius < inf:
             return True
         u, v = cos(opponent.course), sin(opponent.course)
         along = -(x * u + y * v)
-        return along > 0.0 and abs(x * v - y * u) < self.enough
+        return along > 0.0 and abs(x * v - y * u) < self.clearance
 
     def _best(
         self,

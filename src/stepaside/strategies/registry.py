@@ -41,7 +41,9 @@ STRATEGIES: Mapping[str, Callable[[Evasion], Strategy]] = {
     "look-ahead": lambda evasion: LookAhead(),
     "optimal": lambda evasion: OptimalEvasion(),
     "step-aside": lambda evasion: DashEvasion(),
-    "matador": lambda evasion: DashEvasion(CHASER_RADIUS, enough=inf),
+    "matador": lambda evasion: DashEvasion(
+        CHASER_RADIUS, enough=inf, contact_time=6.0
+    ),
     "pursuit": lambda evasion: Pursuit(),
     "sharp": lambda evasion: Pursuit(gain_ratio=inf),
     "herding": lambda evasion: HerdingPursuit(),

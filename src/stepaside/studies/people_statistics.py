@@ -25,12 +25,13 @@ def people_rows(
         For each row: number, contacts with their 95 % interval, falls, least
         and mean closest approach, least closest approach of the template,
         distance at which evasion began, and theoretical clearance for a
-        person who is detected at 3.5 m.
+        person who is detected at 3.5 m, None for learned legs.
     """
     groups: dict[tuple[str, float], list[Record]] = defaultdict(list)
-    gait = GaitSettings()
+    gait, on_legs = GaitSettings(), False
     for each, record in results:
-        gait = each.base.gait  # the same in all encounters
+        # The same in all encounters.
+        gait, on_legs = each.base.gait, each.base.legs.walks
         if not each.passes:
             groups[each.sensing, each.speed].append(record)
     rows = []
@@ -64,7 +65,7 @@ def people_rows(
                 "triggered_at_m": sum(triggered_at) / len(triggered_at)
                 if triggered_at
                 else None,
-                "theory_room_m": theory_room(gait, speed),
+                "theory_room_m": None if on_legs else theory_room(gait, speed),
             }
         )
     return rows

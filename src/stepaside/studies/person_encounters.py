@@ -11,14 +11,20 @@ from ..games.configuration_file import settings_entries
 from ..games.duel import run_duel
 from ..games.duel_settings import DuelSettings, StartSettings
 from ..games.outcome import Outcome
+from ..games.robot_settings import with_legs
 from ..games.walk_settings import WalkSettings
+from ..locomotion.policy.legs_settings import LegsSettings
 from ..sim.person_settings import PersonSettings
-from ..strategies import Evasion
+from ..strategies import DashEvasion, Evasion
 from .records import Record
 
 SPEEDS = (0.3, 0.6, 1.0, 1.4)  # of people, in [m/s]
 BEARINGS = (0, 45, -90, 135, 180)  # from which they approach, in [deg]
+SPEEDS_ON_LEGS = (0.5, 1.0, 1.4, 1.8)  # likewise, of robots on learned legs
+OFFSETS_ON_LEGS = (0.0, 1.2)
+BEARINGS_ON_LEGS = tuple(range(0, 360, 30))
 OFFSETS = (0.0, 0.3, -0.3, 1.2)  # lateral, of their path, in [m]
+NO_LEGS = LegsSettings()
 PASSING = 1.0  # least offset of people who only pass, in [m]
 STANDING = 1.5  # time before a person can trigger evasion, in [s]
 WALL_CLEARANCE = 4.0  # from the person to the walls with cameras, in [m]
@@ -91,13 +97,16 @@ class Encounter:
         )
 
 
-def base_settings(walk: WalkSettings) -> DuelSettings:
+def base_settings(
+    walk: WalkSettings, legs: LegsSettings = NO_LEGS
+) -> DuelSettings:
     """Return the game settings of a campaign.
 
     Args:
         walk: Robot, gait, physics, body and control.
+        legs: Walking policy; with one the robot steps aside.
     """
-    return DuelSettings(
+    base = DuelSettings(
         robot=walk.robot,
         gait=walk.gait,
         physics=walk.physics,
@@ -106,6 +115,14 @@ def base_settings(walk: WalkSettings) -> DuelSettings:
         pursuer="person",
         strategy=Evasion(trigger="time"),
     )
+    if not legs.walks:
+        return base
+    return replace(
+        with_legs(base, legs.network),
+        legs=legs,
+        evader_strategy="step-aside",
+        strategy=replace(base.strategy, clearance=DashEvasion().clearance),
+    )
 
 
 def encounters(
@@ -113,9 +130,10 @@ def encounters(
     sensings: Sequence[str],
     *,
     seeds: int,
-    speeds: Sequence[float] = SPEEDS,
-    bearings: Sequence[int] = BEARINGS,
-    offsets: Sequence[float] = OFFSETS,
+    legs: LegsSettings = NO_LEGS,
+    speeds: Sequence[float] | None = None,
+    bearings: Sequence[int] | None = None,
+    offsets: Sequence[float] | None = None,
 ) -> Iterator[Encounter]:
     """Yield the encounters of a grid.
 
@@ -123,12 +141,20 @@ def encounters(
         walk: Settings of the robot; its seed is the first one.
         sensings: Kinds of sensing, as in :class:`DuelSettings`.
         seeds: Number of seeds for each combination.
-        speeds: Speeds of people, in [m/s].
-        bearings: Initial bearings of people, in [deg].
-        offsets: Lateral offsets of their paths, in [m].
+        legs: Walking policy of the robot; none by default.
+        speeds: Speeds of people, in [m/s]; by default those for the legs.
+        bearings: Initial bearings of people, in [deg]; likewise.
+        offsets: Lateral offsets of their paths, in [m]; likewise.
+
+    Raises:
+        ConfigurationError: If the robot cannot sense like that.
     """
-    base = base_settings(walk)
+    base = base_settings(walk, legs)
+    speeds = speeds or (SPEEDS_ON_LEGS if legs.walks else SPEEDS)
+    bearings = bearings or (BEARINGS_ON_LEGS if legs.walks else BEARINGS)
+    offsets = offsets or (OFFSETS_ON_LEGS if legs.walks else OFFSETS)
     for sensing in sensings:
+        replace(base, sensing=sensing)
         for speed in speeds:
             for bearing in bearings:
                 for offset in offsets:
