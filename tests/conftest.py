@@ -16,12 +16,8 @@ if threading.current_thread() is threading.main_thread():
     if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.default_int_handler)
 
-from math import inf  # noqa: E402
-
 import pytest  # noqa: E402
 from hypothesis import HealthCheck, settings  # noqa: E402
-
-from stepaside.core import compilation  # noqa: E402
 
 settings.register_profile(
     "untimed",
@@ -29,7 +25,6 @@ settings.register_profile(
     suppress_health_check=[HealthCheck.too_slow],
 )
 settings.load_profile("untimed")
-compilation.COMPILING_PAYS = inf  # games of tests are too short for it
 
 # Tests that call the same compiled functions share a worker, by the beginning
 # of their path below tests/: one worker compiles them.

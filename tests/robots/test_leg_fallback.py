@@ -7,6 +7,7 @@ from functools import cache
 import numpy as np
 import pytest
 
+from stepaside.core.machine_code import plain_python
 from stepaside.robots.description import load_robot
 from stepaside.robots.ik_step import GREATEST_MOVE
 from stepaside.robots.leg_joints import LegJoints
@@ -26,7 +27,8 @@ Step = Callable[..., tuple[float, ...]]
 
 def tracked(replaced: Callable[[Step], Step | None]) -> LegKinematics:
     """Track once with another undamped step."""
-    legs = LegKinematics(NAO, tick=0.004)
+    with plain_python():
+        legs = LegKinematics(NAO, tick=0.004)
     legs.stand(STANCE)
     own = legs._solver.newton_step
     assert own is not None

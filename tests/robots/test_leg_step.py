@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from stepaside.core.errors import ModelError, ReachError
+from stepaside.core.machine_code import plain_python
 from stepaside.core.poses import Array
 from stepaside.robots.description import RobotDescription, load_robot
 from stepaside.robots.ik_solver import move_within, solver_of
@@ -59,7 +60,8 @@ def anywhere(name: str, seed: int) -> tuple[float, ...]:
 @pytest.mark.parametrize("name", FREE)
 def test_the_step_solves_all_rows(name: str, seed: int) -> None:
     description = robot(name)
-    solver = solver_of(description, load_tree(description))
+    with plain_python():
+        solver = solver_of(description, load_tree(description))
     arguments = anywhere(name, seed)
     error, jacobian = solver.linearise(*arguments)
     count = 4 + FREE[name]
@@ -182,7 +184,7 @@ def test_legs_that_are_not_plain_use_the_damped_step() -> None:
     """Seven joints a leg: no step is written out, the solve has to do."""
     description = seven()
     solver = solver_of(description, load_tree(description))
-    assert solver.newton_step is None
+    assert solver.newton_step is None and solver.track_rows is None
     assert not solver.legs.is_plain and solver.legs.holds_heading
     legs = LegKinematics(description, tick=TICK)
     targets = legs.stand(STANCE)

@@ -12,8 +12,8 @@ from time import process_time
 import mujoco
 import numpy as np
 
-from stepaside.core.compilation import JitPreference, prefer
 from stepaside.core.errors import ConfigurationError
+from stepaside.core.machine_code import plain_python
 from stepaside.core.poses import Array
 from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings
@@ -35,8 +35,8 @@ def measure_duel(duration: float = 60.0, rounds: int = 3) -> dict[str, float]:
         duration: Simulated time, in [s].
         rounds: Interleaved repetitions, of which the fastest counts.
     """
-    plain = _measure_duel(duration, rounds)
-    prefer(JitPreference.COMPILED)
+    with plain_python():
+        plain = _measure_duel(duration, rounds)
     compiled = _measure_duel(duration, rounds)
     figures = plain | {
         f"{name}_machine_code": compiled[name] for name in MACHINE_CODE

@@ -123,6 +123,14 @@ class ManeuverWalk:
         return self.balance.commanded or self._table.sample(self._index).body
 
     @property
+    def planned_centers(self) -> tuple[float, float, float, float]:
+        """CoM reference (x, y), then ZMP reference, in odometry, in [m]."""
+        x, y, u, v = self._table.centers(self._index)
+        if self.balance.commanded is not None:
+            x, y, _ = self.balance.commanded.com
+        return x, y, u, v
+
+    @property
     def tilt(self) -> tuple[float, float] | None:
         """Roll and pitch of the torso, in [rad]; None without an estimate."""
         return self.balance.tilt

@@ -7,7 +7,7 @@ EXTRAS = {  # as in ``pyproject.toml``, with the names of the modules
     "tables": ("polars",),
     "export": ("rosbags",),
     "rerun": ("rerun",),
-    "fast": ("numba",),
+    "fast": ("llvmlite", "numba"),
     "legs": ("onnx", "onnxruntime", "yaml"),
     "mpc": ("daqp",),
     "robot": ("msgpack",),

@@ -4,7 +4,6 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from ..core.compilation import expect_work
 from .duel_evaluation import summarise
 from .duel_settings import DuelSettings
 from .duel_world import DuelWorld
@@ -148,7 +147,6 @@ def run_duel(
         StepAsideError: If the settings contradict each other or cannot be
             met by the robots.
     """
-    expect_work(settings.duration)
     duel = Duel(settings)
     outcome, wall_time = play(duel, settings.duration, report)
     return duel.run(outcome, wall_time)

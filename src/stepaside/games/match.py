@@ -173,7 +173,8 @@ class Match:
                 self.triggered_distance = self.distance
         if apart is not None:
             assert self.min_distance is not None
-            self.min_distance = min(self.min_distance, apart)
+            if apart < self.min_distance:
+                self.min_distance = apart
             if self.captured_at is None and apart <= CAPTURE_DISTANCE:
                 self.captured_at = now
         fallen = [p.name for p in self.players if p.has_fallen]

@@ -31,7 +31,6 @@ from .duel_summary import DuelSummary
 from .game_settings import GameSettings
 from .game_summary import GameSummary
 from .outcome import Outcome
-from .play_conversion import has_play_rows, run_of_play
 from .play_settings import PlaySettings
 from .play_summary import PlaySummary
 from .player_names import MOST_PLAYERS, PLAYER_NAME
@@ -153,6 +152,8 @@ def complete_play(
         OSError: If the folder cannot be written.
         OutputError: Likewise.
     """
+    from .play_conversion import run_of_play
+
     run = run_of_play(folder, settings, outcome, message)
     write_run_files(folder, run)
     write_checksums(folder)
@@ -184,6 +185,8 @@ def load_run(folder: AnyPath, game: str | None = None) -> GameRun[Any, Any]:
         ConfigurationError: If the folder is not a valid run folder, of
             another game, or of another format.
     """
+    from .play_conversion import has_play_rows, run_of_play
+
     folder = as_path(folder, "folder")
     try:
         if not (folder / SUMMARY).exists() and has_play_rows(folder):

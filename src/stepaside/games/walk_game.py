@@ -5,7 +5,6 @@ from math import inf
 
 import mujoco
 
-from ..core.compilation import expect_work
 from ..core.poses import Pose
 from ..locomotion.zmp.mpc import MpcResult
 from ..perception.measurement import Sighting
@@ -178,7 +177,6 @@ def run_walk(
         StepAsideError: If the settings contradict each other or cannot be
             met by the robot.
     """
-    expect_work(settings.duration)
     game = WalkGame(settings, recorded=record)
 
     def report_time(progress: Progress) -> None:

@@ -52,9 +52,7 @@ class WalkerLog:
     def add(self) -> None:
         """Sample the present state."""
         self._states.add()
-        walk = self._scheme.state
-        x, y, _ = walk.reference.com
-        self._references.append()[:] = (x, y, *walk.zmp_reference)
+        self._references.append()[:] = self._scheme.locomotion.planned_centers
         if self._close is not None:
             self._close.append()[:] = self._close_row()
 

@@ -134,6 +134,10 @@ class PlannedLocomotion(Locomotion, Protocol):
     def state(self) -> WalkState:
         """Plan and references of the last tick."""
 
+    @property
+    def planned_centers(self) -> tuple[float, float, float, float]:
+        """CoM reference (x, y), then ZMP reference, in odometry, in [m]."""
+
     def lead_with(self, foot: Foot) -> None:
         """Choose the foot of the first step, if the robot stands."""
 

@@ -90,7 +90,7 @@ def least_values(coefficients: Array, duration: float) -> Array:
     Returns:
         Least values, at an end or where the derivative vanishes. Shape (n,).
     """
-    _, c1, c2, c3 = coefficients
+    c0, c1, c2, c3 = coefficients
     # Roots of c1 + 2 c2 s + 3 c3 s^2 without cancellation, also if any is 0.
     root = np.sqrt(np.maximum(c2 * c2 - 3.0 * c3 * c1, 0.0))
     half = -(c2 + np.copysign(root, c2))
@@ -99,8 +99,6 @@ def least_values(coefficients: Array, duration: float) -> Array:
     # Without a root the candidate is clipped to an end, which is harmless.
     turns = np.clip(np.nan_to_num(turns), 0.0, duration)
     times = np.vstack([np.zeros_like(c1), np.full_like(c1, duration), turns])
-    values = np.polynomial.polynomial.polyval(
-        times, coefficients[:, None, :], tensor=False
-    )
+    values = c0 + (c1 + (c2 + c3 * times) * times) * times
     least: Array = values.min(axis=0)
     return least

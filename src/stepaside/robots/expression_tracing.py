@@ -16,9 +16,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..core.compilation import Function, Kernel, function_of, kernel_of
+from ..core.machine_code import Kernel, kernel_of
 from ..core.poses import Array
 
+Function = Callable[..., tuple[float, ...]]
 RowFunction = Callable[..., tuple[Array | float, ...]]
 DEPTH = 12  # nesting of an expression before it is assigned to a variable
 
@@ -149,8 +150,9 @@ class Formula(NamedTuple):
     text: str
 
     def function(self) -> Function:
-        """Compile the function; see :func:`.compilation.function_of`."""
-        return function_of(self.name, self.text)
+        """Return the function in Python."""
+        function: Function = self._function_with(sin, cos)
+        return function
 
     def row_function(self) -> RowFunction:
         """Return the function for arguments that are columns of rows.
@@ -158,9 +160,7 @@ class Formula(NamedTuple):
         It computes each row with the bits of :meth:`function`: NumPy rounds
         sums, products and quotients as Python does, but not its sines.
         """
-        namespace: dict[str, Any] = {"sin": sines, "cos": cosines}
-        exec(compile(self.text, f"<{self.name}>", "exec"), namespace)
-        function: RowFunction = namespace[self.name]
+        function: RowFunction = self._function_with(sines, cosines)
         return function
 
     def kernel(self, name: str, loop: str, arguments: str) -> Kernel | None:
@@ -169,10 +169,14 @@ class Formula(NamedTuple):
         Args:
             name: Name of the loop.
             loop: Its definition.
-            arguments: See :func:`.compilation.kernel_of`.
+            arguments: See :func:`.machine_code.kernel_of`.
         """
-        text = f"@formula\n{self.text}\n\n{loop}"
-        return kernel_of(name, text, arguments)
+        return kernel_of(name, f"{self.text}\n\n{loop}", arguments)
+
+    def _function_with(self, sine: Any, cosine: Any) -> Any:
+        namespace: dict[str, Any] = {"sin": sine, "cos": cosine}
+        exec(compile(self.text, f"<{self.name}>", "exec"), namespace)
+        return namespace[self.name]
 
 
 def sines(angles: Array) -> Array:
@@ -247,7 +251,7 @@ class ExpressionTrace:
         return Formula(name, self.source(name, results))
 
     def function(self, name: str, results: Sequence[Number]) -> Function:
-        """Compile the function that computes ``results``."""
+        """Return the function that computes ``results``, in Python."""
         return self.formula(name, results).function()
 
 

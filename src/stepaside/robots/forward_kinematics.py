@@ -6,8 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.compilation import JitPreference, preferred
 from ..core.errors import ModelError
+from ..core.machine_code import is_enabled
 from ..core.poses import Array
 from .description import REMEDY, RobotDescription
 from .expression_tracing import ExpressionTrace, Number
@@ -76,7 +76,7 @@ class ForwardKinematics:
             feet,
             head,
             tuple(sorted(description.standing.items())),
-            preferred(),
+            is_enabled(),
         )
         self._feet = [tree.sites[name] for name in feet]
         self._cache_key = b""
@@ -140,7 +140,7 @@ def _trace_posture(
     feet: tuple[str, str],
     head: str | None,
     standing: tuple[tuple[str, float], ...],
-    preference: JitPreference,
+    compiled: bool,
 ) -> Callable[[Array], Array]:
     """Generate the formulas of CoM, feet and head.
 
@@ -149,7 +149,7 @@ def _trace_posture(
         feet: Sites of the soles, left and right.
         head: Body that carries the cameras, if any.
         standing: Angles of joints without a motor, by name, in [rad].
-        preference: Execution of the formulas; a key of the cache.
+        compiled: Whether machine code is used; a key of the cache.
     """
     trace = ExpressionTrace()
     angles: dict[str, Number] = dict(standing)

@@ -4,9 +4,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.compilation import Function, Kernel, preferred
+from ..core.machine_code import Kernel, is_enabled
 from ..core.poses import Array
 from .description import RobotDescription
+from .expression_tracing import Function
 from .ik_residuals import trace_residuals
 from .ik_step import step_kernel, trace_step
 from .leg_joints import BASE, FIXED_ROWS, LegJoints
@@ -24,7 +25,7 @@ class LegSolver(NamedTuple):
         residuals: Residuals and Jacobian; see
             :func:`.ik_residuals.trace_residuals`.
         newton_step: Undamped Newton step; see :func:`.ik_step.trace_step`.
-            None for legs other than six hinges each.
+            None for legs other than six hinges each, and with ``track_rows``.
         track_rows: Steps of many ticks as machine code, if it is used; see
             :func:`.ik_step.step_kernel`.
     """
@@ -60,14 +61,15 @@ def solver_of(description: RobotDescription, tree: RobotTree) -> LegSolver:
     legs = LegJoints.of(description, tree)
     hints = description.standing
     legs_key = (tree, legs.columns, legs.fixed, legs.sites, legs.lean > 0.0)
-    key = (*legs_key, tuple(hints.items()), preferred())
+    key = (*legs_key, tuple(hints.items()), is_enabled())
     if key not in _cache:
         if len(_cache) >= CACHE_SIZE:
             _cache.clear()
         step = kernel = None
         if legs.is_plain:
             formula = trace_step(legs, hints)
-            step, kernel = formula.function(), step_kernel(formula, legs)
+            kernel = step_kernel(formula, legs)
+            step = formula.function() if kernel is None else None
         _cache[key] = trace_residuals(legs, hints), step, kernel
     return LegSolver(legs, *_cache[key])
 

@@ -8,7 +8,7 @@ such a joint, the torso heading.
 
 from typing import NamedTuple
 
-from ..core.compilation import Kernel
+from ..core.machine_code import Kernel
 from .expression_tracing import Formula, Number
 from .ik_residuals import HEADING, UP, TracedLegs
 from .leg_joints import BASE, LegJoints

@@ -5,17 +5,20 @@ the plan: a force at the anchor of each foot, and the remaining moment. The
 torques follow from the link positions at three consecutive ticks.
 """
 
+from functools import cached_property
 from math import cos, sin
 from typing import NamedTuple
 
 import numpy as np
 
-from ..core.compilation import Function, Kernel, preferred
 from ..core.constants import GRAVITY
+from ..core.machine_code import Kernel, is_enabled
 from ..core.poses import Array
 from .body_reference import BodyReference
 from .expression_tracing import (
     ExpressionTrace,
+    Formula,
+    Function,
     Number,
     RowFunction,
     cosines,
@@ -45,21 +48,55 @@ def load_rows(states, contacts, points, torques, rate, calls):
 """
 
 
-class LoadFormulas(NamedTuple):
+class LoadFormulas:
     """Generated torque formulas of one robot.
 
     Attributes:
-        loads: Torques of the leg motors and mass positions at one tick; see
-            :func:`_trace_loads`.
-        points: Mass positions of many ticks, from columns.
-        rows: Torques of many ticks, from columns.
-        kernel: The same as machine code, if it is used.
+        kernel: Torques of the leg motors and mass positions of many ticks,
+            as machine code, if it is used.
     """
 
-    loads: Function
-    points: RowFunction
-    rows: RowFunction
-    kernel: Kernel | None
+    def __init__(self, legs: LegJoints) -> None:
+        """Generate the formulas."""
+        self._traced = traced = TracedMasses.of(legs)
+        self._torques = traced.torques()
+        n, masses = len(legs.free), len(traced.points)
+        arguments = [
+            *(f"states[i + 1, {j}]" for j in range(n + 3)),
+            *("c", "s"),
+            *(f"points[i, {j}]" for j in range(masses)),
+            *(f"points[i + 1, {j}]" for j in range(masses)),
+            "factor",
+            *(f"contacts[i, {j}]" for j in range(7)),
+            *([f"states[i + 1, {n + 6}]"] if legs.lean > 0.0 else []),
+        ]
+        loop = LOOP.format(arguments=", ".join(arguments))
+        self.kernel: Kernel | None = self._loads.kernel(
+            "load_rows", loop, "222200"
+        )
+
+    @property
+    def _loads(self) -> Formula:
+        traced = self._traced
+        return traced.trace.formula("loads", [*self._torques, *traced.points])
+
+    @cached_property
+    def loads(self) -> Function:
+        """Torques and mass positions of one tick, in Python."""
+        return self._loads.function()
+
+    @cached_property
+    def points(self) -> RowFunction:
+        """Mass positions of many ticks, from columns."""
+        # Without the variables of the loads, which these do not depend on.
+        alone = TracedMasses.of(self._traced.legs, loaded=False)
+        return alone.trace.formula("mass_points", alone.points).row_function()
+
+    @cached_property
+    def rows(self) -> RowFunction:
+        """Torques of many ticks, from columns."""
+        trace = self._traced.trace
+        return trace.formula("load_columns", self._torques).row_function()
 
 
 class LegLoads:
@@ -248,40 +285,13 @@ def _load_formulas(legs: LegJoints) -> LoadFormulas:
         legs.fixed,
         legs.sites,
         legs.lean > 0.0,
-        preferred(),
+        is_enabled(),
     )
     if key not in _cache:
         if len(_cache) >= CACHE_SIZE:
             _cache.clear()
-        _cache[key] = _make_formulas(legs)
+        _cache[key] = LoadFormulas(legs)
     return _cache[key]
-
-
-def _make_formulas(legs: LegJoints) -> LoadFormulas:
-    traced = TracedMasses.of(legs)
-    torques = traced.torques()
-    loads = traced.trace.formula("loads", [*torques, *traced.points])
-    # Without the variables of the loads, which these do not depend on.
-    alone = TracedMasses.of(legs, loaded=False)
-    points = alone.trace.formula("mass_points", alone.points)
-    rows = traced.trace.formula("load_columns", torques)
-    n, masses = len(legs.free), len(traced.points)
-    arguments = [
-        *(f"states[i + 1, {j}]" for j in range(n + 3)),
-        *("c", "s"),
-        *(f"points[i, {j}]" for j in range(masses)),
-        *(f"points[i + 1, {j}]" for j in range(masses)),
-        "factor",
-        *(f"contacts[i, {j}]" for j in range(7)),
-        *([f"states[i + 1, {n + 6}]"] if legs.lean > 0.0 else []),
-    ]
-    loop = LOOP.format(arguments=", ".join(arguments))
-    return LoadFormulas(
-        loads.function(),
-        points.row_function(),
-        rows.row_function(),
-        loads.kernel("load_rows", loop, "222200"),
-    )
 
 
 class TracedMasses(NamedTuple):

@@ -114,6 +114,15 @@ class LegKinematics:
         self._to_motors = itemgetter(*moved.values())
         self._leg_columns = list(moved.values())
         self._states: LegStates
+        # Arrays of one tick: its reference, and the states around it.
+        self._reference_row = np.zeros((1, 16))
+        self._state_rows = np.zeros((2, len(self._start) + 7))
+        self._track_row = None
+        if self._solver.track_rows is not None:
+            self._track_row = self._solver.track_rows.bind(
+                *(self._reference_row, self._state_rows),
+                *(self._limits, self._slowest),
+            )
 
     @property
     def joint_targets(self) -> Array:
@@ -264,7 +273,7 @@ class LegKinematics:
             rolls[:] = [body.roll(lean) for body in bodies]
         references = np.column_stack([references, rolls])
         rows = np.empty((len(references) + 1, len(self._free) + 7))
-        rows[0] = self._state
+        rows[0] = self.state
         kernel = self._solver.track_rows
         count = 0
         if kernel is not None:
@@ -275,7 +284,7 @@ class LegKinematics:
                 if not self._step_freely(row):
                     break
                 count += 1
-                rows[count] = self._state
+                rows[count] = self.state
         targets = np.tile(self._fixed_targets, (count, 1))
         targets[:, self._leg_motors] = rows[1 : count + 1, self._leg_columns]
         self._states = LegStates(rows[: count + 1], targets)
@@ -286,8 +295,8 @@ class LegKinematics:
         self._resume(self._states.rows[ticks])
 
     @property
-    def _state(self) -> tuple[float, ...]:
-        """Row of :class:`LegStates`."""
+    def state(self) -> tuple[float, ...]:
+        """Present posture, as a row of :class:`LegStates`."""
         return (
             *self._free,
             *self._position,
@@ -314,6 +323,13 @@ class LegKinematics:
         Near singularities it is too long and rejected: there the damped
         step is used.
         """
+        if self._track_row is not None:
+            self._state_rows[0] = self.state
+            self._reference_row[0] = reference
+            if self._track_row() == 0:
+                return False
+            self._resume(self._state_rows[1])
+            return True
         newton_step, n = self._solver.newton_step, BASE + len(self._free)
         if newton_step is None:
             return False

@@ -4,8 +4,9 @@ from math import atan2, cos, hypot, radians, sin
 from typing import Protocol
 
 import mujoco
+import numpy as np
 
-from ..core.poses import Array, Pose
+from ..core.poses import Array
 from ..robots.description_types import ReferencePoint
 
 FALLEN = cos(radians(45.0))  # upward component of the torso's axis
@@ -94,9 +95,11 @@ class TrueRobotState:
     @property
     def position_torso_in_world(self) -> tuple[float, float]:
         """Point midway between the hips, in [m]."""
-        return self._between_hips(
-            self.origin_torso_in_world.tolist(),
-            self.axes_torso_in_world.tolist(),
+        origin, axes = self.origin_torso_in_world, self.axes_torso_in_world
+        ahead = self._hips_forward
+        return (
+            origin.item(0) + ahead * axes.item(0),
+            origin.item(1) + ahead * axes.item(3),
         )
 
     @property
@@ -118,26 +121,31 @@ class TrueRobotState:
         return self.axes_torso_in_world.item(8) < FALLEN
 
     def poses_at(
-        self, com: list[float], origin: list[float], axes: list[float]
-    ) -> tuple[Pose, Pose]:
+        self, com: Array, origin: Array, axes: Array
+    ) -> tuple[Array, Array]:
         """Return the poses of reference point and torso in the world.
 
-        Args:
-            com: Recorded value of ``position_com_in_world``.
-            origin: Recorded value of ``origin_torso_in_world``.
-            axes: Recorded value of ``axes_torso_in_world``.
-        """
-        heading = atan2(axes[3], axes[0])
-        return (
-            Pose(*self._below_com(com, heading), heading),
-            Pose(*self._between_hips(origin, axes), heading),
-        )
+        They have the bits of the properties.
 
-    def _between_hips(
-        self, origin: list[float], axes: list[float]
-    ) -> tuple[float, float]:
-        ahead = self._hips_forward
-        return origin[0] + ahead * axes[0], origin[1] + ahead * axes[3]
+        Args:
+            com: Recorded values of ``position_com_in_world``. Shape (n, 3).
+            origin: Those of ``origin_torso_in_world``. Shape (n, 3).
+            axes: Those of ``axes_torso_in_world``. Shape (n, 9).
+
+        Returns:
+            Rows (x [m], y [m], theta [rad]) of both. Shapes (n, 3).
+        """
+        forward = axes[:, [0, 3]]
+        headings = [atan2(y, x) for x, y in forward.tolist()]
+        turned = [(cos(angle), sin(angle)) for angle in headings]
+        reference = com[:, :2] - self._com_forward * np.reshape(
+            turned, (-1, 2)
+        )
+        torso = origin[:, :2] + self._hips_forward * forward
+        return (
+            np.column_stack([reference, headings]),
+            np.column_stack([torso, headings]),
+        )
 
     def _below_com(
         self, com: list[float], heading: float

@@ -1,12 +1,12 @@
 """True states of a robot, sampled as raw rows and converted at the end."""
 
-import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
 from ..core.poses import Array
 from ..core.row_table import RowTable
 from .ground_truth import TrueRobotState
+from .world import World
 
 
 class RobotStateLog:
@@ -18,7 +18,7 @@ class RobotStateLog:
 
     def __init__(
         self,
-        data: mujoco.MjData,
+        world: World,
         truth: TrueRobotState,
         qpos: slice,
         forces: NDArray[np.int_],
@@ -27,13 +27,14 @@ class RobotStateLog:
         """Begin without samples.
 
         Args:
-            data: State of the world.
+            world: World of the robot.
             truth: True state of the robot.
             qpos: Part of qpos of the robot.
             forces: Addresses of the foot force sensors in ``sensordata``.
             corners: Indices of the sites of these sensors.
         """
         self._truth = truth
+        self._update_sensors, data = world.update_sensors, world.data
         # One contiguous range that contains all is copied faster.
         sensors = slice(int(forces.min()), int(forces.max()) + 1)
         sites = slice(int(corners.min()), int(corners.max()) + 1)
@@ -53,6 +54,7 @@ class RobotStateLog:
 
     def add(self) -> None:
         """Sample the present state."""
+        self._update_sensors()
         np.concatenate(self._sources, out=self._table.append())
 
     def truncate(self, count: int) -> None:
@@ -63,18 +65,12 @@ class RobotStateLog:
         """Return CoM, poses, ZMP and posture by name; see ``Trajectory``."""
         parts = np.split(self._table.rows, self._ends, axis=1)
         com, origin, axes, sensors, sites, qpos = parts
-        poses = [
-            self._truth.poses_at(*sample)
-            for sample in zip(
-                com.tolist(), origin.tolist(), axes.tolist(), strict=True
-            )
-        ]
-        pairs = np.array(poses).reshape(-1, 2, 3)
+        place, torso = self._truth.poses_at(com, origin, axes)
         sites = sites.reshape(-1, sites.shape[1] // 3, 3)
         return {
             "com": com.copy(),
-            "place": pairs[:, 0].copy(),
-            "torso": pairs[:, 1].copy(),
+            "place": place,
+            "torso": torso,
             "zmp": centers_of_pressure(
                 sensors.take(self._forces, axis=1),
                 sites.take(self._corners, axis=1),

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 import mujoco
 import numpy as np
 
-from ..core.compilation import Kernel, kernel_of
+from ..core.machine_code import BoundKernel, kernel_of
 from ..core.poses import Array
 from .body_settings import BodySettings
 
@@ -48,7 +48,9 @@ def write_targets(targets, target, reach, lead, sent):
 """
 STEP_LOOP = """\
 def servo_step(qpos, qvel, angles, rates, change, target, lead, half, stall,
-               slope, share, sent, limits):
+               slope, clock, sent, limits):
+    clock[0] = min(clock[0] + clock[1], clock[2])
+    share = clock[0] / clock[2]
     for j in range(target.shape[0]):
         angle = qpos[angles[j]]
         error = target[j] + change[j] * share - angle
@@ -101,7 +103,14 @@ class IdealServos:
         self._target = np.zeros(actuators.size)
         self._range = model.actuator_forcerange[self._ctrl]
         self._full = self._range[:, 1].copy()
-        self._write = kernel_of("write_targets", WRITE_LOOP, "11111")
+        self._wanted = np.zeros(actuators.size)
+        self._write: BoundKernel | None = None
+        write = kernel_of("write_targets", WRITE_LOOP, "11111")
+        if write is not None:
+            self._write = write.bind(
+                *(self._wanted, self._target, self._reach),
+                *(self._lead, self._sent),
+            )
 
     def soften(self, stiffness: Array) -> None:
         """Limit the torques to fractions of their maximum, 0 to 1."""
@@ -110,17 +119,17 @@ class IdealServos:
 
     def reset(self, targets: Array) -> None:
         """Set targets, in [rad], without motion towards them."""
-        self._target = targets.copy()
+        self._target[:] = targets
         self._sent[:] = targets
 
     def write(self, targets: Array) -> None:
         """Set new targets, in [rad]. Shape (joints,)."""
         if self._write is not None:
-            arguments = self._target, self._reach, self._lead, self._sent
-            self._write(targets, *arguments)
+            self._wanted[:] = targets
+            self._write()
             return
         change = self._limited(targets)
-        self._target = self._target + change
+        self._target += change
         change *= self._lead
         np.add(change, self._target, out=self._sent)
 
@@ -138,6 +147,9 @@ class RealisticServos(IdealServos):
     in one cycle. Within the backlash the motor turns without the joint. The
     torque limit falls linearly with the speed of the joint, to zero at the
     no-load speed.
+
+    Attributes:
+        kernel: :meth:`before_step` as machine code, if it is used.
     """
 
     def __init__(
@@ -188,45 +200,47 @@ class RealisticServos(IdealServos):
         )
         self._pending: deque[Array] = deque()
         self._delay = body.delay_cycles
-        self._cycle, self._time_step = cycle, model.opt.timestep
         self._change = np.zeros(actuators.size)
-        self._elapsed = 0.0
-        self._kernel: Kernel | None = None
-        if self._slope is not None:
-            self._kernel = kernel_of("servo_step", STEP_LOOP, "11ii111111012")
+        # Time since the targets, period of the physics, control period.
+        self._clock = np.array([0.0, model.opt.timestep, cycle])
+        self.kernel: BoundKernel | None = None
+        step = kernel_of("servo_step", STEP_LOOP, "11ii111111112")
+        if step is not None and self._slope is not None:
+            self.kernel = step.bind(
+                *(data.qpos, data.qvel, self._qpos, self._dofs),
+                *(self._change, self._target, self._lead),
+                *(self._half_backlash, self._stall, self._slope),
+                *(self._clock, self._sent, self._range),
+            )
 
     def soften(self, stiffness: Array) -> None:
         """Limit the torques to fractions of their maximum, 0 to 1."""
         super().soften(stiffness)
-        self._stall = self._full * stiffness
-        if self._no_load is not None:
-            self._slope = self._stall / self._no_load
+        self._stall[:] = self._full * stiffness
+        if self._slope is not None:
+            self._slope[:] = self._stall / self._no_load
 
     def reset(self, targets: Array) -> None:
         """Set targets, in [rad], without motion towards them."""
         super().reset(targets)
         self._pending = deque([targets] * self._delay)
-        self._change = np.zeros(targets.size)
+        self._change.fill(0.0)
 
     def write(self, targets: Array) -> None:
         """Queue new targets, in [rad]. Shape (joints,)."""
-        self._target = self._target + self._change
+        self._target += self._change
         self._pending.append(targets)
-        self._change = self._limited(self._pending.popleft())
-        self._elapsed = 0.0
+        self._change[:] = self._limited(self._pending.popleft())
+        self._clock[0] = 0.0
 
     def before_step(self, time: float) -> None:
         """Set control and torque limits for one physics step."""
-        self._elapsed = min(self._elapsed + self._time_step, self._cycle)
-        data, share = self._data, self._elapsed / self._cycle
-        if self._kernel is not None:
-            self._kernel(
-                *(data.qpos, data.qvel, self._qpos, self._dofs),
-                *(self._change, self._target, self._lead),
-                *(self._half_backlash, self._stall, self._slope, share),
-                *(self._sent, self._range),
-            )
+        if self.kernel is not None:
+            self.kernel()
             return
+        elapsed, step, cycle = self._clock.tolist()
+        self._clock[0] = elapsed = min(elapsed + step, cycle)
+        data, share = self._data, elapsed / cycle
         ramp = self._target + self._change * share
         angle = data.qpos[self._qpos]
         error = ramp - angle

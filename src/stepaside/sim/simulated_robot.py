@@ -181,7 +181,7 @@ class SimulatedRobot:
             self._strapdown = StrapdownImu(model, data, root.id, site)
         elif setup.averages_imu:
             self._imu = AveragedImu(data, self._gyro, self._accelerometer)
-            world.before_step.append(self._imu.before_step)
+            world.call_before_step(self._imu.before_step, self._imu.kernel)
 
     def _make_servos(
         self,
@@ -215,7 +215,7 @@ class SimulatedRobot:
             body.backlash * legs,
             feedforward=feedforward,
         )
-        world.before_step.append(servos.before_step)
+        world.call_before_step(servos.before_step, servos.kernel)
         return servos
 
     def _find_sensors(self, description: RobotDescription) -> None:
@@ -265,6 +265,7 @@ class SimulatedRobot:
     def read(self) -> Measurement:
         """Read the sensors."""
         now = self.world.time
+        self.world.update_sensors()
         sighting = None if self.sight is None else self.sight.read(now)
         angles = self._qpos_view.take(self._qpos)
         latest = None
@@ -350,6 +351,7 @@ class SimulatedRobot:
 
     def measured_zmp(self) -> tuple[float, float]:
         """Return the centre of pressure in the world, [m]; NaN in flight."""
+        self.world.update_sensors()
         forces = self._sensordata.take(self._force_addresses)
         corners = self.world.data.site_xpos[self._corner_sites]
         x, y = centers_of_pressure(forces[None], corners[None])[0].tolist()
@@ -358,7 +360,7 @@ class SimulatedRobot:
     def state_log(self) -> RobotStateLog:
         """Return an empty log of the true state."""
         return RobotStateLog(
-            self.world.data,
+            self.world,
             self.truth,
             self.qpos_slice,
             self._force_addresses,

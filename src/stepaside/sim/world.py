@@ -3,11 +3,14 @@
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import combinations
 from math import cos, sin
+from threading import Lock
+from typing import Any
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from ..core.machine_code import BoundKernel, callback_of
 from ..core.poses import Pose
 from ..core.random_streams import named_generator
 from ..robots.description import RobotDescription
@@ -21,6 +24,7 @@ from .sensor_errors import perturb_masses
 FLOOR_BIT = 1
 NO_SENSORS = int(mujoco.mjtDisableBit.mjDSBL_SENSOR)
 CONTACT_BITS = 0x7FFFFFFF  # of MuJoCo's contact masks, without the sign
+_control_lock = Lock()
 COLOURS: Mapping[str, Colour] = {
     "pursuer": (0.80, 0.16, 0.14, 1.0),
     "evader": (0.10, 0.36, 0.75, 1.0),
@@ -130,11 +134,11 @@ class World:
 
     Attributes:
         model: Compiled model.
-        data: Its state.
+        data: Its state; ``sensordata`` after :meth:`update_sensors`.
         physics: Time step and control period.
         ticks: Number of control ticks so far.
         before_step: Functions called with the time, in [s], before each
-            physics step.
+            physics step; see :meth:`call_before_step`.
     """
 
     def __init__(
@@ -169,6 +173,11 @@ class World:
         )
         self.data = mujoco.MjData(self.model)
         self.before_step: list[Callable[[float], None]] = []
+        # State before the last physics step, while its sensors are missing.
+        self._stepped = (self.data.qpos.copy(), self.data.qvel.copy())
+        self._lacks_sensors = False
+        self._kernels: dict[Callable[[float], None], BoundKernel] = {}
+        self._control: Any = None  # runs the kernels within MuJoCo
         self.ticks = 0
         self._waiting = self._robots = len(robots)
         roots = [
@@ -202,18 +211,77 @@ class World:
         if self.before_step:
             self._step_singly(steps)
         else:
-            # Sensors are read after the last step only.
-            option = self.model.opt
+            model, data, option = self.model, self.data, self.model.opt
             option.disableflags = NO_SENSORS
-            mujoco.mj_step(self.model, self.data, nstep=steps - 1)
+            if steps > 1:
+                mujoco.mj_step(model, data, nstep=steps - 1)
+            qpos, qvel = self._stepped
+            qpos[:], qvel[:] = data.qpos, data.qvel
+            mujoco.mj_step(model, data)
             option.disableflags = 0
-            mujoco.mj_step(self.model, self.data)
+            self._lacks_sensors = True
         self.ticks += 1
 
+    def update_sensors(self) -> None:
+        """Compute the sensors of the last physics step, if not done yet.
+
+        MuJoCo computes them within a step, from the state at its begin:
+        positions and velocities are set back meanwhile.
+        """
+        if not self._lacks_sensors:
+            return
+        self._lacks_sensors = False
+        model, data = self.model, self.data
+        now = data.qpos.copy(), data.qvel.copy()
+        data.qpos[:], data.qvel[:] = self._stepped
+        mujoco.mj_sensorPos(model, data)
+        mujoco.mj_sensorVel(model, data)
+        mujoco.mj_sensorAcc(model, data)
+        data.qpos[:], data.qvel[:] = now
+
+    def call_before_step(
+        self,
+        function: Callable[[float], None],
+        kernel: BoundKernel | None = None,
+    ) -> None:
+        """Call a function with the time, in [s], before each physics step.
+
+        Args:
+            function: The function.
+            kernel: The same as machine code, if it exists. MuJoCo calls it
+                within the step, when positions and velocities are known.
+        """
+        self.before_step.append(function)
+        if kernel is not None:
+            self._kernels[function] = kernel
+            self._control = None
+
     def _step_singly(self, steps: int) -> None:
+        """Advance by physics steps, with the functions before each."""
+        kernels = self._kernels
+        calls = [call for call in self.before_step if call not in kernels]
+        if not kernels:
+            self._call_and_step(steps, calls)
+            return
+        if self._control is None:
+            owner = self.data._address
+            self._control = callback_of(tuple(kernels.values()), owner)
+        with _control_lock:  # MuJoCo has one such function in a process
+            mujoco.set_mjcb_control(self._control)
+            try:
+                if calls:
+                    self._call_and_step(steps, calls)
+                else:
+                    mujoco.mj_step(self.model, self.data, nstep=steps)
+            finally:
+                mujoco.set_mjcb_control(None)
+
+    def _call_and_step(
+        self, steps: int, calls: Sequence[Callable[[float], None]]
+    ) -> None:
         now, time_step = self.time, self.physics.time_step
         for step in range(steps):
-            for call in self.before_step:
+            for call in calls:
                 call(now + step * time_step)
             mujoco.mj_step(self.model, self.data)
 

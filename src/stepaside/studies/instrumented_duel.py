@@ -113,7 +113,7 @@ class _TickRecorder:
         self.name = walker.name
         self._scheme: ControlScheme = walker.scheme
         self._plan: ManeuverPlan | None = None
-        model, self._data = duel.world.model, duel.world.data
+        self._world, model = duel.world, duel.world.model
         robot = load_robot(duel.settings.robot_of(self.name).robot)
         feet = robot.sensors.feet
         sensors = [model.sensor(f"{self.name}/{f}") for f in feet]
@@ -128,7 +128,8 @@ class _TickRecorder:
 
     def record(self, tick: int, now: float) -> None:
         """Record the state after a tick that began at ``now``, in [s]."""
-        scheme, data = self._scheme, self._data
+        scheme, data = self._scheme, self._world.data
+        self._world.update_sensors()
         self.loads[tick] = data.sensordata[self._sensors].sum(axis=1)
         self.feet[tick] = data.site_xpos[self._sites, :2]
         self.references[tick] = scheme.state.reference.com[:2]

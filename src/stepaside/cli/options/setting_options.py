@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Collection, Iterator
 from dataclasses import MISSING, fields, is_dataclass
-from functools import wraps
+from functools import cache, wraps
 from math import degrees
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -188,15 +188,24 @@ def all_entries(
     kind: type[Any],
     section: str = "",
     needs: tuple[tuple[str, str], ...] = (),
-) -> Iterator[Entry]:
-    """Yield every entry of settings.
+) -> tuple[Entry, ...]:
+    """Return every entry of settings.
 
     Args:
         kind: Class of the settings.
         section: Path of the section that they are.
         needs: Conditions of this section.
     """
-    described = settings_of(kind)
+    key: Any = kind
+    return _find_entries(key, section, needs)
+
+
+@cache
+def _find_entries(
+    kind: Any, section: str, needs: tuple[tuple[str, str], ...]
+) -> tuple[Entry, ...]:
+    """Return the entries of :func:`all_entries`, found once."""
+    described, found = settings_of(kind), list[Entry]()
     for field in fields(kind):
         default = field.default
         if field.default_factory is not MISSING:
@@ -204,9 +213,10 @@ def all_entries(
         path = f"{section}.{field.name}".lstrip(".")
         setting = described[field.name]
         all_needs = (*needs, setting.needs) if setting.needs else needs
-        yield Entry(path, setting, default, field.type, all_needs)
+        found.append(Entry(path, setting, default, field.type, all_needs))
         if is_dataclass(default):
-            yield from all_entries(type(default), path, all_needs)
+            found += all_entries(type(default), path, all_needs)
+    return tuple(found)
 
 
 def given_options(

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ...core.compilation import kernel_of
+from ...core.machine_code import kernel_of
 from ...core.poses import Array
 from ...robots.joint_loads import LegLoads
 from ...robots.leg_kinematics import BodyReference, LegKinematics

@@ -171,6 +171,12 @@ class ReferenceTable:
         templates = self._templates
         return templates[index if index < len(templates) else -1]
 
+    def centers(self, index: int) -> tuple[float, float, float, float]:
+        """Return CoM and ZMP reference at a tick, (x, y) each, in [m]."""
+        i = min(index, len(self.references) - 1)
+        row, zmp = self.references, self.zmp
+        return row.item(i, 0), row.item(i, 1), zmp.item(i, 0), zmp.item(i, 1)
+
     def at(self, now: float) -> ReferenceSample:
         """Return the references at a tick; after the last one, the last."""
         return self.sample(self.index(now))

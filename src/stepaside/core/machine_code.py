@@ -1,0 +1,198 @@
+"""Machine code of loops and formulas, compiled by LLVM at their first call.
+
+Without the extra "fast", or where LLVM does not support the processor, there
+are no kernels, and the same formulas run as plain Python, also on board.
+Compiling the legs of a robot takes about 0.1 s, the import of llvmlite
+half of that; it pays off within a few seconds of walking.
+"""
+
+import ctypes
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
+from functools import cache, partial
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .llvm_assembly import translate
+
+Argument = NDArray[Any] | float
+OPTIMISATION = 0  # of LLVM; formulas have no common subexpressions left
+CALLBACK = """\
+define void @kernel(ptr %first, ptr %second) {{
+%address = ptrtoint ptr %second to i64
+%own = icmp eq i64 %address, {owner}
+br i1 %own, label %inside, label %after
+inside:
+{calls}
+br label %after
+after:
+ret void
+}}
+"""
+_enabled = True
+
+
+def is_enabled() -> bool:
+    """Return whether machine code is used where it is available."""
+    return _enabled and _load_llvm() is not None
+
+
+@contextmanager
+def plain_python() -> Iterator[None]:
+    """Make no kernels within the context."""
+    global _enabled
+    before, _enabled = _enabled, False
+    try:
+        yield
+    finally:
+        _enabled = before
+
+
+class BoundKernel(partial[int]):
+    """Compiled loop over given arrays: a function of the address of a frame.
+
+    Attributes:
+        kept: The frame, and the arrays that it refers to.
+    """
+
+    kept: tuple[object, ...]
+
+
+class Kernel:
+    """Compiled loop over arrays."""
+
+    def __init__(self, name: str, source: str, arguments: str) -> None:
+        """Note the source; it is compiled at the first call.
+
+        Args:
+            name: Name of the loop, for messages.
+            source: See :func:`.llvm_assembly.translate`.
+            arguments: Likewise.
+        """
+        self.name, self._source, self._arguments = name, source, arguments
+        self._compiled: Any = None
+
+    def __call__(self, *arguments: Argument) -> int:
+        """Run the loop."""
+        return self.bind(*arguments)()
+
+    def bind(self, *arguments: Argument) -> BoundKernel:
+        """Return the loop over these arrays, to be called many times.
+
+        Args:
+            arguments: Contiguous arrays, whose memory must stay where it is,
+                and floats.
+
+        Raises:
+            TypeError: If an argument is not of its kind.
+        """
+        words: list[int] = []
+        for letter, argument in zip(self._arguments, arguments, strict=True):
+            words += self._words(letter, argument)
+        frame = np.array(words, dtype=np.int64)
+        bound = BoundKernel(self._function, _address_of(frame))
+        bound.kept = frame, *arguments
+        return bound
+
+    @property
+    def _function(self) -> Any:
+        if self._compiled is None:
+            self._compiled = _compile(
+                translate(self._source, self._arguments),
+                ctypes.PYFUNCTYPE(ctypes.c_int64, ctypes.c_void_p),
+            )
+        return self._compiled
+
+    def _words(self, letter: str, argument: Argument) -> list[int]:
+        """Return the words of an argument in the frame."""
+        if letter == "0":
+            return [int(np.float64(argument).view(np.int64))]
+        dimensions = 1 if letter == "i" else int(letter)
+        kind = np.int64 if letter == "i" else np.float64
+        if not (
+            isinstance(argument, np.ndarray)
+            and argument.dtype == kind
+            and argument.ndim == dimensions
+            and argument.flags.c_contiguous
+        ):
+            raise TypeError(
+                f"{self.name} takes contiguous arrays of {kind.__name__} "
+                f"with {dimensions} dimensions, got {argument!r}"
+            )
+        return [_address_of(argument), *argument.shape]
+
+
+def _address_of(array: NDArray[Any]) -> int:
+    address: int = array.__array_interface__["data"][0]
+    return address
+
+
+def kernel_of(name: str, source: str, arguments: str) -> Kernel | None:
+    """Return a loop over arrays as machine code.
+
+    Divisions by zero give inf or NaN, which the loop has to reject.
+
+    Args:
+        name: Name of the loop.
+        source: Source that defines formulas, then the loop, in the subset of
+            Python of :mod:`.llvm_assembly`.
+        arguments: One letter for each argument: the number of dimensions of
+            floats, or "i" for a row of integers.
+
+    Returns:
+        The loop; None without machine code.
+    """
+    return Kernel(name, source, arguments) if is_enabled() else None
+
+
+def callback_of(kernels: Sequence[BoundKernel], owner: int) -> Any:
+    """Return a C function that runs kernels one after the other.
+
+    Args:
+        kernels: Loops over their arrays.
+        owner: Address that the second of the two arguments of the function
+            must have; at other addresses it does nothing.
+
+    Returns:
+        The function, as ctypes describes it.
+    """
+    calls = []
+    for kernel in kernels:
+        called: Any = kernel.func
+        function = ctypes.cast(called, ctypes.c_void_p).value
+        (address,) = kernel.args
+        calls.append(
+            f"call i64 inttoptr (i64 {function} to ptr)"
+            f"(ptr inttoptr (i64 {address} to ptr))"
+        )
+    assembly = CALLBACK.format(owner=owner, calls="\n".join(calls))
+    kind = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p)
+    function = _compile(assembly, kind)
+    function.kernels = tuple(kernels)
+    return function
+
+
+@cache
+def _load_llvm() -> Any:
+    """Return the binding of LLVM, or None if it is not available."""
+    with suppress(ImportError, RuntimeError):
+        import llvmlite.binding as llvm
+
+        llvm.initialize_native_target()
+        llvm.initialize_native_asmprinter()
+        return llvm
+    return None
+
+
+def _compile(assembly: str, kind: Any) -> Any:
+    """Compile the function ``kernel`` of an assembly, of a type of ctypes."""
+    llvm = _load_llvm()
+    target = llvm.Target.from_default_triple()
+    machine = target.create_target_machine(opt=OPTIMISATION, jit=True)
+    engine = llvm.create_mcjit_compiler(llvm.parse_assembly(assembly), machine)
+    engine.finalize_object()
+    function = kind(engine.get_function_address("kernel"))
+    function.engine = engine  # which owns the code
+    return function

@@ -1,0 +1,57 @@
+"""Test kernels: their arguments, and that they can be turned off."""
+
+import numpy as np
+import pytest
+
+from stepaside.core.machine_code import (
+    Kernel,
+    is_enabled,
+    kernel_of,
+    plain_python,
+)
+
+SOURCE = """
+def add(rows, columns, amount):
+    for i in range(rows.shape[0]):
+        rows[i, 0] += columns[i] * amount
+"""
+
+
+@pytest.fixture
+def kernel() -> Kernel:
+    pytest.importorskip("llvmlite")
+    made = kernel_of("add", SOURCE, "2i0")
+    assert made is not None
+    return made
+
+
+def test_there_are_no_kernels_of_plain_python() -> None:
+    with plain_python():
+        assert not is_enabled()
+        assert kernel_of("add", SOURCE, "2i0") is None
+
+
+def test_a_bound_kernel_works_on_its_arrays(kernel: Kernel) -> None:
+    rows, columns = np.zeros((2, 1)), np.array([3, 5])
+    add = kernel.bind(rows, columns, 0.5)
+    for _ in range(2):
+        assert add() == 0
+    columns[0] = 1
+    add()
+    assert rows.ravel().tolist() == [3.5, 7.5]
+
+
+@pytest.mark.parametrize(
+    "rows",
+    [
+        np.zeros(2),
+        np.zeros((2, 1), dtype=np.float32),
+        np.zeros((2, 4))[:, ::2],
+        1.0,
+    ],
+)
+def test_an_array_of_another_kind_is_refused(
+    kernel: Kernel, rows: np.ndarray
+) -> None:
+    with pytest.raises(TypeError, match="add takes contiguous arrays"):
+        kernel(rows, np.array([1, 1]), 0.5)
