@@ -17,6 +17,11 @@ from .options.common_options import (
 from .progress import announce_effort
 from .terminal import echo, exit_interrupted, print_json, resume_message
 
+SKIPPED = (
+    "  skipped the paper's game on learned legs: --legs-robot names a robot "
+    "with a walking policy"
+)
+
 
 @click.command("reproduce")
 @seed_option(
@@ -31,13 +36,23 @@ from .terminal import echo, exit_interrupted, print_json, resume_message
     show_default=True,
     help="Number of runs of each claim that is measured in physics.",
 )
+@click.option(
+    "--legs-robot",
+    default="",
+    help="Folder of a robot whose description names a walking policy: also "
+    "measure the paper's game on its learned legs.",
+)
 @campaign_options(
     "Folder of the report. Measurements in it are reused if code, settings "
     "and libraries are the same.  [default: runs/reproduce]"
 )
 @json_option
 def reproduce(
-    seed: int, runs: int, campaign: CampaignOptions, as_json: bool
+    seed: int,
+    runs: int,
+    legs_robot: str,
+    campaign: CampaignOptions,
+    as_json: bool,
 ) -> None:
     """Measure every claim of the paper and write a report.
 
@@ -55,7 +70,7 @@ def reproduce(
         campaign.share(60 + 120 * runs),
         campaign.workers,
     )
-    study = claim_study(range(seed, seed + runs))
+    study = claim_study(range(seed, seed + runs), legs_robot)
     run = run_campaign(study, campaign, "runs")
     finish_campaign(run, campaign, "runs")
     if not campaign.is_whole:
@@ -65,13 +80,15 @@ def reproduce(
     page: Path | None = None
     lost: OutputError | None = None
     try:
-        page = _write_all(output, seed, runs, rows)
+        page = _write_all(output, (seed, runs, legs_robot), rows)
     except KeyboardInterrupt:
         done = "all runs and completed figures"
         exit_interrupted(resume_message(done, output))
     except OutputError as error:
         lost = error
     _tell(rows, page, as_json)
+    if not legs_robot:
+        echo(SKIPPED, err=as_json)
     if lost is not None:
         raise lost
     if any(row["verdict"] != "holds" for row in rows):
@@ -79,16 +96,24 @@ def reproduce(
 
 
 def _write_all(
-    output: Path, seed: int, runs: int, rows: list[dict[str, Any]]
+    output: Path, given: tuple[int, int, str], rows: list[dict[str, Any]]
 ) -> Path:
-    """Write figures, results and the report."""
+    """Write figures, results and the report.
+
+    Args:
+        output: Folder of the report.
+        given: Seed, number of runs, and robot on learned legs.
+        rows: Rows of all claims.
+    """
     from ..report.claims_page import write_page
     from ..studies.claim_campaign import provenance
     from ..studies.paper_figures import paper_figures
     from .reproduce_figures import draw_figures, turns_shown
 
+    seed, runs, legs_robot = given
     figures = draw_figures(output, seed)
-    made = {"seed": seed, "runs": runs, "jobs": provenance(seed)}
+    jobs = provenance(seed, legs_robot)
+    made = {"seed": seed, "runs": runs, "jobs": jobs}
     with atomic_draft(output / "claims.json") as draft:
         text = json.dumps(made | {"rows": rows}, indent=1, allow_nan=False)
         draft.write_text(text + "\n", encoding="utf-8")

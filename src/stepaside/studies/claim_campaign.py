@@ -16,9 +16,10 @@ from .campaign import (
     run_study,
 )
 from .claim_jobs import JOBS
-from .claims import ClaimRow
+from .claims import ClaimJob, ClaimRow
 from .code_version import code_version, library_versions
 from .executors import Engine
+from .legs_claims import NAME, learned_legs_job
 from .records import Record
 from .result_store import ResultStore
 
@@ -29,22 +30,42 @@ class ClaimTrial(NamedTuple):
     Attributes:
         job: Name of the job.
         seed: Seed of the run; 0 where the seed does not matter.
+        legs: Folder of the robot whose learned legs the job measures; empty
+            for jobs of the paper's walk.
     """
 
     job: str
     seed: int
+    legs: str = ""
 
 
-def claim_study(seeds: Sequence[int]) -> Study[ClaimTrial]:
+def jobs_of(legs: str = "") -> dict[str, ClaimJob]:
+    """Return the jobs by name.
+
+    Args:
+        legs: Folder of a robot whose description names a walking policy; the
+            paper's game is measured on it, too. Empty for none.
+
+    Raises:
+        ConfigurationError: If the description names no policy.
+    """
+    return JOBS | ({NAME: learned_legs_job(legs)} if legs else {})
+
+
+def claim_study(seeds: Sequence[int], legs: str = "") -> Study[ClaimTrial]:
     """Return the study of all claims: a run per seed, or one if not seeded.
 
     Args:
         seeds: Seeds of the physical runs. Cases are ordered by seed, so that
             an interrupted campaign has complete seeds.
+        legs: As of :func:`jobs_of`.
+
+    Raises:
+        ConfigurationError: If the description of the robot names no policy.
     """
     trials = [
-        ClaimTrial(name, seed)
-        for name, job in JOBS.items()
+        ClaimTrial(name, seed, legs if name == NAME else "")
+        for name, job in jobs_of(legs).items()
         for seed in (seeds if job.seeded else (0,))
     ]
     return Study(
@@ -52,14 +73,14 @@ def claim_study(seeds: Sequence[int]) -> Study[ClaimTrial]:
         sorted(trials, key=lambda trial: trial.seed),
         run_trial,
         key_of,
-        lambda trial: stamp_of(trial.job),
+        stamp_of,
         ("readings",),
     )
 
 
 def key_of(trial: ClaimTrial) -> str:
     """Return the key of a run: its job, its seed and its settings."""
-    job = JOBS[trial.job]
+    job = _job_of(trial)
     inputs = [
         job.settings(trial.seed),
         sorted(claim.key for claim in job.claims),
@@ -68,14 +89,19 @@ def key_of(trial: ClaimTrial) -> str:
     return f"{trial.job}/{trial.seed}/{digest}"
 
 
-def stamp_of(job: str) -> CodeStamp:
-    """Return the present versions on which the readings of a job depend."""
-    return code_stamp(JOBS[job].modules, JOBS[job].libraries)
+def stamp_of(trial: ClaimTrial) -> CodeStamp:
+    """Return the present versions on which the readings of a run depend."""
+    job = _job_of(trial)
+    return code_stamp(job.modules, job.libraries)
+
+
+def _job_of(trial: ClaimTrial) -> ClaimJob:
+    return learned_legs_job(trial.legs) if trial.legs else JOBS[trial.job]
 
 
 def run_trial(trial: ClaimTrial) -> Record:
     """Measure the claims of a job once; NaN and inf become null."""
-    found = JOBS[trial.job].measure(trial.seed)
+    found = _job_of(trial).measure(trial.seed)
     return {
         "readings": {
             name: value if isfinite(value) else None
@@ -86,8 +112,11 @@ def run_trial(trial: ClaimTrial) -> Record:
 
 def claim_rows(run: StudyRun[ClaimTrial]) -> list[dict[str, Any]]:
     """Return one row per claim from a completed run, as JSON objects."""
-    readings: dict[str, list[dict[str, float]]] = {name: [] for name in JOBS}
+    readings: dict[str, list[dict[str, float]]] = {}
+    trials: dict[str, ClaimTrial] = {}
     for trial, record in run.items():
+        trials[trial.job] = trial
+        readings.setdefault(trial.job, [])
         readings[trial.job].append(
             {
                 name: nan if value is None else float(value)
@@ -95,8 +124,11 @@ def claim_rows(run: StudyRun[ClaimTrial]) -> list[dict[str, Any]]:
             }
         )
     rows: list[ClaimRow] = []
-    for name, job in JOBS.items():
-        rows += job.rows(name, readings[name], stamp_of(name).version)
+    for name in (*JOBS, NAME):
+        if name in trials:
+            version = stamp_of(trials[name]).version
+            job = _job_of(trials[name])
+            rows += job.rows(name, readings[name], version)
     return [row.to_json() for row in rows]
 
 
@@ -130,7 +162,7 @@ def reproduce(
     return claim_rows(run)
 
 
-def provenance(seed: int) -> dict[str, dict[str, Any]]:
+def provenance(seed: int, legs: str = "") -> dict[str, dict[str, Any]]:
     """Return version, libraries and settings of each job, for one seed."""
     return {
         name: {
@@ -138,5 +170,5 @@ def provenance(seed: int) -> dict[str, dict[str, Any]]:
             "libraries": library_versions(job.libraries),
             "settings": job.settings(seed if job.seeded else 0),
         }
-        for name, job in JOBS.items()
+        for name, job in jobs_of(legs).items()
     }

@@ -1,0 +1,94 @@
+"""Walking policies: velocities that they deliver, duels on their circle."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from .markdown import number, table
+
+Result = Mapping[str, Any]
+POLICIES = {
+    "legs-fastsac_g1_29dof": "G1, 29 joints, holosoma",
+    "legs-g1_12dof": "G1, 12 joints, recurrent, legged_gym",
+    "legs-t1_12dof": "T1, 12 joints, Booster Gym",
+}
+AXES = ("forward", "lateral", "turn")
+UNITS = ("m/s", "m/s", "rad/s")
+
+
+def tracking(results: Mapping[str, Result]) -> str:
+    """List gain, cross terms, lag, halting motion and falls by axis."""
+    head = (
+        *("policy", "axis", "delivered", "gain", "cross terms"),
+        *("lag [s]", "halts in [m, rad]", "falls"),
+    )
+    rows = []
+    for name, words in POLICIES.items():
+        if name not in results:
+            continue
+        found = results[name]["measured"]
+        for i, axis in enumerate(AXES):
+            low, high = found["limits"][axis]
+            gains = [row[i] for row in found["gains"]]
+            cross = ", ".join(
+                f"{gains[k]:+.3f}" for k in range(len(AXES)) if k != i
+            )
+            rows.append(
+                (
+                    words if i == 0 else "",
+                    axis,
+                    f"{number(low, 2)} to {number(high, 2)} {UNITS[i]}",
+                    number(gains[i], 2),
+                    cross,
+                    number(found["lag_s"][i], 2),
+                    number(found["halting"][i], 2),
+                    _falls(found) if i == 0 else "",
+                )
+            )
+    return table(head, rows)
+
+
+def _falls(found: Result) -> str:
+    """Count falls at constant and at random commands."""
+    random = found["random_walks"]
+    fell = len(random["falls_at_s"])
+    return (
+        f"{found['falls']} of {len(found['trials'])}; at random commands "
+        f"{fell} of {random['walks']}"
+    )
+
+
+def circles(results: Mapping[str, Result]) -> str:
+    """List the duels of each policy, relative to the circle of theory."""
+    head = (
+        *("policy", "duels", "played to the end", "distance"),
+        *("pursuer's radius", "evader's radius", "angle", "on it after"),
+    )
+    rows = []
+    for name, words in POLICIES.items():
+        if name not in results:
+            continue
+        duels = list(results[name]["duels"].values())
+        played = [row for row in duels if row["outcome"] == "completed"]
+        percents = (
+            _range([100.0 * (row[key] - 1.0) for row in played], 1, "%")
+            for key in ("distance_ratio", "pursuer_ratio", "evader_ratio")
+        )
+        rows.append(
+            (
+                words,
+                str(len(duels)),
+                str(len(played)),
+                *percents,
+                _range([row["angle_deg"] for row in played], 1, "°"),
+                _range([row["converged_at_s"] for row in played], 0, "s"),
+            )
+        )
+    return table(head, rows)
+
+
+def _range(values: list[float], digits: int, unit: str) -> str:
+    """Return least and greatest value."""
+    sign = "+" if unit == "%" else ""
+    low, high = min(values), max(values)
+    gap = "" if unit == "°" else " "
+    return f"{low:{sign}.{digits}f} to {high:{sign}.{digits}f}{gap}{unit}"
