@@ -63,6 +63,7 @@ def test_every_column_has_its_values(tmp_path: Path) -> None:
     rows = read_rows(tmp_path / "play")
     for i, tick in enumerate(ticks):
         told, walk = tick.measurement, tick.walk
+        assert walk is not None
         for name in (
             *("joint_positions", "gyro", "accelerometer", "foot_forces"),
         ):

@@ -15,7 +15,7 @@ from .connection_settings import (
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from ..control import ControlScheme
+    from ..control.scheme import LocomotionScheme
     from ..core.poses import Array
     from ..drivers.joint.joint_body import JointBody
     from ..drivers.joint.joint_loop import JointLoop
@@ -28,6 +28,7 @@ def open_joints(
     settings: "DuelSettings", connection: ConnectionSettings
 ) -> "JointLoop":
     """Connect to a robot for joint control."""
+    from ..control import ControlScheme
     from ..drivers.joint.joint_loop import JointLoop
     from ..drivers.lola.nao_joints import NAO_MOTORS
     from ..drivers.scheme_factory import control_scheme_factory
@@ -38,7 +39,8 @@ def open_joints(
     sees = settings.sensing == "cameras"
     open_robot = _joints_of(settings, connection, sees=sees)
 
-    def open_body(scheme: "ControlScheme") -> "JointBody":
+    def open_body(scheme: "LocomotionScheme") -> "JointBody":
+        assert isinstance(scheme, ControlScheme)  # as the factory makes it
         kinematics = scheme.kinematics
         return open_robot(kinematics.joint_names, scheme.joint_targets)
 

@@ -109,6 +109,11 @@ class LocomotionScheme:
         return self.locomotion.begun
 
     @property
+    def state(self) -> WalkState | None:
+        """Plan and references of the last tick; None without a plan."""
+        return None
+
+    @property
     def joint_targets(self) -> Array:
         """Joint targets of the last tick, in [rad]. Shape (joints,)."""
         return self.locomotion.joint_targets

@@ -164,14 +164,26 @@ def _joint_columns(tick: JointTick) -> dict[str, Array | float]:
         "phase": float(PHASES.index(tick.phase)),
         "mind": float(tick.mind),
         "support": _support(tick.walk, m.time),
-        "com_reference": np.array(tick.walk.reference.com[:2]),
-        "zmp_reference": np.array(tick.walk.zmp_reference),
+        **_references(tick.walk),
         "begun": NO_STEP if tick.begun is None else _begun(tick.begun),
     }
 
 
-def _support(walk: WalkState, now: float) -> Array:
+def _references(walk: WalkState | None) -> dict[str, Array | float]:
+    """Return the references of a walk by maneuvers; NaN of another."""
+    if walk is None:
+        unknown = np.full(2, np.nan)
+        return {"com_reference": unknown, "zmp_reference": unknown}
+    return {
+        "com_reference": np.array(walk.reference.com[:2]),
+        "zmp_reference": np.array(walk.zmp_reference),
+    }
+
+
+def _support(walk: WalkState | None, now: float) -> Array:
     """Return the pose of the stance foot in odometry, and its side."""
+    if walk is None:
+        return np.full(4, np.nan)
     step = walk.step(now)
     return np.array([*step.support, -float(step.swing.value)])
 

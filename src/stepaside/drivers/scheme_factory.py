@@ -3,14 +3,24 @@
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from ..control import ControlScheme
+from ..control.scheme import LocomotionScheme
 from ..control.scheme_builder import build_scheme
-from ..control.sight_sources import CameraSight
+from ..control.sight_sources import CameraSight, MeasuredSight
+from ..control.strategy_runner import StrategyRunner
 from ..core.errors import ConfigurationError
+from ..locomotion.policy.contract import PolicyContract
+from ..locomotion.policy.legs_loader import load_legs
+from ..locomotion.policy.legs_settings import LegsSettings
+from ..locomotion.policy.policy_walk import PolicyWalk
 from ..locomotion.zmp.control_settings import ControlSettings
 from ..planning import GaitSettings
 from ..robots.description import RobotDescription
 from ..strategies import Strategy
+from .joint.frames import MotorGains
+from .joint.joint_map import JointMap, MotorTable
 
 if TYPE_CHECKING:
     from ..perception.perception import Perception
@@ -58,6 +68,59 @@ def control_scheme_factory(
         )
 
     return make
+
+
+def policy_scheme_factory(
+    description: RobotDescription,
+    legs: LegsSettings,
+    gait: GaitSettings,
+    *,
+    tick: float,
+) -> Callable[[Strategy], LocomotionScheme]:
+    """Return a factory of control schemes on learned legs.
+
+    The robot must measure joint velocities and take the gains of
+    :func:`policy_gains`.
+
+    Args:
+        description: Description of the robot.
+        legs: Walking policy.
+        gait: Speed, steering gain and decision interval of the template.
+        tick: Control period, in [s]; it divides the period of the policy.
+
+    Raises:
+        PolicyError: If the network cannot run on the robot.
+    """
+    load_legs(legs, description, tick=tick)  # refuses before the first walk
+
+    def make(strategy: Strategy) -> LocomotionScheme:
+        walk = PolicyWalk(load_legs(legs, description, tick=tick), gait)
+        runner = StrategyRunner(
+            strategy, gait, tick, velocities=walk.velocities
+        )
+        return LocomotionScheme(runner, walk, MeasuredSight())
+
+    return make
+
+
+def policy_gains(
+    contract: PolicyContract, motors: MotorTable, own: MotorGains
+) -> MotorGains:
+    """Return the gains with which a policy moves the motors of a robot.
+
+    Args:
+        contract: Contract of the policy.
+        motors: Motors of the robot.
+        own: Gains of motors that the policy does not move.
+
+    Raises:
+        ModelError: If the robot has no motor for a joint of the policy.
+    """
+    joints = JointMap(contract.joints, motors)
+    return MotorGains(
+        joints.to_motors(np.array(contract.stiffness), own.stiffness),
+        joints.to_motors(np.array(contract.damping), own.damping),
+    )
 
 
 def perception_factory(

@@ -41,6 +41,8 @@ class JointFrame(NamedTuple):
         number: Number of the frame, modulo ``COUNTER_RANGE``, if counted.
         counted: Whether the robot numbers its frames.
         lock_step: Whether the robot is simulated and waits for answers.
+        velocity: Joint velocities, in [rad/s], from a robot that measures
+            them; else None. Shape (motors,).
     """
 
     position: Array
@@ -60,6 +62,19 @@ class JointFrame(NamedTuple):
     number: float
     counted: bool
     lock_step: bool
+    velocity: Array | None = None
+
+
+class MotorGains(NamedTuple):
+    """Gains of the torque of each motor, from target to angle.
+
+    Attributes:
+        stiffness: In [N m/rad]. Shape (motors,).
+        damping: In [N m s/rad]. Shape (motors,).
+    """
+
+    stiffness: Array
+    damping: Array
 
 
 class JointCommand(NamedTuple):
@@ -71,6 +86,8 @@ class JointCommand(NamedTuple):
         state: State of the robot, for its display.
         has_sighting: Whether there is a sighting of the opponent, likewise.
         charge: Charge of the battery, from 0 to 1, likewise.
+        gains: Gains of the motors while control moves them; None for the
+            robot's own.
     """
 
     position: Array | None
@@ -78,6 +95,7 @@ class JointCommand(NamedTuple):
     state: RobotState
     has_sighting: bool
     charge: float
+    gains: MotorGains | None = None
 
 
 class Codec(NamedTuple):
@@ -118,4 +136,7 @@ def measurement_of(
         frame.foot_forces,
         sighting,
         echoes,
+        joint_velocities=None
+        if frame.velocity is None
+        else joints.from_motors(frame.velocity),
     )

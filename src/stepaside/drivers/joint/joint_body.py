@@ -12,7 +12,7 @@ from ...perception.measurement import Measurement, Sighting
 from ..cameras.image_source import ImageSource
 from ..guardian_process import SessionLost
 from .frame_receiver import FrameReceiver
-from .frames import Codec, JointCommand, JointFrame, measurement_of
+from .frames import Codec, JointCommand, JointFrame, MotorGains, measurement_of
 from .joint_map import JointMap, MotorTable
 from .link import FrameLink
 from .motion_states import JointMotionState
@@ -46,11 +46,14 @@ class JointInterface(NamedTuple):
         link: Link that carries the frames.
         motors: Motors of the robot, in the order of its frames.
         codec: Conversion between frames and what the link carries.
+        gains: Gains of the motors while control moves them, from a robot that
+            takes gains; None for its own.
     """
 
     link: FrameLink
     motors: MotorTable
     codec: Codec
+    gains: MotorGains | None = None
 
 
 class SystemClock(NamedTuple):
@@ -113,13 +116,16 @@ class JointBody:
             ModelError: If the robot has no motor for one of the joints.
         """
         settings = safety or SafetySettings()
-        link, motors, codec = interface
+        link, motors, codec, gains = interface
+        self._gains = gains
         self._link, self._sight, self._guardian = link, sight, guardian
         self._eyes, self._motors = eyes, motors
         self.tick = motors.tick
         self._joints = JointMap(tuple(stance), motors)
         angles = np.array(list(stance.values()), dtype=np.float64)
-        self._motion = JointMotionState(self._joints, angles, motors)
+        self._motion = JointMotionState(
+            self._joints, angles, motors, soft=gains is not None
+        )
         self._vitals = SafetyMonitor(settings.look_ahead, motors)
         self._silence = settings.silence
         self._safety = Safety(settings)
@@ -216,6 +222,7 @@ class JointBody:
                 self._state,
                 self.sighting is not None,
                 self.frame.charge,
+                self._gains if self._state.moves_by_control else None,
             )
         )
 

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from ...control import ControlScheme
+from ...control.scheme import LocomotionScheme
 from ...core.errors import ReachError, StrategyError
 from ...core.poses import Array
 from ...locomotion.walk_snapshots import Phase, StepStarted, WalkState
@@ -12,7 +12,7 @@ from ...strategies import StandStill, Strategy
 from .joint_body import JointBody
 from .safety_state_machine import RobotState
 
-MakeScheme = Callable[[Strategy], ControlScheme]
+MakeScheme = Callable[[Strategy], LocomotionScheme]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -28,7 +28,8 @@ class JointTick:
         sighting: Newest sighting of the opponent; None without one.
         refused: Number of invalid frames so far.
         mind: Number of the control scheme; each has its own odometry.
-        walk: State of the walk, in the odometry of that scheme.
+        walk: State of a walk by maneuvers, in the odometry of that scheme;
+            None of other locomotion.
         begun: Step that began at this tick; None if none did.
     """
 
@@ -40,7 +41,7 @@ class JointTick:
     sighting: Sighting | None
     refused: int
     mind: int
-    walk: WalkState
+    walk: WalkState | None
     begun: StepStarted | None
 
     @property
@@ -66,7 +67,7 @@ class JointLoop:
 
     def __init__(
         self,
-        open_body: Callable[[ControlScheme], JointBody],
+        open_body: Callable[[LocomotionScheme], JointBody],
         strategy: Strategy,
         make_scheme: MakeScheme,
         *,
@@ -85,7 +86,7 @@ class JointLoop:
             dry_run: Whether control runs without any joint command.
         """
         self._strategy, self._make_scheme = strategy, make_scheme
-        self._scheme: ControlScheme
+        self._scheme: LocomotionScheme
         self._schemes = 0
         self._renew_scheme()
         self._dry_run = dry_run

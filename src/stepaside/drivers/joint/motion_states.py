@@ -24,7 +24,12 @@ class JointMotionState:
     """
 
     def __init__(
-        self, joints: JointMap, stance: Array, motors: MotorTable
+        self,
+        joints: JointMap,
+        stance: Array,
+        motors: MotorTable,
+        *,
+        soft: bool = False,
     ) -> None:
         """Start limp.
 
@@ -33,8 +38,10 @@ class JointMotionState:
             stance: Posture in which control begins, in [rad].
                 Shape (joints,).
             motors: Motors of the robot.
+            soft: Whether control chooses the gains of the motors: its targets
+                may then be far from the angles, and are not limited.
         """
-        self._joints, self._motors = joints, motors
+        self._joints, self._motors, self._soft = joints, motors, soft
         self._stance_targets = stance
         self._limiter: TargetLimiter | None = None
         self._ramp = StiffnessRamp(motors.tick)
@@ -84,7 +91,9 @@ class JointMotionState:
             self.targets = limiter.target
         if state.moves_by_control:
             goal = self._joints.to_motors(wanted, self.targets)
-            self.targets = limiter.toward(goal)
+            self.targets = (
+                limiter.follow(goal) if self._soft else limiter.toward(goal)
+            )
         elif state is not RobotState.LIMP:
             self.targets = limiter.toward(self._goal(state), POSTURE_SPEED)
         share = self._ramp.toward(0.0 if state is RobotState.LIMP else 1.0)

@@ -54,6 +54,18 @@ class TargetLimiter:
         self.target = self.target + step
         return self.target
 
+    def follow(self, wanted: Array) -> Array:
+        """Set the targets without limits, for soft joints.
+
+        Args:
+            wanted: Wanted targets, in [rad]; NaN and inf are ignored.
+
+        Returns:
+            New targets, in [rad]. Shape (motors,).
+        """
+        self.target = np.where(np.isfinite(wanted), wanted, self.target)
+        return self.target
+
 
 def derate_stiffness(
     stiffness: Array, temperature: Array, status: Sequence[int]
