@@ -23,6 +23,12 @@ COLUMNS = {
         ("closest", "min_distance_m", "{:.3f} m"),
         ("settled", "converged_at_s", "{:.1f} s"),
     ),
+    "experiment": (
+        ("distance", "distance_m", "{:.3f} m"),
+        ("angle", "relative_orientation_deg", "{:.1f}\u00b0"),
+        ("closest", "min_distance_m", "{:.3f} m"),
+        ("rate", "rate_hz", "{:.1f} Hz"),
+    ),
     "play": (
         ("distance", "distance_m", "{:.3f} m"),
         ("radius", "radius_m", "{:.3f} m"),

@@ -12,8 +12,10 @@ import click
 from ..core.atomic_output import FIGURES, reason_of
 from ..core.errors import OutputError
 from ..report.film_settings import AROUND, SLOWEST, FilmSettings
+from .bag_replay import ONLY_BAGS, BagOutputs, is_bag, replay_bag
 from .options.common_options import (
     browser_option,
+    figure_option,
     figure_width,
     json_option,
     port_option,
@@ -37,9 +39,21 @@ FILMS = {
 
 
 @click.command("replay")
-@click.argument(
-    "run", type=click.Path(exists=True, file_okay=False, path_type=Path)
+@click.argument("run", type=click.Path(exists=True, path_type=Path))
+@click.option(
+    "--frame",
+    "frames",
+    multiple=True,
+    metavar="NAME=FRAME",
+    help="Of a bag: frame of tf, or topic (/odom), of a player; one option "
+    "for each.",
 )
+@click.option(
+    "--output",
+    type=click.Path(file_okay=False, path_type=Path),
+    help="Of a bag: run folder to create.",
+)
+@figure_option(help="Of a bag: write a figure (.png, .svg or .pdf).")
 @click.option(
     "--html",
     type=OutputFile(".html", ".htm"),
@@ -71,15 +85,25 @@ def replay(
     strip: str | None,
     film: dict[str, Any],
     as_json: bool,
+    frames: tuple[str, ...],
+    output: Path | None,
+    figure: str | None,
     **page: Any,
 ) -> None:
-    """Replay the run in the folder RUN.
+    """Replay the run in the folder RUN, or measure a ROS 2 bag.
 
     By default, serves a page with a time slider. With --html, --video, --gif
-    or --strip, writes files instead.
+    or --strip, writes files instead. Where RUN is a bag (a folder with
+    metadata.yaml, a .mcap or a .db3 file), measures players whose motion was
+    recorded elsewhere, as --frame names them.
     """
     from ..games.run_archive import load_run
 
+    if is_bag(run):
+        outputs = BagOutputs(html, figure, output)
+        replay_bag(run, frames, outputs, as_json=as_json)
+        return
+    refuse_options(ONLY_BAGS, "a ROS 2 bag")
     if not (video or gif or strip):
         names = {field.name for field in fields(FilmSettings)}
         refuse_options(names, "--video, --gif or --strip")

@@ -16,11 +16,12 @@ from ..core.row_table import RowTable
 from ..locomotion.walk_snapshots import StepStarted
 from ..perception.images import ColourImage, DepthImage
 from .duel import Duel
+from .game_match import GameMatch
 from .match import Match, Progress, play
 from .outcome import Outcome
 from .policy_player import PolicyPlayer
 from .recorder import Recorder
-from .run import Run, is_duel, is_walk
+from .run import Run, is_duel, is_match, is_walk
 from .walk_game import WalkGame
 from .walker import SimulatedPlayer
 
@@ -252,7 +253,7 @@ class SignalRecorder:
 def repeat_game(
     run: Run, report: Callable[[Progress], None] | None = None
 ) -> RepeatedGame:
-    """Play a duel or a walk again and record the signals of its robots.
+    """Play a game again and record the signals of its robots.
 
     Args:
         run: The run.
@@ -268,8 +269,10 @@ def repeat_game(
         KeyboardInterrupt: If it was interrupted.
     """
     recorder = SignalRecorder()
-    game: Duel | WalkGame
-    if is_duel(run):
+    game: Duel | GameMatch | WalkGame
+    if is_match(run) and run.robots:
+        game = GameMatch(run.settings, (recorder,))
+    elif is_duel(run):
         game = Duel(run.settings, (recorder,))
     elif is_walk(run):
         game = WalkGame(run.settings, observers=(recorder,))

@@ -23,6 +23,8 @@ from ..sim.camera_settings import RoomObject
 from .duel_circle import angle_between, circle_of_theory, distance_between
 from .duel_settings import EVADER, PURSUER, DuelSettings
 from .duel_summary import DuelSummary
+from .experiment_settings import ExperimentSettings
+from .experiment_summary import ExperimentSummary
 from .game_settings import GameSettings
 from .game_summary import GameSummary
 from .outcome import Outcome
@@ -36,9 +38,15 @@ if TYPE_CHECKING:
     from .sight_evaluation import EvaluatedImage
 
 AnySettings: TypeAlias = (
-    DuelSettings | GameSettings | WalkSettings | PlaySettings
+    DuelSettings
+    | GameSettings
+    | WalkSettings
+    | PlaySettings
+    | ExperimentSettings
 )
-AnySummary: TypeAlias = DuelSummary | GameSummary | WalkSummary | PlaySummary
+AnySummary: TypeAlias = (
+    DuelSummary | GameSummary | WalkSummary | PlaySummary | ExperimentSummary
+)
 SettingsT = TypeVar("SettingsT", bound=AnySettings, covariant=True)
 SummaryT = TypeVar("SummaryT", bound=AnySummary, covariant=True)
 
@@ -130,7 +138,7 @@ class GameRun(Generic[SettingsT, SummaryT]):
 
     @property
     def game(self) -> str:
-        """Name of the game: "duel", "game", "walk" or "play"."""
+        """Name of the game: "duel", "game", "walk", "play" or "experiment"."""
         return self.settings.game
 
     @property
@@ -139,6 +147,8 @@ class GameRun(Generic[SettingsT, SummaryT]):
         settings = self.settings
         if isinstance(settings, PlaySettings):
             return f"Play of the {settings.role} over {settings.language}"
+        if isinstance(settings, ExperimentSettings):
+            return f"Experiment {settings.source}"
         return f"{self.game.capitalize()}, seed {settings.seed}"
 
     @property
@@ -277,7 +287,9 @@ class GameRun(Generic[SettingsT, SummaryT]):
     def safety(self) -> SafetyArea | None:
         """Safety area of an evader; None if it always evades."""
         settings = self.settings
-        if isinstance(settings, WalkSettings | GameSettings):
+        if isinstance(
+            settings, WalkSettings | GameSettings | ExperimentSettings
+        ):
             return None
         if isinstance(settings, PlaySettings) and settings.role != EVADER:
             return None
@@ -337,6 +349,7 @@ DuelRun: TypeAlias = GameRun[DuelSettings, DuelSummary]
 MatchRun: TypeAlias = GameRun[GameSettings, GameSummary]
 WalkRun: TypeAlias = GameRun[WalkSettings, WalkSummary]
 PlayRun: TypeAlias = GameRun[PlaySettings, PlaySummary]
+ExperimentRun: TypeAlias = GameRun[ExperimentSettings, ExperimentSummary]
 
 
 def is_duel(run: Run) -> TypeGuard[DuelRun]:
@@ -357,3 +370,8 @@ def is_walk(run: Run) -> TypeGuard[WalkRun]:
 def is_play(run: Run) -> TypeGuard[PlayRun]:
     """Return whether a run is one of a play at a robot."""
     return isinstance(run.settings, PlaySettings)
+
+
+def is_experiment(run: Run) -> TypeGuard[ExperimentRun]:
+    """Return whether a run was recorded elsewhere."""
+    return isinstance(run.settings, ExperimentSettings)

@@ -28,6 +28,8 @@ from .array_checks import check_times, check_tracks
 from .configuration_file import dump_configuration, read_settings
 from .duel_settings import DuelSettings
 from .duel_summary import DuelSummary
+from .experiment_settings import ExperimentSettings
+from .experiment_summary import ExperimentSummary
 from .game_settings import GameSettings
 from .game_summary import GameSummary
 from .outcome import Outcome
@@ -75,6 +77,7 @@ GAMES = {
     "game": GameKind(GameSettings, GameSummary),
     "walk": GameKind(WalkSettings, WalkSummary),
     "play": GameKind(PlaySettings, PlaySummary),
+    "experiment": GameKind(ExperimentSettings, ExperimentSummary),
 }
 
 

@@ -48,13 +48,16 @@ def draw_duel(
         above, paths, over_time, *below = parts
         places = [(part, (1, 1, 1)) for part in below]
     else:
-        figure = new_figure(11.0, 8.2)
-        above, middle, low = figure.subfigures(
-            3, 1, height_ratios=[1.0, 1.7, 1.1]
+        rows = [1.0, 1.7] + [1.1] * bool(walkers)
+        figure = new_figure(11.0, 2.16 * sum(rows))
+        above, middle, *below = figure.subfigures(
+            len(rows), 1, height_ratios=rows
         )
         paths, over_time = middle.subfigures(1, 2, width_ratios=[1.0, 1.15])
         count = len(walkers)
-        places = [(low, (1, count, i + 1)) for i in range(count)]
+        places = [
+            (part, (1, count, i + 1)) for part in below for i in range(count)
+        ]
     _draw_snapshots(above, run)
     draw_paths(paths.add_subplot(), run)
     _draw_over_time(over_time, run)

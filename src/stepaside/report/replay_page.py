@@ -143,7 +143,7 @@ def _means(
     """Return means over whole gait cycles; None where there is none."""
     if values is None:
         return None
-    period = 2.0 * run.settings.gait.step_duration
+    period = run.settings.cycle
     return _series(whole_cycles(values, run.times, period), samples, digits)
 
 

@@ -6,6 +6,7 @@ import numpy as np
 from ..core.errors import ConfigurationError
 from ..core.poses import Array, Pose
 from ..games.duel_furnishing import Mover, furnishing_of, movers_in
+from ..games.experiment_settings import ExperimentSettings
 from ..games.game_furnishing import colours_in_world, furnish_game
 from ..games.play_settings import PlaySettings
 from ..games.run import Run, is_duel, is_match
@@ -43,7 +44,7 @@ class RunScene:
             name: run.settings.robot_of(name).robot for name in run.robots
         }
         physics, seed = PhysicsSettings(), 0
-        if not isinstance(run.settings, PlaySettings):
+        if not isinstance(run.settings, PlaySettings | ExperimentSettings):
             physics, seed = run.settings.physics, run.settings.seed
         self.model = build_model(
             {name: load_robot(robot) for name, robot in names.items()},

@@ -1,0 +1,267 @@
+"""Planar poses of players from a ROS 2 bag: frames of tf, or pose topics."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from math import isfinite
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..core.errors import ConfigurationError
+from ..core.poses import Array
+
+TRANSFORMS = ("/tf", "/tf_static")
+MOST_LISTED = 12  # names in a message
+# Path to the pose in messages with a header, by type.
+POSE_FIELDS = {
+    "nav_msgs/msg/Odometry": ("pose", "pose"),
+    "geometry_msgs/msg/PoseStamped": ("pose",),
+    "geometry_msgs/msg/PoseWithCovarianceStamped": ("pose", "pose"),
+}
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PoseSeries:
+    """Poses of one player over time.
+
+    Attributes:
+        world: Frame in which the poses are.
+        times: Increasing times, in [s]. Shape (n,).
+        positions: Positions (x, y, z), in [m]. Shape (n, 3).
+        headings: Unwrapped headings, in [rad]. Shape (n,).
+    """
+
+    world: str
+    times: Array
+    positions: Array
+    headings: Array
+
+
+def read_poses(bag: Path, sources: Mapping[str, str]) -> dict[str, PoseSeries]:
+    """Read the poses of players from a bag.
+
+    Times are those of the headers; where no header of a player has one,
+    those of recording.
+
+    Args:
+        bag: Folder of a ROS 2 bag, or a file in MCAP or SQLite.
+        sources: Frame, or topic if it begins with a slash, by player.
+
+    Raises:
+        ConfigurationError: If the bag cannot be read, or a frame or topic
+            is not in it or holds no valid pose.
+        ModuleNotFoundError: If rosbags is not installed.
+    """
+    from rosbags.highlevel import AnyReader
+    from rosbags.typesys import Stores, get_typestore
+
+    store = get_typestore(Stores.ROS2_HUMBLE)
+    try:
+        with AnyReader([bag], default_typestore=store) as reader:
+            return _read(reader, sources, bag.name)
+    except ConfigurationError:
+        raise
+    except Exception as error:  # of damaged files, of many kinds
+        raise ConfigurationError(
+            f"{bag} must be a ROS 2 bag: a folder with metadata.yaml, or a "
+            f".mcap or .db3 file, got: {error}"
+        ) from error
+
+
+def _read(
+    reader: Any, sources: Mapping[str, str], name: str
+) -> dict[str, PoseSeries]:
+    kinds = {c.topic: c.msgtype for c in reader.connections}
+    for player, source in sources.items():
+        if source.startswith("/") and source not in kinds:
+            raise ConfigurationError(
+                f"{player}={source} must be a topic of {name}: "
+                f"{_listed(kinds)}"
+            )
+        kind = kinds.get(source)
+        if source.startswith("/") and kind not in POSE_FIELDS:
+            raise ConfigurationError(
+                f"{player}={source} must be a topic of "
+                f"{', '.join(POSE_FIELDS)}, got {kind}"
+            )
+    frames = {p: s for p, s in sources.items() if not s.startswith("/")}
+    tree = TransformTree(frames)
+    rows: dict[str, list[tuple[float, ...]]] = {p: [] for p in sources}
+    worlds: dict[str, set[str]] = {p: set() for p in sources}
+    for topic, kind, time, message in _messages(
+        reader, {*sources.values(), *(TRANSFORMS if frames else ())}
+    ):
+        if topic in TRANSFORMS:
+            for player, world, row in tree.update(message, time, topic):
+                worlds[player].add(world)
+                rows[player].append(row)
+            continue
+        for player, source in sources.items():
+            if source == topic:
+                pose = message
+                for field in POSE_FIELDS[kind]:
+                    pose = getattr(pose, field)
+                worlds[player].add(message.header.frame_id)
+                matrix = _matrix(pose.position, pose.orientation)
+                rows[player].append(_row(_stamp(message), time, matrix))
+    for player, source in sources.items():
+        if not rows[player]:
+            raise ConfigurationError(
+                f"{player}={source} must be a frame of {name}: "
+                f"{_listed(tree.frames)}"
+            )
+    return {
+        player: _series(player, worlds[player], found)
+        for player, found in rows.items()
+    }
+
+
+def _messages(
+    reader: Any, topics: set[str]
+) -> Iterator[tuple[str, str, float, Any]]:
+    """Yield topic, type, time of recording in [s], and message."""
+    chosen = [c for c in reader.connections if c.topic in topics]
+    for connection, stamp, raw in reader.messages(chosen):
+        message = reader.deserialize(raw, connection.msgtype)
+        yield connection.topic, connection.msgtype, 1e-9 * stamp, message
+
+
+class TransformTree:
+    """Latest transforms of a bag, and the poses that follow from them.
+
+    Attributes:
+        frames: Names of all frames so far.
+    """
+
+    def __init__(self, wanted: Mapping[str, str]) -> None:
+        """Begin without transforms.
+
+        Args:
+            wanted: Frame by player.
+        """
+        self._wanted = {p: f.removeprefix("/") for p, f in wanted.items()}
+        self._above: dict[str, tuple[str, Array]] = {}
+        self._moving: set[str] = set()
+        self.frames: dict[str, None] = {}
+
+    def update(
+        self, message: Any, time: float, topic: str
+    ) -> Iterator[tuple[str, str, tuple[float, ...]]]:
+        """Take transforms; yield player, root frame and row of new poses.
+
+        Args:
+            message: Transforms of ``/tf`` or ``/tf_static``.
+            time: Time of recording, in [s].
+            topic: Name of the topic.
+        """
+        changed: dict[str, float] = {}
+        for each in message.transforms:
+            parent = each.header.frame_id.removeprefix("/")
+            child = each.child_frame_id.removeprefix("/")
+            matrix = _matrix(
+                each.transform.translation, each.transform.rotation
+            )
+            self._above[child] = parent, matrix
+            self.frames |= {parent: None, child: None}
+            if topic == "/tf":
+                self._moving.add(child)
+                changed[child] = _stamp(each)
+        for player, frame in self._wanted.items():
+            chain, root, pose = self._pose_of(frame)
+            moved = [changed[link] for link in chain if link in changed]
+            if moved:
+                yield player, root, _row(max(moved), time, pose)
+
+    def _pose_of(self, frame: str) -> tuple[list[str], str, Array]:
+        """Return the frames up to the root, the root, and the pose in it."""
+        chain: list[str] = []
+        pose: Array = np.eye(4)
+        while frame in self._above and frame not in chain:
+            chain.append(frame)
+            frame, step = self._above[frame]
+            pose = step @ pose
+        return chain, frame, pose
+
+
+def _stamp(message: Any) -> float:
+    """Return the time of a header, in [s]."""
+    stamp = message.header.stamp
+    return float(stamp.sec) + 1e-9 * float(stamp.nanosec)
+
+
+def _matrix(position: Any, rotation: Any) -> Array:
+    """Return a pose as a homogeneous matrix. Shape (4, 4)."""
+    w, x, y, z = rotation.w, rotation.x, rotation.y, rotation.z
+    norm = float(np.sqrt(w * w + x * x + y * y + z * z)) or np.nan
+    w, x, y, z = w / norm, x / norm, y / norm, z / norm
+    return np.array(
+        [
+            [
+                1 - 2 * (y * y + z * z),
+                2 * (x * y - w * z),
+                2 * (x * z + w * y),
+                position.x,
+            ],
+            [
+                2 * (x * y + w * z),
+                1 - 2 * (x * x + z * z),
+                2 * (y * z - w * x),
+                position.y,
+            ],
+            [
+                2 * (x * z - w * y),
+                2 * (y * z + w * x),
+                1 - 2 * (x * x + y * y),
+                position.z,
+            ],
+            [0.0, 0.0, 0.0, 1.0],
+        ]
+    )
+
+
+def _row(stamp: float, time: float, pose: Array) -> tuple[float, ...]:
+    """Return both times, position and heading of a pose."""
+    x, y, z = pose[:3, 3].tolist()
+    return stamp, time, x, y, z, float(np.arctan2(pose[1, 0], pose[0, 0]))
+
+
+def _series(
+    player: str, worlds: set[str], rows: list[tuple[float, ...]]
+) -> PoseSeries:
+    """Return the poses of one player, in the order of their times.
+
+    Raises:
+        ConfigurationError: If a pose is not finite, there is only one, or
+            the frame of the poses changes.
+    """
+    if len(worlds) > 1:
+        raise ConfigurationError(
+            f"poses of {player} must all be in one frame, got "
+            f"{_listed(dict.fromkeys(sorted(worlds)))}"
+        )
+    for row in rows:
+        if not all(isfinite(value) for value in row):
+            raise ConfigurationError(
+                f"poses of {player} must be finite with a rotation that is "
+                f"not zero, got {row[2:]} at {row[0]:g} s"
+            )
+    table = np.array(rows)
+    # Without stamps, the times of recording must do.
+    times = table[:, 0] if table[:, 0].any() else table[:, 1]
+    times, kept = np.unique(times, return_index=True)
+    table = table[kept]
+    if len(table) < 2:
+        raise ConfigurationError(
+            f"poses of {player} must have at least 2 times, got {len(table)}"
+        )
+    headings = np.unwrap(table[:, 5])
+    (world,) = worlds
+    return PoseSeries(world, times, table[:, 2:5], headings)
+
+
+def _listed(names: Mapping[str, Any]) -> str:
+    """Return the first names as text."""
+    shown = list(names)[:MOST_LISTED]
+    more = len(names) - len(shown)
+    return ", ".join(shown) + (f" and {more} more" if more > 0 else "")

@@ -1,0 +1,300 @@
+"""Test motion of players that was recorded elsewhere, in ROS 2 bags."""
+
+import json
+from collections.abc import Callable
+from math import pi
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from click.testing import CliRunner, Result
+
+from stepaside.cli.main import main
+from stepaside.core.errors import ConfigurationError
+from stepaside.core.poses import Array, Pose
+from stepaside.games.duel import run_duel
+from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.games.experiment import import_experiment
+from stepaside.games.run_archive import load_run, write_run_files
+
+pytest.importorskip("rosbags", reason="rosbags is not installed")
+
+from rosbags.rosbag2 import StoragePlugin, Writer  # noqa: E402
+from rosbags.typesys import Stores, get_typestore  # noqa: E402
+
+STORE = get_typestore(Stores.ROS2_JAZZY)
+RATE = 0.4  # turning rate of the players, in [rad/s]
+Entry = tuple[float, str, str, Any]
+
+
+def make(kind: str, *values: Any) -> Any:
+    return STORE.types[kind](*values)
+
+
+def header(time: float, frame: str) -> Any:
+    stamp = round(time * 1e9)
+    unix = make("builtin_interfaces/msg/Time", stamp // 10**9, stamp % 10**9)
+    return make("std_msgs/msg/Header", unix, frame)
+
+
+def turn(heading: float) -> Any:
+    half = 0.5 * heading
+    return make(
+        "geometry_msgs/msg/Quaternion", 0.0, 0.0, np.sin(half), np.cos(half)
+    )
+
+
+def transform(time: float, parent: str, child: str, pose: Pose) -> Any:
+    offset = make("geometry_msgs/msg/Vector3", pose.x, pose.y, 0.0)
+    both = make("geometry_msgs/msg/Transform", offset, turn(pose.theta))
+    return make(
+        "geometry_msgs/msg/TransformStamped", header(time, parent), child, both
+    )
+
+
+def tf(topic: str, time: float, *transforms: Any) -> Entry:
+    kind = "tf2_msgs/msg/TFMessage"
+    return time, topic, kind, make(kind, list(transforms))
+
+
+def odometry(topic: str, time: float, frame: str, pose: Pose) -> Entry:
+    kind = "nav_msgs/msg/Odometry"
+    point = make("geometry_msgs/msg/Point", pose.x, pose.y, 0.0)
+    place = make("geometry_msgs/msg/Pose", point, turn(pose.theta))
+    none = make("geometry_msgs/msg/Vector3", 0.0, 0.0, 0.0)
+    unknown = np.zeros(36)
+    message = make(
+        kind,
+        header(time, frame),
+        "base_link",
+        make("geometry_msgs/msg/PoseWithCovariance", place, unknown),
+        make(
+            "geometry_msgs/msg/TwistWithCovariance",
+            make("geometry_msgs/msg/Twist", none, none),
+            unknown,
+        ),
+    )
+    return time, topic, kind, message
+
+
+def write_bag(
+    folder: Path, entries: list[Entry], *, plugin: Any = StoragePlugin.SQLITE3
+) -> Path:
+    """Write a bag in the order of its times."""
+    with Writer(folder, version=9, storage_plugin=plugin) as writer:
+        connections: dict[str, Any] = {}
+        for time, topic, kind, message in sorted(entries, key=lambda e: e[0]):
+            if topic not in connections:
+                connections[topic] = writer.add_connection(
+                    topic, kind, typestore=STORE
+                )
+            raw = STORE.serialize_cdr(message, kind)
+            stamp = round((time + 1.7e9) * 1e9)
+            writer.write(connections[topic], stamp, raw)
+    return folder
+
+
+def on_circle(time: float, radius: float, ahead: float) -> Pose:
+    """Return a pose on a circle about (1, 2), walked to the left."""
+    angle = RATE * time + ahead
+    return Pose(
+        1.0 + radius * np.cos(angle),
+        2.0 + radius * np.sin(angle),
+        angle + 0.5 * pi,
+    )
+
+
+@pytest.fixture
+def circling(tmp_path: Path) -> Path:
+    """Bag of two robots a quarter turn apart on a circle of 0.8 m.
+
+    Their odometry begins elsewhere in a map; one is on ``tf`` at 20 Hz and
+    the other at 7 Hz, and both are on odometry topics, too.
+    """
+    start = Pose(3.0, -1.0, 2.0)
+    entries = [tf("/tf_static", 0.0, transform(0.0, "map", "a/odom", start))]
+    for time in np.arange(0.0, 30.0, 0.05).tolist():
+        pose = on_circle(time, 0.8, 0.0)
+        local = start.inverse().compose(pose)
+        entries.append(tf("/tf", time, transform(time, "a/odom", "a", local)))
+        entries.append(odometry("/a/odometry", time, "map", pose))
+    for time in np.arange(0.0, 30.0, 1.0 / 7.0).tolist():
+        pose = on_circle(time, 0.8, 0.5 * pi)
+        entries.append(tf("/tf", time, transform(time, "map", "b", pose)))
+        entries.append(odometry("/b/odometry", time, "map", pose))
+    return write_bag(tmp_path / "circling", entries)
+
+
+def replay(*words: object) -> Result:
+    return CliRunner().invoke(main, ["replay", *map(str, words)])
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("pursuer=a", "evader=b"),
+        ("pursuer=/a/odometry", "evader=/b/odometry"),
+        ("pursuer=a", "evader=/b/odometry"),
+    ],
+)
+def test_two_robots_on_a_circle_are_measured(
+    circling: Path, words: tuple[str, str]
+) -> None:
+    run = import_experiment(circling, words)
+    summary = run.summary
+    assert summary.distance_m == pytest.approx(0.8 * 2**0.5, rel=1e-3)
+    assert summary.relative_orientation_deg == pytest.approx(90.0, abs=0.1)
+    for player in summary.measured.values():
+        assert player.radius_m == pytest.approx(0.8, rel=1e-3)
+        assert player.mean_speed_m_s == pytest.approx(0.8 * RATE, rel=1e-2)
+    times: Array = run.times
+    expected = [on_circle(t, 0.8, 0.0) for t in times.tolist()]
+    np.testing.assert_allclose(run.pursuer.torso, expected, atol=1e-6)
+    # Chords between poses at 7 Hz are inside the circle by a little.
+    expected = [on_circle(t, 0.8, 0.5 * pi) for t in times.tolist()]
+    np.testing.assert_allclose(run.evader.torso, expected, atol=1e-3)
+
+
+def test_a_duel_that_is_exported_and_imported_has_the_same_circle(
+    tmp_path: Path,
+) -> None:
+    start = StartSettings(distance=0.9, pursuer_offset=0.1, evader_offset=0.2)
+    run = run_duel(DuelSettings(duration=6.0, start=start))
+    folder = tmp_path / "duel"
+    folder.mkdir()
+    write_run_files(folder, run)
+    words = ["export", str(folder), "--to", "mcap", "--no-repeat"]
+    assert CliRunner().invoke(main, words).exit_code == 0
+    frames = [f"--frame={n}={n}/base_footprint" for n in run.players]
+    result = replay(folder.with_name("duel-mcap"), *frames, "--json")
+    assert result.exit_code == 0, result.output
+    found = json.loads(result.stdout)
+    for key in ("distance_m", "relative_orientation_deg"):
+        assert found[key] == pytest.approx(getattr(run.summary, key), rel=1e-9)
+    for name in run.players:
+        radius = getattr(run.summary, name).radius_m
+        assert found["measured"][name]["radius_m"] == pytest.approx(
+            radius, rel=1e-9
+        )
+    file = folder.with_name("duel-mcap") / "duel.mcap"
+    again = import_experiment(
+        file, ("pursuer=/pursuer/pose", "evader=/evader/pose")
+    )
+    np.testing.assert_allclose(again.distance, run.distance, atol=1e-12)
+
+
+def test_a_bag_becomes_a_run_folder_a_figure_and_a_page(
+    circling: Path, tmp_path: Path
+) -> None:
+    output = tmp_path / "run"
+    outputs = [f"--output={output}", f"--figure={tmp_path}/f.png"]
+    outputs.append(f"--html={tmp_path}/page.html")
+    result = replay(
+        circling, "--frame=pursuer=a", "--frame=evader=b", *outputs
+    )
+    assert result.exit_code == 0, result.output
+    assert "0.800 m" in result.output
+    run = load_run(output)
+    assert run.game == "experiment" and run.players == ("pursuer", "evader")
+    assert run.summary.notes == []  # type: ignore[union-attr]
+    assert (tmp_path / "f.png").stat().st_size > 1e4
+    assert "circling" in (tmp_path / "page.html").read_text()
+    both = ["compare", str(output), str(output)]
+    words = [*both, "--output", str(tmp_path / "both.png")]
+    compared = CliRunner().invoke(main, words)
+    assert compared.exit_code == 0 and "90.0°" in compared.output
+
+
+def test_a_gap_is_noted(circling: Path, tmp_path: Path) -> None:
+    entries = [
+        odometry(f"/{name}", time, "map", on_circle(time, 1.0, ahead))
+        for name, ahead in (("a", 0.0), ("b", 1.0))
+        for time in np.arange(0.0, 10.0, 0.1).tolist()
+        if name == "a" or not 3.0 < time < 5.0
+    ]
+    bag = write_bag(tmp_path / "gap", entries)
+    run = import_experiment(bag, ("pursuer=/a", "evader=/b"))
+    assert run.summary.notes == ["evader has no pose for 2.00 s; interpolated"]
+
+
+def test_without_stamps_the_times_of_recording_count(tmp_path: Path) -> None:
+    entries = []
+    for name, ahead in (("a", 0.0), ("b", 1.0)):
+        for time in np.arange(0.0, 10.0, 0.1).tolist():
+            pose = on_circle(time, 1.0, ahead)
+            _, *rest = odometry(f"/{name}", 0.0, "map", pose)
+            entries.append((time, rest[0], rest[1], rest[2]))
+    bag = write_bag(tmp_path / "unset", entries)
+    run = import_experiment(bag, ("pursuer=/a", "evader=/b"))
+    assert run.duration == pytest.approx(9.9, abs=1e-6)
+    assert run.summary.rate_hz == pytest.approx(10.0, rel=1e-6)
+
+
+def _apart(folder: Path) -> Path:
+    entries = [
+        odometry("/a", t, "map", Pose(0.0, 0.0, 0.0)) for t in (1.0, 2.0)
+    ] + [odometry("/b", t, "odom", Pose(1.0, 0.0, 0.0)) for t in (1.0, 2.0)]
+    return write_bag(folder / "apart", entries)
+
+
+def _never_together(folder: Path) -> Path:
+    entries = [
+        odometry("/a", t, "map", Pose(0.0, 0.0, 0.0)) for t in (1.0, 2.0)
+    ] + [odometry("/b", t, "map", Pose(1.0, 0.0, 0.0)) for t in (5.0, 6.0)]
+    return write_bag(folder / "never", entries)
+
+
+def _not_finite(folder: Path) -> Path:
+    entries = [
+        odometry(topic, t, "map", Pose(np.nan if t > 1.5 else 0.0, 0.0, 0.0))
+        for topic in ("/a", "/b")
+        for t in (1.0, 2.0)
+    ]
+    return write_bag(folder / "nan", entries)
+
+
+def _text(folder: Path) -> Path:
+    file = folder / "text.mcap"
+    file.write_text("no bag")
+    return file
+
+
+@pytest.mark.parametrize(
+    ("bag_in", "words", "message"),
+    [
+        (_apart, ("p=/a", "e=/b"), "one frame, got p in map, e in odom"),
+        (_apart, ("p=/a", "e=/c"), "e=/c must be a topic of apart: /a, /b"),
+        (_apart, ("p=/a", "e=c"), "e=c must be a frame of apart"),
+        (_apart, ("p=/a",), "must be 2 to 32, each as --frame"),
+        (_apart, ("p=/a", "p=/b"), "frame of p must be given once"),
+        (_apart, ("p=/a", "P"), "frame must be NAME=FRAME"),
+        (_never_together, ("p=/a", "e=/b"), "poses at common times"),
+        (_not_finite, ("p=/a", "e=/b"), "must be finite"),
+        (_text, ("p=/a", "e=/b"), "must be a ROS 2 bag"),
+    ],
+)
+def test_a_bag_that_cannot_be_measured_is_refused_in_one_line(
+    bag_in: Callable[[Path], Path],
+    words: tuple[str, ...],
+    message: str,
+    tmp_path: Path,
+) -> None:
+    bag = bag_in(tmp_path)
+    before = sorted(tmp_path.rglob("*"))
+    with pytest.raises(ConfigurationError, match=message):
+        import_experiment(bag, words)
+    frames = [f"--frame={word}" for word in words]
+    result = replay(bag, *frames, f"--output={tmp_path}/run")
+    assert result.exit_code == 2 and result.stderr.count("\n") == 1
+    assert sorted(tmp_path.rglob("*")) == before
+
+
+def test_options_of_bags_and_of_runs_are_told_apart(circling: Path) -> None:
+    result = replay(circling)
+    assert result.exit_code == 2 and "--frame NAME=FRAME" in result.stderr
+    both = "--frame=pursuer=a", "--frame=evader=b"
+    result = replay(circling, *both, "--video=film.mp4")
+    assert result.exit_code == 2 and "requires a run folder" in result.stderr
+    result = replay(circling.parent, *both)
+    assert result.exit_code == 2 and "requires a ROS 2 bag" in result.stderr
