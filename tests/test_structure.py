@@ -28,6 +28,7 @@ LAYERS = (
     "sim",
     "games",
     "report",
+    "envs",
     "studies",
     "fitting",
     "cli",

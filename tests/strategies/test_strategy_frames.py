@@ -291,9 +291,8 @@ def test_a_player_knows_the_opponents_velocity_in_its_own_frame(
         time = STEP * i
         here = own.compose(Pose(-0.03 * i, 0.0, 0.3 * i))
         there = Pose(own.x + 2.0 + u * time, own.y + v * time, 0.0)
-        x, y, _ = here.inverse().compose(there)
         player.pose = here
-        player.decide(time, atan2(y, x), hypot(x, y))
+        player.decide(player.see(time, there))
     first, last = strategy.told[0], strategy.told[-1]
     assert first.velocity is None and last.pose_in_map == here
     assert last.obstacles_in_map.shapes == SOLIDS and last.age == 0.0

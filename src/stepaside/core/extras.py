@@ -8,6 +8,7 @@ EXTRAS = {  # as in ``pyproject.toml``, with the names of the modules
     "export": ("rosbags",),
     "rerun": ("rerun",),
     "fast": ("llvmlite", "numba"),
+    "learn": ("gymnasium", "numba", "pettingzoo"),
     "legs": ("onnx", "onnxruntime", "yaml"),
     "mpc": ("daqp",),
     "robot": ("msgpack",),

@@ -1,6 +1,6 @@
 """Execution of a strategy: its memory, and the knowledge it decides from."""
 
-from math import cos, sin
+from math import atan2, cos, hypot, sin
 from typing import Any
 
 from ..arena import NO_OBSTACLES, ObstacleSet
@@ -148,6 +148,7 @@ class TemplatePlayer(DecisionMaker):
     Attributes:
         pose: Own pose in the room.
         obstacles: Known obstacles.
+        moving: Whether the last intent was to walk.
     """
 
     def __init__(
@@ -173,31 +174,36 @@ class TemplatePlayer(DecisionMaker):
             strategy, limits, estimates_velocity=estimates_velocity
         )
         self.pose = pose
-        self.obstacles, self._moving = obstacles, False
+        self.obstacles, self.moving = obstacles, False
 
-    def decide(self, time: float, bearing: float, distance: float) -> Intent:
-        """Decide and store the memory.
+    def see(self, time: float, opponent: Pose) -> Knowledge:
+        """Add an exact sighting and return the knowledge for a decision.
 
         Args:
             time: Present time, in [s].
-            bearing: Bearing of the opponent, in [rad].
-            distance: Distance to the opponent, in [m].
+            opponent: Pose of the opponent in the room.
+        """
+        x, y = opponent.x - self.pose.x, opponent.y - self.pose.y
+        bearing = wrap_angle(atan2(y, x) - self.pose.theta)
+        return self.observe(
+            time,
+            self.pose,
+            self.pose.theta + bearing,
+            Sighting(time, bearing, hypot(x, y)),
+            moving=self.moving,
+            obstacles=self.obstacles,
+        )
+
+    def decide(self, knowledge: Knowledge) -> Intent:
+        """Decide and store the memory.
 
         Raises:
             StrategyError: If the strategy returns no intent.
         """
-        knowledge = self.observe(
-            time,
-            self.pose,
-            self.pose.theta + bearing,
-            Sighting(time, bearing, distance),
-            moving=self._moving,
-            obstacles=self.obstacles,
-        )
         try:
             intent = self.evaluate(knowledge)
         except StrategyError as error:
             name = type(self.strategy).__name__
             raise StrategyError(f"strategy {name}: {error}") from error
-        self._moving = intent.walks
+        self.moving = intent.walks
         return intent

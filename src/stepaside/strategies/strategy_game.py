@@ -15,6 +15,7 @@ from typing import ClassVar, NamedTuple
 import numpy as np
 
 from ..arena import NO_OBSTACLES, OPEN_FLOOR, Room
+from ..arena.obstacles import PackedObstacles
 from ..core.brief_repr import brief_repr
 from ..core.constants import CAPTURE_DISTANCE
 from ..core.errors import check_bearing, check_positive, check_within
@@ -289,27 +290,15 @@ def play_strategies(
         StrategyError: If a strategy returns no intent.
     """
     game = game or StepGame()
-    # A pursuer that obstacles do not stop plans no detours.
-    stops = room.solid_set if game.solid_pursuer else NO_OBSTACLES
-    hunter, prey = (
-        TemplatePlayer(*player, estimates_velocity=game.knows_velocity)
-        for player in (
-            (pursuer, game.limits[0], starts[0], stops),
-            (evader, game.limits[1], starts[1], room.solid_set),
-        )
-    )
+    hunter, prey = place_players(game, (pursuer, evader), starts, room)
     packed = room.solid_set.packed
     outcome = StrategyOutcome.SURVIVED
     samples: list[tuple[float, Pose, Pose, float]] = []
     decisions: list[float] = []
     for time, *poses in _moves(game, hunter, prey, decisions):
-        clearance = clearance_at(packed, poses[1].x, poses[1].y, inf)
+        clearance, outcome = judge_poses(game, packed, (poses[0], poses[1]))
         samples.append((time, poses[0], poses[1], clearance))
-        if clearance < game.body_radius:
-            outcome = StrategyOutcome.TOUCHED
-            break
-        if _distance(*poses) <= game.capture:
-            outcome = StrategyOutcome.CAPTURED
+        if outcome is not StrategyOutcome.SURVIVED:
             break
     times, hunted, evaded, clearances = zip(*samples, strict=True)
     later = decisions[1:] or decisions or [0.0]
@@ -322,6 +311,30 @@ def play_strategies(
         float(np.mean(later)),
         max(decisions[1:], default=0.0),
     )
+
+
+def place_players(
+    game: StepGame | UnicycleMatch,
+    strategies: tuple[Strategy, Strategy],
+    starts: tuple[Pose, Pose],
+    room: Room,
+) -> tuple[TemplatePlayer, TemplatePlayer]:
+    """Return pursuer and evader at their initial poses.
+
+    Args:
+        game: Rules.
+        strategies: Strategies of pursuer and evader.
+        starts: Initial poses of pursuer and evader in the room.
+        room: Room.
+    """
+    # A pursuer that obstacles do not stop plans no detours.
+    stops = room.solid_set if game.solid_pursuer else NO_OBSTACLES
+    known = stops, room.solid_set
+    pursuer, evader = (
+        TemplatePlayer(*player, estimates_velocity=game.knows_velocity)
+        for player in zip(strategies, game.limits, starts, known, strict=True)
+    )
+    return pursuer, evader
 
 
 def _moves(
@@ -338,16 +351,57 @@ def _moves(
     times = game.sample_times.tolist()
     for time in game.decision_times:
         begun = perf_counter()
-        evades = _decide(evader, time, pursuer.pose)
+        evades = evader.decide(evader.see(time, pursuer.pose))
         decisions.append(perf_counter() - begun)
-        pursues = _decide(pursuer, time, evader.pose)
-        chase, flight = game.move(pursuer, pursues), game.move(evader, evades)
-        for after, pursuer_pose, evader_pose in zip(
-            times, chase, flight, strict=True
-        ):
-            pursuer.pose = _stopped(pursuer, pursuer_pose, game.body_radius)
-            evader.pose = evader_pose
+        pursues = pursuer.decide(pursuer.see(time, evader.pose))
+        moved = move_players(game, (pursuer, evader), (pursues, evades))
+        for after, _ in zip(times, moved, strict=True):
             yield time + after, pursuer.pose, evader.pose
+
+
+def move_players(
+    game: StepGame | UnicycleMatch,
+    players: tuple[TemplatePlayer, TemplatePlayer],
+    intents: tuple[Intent, Intent],
+) -> Iterator[None]:
+    """Move both players to each sample time after a decision.
+
+    Args:
+        game: Rules.
+        players: Pursuer and evader; their poses are updated.
+        intents: What they decided.
+    """
+    pursuer, evader = players
+    chase, flight = map(game.move, players, intents)
+    for pursuer_pose, evader_pose in zip(chase, flight, strict=True):
+        pursuer.pose = _stopped(pursuer, pursuer_pose, game.body_radius)
+        evader.pose = evader_pose
+        yield
+
+
+def judge_poses(
+    game: StepGame | UnicycleMatch,
+    packed: PackedObstacles,
+    poses: tuple[Pose, Pose],
+) -> tuple[float, StrategyOutcome]:
+    """Apply the rules to the poses of pursuer and evader.
+
+    Args:
+        game: Rules.
+        packed: Obstacles of the room.
+        poses: Poses of pursuer and evader in the room.
+
+    Returns:
+        Clearance of the evader's centre, in [m], and the outcome, which is
+        survival while the game goes on.
+    """
+    pursuer, evader = poses
+    clearance = clearance_at(packed, evader.x, evader.y, inf)
+    if clearance < game.body_radius:
+        return clearance, StrategyOutcome.TOUCHED
+    if hypot(pursuer.x - evader.x, pursuer.y - evader.y) <= game.capture:
+        return clearance, StrategyOutcome.CAPTURED
+    return clearance, StrategyOutcome.SURVIVED
 
 
 def _stopped(player: TemplatePlayer, pose: Pose, body_radius: float) -> Pose:
@@ -356,17 +410,6 @@ def _stopped(player: TemplatePlayer, pose: Pose, body_radius: float) -> Pose:
     if clearance_at(packed, pose.x, pose.y, body_radius) < body_radius:
         return Pose(player.pose.x, player.pose.y, pose.theta)
     return pose
-
-
-def _decide(player: TemplatePlayer, time: float, other: Pose) -> Intent:
-    """Evaluate a strategy, with the opponent at a pose in the room."""
-    distance = _distance(player.pose, other)
-    return player.decide(time, _bearing(player.pose, other), distance)
-
-
-def _distance(one: Pose, other: Pose) -> float:
-    """Return the distance between two poses, in [m]."""
-    return hypot(other.x - one.x, other.y - one.y)
 
 
 def _bearing(pose: Pose, other: Pose) -> float:

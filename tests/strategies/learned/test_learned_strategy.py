@@ -77,7 +77,7 @@ def test_the_largest_discrete_output_decides() -> None:
 
 def test_an_output_that_is_not_finite_is_refused() -> None:
     strategy = linear([[0, 0], [0, 0]], [0.0, np.nan])
-    with pytest.raises(PolicyError, match="output 1 of .* finite, got nan"):
+    with pytest.raises(PolicyError, match="output 1 of .* finite"):
         strategy.decide(KNOWN, None)
 
 

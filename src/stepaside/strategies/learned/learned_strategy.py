@@ -1,11 +1,12 @@
 """Strategy that a network decides."""
 
 from dataclasses import dataclass, field
-from math import isfinite, pi
+from math import pi
 
 import numpy as np
 
 from ...core.errors import AnyPath, ConfigurationError, PolicyError, as_path
+from ...core.poses import Array
 from ...planning import Direction
 from ..knowledge import STAND, Intent, Knowledge
 from .network_graph import NetworkGraph, Tensor, read_network
@@ -69,23 +70,33 @@ class LearnedStrategy:
             PolicyError: If an output is NaN or infinite.
         """
         observation = observe(knowledge, self.contract.terms)
-        outputs = self.network.evaluate(observation[None])[0]
-        return self._intent(outputs), memory
+        heading, speed = self.intents(observation[None])[0].tolist()
+        return Intent(heading, speed) if speed > 0.0 else STAND, memory
 
-    def _intent(self, outputs: Tensor) -> Intent:
-        """Return the intent that outputs mean."""
-        values = outputs.astype(np.float64).tolist()
-        for n, value in enumerate(values):
-            if not isfinite(value):
-                raise PolicyError(
-                    f"output {n} of {self.name} must be finite, got {value}"
-                )
-        if not self.contract.headings:
-            heading, speed = values
-            speed = min(max(speed, 0.0), 1.0)
-            return Intent(min(max(heading, -pi), pi), speed, speed > 0.0)
-        chosen = self.contract.headings[int(np.argmax(outputs))]
-        return STAND if chosen is None else Intent(chosen)
+    def intents(self, observations: Tensor) -> Array:
+        """Return headings [rad] and speed factors for many observations.
+
+        Args:
+            observations: Shape (n, width of the observation).
+
+        Returns:
+            Shape (n, 2).
+
+        Raises:
+            PolicyError: If an output is NaN or infinite.
+        """
+        outputs = self.network.evaluate(observations).astype(np.float64)
+        if not np.isfinite(outputs).all():
+            column = int(np.argwhere(~np.isfinite(outputs))[0][1])
+            raise PolicyError(f"output {column} of {self.name} must be finite")
+        headings = self.contract.headings
+        rows: Array
+        if not headings:
+            rows = np.clip(outputs, (-pi, 0.0), (pi, 1.0))
+            return rows
+        table = [(h or 0.0, h is not None) for h in headings]
+        rows = np.array(table, np.float64)[outputs.argmax(axis=1)]
+        return rows
 
     def save(self, path: AnyPath) -> None:
         """Write the network with its contract as an ONNX file."""

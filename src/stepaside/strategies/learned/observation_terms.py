@@ -64,6 +64,17 @@ SENSED_TERMS = {
 }
 """Terms that the senses of a robot give, by name."""
 
+FULL_STATE_TERMS = {
+    "opponent_bearing": ObservedTerm(
+        2, -1.0, 1.0, "cosine and sine of the own bearing from the opponent"
+    ),
+    "closest": ObservedTerm(
+        1, 0.0, FARTHEST, "closest approach so far [v/k]; 0 after contact"
+    ),
+    "remaining": ObservedTerm(1, 0.0, 1.0, "share of the game that is left"),
+}
+"""Further terms of learning environments, which no sense gives."""
+
 
 def ring_points() -> Array:
     """Return the points of the term "clearances" in the own frame, in [v/k].

@@ -1,0 +1,30 @@
+"""Learning environments; importing the package registers the Gymnasium ids.
+
+``stepaside/Evade-v0`` and ``stepaside/Pursue-v0`` are environments of one
+player; :func:`.duel_v0.parallel_env` is that of both.
+"""
+
+from ..core.extras import install_hint
+
+try:
+    import gymnasium as _gymnasium  # noqa: F401
+    import pettingzoo as _pettingzoo  # noqa: F401
+except ModuleNotFoundError as error:
+    hint = install_hint(error)
+    raise ModuleNotFoundError(hint, name=error.name) from error
+
+from . import duel_v0
+from .duel_env import DuelEnv
+from .environment_settings import EnvironmentSettings
+from .registration import register_environments
+from .vector_duel import VectorDuel
+
+register_environments()
+
+__all__ = [
+    "DuelEnv",
+    "EnvironmentSettings",
+    "VectorDuel",
+    "duel_v0",
+    "register_environments",
+]

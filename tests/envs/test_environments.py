@@ -1,0 +1,353 @@
+"""Test the environments by the checks of their libraries and by the rules."""
+
+import warnings
+from collections.abc import Iterator
+from math import pi
+from typing import Any
+
+import gymnasium
+import numpy as np
+import pytest
+from gymnasium.utils.env_checker import check_env
+from pettingzoo.test import parallel_api_test, parallel_seed_test
+
+from stepaside.arena import RoomRecipe
+from stepaside.core.errors import ConfigurationError, PlanError, StepAsideError
+from stepaside.envs import DuelEnv, VectorDuel, duel_v0
+from stepaside.envs.registration import IDS
+from stepaside.games import DuelSettings
+from stepaside.strategies import LookAhead, Pursuit, StepGame
+from stepaside.theory.unicycle import RelativeStart
+
+ROOM = {"room": RoomRecipe(discs=2), "arenas": 8}
+SHORT: dict[str, Any] = {"arenas": 8, "duration": 8.0}
+VARIANTS: list[dict[str, Any]] = [
+    {"level": "unicycle", **SHORT},
+    {"level": "steps", **SHORT, **ROOM, "action": "discrete"},
+    {"level": "steps", **SHORT, "full_state": True, "shaping": 0.5},
+]
+BACK = np.array([0.0, 1.0], np.float32)
+
+
+@pytest.fixture(autouse=True)
+def _quiet() -> Iterator[None]:
+    """Actions are in SI units, which the checkers advise against."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        yield
+
+
+@pytest.mark.parametrize("settings", VARIANTS)
+@pytest.mark.parametrize("name", IDS)
+def test_gymnasium_finds_no_fault(name: str, settings: dict[str, Any]) -> None:
+    check_env(
+        gymnasium.make(name, render_mode="rgb_array", **settings).unwrapped
+    )
+
+
+@pytest.mark.parametrize("settings", VARIANTS)
+def test_pettingzoo_finds_no_fault(settings: dict[str, Any]) -> None:
+    parallel_api_test(duel_v0.parallel_env(**settings), num_cycles=60)
+    parallel_seed_test(lambda: duel_v0.parallel_env(**settings), num_cycles=20)
+
+
+def test_spaces_are_the_same_objects() -> None:
+    env = duel_v0.parallel_env(**VARIANTS[0])
+    for agent in env.possible_agents:
+        assert env.observation_space(agent) is env.observation_space(agent)
+        assert env.action_space(agent) is env.action_space(agent)
+
+
+@pytest.mark.parametrize("settings", VARIANTS)
+def test_vector_games_are_those_of_single_environments(
+    settings: dict[str, Any],
+) -> None:
+    """Over several episodes, for the observations of both roles."""
+    if settings["level"] == "unicycle":
+        pytest.skip("its rates are differences of sightings that are thinned")
+    for role in ("evader", "pursuer"):
+        games = VectorDuel(3, role=role, **settings)
+        singles = [DuelEnv(role, **settings) for _ in range(3)]
+        found, _ = games.reset(seed=5)
+        for i, single in enumerate(singles):
+            first, _ = single.reset(seed=5 + i)
+            np.testing.assert_allclose(found[i], first, atol=1e-6)
+        games.action_space.seed(1)
+        ends = 0
+        for _ in range(50):
+            actions = games.action_space.sample()
+            found, rewards, ended, late, info = games.step(actions)
+            for i, single in enumerate(singles):
+                seen, reward, over, truncated, _ = single.step(actions[i])
+                assert (ended[i], late[i]) == (over, truncated)
+                assert rewards[i] == pytest.approx(reward, abs=1e-9)
+                if over or truncated:
+                    ends += 1
+                    last = info["final_obs"][i]
+                    np.testing.assert_allclose(last, seen, atol=1e-5)
+                    seen, _ = single.reset()
+                np.testing.assert_allclose(found[i], seen, atol=1e-5)
+        assert ends >= 6
+
+
+def test_vector_rates_of_unicycles_are_near_those_of_one() -> None:
+    settings = VARIANTS[0]
+    games = VectorDuel(1, role="evader", **settings)
+    single = DuelEnv("evader", **settings)
+    games.reset(seed=2)
+    single.reset(seed=2)
+    for _ in range(60):
+        many, *_ = games.step(BACK[None])
+        one, *_ = single.step(BACK)
+    np.testing.assert_allclose(many[0], one, atol=0.02)
+
+
+def test_the_registered_vector_environment_is_compiled() -> None:
+    games = gymnasium.make_vec("stepaside/Evade-v0", num_envs=5, **SHORT)
+    assert isinstance(games.unwrapped, VectorDuel)
+    mode = games.metadata["autoreset_mode"]
+    assert mode is gymnasium.vector.AutoresetMode.SAME_STEP
+    seeds: Any = [4, 4, 5, 4, 6]
+    found, info = games.reset(seed=seeds)
+    assert games.observation_space.contains(found)
+    np.testing.assert_array_equal(found[0], found[1])
+    assert not np.array_equal(found[0], found[2])
+    again, _ = games.reset(seed=seeds)
+    np.testing.assert_array_equal(found, again)
+    assert info["closest_m"].shape == (5,)
+
+
+def test_a_mask_resets_some_games() -> None:
+    games = VectorDuel(3, role="evader", **SHORT)
+    games.reset(seed=1)
+    moved, *_ = games.step(np.tile(BACK, (3, 1)))
+    mask = np.array([True, False, True])
+    found, _ = games.reset(options={"reset_mask": mask})
+    np.testing.assert_array_equal(found[1], moved[1])
+    assert (found[mask, 5] == 0.0).all() and found[1, 5] == 1.0
+
+
+def test_the_return_of_an_evader_is_its_closest_approach() -> None:
+    env = DuelEnv("evader", level="steps", **SHORT)
+    env.reset(seed=3)
+    unit, over, total = 0.5, False, 0.0
+    start = env.reset(seed=3)[1]["distance_m"]
+    while not over:
+        _, reward, ended, late, info = env.step(BACK)
+        total, over = total + reward, ended or late
+    assert unit * total == pytest.approx(info["closest_m"] - start)
+
+
+def test_contact_with_an_obstacle_counts_as_no_distance() -> None:
+    env = DuelEnv("evader", level="steps", room=RoomRecipe(), arenas=4)
+    start = env.reset(seed=0)[1]["distance_m"]
+    ended, total = False, 0.0
+    while not ended:
+        _, reward, ended, late, info = env.step(BACK)
+        total += reward
+        assert not late
+    assert info["outcome"] == "touched" and info["closest_m"] == 0.0
+    assert 0.5 * total == pytest.approx(-start)
+
+
+@pytest.mark.parametrize("discount", [1.0, 0.9])
+def test_shaping_telescopes(discount: float) -> None:
+    """Its discounted sum depends on the first and the last state only."""
+    shaped, plain = (
+        DuelEnv(
+            "evader",
+            level="steps",
+            shaping=weight,
+            discount=discount,
+            **SHORT,
+        )
+        for weight in (0.7, 0.0)
+    )
+    _, first = shaped.reset(seed=1)
+    plain.reset(seed=1)
+    total, factor, over = 0.0, 1.0, False
+    while not over:
+        _, reward, _, over, info = shaped.step(BACK)
+        total += factor * (reward - plain.step(BACK)[1])
+        factor *= discount
+    potential = [0.7 * i["distance_m"] / 0.5 for i in (first, info)]
+    expected = factor * potential[1] - potential[0]
+    assert total == pytest.approx(expected)
+
+
+def test_shaping_ends_with_the_game() -> None:
+    """After capture the potential is zero, so its sum is minus the first."""
+    settings: dict[str, Any] = {
+        "level": "steps",
+        "opponent": "stand",
+        "arenas": 4,
+    }
+    shaped, plain = (
+        DuelEnv("pursuer", shaping=weight, **settings) for weight in (0.7, 0.0)
+    )
+    observation, first = shaped.reset(seed=1)
+    plain.reset(seed=1)
+    total, ended = 0.0, False
+    while not ended:
+        ahead = [np.arctan2(observation[2], observation[1]), 1.0]
+        observation, reward, ended, late, _ = shaped.step(ahead)
+        total += reward - plain.step(ahead)[1]
+        assert not late
+    assert total == pytest.approx(0.7 * first["distance_m"] / 0.5)
+
+
+def test_the_game_is_zero_sum() -> None:
+    env = duel_v0.parallel_env(level="steps", **SHORT)
+    env.reset(seed=2)
+    lost = 0.0
+    while env.agents:
+        _, rewards, *_ = env.step({"pursuer": BACK, "evader": [2.0, 1.0]})
+        assert rewards["pursuer"] == -rewards["evader"]
+        lost += rewards["pursuer"]
+    assert lost > 0.0
+
+
+def test_any_strategy_is_an_opponent() -> None:
+    env = DuelEnv("pursuer", opponent=LookAhead(), level="steps", **SHORT)
+    env.reset(seed=1)
+    assert np.isfinite(env.step(BACK)[0]).all()
+    with pytest.raises(ConfigurationError, match="must walk forward, as a"):
+        DuelEnv("evader", opponent="look-ahead")
+
+
+def test_full_state_holds_what_no_sense_gives() -> None:
+    settings: dict[str, Any] = {"level": "steps", "full_state": True, **SHORT}
+    env = duel_v0.parallel_env(**settings)
+    observations, infos = env.reset(seed=4)
+    chased, hunting = observations["evader"], observations["pursuer"]
+    # Bearing of the other, and the own bearing from the other.
+    np.testing.assert_allclose(chased[1:3], hunting[6:8], atol=1e-6)
+    np.testing.assert_allclose(hunting[1:3], chased[6:8], atol=1e-6)
+    assert chased[9] == 1.0
+    assert chased[8] == pytest.approx(infos["evader"]["closest_m"] / 0.5)
+
+
+def test_any_heading_draws_starts_of_all_headings() -> None:
+    env = DuelEnv("evader", any_heading=True, arenas=40)
+    bearings = [
+        RelativeStart.from_world(*env_starts(env, n)).bearing
+        for n in range(40)
+    ]
+    assert np.ptp(bearings) > 1.5 * pi
+
+
+def env_starts(env: DuelEnv, seed: int) -> Any:
+    env.reset(seed=seed)
+    pool = env.settings.draw_arenas()
+    return pool.starts[seed]
+
+
+def test_images_show_the_game() -> None:
+    env = DuelEnv("evader", render_mode="rgb_array", **VARIANTS[1])
+    env.reset(seed=1)
+    first = env.render()
+    for _ in range(4):
+        env.step(7)
+    assert env.render().shape == first.shape == (400, 400, 3)
+    assert (env.render() != first).any()
+
+
+BAD: list[tuple[dict[str, Any], str]] = [
+    ({"level": "unicycles"}, "level must be one of unicycle, steps, physics"),
+    ({"role": "person"}, "role must be one of pursuer, evader"),
+    ({"duration": float("nan")}, "duration must lie in"),
+    ({"action": "torque"}, "action must be one of"),
+    ({"shaping": -1.0}, "shaping must be finite and >= 0"),
+    ({"render_mode": "ascii"}, "render_mode must be one of"),
+    ({"opponent": "nobody"}, "must be one of"),
+    ({"level": "physics", "room": RoomRecipe()}, "duel.room"),
+    ({"level": "physics", "full_state": True}, "full_state must be false"),
+    ({"any_heading": True, **ROOM}, "any_heading must be false in a room"),
+    ({"game": StepGame(solid_pursuer=True)}, "solid_pursuer must be false"),
+]
+
+
+@pytest.mark.parametrize(("change", "message"), BAD)
+def test_bad_settings_are_refused_in_one_line(
+    change: dict[str, Any], message: str
+) -> None:
+    with pytest.raises(StepAsideError, match=message) as caught:
+        DuelEnv(**{"role": "evader", **change})
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("action", [[0.0], [0, 0, 0], "x", [np.nan, 1.0], 7])
+def test_a_bad_action_is_refused(action: Any) -> None:
+    env = DuelEnv("evader", level="steps", **SHORT)
+    env.reset(seed=0)
+    with pytest.raises(PlanError, match="an action must be"):
+        env.step(action)
+
+
+@pytest.mark.parametrize("action", [16, -1, 0.5, [1, 2], None])
+def test_a_bad_discrete_action_is_refused(action: Any) -> None:
+    env = DuelEnv("evader", level="steps", action="discrete", **SHORT)
+    env.reset(seed=0)
+    with pytest.raises(PlanError, match="integer below 16"):
+        env.step(action)
+
+
+def test_steps_need_an_episode() -> None:
+    games = VectorDuel(2, role="evader", **SHORT)
+    with pytest.raises(PlanError, match="reset the environment first"):
+        games.step(np.tile(BACK, (2, 1)))
+    games.reset(seed=0)
+    with pytest.raises(PlanError, match="there must be 2 actions, got 3"):
+        games.step(np.tile(BACK, (3, 1)))
+    env = duel_v0.parallel_env(**SHORT)
+    with pytest.raises(PlanError, match="reset the environment first"):
+        env.step({})
+    env.reset(seed=0)
+    with pytest.raises(PlanError, match="one of the pursuer, got those of no"):
+        env.step({})
+
+
+PHYSICS: dict[str, Any] = {"level": "physics", "duration": 2.0}
+
+
+def test_physics_is_an_environment() -> None:
+    env = duel_v0.parallel_env(**PHYSICS)
+    runs = []
+    for _ in range(2):
+        found, _ = env.reset(seed=3)
+        rows = [found["evader"]]
+        while env.agents:
+            found, rewards, _, _, infos = env.step(
+                {"pursuer": [0.0, 1.0], "evader": BACK}
+            )
+            rows.append(found["evader"])
+        runs.append(np.array(rows))
+        assert env.observation_space("evader").contains(found["evader"])
+    np.testing.assert_array_equal(runs[0], runs[1])
+    assert 3 <= len(runs[0]) <= 8 and infos["evader"]["time_s"] >= 2.0
+    assert runs[0][-1][5] == 1.0  # it walks
+
+
+def test_physics_has_an_opponent() -> None:
+    env = gymnasium.make("stepaside/Evade-v0", **PHYSICS)
+    _, first = env.reset(seed=3)
+    for _ in range(3):
+        *_, info = env.step(np.array([0.0, 0.0], np.float32))
+    assert info["distance_m"] < first["distance_m"]  # only the pursuer walks
+    env.close()
+
+
+def test_a_person_is_an_opponent_in_physics() -> None:
+    duel = DuelSettings(pursuer="person")
+    env = DuelEnv("evader", duel=duel, level="physics", duration=1.0)
+    env.reset(seed=1)
+    assert np.isfinite(env.step(BACK)[0]).all()
+    env.close()
+    with pytest.raises(ConfigurationError, match="against a person"):
+        DuelEnv("pursuer", duel=duel, level="physics")
+
+
+def test_a_strategy_is_given_as_an_object() -> None:
+    env = DuelEnv("evader", opponent=Pursuit(gain_ratio=3.0), **SHORT)
+    env.reset(seed=1)
+    assert np.isfinite(env.step(BACK)[0]).all()
