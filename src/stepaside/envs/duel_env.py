@@ -17,7 +17,7 @@ from .environment_settings import (
     check_choice,
     direction_of,
 )
-from .episode import Episode, EpisodeSource, check_render_mode
+from .episode import EnvironmentEpisode, EpisodeSource, check_render_mode
 from .intent_actions import IntentActions, observation_space
 
 USUAL = {"evader": "pursuit", "pursuer": "evasion"}  # opponent of a role
@@ -108,7 +108,7 @@ class DuelEnv(gymnasium.Env[NDArray[np.float32], Any]):
         self.observation_space: Any = observation_space(given.terms)
         self._seed: int | None = None
         self._number = 0
-        self._episode: Episode | None = None
+        self._episode: EnvironmentEpisode | None = None
 
     def reset(
         self,

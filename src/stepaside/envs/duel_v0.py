@@ -10,7 +10,7 @@ from pettingzoo import ParallelEnv
 from ..core.errors import ConfigurationError, PlanError
 from .distance_reward import reward_sign
 from .environment_settings import PLAYERS, EnvironmentSettings
-from .episode import Episode, EpisodeSource, check_render_mode
+from .episode import EnvironmentEpisode, EpisodeSource, check_render_mode
 from .intent_actions import IntentActions, observation_space
 
 Observations = dict[str, NDArray[np.float32]]
@@ -69,7 +69,7 @@ class DuelParallelEnv(ParallelEnv[str, NDArray[np.float32], Any]):
         self._random = np.random.default_rng()
         self._seed: int | None = None
         self._number = 0
-        self._episode: Episode | None = None
+        self._episode: EnvironmentEpisode | None = None
 
     def observation_space(self, agent: str) -> Space[Any]:
         """Return the space of observations of an agent, always the same."""

@@ -25,7 +25,7 @@ SEEDS = 2**31
 Pair = tuple[Strategy | None, Strategy | None]
 
 
-class Episode:
+class EnvironmentEpisode:
     """Game of an environment with its rewards.
 
     Attributes:
@@ -148,14 +148,14 @@ class EpisodeSource:
         if settings.level != "physics":
             self._pool = settings.draw_arenas()
 
-    def begin(self, seed: int, number: int) -> Episode:
+    def begin(self, seed: int, number: int) -> EnvironmentEpisode:
         """Begin an episode.
 
         Args:
             seed: Seed of the environment.
             number: Number of the episode since it was seeded.
         """
-        return Episode(
+        return EnvironmentEpisode(
             self._game(seed, number), self.settings, images=self._images
         )
 
@@ -175,7 +175,7 @@ class EpisodeSource:
         game: EnvironmentGame = PhysicsDuel(duel, self._strategies)
         return game
 
-    def show(self, episode: Episode, mode: str) -> Any:
+    def show(self, episode: EnvironmentEpisode, mode: str) -> Any:
         """Return an image of an episode, or show it on a page.
 
         Args:
