@@ -96,6 +96,7 @@ def test_campaigns_announce_their_size(
         "unicycles --duration 1e9 --evader-gain 1e3",
         "unicycles --duration 1e9 --evader-strategy look-ahead",
         "tournament --seeds 0:100000 --duration 1e6 --workers 1",
+        "rate look-ahead --games 10000 --duration 1e6 --workers 1",
         "replay RUN --video film.mp4 --rate 1e9",
         "replay RUN --gif film.gif --speed 1e-9 --slow-motion",
     ],

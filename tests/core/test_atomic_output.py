@@ -226,6 +226,7 @@ NEEDED = {
     "robustness": ["--kind", "delay"],
     "room": [],
     "walk": [],
+    "rate": ["aside", "--games", "1", "--duration", "1"],
     "tournament": ["--seeds", "0:1", "--duration", "1", "--room", "open"],
 }
 

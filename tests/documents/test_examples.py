@@ -19,6 +19,8 @@ SHORT = {  # seconds of simulation, where an example takes them
     "many_duels": "1",
     "own_strategy": "8",
     "play_duel": "2",
+    "self_play": "2 2",
+    "train_evader": "open 2",
 }
 
 
@@ -49,7 +51,7 @@ def test_an_example_is_short_and_names_what_it_needs(file: Path) -> None:
 def test_an_example_runs_alone_and_says_something(
     name: str, tmp_path: Path
 ) -> None:
-    given = [SHORT[name]] if name in SHORT else []
+    given = SHORT.get(name, "").split()
     lines = run(f"{name}.py", *given, folder=tmp_path).splitlines()
     assert len(lines) >= 3
     assert any(re.search(r"\d (m|ms|s|mm|deg|rad|MB)\b|\[", x) for x in lines)

@@ -49,6 +49,7 @@ BASES = {
         *("--seeds=0:1", "--duration=1", "--evader=aside"),
         *("--room=open", "--workers=1", "--json"),
     ],
+    "rate": ["aside", "--games=1", "--duration=1", "--workers=1", "--json"],
     "robot": ["--json"],
 }
 PATHS = (

@@ -38,6 +38,7 @@ LONG = {
     "map": "--grid=300 --distances=50",
     "bound": "--grid=200",
     "tournament": "--seeds=0:3000 --workers=2 --output=games",
+    "rate": "look-ahead --games=3000 --workers=2",
     "serve": "--lola=evader=socket --wait=3000",
     "reproduce": "--workers=2 --output=claims",
     "robot check": "robot --workers=2",

@@ -15,7 +15,12 @@ from .room_file import (
     room_to_entries,
     room_to_toml,
 )
-from .room_generation import RoomRecipe, draw_initial_poses, generate_room
+from .room_generation import (
+    RoomRecipe,
+    draw_any_start,
+    draw_initial_poses,
+    generate_room,
+)
 from .shapes import Box, Disc, Polygon, hull, wall_between
 
 __all__ = [
@@ -33,6 +38,7 @@ __all__ = [
     "RoomRecipe",
     "check_initial_poses",
     "clearance_between",
+    "draw_any_start",
     "draw_initial_poses",
     "path_exists",
     "hull",

@@ -183,6 +183,21 @@ def draw_initial_poses(
     )
 
 
+def draw_any_start(seed: int) -> tuple[Pose, Pose]:
+    """Draw initial poses on an open floor, 0.6 to 1.5 m apart.
+
+    Args:
+        seed: Seed of the random numbers.
+
+    Returns:
+        Poses of pursuer, at the origin, and evader, with any headings.
+    """
+    random = named_generator(seed, "any start")
+    apart = random.uniform(NEAREST, FARTHEST)
+    chase, flight = random.uniform(-pi, pi, 2).tolist()
+    return Pose(0.0, 0.0, chase), Pose(apart, 0.0, flight)
+
+
 def _disc(x: float, y: float, r: float, random: np.random.Generator) -> Disc:
     return Disc(x, y, r)
 

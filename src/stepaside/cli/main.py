@@ -30,6 +30,7 @@ COMMANDS = {
     "map": "Map the closest approach over initial poses; find the worst.",
     "bound": "Compute the best closest approach any evader can achieve.",
     "tournament": "Run evaders against pursuers in random rooms.",
+    "rate": "Rate strategies and learned policies against a fixed suite.",
     "room": "Generate a random room, or inspect a room file.",
     "play": "Control a robot over LoLA, NAOqi or ROS 2.",
     "serve": "Serve simulated robots over LoLA, NAOqi or ROS 2.",

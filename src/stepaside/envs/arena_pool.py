@@ -1,7 +1,6 @@
 """Rooms and initial poses of the episodes of an environment."""
 
 from dataclasses import dataclass
-from math import pi
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -10,14 +9,13 @@ from ..arena import (
     OPEN_FLOOR,
     Room,
     RoomRecipe,
+    draw_any_start,
     draw_initial_poses,
     generate_room,
 )
 from ..arena.obstacles import ObstacleSet
-from ..arena.room_generation import FARTHEST, NEAREST
 from ..core.errors import ConfigurationError, check_within
 from ..core.poses import Array, Pose
-from ..core.random_streams import named_generator
 from ..strategies.step_batch import RoomBatch
 
 # Arenas between one episode and the next of the same seed: a prime that
@@ -130,18 +128,3 @@ class ArenaPool:
         firsts = np.cumsum([0, *map(len, solids)])
         whole = ObstacleSet(shape for shapes in solids for shape in shapes)
         return RoomBatch(whole.packed, firsts)
-
-
-def draw_any_start(seed: int) -> tuple[Pose, Pose]:
-    """Draw initial poses on an open floor, 0.6 to 1.5 m apart.
-
-    Args:
-        seed: Seed of the random numbers.
-
-    Returns:
-        Poses of pursuer, at the origin, and evader, with any headings.
-    """
-    random = named_generator(seed, "any start")
-    apart = random.uniform(NEAREST, FARTHEST)
-    chase, flight = random.uniform(-pi, pi, 2).tolist()
-    return Pose(0.0, 0.0, chase), Pose(apart, 0.0, flight)

@@ -194,14 +194,9 @@ class PolicyOptimiser:
             ConfigurationError: If the environment has continuous actions, or
                 no full state.
         """
-        own = games.settings
-        if own.action != "discrete" or not own.full_state:
-            raise ConfigurationError(
-                "the learner needs action 'discrete' and full_state true, "
-                f"got {own.action!r} and {own.full_state}"
-            )
+        check_learnable(games)
         self._games, self._settings = games, settings
-        self._contract = own.contract(games.role)
+        self._contract = games.settings.contract(games.role)
         self._sensed = self._contract.observation_width
         self._random = named_generator(seed, "policy")
         whole = games.single_observation_space.shape
@@ -214,6 +209,24 @@ class PolicyOptimiser:
         self._observations = games.reset(seed=seed)[0]
         self._closest: list[float] = []
         self._decisions = 0
+
+    def change_games(self, games: VectorDuel, seed: int) -> None:
+        """Go on in other games, such as against another opponent.
+
+        Args:
+            games: The games, with the same role and observations.
+            seed: Seed of the games.
+
+        Raises:
+            ConfigurationError: If role, observations or actions differ.
+        """
+        check_learnable(games)
+        if games.settings.contract(games.role) != self._contract:
+            raise ConfigurationError(
+                "games must have the same role, observations and actions"
+            )
+        self._games = games
+        self._observations = games.reset(seed=seed)[0]
 
     def strategy(self) -> LearnedStrategy:
         """Return the present policy: the most probable action."""
@@ -336,6 +349,16 @@ class PolicyOptimiser:
                 self.critic.descend(gradients, rate)
                 entropies.append(entropy)
         return float(np.mean(entropies))
+
+
+def check_learnable(games: VectorDuel) -> None:
+    """Raise an error unless the learner can learn in some games."""
+    own = games.settings
+    if own.action != "discrete" or not own.full_state:
+        raise ConfigurationError(
+            "the learner needs action 'discrete' and full_state true, "
+            f"got {own.action!r} and {own.full_state}"
+        )
 
 
 def log_softmax(logits: Values) -> Values:

@@ -5,7 +5,7 @@ paper's law, stands, or is given its intents from outside, as in learning. A
 test plays the same games one by one.
 """
 
-from math import atan2, hypot, inf, pi
+from math import atan2, inf, pi
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -298,6 +298,19 @@ def advance_games(
 
 
 @inlined
+def small_angle(sine: float, cosine: float) -> float:
+    """Return the angle of a unit vector, quickly where it is small.
+
+    Up to 0.12 rad the power series of the arcsine is accurate to 1e-11.
+    """
+    if cosine < 0.0 or abs(sine) > 0.12:
+        return atan2(sine, cosine)
+    z = sine * sine
+    series = 1.0 / 6.0 + z * (3.0 / 40.0 + z * (5.0 / 112.0 + z * 35 / 1152))
+    return sine + sine * z * series
+
+
+@inlined
 def sight_rates(
     state: BatchState, i: int, rules: BatchRules
 ) -> tuple[float, float]:
@@ -308,7 +321,7 @@ def sight_rates(
         return 0.0, 0.0
     now = state.sights[i, decision % history]
     was = state.sights[i, (decision - lag) % history]
-    turned = atan2(
+    turned = small_angle(
         was[0] * now[1] - was[1] * now[0], was[0] * now[0] + was[1] * now[1]
     )
     passed = lag * rules.period
@@ -350,20 +363,21 @@ def observe_games(
         out: Observations. Shape (n, width).
     """
     unit = rules.speed / rules.gain
+    toward = 1.0 if player == 0 else -1.0
     for i in range(len(out)):
         pose = state.poses[i]
         own, opponent = pose[player], pose[1 - player]
-        dx, dy = opponent[0] - own[0], opponent[1] - own[1]
-        distance = hypot(dx, dy)
-        scale = 1.0 / max(distance, 1e-12)
+        sight = state.sights[i, state.decisions[i] % state.sights.shape[1]]
+        distance = sight[2]
+        dx, dy = toward * sight[0], toward * sight[1]  # a unit vector
         rate, closing = sight_rates(state, i, rules)
         at = 0
         for code in terms:
             if code == 0:
                 out[i, at] = min(distance / unit, FARTHEST)
             elif code == 1:
-                out[i, at] = scale * (own[2] * dx + own[3] * dy)
-                out[i, at + 1] = scale * (own[2] * dy - own[3] * dx)
+                out[i, at] = own[2] * dx + own[3] * dy
+                out[i, at + 1] = own[2] * dy - own[3] * dx
             elif code == 2:
                 value = rate / rules.gain
                 out[i, at] = min(max(value, -FASTEST), FASTEST)
@@ -381,8 +395,8 @@ def observe_games(
                     )
                 at += len(RING) - 1
             elif code == 6:
-                out[i, at] = -scale * (opponent[2] * dx + opponent[3] * dy)
-                out[i, at + 1] = scale * (opponent[3] * dx - opponent[2] * dy)
+                out[i, at] = -opponent[2] * dx - opponent[3] * dy
+                out[i, at + 1] = opponent[3] * dx - opponent[2] * dy
             elif code == 7:
                 out[i, at] = min(state.closest[i] / unit, FARTHEST)
             else:

@@ -98,11 +98,11 @@ def _row(records: Sequence[Record]) -> Record:
         "fell": outcomes.count("fell") / len(records),
         "mean_survival_s": float(np.mean([r["survived_s"] for r in records])),
         "mean_closest_m": float(closest.mean()),
-        "mean_closest_pm_m": _half_interval(closest),
+        "mean_closest_pm_m": half_interval(closest),
         "mean_bound_m": float(bound.mean()),
         "closest_over_bound": float(closest.mean() / bound.mean()),
         "floor_used_m2": float(np.mean([r["floor_m2"] for r in records])),
-        "floor_used_pm_m2": _half_interval(
+        "floor_used_pm_m2": half_interval(
             np.array([r["floor_m2"] for r in records])
         ),
         "turning_rad_s": float(np.mean([r["turning_rad_s"] for r in records])),
@@ -121,7 +121,7 @@ def _contact_proportion(records: Sequence[Record]) -> float | None:
     return [r["contact"] for r in records].count(True) / len(records)
 
 
-def _half_interval(values: Any) -> float:
+def half_interval(values: Any) -> float:
     """Return half of the 95 % interval of a mean."""
     if len(values) < 2:
         return 0.0

@@ -1,0 +1,60 @@
+# /// script
+# dependencies = ["stepaside[learn]"]
+# ///
+"""Train evader and pursuer against each other, in turns.
+
+In each round one learns while the other is fixed. Run it alone:
+``python examples/self_play.py``; numbers after that are those of
+rounds and of updates in each.
+The policies are written to self-evader.onnx and self-pursuer.onnx:
+``stepaside tournament --evader self-evader.onnx --pursuer self-pursuer.onnx``.
+"""
+
+import sys
+
+from stepaside.envs import VectorDuel
+from stepaside.envs.policy_optimisation import (
+    OptimisationSettings,
+    PolicyOptimiser,
+)
+from stepaside.strategies import StepGame, Strategy, load_strategy
+
+FIRST = {"evader": "pursuit", "pursuer": "evasion"}  # opponents
+
+
+def games_against(opponent: Strategy, role: str) -> VectorDuel:
+    """Return games of one role against a fixed opponent."""
+    return VectorDuel(
+        256,
+        role=role,
+        opponent=opponent,
+        level="steps",
+        any_heading=True,
+        game=StepGame(capture=0.02),
+        duration=40.0,
+        action="discrete",
+        full_state=True,
+    )
+
+
+def main(rounds: int = 6, updates: int = 30) -> None:
+    """Play some rounds, and save the policies."""
+    opponents = {role: load_strategy(FIRST[role]) for role in FIRST}
+    settings = OptimisationSettings(updates=updates)
+    learners: dict[str, PolicyOptimiser] = {}
+    for n in range(rounds):
+        role, other = list(FIRST)[:: 1 - 2 * (n % 2)]
+        games = games_against(opponents[role], role)
+        if role not in learners:
+            learners[role] = PolicyOptimiser(games, settings, seed=n)
+        learner = learners[role]
+        learner.change_games(games, seed=n)
+        found = [learner.update(k, 1 - k / updates) for k in range(updates)]
+        closest = [progress.closest_m for progress in found]
+        print(f"{role}: {closest[1]:.3f} m at first, then {closest[-1]:.3f} m")
+        opponents[other] = learner.strategy()
+        learner.strategy().save(f"self-{role}.onnx")
+
+
+if __name__ == "__main__":
+    main(*map(int, sys.argv[1:3]))
