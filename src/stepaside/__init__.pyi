@@ -2,6 +2,10 @@ from .control import Body as Body
 from .control import ControlScheme as ControlScheme
 from .control.scheme_builder import build_scheme as build_scheme
 from .core.errors import StepAsideError as StepAsideError
+from .core.poses import Pose as Pose
+from .drivers.velocity.velocity_body import VelocityReport as VelocityReport
+from .drivers.velocity.velocity_limits import VelocityLimits as VelocityLimits
+from .drivers.velocity.velocity_robot import VelocityRobot as VelocityRobot
 from .games import Duel as Duel
 from .games import DuelRun as DuelRun
 from .games import DuelSettings as DuelSettings
@@ -69,6 +73,7 @@ __all__ = [
     "ManeuverPlanner",
     "Measurement",
     "Outcome",
+    "Pose",
     "Pursuit",
     "Push",
     "Run",
@@ -77,6 +82,9 @@ __all__ = [
     "StartSettings",
     "StepAsideError",
     "Strategy",
+    "VelocityLimits",
+    "VelocityReport",
+    "VelocityRobot",
     "WalkRun",
     "WalkSettings",
     "build_scheme",

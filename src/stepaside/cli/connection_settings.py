@@ -9,7 +9,9 @@ from click.core import ParameterSource
 
 from ..core.ranges import Range
 from ..core.setting import REQUIRED, check_settings, setting
+from ..core.user_file import FILE_AND_NAME
 from ..games.duel_settings import EVADER, PLAYERS, DuelSettings
+from ..games.play_settings import PYTHON
 from ..locomotion.zmp.control_settings import OPEN_LOOP, STABILISED
 from ..strategies import Strategy, load_strategy
 from .options.parameter_types import REASON, positive
@@ -35,7 +37,8 @@ class ConnectionSettings:
     robot: str = setting(
         REQUIRED,
         "Address of the robot: lola:PATH, lola:HOST:PORT or lola: (on the "
-        "robot itself); naoqi:tcp://HOST:PORT; ros2:/NAMESPACE",
+        "robot itself); naoqi:tcp://HOST:PORT; ros2:/NAMESPACE; or "
+        "FILE.py:CLASS, a VelocityRobot in Python",
         option="--robot",
     )
     description: str = setting(
@@ -133,6 +136,17 @@ class ConnectionSettings:
                 f"{self.robot!r}; LoLA accepts joint targets only, ROS 2 "
                 "velocities only"
             )
+
+    @property
+    def in_python(self) -> bool:
+        """Whether the robot is a class in a user's file."""
+        known = self.robot.startswith((LOLA, NAOQI, ROS2))
+        return not known and FILE_AND_NAME.fullmatch(self.robot) is not None
+
+    @property
+    def language(self) -> str:
+        """Protocol of the robot, as in the settings of a play."""
+        return PYTHON if self.in_python else self.robot.partition(":")[0]
 
     @property
     def moves_joints(self) -> bool:

@@ -43,7 +43,7 @@ INTERRUPTED = "interrupted"
 )
 @takes(ConnectionSettings, "connection")
 def play(settings: DuelSettings, connection: ConnectionSettings) -> None:
-    """Control a robot in a game over LoLA, NAOqi or ROS 2.
+    """Control a robot in a game over LoLA, NAOqi, ROS 2 or its own SDK.
 
     \b
     --robot lola:ADDRESS       joint targets for a NAO V6, every 12 ms
@@ -52,6 +52,8 @@ def play(settings: DuelSettings, connection: ConnectionSettings) -> None:
                                (--interface)
     --robot ros2:/NAMESPACE    velocities for the robot's own walking
                                controller, on ROS 2 topics
+    --robot FILE.py:CLASS      velocities for any robot, by a class that
+                               calls its SDK (docs/connect-your-robot.md)
 
     With joint control, the robot slowly moves to its stance and turns its
     LEDs green; its chest button starts and stops the walk. With its own

@@ -130,7 +130,7 @@ def settings_of_play(
     """Return the settings of the player from settings and options."""
     return PlaySettings(
         role=connection.role,
-        language=connection.robot.partition(":")[0],
+        language=connection.language,
         robot=connection.description,
         plays=describe_strategy(
             settings.evader_strategy

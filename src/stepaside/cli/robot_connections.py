@@ -1,6 +1,6 @@
 """Robot connections of ``stepaside play``."""
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from ..drivers.joint.joint_body import JointBody
     from ..drivers.joint.joint_loop import JointLoop
     from ..drivers.velocity.velocity_body import VelocityBody
+    from ..drivers.velocity.velocity_limits import VelocityLimits
     from ..drivers.velocity.velocity_loop import VelocityLoop
     from ..games.duel_settings import DuelSettings
 
@@ -92,6 +93,21 @@ def _joints_of(
     return partial(open_lola, address, how=how)
 
 
+class VelocityConnection(NamedTuple):
+    """Ways to connect to a robot with its own walking controller.
+
+    Attributes:
+        open_body: Function that connects to the robot.
+        join: Function that connects in the guardian process and returns a
+            function that makes the robot rest.
+        limits: Limits of the robot itself.
+    """
+
+    open_body: "Callable[[], VelocityBody]"
+    join: "Callable[[], Callable[[], None]]"
+    limits: "VelocityLimits"
+
+
 def open_velocity(
     settings: "DuelSettings", connection: ConnectionSettings
 ) -> "VelocityLoop":
@@ -99,25 +115,24 @@ def open_velocity(
     from math import inf
 
     from ..drivers.velocity.template_controller import TemplateController
-    from ..drivers.velocity.velocity_limits import VelocityLimits
     from ..drivers.velocity.velocity_loop import VelocityLoop
     from ..drivers.velocity.watchdog import WatchSettings
 
     strategy = connection.strategy(settings)
-    speed = connection.max_speed or inf
-    limits = VelocityLimits(speed, speed, connection.max_turn or inf)
-    watch = WatchSettings(paced=not connection.sim_time)
+    ways = _velocity_connection(settings, connection)
     return VelocityLoop(
-        _guarded(settings, connection),
+        _guarded(ways, connection),
         lambda: TemplateController(strategy, settings.gait),
-        limits,
-        watch,
+        ways.limits.within(
+            connection.max_speed or inf, connection.max_turn or inf
+        ),
+        WatchSettings(paced=not connection.sim_time),
         dry_run=connection.dry_run,
     )
 
 
 def _guarded(
-    settings: "DuelSettings", connection: ConnectionSettings
+    ways: VelocityConnection, connection: ConnectionSettings
 ) -> "VelocityBody":
     """Connect to a robot, with a guardian process if it can move."""
     from ..drivers.guardian_process import open_with_retries
@@ -126,15 +141,13 @@ def _guarded(
         fork_velocity_guardian,
     )
 
-    open_once, join = _velocity_connection(settings, connection)
-
     def open_body() -> "VelocityBody":
-        return open_with_retries(open_once, connection.wait)
+        return open_with_retries(ways.open_body, connection.wait)
 
     if connection.dry_run or connection.sim_time:
         return open_body()
     # Fork before connecting, which starts threads.
-    guardian = fork_velocity_guardian(join)
+    guardian = fork_velocity_guardian(ways.join)
     try:
         return GuardedBody(open_body(), guardian)
     except BaseException:
@@ -145,9 +158,11 @@ def _guarded(
 def _velocity_connection(
     settings: "DuelSettings",
     connection: ConnectionSettings,
-) -> "tuple[Callable[[], VelocityBody], Callable[[], Callable[[], None]]]":
-    """Return functions that connect to a robot, and that make it rest."""
-    robot, dry_run = connection.robot, connection.dry_run
+) -> VelocityConnection:
+    """Return the ways to connect to a robot."""
+    from ..drivers.velocity.velocity_limits import VelocityLimits
+
+    robot, limits = connection.robot, VelocityLimits()
     sees = settings.sensing == "cameras"
     if sees and not robot.startswith(NAOQI):
         raise click.UsageError(
@@ -155,52 +170,87 @@ def _velocity_connection(
             f"follows the opponent, got {robot!r}; over ROS 2 the opponent's "
             "position is received on a topic"
         )
+    if connection.in_python:
+        return _adapter_connection(connection)
     if robot.startswith(ROS2):
-        from ..drivers.ros2.namespaces import parse_namespace
-
-        namespace = parse_namespace(robot)
-        domain, beyond = connection.domain, connection.network
-
-        def open_ros2() -> "VelocityBody":
-            from ..drivers.ros2.ros2_body import Ros2Body
-
-            dds = connection.join_domain()
-            return Ros2Body(dds, namespace, dry_run=dry_run)
-
-        def join_ros2() -> "Callable[[], None]":
-            from ..drivers.ros2.dds_domain import DdsParticipant
-            from ..drivers.ros2.ros2_body import register_stopper
-
-            return register_stopper(
-                DdsParticipant(domain, beyond=beyond), namespace
-            )
-
-        return open_ros2, join_ros2
+        return VelocityConnection(*_ros2_connection(connection), limits)
     if robot.startswith(NAOQI):
-        from ..drivers.naoqi.naoqi_url import parse_url
-
-        url = parse_url(robot)
-
-        def open_naoqi() -> "VelocityBody":
-            if sees:
-                from .camera_connections import open_camera_body
-
-                return open_camera_body(settings, url, connection)
-            from ..drivers.naoqi.naoqi_body import NaoqiBody
-
-            return NaoqiBody(
-                url,
-                dry_run=dry_run,
-                make_mover=connection.mover_factory(settings),
-            )
-
-        def join_naoqi() -> "Callable[[], None]":
-            from ..drivers.naoqi.naoqi_body import connect_stopper
-
-            return connect_stopper(url)
-
-        return open_naoqi, join_naoqi
+        return VelocityConnection(
+            *_naoqi_connection(settings, connection), limits
+        )
     raise click.BadParameter(
-        f"must begin with {LOLA}, {NAOQI} or {ROS2}, got {robot!r}",
+        f"must begin with {LOLA}, {NAOQI} or {ROS2}, or be FILE.py:CLASS, "
+        f"got {robot!r}",
         param_hint="--robot",
     )
+
+
+def _adapter_connection(connection: ConnectionSettings) -> VelocityConnection:
+    """Return the ways to connect to a robot in a user's file."""
+    from ..drivers.velocity.adapter_body import (
+        AdapterBody,
+        connect_adapter_stopper,
+    )
+    from ..drivers.velocity.velocity_robot import load_velocity_robot
+
+    make = load_velocity_robot(connection.robot)
+    return VelocityConnection(
+        lambda: AdapterBody(make(), dry_run=connection.dry_run),
+        lambda: connect_adapter_stopper(make),
+        make.limits,
+    )
+
+
+def _ros2_connection(
+    connection: ConnectionSettings,
+) -> "tuple[Callable[[], VelocityBody], Callable[[], Callable[[], None]]]":
+    """Return functions that connect to a ROS 2 robot, and make it rest."""
+    from ..drivers.ros2.namespaces import parse_namespace
+
+    namespace = parse_namespace(connection.robot)
+
+    def open_ros2() -> "VelocityBody":
+        from ..drivers.ros2.ros2_body import Ros2Body
+
+        dds = connection.join_domain()
+        return Ros2Body(dds, namespace, dry_run=connection.dry_run)
+
+    def join_ros2() -> "Callable[[], None]":
+        from ..drivers.ros2.dds_domain import DdsParticipant
+        from ..drivers.ros2.ros2_body import register_stopper
+
+        return register_stopper(
+            DdsParticipant(connection.domain, beyond=connection.network),
+            namespace,
+        )
+
+    return open_ros2, join_ros2
+
+
+def _naoqi_connection(
+    settings: "DuelSettings", connection: ConnectionSettings
+) -> "tuple[Callable[[], VelocityBody], Callable[[], Callable[[], None]]]":
+    """Return functions that connect to a NAOqi robot, and make it rest."""
+    from ..drivers.naoqi.naoqi_url import parse_url
+
+    url = parse_url(connection.robot)
+
+    def open_naoqi() -> "VelocityBody":
+        if settings.sensing == "cameras":
+            from .camera_connections import open_camera_body
+
+            return open_camera_body(settings, url, connection)
+        from ..drivers.naoqi.naoqi_body import NaoqiBody
+
+        return NaoqiBody(
+            url,
+            dry_run=connection.dry_run,
+            make_mover=connection.mover_factory(settings),
+        )
+
+    def join_naoqi() -> "Callable[[], None]":
+        from ..drivers.naoqi.naoqi_body import connect_stopper
+
+        return connect_stopper(url)
+
+    return open_naoqi, join_naoqi

@@ -58,7 +58,8 @@ def open_with_retries(
             sleep(PAUSE)
 
 
-DISMISS, SAFE, UNSAFE = b"\x00", b"\x01", b"\x02"  # first byte of a message
+# First byte of a message.
+DISMISS, SAFE, UNSAFE, RELEASE = b"\x00", b"\x01", b"\x02", b"\x03"
 MAX_MESSAGE = 4096  # size of a message, in bytes
 TERMINATION_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
@@ -121,12 +122,23 @@ class Guardian:
         """Report that the robot is safe without control, until ``hold``."""
         self._send(SAFE)
 
+    def release(self, data: bytes = b"") -> None:
+        """Have the guardian release the robot now, and wait until it has.
+
+        Args:
+            data: Argument of ``let_go``.
+        """
+        self._end(RELEASE + data)
+
     def dismiss(self) -> None:
         """End the guardian process; the robot is not released."""
+        self._end(DISMISS)
+
+    def _end(self, message: bytes) -> None:
         if self._socket is None:
             return
         self._socket.setblocking(True)
-        self._send(DISMISS)
+        self._send(message)
         self._socket.close()
         self._socket = None
         with suppress(ChildProcessError):
@@ -159,6 +171,8 @@ def _watch(
         kind = message[:1]
         if kind == DISMISS or (ready and not message and held is None):
             return None
+        if kind == RELEASE:
+            return message[1:]
         if not message:
             break
         held = message[1:] if kind == UNSAFE else None

@@ -24,7 +24,7 @@ class PlaySummary:
 
     Attributes:
         role: "pursuer" or "evader".
-        language: Protocol of the robot: "lola", "naoqi" or "ros2".
+        language: Protocol of the robot: "lola", "naoqi", "ros2" or "python".
         walking_s: Time in the walking state, in [s].
         steps: Footsteps begun; None where the robot has its own walk.
         path_length_m: Length of the path, in [m], without the sway of a

@@ -1,5 +1,6 @@
 """Measurements of a robot's own sensors."""
 
+from math import atan2, hypot
 from typing import TYPE_CHECKING, NamedTuple
 
 from ..core.player_identity import PlayerIdentity
@@ -31,6 +32,17 @@ class Sighting(NamedTuple):
     settled: bool = True
     spread: float = 0.0
     identity: PlayerIdentity | None = None
+
+    @classmethod
+    def of_position(cls, time: float, x: float, y: float) -> "Sighting":
+        """Return the sighting of an opponent at a position.
+
+        Args:
+            time: Time of the observation, in [s].
+            x: Position ahead of the own torso, in [m].
+            y: Position to its left, in [m].
+        """
+        return cls(time, atan2(y, x), hypot(x, y))
 
 
 class Measurement(NamedTuple):

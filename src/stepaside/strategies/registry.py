@@ -1,18 +1,21 @@
 """Registry of strategies: by name, and from user files."""
 
 import re
-import sys
 from collections.abc import Callable, Mapping
 from dataclasses import fields, is_dataclass
-from importlib.machinery import SourceFileLoader
-from importlib.util import module_from_spec, spec_from_file_location
 from math import inf
 from pathlib import Path
-from types import CodeType, FunctionType, ModuleType
+from types import FunctionType, ModuleType
 from typing import Any
 
 from ..core.errors import ConfigurationError
 from ..core.setting import ranges_of
+from ..core.user_file import (
+    FAILURES,
+    FILE_AND_NAME,
+    load_user_file,
+    shown_briefly,
+)
 from .constant_walk import StandStill, Walk
 from .dash_evasion import CHASER_RADIUS, DashEvasion
 from .deflected_evasion import DeflectedEvasion
@@ -25,7 +28,7 @@ from .look_ahead import LookAhead
 from .optimal_evasion import OptimalEvasion
 from .optimal_pursuit import OptimalPursuit
 from .pursuit import Pursuit
-from .strategy import FAILURES, Strategy
+from .strategy import Strategy
 from .strategy_validation import validate_strategy
 from .team_evasion import TeamEvasion
 from .team_pursuit import (
@@ -64,7 +67,6 @@ OF_EVASION = ("evasion", "deflected")  # strategies that use them
 _OBJECT = re.compile(r"object [\w.<>]+\(.*\)", re.DOTALL)
 _WITH_GAIN = re.compile(r"pursuit-x(?P<ratio>\d+(?:\.\d*)?)", re.ASCII)
 """The paper's pursuer with another gain than its gait's."""
-_IN_FILE = re.compile(r"(?P<file>.+\.py):(?P<name>[^:]*)", re.DOTALL)
 _NETWORK = re.compile(r"(?P<file>.+\.onnx)", re.DOTALL)
 """A learned strategy."""
 
@@ -126,7 +128,7 @@ def check_strategy_name(
         return
     if _NETWORK.fullmatch(name):
         return
-    found = _IN_FILE.fullmatch(name)
+    found = FILE_AND_NAME.fullmatch(name)
     if not (found and found["name"].isidentifier()):
         raise ConfigurationError(
             f"{what} must be one of {', '.join(STRATEGIES)}, "
@@ -169,7 +171,7 @@ def load_strategy(
         learned = load_learned_strategy(name)
         validate_strategy(learned, name)
         return learned
-    found = _IN_FILE.fullmatch(name)
+    found = FILE_AND_NAME.fullmatch(name)
     if found is None:
         return STRATEGIES[name](evasion or Evasion())
     made = _create(found["file"], found["name"])
@@ -183,82 +185,41 @@ def absolute_name(name: str) -> str:
     file = file_of(name)
     if file is None:
         return name
-    found = _IN_FILE.fullmatch(name)
+    found = FILE_AND_NAME.fullmatch(name)
     path = str(file.resolve())
     return f"{path}:{found['name']}" if found else path
 
 
 def file_of(name: str) -> Path | None:
     """Return the file of a strategy; None for one of :data:`STRATEGIES`."""
-    found = _IN_FILE.fullmatch(name) or _NETWORK.fullmatch(name)
+    found = FILE_AND_NAME.fullmatch(name) or _NETWORK.fullmatch(name)
     return None if found is None else Path(found["file"]).expanduser()
 
 
 def _create(path: str, name: str) -> Any:
     """Return the strategy that a name in a file denotes, created if needed."""
-    loaded = _load(path, name)
+    where = f"strategy {path}:{name}"
+    loaded = load_user_file(path, where)
     if not hasattr(loaded, name):
         available = ", ".join(_strategies_in(loaded)) or "no strategy"
         raise ConfigurationError(
-            f"strategy {path}:{name}: the file has no {name}, but {available}"
+            f"{where}: the file has no {name}, but {available}"
         )
     thing = getattr(loaded, name)
     if not isinstance(thing, type) and hasattr(thing, "decide"):
         return thing
     if not callable(thing):
         raise ConfigurationError(
-            f"strategy {path}:{name}: must be a strategy, or a class or "
-            f"function that makes one, got {_brief(thing)}"
+            f"{where}: must be a strategy, or a class or function that makes "
+            f"one, got {shown_briefly(thing)}"
         )
     try:
         return thing()
     except FAILURES as error:
         raise ConfigurationError(
-            f"strategy {path}:{name}: {name}() must make a strategy, got "
+            f"{where}: {name}() must make a strategy, got "
             f"{type(error).__name__}: {error}"
         ) from error
-
-
-class _UncachedLoader(SourceFileLoader):
-    """Loader that ignores and writes no bytecode cache.
-
-    Python's cache is stale for a file of the same size that was written in
-    the same second.
-    """
-
-    def get_code(self, fullname: str) -> CodeType:
-        """Compile the file."""
-        source = self.get_data(self.path)
-        code: CodeType = self.source_to_code(source, self.path)
-        return code
-
-
-def _load(path: str, name: str) -> ModuleType:
-    """Execute the file of a strategy."""
-    file = Path(path).expanduser()
-    if not file.is_file():
-        raise ConfigurationError(
-            f"strategy {path}:{name}: there is no file {path}"
-        )
-    module = f"stepaside_strategy_{file.stem}"
-    loader = _UncachedLoader(module, str(file))
-    spec = spec_from_file_location(module, file, loader=loader)
-    assert spec is not None and spec.loader is not None
-    loaded = module_from_spec(spec)
-    before = sys.modules.get(module)
-    sys.modules[module] = loaded  # dataclasses look their module up there
-    try:
-        spec.loader.exec_module(loaded)
-    except FAILURES as error:
-        if before is None:
-            del sys.modules[module]
-        else:
-            sys.modules[module] = before
-        raise ConfigurationError(
-            f"strategy {path}:{name}: the file fails to run: "
-            f"{type(error).__name__}: {error}"
-        ) from error
-    return loaded
 
 
 def _strategies_in(loaded: ModuleType) -> list[str]:
@@ -278,9 +239,3 @@ def _strategies_in(loaded: ModuleType) -> list[str]:
         if fits and not name.startswith("_"):
             found.append(name)
     return sorted(found)
-
-
-def _brief(thing: Any) -> str:
-    """Return the representation of an object in one line of limited length."""
-    text = " ".join(repr(thing).split())
-    return text if len(text) <= 60 else text[:57] + "..."

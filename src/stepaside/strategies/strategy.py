@@ -3,12 +3,10 @@
 from typing import Any, Protocol
 
 from ..core.errors import StrategyError
+from ..core.user_file import FAILURES
 from ..planning import Direction
 from .knowledge import Intent, Knowledge
 from .unicycle_intent import unicycle_intent
-
-# sys.exit() in user code must not end the program.
-FAILURES = (Exception, SystemExit)
 
 
 class Strategy(Protocol):

@@ -5,9 +5,9 @@ from math import pi
 from typing import Any
 
 from ..core.errors import ConfigurationError
+from ..core.user_file import FAILURES
 from ..planning import Direction
 from .knowledge import Intent, Knowledge, Limits
-from .strategy import FAILURES
 
 LIMITS = Limits(0.1, 0.2, 0.04, 0.547)
 

@@ -1,13 +1,15 @@
 """Guardian of a robot that keeps its last velocity command."""
 
+import logging
 from collections.abc import Callable
 from contextlib import suppress
 
 from ...core.errors import StepAsideError
-from ..guardian_process import Guardian
+from ..guardian_process import Guardian, SessionLost
 from .velocity_body import REST, VelocityBody, VelocityCommand, VelocityReport
 
 SILENCE = 0.5  # time without control before the guardian acts, in [s]
+log = logging.getLogger(__name__)
 
 
 def fork_velocity_guardian(join: Callable[[], Callable[[], None]]) -> Guardian:
@@ -53,6 +55,10 @@ class GuardedBody:
         self._body.command(velocity)
 
     def close(self) -> None:
-        """Stop the robot, then dismiss the guardian."""
-        self._body.close()
+        """Stop the robot, by the guardian if need be, and dismiss it."""
+        try:
+            self._body.close()
+        except SessionLost as error:
+            log.warning("%s; the guardian stops the robot", error)
+            self._guardian.release()
         self._guardian.dismiss()

@@ -1,6 +1,6 @@
 """Limits of velocity commands, and a ramp between commands."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import inf, isfinite
 
 from ...core.errors import ConfigurationError, check_positive
@@ -36,6 +36,20 @@ class VelocityLimits:
         check_positive(self.acceleration, "acceleration", "m/s^2", error)
         check_positive(
             self.turn_acceleration, "turn_acceleration", "rad/s^2", error
+        )
+
+    def within(self, speed: float, turn: float) -> "VelocityLimits":
+        """Return the limits where neither exceeds another one.
+
+        Args:
+            speed: Maximum speed in each direction, in [m/s].
+            turn: Maximum turning rate, in [rad/s].
+        """
+        return replace(
+            self,
+            forward=min(self.forward, speed),
+            backward=min(self.backward, speed),
+            turn=min(self.turn, turn),
         )
 
     def scale(self, wanted: VelocityCommand) -> VelocityCommand:

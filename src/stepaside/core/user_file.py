@@ -1,0 +1,71 @@
+"""Python files of users: strategies and robots, given as FILE.py:NAME."""
+
+import re
+import sys
+from importlib.machinery import SourceFileLoader
+from importlib.util import module_from_spec, spec_from_file_location
+from pathlib import Path
+from types import CodeType, ModuleType
+from typing import Any
+
+from .errors import ConfigurationError
+
+FILE_AND_NAME = re.compile(r"(?P<file>.+\.py):(?P<name>[^:]*)", re.DOTALL)
+# sys.exit() in user code must not end the program.
+FAILURES = (Exception, SystemExit)
+
+
+class _UncachedLoader(SourceFileLoader):
+    """Loader that ignores and writes no bytecode cache.
+
+    Python's cache is stale for a file of the same size that was written in
+    the same second.
+    """
+
+    def get_code(self, fullname: str) -> CodeType:
+        """Compile the file."""
+        source = self.get_data(self.path)
+        code: CodeType = self.source_to_code(source, self.path)
+        return code
+
+
+def load_user_file(path: str, where: str) -> ModuleType:
+    """Execute a Python file, which may import modules of its folder.
+
+    Args:
+        path: Path of the file.
+        where: What the file is given for, for messages.
+
+    Raises:
+        ConfigurationError: If there is no such file, or it fails to run.
+    """
+    file = Path(path).expanduser()
+    if not file.is_file():
+        raise ConfigurationError(f"{where}: there is no file {path}")
+    module = f"stepaside_user_{file.stem}"
+    loader = _UncachedLoader(module, str(file))
+    spec = spec_from_file_location(module, file, loader=loader)
+    assert spec is not None and spec.loader is not None
+    loaded = module_from_spec(spec)
+    folder = str(file.resolve().parent)
+    if folder not in sys.path:
+        sys.path.append(folder)
+    before = sys.modules.get(module)
+    sys.modules[module] = loaded  # dataclasses look their module up there
+    try:
+        spec.loader.exec_module(loaded)
+    except FAILURES as error:
+        if before is None:
+            del sys.modules[module]
+        else:
+            sys.modules[module] = before
+        raise ConfigurationError(
+            f"{where}: the file fails to run: {type(error).__name__}: {error}"
+        ) from error
+    return loaded
+
+
+def shown_briefly(thing: Any) -> str:
+    """Return the representation of an object in one line, at most 60 long."""
+    text = " ".join(repr(thing).split())
+    return text if len(text) <= 60 else text[:57] + "..."

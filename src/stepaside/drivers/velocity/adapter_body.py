@@ -1,0 +1,407 @@
+"""Driver for a robot that a user connects in Python."""
+
+import logging
+import re
+from collections.abc import Callable
+from concurrent.futures import Future
+from math import hypot, isfinite, pi
+from queue import SimpleQueue
+from threading import Thread
+from time import monotonic, sleep
+from typing import Any
+
+from ...core.errors import ConfigurationError
+from ...core.poses import Pose, wrap_angle
+from ...core.user_file import FAILURES, shown_briefly
+from ...perception.measurement import Sighting
+from ..guardian_process import SessionLost
+from .velocity_body import REST, VelocityCommand, VelocityReport
+from .velocity_robot import VelocityRobot
+
+PERIOD = 0.02  # between two reports at least, in [s]
+POLL = 0.005  # between two calls of listen() that returned None, in [s]
+OPEN_TIMEOUT = 15.0  # for open(), in [s]
+PREPARE_TIMEOUT = 30.0  # for prepare(), in [s]: to stand up
+CLOSE_TIMEOUT = 2.0  # for stop() and close() at the end, in [s]
+BLOCKED = 0.25  # time after which a method counts as blocked, in [s]
+UNSTOPPED = 0.5  # for stop() while another method is blocked, in [s]
+FORSAKEN = 5.0  # time of a blocked method that ends the session, in [s]
+FASTEST = 10.0  # plausible speed of a walking robot, in [m/s]
+FASTEST_TURN = 15.0  # plausible turning rate, in [rad/s]
+MIN_PASSED = 0.02  # over which a jump is judged at least, in [s]
+_NUMBER = re.compile(r"[-\d.]+")
+log = logging.getLogger(__name__)
+
+
+class MethodThread:
+    """Thread that calls the methods of a robot, one after the other.
+
+    A method that does not return blocks this thread, and not control.
+    """
+
+    def __init__(
+        self,
+        robot: VelocityRobot,
+        *,
+        clock: Callable[[], float] = monotonic,
+    ) -> None:
+        """Start the thread."""
+        self.robot, self._clock = robot, clock
+        self._queue: SimpleQueue[tuple[str, Any, Future[Any]]] = SimpleQueue()
+        self._running: tuple[str, float] | None = None
+        self._thread = Thread(target=self._work, daemon=True)
+        self._thread.start()
+
+    @property
+    def blocked(self) -> tuple[str, float] | None:
+        """The method that has been running for too long, and its time [s]."""
+        running = self._running
+        if running is None:
+            return None
+        waited = self._clock() - running[1]
+        return (running[0], waited) if waited > BLOCKED else None
+
+    def begin(self, method: str, call: Any = None) -> "Future[Any]":
+        """Call a method after those that were begun before.
+
+        Args:
+            method: Name of the method, for messages.
+            call: What is called; the method without arguments by default.
+
+        Returns:
+            Its result, or :class:`SessionLost` if it fails.
+        """
+        result: Future[Any] = Future()
+        self._queue.put((method, call or getattr(self.robot, method), result))
+        return result
+
+    def run(self, method: str, within: float, call: Any = None) -> Any:
+        """Call a method and wait for its result.
+
+        Args:
+            method: Name of the method.
+            within: Longest time to wait, in [s].
+            call: What is called; the method without arguments by default.
+
+        Raises:
+            SessionLost: If it fails or does not return in time.
+        """
+        try:
+            return self.begin(method, call).result(within)
+        except TimeoutError as error:
+            raise SessionLost(
+                f"{self.name_of(method)} did not return within {within:g} s"
+            ) from error
+
+    def stop_apart(self) -> "Future[Any]":
+        """Call stop() at once, in a thread of its own."""
+        result: Future[Any] = Future()
+        stop = self.robot.stop
+        Thread(
+            target=self._call, args=("stop", stop, result), daemon=True
+        ).start()
+        return result
+
+    def name_of(self, method: str) -> str:
+        """Return the name of a method for messages."""
+        return f"{method}() of {type(self.robot).__name__}"
+
+    def _work(self) -> None:
+        while True:
+            method, call, result = self._queue.get()
+            self._running = method, self._clock()
+            self._call(method, call, result)
+            self._running = None
+
+    def _call(self, method: str, call: Any, result: "Future[Any]") -> None:
+        try:
+            result.set_result(call())
+        except FAILURES as error:
+            text = f"{self.name_of(method)} failed: {_described(error)}"
+            lost = SessionLost(text)
+            lost.__cause__ = error
+            result.set_exception(lost)
+
+
+class AdapterBody:
+    """Robot behind a user's :class:`VelocityRobot`.
+
+    Its methods are called in a thread. While one of them does not return,
+    stop() is called beside it, as soon as zero velocity is commanded.
+    """
+
+    def __init__(
+        self,
+        robot: VelocityRobot,
+        *,
+        dry_run: bool = False,
+        clock: Callable[[], float] = monotonic,
+    ) -> None:
+        """Connect to the robot, and make it ready to walk.
+
+        Args:
+            robot: The robot, not connected.
+            dry_run: Whether nothing is commanded.
+            clock: Time of this computer, in [s].
+
+        Raises:
+            SessionLost: If the robot does not answer.
+            ConfigurationError: If open() fails for another reason.
+        """
+        self._methods = MethodThread(robot, clock=clock)
+        self._dry_run, self._clock = dry_run, clock
+        open_robot(self._methods)
+        if not dry_run:
+            try:
+                self._methods.run("prepare", PREPARE_TIMEOUT)
+            except SessionLost:
+                self._close_robot()
+                raise
+        self._reading: Future[Any] | None = None
+        self._commanding: Future[Any] | None = None
+        self._stopping: Future[Any] | None = None
+        self._stop_began = 0.0
+        self._wanted = REST
+        self._last: VelocityReport | None = None
+        self._due = clock()
+        self._logged = ""
+
+    def listen(self, patience: float) -> VelocityReport | None:
+        """Return the newest report since the last call, or None.
+
+        Args:
+            patience: Longest time to wait for a report, in [s].
+
+        Raises:
+            SessionLost: If a method failed or does not return, or a report
+                is invalid.
+        """
+        deadline = self._clock() + patience
+        sleep(min(max(self._due - self._clock(), 0.0), patience))
+        while True:
+            self._raise_failure()
+            if self._reading is None:
+                self._reading = self._methods.begin("listen")
+            try:
+                got = self._reading.result(max(deadline - self._clock(), 0.0))
+            except TimeoutError:
+                return None
+            self._reading = None
+            report = self._accepted(got)
+            if report is not None:
+                self._due = self._clock() + PERIOD
+                return report
+            if self._clock() >= deadline:
+                return None
+            sleep(POLL)
+
+    def command(self, velocity: VelocityCommand) -> None:
+        """Send a velocity command, without waiting for its return.
+
+        Raises:
+            SessionLost: If a method failed, or did not return in time.
+        """
+        if self._dry_run:
+            return
+        self._raise_failure()
+        self._wanted = velocity
+        if self._commanding is None or self._commanding.done():
+            method = "stop" if velocity == REST else "command"
+            self._commanding = self._methods.begin(method, self._command)
+        blocked = self._methods.blocked
+        if blocked is None:
+            self._stopping = None
+        elif velocity == REST:
+            self._stop_beside(*blocked)
+
+    def close(self) -> None:
+        """Stop the robot and disconnect.
+
+        Raises:
+            SessionLost: If stop() failed or did not return.
+        """
+        failure: SessionLost | None = None
+        if not self._dry_run:
+            free = self._methods.blocked is None
+            stopping = (
+                self._methods.begin("stop")
+                if free
+                else self._stopping or self._methods.stop_apart()
+            )
+            try:
+                stopping.result(CLOSE_TIMEOUT if free else UNSTOPPED)
+            except SessionLost as error:
+                failure = error
+            except TimeoutError:
+                failure = SessionLost(
+                    f"{self._methods.name_of('stop')} did not return"
+                )
+        self._close_robot()
+        if failure is not None:
+            raise failure
+
+    def _close_robot(self) -> None:
+        """Call close(), and log its failure."""
+        if self._methods.blocked is not None:
+            return
+        try:
+            self._methods.run("close", CLOSE_TIMEOUT)
+        except SessionLost as error:
+            log.warning("%s", error)
+
+    def _command(self) -> None:
+        """Command the newest velocity; called by the thread."""
+        robot, (forward, turn) = self._methods.robot, self._wanted
+        if self._wanted == REST:
+            robot.stop()
+        else:
+            robot.command(forward, 0.0, turn)
+
+    def _stop_beside(self, method: str, waited: float) -> None:
+        """Stop the robot while a method does not return."""
+        name = self._methods.name_of(method)
+        if self._stopping is None:
+            log.warning("%s has not returned for %.2f s", name, waited)
+            self._stopping = self._methods.stop_apart()
+            self._stop_began = self._clock()
+        if self._stopping.done():
+            self._stopping.result()
+            if waited > FORSAKEN:
+                raise SessionLost(
+                    f"{name} has not returned for {waited:.1f} s"
+                )
+        elif self._clock() - self._stop_began > UNSTOPPED:
+            raise SessionLost(
+                f"{name} has not returned for {waited:.1f} s, and neither "
+                "has stop()"
+            )
+
+    def _raise_failure(self) -> None:
+        """Raise the failure of the last command, if it has failed."""
+        if self._commanding is not None and self._commanding.done():
+            self._commanding.result()
+
+    def _accepted(self, got: Any) -> VelocityReport | None:
+        """Check the result of listen(); None if it is not newer."""
+        if got is None:
+            return None
+        name = self._methods.name_of("listen")
+        report = _converted(got, name)
+        last, self._last = self._last, report
+        if last is not None and report.time == last.time:
+            self._log(
+                f"{name} repeats its report of {report.time:.3f} s: the robot "
+                "is silent, or the time is not that of the measurement"
+            )
+            return None
+        fault = report_fault(report, last)
+        self._log(f"{name}: {fault}" if fault else "")
+        if fault:
+            report = report._replace(hindrance=f"listen(): {fault}")
+        return report
+
+    def _log(self, text: str) -> None:
+        """Log a fault when it begins."""
+        kind = _NUMBER.sub("", text)
+        if kind and kind != self._logged:
+            log.warning("%s", text)
+        self._logged = kind
+
+
+def open_robot(methods: MethodThread) -> None:
+    """Call open() of a robot.
+
+    Raises:
+        SessionLost: If it raised an OSError or does not return.
+        ConfigurationError: If it fails otherwise, which is not retried.
+    """
+    try:
+        methods.run("open", OPEN_TIMEOUT)
+    except SessionLost as error:
+        if isinstance(error.__cause__, OSError):
+            raise
+        raise ConfigurationError(str(error)) from error
+
+
+def connect_adapter_stopper(
+    make: type[VelocityRobot],
+) -> Callable[[], None]:
+    """Connect to a robot in advance, and return a function that stops it.
+
+    Args:
+        make: Class of the robot.
+
+    Raises:
+        SessionLost: If the robot does not answer.
+    """
+    robot = make()
+    if not robot.keeps_walking:
+        return lambda: None  # it stops by itself
+    methods = MethodThread(robot)
+    open_robot(methods)
+    return lambda: methods.run("stop", CLOSE_TIMEOUT)
+
+
+def report_fault(report: VelocityReport, last: VelocityReport | None) -> str:
+    """Return why a report is implausible; empty if it is plausible.
+
+    Args:
+        report: Newest report.
+        last: The one before, if any.
+    """
+    if not all(isfinite(v) for v in (report.time, *report.pose)):
+        return f"time and pose must be finite, got {_numbers(report)}"
+    if abs(report.pose.theta) > 2.0 * pi:
+        return (
+            "the heading must lie in [-pi, pi] rad, got "
+            f"{report.pose.theta:.1f}: is it in degrees?"
+        )
+    if last is None or not all(isfinite(v) for v in (last.time, *last.pose)):
+        return ""
+    passed = max(report.time - last.time, MIN_PASSED)
+    turned = abs(wrap_angle(report.pose.theta - last.pose.theta))
+    if turned > FASTEST_TURN * passed:
+        return (
+            f"the heading jumped by {turned:.2f} rad in {passed:.3f} s: is "
+            "it in degrees?"
+        )
+    moved = hypot(report.pose.x - last.pose.x, report.pose.y - last.pose.y)
+    if moved > FASTEST * passed:
+        return (
+            f"the position jumped by {moved:.2f} m in {passed:.3f} s: is it "
+            "in millimetres?"
+        )
+    return ""
+
+
+def _numbers(report: VelocityReport) -> str:
+    return ", ".join(f"{v:g}" for v in (report.time, *report.pose))
+
+
+def _converted(got: Any, name: str) -> VelocityReport:
+    """Return a report of plain numbers.
+
+    Raises:
+        SessionLost: If it is no report.
+    """
+    try:
+        time, pose, sighting, hindrance = got
+        if sighting is not None:
+            sighting = Sighting(*sighting)
+            when, bearing, distance = (float(v) for v in sighting[:3])
+            sighting = sighting._replace(
+                time=when, bearing=bearing, distance=distance
+            )
+        x, y, theta = (float(value) for value in pose)
+        return VelocityReport(
+            float(time), Pose(x, y, theta), sighting, str(hindrance)
+        )
+    except FAILURES as error:
+        raise SessionLost(
+            f"{name} must return a VelocityReport(time, Pose(x, y, theta)) "
+            f"or None, got {shown_briefly(got)}"
+        ) from error
+
+
+def _described(error: BaseException) -> str:
+    return f"{type(error).__name__}: {error}" if str(error) else repr(error)

@@ -1,0 +1,192 @@
+"""Test ``play`` with the example adapter and its simulated robot."""
+
+import json
+import os
+import signal
+import socket
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from time import monotonic, sleep
+from typing import Any
+
+import pytest
+
+from stepaside import load_run
+from stepaside.cli.main import main
+from stepaside.drivers.velocity.velocity_guardian import SILENCE
+from stepaside.drivers.velocity.watchdog import WatchSettings
+from stepaside.games.play_settings import PlaySettings
+from stepaside.games.play_summary import PlaySummary
+
+ADAPTERS = Path(__file__).parents[2] / "examples" / "adapters"
+ROBOT = f"{ADAPTERS / 'walker_robot.py'}:WalkerRobot"
+PLAY = "from stepaside.cli.main import main; main()"
+TEMPLATE = "--role evader --speed 0.3 --gain 0.6 --safety-radius 5".split()
+LONGEST = 60.0  # for what takes seconds on an idle machine, in [s]
+SLACK = 1.0  # of a busy machine, in [s]
+TIMEOUT = 0.6  # after which this robot stops by itself, in [s]
+
+
+class Walker:
+    """The simulated robot, in a process of its own."""
+
+    def __init__(self, *options: str) -> None:
+        words = [sys.executable, str(ADAPTERS / "simulated_walker.py")]
+        self.process = subprocess.Popen(
+            [*words, "--port", "0", *options],
+            stdout=subprocess.PIPE,
+            text=True,
+        )
+        assert self.process.stdout is not None
+        self.port = int(self.process.stdout.readline().split()[1])
+        self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self._socket.settimeout(LONGEST)
+        self._socket.connect(("127.0.0.1", self.port))
+
+    def send(self, **call: object) -> None:
+        """Send a call."""
+        self._socket.send(json.dumps(call).encode())
+
+    def moves(self) -> bool:
+        """Whether the robot walks."""
+        self.send(call="inspect")
+        return any(json.loads(self._socket.recv(1024))["velocity"])
+
+    def close(self) -> None:
+        """End the process."""
+        self._socket.close()
+        self.process.kill()
+        self.process.communicate()
+
+
+@pytest.fixture
+def start() -> Iterator[Callable[..., Any]]:
+    """Function that starts a robot, or a play of it."""
+    walkers: list[Walker] = []
+    plays: list[subprocess.Popen[str]] = []
+
+    def start_one(*options: str, of: Walker | None = None) -> Any:
+        if of is None:
+            walkers.append(Walker(*options))
+            return walkers[-1]
+        plays.append(
+            subprocess.Popen(
+                [sys.executable, "-c", PLAY, "play", "--robot", ROBOT]
+                + [*TEMPLATE, *options],
+                env=os.environ | {"WALKER_PORT": str(of.port)},
+                stderr=subprocess.PIPE,
+                text=True,
+            )
+        )
+        return plays[-1]
+
+    yield start_one
+    for play in plays:
+        play.kill()
+        play.communicate()
+    for walker in walkers:
+        walker.close()
+
+
+def test_the_page_prints_the_example() -> None:
+    page = ADAPTERS.parents[1] / "docs" / "connect-your-robot.md"
+    code = (ADAPTERS / "walker_robot.py").read_text(encoding="utf-8")
+    assert f"```python\n{code}```" in page.read_text(encoding="utf-8")
+
+
+def until(done: Callable[[], bool]) -> float:
+    """Wait, and return how long, in [s]."""
+    began = monotonic()
+    while not done():
+        assert monotonic() - began < LONGEST
+        sleep(0.01)
+    return monotonic() - began
+
+
+def test_the_example_walks_and_is_recorded(
+    start: Callable[..., Any], tmp_path: Path
+) -> None:
+    walker = start()
+    folder = tmp_path / "run"
+    play = start("--duration", "3", "--record", str(folder), of=walker)
+    until(walker.moves)
+    said = play.communicate(timeout=LONGEST)[1]
+    assert play.returncode == 0, said
+    assert not walker.moves()
+    run = load_run(folder)
+    assert isinstance(run.settings, PlaySettings)
+    assert isinstance(run.summary, PlaySummary)
+    assert run.settings.language == "python"
+    assert run.summary.walking_s == pytest.approx(3.0, abs=0.2)
+    assert 0.2 < run.summary.path_length_m < 1.0
+
+
+def test_a_dry_run_does_not_move_it(start: Callable[..., Any]) -> None:
+    walker = start()
+    play = start("--dry-run", "--duration", "1", of=walker)
+    while play.poll() is None:
+        assert not walker.moves()
+        sleep(0.01)
+    assert "walking" in play.stderr.read()
+
+
+@pytest.mark.parametrize("fate", ["killed", "frozen"])
+def test_the_guardian_stops_it_when_control_fails(
+    fate: str, start: Callable[..., Any]
+) -> None:
+    walker = start()
+    play = start(of=walker)
+    until(walker.moves)
+    play.send_signal(signal.SIGKILL if fate == "killed" else signal.SIGSTOP)
+    assert until(lambda: not walker.moves()) < SILENCE + SLACK
+    assert play.wait(LONGEST) == -signal.SIGKILL
+
+
+@pytest.mark.parametrize("lost", ["states", "both"])
+def test_it_stops_when_its_network_fails_and_walks_on_afterwards(
+    lost: str, start: Callable[..., Any]
+) -> None:
+    """If commands are lost, too, the robot has to stop by itself."""
+    both = lost == "both"
+    walker = start(*(["--timeout", str(TIMEOUT)] if both else []))
+    play = start("--duration", "30", of=walker)
+    until(walker.moves)
+    kinds = ["states", "commands"] if both else ["states"]
+    walker.send(call="lose", **{"for": dict.fromkeys(kinds, 2.0)})
+    within = TIMEOUT if both else WatchSettings().silence
+    assert until(lambda: not walker.moves()) < within + SLACK
+    until(walker.moves)
+    play.send_signal(signal.SIGINT)
+    said = play.communicate(timeout=LONGEST)[1]
+    assert play.returncode == 0 and "no odometry for" in said
+    assert not walker.moves()
+
+
+def test_a_robot_that_is_not_there_is_reported(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("WALKER_PORT", "1")
+    with pytest.raises(SystemExit) as left:
+        main(["play", "--robot", ROBOT, *TEMPLATE, "--wait", "0"])
+    assert left.value.code == 2
+    said = capsys.readouterr().err.strip().splitlines()[-1]
+    assert "open() of WalkerRobot failed: ConnectionError" in said
+
+
+@pytest.mark.parametrize(
+    ("robot", "said"),
+    [
+        ("nowhere.py:Robot", "there is no file nowhere.py"),
+        (f"{ADAPTERS / 'walker_robot.py'}:Robot", "the file has WalkerRobot"),
+        (f"{ADAPTERS / 'walker_robot.py'}", "or be FILE.py:CLASS"),
+    ],
+)
+def test_a_wrong_name_is_refused_in_one_line(
+    robot: str, said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit) as left:
+        main(["play", "--robot", robot, *TEMPLATE])
+    assert left.value.code == 2
+    assert said in capsys.readouterr().err.strip().splitlines()[-1]

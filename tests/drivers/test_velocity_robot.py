@@ -1,0 +1,82 @@
+"""Test that a user's robot is loaded, and an invalid one refused."""
+
+from pathlib import Path
+
+import pytest
+
+from stepaside.core.errors import ConfigurationError
+from stepaside.drivers.velocity.velocity_limits import VelocityLimits
+from stepaside.drivers.velocity.velocity_robot import (
+    VelocityRobot,
+    load_velocity_robot,
+)
+
+VALID = """
+import stepaside as sa
+
+class Robot(sa.VelocityRobot):
+    limits = sa.VelocityLimits(forward=0.5, backward=0.4, turn=1.0)
+
+    def listen(self):
+        return None
+
+    def command(self, forward, lateral, turn):
+        self.last = forward, lateral, turn
+"""
+LIMITS = "sa.VelocityLimits(forward=0.5, backward=0.4, turn=1.0)"
+
+
+def robot_file(folder: Path, text: str) -> str:
+    file = folder / "robot.py"
+    file.write_text(text, encoding="utf-8")
+    return f"{file}:Robot"
+
+
+def test_a_robot_of_a_file_is_loaded(tmp_path: Path) -> None:
+    kind = load_velocity_robot(robot_file(tmp_path, VALID))
+    assert issubclass(kind, VelocityRobot) and kind.keeps_walking
+    assert kind.limits == VelocityLimits(0.5, 0.4, 1.0)
+
+
+def test_to_stop_is_to_command_zero_where_the_sdk_has_no_other_way(
+    tmp_path: Path,
+) -> None:
+    robot = load_velocity_robot(robot_file(tmp_path, VALID))()
+    robot.stop()
+    assert vars(robot)["last"] == (0.0, 0.0, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "said"),
+    [
+        ("def listen", "def hears", r"lacks the method listen\(\)"),
+        ("def command", "def moves", r"lacks the method command\(\)"),
+        (f"limits = {LIMITS}", "", "limits must be VelocityLimits"),
+        (LIMITS, "(0.5, 0.4)", r"limits must be .* got \(0.5, 0.4\)"),
+        (", turn=1.0", "", r"finite turn \[rad/s\], got inf"),
+        ("0.5", "-1", "forward must be"),
+        ("(sa.VelocityRobot)", "", "must be a subclass of .*VelocityRobot"),
+        ("class Robot", "class Other", "the file has Other"),
+        ("def listen(self)", "open = 3\n    def listen(self)", "open must be"),
+        ("    limits", "    keeps_walking = 1\n    limits", "keeps_walking"),
+        (
+            "    def listen",
+            "    def __init__(self, address):\n        pass\n\n    def listen",
+            r"Robot\(\) must make a robot",
+        ),
+        ("import", "import nowhere, ", "fails to run: ModuleNotFoundError"),
+    ],
+)
+def test_an_invalid_class_is_refused_by_the_name_of_what_is_wrong(
+    before: str, after: str, said: str, tmp_path: Path
+) -> None:
+    assert before in VALID
+    text = VALID.replace(before, after, 1)
+    with pytest.raises(ConfigurationError, match=said):
+        load_velocity_robot(robot_file(tmp_path, text))
+
+
+@pytest.mark.parametrize("name", ["robot.py", "robot.py:", "robot.py:a b"])
+def test_a_robot_needs_file_and_class(name: str) -> None:
+    with pytest.raises(ConfigurationError, match=r"FILE\.py:CLASS"):
+        load_velocity_robot(name)
