@@ -1,0 +1,1 @@
+"""Games of several unicycles: batches, cyclic pursuit, Apollonius cells."""
