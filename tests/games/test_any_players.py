@@ -70,7 +70,7 @@ by_count = pytest.mark.parametrize("count", [1, 2, 3])
 
 
 @by_count
-def test_a_run_has_its_players_and_the_distance_of_the_first_two(
+def test_a_run_has_its_players_and_the_least_distance(
     count: int,
 ) -> None:
     run = game(count)
@@ -80,8 +80,10 @@ def test_a_run_has_its_players_and_the_distance_of_the_first_two(
         assert run.pair is None and not run.has_orientation
         assert np.isnan(run.distance).all()
     else:
-        assert run.has_orientation
+        assert run.has_orientation is (count == 2)
         np.testing.assert_allclose(run.distance, 1.0)
+        assert len(run.opponents) == (1 if count == 2 else 3)
+    if count == 2:
         np.testing.assert_allclose(run.orientation, 0.0, atol=1e-9)
     assert run.pushed_at(0.05) == () and run.pushed_at(0.1) == (
         NAMES[count - 1],
@@ -148,8 +150,9 @@ def test_every_player_is_on_the_page(count: int, tmp_path: Path) -> None:
         *([[]] * (count - 1)),
         PUSH.tolist(),
     ]
-    assert (shown["distance"] is None) is (shown["angle"] is None)
     assert (shown["distance"] is None) is (count == 1)
+    assert (shown["angle"] is None) is (count != 2)
+    assert shown["pair"] == (None if count == 1 else [0, 1])
     assert shown["safety"] is None and shown["safety_player"] is None
 
 

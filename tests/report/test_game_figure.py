@@ -87,7 +87,12 @@ def test_the_page_and_the_film_show_every_player(tmp_path: Path) -> None:
     write_page(run(), tmp_path / "run.html")
     text = (tmp_path / "run.html").read_text(encoding="utf-8")
     (found,) = re.findall(r"(\{\"times\".*\})", text)
-    players = json.loads(found)["players"]
+    shown = json.loads(found)
+    players = shown["players"]
+    assert shown["pair"] == [0, 2]  # a pursuer and the evader
+    np.testing.assert_allclose(
+        shown["distance"][0], run().distance[0], atol=1e-3
+    )
     assert [player["name"] for player in players] == [*run().players]
     scene = RunScene(run())
     drawn = mujoco.MjvScene(scene.model, maxgeom=5000)

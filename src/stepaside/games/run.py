@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from html import escape
+from itertools import combinations
 from math import degrees, isfinite
 from typing import (
     TYPE_CHECKING,
@@ -203,33 +204,54 @@ class GameRun(Generic[SettingsT, SummaryT]):
         return self.tracks[WALKER]
 
     @property
+    def opponents(self) -> tuple[tuple[str, str], ...]:
+        """Names of each pursuer and evader; of every pair without such.
+
+        Empty with one player.
+        """
+        roles = {n: identity.role for n, identity in self.identities.items()}
+        found = tuple(
+            (one, other)
+            for one in self.players
+            for other in self.players
+            if roles.get(one) is Role.PURSUER
+            and roles.get(other) is Role.EVADER
+        )
+        return found or tuple(combinations(self.players, 2))
+
+    @property
     def pair(self) -> tuple[Trajectory, Trajectory] | None:
-        """Trajectories of the first two players; None with one player."""
-        if len(self.tracks) < 2:
+        """Trajectories of the first opponents; None with one player."""
+        if not self.opponents:
             return None
-        first, second, *_ = self.tracks.values()
-        return first, second
+        one, other = self.opponents[0]
+        return self.tracks[one], self.tracks[other]
 
     @property
     def distance(self) -> Array:
-        """Distance between the reference points of the first two, in [m].
+        """Smallest distance between opponents' reference points, in [m].
 
         NaN with one player. Shape (n,).
         """
-        if self.pair is None:
+        if not self.opponents:
             return np.full(len(self.times), np.nan)
-        first, second = self.pair
-        return distance_between(first.unicycle, second.unicycle)
+        tracks = {n: track.unicycle for n, track in self.tracks.items()}
+        apart = [
+            distance_between(tracks[one], tracks[other])
+            for one, other in self.opponents
+        ]
+        nearest: Array = np.min(apart, axis=0)
+        return nearest
 
     @property
     def has_orientation(self) -> bool:
-        """Whether the headings of two players are known; not in a play."""
+        """Whether there are two players of known headings; not in a play."""
         in_play = isinstance(self.settings, PlaySettings)
-        return self.pair is not None and not in_play
+        return len(self.tracks) == 2 and not in_play
 
     @property
     def orientation(self) -> Array:
-        """Angle between the headings of the first two, in [deg].
+        """Angle between the headings of two players, in [deg].
 
         NaN where it is unknown, see ``has_orientation``. Shape (n,).
         """

@@ -1,6 +1,5 @@
 """Captions: the state of a recorded game at a sample, in words."""
 
-from itertools import combinations
 from math import hypot
 
 from .approach_forecast import (
@@ -48,14 +47,7 @@ def describe_state(run: Run, index: int) -> str:
 
 def _describe_match(run: MatchRun, index: int) -> str:
     """Describe the nearest pair of opponents, or of any players."""
-    identities = run.identities
-    pairs = [*combinations(run.players, 2)]
-    opposed = [
-        (one, other)
-        for one, other in pairs
-        if identities[one].opposes(identities[other])
-    ]
-    if not pairs:
+    if not run.opponents:
         return f"{run.players[0]} in motion"
     apart = {
         pair: hypot(
@@ -64,7 +56,7 @@ def _describe_match(run: MatchRun, index: int) -> str:
                 - run.tracks[pair[1]].torso[index, :2]
             ).tolist()
         )
-        for pair in opposed or pairs
+        for pair in run.opponents
     }
     (one, other), least = min(apart.items(), key=lambda item: item[1])
     return f"nearest: {one} and {other}, {least:.2f} m"

@@ -78,7 +78,8 @@ def caption(
             draw_label(pen, text, (x, y), colour, round(0.9 * size))
     values = f"{run.times[index]:.1f} s"
     if run.pair is not None:
-        values += f"   distance {run.distance[index]:.2f} m"
+        least = "least distance" if len(run.opponents) > 1 else "distance"
+        values += f"   {least} {run.distance[index]:.2f} m"
     if abs(speed - 1.0) > 1e-3:
         values += f"   {speed:.3g} x real time"
     band = round(1.9 * size)

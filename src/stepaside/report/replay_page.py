@@ -119,6 +119,9 @@ def _page_data(run: Run) -> dict[str, Any]:
             _player_data(run, scene, name, samples, heights)
             for name in run.players
         ],
+        "pair": [run.players.index(name) for name in run.opponents[0]]
+        if run.opponents
+        else None,
         "distance": _series(distance, samples, 3),
         "angle": _series(angle, samples, 1),
         "means": {

@@ -26,6 +26,13 @@ const addNames = (id) => run.players.map((player) => {
   return span;
 });
 const names = addNames("players"), labels = addNames("labels");
+/* A press on a player's name follows that player. */
+let followed = null;
+names.forEach((name, i) => {
+  name.title = `follow ${run.players[i].name}`;
+  name.style.cursor = "pointer";
+  name.onclick = () => { choose("follow"); followed = i; };
+});
 
 /* Light or dark theme: that of the system until the button is pressed. */
 const systemDark = window.matchMedia("(prefers-color-scheme: dark)");
@@ -60,6 +67,7 @@ const VIEWS = { whole: "Whole scene", follow: "Follow", top: "Top", eyes: "Evade
 let chosen = "whole";
 function choose(name) {
   chosen = name;
+  followed = null;
   view.offset = [0, 0];
   view.zoom = 1;
   view.elevation = name === "top" ? 1.5706 : 0.5;
@@ -81,7 +89,7 @@ for (const [name, text] of Object.entries(VIEWS)) {
 /* Aim the camera; return the point that it looks at, in [m]. */
 function aim(torsos) {
   const camera = scene.camera;
-  const [first, second] = [torsos[0], torsos[1] || torsos[0]];
+  const [first, second] = (run.pair || [0, 0]).map((i) => torsos[i]);
   if (chosen === "eyes") {
     const sight = first.clone().sub(second).setZ(0).normalize();
     camera.fov = 60;
@@ -93,7 +101,7 @@ function aim(torsos) {
   const target = new THREE.Vector3(run.center[0], run.center[1], 0.15);
   let distance = run.camera_distance;
   if (chosen === "follow") {
-    const box = new THREE.Box3().setFromPoints(torsos);
+    const box = new THREE.Box3().setFromPoints(followed === null ? torsos : [torsos[followed]]);
     box.getCenter(target).setZ(0.2);
     distance = 1.5 + 1.1 * box.min.distanceTo(box.max);
   }
@@ -199,7 +207,7 @@ function draw() {
     scene.draw(target);
     labels.forEach((label, i) => {
       const top = torsos[i].clone().setZ(torsos[i].z + run.players[i].label_height).project(scene.camera);
-      const own = chosen === "eyes" && i === 1;
+      const own = chosen === "eyes" && i === run.pair[1];
       label.hidden = own || top.z > 1 || Math.abs(top.x) > 1.1 || Math.abs(top.y) > 1.1;
       label.style.left = `${50 * (top.x + 1)}%`;
       label.style.top = `${50 * (1 - top.y)}%`;
@@ -208,8 +216,9 @@ function draw() {
   byId("message").textContent = run.messages[run.message_index[index]];
   plots.forEach((plot) => plot.draw(index, run.palettes[theme]));
   byId("clock").textContent = `${run.times[index].toFixed(1)} s`;
-  byId("values").textContent = !run.distance ? "" :
-    `distance ${format(run.distance[index], 2, " m")}, angle between the headings ${format(run.angle[index], 0, "\u00b0")}`;
+  const least = run.players.length > 2 ? "least distance" : "distance";
+  byId("values").textContent = !run.distance ? "" : `${least} ${format(run.distance[index], 2, " m")}` +
+    (run.angle ? `, angle between the headings ${format(run.angle[index], 0, "\u00b0")}` : "");
   byId("time").value = index;
 }
 

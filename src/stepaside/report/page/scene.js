@@ -164,7 +164,7 @@ function makeScene(run, canvas, context) {
     layer("theoretical circle", line(
       ribbon(circle(...run.circle, 128), 0.012, 0.010, true), "theory", 1));
   let sight = null;
-  if (players.length > 1)
+  if (run.pair)
     sight = layer("line of sight", line(
       new THREE.CylinderGeometry(0.004, 0.004, 1, 8).rotateX(Math.PI / 2), "theory", 0.8));
 
@@ -208,9 +208,10 @@ function makeScene(run, canvas, context) {
     const torsos = players.map((player) => bodies[player.body].position);
     if (safety) safety.position.copy(bodies[guarded.body].position).setZ(0);
     if (sight) {
-      sight.position.addVectors(torsos[0], torsos[1]).multiplyScalar(0.5);
-      sight.scale.z = torsos[0].distanceTo(torsos[1]);
-      sight.lookAt(torsos[1]);
+      const [first, second] = run.pair.map((i) => torsos[i]);
+      sight.position.addVectors(first, second).multiplyScalar(0.5);
+      sight.scale.z = first.distanceTo(second);
+      sight.lookAt(second);
     }
     return torsos;
   }

@@ -33,6 +33,7 @@ from .viewer_clients import CAMERAS, ViewerClients
 
 LOG = logging.getLogger(__name__)
 RATE = 30.0  # updates of the scene per second
+EVERYBODY = "All players"  # choice of the camera's target
 PLOT_SAMPLES = 1500  # of a curve, approximately
 REPLAY_LAYERS = (
     "CoM trace",
@@ -135,6 +136,11 @@ class ReplayPage:
         single = len(self._run.players) < 2
         names = CAMERAS[:3] if single else CAMERAS
         camera = gui.add_button_group("Camera", names)
+        self._follow = gui.add_dropdown(
+            "Follow",
+            (EVERYBODY, *(() if single else self._run.players)),
+            visible=len(self._run.players) > 2,
+        )
         theme = gui.add_button_group("Light", THEMES)
 
         @camera.on_click
@@ -188,7 +194,7 @@ class ReplayPage:
         with self.server.atomic():
             self._bodies.move(data.xpos, data.xquat)
             self._draw(index)
-        tracks = list(run.tracks.values())
+        tracks = [run.tracks[name] for name in self._in_view(index)]
         self._viewers.aim(
             [track.torso[index, :2] for track in tracks],
             [float(track.com[index, 2]) for track in tracks],
@@ -200,12 +206,32 @@ class ReplayPage:
             f"{run.times[index]:.2f} s"
         )
         if run.pair is not None:
-            text += f", distance {run.distance[index]:.2f} m"
+            least = "least distance" if len(run.opponents) > 1 else "distance"
+            text += f", {least} {run.distance[index]:.2f} m"
         if run.has_orientation:
             angle = run.orientation[index]
             text += f", angle between the headings {angle:.0f}\u00b0"
         if self._status.content != text:
             self._status.content = text
+
+    def _in_view(self, index: int) -> list[str]:
+        """Return the players that cameras show, the first opponents first.
+
+        If one player is followed, it is the second, after the nearest other
+        one, as the evader of a duel is.
+        """
+        run, followed = self._run, self._follow.value
+        if followed not in run.tracks:
+            first = [*run.opponents[0]] if run.opponents else []
+            return first + [n for n in run.players if n not in first]
+        here = run.tracks[followed].torso[index, :2]
+        nearest = min(
+            (name for name in run.players if name != followed),
+            key=lambda name: float(
+                np.hypot(*(run.tracks[name].torso[index, :2] - here))
+            ),
+        )
+        return [nearest, followed]
 
     def _draw(self, index: int) -> None:
         run, layers = self._run, self._layers

@@ -59,7 +59,8 @@ def legend(layers: Iterable[str]) -> str:
         layers: Those of ``LAYERS`` that a page has.
     """
     lines = [f"- **{layer}**: {MEANINGS[layer]}" for layer in layers]
-    return "\n".join(["Pursuer: red. Evader: blue.", "", *lines])
+    colours = "Pursuers: red. Evaders: blue. Bystanders: grey."
+    return "\n".join([colours, "", *lines])
 
 
 def polyline(points: Array, height: float, *, closed: bool = False) -> Array:
@@ -118,7 +119,7 @@ class SceneLayers:
 
         Args:
             layer: One of ``LAYERS``.
-            owner: "pursuer", "evader" or "both".
+            owner: Name of a player, or "both".
             segments: In the world, in [m]. Shape (n, 2, 3).
             colour: As ``#rrggbb``.
         """

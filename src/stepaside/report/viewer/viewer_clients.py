@@ -97,7 +97,8 @@ class ViewerClients:
         """Move the cameras that are not free.
 
         Args:
-            positions: Of the players in the world, in [m]. Shape (2,) each.
+            positions: Of the players in the world, in [m]. Shape (2,) each;
+                the evader's view is from the second one to the first.
             heights: Of their centers of mass, in [m].
         """
         for number, client in self._server.get_clients().items():
@@ -156,7 +157,8 @@ def _evader_view(
     pursuer, evader = positions[0], positions[min(1, len(positions) - 1)]
     sight = pursuer - evader
     ahead = sight / max(float(hypot(*sight)), 1e-6)
-    eye = np.array([*(evader + 0.09 * ahead), heights[-1] + 0.2])
+    height = heights[min(1, len(heights) - 1)]
+    eye = np.array([*(evader + 0.09 * ahead), height + 0.2])
     return eye, np.array([*pursuer, heights[0]])
 
 
