@@ -13,7 +13,8 @@ from math import pi
 
 import numpy as np
 
-from stepaside.theory.teams.team_game import TeamPlayer, play_team_games
+from stepaside.theory.teams.team_game import play_team_games
+from stepaside.theory.teams.team_players import TeamPlayer
 
 GAMES, DURATION = 2000, 40.0  # duration in units of 1/k
 PURSUER = TeamPlayer(speed=1.0, gain=1.0)

@@ -7,7 +7,8 @@ import pytest
 
 from stepaside.core.errors import PlanError
 from stepaside.theory.teams.cyclic_pursuit import CyclicPolygon
-from stepaside.theory.teams.team_game import TeamPlayer, play_team_games
+from stepaside.theory.teams.team_game import play_team_games
+from stepaside.theory.teams.team_players import TeamPlayer
 
 
 def cycle(

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from stepaside.core.errors import PlanError
-from stepaside.theory.teams.team_game import TeamPlayer, play_team_games
+from stepaside.theory.teams.team_game import play_team_games
+from stepaside.theory.teams.team_players import TeamPlayer
 from stepaside.theory.unicycle import make_game, play_games
 
 PURSUER = TeamPlayer(1.0, 0.5)

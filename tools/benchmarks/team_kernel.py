@@ -18,7 +18,8 @@ from benchmark_options import ask, machine
 
 from stepaside.studies.code_version import UNICYCLES
 from stepaside.studies.result_files import header, write_result
-from stepaside.theory.teams.team_game import TeamPlayer, play_team_games
+from stepaside.theory.teams.team_game import play_team_games
+from stepaside.theory.teams.team_players import TeamPlayer
 from stepaside.theory.unicycle.kernel import play_games
 from stepaside.theory.unicycle.unicycle_game import make_game
 

@@ -14,7 +14,7 @@ import numpy as np
 from ...core.compilation import compiled, compiled_parallel, parallel_range
 from ...core.poses import Array
 from ..unicycle.compiled_batch import sine_cosine, turn
-from .team_game import TeamRules
+from .team_players import TeamRules
 
 SIZE = 64  # games in a block
 prange = parallel_range()

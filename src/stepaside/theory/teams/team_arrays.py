@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.poses import Array, wrap_angles
-from .team_game import NEAREST, TeamRules
+from .team_players import NEAREST, TeamRules
 
 State = tuple[Array, Array, Array, Array]  # x, y, theta, sight
 
