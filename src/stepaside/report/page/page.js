@@ -182,10 +182,12 @@ const [, theoryDistance, theoryAngle] = run.theory || [null, null, null];
 const plots = run.distance ? [
   makePlot(byId("distance"), run, run.distance, run.means.distance, { unit: "m", digits: 2,
     levels: [...level(theoryDistance, "theory", [6, 4]), ...level(run.safety, "soft", [2, 3])] }, seek),
-  makePlot(byId("angle"), run, run.angle, run.means.angle, { unit: "\u00b0", digits: 0,
-    levels: level(theoryAngle, "theory", [6, 4]) }, seek),
+  ...(run.angle ? [makePlot(byId("angle"), run, run.angle, run.means.angle, { unit: "\u00b0", digits: 0,
+    levels: level(theoryAngle, "theory", [6, 4]) }, seek)] : []),
 ] : [];
 byId("plots").hidden = !run.distance;
+byId("angle").hidden = byId("angle-title").hidden = !run.angle;
+if (run.players.length > 2) byId("distance-title").textContent = "Least distance of opponents [m] over time [s]";
 byId("legend").textContent = !run.distance ? "" : ["thin: every sample", "thick: mean over a gait cycle", run.theory ? "dashed: theory" : "",
   run.safety ? "dotted: safety radius" : ""].filter(Boolean).join("; ");
 
