@@ -283,3 +283,19 @@ def test_a_served_robot_goes_from_one_type_to_the_other() -> None:
     other.close()
     server.close()
     dds.close()
+
+
+def test_a_robot_that_is_not_found_is_explained_once(
+    monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    monkeypatch.setattr("stepaside.drivers.ros2.ros2_body.HINT_AFTER", 0.05)
+    body = Ros2Body(DdsParticipant(0, tag=TAG), "/nobody")
+    try:
+        for _ in range(10):
+            assert body.listen(0.02) is None
+    finally:
+        body.close()
+    [message] = [r.getMessage() for r in caplog.records]
+    assert message.startswith("nothing publishes /nobody/odom; searched")
+    assert "ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST" in message
+    assert "--network" in message

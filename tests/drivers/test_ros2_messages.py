@@ -24,6 +24,20 @@ TWIST = m.Twist(m.Vector3(0.1, 0.2, 0.3), m.Vector3(-0.4, 0.5, -0.6))
 MATRIX = tuple(0.5 * i for i in range(36))
 MOVED = m.Transform(m.Vector3(1.0, 2.0, 3.0), m.Quaternion(0.0, 0.0, 0.6, 0.8))
 SAMPLES: dict[str, Any] = {
+    "sensor_msgs/msg/RegionOfInterest": m.RegionOfInterest(1, 2, 3, 4, True),
+    "sensor_msgs/msg/CameraInfo": m.CameraInfo(
+        HEADER,
+        240,
+        320,
+        "plumb_bob",
+        [0.1, 0.2, 0.0, 0.0, 0.3],
+        MATRIX[:9],
+        MATRIX[9:18],
+        MATRIX[18:30],
+        1,
+        2,
+        m.RegionOfInterest(),
+    ),
     "builtin_interfaces/msg/Time": STAMP,
     "std_msgs/msg/Header": HEADER,
     "geometry_msgs/msg/Twist": TWIST,

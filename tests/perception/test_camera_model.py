@@ -87,3 +87,13 @@ def test_bounds_of_camera_sizes_and_angles() -> None:
         ):
             with pytest.raises(ConfigurationError, match="must lie in"):
                 CameraModel.of_field_of_view(*arguments)
+
+
+def test_the_calibration_matrix_projects_as_the_camera_does() -> None:
+    """Pixel centres are at whole numbers in ROS, at halves here."""
+    camera = CameraModel.of_field_of_view(320, 240, 0.9, 0.7)
+    point = np.array([2.0, 0.3, -0.2])  # ahead, left, up
+    right_down_ahead = np.array([-point[1], -point[2], point[0]])
+    u, v, w = camera.calibration_matrix @ right_down_ahead
+    column, row = camera.project(point)[0]
+    np.testing.assert_allclose((u / w + 0.5, v / w + 0.5), (column, row))

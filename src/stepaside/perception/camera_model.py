@@ -57,6 +57,21 @@ class CameraModel:
             0.5 * height / tan(0.5 * vertical),
         )
 
+    @property
+    def calibration_matrix(self) -> Array:
+        """Matrix from camera axes to pixels, as ROS and OpenCV have it.
+
+        Axes are right, down and ahead; pixel centres are at whole numbers,
+        while those of this class are at halves. Shape (3, 3).
+        """
+        return np.array(
+            [
+                [self.focal_x, 0.0, 0.5 * self.width - 0.5],
+                [0.0, self.focal_y, 0.5 * self.height - 0.5],
+                [0.0, 0.0, 1.0],
+            ]
+        )
+
     def ray(self, u: float, v: float) -> Array:
         """Return the ray of a pixel in the camera frame, x = 1. Shape (3,).
 

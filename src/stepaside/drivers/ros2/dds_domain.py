@@ -89,7 +89,30 @@ class DdsParticipant:
                 raise ConfigurationError(
                     f"DDS cannot start: {error}"
                 ) from error
+        self._number, self._beyond = number, beyond
         self._topics: dict[tuple[str, type[Any]], Any] = {}
+
+    @property
+    def reach(self) -> str:
+        """Sentence on which programs can be discovered, and how to change it.
+
+        Programs that are not are neither heard nor named anywhere, so users
+        need to know.
+        """
+        if self._beyond:
+            return (
+                f"searched domain {self._number} of the network; ROS 2 "
+                f"programs must have ROS_DOMAIN_ID={self._number} and must "
+                "not have ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST or "
+                "ROS_LOCALHOST_ONLY=1"
+            )
+        return (
+            f"searched domain {self._number} of this machine only; ROS 2 "
+            f"programs here must have ROS_DOMAIN_ID={self._number} and "
+            "ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST (Humble: "
+            "ROS_LOCALHOST_ONLY=1), and those of other machines need "
+            "--network"
+        )
 
     def register(self, topic: str, kind: type[Any]) -> None:
         """Create a topic in advance, so that its first writer starts faster.

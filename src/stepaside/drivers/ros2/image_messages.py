@@ -8,7 +8,13 @@ from ...perception.camera_model import CameraModel
 from ...perception.images import ColourImage, Percept, Pixels
 from ..cameras.image_source import resize_model
 from .dds_domain import DdsParticipant, take_messages
-from .messages import CompressedImage, Header, Image
+from .messages import (
+    CameraInfo,
+    CompressedImage,
+    Header,
+    Image,
+    RegionOfInterest,
+)
 from .topics import dds_topic
 
 RGB, BGR, MONO = "rgb8", "bgr8", "mono8"
@@ -41,6 +47,33 @@ def compressed_message(header: Header, pixels: Pixels) -> CompressedImage:
     _, data = cv2.imencode(".jpg", cv2.cvtColor(pixels, cv2.COLOR_RGB2BGR))
     compressed: Any = data.tobytes()
     return CompressedImage(header, "jpeg", compressed)
+
+
+def camera_info_message(header: Header, camera: CameraModel) -> CameraInfo:
+    """Return the calibration of a camera without distortion.
+
+    Args:
+        header: Time stamp and frame of its image.
+        camera: The camera.
+    """
+    matrix = camera.calibration_matrix
+    projection = np.column_stack([matrix, np.zeros(3)])
+    k: Any = tuple(matrix.ravel().tolist())
+    r: Any = tuple(np.eye(3).ravel().tolist())
+    p: Any = tuple(projection.ravel().tolist())
+    return CameraInfo(
+        header,
+        camera.height,
+        camera.width,
+        "plumb_bob",
+        [0.0] * 5,
+        k,
+        r,
+        p,
+        0,
+        0,
+        RegionOfInterest(),
+    )
 
 
 def pixels_of(message: Image) -> Pixels | None:

@@ -217,3 +217,33 @@ class CompressedImage(
     header: Header
     format: str
     data: sequence[uint8]
+
+
+@dataclass
+class RegionOfInterest(
+    IdlStruct, typename="sensor_msgs.msg.dds_.RegionOfInterest_"
+):
+    """Part of an image; all zero for the whole image."""
+
+    x_offset: uint32 = 0
+    y_offset: uint32 = 0
+    height: uint32 = 0
+    width: uint32 = 0
+    do_rectify: bool = False
+
+
+@dataclass
+class CameraInfo(IdlStruct, typename="sensor_msgs.msg.dds_.CameraInfo_"):
+    """Calibration of a camera."""
+
+    header: Header
+    height: uint32
+    width: uint32
+    distortion_model: str
+    d: sequence[float64]
+    k: array[float64, 9]
+    r: array[float64, 9]
+    p: array[float64, 12]
+    binning_x: uint32
+    binning_y: uint32
+    roi: RegionOfInterest

@@ -3,7 +3,7 @@
 import logging
 from collections.abc import Callable
 from functools import partial
-from math import atan2, hypot
+from math import atan2, hypot, inf
 from time import monotonic, sleep
 from typing import Any
 
@@ -25,12 +25,13 @@ from .topics import (
     pose_of,
     position_of,
 )
-from .velocity_commands import KINDS, CommandWriter
+from .velocity_commands import KINDS, CommandWriter, ros_type
 
 POLL = 0.001  # between two checks for messages, in [s]
 STOP_COUNT = 5  # commands of zero velocity at the end of a session
 STOP_PAUSE = 0.02  # between two of them, in [s]
 GUARDIAN_DURATION = 3.0  # of zero commands by the guardian, in [s]
+HINT_AFTER = 3.0  # without any publisher of odometry, in [s]
 POSE_TICK = 0.01  # between stored poses, in [s]
 UNSTAMPED = Header(Time(0, 0), "")  # robots read it as now, or reject it
 log = logging.getLogger(__name__)
@@ -63,6 +64,10 @@ class Ros2Body:
             return dds.reader(dds_topic(namespace, name), kind)
 
         self._odometry = reader(ODOMETRY, Odometry)
+        self._publishers = Endpoints(
+            dds, dds_topic(namespace, ODOMETRY), writers=True
+        )
+        self._hint_at = monotonic() + HINT_AFTER
         self._sights = {
             POINT: reader(POINT, PointStamped),
             POSE: reader(POSE, PoseStamped),
@@ -93,10 +98,26 @@ class Ros2Body:
         while True:
             arrived = take_messages(self._odometry)
             if arrived:
+                self._hint_at = inf
                 return self._report(arrived[-1])
+            self._hint()
             if monotonic() >= deadline:
                 return None
             sleep(POLL)
+
+    def _hint(self) -> None:
+        """Log once why there may be no odometry, if there never was any."""
+        if monotonic() < self._hint_at:
+            return
+        self._hint_at = inf
+        name, types = f"{self._namespace}/{ODOMETRY}", self._publishers.types
+        if not types:
+            log.warning("nothing publishes %s; %s", name, self._dds.reach)
+            return
+        kinds = " and ".join(sorted(map(ros_type, types)))
+        log.warning(
+            "%s is published as %s, but no message arrives", name, kinds
+        )
 
     def command(self, velocity: VelocityCommand) -> None:
         """Publish a velocity command.
@@ -121,6 +142,7 @@ class Ros2Body:
             log.warning("%s", error)
         finally:
             del self._odometry, self._sights, self._others, self._commands
+            del self._publishers
             self._dds.close()
 
     def _report(self, odometry: Odometry) -> VelocityReport:

@@ -11,6 +11,7 @@ from ..velocity.velocity_body import REST, VelocityCommand
 from ..velocity.walking_robot import WalkerState, WalkingRobot
 from .dds_domain import DdsParticipant
 from .messages import (
+    CameraInfo,
     ClockMessage,
     CompressedImage,
     Header,
@@ -28,6 +29,7 @@ from .messages import (
     TwistWithCovariance,
 )
 from .topics import (
+    CALIBRATION,
     COMPRESSED,
     IDEAL,
     IMAGE,
@@ -64,7 +66,11 @@ class WorldClock:
 
 
 class CameraTopics:
-    """Publisher of raw and compressed images."""
+    """Publisher of raw and compressed images with their calibration.
+
+    The frame of the images is an optical one, as REP 103 has it: x to the
+    right, y down, z ahead.
+    """
 
     def __init__(self, dds: DdsParticipant, namespace: str) -> None:
         """Create the publishers.
@@ -73,7 +79,10 @@ class CameraTopics:
             dds: DDS participant; the caller closes it.
             namespace: Namespace of the robot, with a leading slash; or empty.
         """
-        self._frame = frame(namespace, "camera")
+        self._frame = frame(namespace, "camera_optical_frame")
+        self._calibration = dds.writer(
+            dds_topic(namespace, CALIBRATION), CameraInfo
+        )
         self._raw = dds.writer(dds_topic(namespace, IMAGE), Image)
         self._compressed = dds.writer(
             dds_topic(namespace, COMPRESSED), CompressedImage
@@ -85,10 +94,16 @@ class CameraTopics:
         if image is None or image is self._published:
             return
         # Imported here, as only images need OpenCV.
-        from .image_messages import compressed_message, image_message
+        from .image_messages import (
+            camera_info_message,
+            compressed_message,
+            image_message,
+        )
 
         self._published = image
         header = Header(Time.of(image.time), self._frame)
+        if self._calibration.get_matched_subscriptions():
+            self._calibration.write(camera_info_message(header, image.camera))
         if self._raw.get_matched_subscriptions():
             self._raw.write(image_message(header, image.pixels))
         if self._compressed.get_matched_subscriptions():

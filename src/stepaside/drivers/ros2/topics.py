@@ -19,6 +19,7 @@ IDEAL = "ideal_sight"  # ground truth of a simulated robot
 JOINTS = "joint_states"
 IMAGE = "camera/image_raw"
 COMPRESSED = f"{IMAGE}/compressed"
+CALIBRATION = "camera/camera_info"
 
 
 def dds_topic(namespace: str, name: str) -> str:

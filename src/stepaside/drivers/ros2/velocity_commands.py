@@ -70,7 +70,7 @@ class CommandWriter:
 
     def _prepare(self) -> set[str]:
         """Create missing writers, and return the subscribers' types."""
-        kinds = {_ros(kind) for kind in self._subscribers.types}
+        kinds = {ros_type(kind) for kind in self._subscribers.types}
         for kind in KINDS:
             if ros_name(kind) in kinds and kind not in self._writers:
                 self._writers[kind] = self._dds.writer(self._topic, kind)
@@ -115,7 +115,7 @@ class CommandReader:
 
         Call this only while there is no commander.
         """
-        written = {_ros(kind) for kind in self._publishers.types}
+        written = {ros_type(kind) for kind in self._publishers.types}
         if ros_name(self._kind) in written:
             return
         for kind in KINDS:
@@ -130,10 +130,10 @@ class CommandReader:
 
 def ros_name(kind: type[Any]) -> str:
     """Return the name of a message in ROS, such as ``geometry_msgs/Twist``."""
-    return _ros(kind.__idl__.idl_transformed_typename)
+    return ros_type(kind.__idl__.idl_transformed_typename)
 
 
-def _ros(name: str) -> str:
+def ros_type(name: str) -> str:
     """Convert a type name from DDS to ROS; return others unchanged."""
     package, _, rest = name.partition("::")
     middle, _, message = rest.rpartition("::")

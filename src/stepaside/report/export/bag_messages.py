@@ -234,9 +234,7 @@ class MessageFactory:
 
     def camera_info(self, header: Any, camera: CameraModel) -> Any:
         """Return the calibration of a camera without distortion."""
-        fx, fy = camera.focal_x, camera.focal_y
-        # Pixel centres are at whole numbers in ROS, at halves here.
-        cx, cy = 0.5 * camera.width - 0.5, 0.5 * camera.height - 0.5
+        matrix = camera.calibration_matrix
         return self.make(
             "sensor_msgs/msg/CameraInfo",
             header,
@@ -244,9 +242,9 @@ class MessageFactory:
             camera.width,
             "plumb_bob",
             np.zeros(5),
-            np.array([fx, 0.0, cx, 0.0, fy, cy, 0.0, 0.0, 1.0]),
+            matrix.ravel(),
             np.eye(3).ravel(),
-            np.array([fx, 0, cx, 0, 0, fy, cy, 0, 0, 0, 1, 0], dtype=float),
+            np.column_stack([matrix, np.zeros(3)]).ravel(),
             0,
             0,
             self.make("sensor_msgs/msg/RegionOfInterest", 0, 0, 0, 0, False),
