@@ -8,6 +8,7 @@ from stepaside.games import DuelSettings
 from stepaside.games.duel import Duel
 from stepaside.games.match import play
 from stepaside.games.walker import SimulatedPlayer
+from stepaside.locomotion.zmp.control_settings import STABILISED
 
 DURATION = 3.0
 
@@ -24,8 +25,8 @@ def test_a_walking_robot_measures_only_when_a_decision_is_due() -> None:
         robot: Any = pursuer.robot
         read, times = robot.read, list[float]()
 
-        def note(read: Any = read, times: Any = times) -> Any:
-            measured = read()
+        def note(read: Any = read, times: Any = times, *, sees: bool) -> Any:
+            measured = read(sees=sees)
             times.append(measured.time)
             return measured
 
@@ -37,6 +38,39 @@ def test_a_walking_robot_measures_only_when_a_decision_is_due() -> None:
     assert len(each) == round(DURATION / 0.004)
     walking = [time for time in sparing if time > 1.0]
     assert len(walking) < 0.05 * len(each)
+    other = tracks[1].arrays("pursuer")
+    for key, values in tracks[0].arrays("pursuer").items():
+        np.testing.assert_array_equal(values, other[key], err_msg=key)
+
+
+def test_feedback_reads_sightings_only_when_a_decision_is_due() -> None:
+    """At each tick while standing; the motion is the same."""
+    seen, tracks = [], []
+    for sparing in (True, False):
+        settings = DuelSettings(seed=3, duration=DURATION, control=STABILISED)
+        duel = Duel(settings)
+        robot: Any = duel.players[0].robot  # type: ignore[attr-defined]
+        read, times = robot.read, list[float]()
+
+        def note(
+            read: Any = read,
+            times: Any = times,
+            always: bool = not sparing,
+            *,
+            sees: bool,
+        ) -> Any:
+            measured = read(sees=sees or always)
+            if measured.sighting is not None:
+                times.append(measured.time)
+            return measured
+
+        robot.read = note
+        outcome, wall_time = play(duel, DURATION)
+        tracks.append(duel.run(outcome, wall_time).tracks["pursuer"])
+        seen.append(times)
+    assert len(seen[1]) == round(DURATION / 0.004)
+    walking = [time for time in seen[0] if time > 2.0]
+    assert 0 < len(walking) < 0.05 * len(seen[1])
     other = tracks[1].arrays("pursuer")
     for key, values in tracks[0].arrays("pursuer").items():
         np.testing.assert_array_equal(values, other[key], err_msg=key)

@@ -26,6 +26,7 @@ from stepaside.robots.description_types import FOOT_FORCES
 from stepaside.robots.leg_kinematics import LegKinematics
 from stepaside.sim.body_settings import BodySettings
 from stepaside.sim.ground_truth import TrueRobotState, torsos_apart
+from stepaside.sim.ideal_sensors import IdealLineOfSight
 from stepaside.sim.physics_settings import PhysicsSettings
 from stepaside.sim.push import Push
 from stepaside.sim.sensor_errors import SensorErrors
@@ -331,8 +332,11 @@ def test_pushes_go_to_the_robots_own_torso() -> None:
 def test_sight_and_eyes_are_read_at_the_time_of_the_world() -> None:
     told: list[float] = []
 
-    class Sense:
+    class Sense(IdealLineOfSight):
         is_exact = False
+
+        def __init__(self) -> None:
+            pass
 
         def read(self, now: float) -> Any:
             told.append(now)

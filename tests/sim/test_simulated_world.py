@@ -8,6 +8,7 @@ import mujoco
 import numpy as np
 import pytest
 
+from stepaside.core.machine_code import kernel_of
 from stepaside.core.poses import Pose
 from stepaside.robots.description import load_robot
 from stepaside.sim.body_settings import BodySettings
@@ -175,6 +176,63 @@ def test_steps_are_the_same_one_by_one_and_together() -> None:
             world.advance()
         states.append(world.data.qpos.copy())
     np.testing.assert_array_equal(*states)
+
+
+def fallen(ticks: int = 0) -> World:
+    """A robot that drops to the floor."""
+    world = World({"evader": NAO}, PhysicsSettings(tick=0.006))
+    world.data.qpos[2] = 0.34
+    world.data.qvel[:] = np.linspace(-0.5, 0.5, world.model.nv)
+    mujoco.mj_forward(world.model, world.data)
+    for _ in range(ticks):
+        world.advance()
+    return world
+
+
+@pytest.mark.parametrize("ticks", [1, 3, 20])
+def test_sensors_are_those_of_the_last_physics_step(ticks: int) -> None:
+    """Computed afterwards, without an effect on the motion."""
+    world, reference = fallen(ticks), fallen()
+    mujoco.mj_step(reference.model, reference.data, nstep=3 * ticks)
+    world.update_sensors()
+    found, expected = world.data, reference.data
+    np.testing.assert_array_equal(found.sensordata, expected.sensordata)
+    assert np.abs(expected.sensordata).max() > 1.0
+    world.update_sensors()
+    world.advance()
+    mujoco.mj_step(reference.model, reference.data, nstep=3)
+    np.testing.assert_array_equal(found.qpos, expected.qpos)
+    world.update_sensors()
+    np.testing.assert_array_equal(found.sensordata, expected.sensordata)
+
+
+ADD = """
+def count(calls):
+    calls[0] += 1.0
+"""
+
+
+def test_machine_code_is_called_in_the_steps_of_its_own_world() -> None:
+    add = kernel_of("count", ADD, "1")
+    if add is None:
+        pytest.skip("needs the extra fast")
+    world, other = fallen(), fallen()
+    calls = np.zeros(1)
+    told: list[float] = []
+
+    def step_other(time: float) -> None:
+        told.append(time)
+        mujoco.mj_step(other.model, other.data)
+
+    world.call_before_step(lambda time: None, add.bind(calls))
+    world.advance()
+    assert calls[0] == 3.0
+    world.call_before_step(step_other)
+    world.advance()
+    assert calls[0] == 6.0 and len(told) == 3
+    other.advance()
+    mujoco.mj_step(world.model, world.data)
+    assert calls[0] == 6.0
 
 
 def rotation(quaternion: Any) -> np.ndarray:

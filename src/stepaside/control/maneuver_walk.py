@@ -161,13 +161,13 @@ class ManeuverWalk:
         if self.plan is None:
             self._first_foot = foot
 
+    def decides(self, now: float) -> bool:
+        """Return whether a decision is due at a tick, at a time in [s]."""
+        return self.plan is None or now >= self._plan_ends - 1e-9
+
     def coast(self, now: float) -> Array | None:
         """Run a tick within a step; see :class:`.locomotion.Locomotion`."""
-        if (
-            self.plan is None
-            or now >= self._plan_ends - 1e-9
-            or self._maneuvers.guard is not None
-        ):
+        if self.decides(now) or self._maneuvers.guard is not None:
             return None
         index = self._table.index(now)
         targets = self.balance.planned_targets(self._table, index)
@@ -189,7 +189,7 @@ class ManeuverWalk:
             surroundings.note(measurement, self.reference)
         if self.plan is None:
             self._wait(now, decisions)
-        elif now >= self._plan_ends - 1e-9:
+        elif self.decides(now):
             self._finish(self.plan, decisions)
         table = self._table
         self._index = index = table.index(now)

@@ -152,6 +152,10 @@ class ControlScheme(LocomotionScheme):
         """Plan and references of the last tick."""
         return self.locomotion.state
 
+    def decides(self, now: float) -> bool:
+        """Return whether a decision is due at a tick, at a time in [s]."""
+        return self.locomotion.decides(now)
+
     def coast(self, now: float) -> Array | None:
         """Run a control tick without measurement, in the middle of a step.
 

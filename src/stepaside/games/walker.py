@@ -81,7 +81,8 @@ class SimulatedPlayer:
         robot, scheme = self.robot, self.scheme
         targets = scheme.coast(robot.world.time) if self._coasts else None
         if targets is None:
-            targets = scheme.update(robot.read())
+            sees = not self._coasts or scheme.decides(robot.world.time)
+            targets = scheme.update(robot.read(sees=sees))
         robot.write(targets)
 
     def snapshot(self) -> Snapshot:

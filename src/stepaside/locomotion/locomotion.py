@@ -141,6 +141,9 @@ class PlannedLocomotion(Locomotion, Protocol):
     def lead_with(self, foot: Foot) -> None:
         """Choose the foot of the first step, if the robot stands."""
 
+    def decides(self, now: float) -> bool:
+        """Return whether a decision is due at a tick, at a time in [s]."""
+
     def coast(self, now: float) -> Array | None:
         """Run a control tick that needs neither measurement nor decision.
 

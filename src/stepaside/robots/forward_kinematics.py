@@ -1,16 +1,15 @@
 """Forward kinematics of CoM, feet and head from measured joint angles."""
 
-from collections.abc import Callable
 from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
 
 from ..core.errors import ModelError
-from ..core.machine_code import is_enabled
+from ..core.machine_code import Kernel, is_enabled
 from ..core.poses import Array
 from .description import REMEDY, RobotDescription
-from .expression_tracing import ExpressionTrace, Number
+from .expression_tracing import ExpressionTrace, Formula, Function, Number
 from .link_poses import gather_moments, place_links
 from .robot_tree import RobotTree
 from .tree_cache import load_tree
@@ -71,13 +70,20 @@ class ForwardKinematics:
         self.tree = tree = load_tree(description)
         self.mass = tree.mass
         feet = (description.left_foot, description.right_foot)
-        self._evaluate = _trace_posture(
+        formula, kernel = _trace_posture(
             tree,
             feet,
             head,
             tuple(sorted(description.standing.items())),
             is_enabled(),
         )
+        self._numbers = np.empty(HEAD_OFFSET + (0 if head is None else 12))
+        self._angles = np.empty(len(tree.motors))
+        self._function: Function | None = None
+        if kernel is None:
+            self._function = formula.function()
+        else:
+            self._run = kernel.bind(self._angles, self._numbers)
         self._feet = [tree.sites[name] for name in feet]
         self._cache_key = b""
         self._posture: MeasuredPosture
@@ -110,6 +116,14 @@ class ForwardKinematics:
             self._cache_key = key
         return self._posture
 
+    def _evaluate(self, angles: Array) -> Array:
+        """Return the results of the formulas at angles, in [rad]."""
+        if self._function is not None:
+            return np.array(self._function(*angles.tolist()))
+        self._angles[:] = angles
+        self._run()
+        return self._numbers.copy()
+
     def force_sensors(self) -> Array:
         """Return the positions of the foot force sensors.
 
@@ -141,8 +155,8 @@ def _trace_posture(
     head: str | None,
     standing: tuple[tuple[str, float], ...],
     compiled: bool,
-) -> Callable[[Array], Array]:
-    """Generate the formulas of CoM, feet and head.
+) -> tuple[Formula, Kernel | None]:
+    """Generate the formulas of CoM, feet and head, also as machine code.
 
     Args:
         tree: Kinematic tree.
@@ -174,14 +188,4 @@ def _trace_posture(
     formula = trace.formula("posture", results)
     angles_of = ", ".join(f"angles[{i}]" for i in range(len(tree.motors)))
     kernel = formula.kernel("posture_row", LOOP.format(angles_of), "11")
-    if kernel is None:
-        function = formula.function()
-        return lambda angles: np.array(function(*angles.tolist()))
-    count = len(results)
-
-    def evaluate(angles: Array) -> Array:
-        numbers = np.empty(count)
-        kernel(angles, numbers)
-        return numbers
-
-    return evaluate
+    return formula, kernel

@@ -262,11 +262,17 @@ class SimulatedRobot:
         mass = self.world.model.body_subtreemass[self._torso]
         return GRAVITY * float(mass)
 
-    def read(self) -> Measurement:
-        """Read the sensors."""
+    def read(self, *, sees: bool = True) -> Measurement:
+        """Read the sensors.
+
+        Args:
+            sees: Whether to read the ideal sightings of other players.
+        """
         now = self.world.time
         self.world.update_sensors()
-        sighting = None if self.sight is None else self.sight.read(now)
+        sighting = None
+        if sees and self.sight is not None:
+            sighting = self.sight.read(now)
         angles = self._qpos_view.take(self._qpos)
         latest = None
         if self._strapdown is not None:
@@ -297,7 +303,7 @@ class SimulatedRobot:
             None
             if self._dofs is None
             else self.world.data.qvel.take(self._dofs),
-            self._sightings(now),
+            self._sightings(now) if sees else (),
             latest,
         )
 
