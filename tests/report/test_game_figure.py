@@ -114,3 +114,4 @@ def test_the_caption_names_the_nearest_opponents() -> None:
         for name in ("red", "ruby")
     )
     assert text.endswith(f"{least:.2f} m") and "blue" in text
+    assert f"{run().distance[0]:.2f} m" in text

@@ -26,6 +26,9 @@ if TYPE_CHECKING:
     from ..games.run import MatchRun
 
 
+MOST_PAIRS = 15  # that are all printed
+
+
 def _levels() -> tuple[str, ...]:
     from ..games.game_settings import GAME_LEVELS
 
@@ -155,8 +158,15 @@ def print_game(run: "MatchRun") -> None:
     echo("")
     print_table(lines)
     echo("")
+    # Of many pairs only those of a player that decides; --json has them all.
+    deciding = {p.name for p in run.settings.players if p.decides}
+    few = len(summary.pairs) <= MOST_PAIRS
     print_table(
-        [(" - ".join(p.players), _pair_text(p)) for p in summary.pairs]
+        [
+            (" - ".join(pair.players), _pair_text(pair))
+            for pair in summary.pairs
+            if few or deciding.intersection(pair.players)
+        ]
     )
     if summary.crowd:
         echo("")

@@ -52,8 +52,8 @@ def _describe_match(run: MatchRun, index: int) -> str:
     apart = {
         pair: hypot(
             *(
-                run.tracks[pair[0]].torso[index, :2]
-                - run.tracks[pair[1]].torso[index, :2]
+                run.tracks[pair[0]].unicycle[index, :2]
+                - run.tracks[pair[1]].unicycle[index, :2]
             ).tolist()
         )
         for pair in run.opponents
