@@ -42,12 +42,12 @@ def main(rounds: int = 6, updates: int = 30) -> None:
     opponents = {role: load_strategy(FIRST[role]) for role in FIRST}
     settings = OptimisationSettings(updates=updates)
     learners: dict[str, PolicyOptimiser] = {}
+    print("learner: closest approach of its games [m]")
     for n in range(rounds):
         role, other = list(FIRST)[:: 1 - 2 * (n % 2)]
         games = games_against(opponents[role], role)
-        if role not in learners:
-            learners[role] = PolicyOptimiser(games, settings, seed=n)
-        learner = learners[role]
+        new = PolicyOptimiser(games, settings, seed=n)
+        learner = learners.setdefault(role, new)
         learner.change_games(games, seed=n)
         found = [learner.update(k, 1 - k / updates) for k in range(updates)]
         closest = [progress.closest_m for progress in found]

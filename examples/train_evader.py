@@ -38,8 +38,7 @@ def main(floor: str, updates: int) -> None:
         action="discrete",
         full_state=True,
     )
-    settings = OptimisationSettings(updates=updates)
-    learner = PolicyOptimiser(games, settings, seed=1)
+    learner = PolicyOptimiser(games, OptimisationSettings(updates), seed=1)
     for n in range(updates):
         found = learner.update(n, 1.0 - n / updates)
         if n % 10 == 0:

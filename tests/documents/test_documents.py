@@ -35,6 +35,8 @@ NOT_MEASURED = {
     ("docs/robots-real.md", "topic"),
     ("docs/robots-real.md", "event"),
     ("docs/code.md", "package"),
+    ("docs/learning.md", "environment"),
+    ("docs/learning.md", "setting"),
     ("docs/legs.md", "entry"),
     ("docs/legs.md", "name"),
     ("docs/run-folder.md", "`outcome`"),
