@@ -133,6 +133,7 @@ def test_strategies_have_names() -> None:
     assert load_strategy("sharp") == Pursuit(gain_ratio=inf)
     assert load_strategy("herding") == HerdingPursuit()
     others = {"look-ahead", "optimal", "lead", "optimal-pursuit"}
+    others |= {"robust", "noisy", "stop-and-wait"}
     others |= {"sharp", "herding", "cyclic", "assigned", "encircle"}
     others |= {"pincer", "team-evasion", "goal"}
     others |= {"step-aside", "matador"}

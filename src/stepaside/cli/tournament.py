@@ -103,7 +103,7 @@ def _levels() -> tuple[str, ...]:
     "evaders",
     multiple=True,
     metavar="NAME",
-    help="Strategy of an evader: look-ahead, aside, saturated, alpha, "
+    help="Strategy of an evader: robust, look-ahead, aside, saturated, alpha, "
     "deflected, optimal, FILE.py:NAME or FILE.onnx; repeatable.  "
     "[default: all]",
 )
@@ -115,8 +115,9 @@ def _levels() -> tuple[str, ...]:
     help="Strategy of a pursuer: pure (the paper's), pure-xRATIO (with RATIO "
     "times the evader's gain), sharp (turns by the whole bearing, up to the "
     "maximum), herding (aims halfway between the evader and the centre of "
-    "the room), lead, optimal, FILE.py:NAME or FILE.onnx; repeatable.  "
-    "[default: pure]",
+    "the room), lead, optimal, noisy, stop-and-wait, any of them with -vRATIO "
+    "(RATIO times the evader's speed; not in physics), FILE.py:NAME or "
+    "FILE.onnx; repeatable.  [default: pure]",
 )
 @click.option(
     "--room",
@@ -193,7 +194,12 @@ def tournament(
     """
     from ..strategies.strategy_game import StepGame
     from ..studies.tournament_settings import TournamentSettings
-    from ..studies.tournament_strategies import EVADERS, evader_of, pursuer_of
+    from ..studies.tournament_strategies import (
+        EVADERS,
+        evader_of,
+        pursuer_of,
+        speed_ratio_of,
+    )
 
     evaders, pursuers = evaders or tuple(EVADERS), pursuers or ("pure",)
     if "alpha" not in evaders:
@@ -204,6 +210,10 @@ def tournament(
         evader_of(name, alpha)
     for name in pursuers:
         pursuer_of(name)
+        if level == "physics" and speed_ratio_of(name) != 1.0:
+            raise ConfigurationError(
+                f"pursuer must be without -vRATIO at level physics, got {name}"
+            )
     arena = _arena(room, recipe)
     game = StepGame(duration=duration)
     settings = TournamentSettings(level, arena, game, alpha, map)

@@ -13,6 +13,7 @@ from .optimal_evasion import OptimalEvasion
 from .optimal_pursuit import OptimalPursuit
 from .pursuit import Pursuit
 from .registry import STRATEGIES, load_strategy
+from .robust_evasion import RobustEvasion
 from .strategy import Strategy
 from .strategy_game import (
     StepGame,
@@ -41,6 +42,7 @@ __all__ = [
     "OptimalEvasion",
     "OptimalPursuit",
     "Pursuit",
+    "RobustEvasion",
     "StandStill",
     "StepGame",
     "Strategy",

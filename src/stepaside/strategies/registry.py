@@ -22,12 +22,14 @@ from .deflected_evasion import DeflectedEvasion
 from .evasion import Evasion
 from .goal_walk import GoalWalk
 from .herding import HerdingPursuit
+from .irregular_pursuit import NoisyPursuit, WaitingPursuit
 from .lead_pursuit import LeadPursuit
 from .learned import load_learned_strategy
 from .look_ahead import LookAhead
 from .optimal_evasion import OptimalEvasion
 from .optimal_pursuit import OptimalPursuit
 from .pursuit import Pursuit
+from .robust_evasion import RobustEvasion
 from .strategy import Strategy
 from .strategy_validation import validate_strategy
 from .team_evasion import TeamEvasion
@@ -42,6 +44,7 @@ STRATEGIES: Mapping[str, Callable[[Evasion], Strategy]] = {
     "evasion": lambda evasion: evasion,
     "deflected": lambda evasion: DeflectedEvasion(evasion),
     "look-ahead": lambda evasion: LookAhead(),
+    "robust": lambda evasion: RobustEvasion(),
     "optimal": lambda evasion: OptimalEvasion(),
     "step-aside": lambda evasion: DashEvasion(),
     "matador": lambda evasion: DashEvasion(
@@ -51,6 +54,8 @@ STRATEGIES: Mapping[str, Callable[[Evasion], Strategy]] = {
     "sharp": lambda evasion: Pursuit(gain_ratio=inf),
     "herding": lambda evasion: HerdingPursuit(),
     "lead": lambda evasion: LeadPursuit(),
+    "noisy": lambda evasion: NoisyPursuit(),
+    "stop-and-wait": lambda evasion: WaitingPursuit(),
     "optimal-pursuit": lambda evasion: OptimalPursuit(),
     "cyclic": lambda evasion: CyclicPursuit(),
     "assigned": lambda evasion: AssignedPursuit(),

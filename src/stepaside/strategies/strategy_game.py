@@ -6,7 +6,7 @@ trajectory of Sec. III-B.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from math import atan2, ceil, cos, hypot, inf, pi, sin, tau
 from time import perf_counter
@@ -58,6 +58,8 @@ class StepGame:
         duration: Duration of a game, in [s].
         decisions: Decisions per step; with more than one, the players
             approximate unicycles under feedback.
+        pursuer_speed_ratio: Speed and stride of the pursuer over those of
+            the evader; its turns are the same.
     """
 
     knows_velocity: ClassVar = False  # of the opponent
@@ -70,6 +72,7 @@ class StepGame:
     solid_pursuer: bool = False
     duration: float = 180.0
     decisions: int = 1
+    pursuer_speed_ratio: float = 1.0
 
     def __post_init__(self) -> None:
         """Validate the rules."""
@@ -80,6 +83,8 @@ class StepGame:
         check_positive(self.body_radius, "body_radius", "m")
         check_positive(self.duration, "duration", "s")
         check_within(self.decisions, 1, 100, "decisions", "1")
+        ratio = self.pursuer_speed_ratio
+        check_within(ratio, 0.1, 10.0, "pursuer_speed_ratio", "1")
         if self.largest_turn is not None:
             check_positive(self.largest_turn, "largest_turn", "rad")
             check_bearing(self.largest_turn, "largest_turn")
@@ -104,8 +109,12 @@ class StepGame:
     @property
     def limits(self) -> tuple[Limits, Limits]:
         """Limits of the gaits of pursuer and evader."""
-        gait = Limits(self.speed, self.gain, self.stride, self.period)
-        return gait, gait
+        evader = Limits(self.speed, self.gain, self.stride, self.period)
+        ratio = self.pursuer_speed_ratio
+        pursuer = replace(
+            evader, speed=ratio * self.speed, stride=ratio * self.stride
+        )
+        return pursuer, evader
 
     @property
     def decision_times(self) -> list[float]:
@@ -129,7 +138,7 @@ class StepGame:
         turn = min(max(turn, -most), most) / self.decisions
         half = 0.5 * turn
         way = (
-            self.stride
+            player.limits.stride
             / self.decisions
             * intent.speed_factor
             * float(np.sinc(half / pi))

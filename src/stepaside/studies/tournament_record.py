@@ -13,7 +13,12 @@ from ..strategies.bound_cache import pursuit_bound
 from ..strategies.strategy_game import StepGame, StrategyTrack, play_strategies
 from .records import Record
 from .tournament_settings import HUMANOIDS, TournamentSettings
-from .tournament_strategies import SIGHT, evader_of, pursuer_of
+from .tournament_strategies import (
+    SIGHT,
+    evader_of,
+    pursuer_of,
+    speed_ratio_of,
+)
 
 if TYPE_CHECKING:
     from ..games.run import DuelRun
@@ -89,7 +94,13 @@ def play_track(
     room, starts = settings.arena(seed)
     unicycles = settings.level == "unicycles"
     values = asdict(settings.game)
-    game = StepGame(**values | {"decisions": FEEDBACK if unicycles else 1})
+    game = StepGame(
+        **values
+        | {
+            "decisions": FEEDBACK if unicycles else 1,
+            "pursuer_speed_ratio": speed_ratio_of(pairing[1]),
+        }
+    )
     track = play_strategies(
         pursuer_of(pairing[1]),
         evader_of(pairing[0], settings.angle),

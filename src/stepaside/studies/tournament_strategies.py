@@ -4,12 +4,13 @@ import re
 from collections.abc import Callable, Iterable, Mapping
 from math import pi, radians
 
-from ..core.errors import ConfigurationError
+from ..core.errors import ConfigurationError, check_within
 from ..strategies import (
     DeflectedEvasion,
     Evasion,
     LookAhead,
     OptimalEvasion,
+    RobustEvasion,
     Strategy,
     load_strategy,
 )
@@ -25,6 +26,7 @@ EVADERS: Mapping[str, Callable[[float], Strategy]] = {
     "alpha": lambda angle: Evasion(angle, safety_radius=ALWAYS),
     "deflected": lambda angle: DeflectedEvasion(),
     "optimal": lambda angle: OptimalEvasion(),
+    "robust": lambda angle: RobustEvasion(),
 }
 """Factories of the evaders, which take the angle of "alpha" in [rad]."""
 PURSUERS: Mapping[str, str] = {
@@ -32,11 +34,15 @@ PURSUERS: Mapping[str, str] = {
     "sharp": "sharp",
     "herding": "herding",
     "lead": "lead",
+    "noisy": "noisy",
+    "stop-and-wait": "stop-and-wait",
     "optimal": "optimal-pursuit",
 }
 """Name of the strategy of each pursuer."""
 _WITH_GAIN = re.compile(r"pure-x(?P<ratio>\d+(?:\.\d*)?)", re.ASCII)
 """The paper's pursuer with RATIO times the evader's gain."""
+_WITH_SPEED = re.compile(r"(?P<rest>.+)-v(?P<ratio>\d+(?:\.\d*)?)", re.ASCII)
+"""Any pursuer with RATIO times the evader's speed."""
 
 
 def evader_of(name: str, angle: float = pi / 2) -> Strategy:
@@ -53,12 +59,26 @@ def evader_of(name: str, angle: float = pi / 2) -> Strategy:
 def pursuer_of(name: str) -> Strategy:
     """Return the pursuer of a name, pure-xRATIO, or of a file.
 
+    The suffix -vRATIO of :func:`speed_ratio_of` is left out.
+
     Raises:
         ConfigurationError: If there is none.
     """
+    if found := _WITH_SPEED.fullmatch(name):
+        ratio = float(found["ratio"])
+        check_within(
+            ratio, 0.1, 10.0, "RATIO of -vRATIO", "1", ConfigurationError
+        )
+        name = found["rest"]
     if name in PURSUERS or _WITH_GAIN.fullmatch(name):
         return load_strategy(pursuer_strategy(name))
-    return _own(name, "pursuer", (*PURSUERS, "pure-xRATIO"))
+    return _own(name, "pursuer", (*PURSUERS, "pure-xRATIO, any-vRATIO"))
+
+
+def speed_ratio_of(name: str) -> float:
+    """Return the speed of a pursuer over the evader's; 1 without -vRATIO."""
+    found = _WITH_SPEED.fullmatch(name)
+    return float(found["ratio"]) if found else 1.0
 
 
 def pursuer_strategy(name: str) -> str:

@@ -1,0 +1,103 @@
+"""Test the beam search and its model of the pursuer."""
+
+from math import inf, pi
+
+import numpy as np
+import pytest
+
+from stepaside.arena import NO_OBSTACLES, Room
+from stepaside.core.compilation import load_numba
+from stepaside.core.poses import Pose
+from stepaside.strategies import (
+    HerdingPursuit,
+    Pursuit,
+    StepGame,
+    Strategy,
+    play_strategies,
+)
+from stepaside.strategies.robust_evasion import actions_of
+from stepaside.strategies.search.beam_search import (
+    arc_end,
+    beam_search,
+    survived_steps,
+)
+from stepaside.strategies.search.pursuer_model import (
+    BeamRules,
+    PursuerModel,
+    model_turn,
+)
+
+pytestmark = pytest.mark.skipif(
+    load_numba() is None, reason='needs the extra "fast"'
+)
+RULES = BeamRules(0.04, 0.08, 0.08 * pi, 0.35, 0.2, 60, 50)
+SHARP = PursuerModel(12.5)
+START = np.array([0.5, 0.2, 0.3, -0.5, -0.1, 0.9])
+
+
+@pytest.mark.parametrize(
+    ("model", "pursuer"),
+    [
+        (PursuerModel(), Pursuit()),
+        (PursuerModel(3.0), Pursuit(gain_ratio=3.0)),
+        (SHARP, Pursuit(gain_ratio=inf)),
+        (PursuerModel(1.0, inward=1.0), HerdingPursuit()),
+    ],
+    ids=["pure", "x3", "sharp", "herding"],
+)
+def test_model_walks_as_the_strategy_does(
+    model: PursuerModel, pursuer: Strategy
+) -> None:
+    """Over 40 steps of a game, against an evader that moves aside."""
+    from stepaside.strategies import Evasion
+
+    starts = Pose(-0.5, -0.1, 0.9), Pose(0.5, 0.2, 0.3)
+    game = StepGame(duration=16.0, capture=1e-3)
+    track = play_strategies(
+        pursuer, Evasion(safety_radius=1e6), starts, game=game
+    )
+    for before, own, after in zip(
+        track.pursuer, track.evader, track.pursuer[1:], strict=False
+    ):
+        turn = model_turn(tuple(own), tuple(before), model, RULES)
+        end = arc_end(tuple(before), 0.04, turn)
+        np.testing.assert_allclose(end[:2], after[:2], atol=1e-6)
+
+
+def test_path_survives_as_long_as_it_says() -> None:
+    packed = Room(3.0, 3.0).solid_set.packed
+    actions = actions_of(RULES.largest)
+    path = beam_search(START, actions, SHARP, packed, RULES)
+    steps, _ = survived_steps(START, actions[path], SHARP, packed, RULES)
+    assert steps == len(path) == RULES.horizon
+
+
+def test_wider_beams_survive_longer_in_a_small_room() -> None:
+    packed = Room(1.8, 1.8).solid_set.packed
+    start = np.array([0.3, 0.2, 0.3, -0.3, -0.1, 0.9])
+    actions = actions_of(RULES.largest)
+    found = [
+        len(
+            beam_search(
+                start,
+                actions,
+                SHARP,
+                packed,
+                RULES._replace(width=width, horizon=450),
+            )
+        )
+        for width in (1, 2000)
+    ]
+    assert 3 < found[0] < found[1] < 450
+
+
+def test_captured_and_touching_moves_do_not_survive() -> None:
+    near = np.array([0.3, 0.0, 0.0, -0.06, 0.0, 0.0])
+    walk_into = np.array([[0.0, 0.0]])
+    none = NO_OBSTACLES.packed
+    assert survived_steps(near, walk_into, SHARP, none, RULES)[0] == 0
+    wall = Room(3.0, 3.0).solid_set.packed
+    beside = np.array([-1.29, 0.0, 0.0, 1.0, 0.0, pi])
+    back = np.array([[0.0, 1.0]])
+    assert survived_steps(beside, back, SHARP, wall, RULES)[0] == 0
+    assert survived_steps(beside, back, SHARP, none, RULES)[0] == 1

@@ -1,0 +1,147 @@
+"""Test the evader that does not know its opponent."""
+
+from math import inf, pi
+
+import numpy as np
+import pytest
+
+from stepaside.arena import RoomRecipe
+from stepaside.core.compilation import load_numba
+from stepaside.core.errors import ConfigurationError
+from stepaside.core.poses import Pose
+from stepaside.strategies import (
+    HerdingPursuit,
+    Pursuit,
+    RobustEvasion,
+    StepGame,
+    Strategy,
+    play_strategies,
+)
+from stepaside.strategies.irregular_pursuit import NoisyPursuit, WaitingPursuit
+from stepaside.strategies.opponent_models import MODELS, ModelFit
+from stepaside.strategies.robust_evasion import actions_of
+from stepaside.strategies.search.beam_search import arc_end, beam_search
+from stepaside.strategies.search.pursuer_model import (
+    BeamRules,
+    PursuerModel,
+    model_turn,
+)
+from stepaside.studies.tournament_settings import TournamentSettings
+from stepaside.studies.tournament_strategies import pursuer_of, speed_ratio_of
+
+pytestmark = pytest.mark.skipif(
+    load_numba() is None, reason='needs the extra "fast"'
+)
+RULES = BeamRules(0.04, 0.08, 0.08 * pi, 0.35, 0.2, 1, 1)
+ROOMS = TournamentSettings(room=RoomRecipe())
+
+
+@pytest.mark.parametrize("number", range(len(MODELS)))
+def test_model_that_walks_explains_its_own_steps(number: int) -> None:
+    """Seen by an evader on an arc; the others explain them less well."""
+    pursuer, own, fit = (-0.6, 0.1, 1.2), (0.4, -0.2, 2.0), ModelFit()
+    for n in range(12):
+        fit = fit.observe(0.4 * n, Pose(*own), pursuer[:2], RULES, 0.4)
+        turn = model_turn(own, pursuer, MODELS[number], RULES)
+        pursuer = arc_end(pursuer, 0.04, turn)
+        own = arc_end(own, -0.04, 0.12)
+    errors = np.sqrt(fit.errors)
+    assert errors[number] == errors.min() and number in fit.plausible()
+    assert fit.speed == pytest.approx(1.0, abs=1e-3)
+
+
+def test_faster_pursuer_is_seen_to_be_faster() -> None:
+    model = PursuerModel(2.0, speed=1.3)
+    pursuer, own, fit = (-0.6, 0.1, 1.2), (1.4, -0.2, 2.0), ModelFit()
+    for n in range(5):
+        fit = fit.observe(0.4 * n, Pose(*own), pursuer[:2], RULES, 0.4)
+        turn = model_turn(own, pursuer, model, RULES)
+        pursuer = arc_end(pursuer, 1.3 * 0.04, turn)
+    assert fit.speed == pytest.approx(1.3, abs=0.01)
+
+
+def survival(
+    evader: Strategy, pursuer: Strategy, seed: int, duration: float
+) -> float:
+    room, starts = ROOMS.arena(seed)
+    game = StepGame(duration=duration)
+    track = play_strategies(pursuer, evader, starts, room=room, game=game)
+    return float(track.times[-1])
+
+
+@pytest.mark.parametrize("seed", [1000, 1001])
+def test_herding_is_survived_in_a_room(seed: int) -> None:
+    assert survival(RobustEvasion(), HerdingPursuit(), seed, 90.0) > 89.0
+
+
+def test_sharp_pursuer_needs_0_8_of_the_time_of_an_offline_search() -> None:
+    """The search knows the pursuer; the evader has to find it out."""
+    sharp, online, offline = Pursuit(gain_ratio=inf), 0.0, 0.0
+    rules = RULES._replace(width=1000, horizon=450)
+    for seed in (1000, 1001):
+        room, (pursuer, evader) = ROOMS.arena(seed)
+        path = beam_search(
+            np.array([*evader, *pursuer]),
+            actions_of(RULES.largest),
+            PursuerModel(12.5),
+            room.solid_set.packed,
+            rules,
+        )
+        offline += 0.4 * len(path)
+        online += survival(RobustEvasion(), sharp, seed, 180.0)
+    assert 0.8 * offline < online < 180.0
+
+
+def test_faster_pursuer_of_the_paper_is_survived_on_an_open_floor() -> None:
+    settings = TournamentSettings(room=RoomRecipe(None, None))
+    game = StepGame(pursuer_speed_ratio=1.1, duration=90.0)
+    _, starts = settings.arena(1002)
+    track = play_strategies(Pursuit(), RobustEvasion(), starts, game=game)
+    assert not track.captured
+
+
+def test_same_knowledge_gives_the_same_game() -> None:
+    noisy = NoisyPursuit(seed=3)
+    tracks = [
+        play_strategies(
+            noisy,
+            RobustEvasion(width=20, horizon=20),
+            ROOMS.arena(1004)[1],
+            room=ROOMS.arena(1004)[0],
+            game=StepGame(duration=12.0),
+        )
+        for _ in range(2)
+    ]
+    np.testing.assert_array_equal(tracks[0].pursuer, tracks[1].pursuer)
+    np.testing.assert_array_equal(tracks[0].evader, tracks[1].evader)
+
+
+def test_waiting_pursuer_stands_and_goes_on() -> None:
+    track = play_strategies(
+        WaitingPursuit(3.9, 2.05),
+        RobustEvasion(width=10, horizon=10),
+        ROOMS.arena(1004)[1],
+        game=StepGame(duration=12.0),
+    )
+    moved = np.hypot(*np.diff(track.pursuer[:, :2], axis=0).T)
+    assert (moved[10:15] == 0.0).all() and (moved[:10] > 0.03).all()
+    assert (moved[15:25] > 0.03).all()
+
+
+def test_speed_of_a_pursuer_is_in_its_name() -> None:
+    assert speed_ratio_of("sharp-v1.3") == 1.3
+    assert speed_ratio_of("pure-x2-v0.8") == 0.8
+    assert speed_ratio_of("stop-and-wait") == 1.0
+    assert pursuer_of("pure-x2-v0.8") == Pursuit(gain_ratio=2.0)
+    with pytest.raises(ConfigurationError, match="RATIO of -vRATIO must"):
+        pursuer_of("pure-v30")
+
+
+def test_pursuer_walks_at_its_speed() -> None:
+    game = StepGame(pursuer_speed_ratio=1.3, duration=4.0)
+    starts = Pose(0.0, 0.0, 0.0), Pose(2.0, 0.0, pi)
+    track = play_strategies(
+        Pursuit(), RobustEvasion(10, 10), starts, game=game
+    )
+    moved = np.hypot(*np.diff(track.pursuer[:, :2], axis=0).T)
+    assert moved == pytest.approx(1.3 * 0.04, rel=0.02)
