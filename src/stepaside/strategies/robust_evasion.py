@@ -18,7 +18,7 @@ from .search.pursuer_model import BeamRules
 ERROR = ConfigurationError
 MARGIN = 0.005  # in addition to the required clearance, in [m]
 TURNS = 7  # turns tried per step
-WIDER = 8  # times the width where no state survives the horizon
+WIDER = 20  # times the width where no state survives the horizon
 KEPT = 0.5  # share of a plan that is walked before the next search
 AS_PREDICTED = 0.01  # of the pursuer's position that keeps the plan, in [m]
 
@@ -105,7 +105,9 @@ class RobustEvasion:
         )
         assumed = tuple(fit.plausible())
         moves = memory.moves[1:]
-        if assumed != memory.assumed or len(moves) < KEPT * memory.planned:
+        doomed = memory.planned < self.horizon
+        spent = len(moves) < KEPT * memory.planned
+        if assumed != memory.assumed or spent or doomed:
             moves = self._plan(knowledge, fit, assumed, moves, rules)
             memory = memory._replace(planned=len(moves))
         turn, speed = moves[0] if moves else (rules.largest, ON_THE_SPOT)
