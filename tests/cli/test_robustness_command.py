@@ -161,3 +161,11 @@ def test_changed_body_is_called_own() -> None:
     own = json.loads(run(*asked, "--stiffness", "0.5"))
     assert own["body"] == "own"
     assert json.loads(run(*asked, "--body", "hardware"))["body"] == "hardware"
+
+
+def test_legs_are_refused_without_people() -> None:
+    result = CliRunner().invoke(
+        main, ["robustness", "--kind", "push", "--legs", "walk.onnx"]
+    )
+    assert result.exit_code == 2
+    assert "--kind person" in result.output

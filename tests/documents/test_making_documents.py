@@ -264,6 +264,35 @@ def test_counts_of_people_have_intervals() -> None:
         assert counted(3, 15) in TABLES[name](result)
 
 
+def test_people_around_learned_legs_are_counted_by_body() -> None:
+    body = {"cycle": 0.012, "delay_cycles": 1, "servo_gain": 0.75}
+    row = {
+        **{"speed_m_s": 1.4, "number": 12, "contacts": 1, "falls": 2},
+        **{"closest_m": 0.5, "mean_closest_m": 0.6, "triggered_at_m": None},
+        **{"template_closest_m": 0.7, "false_triggers": 3},
+    }
+    plain = {"settings": {"body": "ideal", "changes": "{}"}}
+    own = {"settings": {"body": "own", "changes": json.dumps({"body": body})}}
+    rows = {"people": [row], "passers_by": [row]}
+    results = plain | rows, own | rows
+    for name in ("legs-people", "legs-passers-by"):
+        made = TABLES[name](*results).splitlines()
+        assert made[2].startswith("| ideal |")
+        assert made[3].startswith("| hardware, delay 12 ms |")
+        assert counted(1, 12) in made[3]
+    chases = [
+        {
+            **{"turning_radius_m": 4.0, "outcome": outcome},
+            **{"closest_m": closest, "template_closest_m": 0.54},
+        }
+        for outcome, closest in (("contact", 0.45), ("completed", 0.69))
+    ]
+    found = {"closed_form_m": {"4": 0.51}, "chases": chases}
+    made = TABLES["legs-chasers"](found).splitlines()
+    assert made[2].startswith("| 4 | 0.51 | 0.54 | 0.45-0.69 |")
+    assert counted(1, 2) in made[2] and counted(0, 2) in made[2]
+
+
 @pytest.mark.parametrize("page", ["evading", "obstacles"])
 def test_every_figure_of_survival_names_the_pursuer(page: str) -> None:
     """A share survived holds against one pursuer, so no table goes without."""

@@ -4,7 +4,9 @@
 """
 
 import sysconfig
+from dataclasses import replace
 from importlib.util import find_spec
+from math import pi
 from pathlib import Path
 
 import pytest
@@ -13,12 +15,17 @@ pytest.importorskip("onnxruntime")
 
 from stepaside.cli.main import main
 from stepaside.fitting.legs_measurement import LegsTrial, run_trial
+from stepaside.games.duel import run_duel
+from stepaside.games.duel_settings import DuelSettings
+from stepaside.games.outcome import Outcome
+from stepaside.games.robot_settings import with_legs, with_robot
 from stepaside.locomotion.policy.contract_checks import check_contract
 from stepaside.locomotion.policy.contract_reader import read_contract
 from stepaside.locomotion.policy.legs_settings import LegsSettings
 from stepaside.locomotion.policy.network import PolicyNetwork
 from stepaside.robots.description import load_robot
 from stepaside.sim.body_settings import BodySettings
+from stepaside.sim.person_settings import PersonSettings
 from stepaside.strategies.velocity_set import BodyVelocity
 
 G1 = (
@@ -48,18 +55,47 @@ def test_metadata_and_convention_complete_the_contract(
     assert any(angle != 0.0 for angle in contract.default_posture)
 
 
-def test_a_published_network_walks_a_published_robot(tmp_path: Path) -> None:
-    """At 0.4 m/s of 0.5 commanded."""
-    network = network_of("g1_29dof", "fastsac")
+@pytest.fixture(scope="module")
+def g1(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Description of the G1."""
     if not G1.is_dir():
         pytest.skip("example-robot-data is not installed")
+    folder = tmp_path_factory.mktemp("robots") / "g1"
     model = G1 / "urdf" / "g1_29dof_rev_1_0.urdf"
     arguments = [str(model), f"--meshes={G1 / 'meshes'}"]
     with pytest.raises(SystemExit) as left:
-        main(["robot", "init", *arguments, f"--output={tmp_path / 'g1'}"])
+        main(["robot", "init", *arguments, f"--output={folder}"])
     assert left.value.code in (0, None)
+    return folder
+
+
+def test_a_published_network_gets_out_of_the_way_of_a_person(g1: Path) -> None:
+    """At 1.4 m/s from the left, aimed at its centre."""
+    network = str(network_of("g1_29dof", "fastsac"))
+    settings = with_legs(with_robot(DuelSettings(), str(g1)), network)
+    settings = replace(
+        settings,
+        pursuer="person",
+        person=PersonSettings("straight", 1.4),
+        evader_strategy="step-aside",
+        start=replace(
+            settings.start,
+            distance=6.0,
+            pursuer_offset=0.0,
+            evader_offset=-0.5 * pi,
+        ),
+        duration=6.0,
+    )
+    run = run_duel(settings)
+    assert run.outcome is Outcome.COMPLETED
+    assert run.summary.min_distance_m > 0.9
+
+
+def test_a_published_network_walks_a_published_robot(g1: Path) -> None:
+    """At 0.4 m/s of 0.5 commanded."""
+    network = network_of("g1_29dof", "fastsac")
     trial = LegsTrial(
-        load_robot(tmp_path / "g1"),
+        load_robot(g1),
         LegsSettings(str(network)),
         BodySettings(),
         BodyVelocity(0.5, 0.0, 0.0),

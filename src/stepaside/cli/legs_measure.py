@@ -1,5 +1,6 @@
 """``stepaside legs measure``: velocities that learned legs deliver."""
 
+from dataclasses import replace
 from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     from ..fitting.legs_measurement import LegsMeasurement
     from ..locomotion.policy.legs_settings import LegsSettings
     from ..robots.description import RobotDescription
+    from ..sim.body_settings import BodySettings
 
 BODIES = ("ideal", "delayed", "hardware")
 
@@ -41,6 +43,12 @@ BODIES = ("ideal", "delayed", "hardware")
     help="Imperfections of the body.  [default: ideal]",
 )
 @click.option(
+    "--delay-cycles",
+    type=click.IntRange(0, 100),
+    help="Delay from command to motion, in control cycles of the body; that "
+    "of the body by default.",
+)
+@click.option(
     "--random-walks",
     type=click.IntRange(0, 1000),
     default=0,
@@ -57,6 +65,7 @@ def measure(
     legs: str,
     legs_contract: str,
     body: str,
+    delay_cycles: int | None,
     random_walks: int,
     seed: int,
     workers: int | None,
@@ -78,6 +87,7 @@ def measure(
         response_path,
     )
     from ..robots.description import load_robot
+    from ..sim.body_settings import BODIES as PRESETS
 
     description = load_robot(robot)
     network = legs or settings_from_description(description).legs.network
@@ -87,8 +97,11 @@ def measure(
         )
     settings = LegsSettings(network, legs_contract)
     file = response_path(description.folder, Path(network))
+    walked = PRESETS[body]
+    if delay_cycles is not None:
+        walked = replace(walked, delay_cycles=delay_cycles)
     result = _measure(
-        description, settings, body, (seed, random_walks), workers
+        description, settings, walked, (seed, random_walks), workers
     )
     with atomic_draft(file) as draft:
         entries = response_entries(result.response, Path(network))
@@ -107,7 +120,7 @@ def measure(
 def _measure(
     description: "RobotDescription",
     legs: "LegsSettings",
-    body: str,
+    body: "BodySettings",
     draws: tuple[int, int],
     workers: int | None,
 ) -> "LegsMeasurement":
@@ -122,7 +135,6 @@ def _measure(
     """
     from ..core.worker_pool import worker_pool
     from ..fitting.legs_measurement import measure_legs
-    from ..sim.body_settings import BODIES
 
     with (
         worker_pool(workers) as executor,
@@ -136,7 +148,7 @@ def _measure(
         return measure_legs(
             description,
             legs,
-            BODIES[body],
+            body,
             executor,
             report,
             seed=draws[0],

@@ -20,7 +20,7 @@ from .knowledge import STAND, Intent, Knowledge, Limits
 from .velocity_set import STILL, BodyVelocity, VelocitySet, respond
 
 INTERVAL = 0.08  # between comparisons of a standing robot, in [s]
-WINDOW = 0.4  # of the fit of the opponent's velocity, in [s]
+WINDOW = 0.6  # of the fit of the opponent's velocity, in [s]
 SPACING = 0.03  # least time between sightings of the fit, in [s]
 STILL_OPPONENT = 0.1  # speed below which it is expected to stand, in [m/s]
 HEADING_GAIN = 3.0  # of turning the body along the dash, in [1/s]
@@ -28,7 +28,7 @@ LATER = 0.6  # after which the second set of dashes begins, in [s]
 FEINT = 0.6  # time for which a chaser may turn away first, in [s]
 EFFORT = 0.02  # gain for which a robot begins to walk, in [m]
 SURPLUS = 0.02  # value of clearance beyond what is enough, per metre
-CHANGE = 0.01  # gain for which a dash gives way to another, in [m]
+CHANGE = 0.3  # half the gain for which the opposite dash is better, in [m]
 CHASER_RADIUS = 2.5  # turning radius of a person who chases, in [m]
 NO_FEINT = np.zeros(1)
 FEINTS = np.array([0.0, 1.0, -1.0])

@@ -1,0 +1,96 @@
+"""People who approach or chase a robot on learned legs."""
+
+import json
+from collections import defaultdict
+from collections.abc import Mapping
+from typing import Any
+
+from stepaside.sim.body_settings import BODIES
+
+from .markdown import counted, interval, number, table
+
+MILLISECONDS = 1e3  # per second
+
+
+def body_of(settings: Mapping[str, Any]) -> str:
+    """Return the body of a campaign: its preset, and another delay.
+
+    Args:
+        settings: Settings of the result.
+    """
+    body: str = settings["body"]
+    own = json.loads(settings["changes"]).get("body")
+    if own is None:
+        return body
+    hardware = BODIES["hardware"]
+    if own["servo_gain"] == hardware.servo_gain:
+        body = "hardware"
+    delay = MILLISECONDS * own["cycle"] * own["delay_cycles"]
+    return f"{body}, delay {delay:g} ms"
+
+
+def people(*results: Mapping[str, Any]) -> str:
+    """List contacts, falls and distances by body and walking speed."""
+    rows = [
+        (
+            body_of(result["settings"]),
+            f"{row['speed_m_s']:g}",
+            counted(row["contacts"], row["number"]),
+            counted(row["falls"], row["number"]),
+            number(row["closest_m"], 2),
+            number(row["mean_closest_m"], 2),
+            number(row["template_closest_m"], 2),
+            number(row["triggered_at_m"], 1),
+        )
+        for result in results
+        for row in result["people"]
+    ]
+    head = (
+        *("body", "speed [m/s]", "touched", "fell", "closest [m]"),
+        *("mean [m]", "template's closest [m]", "begun at [m]"),
+    )
+    return table(head, rows)
+
+
+def passers_by(*results: Mapping[str, Any]) -> str:
+    """List false triggers with passing pedestrians, by body."""
+    return table(
+        ("body", "passers-by", "false triggers", "touched"),
+        [
+            (
+                body_of(result["settings"]),
+                str(row["number"]),
+                counted(row["false_triggers"], row["number"]),
+                counted(row["contacts"], row["number"]),
+            )
+            for result in results
+            for row in result["passers_by"]
+        ],
+    )
+
+
+def chasers(result: Mapping[str, Any]) -> str:
+    """List chases by the turning radius of the person."""
+    groups: dict[float, list[Mapping[str, Any]]] = defaultdict(list)
+    for row in result["chases"]:
+        groups[row["turning_radius_m"]].append(row)
+    rows = []
+    for radius, found in groups.items():
+        closest = [row["closest_m"] for row in found]
+        template = [row["template_closest_m"] for row in found]
+        outcomes = [row["outcome"] for row in found]
+        rows.append(
+            (
+                f"{radius:g}",
+                number(result["closed_form_m"][f"{radius:g}"], 2),
+                interval(min(template), max(template), 2),
+                interval(min(closest), max(closest), 2),
+                counted(outcomes.count("contact"), len(found)),
+                counted(outcomes.count("fall"), len(found)),
+            )
+        )
+    head = (
+        *("turning radius [m]", "closed form [m]", "template [m]"),
+        *("in physics [m]", "touched", "fell"),
+    )
+    return table(head, rows)
