@@ -26,7 +26,7 @@ STILL_OPPONENT = 0.1  # speed below which it is expected to stand, in [m/s]
 HEADING_GAIN = 3.0  # of turning the body along the dash, in [1/s]
 LATER = 0.6  # after which the second set of dashes begins, in [s]
 FEINT = 0.6  # time for which a chaser may turn away first, in [s]
-EFFORT = 0.02  # gain for which a robot begins to walk, in [m]
+EFFORT = 0.05  # gain for which a robot begins to walk, in [m]
 SURPLUS = 0.02  # value of clearance beyond what is enough, per metre
 CHANGE = 0.3  # half the gain for which the opposite dash is better, in [m]
 CHASER_RADIUS = 2.5  # turning radius of a person who chases, in [m]
@@ -238,14 +238,14 @@ def _bonus(angles: Array, begins: Array, present: float | None) -> Array:
         begins: Times at which they begin, in [s]. Shape (n,).
         present: Angle of the present dash; None while the robot stands.
     """
-    stands = np.where(np.isinf(begins), EFFORT, 0.0)
-    later = np.where(begins > 0.0, 0.5 * EFFORT, 0.0)
-    bonus: Array = np.maximum(stands, later)
-    if present is not None:
-        bonus = bonus + np.where(
-            begins == 0.0, CHANGE * np.cos(angles - present), 0.0
+    bonus: Array = np.where(np.isinf(begins), EFFORT, 0.0)
+    if present is None:
+        return np.where(
+            np.isinf(begins) | (begins == 0.0), bonus, 0.5 * EFFORT
         )
-    return bonus
+    changes = CHANGE * (np.cos(angles - present) - 1.0)
+    waits = np.where(begins > 0.0, EFFORT, 0.0)
+    return np.where(np.isinf(begins), bonus, changes - waits)
 
 
 def _note(
