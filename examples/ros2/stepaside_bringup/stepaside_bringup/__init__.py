@@ -1,0 +1,1 @@
+"""Launch files that run ``stepaside play`` beside a robot's ROS 2 nodes."""
