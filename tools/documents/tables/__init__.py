@@ -50,6 +50,7 @@ TABLES: dict[str, Callable[..., str]] = {
     "stepped": served.stepped,
     "each": persons.each,
     "evading-opponents": evading.opponents,
+    "opponent-ladder": evading.ladder,
     "evading-sizes": evading.sizes,
     "evading-worlds": evading.worlds,
     "environments": learning.environments,

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
-from .markdown import interval, number, table
+from .markdown import NONE, interval, number, table
 
 Result = Mapping[str, Any]
 
@@ -94,3 +94,39 @@ def sizes(result: Result) -> str:
         for entry in result["sizes"]
     ]
     return table(("room", *names), rows)
+
+
+def ladder(result: Result) -> str:
+    """List survival against each pursuer, beside an offline search."""
+    head = (
+        "world",
+        "pursuer",
+        "evader",
+        "games",
+        "survived",
+        "mean survival [s]",
+        "offline search [s]",
+        "of it",
+    )
+    rows = []
+    for world, found in result["worlds"].items():
+        for row in found["rows"]:
+            times = found["offline_s"].get(row["pursuer"])
+            best = sum(times) / len(times) if times else None
+            low, high = row["survived_low"], row["survived_high"]
+            share = f"{100 * row['survived']:.0f} %"
+            rows.append(
+                (
+                    world,
+                    row["pursuer"],
+                    row["evader"],
+                    str(row["games"]),
+                    f"{share} ({100 * low:.0f}-{100 * high:.0f})",
+                    number(row["mean_survival_s"], 1),
+                    NONE if best is None else number(best, 1),
+                    NONE
+                    if best is None
+                    else number(row["mean_survival_s"] / best, 2),
+                )
+            )
+    return table(head, rows)
