@@ -97,7 +97,7 @@ class NoisyPursuit:
     ) -> tuple[Intent, int | None]:
         """Pursue by the bearing with the error of this step."""
         step = round(knowledge.time / knowledge.limits.step_duration)
-        generator = named_generator(self.seed, f"noisy pursuit {step}")
+        generator = named_generator(self.seed, f"noisy-pursuit/{step}")
         error = min(max(self.deviation * generator.normal(), -pi), pi)
         seen = replace(
             knowledge, bearing=wrap_angle(knowledge.bearing + error)
