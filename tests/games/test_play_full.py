@@ -21,7 +21,7 @@ from stepaside.games.outcome import Outcome
 from stepaside.games.run_archive import load_run
 from tools.fuzz.places import full, room_in, short_of, taken
 
-CONNECTION = ConnectionSettings("evader", "ros2:/nao")
+CONNECTION = ConnectionSettings("ros2:/nao", "evader")
 REST = VelocityCommand(0.0, 0.0)
 AS_IT_GOES = {"columns.json", "rows.f64", "play.json", "configuration.toml"}
 TICKS = 200  # more than reach the disk at once

@@ -31,15 +31,15 @@ MOTION_INTERFACES = ("velocity", "footsteps", "joints")
 class ConnectionSettings:
     """Player of ``stepaside play`` and the connection to its robot."""
 
-    role: str = setting(
-        REQUIRED, "Role of the robot", names=PLAYERS, option="--role"
-    )
     robot: str = setting(
         REQUIRED,
         "Address of the robot: lola:PATH, lola:HOST:PORT or lola: (on the "
         "robot itself); naoqi:tcp://HOST:PORT; ros2:/NAMESPACE; or "
         "FILE.py:CLASS, a VelocityRobot in Python",
         option="--robot",
+    )
+    role: str = setting(
+        EVADER, "Role of the robot", names=PLAYERS, option="--role"
     )
     description: str = setting(
         "nao",
@@ -125,6 +125,13 @@ class ConnectionSettings:
         False,
         "Connect, measure and plan, but do not move: only set LEDs",
         option="--dry-run/--no-dry-run",
+    )
+    check: bool = setting(
+        False,
+        "Check a robot in Python instead of playing: rates, latency, units, "
+        "signs and stopping. The robot moves; the exit status is 1 if a "
+        "check fails",
+        option="--check/--no-check",
     )
 
     def __post_init__(self) -> None:

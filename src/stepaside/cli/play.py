@@ -12,6 +12,7 @@ import click
 from ..games.duel_settings import EVADER, PURSUER, DuelSettings
 from ..strategies.registry import OF_EVASION
 from .connection_settings import ROS2, ConnectionSettings, with_feedback
+from .options.common_options import json_option
 from .options.duel_options import CONTROL, GAIT, STRATEGY
 from .options.setting_options import entries_at, refuse_options, takes
 from .options.settings_command import (
@@ -42,7 +43,10 @@ INTERRUPTED = "interrupted"
     ),
 )
 @takes(ConnectionSettings, "connection")
-def play(settings: DuelSettings, connection: ConnectionSettings) -> None:
+@json_option
+def play(
+    settings: DuelSettings, connection: ConnectionSettings, as_json: bool
+) -> None:
     """Control a robot in a game over LoLA, NAOqi, ROS 2 or its own SDK.
 
     \b
@@ -64,6 +68,13 @@ def play(settings: DuelSettings, connection: ConnectionSettings) -> None:
     logging.basicConfig(
         format="stepaside: %(message)s", level=logging.INFO, stream=sys.stderr
     )
+    if connection.check:
+        from .play_check import check_adapter
+
+        check_adapter(connection, as_json=as_json)
+        return
+    if as_json:
+        raise click.UsageError("--json requires --check")
     from ..drivers.guardian_process import SessionLost
     from ..drivers.status_line import StatusLine
     from .robot_connections import open_joints, open_velocity

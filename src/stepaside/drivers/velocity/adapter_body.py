@@ -286,7 +286,7 @@ class AdapterBody:
         if got is None:
             return None
         name = self._methods.name_of("listen")
-        report = _converted(got, name)
+        report = converted_report(got, name)
         last, self._last = self._last, report
         if last is not None and report.time == last.time:
             self._log(
@@ -378,8 +378,12 @@ def _numbers(report: VelocityReport) -> str:
     return ", ".join(f"{v:g}" for v in (report.time, *report.pose))
 
 
-def _converted(got: Any, name: str) -> VelocityReport:
+def converted_report(got: Any, name: str) -> VelocityReport:
     """Return a report of plain numbers.
+
+    Args:
+        got: Result of listen().
+        name: Name of the method, for messages.
 
     Raises:
         SessionLost: If it is no report.

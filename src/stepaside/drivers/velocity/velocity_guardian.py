@@ -12,7 +12,9 @@ SILENCE = 0.5  # time without control before the guardian acts, in [s]
 log = logging.getLogger(__name__)
 
 
-def fork_velocity_guardian(join: Callable[[], Callable[[], None]]) -> Guardian:
+def fork_velocity_guardian(
+    join: Callable[[], Callable[[], None]], silence: float = SILENCE
+) -> Guardian:
     """Fork a guardian, which connects to the robot at once.
 
     Connecting in advance, as it takes longer than stopping the robot.
@@ -21,6 +23,7 @@ def fork_velocity_guardian(join: Callable[[], Callable[[], None]]) -> Guardian:
         join: Function that connects to the robot and returns a function
             that stops it. Called in the guardian process; called again, if
             it failed at first, when the robot is to be stopped.
+        silence: Time without control before the guardian acts, in [s].
     """
     stops: list[Callable[[], None]] = []
 
@@ -32,7 +35,7 @@ def fork_velocity_guardian(join: Callable[[], Callable[[], None]]) -> Guardian:
         stop_robot = stops[0] if stops else join()
         stop_robot()
 
-    return Guardian(stop, SILENCE, prepare=prepare)
+    return Guardian(stop, silence, prepare=prepare)
 
 
 class GuardedBody:
