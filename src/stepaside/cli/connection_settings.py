@@ -1,5 +1,6 @@
 """Options of ``stepaside play``: one player, and the connection to a robot."""
 
+import re
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
     from ..drivers.ros2.dds_domain import DdsParticipant
 
 LOLA, NAOQI, ROS2 = "lola:", "naoqi:", "ros2:"
+_SWITCH = re.compile(r"key|gamepad(:.+)?|ros2:/.+")
 MOTION_INTERFACES = ("velocity", "footsteps", "joints")
 
 
@@ -126,6 +128,13 @@ class ConnectionSettings:
         "Connect, measure and plan, but do not move: only set LEDs",
         option="--dry-run/--no-dry-run",
     )
+    dead_man: str | None = setting(
+        None,
+        "Walk only while an operator holds a switch: key (any key of the "
+        "terminal), gamepad or gamepad:DEVICE (any button), or ros2:/TOPIC "
+        "(std_msgs/Bool, true at 4 Hz or more)",
+        option="--dead-man",
+    )
     check: bool = setting(
         False,
         "Check a robot in Python instead of playing: rates, latency, units, "
@@ -137,6 +146,13 @@ class ConnectionSettings:
     def __post_init__(self) -> None:
         """Validate ranges, names and combinations of options."""
         check_settings(self)
+        switch = self.dead_man
+        if switch is not None and not _SWITCH.fullmatch(switch):
+            raise click.BadParameter(
+                "must be key, gamepad, gamepad:DEVICE or ros2:/TOPIC, got "
+                f"{switch!r}",
+                param_hint="--dead-man",
+            )
         if self.interface is not None and not self.robot.startswith(NAOQI):
             raise click.UsageError(
                 f"--interface requires a robot at {NAOQI}, got "

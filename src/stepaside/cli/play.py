@@ -142,7 +142,7 @@ def _refuse_unused(
         )
     if connection.moves_joints:
         refuse_options(
-            {"max_speed", "max_turn", "sim_time"},
+            {"max_speed", "max_turn", "sim_time", "dead_man"},
             "a robot with velocity commands",
         )
     else:
@@ -153,7 +153,8 @@ def _refuse_unused(
         )
     if settings.sensing != "cameras":
         refuse_options({"images"}, "--sensing cameras, got ideal")
-    if not f"{connection.robot} {connection.images}".count(ROS2):
+    sources = connection.robot, connection.images, connection.dead_man
+    if not any(ROS2 in str(source) for source in sources):
         refuse_options({"domain", "network"}, f"a robot or images at {ROS2}")
 
 

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
     from ..control.scheme import LocomotionScheme
     from ..core.poses import Array
+    from ..drivers.dead_man_switch import DeadManSwitch
     from ..drivers.joint.joint_body import JointBody
     from ..drivers.joint.joint_loop import JointLoop
     from ..drivers.velocity.velocity_body import VelocityBody
@@ -121,7 +122,7 @@ def open_velocity(
     strategy = connection.strategy(settings)
     ways = _velocity_connection(settings, connection)
     return VelocityLoop(
-        _guarded(ways, connection),
+        _held(_guarded(ways, connection), connection),
         lambda: TemplateController(strategy, settings.gait),
         ways.limits.within(
             connection.max_speed or inf, connection.max_turn or inf
@@ -129,6 +130,38 @@ def open_velocity(
         WatchSettings(paced=not connection.sim_time),
         dry_run=connection.dry_run,
     )
+
+
+def _held(
+    body: "VelocityBody", connection: ConnectionSettings
+) -> "VelocityBody":
+    """Add the dead-man switch to a robot, if one is chosen."""
+    if connection.dead_man is None:
+        return body
+    from ..drivers.dead_man_switch import DeadManBody
+
+    try:
+        return DeadManBody(body, _open_switch(connection.dead_man, connection))
+    except BaseException:
+        body.close()
+        raise
+
+
+def _open_switch(name: str, connection: ConnectionSettings) -> "DeadManSwitch":
+    """Open a dead-man switch by its name."""
+    import sys
+
+    from ..drivers.dead_man_switch import GAMEPAD, GamepadButton, HeldKey
+
+    kind, _, device = name.partition(":")
+    if name == "key":
+        return HeldKey(sys.stdin)
+    if kind == "gamepad":
+        return GamepadButton(device or GAMEPAD)
+    from ..drivers.ros2.namespaces import parse_namespace
+    from ..drivers.ros2.switch_topic import TopicSwitch
+
+    return TopicSwitch(connection.join_domain(), parse_namespace(name))
 
 
 def _guarded(

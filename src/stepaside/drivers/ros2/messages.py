@@ -54,6 +54,13 @@ class Header(IdlStruct, typename="std_msgs.msg.dds_.Header_"):
 
 
 @dataclass
+class Bool(IdlStruct, typename="std_msgs.msg.dds_.Bool_"):
+    """Truth value."""
+
+    data: bool
+
+
+@dataclass
 class Vector3(IdlStruct, typename="geometry_msgs.msg.dds_.Vector3_"):
     """Vector in three dimensions."""
 

@@ -1,0 +1,180 @@
+"""Test that a robot walks only while an operator holds a switch."""
+
+import os
+import struct
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from time import monotonic, sleep
+
+import pytest
+
+from stepaside.cli.main import main
+from stepaside.core.errors import ConfigurationError
+from stepaside.drivers.dead_man_switch import (
+    FIRST,
+    REPEAT,
+    DeadManBody,
+    GamepadButton,
+    HeldKey,
+)
+from stepaside.drivers.velocity.velocity_body import REST, VelocityCommand
+
+from velocity_fakes import FakeWalker, report  # isort: skip
+
+WALK = VelocityCommand(0.1, 0.2)
+
+
+class FakeClock:
+    """Clock that a test sets."""
+
+    now = 0.0
+
+    def __call__(self) -> float:
+        """Time, in [s]."""
+        return self.now
+
+
+@pytest.fixture
+def keyboard() -> Iterator[tuple[HeldKey, Callable[[], object], FakeClock]]:
+    """Key of a terminal, a function that presses it, and the clock."""
+    pty = pytest.importorskip("pty")
+    near, far = pty.openpty()
+    clock = FakeClock()
+    with os.fdopen(far, "r") as terminal:
+        key = HeldKey(terminal, clock)
+        yield key, lambda: os.write(near, b" "), clock
+        key.close()
+    os.close(near)
+
+
+def arrives(key: HeldKey) -> bool:
+    """Wait until a press has come through the terminal."""
+    end = monotonic() + 5.0
+    while monotonic() < end:
+        if not key.released():
+            return True
+        sleep(0.001)
+    return False
+
+
+def test_a_held_key_lets_the_robot_walk_until_it_is_released(
+    keyboard: tuple[HeldKey, Callable[[], object], FakeClock],
+) -> None:
+    key, press, clock = keyboard
+    assert "hold any key" in key.released()
+    press()
+    assert arrives(key)
+    clock.now = 0.9 * FIRST  # a keyboard begins to repeat
+    assert not key.released()
+    press()
+    sleep(0.05)
+    assert not key.released()
+    clock.now += 0.9 * REPEAT
+    assert not key.released()
+    clock.now += 0.2 * REPEAT
+    assert "hold any key" in key.released()
+
+
+def test_a_file_is_no_keyboard(tmp_path: Path) -> None:
+    with (tmp_path / "keys").open("w+") as file:
+        with pytest.raises(ConfigurationError, match="requires a terminal"):
+            HeldKey(file)
+
+
+def event(value: int, kind: int, number: int = 4) -> bytes:
+    return struct.pack("<IhBB", 1000, value, kind, number)
+
+
+def test_a_gamepad_lets_the_robot_walk_while_a_button_is_held(
+    tmp_path: Path,
+) -> None:
+    device = tmp_path / "js0"
+    os.mkfifo(device)
+    writer = os.open(device, os.O_RDWR)
+    pad = GamepadButton(str(device))
+    os.write(writer, event(0, 0x81) + event(30000, 0x02))  # at first; a stick
+    assert "hold a button" in pad.released()
+    os.write(writer, event(1, 0x01))
+    assert not pad.released()
+    os.write(writer, event(1, 0x01, 7) + event(0, 0x01))
+    assert not pad.released()
+    os.write(writer, event(0, 0x01, 7))
+    assert "hold a button" in pad.released()
+    os.write(writer, event(1, 0x01))
+    assert not pad.released()
+    os.close(writer)
+    assert "is gone" in pad.released()
+    pad.close()
+
+
+def test_a_gamepad_that_is_not_there_is_refused() -> None:
+    with pytest.raises(ConfigurationError, match="no gamepad at /dev/no"):
+        GamepadButton("/dev/no")
+
+
+class FakeSwitch:
+    """Switch that a test holds."""
+
+    reason = ""
+    closed = False
+
+    def released(self) -> str:
+        """Return the reason of the test."""
+        return self.reason
+
+    def close(self) -> None:
+        """Note the call."""
+        self.closed = True
+
+
+def test_a_released_switch_hinders_the_robot() -> None:
+    robot, switch = FakeWalker([report(0.0), report(0.1)]), FakeSwitch()
+    body = DeadManBody(robot, switch)
+    heard = body.listen(0.0)
+    assert heard is not None and not heard.hindrance
+    body.command(WALK)
+    switch.reason = "released"
+    heard = body.listen(0.0)
+    assert heard is not None and heard.hindrance == "released"
+    body.command(WALK)
+    assert body.listen(0.0) is None
+    body.close()
+    assert robot.asked == [WALK, REST] and switch.closed
+
+
+def test_a_topic_is_held_while_it_is_true() -> None:
+    pytest.importorskip("cyclonedds")
+    from stepaside.drivers.ros2.dds_domain import DdsParticipant
+    from stepaside.drivers.ros2.messages import Bool
+    from stepaside.drivers.ros2.switch_topic import AGE, TopicSwitch
+
+    clock = FakeClock()
+    operator = DdsParticipant(74)
+    switch = TopicSwitch(DdsParticipant(74), "/operator/hold", clock)
+    writer = operator.writer("rt/operator/hold", Bool)
+    end = monotonic() + 20.0
+    while switch.released() and monotonic() < end:
+        writer.write(Bool(True))
+        sleep(0.01)
+    assert not switch.released()
+    clock.now += 1.1 * AGE
+    assert "/operator/hold is not true" in switch.released()
+    switch.close()
+    del writer
+    operator.close()
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ("--robot lola:x --dead-man key", "requires a robot with velocity"),
+        ("--robot ros2:/x --dead-man foot", "must be key, gamepad, gamepad:"),
+    ],
+)
+def test_an_invalid_switch_is_refused(
+    words: str, said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit) as left:
+        main(["play", *words.split()])
+    assert left.value.code == 2
+    assert said in capsys.readouterr().err
