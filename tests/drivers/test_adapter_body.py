@@ -219,6 +219,8 @@ def test_a_repeated_report_is_silence(
     body = AdapterBody(robot)
     assert body.listen(1.0) is not None
     assert body.listen(0.05) is None
+    assert not caplog.text  # between two messages that is as it should be
+    assert body.listen(2.0 * BLOCKED) is None
     body.close()
     assert "repeats its report of 7.000 s" in caplog.text
 

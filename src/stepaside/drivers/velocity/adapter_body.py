@@ -163,7 +163,7 @@ class AdapterBody:
         self._stop_began = 0.0
         self._wanted = REST
         self._last: VelocityReport | None = None
-        self._due = clock()
+        self._due = self._heard = clock()
         self._logged = ""
 
     def listen(self, patience: float) -> VelocityReport | None:
@@ -288,12 +288,15 @@ class AdapterBody:
         name = self._methods.name_of("listen")
         report = converted_report(got, name)
         last, self._last = self._last, report
+        now = self._clock()
         if last is not None and report.time == last.time:
-            self._log(
-                f"{name} repeats its report of {report.time:.3f} s: the robot "
-                "is silent, or the time is not that of the measurement"
-            )
+            if now - self._heard > BLOCKED:
+                self._log(
+                    f"{name} repeats its report of {report.time:.3f} s: the "
+                    "robot is silent, or the time is not a measurement's"
+                )
             return None
+        self._heard = now
         fault = report_fault(report, last)
         self._log(f"{name}: {fault}" if fault else "")
         if fault:

@@ -1,0 +1,272 @@
+"""Test the adapters of vendors' SDKs against stubs of their signatures.
+
+The stubs have the published names and arguments: Booster's of
+``booster-robotics-sdk-python`` 1.6, Unitree's of ``unitree_sdk2_python``.
+Where Booster's package is installed, its real types are compared.
+"""
+
+import sys
+from collections.abc import Callable
+from inspect import getmembers, isfunction
+from pathlib import Path
+from time import monotonic, sleep
+from types import ModuleType, SimpleNamespace
+from typing import Any, ClassVar
+
+import pytest
+
+from stepaside.core.poses import Pose
+from stepaside.drivers.guardian_process import SessionLost
+from stepaside.drivers.velocity.adapter_body import AdapterBody
+from stepaside.drivers.velocity.velocity_body import REST, VelocityCommand
+from stepaside.drivers.velocity.velocity_robot import (
+    VelocityRobot,
+    load_velocity_robot,
+)
+
+ADAPTERS = Path(__file__).parents[2] / "examples" / "adapters"
+WALK = VelocityCommand(-0.2, 0.4)
+CALLS: list[tuple[Any, ...]] = []
+
+
+def adapter(name: str) -> type[VelocityRobot]:
+    file = ADAPTERS / f"{name.lower()}_robot.py"
+    return load_velocity_robot(f"{file}:{name}Robot")
+
+
+def waits_for(call: tuple[Any, ...]) -> None:
+    end = monotonic() + 20.0
+    while call not in CALLS:
+        assert monotonic() < end, CALLS
+        sleep(0.005)
+
+
+@pytest.fixture(autouse=True)
+def no_calls() -> None:
+    CALLS.clear()
+
+
+class ChannelFactory:
+    """Stub of Booster's."""
+
+    @staticmethod
+    def Instance() -> "ChannelFactory":
+        """Return the only one."""
+        return ChannelFactory()
+
+    def Init(self, domain_id: int, network_interface: str = "") -> None:
+        """Note the call."""
+        CALLS.append(("Init", domain_id, network_interface))
+
+
+class B1LocoClient:
+    """Stub of Booster's."""
+
+    answers: ClassVar[bool] = True
+
+    def Init(self) -> None:
+        """Do nothing."""
+
+    def WaitForService(self, timeout_ms: int = 5000) -> bool:
+        """Answer as the test wants."""
+        return self.answers
+
+    def ChangeMode(self, mode: Any) -> None:
+        """Note the call."""
+        CALLS.append(("ChangeMode", mode))
+
+    def Move(self, vx: float, vy: float, vyaw: float) -> None:
+        """Note the call."""
+        CALLS.append(("Move", vx, vy, vyaw))
+
+
+class B1OdometerStateSubscriber:
+    """Stub of Booster's."""
+
+    made: ClassVar["list[B1OdometerStateSubscriber]"] = []
+
+    def __init__(self, handler: Callable[[Any], None]) -> None:
+        self.handler = handler
+        self.made.append(self)
+
+    def InitChannel(self) -> None:
+        """Do nothing."""
+
+    def CloseChannel(self) -> None:
+        """Note the call."""
+        CALLS.append(("CloseChannel",))
+
+
+STUBS = (ChannelFactory, B1LocoClient, B1OdometerStateSubscriber)
+MODES = SimpleNamespace(kPrepare="prepare", kWalking="walking")
+
+
+@pytest.fixture
+def booster(monkeypatch: pytest.MonkeyPatch) -> AdapterBody:
+    """Connect to a stub, whose odometer sends one message."""
+    sdk = ModuleType("booster_robotics_sdk_python")
+    vars(sdk).update({stub.__name__: stub for stub in STUBS}, RobotMode=MODES)
+    monkeypatch.setitem(sys.modules, sdk.__name__, sdk)
+    kind = adapter("Booster")
+    monkeypatch.setattr(sys.modules[kind.__module__], "STANDING_UP", 0.0)
+    return AdapterBody(kind())
+
+
+def test_a_booster_walks_and_stands_by_its_client(
+    booster: AdapterBody,
+) -> None:
+    assert booster.listen(0.05) is None
+    odometer = SimpleNamespace(x=1.0, y=2.0, theta=0.3)
+    B1OdometerStateSubscriber.made[-1].handler(odometer)
+    report = booster.listen(1.0)
+    assert report is not None and report.pose == Pose(1.0, 2.0, 0.3)
+    assert abs(report.time - monotonic()) < 5.0
+    booster.command(WALK)
+    waits_for(("Move", -0.2, 0.0, 0.4))
+    booster.command(REST)
+    waits_for(("Move", 0.0, 0.0, 0.0))
+    booster.close()
+    assert CALLS[:3] == [
+        ("Init", 0, "127.0.0.1"),
+        ("ChangeMode", "prepare"),
+        ("ChangeMode", "walking"),
+    ]
+    assert CALLS[-2:] == [("Move", 0.0, 0.0, 0.0), ("CloseChannel",)]
+
+
+def test_a_booster_that_does_not_answer_is_tried_again(
+    booster: AdapterBody, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(B1LocoClient, "answers", False)
+    with pytest.raises(SessionLost, match="no Booster answers"):
+        AdapterBody(adapter("Booster")())
+
+
+def test_boosters_package_has_what_the_adapter_uses() -> None:
+    sdk = pytest.importorskip(
+        "booster_robotics_sdk_python",
+        reason="pip install booster-robotics-sdk-python",
+    )
+    for stub in STUBS:
+        real = getattr(sdk, stub.__name__)
+        for name, _ in getmembers(stub, isfunction):
+            assert callable(getattr(real, name)), (stub, name)
+    for mode in vars(MODES):
+        assert getattr(sdk.RobotMode, mode) is not None
+    odometer = sdk.Odometer()
+    odometer.x, odometer.y, odometer.theta = 1.0, 2.0, 0.25
+    robot = adapter("Booster")()
+    getattr(robot, "note")(odometer)  # noqa: B009
+    report = robot.listen()
+    assert report is not None and report.pose == Pose(1.0, 2.0, 0.25)
+    three_numbers = sdk.B1LocoClient.Move.__doc__
+    assert three_numbers.count("SupportsFloat") == 3
+    assert "handler" in sdk.B1OdometerStateSubscriber.__init__.__doc__
+
+
+class LocoClient:
+    """Stub of Unitree's."""
+
+    code: ClassVar[int] = 0
+
+    def SetTimeout(self, timeout: float) -> None:
+        """Note the call."""
+        CALLS.append(("SetTimeout", timeout))
+
+    def Init(self) -> None:
+        """Do nothing."""
+
+    def Start(self) -> None:
+        """Note the call."""
+        CALLS.append(("Start",))
+
+    def SetVelocity(
+        self, vx: float, vy: float, omega: float, duration: float = 1.0
+    ) -> int:
+        """Note the call."""
+        CALLS.append(("SetVelocity", vx, vy, omega, duration))
+        return self.code
+
+
+class ChannelSubscriber:
+    """Stub of Unitree's."""
+
+    made: ClassVar["list[ChannelSubscriber]"] = []
+
+    def __init__(self, name: str, type: Any) -> None:
+        CALLS.append(("ChannelSubscriber", name, type))
+        self.made.append(self)
+
+    def Init(self, handler: Callable[[Any], None], queueLen: int = 0) -> None:
+        """Store the handler."""
+        self.handler = handler
+
+    def Close(self) -> None:
+        """Note the call."""
+        CALLS.append(("Close",))
+
+
+def initialize(id: int = 0, networkInterface: str | None = None) -> None:
+    CALLS.append(("ChannelFactoryInitialize", id, networkInterface))
+
+
+@pytest.fixture
+def unitree(monkeypatch: pytest.MonkeyPatch) -> AdapterBody:
+    """Connect to a stub."""
+    contents: dict[str, dict[str, Any]] = {
+        "": {},
+        ".core": {},
+        ".core.channel": {
+            "ChannelFactoryInitialize": initialize,
+            "ChannelSubscriber": ChannelSubscriber,
+        },
+        ".g1": {},
+        ".g1.loco": {},
+        ".g1.loco.g1_loco_client": {"LocoClient": LocoClient},
+        ".idl": {},
+        ".idl.unitree_go": {},
+        ".idl.unitree_go.msg": {},
+        ".idl.unitree_go.msg.dds_": {"SportModeState_": "SportModeState_"},
+    }
+    for name, names in contents.items():
+        module = ModuleType(f"unitree_sdk2py{name}")
+        vars(module).update(names)
+        monkeypatch.setitem(sys.modules, module.__name__, module)
+    return AdapterBody(adapter("Unitree")())
+
+
+def test_a_unitree_walks_by_velocities_that_time_out(
+    unitree: AdapterBody,
+) -> None:
+    state = SimpleNamespace(
+        stamp=SimpleNamespace(sec=7, nanosec=500_000_000),
+        position=[1.0, 2.0, 0.7],
+        imu_state=SimpleNamespace(rpy=[0.0, 0.0, 0.3]),
+    )
+    ChannelSubscriber.made[-1].handler(state)
+    report = unitree.listen(1.0)
+    assert report is not None and report.time == 7.5
+    assert report.pose == Pose(1.0, 2.0, 0.3)
+    unitree.command(WALK)
+    waits_for(("SetVelocity", -0.2, 0.0, 0.4, 0.6))
+    unitree.close()
+    assert (
+        "ChannelSubscriber",
+        "rt/odommodestate",
+        "SportModeState_",
+    ) in CALLS
+    assert CALLS[-2:] == [("SetVelocity", 0.0, 0.0, 0.0, 0.6), ("Close",)]
+    assert not adapter("Unitree").keeps_walking
+
+
+def test_an_error_code_of_a_unitree_ends_the_session(
+    unitree: AdapterBody, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(LocoClient, "code", 3104)
+    unitree.command(WALK)
+    waits_for(("SetVelocity", -0.2, 0.0, 0.4, 0.6))
+    sleep(0.1)
+    with pytest.raises(SessionLost, match="SetVelocity returned 3104"):
+        unitree.command(WALK)
+    with pytest.raises(SessionLost, match=r"stop\(\) of UnitreeRobot"):
+        unitree.close()
