@@ -227,7 +227,7 @@ def test_odometry_that_stands_still_in_the_air_is_no_failure() -> None:
 
 def test_a_method_that_blocks_fails_by_its_name() -> None:
     robot, stuck = KinematicRobot(), Event()
-    robot.change = lambda report: stuck.wait(20.0) or report  # type: ignore[return-value]
+    robot.change = lambda report: stuck.wait(20.0) or report  # type: ignore[assignment,return-value]
     check = AdapterCheck(robot, lambda finding: None)  # in real time
     try:
         check.run()
