@@ -12,7 +12,9 @@ PORT = int(os.environ.get("WALKER_PORT", ADDRESS[1]))
 class WalkerRobot(sa.VelocityRobot):
     """Robot that walks by the SDK's ``Move(vx, vy, vyaw)``."""
 
-    limits = sa.VelocityLimits(forward=0.5, backward=0.4, turn=1.0)
+    limits = sa.VelocityLimits(
+        forward=0.5, backward=0.4, lateral=0.3, turn=1.0
+    )
 
     def open(self) -> None:
         """Connect, without moving the robot."""

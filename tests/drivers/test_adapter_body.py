@@ -28,7 +28,7 @@ from stepaside.drivers.velocity.velocity_limits import VelocityLimits
 from stepaside.drivers.velocity.velocity_robot import VelocityRobot
 from stepaside.perception.measurement import Sighting
 
-WALK = VelocityCommand(-0.2, 0.4)
+WALK = VelocityCommand(-0.2, 0.4, 0.1)
 SLACK = 1.0  # of a busy machine, in [s]
 
 
@@ -114,7 +114,7 @@ def test_a_session_calls_each_method_in_turn() -> None:
     body = AdapterBody(robot)
     assert body.listen(1.0) is not None
     body.command(WALK)
-    until(lambda: ("command", -0.2, 0.0, 0.4) in robot.calls)
+    until(lambda: ("command", -0.2, 0.1, 0.4) in robot.calls)
     body.command(REST)
     body.close()
     assert [call[0] for call in robot.calls] == [

@@ -40,7 +40,7 @@ class SimulatedClock:
 class KinematicRobot(VelocityRobot):
     """Robot that moves as commanded, and reports with some mistake."""
 
-    limits = VelocityLimits(0.5, 0.4, 1.0)
+    limits = VelocityLimits(0.5, 0.4, 1.0, lateral=0.3)
 
     def __init__(self) -> None:
         self.change: Change = lambda report: report
@@ -129,6 +129,7 @@ def test_a_correct_robot_passes_each_check() -> None:
     assert found["turn left"].value == pytest.approx(0.5, abs=0.02)
     assert found["walk ahead"].value == pytest.approx(0.2, abs=0.02)
     assert found["walk back"].value == pytest.approx(-0.2, abs=0.02)
+    assert found["walk left"].value == pytest.approx(0.15, abs=0.02)
     assert "turns on" in found["without commands"].text
     assert robot.calls[:2] == ["open", "prepare"]
     assert robot.calls[-2:] == ["stop", "close"]

@@ -131,7 +131,7 @@ def test_shares_of_the_top_speed_are_those_of_the_gait(scene: Scene) -> None:
     motion = session.service("ALMotion")
     motion.wakeUp()
     motion.moveToward(0.5, 0.0, -1.0, [["MaxStepX", 0.04]])
-    assert scene.round() == pytest.approx((0.035, -0.4))
+    assert scene.round() == pytest.approx((0.035, -0.4, 0.0))
     assert motion.getRobotVelocity() == [0.0, 0.0, 0.0]  # of the last tick
     assert motion.moveIsActive()
     motion.stopMove()

@@ -212,7 +212,7 @@ def test_footsteps_end_with_their_client(
 
     pace = GAIT.path_interval / GAIT.step_duration
     velocity = until(lambda: (v := walks()) != REST and v)
-    assert velocity == pytest.approx((0.1 * pace, 0.1 * pace))
+    assert velocity == pytest.approx((0.1 * pace, 0.1 * pace, 0.0))
     for _ in range(round(SILENCE / TICK) + 2):
         server.speak()
         server.act()

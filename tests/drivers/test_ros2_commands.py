@@ -45,7 +45,7 @@ from velocity_fakes import SimulatedUnicycle, until  # isort: skip  # noqa: E402
 TAG = f"stepaside-commands-{os.getpid()}"
 TOPIC = dds_topic("/nao", "cmd_vel")
 ZERO = (0.0,) * 36
-ASKED = VelocityCommand(0.05, -0.2)
+ASKED = VelocityCommand(0.05, -0.2, 0.03)
 
 
 class Robot:
@@ -119,7 +119,8 @@ def test_a_robot_is_commanded_in_the_type_that_it_takes(
     robot = Robot(kind)
     message = taken_by(robot, body, kind)
     twist = message if kind is Twist else message.twist
-    assert (twist.linear.x, twist.angular.z) == ASKED
+    linear = twist.linear
+    assert (linear.x, twist.angular.z, linear.y) == ASKED
     publishers = robot.readers[kind].get_matched_publications()
     assert len(publishers) == 1
     robot.close()

@@ -16,12 +16,34 @@ from stepaside.drivers.velocity.velocity_body import (
     VelocityCommand,
     VelocityReport,
 )
+from stepaside.drivers.velocity.velocity_limits import VelocityLimits
 from stepaside.perception.measurement import Sighting
 from stepaside.planning import Direction, GaitSettings
+from stepaside.strategies import Intent, Knowledge
+from stepaside.strategies.velocity_set import BodyVelocity
 
 GAIT = GaitSettings()
 ANGLE = st.floats(-pi, pi)
 PERIOD = 0.05
+
+
+class SidestepStrategy:
+    """Strategy that wants one body velocity."""
+
+    direction = Direction.FORWARD
+    saturated = False
+
+    def __init__(self, velocity: BodyVelocity) -> None:
+        self.velocity = velocity
+
+    def begin(self) -> None:
+        """Return no memory."""
+
+    def decide(
+        self, knowledge: Knowledge, memory: None
+    ) -> tuple[Intent, None]:
+        """Want the velocity."""
+        return Intent(velocity=self.velocity), None
 
 
 def way(time: float, start: Pose, rate: float) -> Pose:
@@ -156,3 +178,15 @@ def test_an_image_is_of_where_the_robot_was_when_it_was_taken(
         off = wrap_angle(frame.theta - true.theta)
         assert off == pytest.approx(0.0, abs=1e-9)
         np.testing.assert_allclose(joints, [0.5 * time, -time], atol=1e-9)
+
+
+def test_a_body_velocity_reaches_only_a_robot_that_walks_sideways() -> None:
+    """A unicycle turns toward it instead."""
+    velocities = VelocityLimits(0.5, 0.4, 1.0, lateral=0.3).velocities
+    seen = VelocityReport(0.0, Pose(0.0, 0.0, 0.0), Sighting(0.0, 0.4, 1.0))
+    wanted = BodyVelocity(0.1, -0.2, 0.3)
+    strategy = SidestepStrategy(wanted)
+    told = TemplateController(strategy, GAIT, velocities).decide(seen)
+    assert told == VelocityCommand(0.1, 0.3, -0.2)
+    told = TemplateController(strategy, GAIT).decide(seen)
+    assert told.lateral == 0.0 and told.turn < 0.0

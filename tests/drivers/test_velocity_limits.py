@@ -1,5 +1,6 @@
 """Test velocity limits, which keep the path, and the ramp."""
 
+from dataclasses import replace
 from math import inf, nan
 
 import pytest
@@ -27,6 +28,24 @@ def test_scaled_velocities_keep_the_path_and_the_limits(
     assert (scaled == VelocityCommand(forward, turn)) == fits
 
 
+def test_a_robot_that_walks_sideways_keeps_its_direction() -> None:
+    """Another one is commanded no lateral velocity."""
+    wanted = VelocityCommand(0.2, 0.1, -0.3)
+    scaled = replace(TIGHT, lateral=0.1).scale(wanted)
+    assert scaled == pytest.approx((0.2 / 3, 0.1 / 3, -0.1))
+    assert TIGHT.scale(wanted) == VelocityCommand(0.2, 0.1)
+    ramp = Ramp(replace(TIGHT, lateral=0.1))
+    assert ramp.toward(wanted, 0.1).lateral == pytest.approx(-0.04)
+    assert Ramp(TIGHT).toward(wanted, 0.1).lateral == 0.0
+
+
+def test_velocities_are_those_within_the_limits() -> None:
+    assert TIGHT.velocities is None
+    found = replace(TIGHT, lateral=0.1).within(0.15, 9.0).velocities
+    assert found is not None
+    assert found[:3] == ((-0.1, 0.15), (-0.1, 0.1), (-0.5, 0.5))
+
+
 def test_without_limits_nothing_is_cut() -> None:
     wanted = VelocityCommand(3.0, -7.0)
     assert VelocityLimits().scale(wanted) == wanted
@@ -35,10 +54,10 @@ def test_without_limits_nothing_is_cut() -> None:
 def test_the_ramp_climbs_at_its_accelerations_and_arrives() -> None:
     ramp, wanted = Ramp(TIGHT), VelocityCommand(0.2, -0.3)
     speeds = [ramp.toward(wanted, 0.1) for _ in range(8)]
-    assert speeds[0] == pytest.approx((0.04, -0.2))
-    assert speeds[2] == pytest.approx((0.12, -0.3))
+    assert speeds[0] == pytest.approx((0.04, -0.2, 0.0))
+    assert speeds[2] == pytest.approx((0.12, -0.3, 0.0))
     assert speeds[-1] == pytest.approx(wanted)
-    assert ramp.toward(REST, 0.1) == pytest.approx((0.16, -0.1))
+    assert ramp.toward(REST, 0.1) == pytest.approx((0.16, -0.1, 0.0))
 
 
 @pytest.mark.parametrize("bad", [nan, inf, -inf])
@@ -62,7 +81,7 @@ def test_a_limit_that_lets_nothing_through_is_refused(
 
 
 SPEED = st.floats(-2.0, 2.0)
-WANTED = st.builds(VelocityCommand, SPEED, SPEED)
+WANTED = st.builds(VelocityCommand, SPEED, SPEED, SPEED)
 
 
 @settings(max_examples=60)
@@ -71,15 +90,17 @@ def test_whatever_is_wanted_no_change_is_faster_than_the_ramp(
     wishes: list[tuple[VelocityCommand, float]], last: VelocityCommand
 ) -> None:
     """The ramp ends at the scaled command."""
-    ramp = Ramp(TIGHT)
+    limits = replace(TIGHT, lateral=0.1)
+    ramp = Ramp(limits)
     for wanted, passed in [*wishes, *[(last, 0.3)] * 8]:
         before, now = ramp.velocity, ramp.toward(wanted, passed)
         assert abs(now.forward - before.forward) <= 0.4 * passed + 1e-12
         assert abs(now.turn - before.turn) <= 2.0 * passed + 1e-12
         assert -0.1 - 1e-12 <= now.forward <= 0.2 + 1e-12
         assert abs(now.turn) <= 0.5 + 1e-12
-        goal = TIGHT.scale(wanted)
+        assert abs(now.lateral) <= 0.1 + 1e-12
+        goal = limits.scale(wanted)
         # It goes towards its goal with each part, and never beyond.
         for own, old, aim in zip(now, before, goal, strict=True):
             assert min(old, aim) - 1e-12 <= own <= max(old, aim) + 1e-12
-    assert ramp.velocity == pytest.approx(TIGHT.scale(last))
+    assert ramp.velocity == pytest.approx(limits.scale(last))

@@ -90,11 +90,11 @@ def test_two_templates_end_on_the_circle_of_theory() -> None:
             x, y, _ = own.inverse().compose(other)
             seen = Sighting(0.05 * i, float(np.arctan2(y, x)), hypot(x, y))
             speeds.append(mind.decide(VelocityReport(0.05 * i, own, seen)))
-        for k, (forward, turn) in enumerate(speeds):
+        for k, (forward, turn, _) in enumerate(speeds):
             half = Pose(0.0, 0.0, 0.025 * turn)
             way = Pose(0.05 * forward, 0.0, 0.0)
             poses[k] = poses[k].compose(half).compose(way).compose(half)
-    radii = [abs(forward / turn) for forward, turn in speeds]
+    radii = [abs(forward / turn) for forward, turn, _ in speeds]
     assert radii == pytest.approx(2 * [0.1 / (0.2 * pi / 4)], rel=0.01)
 
 
@@ -103,9 +103,9 @@ def test_the_robot_is_led_to_the_template_by_the_ramp() -> None:
     ticks = played(robot, 30)
     assert [t.state for t in ticks[:2]] == 2 * [DrivingState.WAITING]
     assert ticks[-1].state is DrivingState.WALKING
-    assert ticks[-1].velocity == pytest.approx((0.1, 0.08))
+    assert ticks[-1].velocity == pytest.approx((0.1, 0.08, 0.0))
     steps = np.abs(np.diff(np.array(robot.asked), axis=0))
-    assert steps.max(axis=0) == pytest.approx((0.025, 0.08), rel=0.3)
+    assert steps.max(axis=0) == pytest.approx((0.025, 0.08, 0.0), rel=0.3)
 
 
 @pytest.mark.parametrize(
@@ -197,9 +197,9 @@ def test_the_log_is_on_disk_as_it_goes(tmp_path: Path) -> None:
     assert len(early["times_s"]) == 60
     log.close()
     rows = read_rows(tmp_path / "log")
-    assert rows["velocity"].shape == (60, 2)
+    assert rows["velocity"].shape == (60, 3)
     assert np.isnan(rows["sighting"]).sum() == 0
-    assert rows["velocity"][19] == pytest.approx((0.1, 0.08))
+    assert rows["velocity"][19] == pytest.approx((0.1, 0.08, 0.0))
     words = json.loads((tmp_path / "log" / "play.json").read_text())
     told = [change["state"] for change in words["changes"]]
     assert told == ["waiting", "walking", "waiting"]

@@ -240,7 +240,8 @@ def test_a_robot_with_its_own_walk_is_shown_as_a_template(
     assert run.summary.sighted_share == pytest.approx(179 / 199, abs=0.01)
     np.testing.assert_allclose(run.tracks["evader"].com, 0.0, atol=1e-6)
     assert run.pursuer.command is not None
-    np.testing.assert_array_equal(run.pursuer.command[5], [0.3, 0.2, 0.2, 0.2])
+    command = run.pursuer.command[5]
+    np.testing.assert_array_equal(command, [0.3, 0.2, 0.0, 0.2, 0.2, 0.0])
     draw_run(run, tmp_path / "play.png")
     RunScene(run).put(10)
     assert load_run(tmp_path / "p").players == ("pursuer", "evader")

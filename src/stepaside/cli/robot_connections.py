@@ -121,12 +121,13 @@ def open_velocity(
 
     strategy = connection.strategy(settings)
     ways = _velocity_connection(settings, connection)
+    limits = ways.limits.within(
+        connection.max_speed or inf, connection.max_turn or inf
+    )
     return VelocityLoop(
         _held(_guarded(ways, connection), connection),
-        lambda: TemplateController(strategy, settings.gait),
-        ways.limits.within(
-            connection.max_speed or inf, connection.max_turn or inf
-        ),
+        lambda: TemplateController(strategy, settings.gait, limits.velocities),
+        limits,
         WatchSettings(paced=not connection.sim_time),
         dry_run=connection.dry_run,
     )

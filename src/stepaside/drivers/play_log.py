@@ -39,8 +39,8 @@ class PlayLog:
     time of planning; NaN if none began).
 
     A tick of :class:`VelocityTick` adds ``pose`` (odometry), ``wanted``
-    (velocity of the template) and ``velocity`` (command: forward [m/s],
-    turn [rad/s]).
+    (velocity of the template) and ``velocity`` (command), each forward
+    [m/s], turn [rad/s] and lateral [m/s].
 
     ``state`` and ``phase`` are indices into the lists of ``play.json``,
     which also lists each change of state with its time and reason.

@@ -43,7 +43,7 @@ ARRAY_SPECS = {
     "support": ArraySpec(5),
     "heading_reference": ArraySpec(1),
     "estimate": ArraySpec(8, may_lack=True),
-    "command": ArraySpec(4),
+    "command": ArraySpec(6),
 }
 
 

@@ -37,7 +37,7 @@ BY_JOINTS = {
     "begun": 6,
 }
 JOINTS = ("joint_positions", "targets")  # one column per joint
-BY_VELOCITY = {"pose": 3, "wanted": 2, "velocity": 2}
+BY_VELOCITY = {"pose": 3, "wanted": 3, "velocity": 3}
 
 
 @dataclass(frozen=True, slots=True)

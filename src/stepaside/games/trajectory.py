@@ -43,7 +43,8 @@ class Trajectory:
         estimate: Estimated CoM, velocity of the CoM and ZMP (x, y each),
             roll and pitch; NaN before the first estimate. Shape (n, 8).
         command: Velocities of a robot with its own walk: of the template and
-            as commanded, forward [m/s] and turn [rad/s] each. Shape (n, 4).
+            as commanded, forward [m/s], turn [rad/s] and lateral [m/s]
+            each. Shape (n, 6).
     """
 
     __repr__ = brief_repr

@@ -73,7 +73,7 @@ class VelocityWalker(SimulatedPlayer):
         if scheme.phase is Phase.STANDING:
             self._walking_direction = None
         measurement = self._read()
-        forward, turn = limit_velocity(*self._velocity, scheme.gait)
+        forward, turn = limit_velocity(*self._velocity[:2], scheme.gait)
         strategy = strategy_at_velocity(
             forward,
             turn / self._turns.share,
@@ -102,7 +102,7 @@ class VelocityWalker(SimulatedPlayer):
         measurement = self._read()
         now, scheme = measurement.time, self.scheme
         walk = scheme.state
-        velocity = limit_velocity(*self._velocity, scheme.gait)
+        velocity = limit_velocity(*self._velocity[:2], scheme.gait)
         return WalkerState(
             now,
             scheme.decisions.templates.at(now),

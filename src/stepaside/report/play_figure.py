@@ -61,7 +61,7 @@ def _draw_command(axes: Any, run: PlayRun) -> None:
     assert command is not None
     colour = colours_of(run.players, run.identities)[run.settings.role]
     turns = axes.twinx()
-    for part, name, look in ((0, "desired", ":"), (2, "command", "-")):
+    for part, name, look in ((0, "desired", ":"), (3, "command", "-")):
         speed, turn = command[:, part], command[:, part + 1]
         axes.plot(run.times, speed, color=colour, ls=look, label=name)
         turns.plot(run.times, turn, color=SWAY, ls=look, lw=0.9)

@@ -160,7 +160,7 @@ class ALMotion:
         """Return the velocity: x, y [m/s], theta [rad/s]."""
         with self._robot.lock:
             self._robot.calls += 1
-            forward, turn = self._robot.state.velocity
+            forward, turn, _ = self._robot.state.velocity
             return [forward, 0.0, turn]
 
     def getBodyNames(self, name: str) -> list[str]:

@@ -100,6 +100,6 @@ class VelocityMover:
         if velocity == REST:
             call.send("stopMove", self._motion.stopMove(_async=True))
         else:
-            forward, turn = velocity
+            forward, turn, _ = velocity
             future = self._motion.move(forward, 0.0, turn, _async=True)
             call.send("move", future)

@@ -62,7 +62,10 @@ class CommandWriter:
                 stamped commands.
         """
         self._prepare()
-        twist = Twist(vector(velocity.forward), vector(z=velocity.turn))
+        twist = Twist(
+            vector(velocity.forward, velocity.lateral),
+            vector(z=velocity.turn),
+        )
         for kind, writer in self._writers.items():
             writer.write(
                 twist if kind is Twist else TwistStamped(header, twist)

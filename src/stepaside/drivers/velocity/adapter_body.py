@@ -251,11 +251,11 @@ class AdapterBody:
 
     def _command(self) -> None:
         """Command the newest velocity; called by the thread."""
-        robot, (forward, turn) = self._methods.robot, self._wanted
+        robot, (forward, turn, lateral) = self._methods.robot, self._wanted
         if self._wanted == REST:
             robot.stop()
         else:
-            robot.command(forward, 0.0, turn)
+            robot.command(forward, lateral, turn)
 
     def _stop_beside(self, method: str, waited: float) -> None:
         """Stop the robot while a method does not return."""

@@ -336,13 +336,18 @@ class AdapterCheck:
         turn = min(SHARE * limits.turn, FASTEST.turn)
         ahead = min(SHARE * limits.forward, FASTEST.forward)
         back = min(SHARE * limits.backward, FASTEST.forward)
+        aside = min(SHARE * limits.lateral, FASTEST.lateral)
         metres = "is the position in millimetres?"
-        return [
+        axes = [
             Axis("turn left", BodyVelocity(0.0, 0.0, turn), "rad/s",
                  "is the heading in degrees?"),
             Axis("walk ahead", BodyVelocity(ahead, 0.0, 0.0), "m/s", metres),
             Axis("walk back", BodyVelocity(-back, 0.0, 0.0), "m/s", metres),
         ]  # fmt: skip
+        if aside > 0.0:
+            left = BodyVelocity(0.0, aside, 0.0)
+            axes.append(Axis("walk left", left, "m/s", metres))
+        return axes
 
     def _check_axis(self, axis: Axis) -> None:
         """Check sign and size of the motion in one direction."""

@@ -3,6 +3,7 @@
 from ...control.strategy_runner import StrategyRunner
 from ...planning import GaitSettings
 from ...strategies import Strategy
+from ...strategies.velocity_set import VelocitySet
 from ...theory import laws
 from .velocity_body import REST, VelocityCommand, VelocityReport
 
@@ -18,15 +19,24 @@ class TemplateController:
         moving: Whether the newest intent is to walk.
     """
 
-    def __init__(self, strategy: Strategy, gait: GaitSettings) -> None:
+    def __init__(
+        self,
+        strategy: Strategy,
+        gait: GaitSettings,
+        velocities: VelocitySet | None = None,
+    ) -> None:
         """Start without a sighting.
 
         Args:
             strategy: Function from knowledge to intent.
             gait: Gives speed and gain of the template, and the time over
                 which rates are measured.
+            velocities: Velocities of a robot that walks sideways; None for
+                a unicycle. Strategies may then choose body velocities.
         """
-        self._decisions = StrategyRunner(strategy, gait, MEMORY_TICK)
+        self._decisions = StrategyRunner(
+            strategy, gait, MEMORY_TICK, velocities=velocities
+        )
         self._gait = gait
         self.moving = False
 
@@ -49,6 +59,9 @@ class TemplateController:
         self.moving = intent.walks
         if not intent.walks:
             return REST
+        if intent.velocity is not None:
+            ahead, left, turn = intent.velocity
+            return VelocityCommand(ahead, turn, left)
         strategy, gait = decisions.strategy, self._gait
         law = (
             laws.saturated_rate

@@ -7,15 +7,18 @@ from ...perception.measurement import Sighting
 
 
 class VelocityCommand(NamedTuple):
-    """Velocity command of a unicycle.
+    """Velocity command in the robot's frame.
 
     Attributes:
         forward: Driving velocity, in [m/s], negative backward.
         turn: Turning rate, in [rad/s], positive leftward.
+        lateral: Lateral velocity, in [m/s], positive leftward; zero for a
+            unicycle.
     """
 
     forward: float
     turn: float
+    lateral: float = 0.0
 
 
 REST = VelocityCommand(0.0, 0.0)

@@ -3,7 +3,12 @@
 from dataclasses import dataclass, replace
 from math import inf, isfinite
 
-from ...core.errors import ConfigurationError, check_positive
+from ...core.errors import (
+    ConfigurationError,
+    check_positive,
+    check_within,
+)
+from ...strategies.velocity_set import VelocitySet
 from .velocity_body import REST, VelocityCommand
 
 
@@ -17,6 +22,8 @@ class VelocityLimits:
         turn: Maximum turning rate, in [rad/s].
         acceleration: Maximum linear acceleration, in [m/s^2].
         turn_acceleration: Maximum angular acceleration, in [rad/s^2].
+        lateral: Maximum lateral speed, in [m/s]; 0 for a robot that does not
+            walk sideways.
     """
 
     forward: float = inf
@@ -24,6 +31,7 @@ class VelocityLimits:
     turn: float = inf
     acceleration: float = 0.5
     turn_acceleration: float = 2.0
+    lateral: float = 0.0
 
     def __post_init__(self) -> None:
         """Validate the limits."""
@@ -33,6 +41,7 @@ class VelocityLimits:
                 check_positive(getattr(self, name), name, "m/s", error)
         if self.turn != inf:
             check_positive(self.turn, "turn", "rad/s", error)
+        check_within(self.lateral, 0.0, 100.0, "lateral", "m/s", error)
         check_positive(self.acceleration, "acceleration", "m/s^2", error)
         check_positive(
             self.turn_acceleration, "turn_acceleration", "rad/s^2", error
@@ -50,25 +59,44 @@ class VelocityLimits:
             forward=min(self.forward, speed),
             backward=min(self.backward, speed),
             turn=min(self.turn, turn),
+            lateral=min(self.lateral, speed),
+        )
+
+    @property
+    def velocities(self) -> VelocitySet | None:
+        """Velocities of a robot that walks sideways; None for a unicycle."""
+        if self.lateral == 0.0:
+            return None
+        return VelocitySet(
+            (-self.backward, self.forward),
+            (-self.lateral, self.lateral),
+            (-self.turn, self.turn),
         )
 
     def scale(self, wanted: VelocityCommand) -> VelocityCommand:
         """Scale a velocity into the limits.
 
-        Speed and turning rate are scaled by the same factor, so that the
-        path keeps its curvature, and with it the circle its radius.
+        All components are scaled by the same factor, so that the path keeps
+        its curvature, and with it the circle its radius. A robot that does
+        not walk sideways is commanded no lateral velocity.
 
         Args:
             wanted: Finite velocity.
         """
         speed, rate = abs(wanted.forward), abs(wanted.turn)
         top = self.forward if wanted.forward > 0.0 else self.backward
+        aside = abs(wanted.lateral) if self.lateral > 0.0 else 0.0
         factor = min(
             1.0,
             top / speed if speed > 0.0 else 1.0,
+            self.lateral / aside if aside > 0.0 else 1.0,
             self.turn / rate if rate > 0.0 else 1.0,
         )
-        return VelocityCommand(factor * wanted.forward, factor * wanted.turn)
+        return VelocityCommand(
+            factor * wanted.forward,
+            factor * wanted.turn,
+            factor * wanted.lateral if aside > 0.0 else 0.0,
+        )
 
 
 class Ramp:
@@ -92,13 +120,14 @@ class Ramp:
             wanted: Target velocity; NaN or inf stops at once.
             passed: Time since the last call, in [s].
         """
-        if not (isfinite(wanted.forward) and isfinite(wanted.turn)):
+        if not all(isfinite(value) for value in wanted):
             return self.stop()
         limits, now = self._limits, self.velocity
         goal = limits.scale(wanted)
         self.velocity = VelocityCommand(
             _step(now.forward, goal.forward, limits.acceleration * passed),
             _step(now.turn, goal.turn, limits.turn_acceleration * passed),
+            _step(now.lateral, goal.lateral, limits.acceleration * passed),
         )
         return self.velocity
 

@@ -53,10 +53,11 @@ class VelocityTick:
     @property
     def words(self) -> str:
         """State, reason and command as a short text."""
-        forward, turn = self.velocity
+        forward, turn, lateral = self.velocity
+        aside = f"{lateral:+.3f} m/s aside, " if lateral else ""
         return (
             f"{self.state.value} ({self.reason}), "
-            f"{forward:+.3f} m/s, {turn:+.3f} rad/s"
+            f"{forward:+.3f} m/s, {aside}{turn:+.3f} rad/s"
         )
 
 
@@ -154,7 +155,7 @@ class VelocityLoop:
     def _result(
         self, hindrance: str, velocity: VelocityCommand
     ) -> VelocityTick:
-        moves = max(abs(velocity.forward), abs(velocity.turn)) > STILL
+        moves = max(abs(value) for value in velocity) > STILL
         if self._leave_reason:
             state = DrivingState.STOPPING if moves else DrivingState.RESTING
             reason = self._leave_reason

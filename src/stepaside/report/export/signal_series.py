@@ -35,8 +35,10 @@ TRACK_COLUMNS = {
     "command": (
         "template_forward_m_s",
         "template_turn_rad_s",
+        "template_lateral_m_s",
         "forward_m_s",
         "turn_rad_s",
+        "lateral_m_s",
     ),
 }
 FOOT_CORNERS = tuple(
