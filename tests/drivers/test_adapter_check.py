@@ -278,6 +278,10 @@ def test_the_command_prints_verdicts_and_exits_with_1(
     [
         ("play --robot ros2:/x --check", "--check requires --robot FILE.py"),
         ("play --robot ros2:/x --json", "--json requires --check"),
+        (
+            "play --robot x.py:X --check --record run",
+            "--record requires a play without --check",
+        ),
     ],
 )
 def test_options_of_the_check_are_refused_without_it(

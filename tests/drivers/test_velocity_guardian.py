@@ -9,6 +9,7 @@ from time import monotonic, sleep
 
 import pytest
 
+from stepaside.drivers.guardian_process import SessionLost
 from stepaside.drivers.velocity.velocity_body import REST, VelocityCommand
 from stepaside.drivers.velocity.velocity_guardian import (
     GuardedBody,
@@ -140,5 +141,29 @@ def test_a_guarded_robot_receives_the_same_commands(tmp_path: Path) -> None:
     body.close()
     assert robot.asked == [VelocityCommand(0.1, 0.2), REST]
     assert not (tmp_path / "rest").exists()
+    with pytest.raises(ChildProcessError):
+        os.waitpid(guardian.pid, os.WNOHANG)
+
+
+class UnstoppableRobot(FakeWalker):
+    """Robot that control cannot stop."""
+
+    def close(self) -> None:
+        """Fail."""
+        raise SessionLost("stop() did not return")
+
+
+def test_the_guardian_stops_a_robot_that_control_cannot_stop(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    """Also one that was commanded zero; control goes on."""
+    guardian = fork_velocity_guardian(lambda: (tmp_path / "rest").touch)
+    body = GuardedBody(UnstoppableRobot([]), guardian)
+    body.command(VelocityCommand(0.1, 0.2))
+    body.command(REST)
+    assert not (tmp_path / "rest").exists()
+    body.close()
+    assert (tmp_path / "rest").exists()
+    assert "stop() did not return; the guardian stops" in caplog.text
     with pytest.raises(ChildProcessError):
         os.waitpid(guardian.pid, os.WNOHANG)

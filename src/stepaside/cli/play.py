@@ -27,6 +27,10 @@ if TYPE_CHECKING:
 
 CONNECTING = 6.0  # longest time that connecting takes, in [s]
 PAUSE = 0.3  # between two attempts, in [s]
+UNUSED_BY_CHECK = {
+    *("record", "duration", "dead_man", "images", "max_speed", "max_turn"),
+    *("sim_time", "interface", "role"),
+}
 TIME_IS_UP = "played long enough"
 INTERRUPTED = "interrupted"
 
@@ -71,6 +75,7 @@ def play(
     if connection.check:
         from .play_check import check_adapter
 
+        refuse_options(UNUSED_BY_CHECK, "a play without --check")
         check_adapter(connection, as_json=as_json)
         return
     if as_json:
