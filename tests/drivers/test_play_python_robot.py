@@ -15,6 +15,7 @@ import pytest
 
 from stepaside import load_run
 from stepaside.cli.main import main
+from stepaside.drivers.dead_man_switch import FIRST
 from stepaside.drivers.velocity.velocity_guardian import SILENCE
 from stepaside.drivers.velocity.watchdog import WatchSettings
 from stepaside.games.play_settings import PlaySettings
@@ -67,7 +68,9 @@ def start() -> Iterator[Callable[..., Any]]:
     walkers: list[Walker] = []
     plays: list[subprocess.Popen[str]] = []
 
-    def start_one(*options: str, of: Walker | None = None) -> Any:
+    def start_one(
+        *options: str, of: Walker | None = None, keys: int | None = None
+    ) -> Any:
         if of is None:
             walkers.append(Walker(*options))
             return walkers[-1]
@@ -76,6 +79,7 @@ def start() -> Iterator[Callable[..., Any]]:
                 [sys.executable, "-c", PLAY, "play", "--robot", ROBOT]
                 + [*TEMPLATE, *options],
                 env=os.environ | {"WALKER_PORT": str(of.port)},
+                stdin=keys,
                 stderr=subprocess.PIPE,
                 text=True,
             )
@@ -142,6 +146,29 @@ def test_the_guardian_stops_it_when_control_fails(
     play.send_signal(signal.SIGKILL if fate == "killed" else signal.SIGSTOP)
     assert until(lambda: not walker.moves()) < SILENCE + SLACK
     assert play.wait(LONGEST) == -signal.SIGKILL
+
+
+def test_it_walks_only_while_a_key_is_held(start: Callable[..., Any]) -> None:
+    pty = pytest.importorskip("pty")
+    near, far = pty.openpty()
+    walker = start()
+    play = start("--dead-man", "key", "--duration", "60", of=walker, keys=far)
+    while "hold any key to walk" not in play.stderr.readline():
+        assert play.poll() is None
+    assert not walker.moves()
+
+    def held() -> bool:
+        os.write(near, b" ")
+        sleep(0.05)
+        return bool(walker.moves())
+
+    until(held)
+    assert all(held() for _ in range(20))
+    assert until(lambda: not walker.moves()) < FIRST + SLACK
+    play.kill()
+    play.wait(LONGEST)
+    os.close(near)
+    os.close(far)
 
 
 @pytest.mark.parametrize("lost", ["states", "both"])
