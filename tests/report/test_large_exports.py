@@ -13,7 +13,7 @@ from stepaside.games.duel import run_duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.run import Run
 from stepaside.games.run_archive import load_run, write_run_files
-from stepaside.robots.urdf_tree import BASE
+from stepaside.robots.urdf_elements import BASE
 
 
 def export(run: Path, name: str) -> Path:

@@ -17,7 +17,7 @@ from stepaside.report.visual_geoms import (
 )
 from stepaside.robots.description import load_robot
 from stepaside.sim.obstacle_geoms import add_solids
-from stepaside.sim.pedestrian_models import FIGURES
+from stepaside.sim.pedestrian_appearance import FIGURES
 from stepaside.sim.person_body import (
     add_person,
     mocap_indices,

@@ -7,8 +7,8 @@ import pytest
 from stepaside.core.errors import PlanError
 from stepaside.planning import Direction
 from stepaside.strategies import STAND, Intent, Knowledge, Limits
+from stepaside.strategies.nearest_unicycle_intent import unicycle_intent
 from stepaside.strategies.strategy import evaluate_strategy
-from stepaside.strategies.unicycle_intent import unicycle_intent
 from stepaside.strategies.velocity_set import (
     STILL,
     BodyVelocity,

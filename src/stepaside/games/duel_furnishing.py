@@ -8,7 +8,7 @@ from ..robots.description import load_robot
 from ..robots.head import load_head
 from ..sim.obstacle_geoms import add_solids, obstacle_mover
 from ..sim.passerby_bodies import add_passers, passer_mover
-from ..sim.pedestrian_models import FIGURES
+from ..sim.pedestrian_appearance import FIGURES
 from ..sim.person_body import add_person
 from ..sim.room_furnishing import Furnish, furnisher
 from .duel_settings import EVADER, PLAYERS, PURSUER, DuelSettings

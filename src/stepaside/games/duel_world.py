@@ -17,7 +17,7 @@ from ..robots.leg_kinematics import LegKinematics
 from ..sim.body_settings import at_tick, with_control_period
 from ..sim.ground_truth import GroundTruth
 from ..sim.ideal_sensors import IdealLineOfSight
-from ..sim.pedestrian_models import FIGURES
+from ..sim.pedestrian_appearance import FIGURES
 from ..sim.person_body import PersonBody
 from ..sim.person_motion import PersonMotion
 from ..sim.physics_settings import PhysicsSettings

@@ -17,7 +17,7 @@ from ..locomotion.walk_snapshots import StepStarted
 from ..planning import GaitSettings
 from ..sim.crowd_motion import RADIUS, CrowdMotion, Neighbour
 from ..sim.ground_truth import GroundTruth
-from ..sim.pedestrian_models import PedestrianModel
+from ..sim.pedestrian_appearance import PedestrianModel
 from ..sim.person_body import REACH, mocap_indices, set_person_pose
 from ..sim.person_motion import PersonMotion
 from ..sim.push import Push

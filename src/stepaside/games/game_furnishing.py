@@ -7,7 +7,7 @@ import mujoco
 from ..core.player_colours import Rgb, shades_of
 from ..core.player_identity import Role
 from ..sim.obstacle_geoms import add_solids
-from ..sim.pedestrian_models import FIGURES, Colour
+from ..sim.pedestrian_appearance import FIGURES, Colour
 from ..sim.person_body import add_person
 from ..sim.template_body import add_template
 from .game_settings import GameSettings

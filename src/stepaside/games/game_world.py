@@ -8,7 +8,7 @@ from ..sim.crowd_motion import CrowdMotion
 from ..sim.ground_truth import GroundTruth
 from ..sim.ideal_sensors import IdealLineOfSight
 from ..sim.obstacle_geoms import obstacle_mover
-from ..sim.pedestrian_models import FIGURES
+from ..sim.pedestrian_appearance import FIGURES
 from ..sim.person_motion import PersonMotion
 from ..sim.world import World
 from .floor_player import (

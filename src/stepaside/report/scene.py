@@ -12,7 +12,7 @@ from ..games.play_settings import PlaySettings
 from ..games.run import Run, is_duel, is_match
 from ..robots.description import load_robot
 from ..sim.obstacle_geoms import obstacle_mover
-from ..sim.pedestrian_models import FIGURES
+from ..sim.pedestrian_appearance import FIGURES
 from ..sim.person_body import mocap_indices, set_person_pose
 from ..sim.physics_settings import PhysicsSettings
 from ..sim.room_furnishing import Furnish, hide_walls

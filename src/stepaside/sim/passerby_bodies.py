@@ -6,7 +6,7 @@ import mujoco
 
 from ..core.poses import Pose
 from .passerby_settings import Passer
-from .pedestrian_models import FIGURES
+from .pedestrian_appearance import FIGURES
 from .person_body import add_person, mocap_indices, set_person_pose
 
 

@@ -6,7 +6,7 @@ from math import atan2, cos, pi, sin
 from ..core.poses import Pose
 from ..core.ranges import Range
 from ..core.setting import REQUIRED, check_settings, setting
-from .pedestrian_models import FIGURES
+from .pedestrian_appearance import FIGURES
 
 MOST_PASSERS = 20  # of one game
 METRES = Range(-20.0, 20.0, "m", "beyond, out of sight")

@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 
 from ..core.poses import Array, Pose
-from .pedestrian_models import FIGURES, HIP, Colour, PedestrianModel
+from .pedestrian_appearance import FIGURES, HIP, Colour, PedestrianModel
 from .person_crossings import RepeatedCrossings
 from .person_motion import PersonMotion
 from .world import FLOOR_BIT, World

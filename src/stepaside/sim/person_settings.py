@@ -6,7 +6,7 @@ from math import inf, pi
 from ..core.errors import ConfigurationError
 from ..core.ranges import Range
 from ..core.setting import check_settings, setting
-from .pedestrian_models import FIGURES
+from .pedestrian_appearance import FIGURES
 
 PATHS = ("steer", "straight", "visits")
 PURSUERS = ("robot", "person")

@@ -5,7 +5,7 @@ from math import cos, sin
 import mujoco
 
 from ..core.poses import Pose
-from .pedestrian_models import Colour
+from .pedestrian_appearance import Colour
 
 DISC_RADIUS = 0.07  # in [m]
 DISC_HALF_HEIGHT = 0.006  # in [m]

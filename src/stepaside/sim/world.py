@@ -17,7 +17,7 @@ from ..robots.description import RobotDescription
 from ..robots.tree_cache import load_tree
 from .body_settings import BodySettings
 from .floor import add_floor, tilt_gravity
-from .pedestrian_models import Colour
+from .pedestrian_appearance import Colour
 from .physics_settings import PhysicsSettings
 from .sensor_errors import perturb_masses
 

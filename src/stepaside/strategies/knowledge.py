@@ -217,7 +217,7 @@ class Intent:
         velocity: Desired velocity of the body in its present frame, in place
             of heading and speed. Legs with a velocity set walk at the nearest
             velocity in it, unicycles follow
-            :func:`~stepaside.strategies.unicycle_intent.unicycle_intent`.
+            :func:`~stepaside.strategies.nearest_unicycle_intent.unicycle_intent`.
     """
 
     heading: float = 0.0

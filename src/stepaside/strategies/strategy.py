@@ -6,7 +6,7 @@ from ..core.errors import StrategyError
 from ..core.user_file import FAILURES
 from ..planning import Direction
 from .knowledge import Intent, Knowledge
-from .unicycle_intent import unicycle_intent
+from .nearest_unicycle_intent import unicycle_intent
 
 
 class Strategy(Protocol):

@@ -11,10 +11,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...core.poses import Array, Pose
-from ...games.robot_signals import RobotSignals
+from ...games.replayed_signals import RobotSignals
 from ...perception.images import ColourImage
 from ...planning.gait_settings import SoleRectangle
-from ...robots.urdf_tree import IMU, OPTICAL
+from ...robots.urdf_elements import IMU, OPTICAL
 from ..palette import colours_in
 from .bag_messages import BOX, MessageFactory, nanoseconds
 from .foxglove_layout import write_layout

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from ...core.errors import ConfigurationError
 from ...core.poses import Array, wrap_angles
-from ...games.robot_signals import RobotSignals
+from ...games.replayed_signals import RobotSignals
 from ...perception.images import ColourImage
 from .recording import Recording
 from .signal_series import FOOT_CORNERS

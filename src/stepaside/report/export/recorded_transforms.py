@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 
 from ...core.poses import Array
-from ...robots.urdf_tree import UrdfJoint
+from ...robots.urdf_elements import UrdfJoint
 from .recording import RobotModel
 
 LANDED = 0.02  # after its landing time a foot is on the floor, in [s]

@@ -12,12 +12,12 @@ from ...core.errors import ConfigurationError
 from ...core.poses import Array
 from ...games.match import Progress
 from ...games.play_rows import read_played
-from ...games.robot_signals import RobotSignals, repeat_game
+from ...games.replayed_signals import RobotSignals, repeat_game
 from ...games.run import Run, is_play
 from ...games.run_archive import load_run
 from ...robots.description import RobotDescription, load_robot
-from ...robots.urdf import urdf_of
-from ...robots.urdf_tree import UrdfTree, urdf_tree
+from ...robots.urdf_elements import UrdfTree, urdf_tree
+from ...robots.urdf_writer import urdf_of
 from ...sim.robot_state_log import centers_of_pressure
 
 BEYOND = (

@@ -13,7 +13,7 @@ import numpy as np
 from ...core.poses import Array
 from ...perception.images import ColourImage
 from ...planning.gait_settings import SoleRectangle
-from ...robots.urdf_tree import BASE, OPTICAL, UrdfLink
+from ...robots.urdf_elements import BASE, OPTICAL, UrdfLink
 from ..palette import colours_in
 from ..visual_geoms import MAX_VISIBLE_GROUP, colour_of
 from .bag_messages import JPEG_QUALITY

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...core.poses import Array
-from ...games.robot_signals import RobotSignals
+from ...games.replayed_signals import RobotSignals
 from .recorded_transforms import landed_footsteps
 from .recording import Recording
 

@@ -8,7 +8,7 @@ import pytest
 from stepaside.core.constants import GRAVITY
 from stepaside.games.duel import run_duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
-from stepaside.games.robot_signals import RobotSignals, repeat_game
+from stepaside.games.replayed_signals import RobotSignals, repeat_game
 from stepaside.games.run import DuelRun, Run, WalkRun
 from stepaside.games.walk_game import run_walk
 from stepaside.games.walk_settings import WALKER, WalkSettings

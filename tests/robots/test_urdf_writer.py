@@ -10,8 +10,8 @@ from stepaside.core.errors import ModelError
 from stepaside.core.poses import Array
 from stepaside.robots.description import RobotDescription, load_robot
 from stepaside.robots.description_types import SensorNames
-from stepaside.robots.urdf import urdf_of
-from stepaside.robots.urdf_tree import BASE, urdf_tree
+from stepaside.robots.urdf_elements import BASE, urdf_tree
+from stepaside.robots.urdf_writer import urdf_of
 
 # Anchors off the origin, two hinges on one body, a zero that is not 0, a
 # slide, rotated bodies, a mesh-free ellipsoid and a continuous joint.

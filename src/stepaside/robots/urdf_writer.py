@@ -14,7 +14,7 @@ import numpy as np
 
 from ..core.poses import Array
 from .description import RobotDescription
-from .urdf_tree import rotation_of, urdf_tree
+from .urdf_elements import rotation_of, urdf_tree
 
 UNLIMITED = 1e6  # effort of a motor without a limit, in [N m]
 VISIBLE_GROUP = 2  # geoms of higher groups are not drawn

@@ -17,7 +17,7 @@ from stepaside.games.person_player import PersonPlayer
 from stepaside.games.walker import SimulatedPlayer
 from stepaside.robots.head import rotation
 from stepaside.sim.ground_truth import torsos_apart
-from stepaside.sim.pedestrian_models import FIGURES, HIP
+from stepaside.sim.pedestrian_appearance import FIGURES, HIP
 from stepaside.sim.person_body import (
     PARTS,
     PersonBody,
