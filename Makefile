@@ -108,7 +108,7 @@ endif
 test-export: .venv-export/.installed
 	.venv-export/bin/python -m pytest --numprocesses 2 \
 		tests/report/test_export.py tests/report/test_large_exports.py \
-		tests/robots/test_urdf.py
+		tests/robots/test_urdf_writer.py
 
 .venv-export/.installed: pyproject.toml
 	$(PYTHON) -m venv .venv-export

@@ -1,5 +1,4 @@
 # /// script
-# requires-python = ">=3.11"
 # dependencies = ["stepaside[fast]"]
 # ///
 """How near several pursuers come to one evader, by their number.
@@ -36,7 +35,7 @@ def starts(pursuers: int, generator: np.random.Generator) -> np.ndarray:
 def main() -> None:
     """Play the games and print the closest approaches."""
     generator = np.random.default_rng(0)
-    print(f"distance on the circle of one pursuer: {CIRCLE:.3f} v/k")
+    print(f"distances in [v/k]; on the circle of one pursuer {CIRCLE:.3f}")
     print("pursuers  median  tenth  below 0.2  final distance")
     for count in (1, 2, 3, 4, 6, 8):
         players = [PURSUER] * count + [EVADER]

@@ -10,6 +10,7 @@ from pkgutil import walk_packages
 from re import split
 from typing import Any
 
+import numpy as np
 import pytest
 
 import stepaside
@@ -22,6 +23,12 @@ from stepaside.arena import Box, MovingBox, Room, load_room
 from stepaside.core.errors import StepAsideError
 from stepaside.core.poses import Pose
 from stepaside.strategies import StepGame
+from stepaside.strategies.learned import (
+    LearnedStrategy,
+    StrategyContract,
+    dense_network,
+    load_learned_strategy,
+)
 from stepaside.theory.bound import (
     load_bound,
 )
@@ -67,6 +74,13 @@ def paths_at_the_doors() -> set[str]:
     return found
 
 
+def a_network() -> LearnedStrategy:
+    """Return an evader whose network does nothing yet."""
+    contract = StrategyContract(Direction.BACKWARD, ("bearing",), (0.0, None))
+    layer = np.zeros((2, 2)), np.zeros(2)
+    return LearnedStrategy(dense_network([layer]), contract)
+
+
 class Place:
     """A path that is neither text nor a ``pathlib.Path``."""
 
@@ -85,6 +99,7 @@ def kept(tmp_path_factory: pytest.TempPathFactory) -> Path:
     (folder / "duel.toml").write_text("seed = 3\n")
     (folder / "room.toml").write_text("width = 3.0\ndepth = 2.0\n")
     a_bound().save(folder / "bound.npz")
+    a_network().save(folder / "evader.onnx")
     nao = stepaside.load_robot("nao").folder
     (folder / "robot").symlink_to(nao, target_is_directory=True)
     return folder
@@ -97,6 +112,10 @@ READERS: dict[str, tuple[str, Callable[[Any], Any]]] = {
     "load_robot": ("robot", lambda p: stepaside.load_robot(p).torso),
     "load_bound": ("bound.npz", lambda p: load_bound(p).grid),
     "load_room": ("room.toml", load_room),
+    "load_learned_strategy": (
+        "evader.onnx",
+        lambda p: load_learned_strategy(p).contract,
+    ),
 }
 # What is written: the name of the file or folder, and how.
 WRITERS: dict[str, tuple[str, Callable[[Any], Any]]] = {
@@ -115,6 +134,8 @@ WRITERS: dict[str, tuple[str, Callable[[Any], Any]]] = {
         lambda p: stepaside.draw_plan(a_plan(), "evader", p),
     ),
     "Bound.save": ("bound.npz", lambda p: a_bound().save(p)),
+    "LearnedStrategy.save": ("one.onnx", lambda p: a_network().save(p)),
+    "NetworkGraph.save": ("one.onnx", lambda p: a_network().network.save(p)),
 }
 
 
@@ -158,6 +179,9 @@ ANGLES: dict[str, Callable[[Any], Any]] = {
     "Walk bearing": stepaside.strategies.Walk,
     "Knowledge bearing": lambda a: stepaside.Knowledge(
         0.0, a, 1.0, stepaside.strategies.Limits(0.1, 0.2, 0.04, 0.4)
+    ),
+    "StrategyContract headings": lambda a: StrategyContract(
+        Direction.BACKWARD, ("bearing",), (a,)
     ),
     "Evasion angle": stepaside.Evasion,
     "Evasion side_hysteresis": lambda a: stepaside.Evasion(side_hysteresis=a),

@@ -118,7 +118,7 @@ def load_learned_strategy(path: AnyPath) -> LearnedStrategy:
     Raises:
         ConfigurationError: If the file is not a strategy.
     """
-    file = as_path(path, "strategy").expanduser()
+    file = as_path(path, "path").expanduser()
     try:
         network = read_network(file)
         return LearnedStrategy(
