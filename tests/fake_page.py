@@ -128,11 +128,16 @@ class Gui:
         return self._add(label, value=initial_value, **o)
 
     def add_dropdown(
-        self, label: str, options: Any, initial_value: Any = None
+        self,
+        label: str,
+        options: Any,
+        initial_value: Any = None,
+        visible: bool = True,
     ) -> Handle:
         """Add a choice."""
         value = options[0] if initial_value is None else initial_value
-        return self._add(label, options=tuple(options), value=value)
+        values = {"value": value, "visible": visible}
+        return self._add(label, options=tuple(options), **values)
 
     def add_command(self, label: str, hotkey: str) -> Handle:
         """Add a command with a key."""

@@ -29,6 +29,8 @@ from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.run import DuelRun
 from stepaside.report import duel_figure, unicycle_sweep
 from stepaside.report.run_folder import save_run, write_run
+from tools.fuzz.commands import FILES
+from tools.fuzz.outlets import READ
 
 FULL = OSError(errno.ENOSPC, "No space left on device")
 
@@ -222,6 +224,7 @@ NEEDED = {
     "robot show": ["nao"],
     "robot check": ["nao", "--workers", "1"],
     "duel": ["--duration", "1", "--json"],
+    "game": [str(FILES["game"]), "--level", "unicycles", "--json"],
     "duels": ["--seeds", "0:1", "--duration", "1"],
     "robustness": ["--kind", "delay"],
     "room": [],
@@ -257,7 +260,8 @@ def test_every_command_refuses_a_bad_path_in_one_line(
         if kind == "taken":
             path.write_text("kept")
         path = path.rename(path.with_name(path.name + suffix))
-    words = [*name.split(), *NEEDED.get(name, [str(folder)])]
+    read = READ[name](folder.parent) if name in READ else folder
+    words = [*name.split(), *NEEDED.get(name, [str(read)])]
     before = sorted(tmp_path.rglob("*"))
     result = CliRunner().invoke(main, [*words, param.opts[0], f"{path}"])
     assert result.exit_code == 2, result.output
@@ -277,7 +281,7 @@ def test_every_output_option_is_checked() -> None:
             assert not isinstance(kind, click.File), (name, param.name)
             if isinstance(kind, click.Path) and not kind.exists:
                 assert not kind.file_okay, (name, param.name)
-    assert len(options()) == 23
+    assert len(options()) == 28
 
 
 def test_a_figure_without_a_suffix_is_reported_with_one(

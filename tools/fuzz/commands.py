@@ -28,6 +28,7 @@ from .values import ANGLES, NUMBERS, TEXTS, around
 SHORT = ["--duration=0.02", "--json"]
 BASES = {
     "duel": SHORT,
+    "game": ["--level=unicycles", *SHORT],
     "duels": ["--seeds=0:1", *SHORT],
     "view": ["--no-open", "--serve-for=0.01", "--port=8601"],
     "replay": ["--no-open", "--serve-for=0.01", "--port=8602"],
@@ -52,6 +53,9 @@ BASES = {
     "rate": ["aside", "--games=1", "--duration=1", "--workers=1", "--json"],
     "robot": ["--json"],
 }
+# What they read, where that is no run.
+EXAMPLES = Path(__file__).parents[2] / "examples"
+FILES = {"game": EXAMPLES / "two-pursuers.toml"}
 PATHS = (
     *("", ".", "..", "/", "/proc/x", "/dev/full", "/dev/null", "here/x"),
     *("a" * 300, "file/x", "loop", "dangling", "o.xyz", "file"),
@@ -101,7 +105,7 @@ def base_of(name: str, run: Path) -> list[str]:
     base = list(BASES.get(name, ()))
     for param in command_of(name).params:
         if isinstance(param, click.Argument) and param.required:
-            base.append(str(run))
+            base.append(str(FILES.get(name, run)))
     return base
 
 

@@ -8,11 +8,13 @@ from typing import Any
 from unittest.mock import patch
 
 import click
+import numpy as np
 
 from stepaside.cli.main import all_commands
 from stepaside.cli.options.parameter_types import OutputFile
 from stepaside.fitting.requirements import RequirementCheck
 from stepaside.fitting.robot_verification import VerificationReport
+from torchscript_archives import Module, write_archive
 from vendor_humanoid import mjcf
 
 from .commands import base_of, options_of
@@ -22,6 +24,7 @@ from .short_reproduce import few_claims
 LITTLE = {
     "bound": ["--json"],
     "replay": ["--width=64", "--height=64", "--duration=0.1", "--json"],
+    "legs convert": ["--json"],
 }
 STUDY = """
 game = "tournament"
@@ -29,6 +32,10 @@ settings.game.duration = 3.0
 [grid]
 evader = ["aside", "look-ahead"]
 seed = "0:5"
+"""
+LAYER = """class Network(Module):
+  def forward(self: __torch__.net.Network, x: Tensor) -> Tensor:
+    return torch.linear(x, self.weight)
 """
 FOUND = RequirementCheck("height", "pass", "0.3 m")
 
@@ -40,10 +47,18 @@ def _study(folder: Path) -> Path:
     return file
 
 
+def _archive(folder: Path) -> Path:
+    weight = np.eye(3, 20, dtype=np.float32)
+    root = Module("__torch__.net.Network", {"weight": weight})
+    file = folder / "network.pt"
+    return write_archive(file, root, {"__torch__.net": LAYER})
+
+
 READ: dict[str, Callable[[Path], Path]] = {
     "study": _study,
     "robot check": lambda _: Path("nao"),
     "robot init": mjcf,
+    "legs convert": _archive,
 }
 # They write when others play with them, see test_play_full.py, or join the
 # records of campaigns, see test_campaign_commands.py.

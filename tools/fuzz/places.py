@@ -31,7 +31,11 @@ from .striking import Strike, struck
 
 REFUSED = 2
 TOP, PLACE, SPARE = "top", "place", "spare"
-RUNS = {"duel", "walk"}  # what they played lies somewhere, however it ends
+RUNS = {
+    "duel",
+    "game",
+    "walk",
+}  # what they played lies somewhere, however it ends
 SIZE = "4m"  # of a small file system
 
 

@@ -23,11 +23,13 @@ from stepaside.report.run_folder import write_run
 from stepaside.robots.description import load_robot
 from stepaside.studies.result_files import header, write_result
 
+from .commands import FILES
 from .groups import Worked, members, obey_ctrl_c
 
-# Command lines that last, in a folder that holds a run and a robot.
+# Command lines that last, in a folder that holds what they read.
 LONG = {
     "duel": "--duration=3000 --output=duel",
+    "game": "game.toml --duration=3000 --output=game",
     "duels": "--seeds=0:1000 --workers=2 --output=duels",
     "view": "--no-open --port=8761",
     "replay": "run --video=film.mp4 --speed=0.05",
@@ -47,8 +49,10 @@ LONG = {
 # What is through before anybody would stop it.
 SHORT = {
     "compare",
+    "doctor",
     "export",
     "merge",
+    "legs convert",
     "legs inspect",
     "plan",
     "unicycles",
@@ -136,10 +140,11 @@ def status_of(returned: int) -> int:
 
 
 def prepare(folder: Path) -> None:
-    """Create a run folder and a robot description."""
+    """Create a run folder, a robot description, and the file of a game."""
     write_run(folder / "run", run_duel(DuelSettings(duration=20.0)))
     source = load_robot("nao").folder
     shutil.copytree(source, folder / "robot")
+    shutil.copy(FILES["game"], folder / "game.toml")
 
 
 def main() -> None:

@@ -9,12 +9,12 @@ import click
 from ..core.atomic_output import atomic_draft
 from .options.common_options import json_option
 from .options.parameter_types import OutputFile
-from .output_files import writes_files
+from .output_files import attempt, writes_files
 from .tables import print_table
 from .terminal import echo, print_json
 
 if TYPE_CHECKING:
-    from ..locomotion.policy.network import PolicyNetwork
+    from ..locomotion.policy.torchscript_conversion import ConvertedNetwork
 
 
 def _beside_archive(
@@ -84,10 +84,13 @@ def convert(
     elif deployment is not None:
         raise click.UsageError("--deployment needs --legs-contract")
     network = convert_torchscript(archive, width)
-    with atomic_draft(Path(output)) as draft:
-        write_network(network, draft, _metadata(entries))
-        loaded = PolicyNetwork(draft)
-    _report(loaded, output, as_json)
+
+    def write() -> None:
+        with atomic_draft(Path(output)) as draft:
+            write_network(network, draft, _metadata(entries))
+            PolicyNetwork(draft)  # refuses what cannot be evaluated
+
+    _report(network, output if attempt(write) else None, as_json)
 
 
 def _metadata(entries: dict[str, Any]) -> dict[str, str]:
@@ -97,16 +100,16 @@ def _metadata(entries: dict[str, Any]) -> dict[str, str]:
     return {OWN_ENTRY: json.dumps(entries)} if entries else {}
 
 
-def _report(network: "PolicyNetwork", output: str, as_json: bool) -> None:
-    """Print the inputs and outputs of the new network."""
-    states = [str(given) for given, _ in network.states]
-    facts = {
-        "input": str(network.observation),
-        "output": str(network.action),
-    }
+def _report(
+    network: "ConvertedNetwork", output: str | None, as_json: bool
+) -> None:
+    """Print the inputs and outputs of the new network, and its file."""
+    observation, *states = map(str, network.inputs)
+    facts = {"input": observation, "output": str(network.outputs[0])}
     if as_json:
         print_json(facts | {"recurrent": states, "file": output})
         return
     rows = list(facts.items())
     print_table(rows + [("recurrent state", state) for state in states])
-    echo(f"wrote {output}")
+    if output is not None:
+        echo(f"wrote {output}")

@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...core.errors import PolicyError
+from .network import TensorShape
 from .tensor_graph import GraphTensor, TensorGraph, WidthFound
 from .torchscript_archive import TorchScriptArchive, read_archive
 from .torchscript_interpreter import ScriptInterpreter
@@ -31,6 +32,25 @@ class ConvertedNetwork(NamedTuple):
     def width(self) -> int:
         """Width of the observation."""
         return self.observation.shape[1] or 0
+
+    @property
+    def inputs(self) -> list[TensorShape]:
+        """Inputs of the ONNX network: the observation, and the states."""
+        return [TensorShape("obs", self.observation.shape), *self._states]
+
+    @property
+    def outputs(self) -> list[TensorShape]:
+        """Outputs of the ONNX network: the action, and the new states."""
+        states = [(f"{name}_out", shape) for name, shape in self._states]
+        return [
+            TensorShape("actions", self.action.shape),
+            *(TensorShape(*state) for state in states),
+        ]
+
+    @property
+    def _states(self) -> list[TensorShape]:
+        arrays = self.graph.arrays
+        return [TensorShape(n, arrays[n].shape) for n in self.graph.states]
 
 
 def convert_torchscript(
@@ -95,16 +115,13 @@ def write_network(
 
     graph, states = network.graph, network.graph.states
 
-    def described(name: str, shape: tuple[int | None, ...]) -> Any:
-        return helper.make_tensor_value_info(name, TensorProto.FLOAT, shape)
+    def described(shapes: list[TensorShape]) -> list[Any]:
+        kind = TensorProto.FLOAT
+        return [helper.make_tensor_value_info(n, kind, s) for n, s in shapes]
 
     nodes = [helper.make_node(*node[:3], **node[3]) for node in graph.nodes]
-    outputs = [described("actions", network.action.shape)]
-    inputs = [described("obs", network.observation.shape)]
+    inputs, outputs = described(network.inputs), described(network.outputs)
     for name, last in states.items():
-        shape = graph.arrays[name].shape
-        inputs.append(described(name, shape))
-        outputs.append(described(f"{name}_out", shape))
         nodes.append(helper.make_node("Identity", [last], [f"{name}_out"]))
     last = network.action.name
     nodes.append(helper.make_node("Identity", [last], ["actions"]))
