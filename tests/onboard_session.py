@@ -18,12 +18,13 @@ from stepaside.robots.forward_kinematics import ForwardKinematics
 ROOMS = ("robots", "perception", "strategies", "locomotion", "control")
 TICK = 0.004
 
-# Where models are read, changed and compiled.
+# Where models are read, changed, compiled and written as URDF.
 WITH_MUJOCO = [
     f"stepaside.robots.{name}"
     for name in (
         *("tree_compiler", "torso_frame", "inertia_repair"),
         *("mesh_files", "model_overlay", "model_reader"),
+        *("urdf_writer", "urdf_elements"),
     )
 ]
 

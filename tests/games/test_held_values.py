@@ -75,10 +75,9 @@ def test_values_returned_by_a_duel_do_not_change_later(
     robot: Any = walker.robot
     read, write = robot.read, robot.write
 
-    def note() -> Any:
-        measured = read()
-        if ticks % 25 == 0:
-            kept.keep("measurement", tuple(measured))
+    def note(*, sees: bool = True) -> Any:
+        measured = read(sees=sees)
+        kept.keep("measurement", tuple(measured))
         return measured
 
     def send(targets: Any) -> None:

@@ -10,6 +10,7 @@ import ctypes
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from functools import cache, partial
+from struct import pack, unpack
 from typing import Any
 
 import numpy as np
@@ -108,7 +109,9 @@ class Kernel:
     def _words(self, letter: str, argument: Argument) -> list[int]:
         """Return the words of an argument in the frame."""
         if letter == "0":
-            return [int(np.float64(argument).view(np.int64))]
+            # The method view of a scalar of NumPy makes a new string of its
+            # name at each call, which the method cache of Python keeps.
+            return [*unpack("q", pack("d", float(argument)))]
         dimensions = 1 if letter == "i" else int(letter)
         kind = np.int64 if letter == "i" else np.float64
         if not (
