@@ -39,7 +39,6 @@ exclude_patterns = ["images/README.md", "tutorials/*.py"]
 
 html_theme = "furo"
 html_title = f"stepaside {version}"
-html_static_path = ["static"]
 html_theme_options = {
     "light_css_variables": {
         "color-brand-primary": "#1f5fbf",
