@@ -11,6 +11,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from functools import cache, partial
 from struct import pack, unpack
+from threading import Lock
 from typing import Any
 
 import numpy as np
@@ -33,6 +34,8 @@ ret void
 }}
 """
 _enabled = True
+# Python 3.11 raises SystemError where two threads parse source at once.
+_compiling = Lock()
 
 
 def is_enabled() -> bool:
@@ -99,12 +102,13 @@ class Kernel:
 
     @property
     def _function(self) -> Any:
-        if self._compiled is None:
-            self._compiled = _compile(
-                translate(self._source, self._arguments),
-                ctypes.PYFUNCTYPE(ctypes.c_int64, ctypes.c_void_p),
-            )
-        return self._compiled
+        with _compiling:
+            if self._compiled is None:
+                self._compiled = _compile(
+                    translate(self._source, self._arguments),
+                    ctypes.PYFUNCTYPE(ctypes.c_int64, ctypes.c_void_p),
+                )
+            return self._compiled
 
     def _words(self, letter: str, argument: Argument) -> list[int]:
         """Return the words of an argument in the frame."""
