@@ -121,6 +121,7 @@ def execute(script: Path) -> None:
             "language": "python",
             "display_name": "Python 3",
         },
+        "language_info": {"name": "python", "pygments_lexer": "ipython3"},
         KEY: fingerprint(script),
     }
     nbformat.write(notebook, script.with_suffix(".ipynb"))
