@@ -133,7 +133,7 @@ class BatchedDuel:
         self._starts = self.pool.start_rows()
         self._terms = codes_of(settings.terms)
         self._width = sum(ALL_TERMS[n].width for n in settings.terms)
-        history = rules.lag + 1
+        history = 1 << rules.lag.bit_length()  # above lag, a power of two
         self.state = BatchState(
             np.zeros((number, 2, 4)),
             np.zeros((number, history, 3)),
@@ -191,8 +191,11 @@ class BatchedDuel:
     @property
     def distances(self) -> Array:
         """Distance of each game, in [m]. Shape (n,)."""
-        at = self.state.decisions % self.state.sights.shape[1]
-        found: Array = self.state.sights[np.arange(len(at)), at, 2]
+        sights = self.state.sights
+        history = sights.shape[1]
+        at = self.state.decisions & (history - 1)
+        at += np.arange(0, len(at) * history, history)
+        found: Array = sights.reshape(-1, 3)[:, 2].take(at)
         return found
 
     def observations(self, player: int) -> NDArray[np.float32]:

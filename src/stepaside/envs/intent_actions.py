@@ -86,10 +86,14 @@ class IntentActions:
                 "an action must be a heading [rad] and a speed factor [1], "
                 f"shape (2,), got shape {_shape_of(actions)}"
             )
-        if not np.isfinite(values).all():
-            bad = values[~np.isfinite(values).all(axis=1)][0].tolist()
-            raise PlanError(f"an action must be finite, got {bad}")
-        rows: Array = np.clip(values, (-pi, 0.0), (pi, 1.0))
+        if not np.isfinite(values.sum()):  # or some are large: look again
+            bad = values[~np.isfinite(values).all(axis=1)]
+            if len(bad):
+                got = bad[0].tolist()
+                raise PlanError(f"an action must be finite, got {got}")
+        rows = np.empty_like(values)
+        np.clip(values[:, 0], -pi, pi, out=rows[:, 0])
+        np.clip(values[:, 1], 0.0, 1.0, out=rows[:, 1])
         return rows
 
     def _codes(self, actions: Any) -> NDArray[np.int64]:

@@ -55,9 +55,9 @@ class BatchState(NamedTuple):
     Attributes:
         poses: x, y [m], cosine and sine of the heading of pursuer and
             evader. Shape (n, 2, 4).
-        sights: The last lines of sight, in a ring by decision: components of
-            the unit vector from pursuer to evader, and the distance [m].
-            Shape (n, history, 3).
+        sights: The last lines of sight, in a ring by decision whose length
+            is a power of two: components of the unit vector from pursuer to
+            evader, and the distance [m]. Shape (n, history, 3).
         decisions: Decisions so far. Shape (n,).
         sides: Side of an evader that follows the law; 0 while it does not
             evade. Shape (n, 2).
@@ -161,7 +161,7 @@ def record_sight(state: BatchState, i: int) -> float:
     pose = state.poses[i]
     dx, dy = pose[1, 0] - pose[0, 0], pose[1, 1] - pose[0, 1]
     distance: float = (dx * dx + dy * dy) ** 0.5
-    at = state.decisions[i] % state.sights.shape[1]
+    at = state.decisions[i] & (state.sights.shape[1] - 1)
     scale = 1.0 / max(distance, 1e-12)
     state.sights[i, at, 0] = dx * scale
     state.sights[i, at, 1] = dy * scale
@@ -319,8 +319,8 @@ def sight_rates(
     lag = min(decision, rules.lag)
     if lag < rules.least_lag:
         return 0.0, 0.0
-    now = state.sights[i, decision % history]
-    was = state.sights[i, (decision - lag) % history]
+    now = state.sights[i, decision & (history - 1)]
+    was = state.sights[i, (decision - lag) & (history - 1)]
     turned = small_angle(
         was[0] * now[1] - was[1] * now[0], was[0] * now[0] + was[1] * now[1]
     )
@@ -367,7 +367,8 @@ def observe_games(
     for i in range(len(out)):
         pose = state.poses[i]
         own, opponent = pose[player], pose[1 - player]
-        sight = state.sights[i, state.decisions[i] % state.sights.shape[1]]
+        last = state.decisions[i] & (state.sights.shape[1] - 1)
+        sight = state.sights[i, last]
         distance = sight[2]
         dx, dy = toward * sight[0], toward * sight[1]  # a unit vector
         rate, closing = sight_rates(state, i, rules)
