@@ -32,7 +32,10 @@ def test_players_have_the_gait_of_their_robot_changed_by_the_file() -> None:
     legs = game(HUNTER | {"legs": {"network": "walk.onnx"}}, PREY).players[0]
     assert legs.gait.speed == LEGS_GAIT["speed"] and legs.legs.walks
     assert red.identity.role is Role.PURSUER and red.identity.team == "pursuer"
-    assert (red.strategy_name, blue.strategy_name) == ("pursuit", "evasion")
+    assert (red.played_strategy, blue.played_strategy) == (
+        "pursuit",
+        "evasion",
+    )
     assert settings.seed == 4 and settings.robots == ("red", "blue")
     assert settings.opponents_of("red") == ("blue",)
 

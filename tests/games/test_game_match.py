@@ -166,7 +166,7 @@ def test_a_contact_names_the_two_players() -> None:
     assert red.below_0_45_m_s > 0.0 and red.below_1_2_m_s >= red.below_0_45_m_s
 
 
-@pytest.mark.parametrize("level", ["steps", "unicycles"])
+@pytest.mark.parametrize("level", ["steps", "unicycle"])
 def test_a_player_walks_to_its_goal_around_a_person(level: str) -> None:
     settings = game(
         robot(

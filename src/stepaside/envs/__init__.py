@@ -1,7 +1,8 @@
 """Learning environments; importing the package registers the Gymnasium ids.
 
 ``stepaside/Evade-v0`` and ``stepaside/Pursue-v0`` are environments of one
-player; :func:`.duel_v0.parallel_env` is that of both.
+player; :func:`.duel_v0.parallel_env` is that of both, and
+:func:`.game_v0.parallel_env` that of any number.
 """
 
 from ..core.extras import install_hint
@@ -13,7 +14,7 @@ except ModuleNotFoundError as error:
     hint = install_hint(error)
     raise ModuleNotFoundError(hint, name=error.name) from error
 
-from . import duel_v0
+from . import duel_v0, game_v0
 from .duel_env import DuelEnv
 from .environment_settings import EnvironmentSettings
 from .registration import register_environments
@@ -26,5 +27,6 @@ __all__ = [
     "EnvironmentSettings",
     "VectorDuel",
     "duel_v0",
+    "game_v0",
     "register_environments",
 ]

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..report.palette import colours_in
 from ..strategies.knowledge import Intent
 from ..strategies.learned.observation_terms import (
     FARTHEST,
@@ -18,7 +19,11 @@ from ..strategies.learned.observation_terms import (
 from ..strategies.strategy import Strategy
 from .arena_pool import STRIDE, ArenaPool
 from .distance_reward import DistanceReward
-from .environment_settings import EnvironmentSettings, check_choice
+from .environment_settings import (
+    PLAYERS,
+    EnvironmentSettings,
+    check_choice,
+)
 from .template_duel import EnvironmentGame, TemplateDuel
 
 SEEDS = 2**31
@@ -185,7 +190,8 @@ class EpisodeSource:
         from .top_view import ImagePage, draw_top_view
 
         game = episode.game
-        image = draw_top_view(game.room, game.poses, episode.paths)
+        colours = [*colours_in("light", PLAYERS).values()]
+        image = draw_top_view(game.room, game.poses, episode.paths, colours)
         if mode == "rgb_array":
             return image
         if self._page is None:

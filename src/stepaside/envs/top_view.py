@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from ..arena import Room
 from ..core.poses import Pose
-from ..report.palette import PALETTES
 
 SIZE = 4.0, 4.0  # of the image, in inches
 REACH = 2.0  # least half width of the view, in [m]
@@ -17,14 +16,18 @@ BODY = 0.2  # radius of a player, in [m]
 
 
 def draw_top_view(
-    room: Room, poses: Sequence[Pose], paths: Sequence[Any]
+    room: Room,
+    poses: Sequence[Pose],
+    paths: Sequence[Any],
+    colours: Sequence[str],
 ) -> NDArray[np.uint8]:
     """Return an image of the players and the room.
 
     Args:
         room: The room.
-        poses: Poses of pursuer and evader in the room.
+        poses: Poses of the players in the room.
         paths: Their positions so far, in [m]. Each of shape (n, 2).
+        colours: Colour of each player.
 
     Returns:
         Shape (400, 400, 3).
@@ -45,9 +48,7 @@ def draw_top_view(
             shape = Outline(solid.outline, closed=True)
         shape.set_facecolor("0.7")
         axes.add_patch(shape)
-    for pose, path, colour in zip(
-        poses, paths, PALETTES["light"][7:9], strict=True
-    ):
+    for pose, path, colour in zip(poses, paths, colours, strict=True):
         if len(path):
             axes.plot(*np.asarray(path).T, color=colour, lw=1.0)
         axes.add_patch(Circle((pose.x, pose.y), BODY, color=colour, alpha=0.5))

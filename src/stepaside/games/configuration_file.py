@@ -20,6 +20,7 @@ from ..core.errors import (
     shown,
 )
 from .duel_settings import DuelSettings
+from .game_settings import GameSettings, PlayerSettings
 
 
 def over(below: dict[str, Any], above: dict[str, Any]) -> dict[str, Any]:
@@ -209,7 +210,7 @@ def dump_configuration(settings: Any) -> str:
 
 def settings_entries(settings: Any) -> dict[str, Any]:
     """Return settings as the nested entries of a configuration file."""
-    if isinstance(settings, DuelSettings):
+    if isinstance(settings, DuelSettings | GameSettings | PlayerSettings):
         settings = settings.named()
     entries: dict[str, Any] = _plain(_unfolded(settings))
     return entries

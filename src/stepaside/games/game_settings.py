@@ -20,13 +20,13 @@ from ..sim.crowd_motion import CrowdSettings
 from ..sim.person_settings import PersonSettings
 from ..sim.physics_settings import PhysicsSettings, SightSettings
 from ..sim.push import MOST_PUSHES, Push, check_pushes
-from ..strategies import Evasion
-from ..strategies.registry import check_strategy_name
+from ..strategies import Evasion, Strategy
+from ..strategies.registry import check_strategy_name, describe_strategy
 from .duel_settings import BODY_HELP, RobotSettings
 from .player_names import MOST_PLAYERS, PLAYER_NAME
 
 BODY_KINDS = ("robot", "unicycle", "person", "run")
-GAME_LEVELS = ("physics", "steps", "unicycles")
+GAME_LEVELS = ("physics", "steps", "unicycle")
 MOST_ROBOTS = 12  # in physics
 USUAL_STRATEGIES = {"pursuer": "pursuit", "evader": "evasion"}
 POSITION = Range(-100.0, 100.0, "m", "the farthest initial distance")
@@ -62,7 +62,7 @@ class PlayerSettings:
     legs: LegsSettings = setting(
         LegsSettings(), "Learned legs of a robot", needs=("body", "robot")
     )
-    strategy: str = setting(
+    strategy: str | Strategy = setting(
         "",
         "Strategy of a robot or a unicycle; if empty, that of the paper for "
         "its role, and a bystander stands",
@@ -113,10 +113,15 @@ class PlayerSettings:
                 "player name must be lower case letters, digits and hyphens, "
                 f"at most 32, got {self.name!r:.40}"
             )
+        if not isinstance(self.strategy, str):
+            self.named()  # validates the copy that holds its name
+            return
         prefix = f"{self.name}: "
         check_settings(self, prefix=prefix)
         if self.strategy:
-            check_strategy_name(self.strategy, f"{prefix}strategy")
+            check_strategy_name(
+                self.strategy, f"{prefix}strategy", recorded=True
+            )
         for name, counts in (("start", (0, 3)), ("goal", (0, 2))):
             values = getattr(self, name)
             if len(values) not in counts:
@@ -148,11 +153,13 @@ class PlayerSettings:
         )
 
     @property
-    def strategy_name(self) -> str:
-        """Name of its strategy; that of its role by default."""
-        if self.strategy:
-            return self.strategy
-        return USUAL_STRATEGIES.get(self.role, "stand")
+    def played_strategy(self) -> str | Strategy:
+        """Name of its strategy, or an object; by default that of its role."""
+        return self.strategy or USUAL_STRATEGIES.get(self.role, "stand")
+
+    def named(self) -> "PlayerSettings":
+        """Return the settings with a text for a strategy object."""
+        return replace(self, strategy=describe_strategy(self.strategy))
 
     @property
     def pose(self) -> Pose | None:
@@ -279,6 +286,10 @@ class GameSettings:
         """Return the names of the players of the opposing role."""
         own = self.player(name).identity
         return tuple(p.name for p in self.players if own.opposes(p.identity))
+
+    def named(self) -> "GameSettings":
+        """Return the settings with a text for each strategy object."""
+        return replace(self, players=tuple(p.named() for p in self.players))
 
     def with_starts(self, poses: tuple[Pose, ...]) -> "GameSettings":
         """Return the settings with the initial poses filled in."""

@@ -20,7 +20,7 @@ def strategy_of(player: PlayerSettings, map_in_world: Pose) -> Strategy:
     if player.goal and not player.strategy:
         strategy: Strategy = GoalWalk()
     else:
-        strategy = load_strategy(player.strategy_name, player.evasion)
+        strategy = load_strategy(player.played_strategy, player.evasion)
     if isinstance(strategy, GoalWalk) and player.goal:
         x, y = player.goal
         goal = map_in_world.inverse().compose(Pose(x, y, 0.0))

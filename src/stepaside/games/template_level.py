@@ -96,15 +96,23 @@ class UnicycleMotion:
             self._ahead = self._plan(time, players)
         self.pose = self._ahead.pop(0)
 
-    def _plan(self, time: float, players: World) -> list[Pose]:
-        """Decide, and return the poses until the next decision."""
-        own = players[self._agent.identity.name]
-        intent = self._agent.decide(
+    def decide(self, time: float, players: World) -> Intent | None:
+        """Evaluate the strategy; None if there is no other player.
+
+        Args:
+            time: Present time, in [s].
+            players: States of all players now.
+        """
+        return self._agent.decide(
             time,
-            own,
+            players[self._agent.identity.name],
             {known: players[name] for name, known in self._others.items()},
             moving=self._moving,
         )
+
+    def _plan(self, time: float, players: World) -> list[Pose]:
+        """Decide, and return the poses until the next decision."""
+        intent = self.decide(time, players)
         if intent is None or not intent.walks:
             self._moving = False
             return [self.pose]
@@ -204,6 +212,62 @@ class TemplateRecord:
     interrupted: bool
 
 
+class TemplateMatch:
+    """Game of templates, advanced sample by sample.
+
+    Attributes:
+        settings: Settings of the game.
+        motions: Motion of each player, by name.
+        players: Present state of each player, by name.
+        samples: Number of samples so far.
+    """
+
+    def __init__(self, settings: GameSettings) -> None:
+        """Place the players.
+
+        Args:
+            settings: Settings with the initial poses filled in.
+
+        Raises:
+            StepAsideError: If a strategy is invalid or a recorded run is
+                unreadable.
+        """
+        self.settings = settings
+        self.motions = {p.name: _motion(settings, p) for p in settings.players}
+        self.players = {
+            name: PlayerState(motion.pose)
+            for name, motion in self.motions.items()
+        }
+        self.samples = 0
+
+    @property
+    def time(self) -> float:
+        """Time, in [s]."""
+        return self.samples * PERIOD
+
+    @property
+    def all_arrived(self) -> bool:
+        """Whether every robot or unicycle with a goal has reached it."""
+        going = [p for p in self.settings.players if p.goal and p.decides]
+        return bool(going) and all(
+            has_arrived(p, self.players[p.name].pose) for p in going
+        )
+
+    def advance(self) -> None:
+        """Advance all players by one sample.
+
+        Raises:
+            StrategyError: If a strategy fails.
+        """
+        for motion in self.motions.values():
+            motion.advance(self.time, self.players)
+        self.players = {
+            name: _moved(self.players[name].pose, motion.pose)
+            for name, motion in self.motions.items()
+        }
+        self.samples += 1
+
+
 def play_templates(
     settings: GameSettings,
     report: Callable[[float], None] | None = None,
@@ -217,26 +281,19 @@ def play_templates(
     Raises:
         StepAsideError: If a strategy fails or a recorded run is unreadable.
     """
-    motions = {p.name: _motion(settings, p) for p in settings.players}
-    count = round(settings.duration / PERIOD)
-    rows = {name: [motion.pose] for name, motion in motions.items()}
-    players = {name: PlayerState(m.pose) for name, m in motions.items()}
+    match = TemplateMatch(settings)
+    rows = {name: [motion.pose] for name, motion in match.motions.items()}
     interrupted = False
     try:
         with DeferredInterrupt() as interrupt:
-            for k in range(count):
+            for k in range(round(settings.duration / PERIOD)):
                 interrupt.let_through()
-                for motion in motions.values():
-                    motion.advance(k * PERIOD, players)
-                players = {
-                    name: _moved(players[name].pose, motion.pose)
-                    for name, motion in motions.items()
-                }
-                for name, motion in motions.items():
+                match.advance()
+                for name, motion in match.motions.items():
                     rows[name].append(motion.pose)
                 if report is not None and k % 100 == 0:
                     report(k * PERIOD)
-                if _all_arrived(settings, players):
+                if match.all_arrived:
                     break
     except KeyboardInterrupt:
         interrupted = True
@@ -258,13 +315,6 @@ def has_arrived(player: PlayerSettings, pose: Pose) -> bool:
 
 
 ARRIVAL = 0.3  # distance from a goal at which it is reached, in [m]
-
-
-def _all_arrived(settings: GameSettings, players: World) -> bool:
-    going = [p for p in settings.players if p.goal and p.decides]
-    return bool(going) and all(
-        has_arrived(p, players[p.name].pose) for p in going
-    )
 
 
 def _moved(before: Pose, now: Pose) -> PlayerState:

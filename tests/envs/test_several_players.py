@@ -1,0 +1,186 @@
+"""Test the environment of any number of players."""
+
+import warnings
+from dataclasses import replace
+from math import pi
+from typing import Any
+
+import numpy as np
+import pytest
+from pettingzoo.test import parallel_api_test, parallel_seed_test
+
+from stepaside.core.errors import ConfigurationError, PlanError
+from stepaside.envs import game_v0
+from stepaside.games.game_file import parse_game
+from stepaside.games.game_settings import GameSettings
+
+AHEAD = np.array([0.0, 1.0], np.float32)
+STILL = np.array([0.0, 0.0], np.float32)
+
+
+def game(level: str = "steps", **changes: Any) -> GameSettings:
+    """Return a game of two pursuers and an evader on a line."""
+    players = [
+        {"name": "red", "role": "pursuer", "start": [1.0, 0.0, pi]},
+        {"name": "ruby", "role": "pursuer", "start": [-1.5, 0.0, 0.0]},
+        {"name": "blue", "role": "evader", "start": [0.0, 0.0, 0.0]},
+    ]
+    entries = {"players": players, "level": level, "duration": 6.0}
+    return parse_game(entries | changes, "game")
+
+
+def with_more(*more: dict[str, Any]) -> GameSettings:
+    """Return that game with further players."""
+    settings = game()
+    added = parse_game({"players": list(more)}, "more").players
+    return replace(settings, players=(*settings.players, *added))
+
+
+@pytest.mark.parametrize("level", ["unicycle", "steps"])
+def test_pettingzoo_finds_no_fault(level: str) -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        drawn = replace(
+            game(level),
+            players=tuple(replace(p, start=()) for p in game().players),
+        )
+        parallel_api_test(game_v0.parallel_env(drawn), num_cycles=20)
+        parallel_seed_test(lambda: game_v0.parallel_env(drawn), num_cycles=5)
+
+
+def test_observations_list_the_others_nearest_first() -> None:
+    env = game_v0.parallel_env(game())
+    observed, _ = env.reset(seed=1)
+    own, others = observed["blue"][0], observed["blue"][1:].reshape(2, 8)
+    assert own == 0.0
+    unit = 0.5  # v/k of NAO, in [m]
+    #                present, cos, sin, distance, velocity, opponent, team
+    near = [1.0, 1.0, 0.0, 1.0 / unit, 0.0, 0.0, 1.0, 0.0]
+    far = [1.0, -1.0, 0.0, 1.5 / unit, 0.0, 0.0, 1.0, 0.0]
+    np.testing.assert_allclose(others, [near, far], atol=1e-6)
+    of_red = observed["red"][1:].reshape(2, 8)
+    np.testing.assert_array_equal(of_red[:, 6:], [[1, 0], [0, 1]])
+
+
+def test_velocities_are_observed_in_the_own_frame() -> None:
+    env = game_v0.parallel_env(game())
+    env.reset(seed=1)
+    actions = {"red": STILL, "ruby": AHEAD, "blue": STILL}
+    for _ in range(3):
+        observed, *_ = env.step(actions)
+    far = observed["blue"][1:].reshape(2, 8)[1]
+    # A step takes a whole number of samples: 0.54 s instead of 0.547 s.
+    np.testing.assert_allclose(far[4:6], [0.547 / 0.54, 0.0], atol=1e-5)
+    ruby = observed["red"][1:].reshape(2, 8)[1]
+    np.testing.assert_allclose(ruby[4:6], [-0.547 / 0.54, 0.0], atol=1e-5)
+
+
+def test_returns_are_closest_approaches_and_sum_to_zero() -> None:
+    env = game_v0.parallel_env(game())
+    _, infos = env.reset(seed=1)
+    assert infos["blue"]["closest_m"] == {"blue": pytest.approx(1.0)}
+    total = dict.fromkeys(env.agents, 0.0)
+    while env.agents:
+        _, rewards, ended, late, infos = env.step(
+            {"red": AHEAD, "ruby": AHEAD, "blue": STILL}
+        )
+        for name, reward in rewards.items():
+            total[name] += reward
+    assert late["red"] and not ended["red"]
+    closest = infos["red"]["closest_m"]["blue"]
+    assert 0.5 < closest < 0.8
+    assert 0.5 * total["blue"] == pytest.approx(closest - 1.0)
+    assert total["red"] == total["ruby"] == -total["blue"]
+
+
+def test_capture_terminates_an_episode() -> None:
+    env = game_v0.parallel_env(game(duration=30.0))
+    env.reset(seed=1)
+    ended = False
+    while env.agents:
+        *_, infos = env.step({"red": AHEAD, "ruby": STILL, "blue": STILL})
+        ended = infos["blue"]["outcome"] == "captured"
+    assert ended and infos["blue"]["closest_m"]["blue"] <= 0.35
+
+
+def test_others_follow_their_strategies() -> None:
+    env = game_v0.parallel_env(game(), learners=["blue"])
+    assert env.possible_agents == ["blue"]
+    env.reset(seed=1)
+    _, infos = env.reset(seed=1)
+    for _ in range(8):
+        _, _, _, _, infos = env.step({"blue": STILL})
+    assert infos["blue"]["closest_m"]["blue"] < 0.8  # they approach
+
+
+def test_walls_touch_an_evader() -> None:
+    room = {"width": 4.0, "depth": 4.0}
+    settings = game(room=room, duration=60.0)
+    red, ruby, blue = settings.players
+    ruby = replace(ruby, start=(1.0, 1.2, 0.0))  # not behind the evader
+    settings = replace(settings, players=(red, ruby, blue))
+    env = game_v0.parallel_env(settings)
+    observed, _ = env.reset(seed=2)
+    assert observed["blue"].shape == (1 + 17 + 2 * 8,)
+    while env.agents:
+        *_, ended, _, infos = env.step(
+            {"red": STILL, "ruby": STILL, "blue": AHEAD}
+        )
+    assert ended["blue"] and infos["blue"]["outcome"] == "touched"
+    assert infos["blue"]["closest_m"]["blue"] == 0.0
+
+
+def test_robots_play_in_physics() -> None:
+    settings = game("physics", duration=2.0)
+    red, ruby, blue = settings.players
+    ruby = replace(ruby, start=(-1.0, 1.5, 0.0))  # not behind the evader
+    settings = replace(settings, players=(red, ruby, blue))
+    env = game_v0.parallel_env(settings, period=0.6)
+    env.reset(seed=1)
+    steps = 0
+    while env.agents:
+        observed, *_ = env.step({"red": AHEAD, "ruby": AHEAD, "blue": AHEAD})
+        steps += 1
+        assert all(
+            env.observation_space(name).contains(value)
+            for name, value in observed.items()
+        )
+    assert steps == 4
+    assert observed["red"][0] == 1.0  # it walks
+    assert observed["red"][1:].reshape(2, 8)[:, 0].all()  # it sees both
+    env.close()
+
+
+def test_a_step_of_the_environment_is_a_footstep() -> None:
+    env = game_v0.parallel_env(game())
+    env.reset(seed=1)
+    for _ in range(6):
+        _, rewards, *_ = env.step({"red": AHEAD, "ruby": STILL, "blue": STILL})
+    assert rewards["red"] == pytest.approx(0.04 / 0.5)  # stride over v/k
+    assert rewards["blue"] == -rewards["ruby"] == -rewards["red"]
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"learners": ["guest"]}, "learners must be .*red, ruby, blue.*guest"),
+        ({"learners": []}, "learners must be .*none"),
+        ({"period": 0.0}, "period must"),
+        ({"action": "both"}, "action must be one of"),
+    ],
+)
+def test_invalid_arguments_are_refused(
+    change: dict[str, Any], message: str
+) -> None:
+    guest = {"name": "guest", "body": "person", "start": [3.0, 3.0, 0.0]}
+    with pytest.raises(ConfigurationError, match=message):
+        game_v0.parallel_env(with_more(guest), **change)
+
+
+def test_actions_of_all_agents_are_needed() -> None:
+    env = game_v0.parallel_env(game())
+    with pytest.raises(PlanError, match="reset the environment first"):
+        env.step({})
+    env.reset(seed=1)
+    with pytest.raises(PlanError, match="one of ruby, got those of red"):
+        env.step({"red": AHEAD})
