@@ -10,14 +10,19 @@ pytest.importorskip("onnxruntime")
 pytest.importorskip("onnx")
 
 from imitated_walk import nao_on_imitated_walk
+from stepaside.control.sight_sources import CameraSight
+from stepaside.core.poses import Pose
 from stepaside.fitting.legs_measurement import LegsTrial, run_trial
-from stepaside.games.duel import run_duel
+from stepaside.games.duel import Duel, run_duel
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.outcome import Outcome
+from stepaside.games.policy_player import PolicyPlayer
 from stepaside.games.robot_settings import with_robot
 from stepaside.locomotion.policy.legs_settings import LegsSettings
 from stepaside.robots.description import load_robot
 from stepaside.sim.body_settings import BodySettings
+from stepaside.sim.camera_settings import CameraSettings, ColourSettings
+from stepaside.sim.person_settings import PersonSettings
 from stepaside.strategies.velocity_set import BodyVelocity
 
 
@@ -58,3 +63,47 @@ def test_two_robots_pursue_and_evade_on_policies(folder: Path) -> None:
     evader = run.tracks["evader"].torso
     ahead = np.array([np.cos(evader[0, 2]), np.sin(evader[0, 2])])
     assert (evader[-1, :2] - evader[0, :2]) @ ahead < -0.2  # backward
+
+
+def test_cameras_on_learned_legs_are_where_the_loaded_foot_puts_them(
+    folder: Path,
+) -> None:
+    """Their images show a person, whom the robot evades."""
+    pytest.importorskip("cv2")
+    settings = with_robot(DuelSettings(duration=4.0, seed=3), str(folder))
+    start = replace(
+        settings.start, distance=2.6, pursuer_offset=0.0, evader_offset=0.0
+    )
+    settings = replace(
+        settings,
+        gait=replace(settings.gait, speed=0.06, gain=0.2),
+        pursuer="person",
+        person=PersonSettings("straight", 0.5),
+        strategy=replace(settings.strategy, trigger="time", contact_time=4.0),
+        sensing="cameras",
+        cameras=CameraSettings(ColourSettings(renderer="raycast")),
+        start=start,
+    )
+    duel = Duel(settings)
+    evader = duel.players[1]
+    assert isinstance(evader, PolicyPlayer)
+    senses = evader.scheme.senses
+    assert isinstance(senses, CameraSight)
+    head = duel.world.model.body("evader/head").id
+    errors = []
+    while duel.world.time < 4.0:
+        true = duel.world.data.xpos[head].copy()
+        assert duel.tick() is None
+        body = senses.perception.body
+        assert body is not None
+        x, y, z = body.position_head_in_odometry
+        place = evader.frame.compose(Pose(x, y, 0.0))
+        if duel.world.time > 1.2:  # attitude is calibrated
+            errors.append(np.array([place.x, place.y, z]) - true)
+    duel.close()
+    assert np.abs(errors)[:, 2].max() < 0.01
+    assert np.abs(errors).max() < 0.03
+    assert evader.is_moving
+    sighting = senses.perception.sighting
+    assert sighting is not None
+    assert sighting.distance == pytest.approx(duel.distance, abs=0.2)

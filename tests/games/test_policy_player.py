@@ -9,6 +9,7 @@ import pytest
 pytest.importorskip("onnxruntime")
 
 from legs_robot import nao_on_legs
+from stepaside.arena import Room
 from stepaside.core.errors import ConfigurationError, PolicyError
 from stepaside.games.duel import Duel, run_duel
 from stepaside.games.duel_settings import DuelSettings
@@ -98,9 +99,10 @@ def test_an_ideal_body_is_controlled_at_the_period_of_its_policy(
     duel.close()
 
 
-def test_cameras_are_refused(standing: DuelSettings) -> None:
+def test_rooms_are_refused(standing: DuelSettings) -> None:
+    room = replace(standing.room, plan=Room(4.0, 4.0))
     with pytest.raises(ConfigurationError, match="legs.network must be empty"):
-        replace(standing, sensing="cameras")
+        replace(standing, room=room)
 
 
 def test_a_body_keeps_its_delays_at_another_tick() -> None:

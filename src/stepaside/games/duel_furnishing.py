@@ -42,7 +42,14 @@ def furnishing_of(settings: DuelSettings) -> Furnish | None:
         low = settings.robots if uses_lower_cameras(settings) else ()
         walls = wall_distance(settings)
         furnishings.append(
-            furnisher(settings.room, EVADER, head, walls=walls, lower=low)
+            furnisher(
+                settings.room,
+                EVADER,
+                head,
+                walls=walls,
+                upper=settings.robots,
+                lower=low,
+            )
         )
     plan = settings.room.plan
     if plan is not None:

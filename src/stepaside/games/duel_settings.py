@@ -280,10 +280,10 @@ class DuelSettings:
                     f"got {self.sensing!r}"
                 )
         if any(self.robot_of(name).legs.walks for name in self.robots):
-            if self.sensing != "ideal" or self.room.plan is not None:
+            if self.room.plan is not None:
                 raise ConfigurationError(
-                    "legs.network must be empty with sensing by cameras and "
-                    f"in rooms, got {self.legs.network!r}"
+                    "legs.network must be empty in rooms, got "
+                    f"{self.legs.network!r}"
                 )
         check_count(self.pushes, MOST_PUSHES, "pushes")
         check_pushes(self.pushes, self.robots)

@@ -30,7 +30,7 @@ from .person_player import PersonPlayer
 from .player import Player
 from .served_player import ServedPlayer
 from .velocity_walker import place_velocity_walker
-from .walker import SimulatedPlayer
+from .walker import RobotPlayer
 from .walker_factory import (
     CameraSensing,
     WalkerSetup,
@@ -170,16 +170,22 @@ class DuelWorld:
         """Place a robot that this process controls."""
         settings, setup = self._settings, self._setups[name]
         played, truth = self._strategies[name], self._robot_truths[name]
+        cameras = None
+        if self._senses is not None and eyes is not None:
+            cameras = CameraSensing(eyes, self._senses.perceptions[name])
         legs = settings.robot_of(name).legs
         if legs.walks:
             from .policy_player import place_policy_player
 
             return place_policy_player(
-                self.world, setup, legs, played, sight=sight, truth=truth
+                self.world,
+                setup,
+                legs,
+                played,
+                sight=sight,
+                cameras=cameras,
+                truth=truth,
             )
-        cameras = None
-        if self._senses is not None and eyes is not None:
-            cameras = CameraSensing(eyes, self._senses.perceptions[name])
         return place_walker(
             self.world,
             setup,
@@ -247,7 +253,7 @@ class DuelWorld:
 
         evaluators = {}
         for own, other in (self.players, self.players[::-1]):
-            if isinstance(own, SimulatedPlayer):
+            if isinstance(own, RobotPlayer):
                 evaluators[own.name] = self._senses.evaluator_of(
                     own.robot,
                     self._truths[other.name],
@@ -263,8 +269,10 @@ def _physics_of(
     legs = {name: settings.robot_of(name).legs for name in setups}
     if not any(each.walks for each in legs.values()):
         return with_control_period(settings.physics, settings.body)
-    if not all(each.walks for each in legs.values()):
-        return settings.physics
+    if settings.sensing == "cameras" or not all(
+        each.walks for each in legs.values()
+    ):
+        return settings.physics  # heads move between decisions of the policy
     from .policy_player import policy_physics
 
     walkers = [(legs[name], own.description) for name, own in setups.items()]

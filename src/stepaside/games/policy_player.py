@@ -5,64 +5,38 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from ..control.scheme import LocomotionScheme
-from ..control.sight_sources import MeasuredSight, SightOfPlayers
 from ..control.strategy_runner import StrategyRunner
 from ..core.errors import PolicyError
-from ..core.poses import Pose
 from ..core.random_streams import named_generator
 from ..locomotion.policy.legs_loader import load_legs, load_policy
 from ..locomotion.policy.legs_settings import LegsSettings
 from ..locomotion.policy.policy_legs import PolicyLegs
 from ..locomotion.policy.policy_walk import PolicyWalk
-from ..locomotion.walk_snapshots import Phase, StepStarted
 from ..robots.description import RobotDescription
 from ..sim.body_settings import BodySettings
-from ..sim.ground_truth import GroundTruth, TrueRobotState
+from ..sim.ground_truth import TrueRobotState
 from ..sim.ideal_sensors import IdealLineOfSight
 from ..sim.physics_settings import PhysicsSettings
-from ..sim.push import Push
 from ..sim.simulated_robot import SensorSetup, SimulatedRobot
 from ..sim.world import World
 from ..strategies import Strategy
-from .player import MotionLog, Snapshot, snapshot_of
-from .walker_factory import PlayerSensing, WalkerSetup, sensors_of
+from .walker import RobotPlayer
+from .walker_factory import (
+    CameraSensing,
+    PlayerSensing,
+    WalkerSetup,
+    sensors_of,
+    sight_source,
+)
 
 if TYPE_CHECKING:
-    from ..perception.percept_stages import FrameReport
+    from ..sim.sensor_suite import SensorSuite
 
 AT_ONCE = 1.0  # a fall until then is one of the policy, in [s]
 
 
-class PolicyPlayer:
-    """Simulated robot that walks by a policy.
-
-    Attributes:
-        name: Name of the player.
-        robot: Simulated robot.
-        scheme: Controller.
-        frame: Pose of its odometry in the world.
-        truth: True state.
-        begun: None: a policy plans no steps.
-        reports: Empty: it has no cameras.
-        is_ready: True: it scans no room.
-    """
-
-    begun: StepStarted | None = None
-    reports: "Sequence[FrameReport]" = ()
-    is_ready = True
-
-    def __init__(
-        self, robot: SimulatedRobot, scheme: LocomotionScheme, frame: Pose
-    ) -> None:
-        """Combine a robot and its controller."""
-        self.name = robot.name
-        self.robot, self.scheme, self.frame = robot, scheme, frame
-        self.truth: GroundTruth = robot.truth
-
-    @property
-    def is_moving(self) -> bool:
-        """Whether it has left its standing state."""
-        return self.scheme.phase is not Phase.STANDING
+class PolicyPlayer(RobotPlayer):
+    """Simulated robot that walks by a policy."""
 
     @property
     def has_fallen(self) -> bool:
@@ -78,29 +52,6 @@ class PolicyPlayer:
                 "stand: the contract does not fit the network"
             )
         return fallen
-
-    def start(self) -> None:
-        """Do nothing: it begins with the simulation."""
-
-    def tick(self) -> None:
-        """Read the sensors, decide, and send joint targets."""
-        self.robot.write(self.scheme.update(self.robot.read()))
-
-    def snapshot(self) -> Snapshot:
-        """Return the state at this instant."""
-        return snapshot_of(self.robot, frame=self.frame)
-
-    def motion_log(self, *, closely: bool) -> MotionLog:
-        """Return an empty log of its motion."""
-        return self.robot.state_log()
-
-    def push(self, *pushes: Push) -> None:
-        """Schedule pushes of the torso, now or later."""
-        self.robot.push(*pushes)
-
-    def close(self) -> None:
-        """Release its resources."""
-        self.robot.close()
 
 
 def policy_physics(
@@ -139,6 +90,7 @@ def place_on_legs(
     legs: PolicyLegs,
     *,
     sight: IdealLineOfSight | PlayerSensing | None = None,
+    eyes: "SensorSuite | None" = None,
     truth: TrueRobotState | None = None,
 ) -> SimulatedRobot:
     """Place a robot in a world, driven by the torques of its policy.
@@ -148,6 +100,7 @@ def place_on_legs(
         setup: Robot with its settings.
         legs: Learned legs of the robot.
         sight: Ideal sensor of the opponent, or of all other players.
+        eyes: Cameras and sonars, if any.
         truth: True state of the robot, if it exists already.
     """
     contract = legs.contract
@@ -165,6 +118,7 @@ def place_on_legs(
             integrates_imu=not setup.body.has_sensor_errors,
             sight=sight if isinstance(sight, IdealLineOfSight) else None,
             players=sensors_of(sight),
+            eyes=eyes,
             truth=truth,
         ),
         gains=dict(zip(contract.joints, gains, strict=True)),
@@ -177,7 +131,8 @@ def place_policy_player(
     legs: LegsSettings,
     strategy: Strategy,
     *,
-    sight: IdealLineOfSight | PlayerSensing | None,
+    sight: IdealLineOfSight | PlayerSensing | None = None,
+    cameras: CameraSensing | None = None,
     truth: TrueRobotState,
 ) -> PolicyPlayer:
     """Place one robot on learned legs in a world, with its controller.
@@ -188,7 +143,9 @@ def place_policy_player(
             decision interval of its template.
         legs: Walking policy.
         strategy: Strategy of the player.
-        sight: Ideal sensor of the opponent, or of all other players.
+        sight: Ideal sensor of the opponent, or of all other players, with
+            ideal sensing.
+        cameras: Cameras and perception, with camera sensing.
         truth: True state of the robot.
 
     Raises:
@@ -196,14 +153,19 @@ def place_policy_player(
     """
     tick = world.physics.tick
     policy = load_legs(legs, setup.description, tick=tick)
-    robot = place_on_legs(world, setup, policy, sight=sight, truth=truth)
+    robot = place_on_legs(
+        world,
+        setup,
+        policy,
+        sight=sight,
+        eyes=None if cameras is None else cameras.eyes,
+        truth=truth,
+    )
     scheme = LocomotionScheme(
         StrategyRunner(
             strategy, setup.gait, tick, velocities=policy.velocities
         ),
         PolicyWalk(policy, setup.gait),
-        SightOfPlayers(sight.identity, sight.target)
-        if isinstance(sight, PlayerSensing)
-        else MeasuredSight(),
+        sight_source(sight, cameras, tick=tick),
     )
     return PolicyPlayer(robot, scheme, setup.odometry_in_world)

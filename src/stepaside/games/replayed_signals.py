@@ -19,14 +19,12 @@ from .duel import Duel
 from .game_match import GameMatch
 from .match import Match, Progress, play
 from .outcome import Outcome
-from .policy_player import PolicyPlayer
 from .recorder import Recorder
 from .run import Run, is_duel, is_match, is_walk
 from .walk_game import WalkGame
-from .walker import SimulatedPlayer
+from .walker import RobotPlayer, SimulatedPlayer
 
 Image = ColourImage | DepthImage
-RobotPlayer = SimulatedPlayer | PolicyPlayer
 
 
 class PlannedFootsteps(NamedTuple):

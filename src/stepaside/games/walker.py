@@ -1,16 +1,17 @@
-"""Player that is a simulated robot with its own control."""
+"""Players that are simulated robots with their own control."""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from ..control import ControlScheme
+from ..control.scheme import LocomotionScheme
 from ..control.sight_sources import CameraSight
 from ..core.poses import Pose
 from ..locomotion.walk_snapshots import Phase, StepStarted
 from ..sim.ground_truth import GroundTruth
 from ..sim.push import Push
 from ..sim.simulated_robot import SimulatedRobot
-from .player import Snapshot, snapshot_of
+from .player import MotionLog, Snapshot, snapshot_of
 from .walker_log import WalkerLog
 
 if TYPE_CHECKING:
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
     from ..perception.perception import Perception
 
 
-class SimulatedPlayer:
+class RobotPlayer:
     """Simulated robot with its controller.
 
     Attributes:
@@ -29,15 +30,15 @@ class SimulatedPlayer:
         truth: True state.
     """
 
+    scheme: LocomotionScheme
+
     def __init__(
-        self, robot: SimulatedRobot, scheme: ControlScheme, frame: Pose
+        self, robot: SimulatedRobot, scheme: LocomotionScheme, frame: Pose
     ) -> None:
         """Combine a robot and its controller."""
         self.name = robot.name
         self.robot, self.scheme, self.frame = robot, scheme, frame
         self.truth: GroundTruth = robot.truth
-        # Exact sightings are read when a decision is due.
-        self._coasts = robot.sees_exactly
 
     @property
     def begun(self) -> StepStarted | None:
@@ -78,21 +79,16 @@ class SimulatedPlayer:
 
     def tick(self) -> None:
         """Read the sensors, decide, and send joint targets."""
-        robot, scheme = self.robot, self.scheme
-        targets = scheme.coast(robot.world.time) if self._coasts else None
-        if targets is None:
-            sees = not self._coasts or scheme.decides(robot.world.time)
-            targets = scheme.update(robot.read(sees=sees))
-        robot.write(targets)
+        self.robot.write(self.scheme.update(self.robot.read()))
 
     def snapshot(self) -> Snapshot:
         """Return the state at this instant."""
         walk = self.scheme.state
         return snapshot_of(self.robot, frame=self.frame, walk=walk)
 
-    def motion_log(self, *, closely: bool) -> WalkerLog:
+    def motion_log(self, *, closely: bool) -> MotionLog:
         """Return an empty log of its motion."""
-        return WalkerLog(self.robot, self.scheme, self.frame, closely=closely)
+        return self.robot.state_log()
 
     def push(self, *pushes: Push) -> None:
         """Schedule pushes of the torso, now or later."""
@@ -101,3 +97,34 @@ class SimulatedPlayer:
     def close(self) -> None:
         """Close the cameras."""
         self.robot.close()
+
+
+class SimulatedPlayer(RobotPlayer):
+    """Simulated robot that walks by maneuvers.
+
+    Attributes:
+        scheme: Controller.
+    """
+
+    scheme: ControlScheme
+
+    def __init__(
+        self, robot: SimulatedRobot, scheme: ControlScheme, frame: Pose
+    ) -> None:
+        """Combine a robot and its controller."""
+        super().__init__(robot, scheme, frame)
+        # Exact sightings are read when a decision is due.
+        self._coasts = robot.sees_exactly
+
+    def tick(self) -> None:
+        """Read the sensors, decide, and send joint targets."""
+        robot, scheme = self.robot, self.scheme
+        targets = scheme.coast(robot.world.time) if self._coasts else None
+        if targets is None:
+            sees = not self._coasts or scheme.decides(robot.world.time)
+            targets = scheme.update(robot.read(sees=sees))
+        robot.write(targets)
+
+    def motion_log(self, *, closely: bool) -> WalkerLog:
+        """Return an empty log of its motion."""
+        return WalkerLog(self.robot, self.scheme, self.frame, closely=closely)

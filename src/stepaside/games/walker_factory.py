@@ -133,9 +133,7 @@ def place_walker(
         setup.control,
         tick=tick,
         delay=setup.body.delay_cycles * tick,
-        senses=_sight_source(sighting, sight)
-        if cameras is None
-        else CameraSight(cameras.perception, tick=tick),
+        senses=sight_source(sight, cameras, sighting, tick=tick),
         clearance=clearance,
     )
     robot = place_robot(
@@ -200,10 +198,23 @@ def sensors_of(
     return sight.sights if isinstance(sight, PlayerSensing) else ()
 
 
-def _sight_source(
-    sighting: Sighting | None, sight: IdealLineOfSight | PlayerSensing | None
+def sight_source(
+    sight: IdealLineOfSight | PlayerSensing | None,
+    cameras: CameraSensing | None,
+    sighting: Sighting | None = None,
+    *,
+    tick: float,
 ) -> SightSource:
-    """Return the source of sightings for the sensors of a robot."""
+    """Return the source of sightings for the sensors of a robot.
+
+    Args:
+        sight: Ideal sensors, with ideal sensing.
+        cameras: Cameras and perception, with camera sensing.
+        sighting: Sighting before the first measurement, if known.
+        tick: Control period, in [s].
+    """
+    if cameras is not None:
+        return CameraSight(cameras.perception, tick=tick)
     if isinstance(sight, PlayerSensing):
         return SightOfPlayers(sight.identity, sight.target)
     return MeasuredSight(sighting)

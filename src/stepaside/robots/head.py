@@ -51,7 +51,8 @@ class HeadDescription:
         body: Body that carries the cameras.
         yaw: Yaw joint.
         pitch: Pitch joint.
-        camera: Name of the colour camera in the model.
+        camera: Name of the colour camera in the model; one that the model
+            lacks is added with camera sensing.
         coupling: Pitch limits by yaw: rows yaw, least pitch, greatest
             pitch, in [rad]. Shape (3, n).
         top: Mount of the colour camera on the body.
@@ -88,14 +89,14 @@ def load_head(description: RobotDescription) -> HeadDescription:
             entries["body"],
             entries["yaw"],
             entries["pitch"],
-            entries["camera"],
+            entries.get("camera", "upper_camera"),
             np.radians([table[k] for k in ("yaw", "pitch_min", "pitch_max")]),
             _camera(entries["top"]),
             _camera(entries["depth"]),
             tuple(entries["depth"]["housing"]),
             {
                 name: Mount(np.array(s["place"]), rotation(*s["turn"]))
-                for name, s in entries["sonar"].items()
+                for name, s in entries.get("sonar", {}).items()
             },
             _camera(entries["bottom"]) if "bottom" in entries else None,
         )

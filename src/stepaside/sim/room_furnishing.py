@@ -37,6 +37,7 @@ def furnisher(
     head: HeadDescription,
     *,
     walls: float,
+    upper: Sequence[str] = (),
     lower: Sequence[str] = (),
 ) -> Furnish:
     """Return the function that adds walls, objects and cameras to a world.
@@ -46,7 +47,9 @@ def furnisher(
         wearer: Name of the robot with the depth camera.
         head: Description of its head.
         walls: Distance of the walls from the origin, in [m]; 0 for none.
-        lower: Names of robots that use the bottom camera of their heads.
+        upper: Names of robots that use the top camera of their heads; it is
+            added to models without one.
+        lower: Names of robots that use the bottom camera.
     """
 
     def furnish(spec: mujoco.MjSpec) -> None:
@@ -58,22 +61,30 @@ def furnisher(
             )
             _add_thing(body, thing.kind)
         _add_housing(spec, wearer, head)
+        for name in upper:
+            if spec.camera(f"{name}/{head.camera}") is None:
+                _add_camera(spec, name, head, head.camera, head.top)
         for name in lower:
             if head.bottom is not None:
-                body = spec.body(f"{name}/{head.body}")
-                _add_lower(body, name, head.bottom)
+                _add_camera(spec, name, head, LOWER, head.bottom)
 
     return furnish
 
 
-def _add_lower(body: mujoco.MjsBody, wearer: str, mount: Mount) -> None:
-    """Add the bottom camera to a head; MuJoCo cameras look along -z."""
+def _add_camera(
+    spec: mujoco.MjSpec,
+    wearer: str,
+    head: HeadDescription,
+    camera: str,
+    mount: Mount,
+) -> None:
+    """Add a camera to a head; MuJoCo cameras look along -z."""
     forward, left, up = mount.axes_in_body.T
     axes = np.column_stack([-left, up, -forward])
     turn = np.zeros(4)
     mujoco.mju_mat2Quat(turn, axes.ravel())
-    body.add_camera(
-        name=f"{wearer}/{LOWER}",
+    spec.body(f"{wearer}/{head.body}").add_camera(
+        name=f"{wearer}/{camera}",
         pos=mount.position_in_body.tolist(),
         quat=turn.tolist(),
     )

@@ -11,6 +11,7 @@ import pytest
 from stepaside.core.poses import Array, Pose
 from stepaside.locomotion.policy.leg_odometry import LegOdometry
 from stepaside.perception.measurement import Measurement
+from stepaside.planning import Foot
 
 PERIOD = 0.02
 LEFT, RIGHT = (0.0, 0.1), (0.0, -0.1)  # feet in odometry, in [m]
@@ -34,6 +35,12 @@ class FeetInTorso:
             axes_feet_in_torso=rows[:, 1:],
             position_com_in_torso=np.array([0.0, 0.0, 0.1]),
         )
+
+
+def begun_with(joint_positions: Array) -> LegOdometry:
+    """Return the odometry of a robot that begins with its feet like that."""
+    feet: Any = FeetInTorso()
+    return LegOdometry(feet, joint_positions)
 
 
 def seen_from(pose: Pose, left_carries: bool) -> Measurement:
@@ -70,7 +77,8 @@ def test_the_pose_is_that_of_a_torso_over_feet_that_stay(
     left_carries: bool, turn: float
 ) -> None:
     """On an arc at 0.5 m/s, with the feet where they are."""
-    odometry = LegOdometry(FeetInTorso())  # type: ignore[arg-type]
+    first = seen_from(Pose(0.0, 0.0, 0.0), left_carries)
+    odometry = begun_with(first.joint_positions)
     for i in range(51):
         heading = turn * i * PERIOD
         x = 0.5 * (sin(heading) / turn if turn else i * PERIOD)
@@ -83,6 +91,10 @@ def test_the_pose_is_that_of_a_torso_over_feet_that_stay(
         )
     assert odometry.pose == pytest.approx((x, y, heading), abs=1e-9)
     np.testing.assert_allclose(odometry.velocity, [0.5, 0, 0], atol=0.01)
+    stance, foot = odometry.stance
+    assert foot is (Foot.LEFT if left_carries else Foot.RIGHT)
+    place = LEFT if left_carries else RIGHT
+    assert stance == pytest.approx((*place, 0.0), abs=1e-9)
 
 
 @pytest.mark.parametrize("turned", [about_vertical, about_lateral])
@@ -90,7 +102,7 @@ def test_a_torso_rests_while_its_feet_turn_about_loaded_corners(
     turned: Callable[[float], Array],
 ) -> None:
     """The toes carry: feet pivot about them, or roll over them."""
-    odometry = LegOdometry(FeetInTorso())  # type: ignore[arg-type]
+    odometry = begun_with(np.zeros(24))
     toes = np.array([FRONT, 0.0, 0.0])
     forces = np.tile([1.0, 1.0, 0.0, 0.0], 2)
     for i in range(26):

@@ -1,12 +1,13 @@
 """Odometry of a walking robot from its loaded soles and its gyro."""
 
-from math import cos, sin
+from math import atan2, cos, sin
 
 import numpy as np
 
 from ...core.poses import Array, Pose
 from ...perception.measurement import Measurement
-from ...robots.forward_kinematics import ForwardKinematics
+from ...planning import Foot
+from ...robots.forward_kinematics import ForwardKinematics, MeasuredPosture
 
 SMOOTHING = 0.1  # time constant of the velocity, in [s]: a few readings
 
@@ -29,11 +30,14 @@ class LegOdometry:
             [m/s]. Shape (3,).
     """
 
-    def __init__(self, forward: ForwardKinematics) -> None:
+    def __init__(
+        self, forward: ForwardKinematics, joint_positions: Array
+    ) -> None:
         """Begin at the origin.
 
         Args:
             forward: Kinematics of the robot.
+            joint_positions: Initial joint angles, in [rad]. Shape (joints,).
         """
         self._forward = forward
         self._corners_in_feet = np.zeros((2, 4, 3))
@@ -45,6 +49,25 @@ class LegOdometry:
         self.velocity: Array = np.zeros(3)
         self._points: Array = np.zeros((9, 3))
         self._loads: Array = np.zeros(8)
+        self._posture = forward.posture(joint_positions)
+        self._level: Array = np.eye(3)
+
+    @property
+    def stance(self) -> tuple[Pose, Foot]:
+        """Pose in odometry of the foot with the greater load, and its side.
+
+        Its sole is taken for level.
+        """
+        left, right = self._loads.reshape(2, 4).sum(axis=1).tolist()
+        side = Foot.LEFT if left >= right else Foot.RIGHT
+        i = 0 if side is Foot.LEFT else 1
+        posture, level = self._posture, self._level
+        ahead = level @ posture.axes_feet_in_torso[i, :, 0]
+        place = level @ (
+            posture.positions_feet_in_torso[i] - posture.position_com_in_torso
+        )
+        yaw = atan2(ahead[1], ahead[0])
+        return self.pose.compose(Pose(place[0], place[1], yaw)), side
 
     def update(
         self,
@@ -62,7 +85,9 @@ class LegOdometry:
                 [rad].
             duration: Time since the last reading, in [s].
         """
-        points = self._locate(measurement.joint_positions) @ _tilted(*tilt).T
+        self._posture = self._forward.posture(measurement.joint_positions)
+        self._level = _tilted(*tilt)
+        points = self._locate(self._posture) @ self._level.T
         c, s = cos(0.5 * turn), sin(0.5 * turn)
         onward = np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]])
         shifts = points @ onward - self._points @ onward.T
@@ -86,9 +111,8 @@ class LegOdometry:
         y += s * dx + c * dy
         self.pose = Pose(x, y, theta + turn)
 
-    def _locate(self, joint_positions: Array) -> Array:
+    def _locate(self, posture: MeasuredPosture) -> Array:
         """Return the corners of both soles and the CoM in the torso frame."""
-        posture = self._forward.posture(joint_positions)
         axes = posture.axes_feet_in_torso.transpose(0, 2, 1)
         feet = posture.positions_feet_in_torso[:, None]
         corners = (feet + self._corners_in_feet @ axes).reshape(8, 3)

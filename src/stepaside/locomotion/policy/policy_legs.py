@@ -82,7 +82,7 @@ class PolicyLegs:
         self.joint_targets = self.standing.joint_targets
         self._runner = PolicyRunner(contract, network)
         self._gravity = GravityFilter()
-        self.odometry = LegOdometry(forward)
+        self.odometry = LegOdometry(forward, self.joint_targets)
         self.command = self.intended = STILL
         self._learning = LEARNING if learns else 0.0
         self._correction: Array = np.zeros(3)

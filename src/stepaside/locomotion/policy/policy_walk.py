@@ -104,8 +104,9 @@ class PolicyWalk:
         return self.legs.tilt
 
     def step(self, now: float) -> CurrentStep:
-        """Return a step that does not move: no step is planned."""
-        return resting_step(self._support, Foot.RIGHT)
+        """Return a step that rests on the loaded foot: none is planned."""
+        support, side = self.legs.odometry.stance
+        return resting_step(support, side.other)
 
     @property
     def _support(self) -> Pose:
