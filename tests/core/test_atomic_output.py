@@ -224,7 +224,7 @@ NEEDED = {
     "robot show": ["nao"],
     "robot check": ["nao", "--workers", "1"],
     "duel": ["--duration", "1", "--json"],
-    "game": [str(FILES["game"]), "--level", "unicycles", "--json"],
+    "game": [str(FILES["game"]), "--level", "unicycle", "--json"],
     "duels": ["--seeds", "0:1", "--duration", "1"],
     "robustness": ["--kind", "delay"],
     "room": [],

@@ -172,7 +172,7 @@ def test_every_setting_of_a_tournament_changes_its_key(level: str) -> None:
     for room in (RoomRecipe(doors=1, discs=1), ROOM):
         settings = TournamentSettings(level=level, room=room)
         others: dict[str, Any] = {
-            "level": ["unicycles"],
+            "level": ["unicycle"],
             "map": ["none"] if level == "physics" else [],
             "room.obstacles": [(Disc(0.4, 0.0, 0.2),)],
             "room.doors": [(Door("east", 0.0, 0.6),)],

@@ -73,7 +73,7 @@ def test_a_record_is_what_the_game_was() -> None:
 
 
 @pytest.mark.parametrize(
-    ("level", "decisions"), [("steps", 1), ("unicycles", 8)]
+    ("level", "decisions"), [("steps", 1), ("unicycle", 8)]
 )
 def test_the_figures_of_a_game_are_those_of_its_track(
     level: str, decisions: int, monkeypatch: pytest.MonkeyPatch
@@ -227,7 +227,7 @@ def test_unicycles_decide_more_often_than_steps() -> None:
         SETTINGS, room=RoomRecipe(None, None), game=StepGame(duration=120.0)
     )
     _, steps = play_track(floor, PAIRINGS[0], 2)
-    _, many = play_track(replace(floor, level="unicycles"), PAIRINGS[0], 2)
+    _, many = play_track(replace(floor, level="unicycle"), PAIRINGS[0], 2)
     assert len(many.distances) - 1 == 8 * (len(steps.distances) - 1)
     for track in (steps, many):
         assert track.distances[-1] == pytest.approx(0.9003, rel=5e-3)

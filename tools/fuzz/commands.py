@@ -28,7 +28,7 @@ from .values import ANGLES, NUMBERS, TEXTS, around
 SHORT = ["--duration=0.02", "--json"]
 BASES = {
     "duel": SHORT,
-    "game": ["--level=unicycles", *SHORT],
+    "game": ["--level=unicycle", *SHORT],
     "duels": ["--seeds=0:1", *SHORT],
     "view": ["--no-open", "--serve-for=0.01", "--port=8601"],
     "replay": ["--no-open", "--serve-for=0.01", "--port=8602"],

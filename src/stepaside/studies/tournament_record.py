@@ -40,7 +40,7 @@ FIELDS = (  # of every record
     "longest_decision_s",
 )
 CELLS = 64  # of the value table of the bound
-FEEDBACK = 8  # decisions per step at level "unicycles"
+FEEDBACK = 8  # decisions per step at level "unicycle"
 
 Pairing = tuple[str, str]
 """Names of an evader and of a pursuer."""
@@ -90,9 +90,9 @@ def _play_humanoids(
 def play_track(
     settings: TournamentSettings, pairing: Pairing, seed: int
 ) -> tuple[Room, StrategyTrack]:
-    """Play one game at level "steps" or "unicycles"; return its track."""
+    """Play one game at level "steps" or "unicycle"; return its track."""
     room, starts = settings.arena(seed)
-    unicycles = settings.level == "unicycles"
+    unicycles = settings.level == "unicycle"
     values = asdict(settings.game)
     game = StepGame(
         **values
@@ -131,14 +131,14 @@ def play_record(
 def _step_values(
     settings: TournamentSettings, pairing: Pairing, seed: int
 ) -> Record:
-    """Play a game at level "steps" or "unicycles" and return its values."""
+    """Play a game at level "steps" or "unicycle" and return its values."""
     _, track = play_track(settings, pairing, seed)
     game = settings.game
     distances = track.distances
     turns = wrap_angles(np.diff(track.evader[:, 2]))
     moved = np.diff(track.evader[:, :2], axis=0)
     seconds = (len(distances) - 1) * game.period
-    seconds /= FEEDBACK if settings.level == "unicycles" else 1
+    seconds /= FEEDBACK if settings.level == "unicycle" else 1
     clear = float(track.clearances.min())
     return {
         "outcome": str(track.outcome),

@@ -19,7 +19,7 @@ from ..strategies.strategy_game import StepGame
 
 ERROR = ConfigurationError
 HUMANOIDS = "physics"
-LEVELS = ("steps", "unicycles", HUMANOIDS)
+LEVELS = ("steps", "unicycle", HUMANOIDS)
 MAPS = ("given", "seen", "none")
 MODULES = ("studies/tournament_record",)  # which play and record a game
 
@@ -29,7 +29,7 @@ class TournamentSettings:
     """Settings of a tournament game, without its seed and players.
 
     Attributes:
-        level: "steps"; "unicycles", with eight decisions per step; or
+        level: "steps"; "unicycle", with eight decisions per step; or
             "physics", with simulated humanoids.
         room: Recipe of a random room per seed, or one room for all seeds.
         game: Rules. At level "physics" only the duration is used.

@@ -62,7 +62,7 @@ def read_circle() -> Readings:
 
 
 CIRCLE = tuple(
-    Claim(key, text, "II-C, Fig. 2", "unicycles", expected, unit, 1e-3)
+    Claim(key, text, "II-C, Fig. 2", "unicycle", expected, unit, 1e-3)
     for key, text, expected, unit in (
         ("pursuer_radius", "the pursuer settles on a circle", RADIUS, "m"),
         ("evader_radius", "the evader settles on a circle", RADIUS, "m"),
@@ -97,7 +97,7 @@ SATURATED = (
         "radius",
         "with (6) the radius is v/k",
         "II-C",
-        "unicycles",
+        "unicycle",
         2.0,
         "m",
         1e-3,
@@ -106,7 +106,7 @@ SATURATED = (
         "smaller",
         "and smaller than with (4) (ratio of the radii)",
         "II-C",
-        "unicycles",
+        "unicycle",
         1.0,
         "1",
         relation="<",
@@ -115,7 +115,7 @@ SATURATED = (
         "less",
         "the headings are then less than pi/2 apart",
         "II-C",
-        "unicycles",
+        "unicycle",
         pi / 2,
         "rad",
         relation="<",
@@ -126,7 +126,7 @@ SATURATED = (
         "namely",
         "namely pi - 2",
         "II-C",
-        "unicycles",
+        "unicycle",
         pi - 2.0,
         "rad",
         1e-3,
@@ -178,7 +178,7 @@ STRATEGIES = (
         "with an angle alpha the directions of motion end alpha apart "
         "(greatest difference for six angles)",
         "II-C",
-        "unicycles",
+        "unicycle",
         0.0,
         "rad",
         1e-4,
@@ -189,7 +189,7 @@ STRATEGIES = (
         "grows",
         "the radius grows as alpha falls (least ratio of neighbours)",
         "II-C",
-        "unicycles",
+        "unicycle",
         1.0,
         "1",
         relation=">",
@@ -198,7 +198,7 @@ STRATEGIES = (
         "unbounded",
         "without bound: as 2 v/(k alpha) (radius times alpha, at alpha = 0.1)",
         "II-C",
-        "unicycles",
+        "unicycle",
         4.0,
         "m",
         4e-3,
@@ -208,7 +208,7 @@ STRATEGIES = (
         "alpha = 0 moves back (angle between the evader's direction of "
         "motion and the line of sight, at the end)",
         "II-C",
-        "unicycles",
+        "unicycle",
         0.0,
         "rad",
         1e-3,
