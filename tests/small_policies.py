@@ -28,6 +28,7 @@ def write_policy(
     metadata: Mapping[str, Any] | None = None,
     *,
     states: int = 0,
+    one: bool = False,
 ) -> Path:
     """Write a policy whose action is linear in its observation.
 
@@ -38,6 +39,7 @@ def write_policy(
         metadata: Text entries; other values are written as JSON.
         states: Width of a recurrent state that counts evaluations and is
             added to the first actions; 0 for none.
+        one: Whether the graph serves one walker at a time.
     """
     count, width = weights.shape
     tensor, real = helper.make_tensor_value_info, TensorProto.FLOAT
@@ -45,7 +47,10 @@ def write_policy(
     outputs = [tensor("actions", real, [1, count])]
     numbers = {"weights": weights.T, "bias": bias}
     product = "actions" if not states else "stateless"
-    nodes = [helper.make_node("Gemm", ["obs", "weights", "bias"], [product])]
+    given = "row" if one else "obs"
+    nodes = [helper.make_node("Gemm", [given, "weights", "bias"], [product])]
+    if one:
+        nodes.insert(0, helper.make_node("Reshape", ["obs", "size"], ["row"]))
     if states:
         inputs.append(tensor("h_in", real, [1, states]))
         outputs.append(tensor("h_out", real, [1, states]))
@@ -56,16 +61,15 @@ def write_policy(
             helper.make_node("MatMul", ["h_in", "spread"], ["memory"]),
             helper.make_node("Add", ["stateless", "memory"], ["actions"]),
         ]
-    graph = helper.make_graph(
-        nodes,
-        "policy",
-        inputs,
-        outputs,
-        [
-            numpy_helper.from_array(value.astype(np.float32), name)
-            for name, value in numbers.items()
-        ],
-    )
+    initializers = [
+        numpy_helper.from_array(value.astype(np.float32), name)
+        for name, value in numbers.items()
+    ]
+    if one:
+        initializers.append(
+            numpy_helper.from_array(np.array([1, width]), "size")
+        )
+    graph = helper.make_graph(nodes, "policy", inputs, outputs, initializers)
     opset = [helper.make_opsetid("", 17)]
     model = helper.make_model(graph, opset_imports=opset, ir_version=9)
     helper.set_model_props(

@@ -11,7 +11,7 @@ pytest.importorskip("onnxruntime")
 from legs_robot import nao_on_legs
 from stepaside.arena import Room
 from stepaside.core.errors import ConfigurationError, PolicyError
-from stepaside.games.duel import Duel, run_duel
+from stepaside.games.duel import Duel, run_duel, run_duels
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.match import play
 from stepaside.games.outcome import Outcome
@@ -68,6 +68,24 @@ def test_equal_settings_give_equal_bits(standing: DuelSettings) -> None:
         repeated = other.tracks[name].qpos
         assert repeated is not None
         assert np.array_equal(track.qpos, repeated)
+
+
+def test_duels_side_by_side_have_the_bits_of_each_alone(
+    standing: DuelSettings,
+) -> None:
+    """Also when one ends before the others."""
+    many = [
+        replace(standing, seed=seed, duration=duration)
+        for seed, duration in ((1, 0.3), (2, 0.1), (3, 0.3))
+    ]
+    for run, settings in zip(run_duels(many), many, strict=True):
+        alone = run_duel(settings)
+        assert run.settings == alone.settings
+        assert (run.outcome, run.message) == (alone.outcome, alone.message)
+        for name, track in alone.tracks.items():
+            found = run.tracks[name].qpos
+            assert track.qpos is not None and found is not None
+            assert np.array_equal(found, track.qpos)
 
 
 def test_a_policy_that_falls_at_once_is_refused(tmp_path: Path) -> None:

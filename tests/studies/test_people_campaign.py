@@ -13,7 +13,6 @@ from click.testing import CliRunner
 from legs_robot import nao_on_legs
 from stepaside.cli.main import main
 from stepaside.core import worker_pool as pools
-from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import wrap_angle
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.locomotion.policy.legs_settings import LegsSettings
@@ -221,7 +220,15 @@ def test_robots_on_learned_legs_step_aside_of_people_all_around(
     assert settings.evader_strategy == "step-aside"
     assert settings.legs == legs
     assert settings.gait.speed == 0.5
-    with pytest.raises(ConfigurationError, match="legs.network must be empty"):
-        next(encounters(walk, ("cameras",), seeds=1, legs=legs))
+    (seen,) = encounters(
+        *(walk, ("cameras",)),
+        seeds=1,
+        legs=legs,
+        speeds=(1.0,),
+        bearings=(0,),
+        offsets=(0.0,),
+    )
+    assert seen.settings.sensing == "cameras"
+    assert people_study([seen]).measure_together is not None
     (row,) = people_rows([(each[0], record())])
     assert row["theory_room_m"] is None

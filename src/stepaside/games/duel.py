@@ -1,14 +1,15 @@
 """The game of pursuit and evasion, played in physics (paper, Sec. IV)."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from ..locomotion.policy.network_pool import NetworkPool
 from .duel_evaluation import summarise
 from .duel_settings import DuelSettings
 from .duel_world import DuelWorld
 from .initial_poses import initial_poses, with_initial_poses
-from .match import Match, MatchObserver, Progress, play
+from .match import Match, MatchObserver, Progress, play, play_together
 from .outcome import Outcome
 from .recorder import Recorder
 from .run import DuelRun
@@ -34,6 +35,7 @@ class Duel(Match):
         *,
         recorded: bool = True,
         rendered: bool = False,
+        networks: NetworkPool | None = None,
     ) -> None:
         """Build the world and place the players in it.
 
@@ -43,6 +45,8 @@ class Duel(Match):
             recorded: Whether to record; the record grows with time.
             rendered: Whether to render the world of the duel; cameras do so
                 in any case.
+            networks: Networks of robots on learned legs, shared with other
+                duels.
 
         Raises:
             StepAsideError: If the settings contradict each other or cannot
@@ -50,7 +54,9 @@ class Duel(Match):
         """
         self.settings = settings = with_initial_poses(settings)
         self.frames = frames = initial_poses(settings)
-        stage = DuelWorld(settings, frames, rendered=rendered)
+        stage = DuelWorld(
+            settings, frames, rendered=rendered, networks=networks
+        )
         tick = stage.world.physics.tick
         self.recorder = Recorder(stage.players, tick=tick)
         self.sight_observer = None
@@ -65,6 +71,7 @@ class Duel(Match):
             stage.players,
             (*(recorders if recorded else ()), *observers),
             has_things=stage.has_things,
+            networks=stage.networks,
         )
 
     def run(self, outcome: Outcome, wall_time: float) -> DuelRun:
@@ -150,3 +157,25 @@ def run_duel(
     duel = Duel(settings)
     outcome, wall_time = play(duel, settings.duration, report)
     return duel.run(outcome, wall_time)
+
+
+def run_duels(settings: Sequence[DuelSettings]) -> list[DuelRun]:
+    """Play duels side by side; networks are evaluated for all at once.
+
+    Args:
+        settings: Settings of each duel.
+
+    Returns:
+        The runs, equal to those of :func:`run_duel`.
+
+    Raises:
+        StepAsideError: If settings contradict each other or cannot be met by
+            the robots.
+        KeyboardInterrupt: If playing was interrupted.
+    """
+    networks = NetworkPool()
+    duels = [Duel(each, networks=networks) for each in settings]
+    ended = play_together(duels, [each.duration for each in settings])
+    return [
+        duel.run(*result) for duel, result in zip(duels, ended, strict=True)
+    ]

@@ -9,6 +9,7 @@ import mujoco
 from ..core.errors import ConfigurationError
 from ..core.poses import Pose
 from ..core.random_streams import named_generator
+from ..locomotion.policy.network_pool import NetworkPool
 from ..locomotion.zmp.reference_table import standing_reference
 from ..planning import Direction
 from ..robots.description import load_robot
@@ -63,6 +64,7 @@ class DuelWorld:
     Attributes:
         world: World with robots, people and obstacles.
         players: Pursuer and evader.
+        networks: Networks of robots on learned legs.
         has_things: Whether there are obstacles besides the players.
     """
 
@@ -73,6 +75,7 @@ class DuelWorld:
         *,
         rendered: bool,
         remote: Mapping[str, RemoteControl] = MappingProxyType({}),
+        networks: NetworkPool | None = None,
     ) -> None:
         """Build the world and place the players in it.
 
@@ -82,12 +85,15 @@ class DuelWorld:
             rendered: Whether to render the world; cameras do so anyway.
             remote: Control of the robots that other processes control, by
                 name of the player.
+            networks: Networks of robots on learned legs, shared with other
+                duels.
 
         Raises:
             StepAsideError: If the settings contradict each other or cannot
                 be met by the robots.
         """
         self._settings, self._remote = settings, remote
+        self.networks = networks or NetworkPool()
         self.has_things = bool(
             settings.room.things or settings.room.plan or settings.passers
         )
@@ -95,7 +101,7 @@ class DuelWorld:
             name: _setup_of(settings, name, frames[PLAYERS.index(name)])
             for name in settings.robots
         }
-        physics = _physics_of(settings, self._setups)
+        physics = _physics_of(settings, self._setups, self.networks)
         named = settings.pursuer_strategy, settings.evader_strategy
         self._strategies = {
             name: load_strategy(strategy, settings.strategy)
@@ -185,6 +191,7 @@ class DuelWorld:
                 sight=sight,
                 cameras=cameras,
                 truth=truth,
+                networks=self.networks,
             )
         return place_walker(
             self.world,
@@ -263,7 +270,9 @@ class DuelWorld:
 
 
 def _physics_of(
-    settings: DuelSettings, setups: Mapping[str, WalkerSetup]
+    settings: DuelSettings,
+    setups: Mapping[str, WalkerSetup],
+    networks: NetworkPool,
 ) -> PhysicsSettings:
     """Return the physics of a duel, at the control period of its robots."""
     legs = {name: settings.robot_of(name).legs for name in setups}
@@ -276,7 +285,7 @@ def _physics_of(
     from .policy_player import policy_physics
 
     walkers = [(legs[name], own.description) for name, own in setups.items()]
-    return policy_physics(settings.physics, settings.body, walkers)
+    return policy_physics(settings.physics, settings.body, walkers, networks)
 
 
 def _setup_of(settings: DuelSettings, name: str, frame: Pose) -> WalkerSetup:

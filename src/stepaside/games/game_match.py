@@ -76,6 +76,7 @@ class GameMatch(Match):
             stage.players,
             (*((self.recorder,) if recorded else ()), *observers),
             has_things=settings.room is not None,
+            networks=stage.networks,
         )
 
     @property

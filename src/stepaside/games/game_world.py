@@ -2,6 +2,7 @@
 
 from ..core.poses import Pose
 from ..core.random_streams import named_generator
+from ..locomotion.policy.network_pool import NetworkPool
 from ..robots.description import load_robot
 from ..sim.body_settings import at_tick, with_control_period
 from ..sim.crowd_motion import CrowdMotion
@@ -41,6 +42,7 @@ class GameWorld:
     Attributes:
         world: World with robots, people and obstacles.
         players: The players, in the order of the settings.
+        networks: Networks of robots on learned legs.
     """
 
     def __init__(self, settings: GameSettings, *, rendered: bool) -> None:
@@ -87,6 +89,7 @@ class GameWorld:
             move = obstacle_mover(self.world.model, self.world.data, room)
             move(0.0)
             self.world.before_step.append(move)
+        self.networks = NetworkPool()
         self._states = {
             name: setup.true_state_in(self.world)
             for name, setup in self._setups.items()
@@ -165,6 +168,7 @@ class GameWorld:
                 strategy,
                 sight=sensing,
                 truth=truth,
+                networks=self.networks,
             )
         return place_walker(
             self.world,

@@ -9,6 +9,7 @@ from typing import NamedTuple, Protocol
 from ..core.constants import CAPTURE_DISTANCE
 from ..core.errors import ReachError, StrategyError
 from ..core.signal_handling import DeferredInterrupt
+from ..locomotion.policy.network_pool import NetworkPool
 from ..sim.ground_truth import torsos_apart
 from ..sim.world import World
 from .outcome import Outcome
@@ -52,6 +53,7 @@ class Match:
         world: The simulation.
         players: The players, in the order in which they act.
         observers: The observers.
+        networks: Networks of players on learned legs.
         message: Reason for the end, as text; empty during the game.
         touched: Names of the bodies in contact, if contact ended the game.
         fallen: Names of the players that have fallen.
@@ -74,6 +76,7 @@ class Match:
         observers: Sequence[MatchObserver] = (),
         *,
         has_things: bool = False,
+        networks: NetworkPool | None = None,
     ) -> None:
         """Prepare a match.
 
@@ -82,8 +85,10 @@ class Match:
             players: The players.
             observers: The observers.
             has_things: Whether there are obstacles besides the players.
+            networks: Networks of players on learned legs, if any.
         """
         self.world = world
+        self.networks = networks or NetworkPool()
         self.players = tuple(players)
         self.observers = tuple(observers)
         self.message = ""
@@ -132,6 +137,18 @@ class Match:
 
     def tick(self) -> Outcome | None:
         """Advance by one control tick; return the outcome at the end."""
+        ended = self.decide()
+        if ended is not None:
+            return ended
+        self.networks.flush()
+        return self.advance()
+
+    def decide(self) -> Outcome | None:
+        """Let all players act at one control tick, before the networks.
+
+        Returns:
+            The outcome, if a player failed.
+        """
         for observer in self.observers:
             observer.before(self)
         self._start()
@@ -150,6 +167,14 @@ class Match:
                     f"{self.world.time:.2f} s: {error}"
                 )
                 return Outcome.FAILED
+        return None
+
+    def advance(self) -> Outcome | None:
+        """Advance the world to the next tick, once all targets are sent.
+
+        Returns:
+            The outcome at the end of the game.
+        """
         for observer in self.observers:
             observer.acted(self)
         self.world.step()
@@ -238,11 +263,66 @@ def play(
     finally:
         match.close()
     wall = perf_counter() - began
+    _end(match, outcome)
+    return outcome, wall
+
+
+def play_together(
+    matches: Sequence[Match], durations: Sequence[float]
+) -> list[tuple[Outcome, float]]:
+    """Play matches side by side, with one evaluation of their networks.
+
+    Each match has the same bits as when it is played alone.
+
+    Args:
+        matches: Matches, which share their networks.
+        durations: Simulated time after which each is completed, in [s].
+
+    Returns:
+        Outcome, and share of the computing time in [s], of each match.
+
+    Raises:
+        KeyboardInterrupt: If playing was interrupted.
+    """
+    outcomes: dict[Match, Outcome] = {}
+    began = perf_counter()
+    ends = {
+        match: ceil(duration / match.world.physics.tick - 1e-9)
+        for match, duration in zip(matches, durations, strict=True)
+    }
+    pools = {match.networks for match in matches}
+    try:
+        with DeferredInterrupt() as interrupt:
+            while len(outcomes) < len(matches):
+                interrupt.let_through()
+                playing = [m for m in matches if m not in outcomes]
+                for match in playing:
+                    if (ended := match.decide()) is not None:
+                        outcomes[match] = ended
+                for pool in pools:
+                    pool.flush()
+                for match in playing:
+                    if match in outcomes:
+                        continue
+                    if (ended := match.advance()) is not None:
+                        outcomes[match] = ended
+                    elif match.world.ticks >= ends[match]:
+                        outcomes[match] = Outcome.COMPLETED
+    finally:
+        for match in matches:
+            match.close()
+    wall = (perf_counter() - began) / max(1, len(matches))
+    for match in matches:
+        _end(match, outcomes[match])
+    return [(outcomes[match], wall) for match in matches]
+
+
+def _end(match: Match, outcome: Outcome) -> None:
+    """Tell the observers how a match ended."""
     if outcome is Outcome.COMPLETED and not match.message:
         match.message = f"played {match.world.time:.2f} s"
     for observer in match.observers:
         observer.ended(match, outcome)
-    return outcome, wall
 
 
 def _play_ticks(

@@ -7,9 +7,11 @@ from typing import TYPE_CHECKING
 from ..control.scheme import LocomotionScheme
 from ..control.strategy_runner import StrategyRunner
 from ..core.errors import PolicyError
+from ..core.poses import Pose
 from ..core.random_streams import named_generator
 from ..locomotion.policy.legs_loader import load_legs, load_policy
 from ..locomotion.policy.legs_settings import LegsSettings
+from ..locomotion.policy.network_pool import NetworkPool
 from ..locomotion.policy.policy_legs import PolicyLegs
 from ..locomotion.policy.policy_walk import PolicyWalk
 from ..robots.description import RobotDescription
@@ -36,7 +38,39 @@ AT_ONCE = 1.0  # a fall until then is one of the policy, in [s]
 
 
 class PolicyPlayer(RobotPlayer):
-    """Simulated robot that walks by a policy."""
+    """Simulated robot that walks by a policy.
+
+    Its targets are sent when the networks have been evaluated.
+    """
+
+    def __init__(
+        self,
+        robot: SimulatedRobot,
+        scheme: LocomotionScheme,
+        frame: Pose,
+        networks: NetworkPool,
+    ) -> None:
+        """Combine a robot and its controller.
+
+        Args:
+            robot: Simulated robot.
+            scheme: Its controller.
+            frame: Pose of its odometry in the world.
+            networks: Networks of all players.
+        """
+        super().__init__(robot, scheme, frame)
+        self._networks = networks
+
+    def tick(self) -> None:
+        """Read the sensors and decide."""
+        self.scheme.update(self.robot.read())
+        self._networks.call_afterwards(self._send)
+
+    def _send(self) -> None:
+        """Send joint targets."""
+        targets = self.scheme.joint_targets
+        self.scheme.senses.aim(targets)
+        self.robot.write(targets)
 
     @property
     def has_fallen(self) -> bool:
@@ -58,6 +92,7 @@ def policy_physics(
     physics: PhysicsSettings,
     body: BodySettings,
     walkers: Sequence[tuple[LegsSettings, RobotDescription]],
+    networks: NetworkPool | None = None,
 ) -> PhysicsSettings:
     """Return physics settings whose tick is the period of the policies.
 
@@ -69,13 +104,14 @@ def policy_physics(
         body: Settings of the body; one with delays or sensor errors keeps
             its tick.
         walkers: Policy and robot of each player.
+        networks: Networks of all players, if they share them.
 
     Raises:
         PolicyError: If a network cannot run on its robot.
     """
     if body.has_sensor_errors or not body.has_ideal_servos:
         return physics
-    periods = {load_policy(*walker)[0].period for walker in walkers}
+    periods = {load_policy(*each, networks)[0].period for each in walkers}
     if len(periods) != 1:
         return physics
     steps = periods.pop() / physics.time_step
@@ -134,6 +170,7 @@ def place_policy_player(
     sight: IdealLineOfSight | PlayerSensing | None = None,
     cameras: CameraSensing | None = None,
     truth: TrueRobotState,
+    networks: NetworkPool,
 ) -> PolicyPlayer:
     """Place one robot on learned legs in a world, with its controller.
 
@@ -147,12 +184,13 @@ def place_policy_player(
             ideal sensing.
         cameras: Cameras and perception, with camera sensing.
         truth: True state of the robot.
+        networks: Networks of all players, flushed at each tick.
 
     Raises:
         PolicyError: If the network cannot run on the robot.
     """
     tick = world.physics.tick
-    policy = load_legs(legs, setup.description, tick=tick)
+    policy = load_legs(legs, setup.description, tick=tick, pool=networks)
     robot = place_on_legs(
         world,
         setup,
@@ -168,4 +206,4 @@ def place_policy_player(
         PolicyWalk(policy, setup.gait),
         sight_source(sight, cameras, tick=tick),
     )
-    return PolicyPlayer(robot, scheme, setup.odometry_in_world)
+    return PolicyPlayer(robot, scheme, setup.odometry_in_world, networks)

@@ -63,8 +63,6 @@ class Locomotion(Protocol):
         gait: Speed, steering gain and timing of its template.
         phase: Phase of motion.
         begun: Step that began at the last tick; None if none did.
-        joint_targets: Joint targets of the last tick, in [rad]. Shape
-            (joints,).
         heading_delay: Time from the last tick to the instant at which the
             torso has ``torso_heading``, in [s].
         pose: Pose of the template at the last tick, in odometry.
@@ -74,7 +72,10 @@ class Locomotion(Protocol):
     gait: GaitSettings
     phase: Phase
     begun: StepStarted | None
-    joint_targets: Array
+
+    @property
+    def joint_targets(self) -> Array:
+        """Joint targets of the last tick, in [rad]. Shape (joints,)."""
 
     @property
     def velocities(self) -> VelocitySet:

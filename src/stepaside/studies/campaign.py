@@ -80,6 +80,9 @@ class Study(Generic[C]):
         stamp_of: Returns the stamp of a case.
         fields: Values that every record has.
         volatile: Values that depend on the machine, like computing times.
+        measure_together: Function from several cases to their records, equal
+            to those of ``measure``; None to measure one after the other.
+        together: Number of cases that are measured together.
     """
 
     name: str
@@ -89,6 +92,8 @@ class Study(Generic[C]):
     stamp_of: Callable[[C], CodeStamp]
     fields: tuple[str, ...] = ()
     volatile: tuple[str, ...] = ()
+    measure_together: Callable[[list[C]], list[Record]] | None = None
+    together: int = 1
 
     def shard(self, number: int, of: int) -> "Study[C]":
         """Return every ``of``-th case.
@@ -224,11 +229,20 @@ def measure_block(
     measure: Callable[[C], Record], cases: list[C]
 ) -> _BlockResult:
     """Measure cases one after the other, in a worker."""
+    return measure_groups(lambda group: [measure(group[0])], 1, cases)
+
+
+def measure_groups(
+    measure_together: Callable[[list[C]], list[Record]],
+    together: int,
+    cases: list[C],
+) -> _BlockResult:
+    """Measure cases in a worker, some together."""
     began, records = perf_counter(), list[Record]()
     error = None
     try:
-        for case in cases:
-            records.append(measure(case))
+        for first in range(0, len(cases), together):
+            records += measure_together(cases[first : first + together])
     except Exception as raised:
         error = raised
     elapsed = perf_counter() - began
@@ -322,9 +336,13 @@ class _Campaign(Generic[C]):
             if not block.numbers:
                 return False
             cases = [self._cases[number] for number in block.numbers]
-            measure = self._run.study.measure
+            study = self._run.study
+            task: tuple[Any, ...] = measure_block, study.measure, cases
+            if study.measure_together is not None:
+                group = study.measure_together, study.together
+                task = measure_groups, *group, cases
             try:
-                future = self._engine.submit(measure_block, measure, cases)
+                future = self._engine.submit(*task)
             except self._engine.losses as error:
                 self._lose(block, error)
                 continue
@@ -333,7 +351,8 @@ class _Campaign(Generic[C]):
 
     def _next(self) -> _Block:
         share = ceil(self._left / (2 * self._engine.workers))
-        size = max(1, min(self._size, self._engine.largest_block, share))
+        size = max(self._size, self._run.study.together)
+        size = max(1, min(size, self._engine.largest_block, share))
         numbers = [n for _, n in zip(range(size), self._missing, strict=False)]
         self._left -= len(numbers)
         return _Block(numbers)

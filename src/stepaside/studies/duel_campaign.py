@@ -7,11 +7,13 @@ from typing import Any
 from ..games.duel_settings import DuelSettings
 from ..games.strategy_resolution import check_strategy_names
 from .campaign import Study, code_stamp
-from .duel_record import FIELDS, play_seed, settings_hash
+from .duel_record import FIELDS, play_seed, play_seeds, settings_hash
 from .records import Record
 
 MODULES = ("studies/duel_record",)  # which plays and records a duel
 LIBRARIES = ("mujoco", "numpy")
+# Duels on learned legs that are played side by side; each takes about 10 MB.
+TOGETHER = 16
 
 
 def duel_study(settings: DuelSettings, seeds: Sequence[int]) -> Study[int]:
@@ -26,6 +28,7 @@ def duel_study(settings: DuelSettings, seeds: Sequence[int]) -> Study[int]:
     """
     check_strategy_names(settings)
     own = settings_hash(settings)
+    legs = any(settings.robot_of(each).legs.walks for each in settings.robots)
     return Study(
         "duels",
         seeds,
@@ -34,6 +37,8 @@ def duel_study(settings: DuelSettings, seeds: Sequence[int]) -> Study[int]:
         lambda seed: code_stamp(MODULES, LIBRARIES),
         FIELDS,
         ("wall_s",),
+        partial(play_seeds, settings) if legs else None,
+        TOGETHER if legs else 1,
     )
 
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..core.errors import PlanError
 from ..core.poses import Pose
-from ..games.duel import run_duel
+from ..games.duel import run_duel, run_duels
 from ..games.duel_settings import DuelSettings
 from ..games.outcome import Outcome
 from ..games.run import DuelRun
@@ -81,6 +81,14 @@ def play_seed(settings: DuelSettings, seed: int) -> Record:
     return play_record(replace(settings, seed=seed))
 
 
+def play_seeds(settings: DuelSettings, seeds: list[int]) -> list[Record]:
+    """Play the duels of seeds side by side and return their records."""
+    began = perf_counter()
+    runs = run_duels([replace(settings, seed=seed) for seed in seeds])
+    wall = (perf_counter() - began) / len(seeds)
+    return [_record_of(run, wall) for run in runs]
+
+
 def play_record(settings: DuelSettings) -> Record:
     """Play one duel and return its record.
 
@@ -95,9 +103,14 @@ def play_record(settings: DuelSettings) -> Record:
     run = run_duel(settings)
     if run.outcome is Outcome.INTERRUPTED:
         raise KeyboardInterrupt
+    return _record_of(run, perf_counter() - began)
+
+
+def _record_of(run: DuelRun, wall: float) -> Record:
+    """Return the record of a run that took a computing time, in [s]."""
     summary = run.summary
     record = {
-        "seed": settings.seed,
+        "seed": run.settings.seed,
         "outcome": run.outcome.value,
         "message": run.message,
         "duration_s": run.duration,
@@ -118,7 +131,7 @@ def play_record(settings: DuelSettings) -> Record:
         for name in ("lost_s", "detection_rate", "false_detections"):
             record[name] = getattr(summary.sight, name)
     record["digest"] = digest_of(run)
-    record["wall_s"] = round(perf_counter() - began, 3)
+    record["wall_s"] = round(wall, 3)
     return record
 
 

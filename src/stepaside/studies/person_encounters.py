@@ -8,10 +8,11 @@ from math import radians
 
 from ..core.poses import wrap_angle
 from ..games.configuration_file import settings_entries
-from ..games.duel import run_duel
+from ..games.duel import run_duel, run_duels
 from ..games.duel_settings import DuelSettings, StartSettings
 from ..games.outcome import Outcome
 from ..games.robot_settings import with_legs
+from ..games.run import DuelRun
 from ..games.walk_settings import WalkSettings
 from ..locomotion.policy.legs_settings import LegsSettings
 from ..sim.person_settings import PersonSettings
@@ -169,6 +170,15 @@ def play_encounter(encounter: Encounter) -> Record:
     run = run_duel(encounter.settings)
     if run.outcome is Outcome.INTERRUPTED:
         raise KeyboardInterrupt
+    return _record_of(run)
+
+
+def play_encounters(encounters: list[Encounter]) -> list[Record]:
+    """Play encounters side by side and return their records."""
+    return [_record_of(r) for r in run_duels([e.settings for e in encounters])]
+
+
+def _record_of(run: DuelRun) -> Record:
     summary = run.summary
     return {
         "outcome": run.outcome.value,

@@ -18,7 +18,8 @@ from stepaside.locomotion.policy.contract import (
     PhaseClock,
     PolicyContract,
 )
-from stepaside.locomotion.policy.network import PolicyNetwork
+from stepaside.locomotion.policy.network import Memory, PolicyNetwork
+from stepaside.locomotion.policy.network_pool import NetworkPool
 from stepaside.locomotion.policy.runner import BodyMotion, PolicyRunner
 
 Term = ObservationTerm
@@ -45,12 +46,27 @@ def body(**changes: Any) -> BodyMotion:
     return BodyMotion(**(values | changes))
 
 
-def echo(path: Path, contract: PolicyContract, first: int = 0) -> PolicyRunner:
+class Walker:
+    """Runner whose observations are evaluated at once."""
+
+    def __init__(
+        self, contract: PolicyContract, network: PolicyNetwork
+    ) -> None:
+        self.runner, self.network = PolicyRunner(contract, network), network
+
+    def update(self, body: BodyMotion, command: Array) -> Array:
+        """Return the targets of one control period."""
+        seen = self.runner.observe(body, command)
+        (answer,) = self.network.evaluate([seen], [self.runner.memory])
+        return self.runner.act(*answer)
+
+
+def echo(path: Path, contract: PolicyContract, first: int = 0) -> Walker:
     """Policy whose actions repeat three values of its observation."""
     width = contract.observation_width
     weights = np.eye(3, width, k=first)
     file = write_policy(path / "echo.onnx", weights, np.zeros(3))
-    return PolicyRunner(contract, PolicyNetwork(file))
+    return Walker(contract, PolicyNetwork(file))
 
 
 def action_of(targets: Array) -> Array:
@@ -111,7 +127,7 @@ def test_the_previous_action_is_observed(
     weights[0, 3] = 8.0  # action 0 is eight times the commanded velocity
     weights[1, 0] = 0.1  # action 1 is a tenth of the previous action 0
     file = write_policy(tmp_path / "a.onnx", weights, np.zeros(3))
-    runner = PolicyRunner(contract, PolicyNetwork(file))
+    runner = Walker(contract, PolicyNetwork(file))
     first = action_of(runner.update(body(), AHEAD))
     assert first[0] == pytest.approx(1.0)
     second = action_of(runner.update(body(), AHEAD))
@@ -172,7 +188,7 @@ def test_a_recurrent_state_is_fed_back(tmp_path: Path) -> None:
     network = PolicyNetwork(file)
     assert [given.name for given, _ in network.states] == ["h_in"]
     for _ in range(2):
-        runner = PolicyRunner(CONTRACT, network)
+        runner = Walker(CONTRACT, network)
         seen = [action_of(runner.update(body(), STILL)) for _ in range(3)]
         np.testing.assert_allclose(
             seen, [[0, 0, 0], [1, 1, 0], [2, 2, 0]], atol=1e-6
@@ -183,7 +199,7 @@ def test_an_output_that_is_not_finite_is_named(tmp_path: Path) -> None:
     file = write_policy(
         tmp_path / "a.onnx", np.zeros((3, 3)), np.array([0.0, np.nan, 0.0])
     )
-    runner = PolicyRunner(CONTRACT, PolicyNetwork(file))
+    runner = Walker(CONTRACT, PolicyNetwork(file))
     with pytest.raises(PolicyError, match="output 1 .* must be finite"):
         runner.update(body(), STILL)
 
@@ -196,7 +212,7 @@ def test_equal_runs_give_equal_bits(tmp_path: Path) -> None:
     )
 
     def play() -> list[list[float]]:
-        runner = PolicyRunner(contract, PolicyNetwork(file))
+        runner = Walker(contract, PolicyNetwork(file))
         return [runner.update(body(), AHEAD).tolist() for _ in range(20)]
 
     assert play() == play()
@@ -207,3 +223,47 @@ def test_a_file_that_is_no_network_is_refused(tmp_path: Path) -> None:
     path.write_text("no network")
     with pytest.raises(PolicyError, match="a.onnx is not an ONNX network"):
         PolicyNetwork(path)
+
+
+@pytest.mark.parametrize("states", [0, 2])
+def test_walkers_evaluated_together_have_the_bits_of_each_alone(
+    states: int, tmp_path: Path
+) -> None:
+    """Also those of a pool, which several walkers share."""
+    rng = np.random.default_rng(1)
+    file = write_policy(
+        tmp_path / "a.onnx",
+        rng.normal(size=(3, 3)),
+        rng.normal(size=3),
+        states=states,
+    )
+    pool = NetworkPool()
+    network = pool.load(file)
+    assert pool.load(file) is network
+    assert network.is_batched
+    seen = rng.normal(size=(7, 3))
+    memories = [network.initial_memory() for _ in seen]
+    for _ in range(3):
+        received: list[tuple[Array, Memory]] = []
+        for row, memory in zip(seen, memories, strict=True):
+            pool.submit(
+                *(network, row, memory),
+                lambda *found, to=received: to.append(found),
+            )
+        assert not received
+        pool.flush()
+        for row, memory, found in zip(seen, memories, received, strict=True):
+            ((action, after),) = network.evaluate([row], [memory])
+            assert np.array_equal(action, found[0])
+            assert np.array_equal(after, found[1])
+        memories = [memory for _, memory in received]
+
+
+def test_a_network_for_one_walker_serves_each_in_turn(tmp_path: Path) -> None:
+    """Its graph contains the shape of one observation."""
+    file = write_policy(tmp_path / "a.onnx", np.eye(3), np.zeros(3), one=True)
+    network = PolicyNetwork(file)
+    assert not network.is_batched
+    seen = [np.arange(3.0), np.arange(3.0, 6.0)]
+    found = network.evaluate(seen, [(), ()])
+    np.testing.assert_array_equal([action for action, _ in found], seen)

@@ -51,6 +51,14 @@ def convert(
     return PolicyNetwork(path / "a.onnx")
 
 
+def evaluated(network: PolicyNetwork) -> np.ndarray:
+    """Return the action for the observation, with states of zero."""
+    ((action, _),) = network.evaluate(
+        [OBSERVATION], [network.initial_memory()]
+    )
+    return action
+
+
 def sigmoid(x: np.ndarray) -> np.ndarray:
     result: np.ndarray = 1.0 / (1.0 + np.exp(-x))
     return result
@@ -84,7 +92,7 @@ def test_dense_layers_of_submodules(tmp_path: Path) -> None:
     hidden = np.where(hidden > 0.0, hidden, np.expm1(hidden))
     expected = c @ hidden + d
     assert network.observation.width == 5  # of the first layer
-    found = network.evaluate(OBSERVATION)
+    found = evaluated(network)
     np.testing.assert_allclose(found, expected, atol=1e-5)
 
 
@@ -110,16 +118,16 @@ def test_recurrent_layers_keep_their_state(kind: str, tmp_path: Path) -> None:
     network = convert(tmp_path, code, flat=given, **zeros)
     assert len(network.states) == len(states)
     memory = np.zeros((2, 2, 2))  # layer, h and c, width
+    state = network.initial_memory()
     for _ in range(3):
         value = OBSERVATION
         for i in range(2):
             value, memory[i] = recurrence(
                 kind, value, memory[i], given[4 * i : 4 * i + 4]
             )
-        found = network.evaluate(OBSERVATION)
+        ((found, state),) = network.evaluate([OBSERVATION], [state])
         np.testing.assert_allclose(found, value, atol=1e-5)
-    network.reset()
-    first = network.evaluate(OBSERVATION)
+    first = evaluated(network)
     assert not np.allclose(first, found)
 
 
@@ -166,9 +174,7 @@ def test_operations(line: str, expected: Any, tmp_path: Path) -> None:
         if expected is None
         else expected(OBSERVATION)
     )
-    np.testing.assert_allclose(
-        network.evaluate(OBSERVATION), values, atol=1e-5
-    )
+    np.testing.assert_allclose(evaluated(network), values, atol=1e-5)
 
 
 def test_conditions_on_shapes_are_decided(tmp_path: Path) -> None:
@@ -181,7 +187,7 @@ def test_conditions_on_shapes_are_decided(tmp_path: Path) -> None:
         "  x = torch.mul(x, 3.)",
         "return x",
     )
-    found = convert(tmp_path, code).evaluate(OBSERVATION)
+    found = evaluated(convert(tmp_path, code))
     np.testing.assert_allclose(found, 9.0 * OBSERVATION, rtol=1e-6)
 
 

@@ -9,19 +9,28 @@ from .contract_checks import check_contract
 from .contract_reader import read_contract
 from .legs_settings import LegsSettings
 from .network import PolicyNetwork
+from .network_pool import NetworkPool
 from .policy_legs import PolicyLegs
 from .response_file import load_response
 
 
 def load_policy(
-    legs: LegsSettings, description: RobotDescription
+    legs: LegsSettings,
+    description: RobotDescription,
+    pool: NetworkPool | None = None,
 ) -> tuple[PolicyContract, PolicyNetwork]:
     """Load a network with its contract for one robot.
+
+    Args:
+        legs: Settings of the legs.
+        description: Description of the robot.
+        pool: Pool whose walkers share networks; by default the network is
+            loaded for this robot.
 
     Raises:
         PolicyError: If the network cannot run on the robot.
     """
-    network = PolicyNetwork(Path(legs.network))
+    network = (pool or NetworkPool()).load(Path(legs.network))
     motors = load_tree(description).motors
     reading = read_contract(
         network,
@@ -34,7 +43,11 @@ def load_policy(
 
 
 def load_legs(
-    legs: LegsSettings, description: RobotDescription, *, tick: float
+    legs: LegsSettings,
+    description: RobotDescription,
+    *,
+    tick: float,
+    pool: NetworkPool | None = None,
 ) -> PolicyLegs:
     """Build learned legs, with their measured response if there is one.
 
@@ -42,11 +55,13 @@ def load_legs(
         legs: Settings of the legs.
         description: Description of the robot.
         tick: Control period, in [s].
+        pool: Pool that evaluates the network for many walkers when it is
+            flushed; by default it is evaluated at once for this one.
 
     Raises:
         PolicyError: If the network cannot run on the robot.
     """
-    contract, network = load_policy(legs, description)
+    contract, network = load_policy(legs, description, pool)
     return PolicyLegs(
         contract,
         network,
@@ -54,4 +69,5 @@ def load_legs(
         tick=tick,
         response=load_response(description.folder, network.path),
         learns=legs.learn,
+        pool=pool,
     )

@@ -1,13 +1,19 @@
 """Network of a walking policy, evaluated by ONNX Runtime on one thread."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from functools import cached_property
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...core.errors import PolicyError
 from ...core.poses import Array
+
+Memory = tuple[NDArray[np.float32], ...]  # recurrent states of one walker
+BATCHES = 2, 5, 16, 33  # numbers of rows in which bits are compared
 
 
 class TensorShape(NamedTuple):
@@ -33,10 +39,14 @@ class TensorShape(NamedTuple):
 
 
 class PolicyNetwork:
-    """Network that maps one observation to one action.
+    """Network that maps observations to actions, of one walker or of many.
 
     Inputs after the first are recurrent states: each is fed back from the
     output of the same shape, in order, and is zero at the start.
+
+    Networks are exported for one walker. Their batch axis is freed, and
+    several walkers are evaluated at once where this gives the same bits;
+    otherwise each is evaluated by itself.
 
     Attributes:
         path: File of the network.
@@ -56,20 +66,15 @@ class PolicyNetwork:
             PolicyError: If the file is not an ONNX network with one
                 observation and one action.
         """
-        import onnxruntime
-
         self.path = path
-        options = onnxruntime.SessionOptions()
-        options.intra_op_num_threads = options.inter_op_num_threads = 1
-        options.log_severity_level = 4  # errors are raised, not printed
         try:
-            self._session = onnxruntime.InferenceSession(
-                path.read_bytes(), options, providers=["CPUExecutionProvider"]
-            )
+            content = path.read_bytes()
         except OSError as error:
             raise PolicyError(
                 f"legs: cannot read {path}: {error.strerror}"
             ) from error
+        try:
+            self._session = _session_of(content)
         except Exception as error:  # no common base in ONNX Runtime
             raise PolicyError(
                 f"legs: {path} is not an ONNX network"
@@ -83,39 +88,136 @@ class PolicyNetwork:
         self.states = _pair_states(path, inputs[1:], outputs[1:])
         names = [self.action.name, *(out.name for _, out in self.states)]
         self._outputs = names
-        self.reset()
 
-    def reset(self) -> None:
-        """Set the recurrent states to zero."""
-        self._memory: dict[str, Any] = {
-            given.name: np.zeros([size or 1 for size in given.shape], "f4")
+    def initial_memory(self) -> Memory:
+        """Return recurrent states of zero, for one walker."""
+        return tuple(
+            np.zeros([size or 1 for size in given.shape], np.float32)
             for given, _ in self.states
-        }
+        )
 
-    def evaluate(self, observation: Array) -> Array:
-        """Return the action for an observation, and update the states.
+    def evaluate(
+        self, observations: Sequence[Array], memories: Sequence[Memory]
+    ) -> list[tuple[Array, Memory]]:
+        """Return actions and new recurrent states of some walkers.
 
         Args:
-            observation: Shape (width of the input,).
-
-        Returns:
-            Shape (width of the output,).
+            observations: Observation of each. Shape (width of the input,).
+            memories: Recurrent states of each.
 
         Raises:
             PolicyError: If an output is NaN or infinite.
         """
-        feed = {self.observation.name: observation[None].astype(np.float32)}
-        found = self._session.run(self._outputs, feed | self._memory)
-        for (given, _), value in zip(self.states, found[1:], strict=True):
-            self._memory[given.name] = value
-        action: Array = found[0][0].astype(np.float64)
-        if not np.isfinite(action).all():
-            at = int(np.flatnonzero(~np.isfinite(action))[0])
+        if len(observations) == 1:
+            return self._run(self._session, observations, memories)
+        if self._batched is not None:
+            return self._run(self._batched, observations, memories)
+        return [
+            self._run(self._session, [seen], [memory])[0]
+            for seen, memory in zip(observations, memories, strict=True)
+        ]
+
+    @cached_property
+    def _batched(self) -> Any:
+        """Session for many walkers; None if it would give other bits."""
+        with suppress(Exception):
+            batched = _session_of(_with_free_batch(self.path.read_bytes()))
+            if self._gives_equal_bits(batched):
+                return batched
+        return None
+
+    @property
+    def is_batched(self) -> bool:
+        """Whether several walkers are evaluated at once."""
+        return self._batched is not None
+
+    def _run(
+        self,
+        session: Any,
+        observations: Sequence[Array],
+        memories: Sequence[Memory],
+    ) -> list[tuple[Array, Memory]]:
+        """Evaluate walkers together."""
+        rows = np.array(observations, dtype=np.float32)
+        feed = {self.observation.name: rows}
+        for i, (given, _) in enumerate(self.states):
+            parts = [memory[i] for memory in memories]
+            feed[given.name] = np.concatenate(parts, axis=_batch_axis(given))
+        found = session.run(self._outputs, feed)
+        actions: Array = found[0].astype(np.float64)
+        if not np.isfinite(actions).all():
+            row, at = np.argwhere(~np.isfinite(actions))[0].tolist()
             raise PolicyError(
                 f"legs: output {at} of {self.path} must be finite, "
-                f"got {action[at]}"
+                f"got {actions[row, at]}"
             )
-        return action
+        if not self.states:
+            return [(action, ()) for action in actions]
+        split = [
+            np.split(value, len(rows), axis=_batch_axis(given))
+            for (given, _), value in zip(self.states, found[1:], strict=True)
+        ]
+        return list(zip(actions, zip(*split, strict=True), strict=True))
+
+    def _gives_equal_bits(self, batched: Any) -> bool:
+        """Compare a session with a free batch axis to that for one walker."""
+        names = [node.name for node in self._session.get_inputs()]
+        shapes = [self.observation, *(given for given, _ in self.states)]
+        draw = np.random.default_rng(0).standard_normal
+        for count in BATCHES:
+            axes = [_batch_axis(shape) for shape in shapes]
+            rows = []
+            for shape, axis in zip(shapes, axes, strict=True):
+                sizes = [size or 1 for size in shape.shape]
+                sizes[axis] = count
+                rows.append(draw(sizes).astype(np.float32))
+            together = batched.run(
+                self._outputs, dict(zip(names, rows, strict=True))
+            )
+            for k in range(count):
+                feed = {
+                    name: np.take(value, [k], axis=axis)
+                    for name, value, axis in zip(
+                        names, rows, axes, strict=True
+                    )
+                }
+                alone = self._session.run(self._outputs, feed)
+                for one, all_, axis in zip(alone, together, axes, strict=True):
+                    if not np.array_equal(one, np.take(all_, [k], axis=axis)):
+                        return False
+        return True
+
+
+def _session_of(content: bytes) -> Any:
+    """Return a session of ONNX Runtime on one thread."""
+    import onnxruntime
+
+    options = onnxruntime.SessionOptions()
+    options.intra_op_num_threads = options.inter_op_num_threads = 1
+    options.log_severity_level = 4  # errors are raised, not printed
+    return onnxruntime.InferenceSession(
+        content, options, providers=["CPUExecutionProvider"]
+    )
+
+
+def _batch_axis(shape: TensorShape) -> int:
+    """Return the axis of the walkers; recurrent layers have it second."""
+    return 1 if len(shape.shape) == 3 else 0
+
+
+def _with_free_batch(content: bytes) -> bytes:
+    """Return an ONNX network whose inputs may have any number of rows."""
+    import onnx
+
+    model = onnx.load_from_string(content)
+    for node in (*model.graph.input, *model.graph.output):
+        sizes = node.type.tensor_type.shape.dim
+        size = sizes[1 if len(sizes) == 3 else 0]
+        size.ClearField("dim_value")
+        size.dim_param = "walkers"
+    del model.graph.value_info[:]
+    freed: bytes = model.SerializeToString()
+    return freed
 
 
 def _shape_of(node: Any) -> TensorShape:

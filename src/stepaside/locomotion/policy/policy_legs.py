@@ -13,6 +13,7 @@ from .gravity_filter import GravityFilter
 from .initial_posture import InitialPosture
 from .leg_odometry import LegOdometry
 from .network import PolicyNetwork
+from .network_pool import NetworkPool
 from .runner import BodyMotion, PolicyRunner
 from .velocity_response import VelocityResponse
 
@@ -33,8 +34,6 @@ class PolicyLegs:
         response: Response of the legs to commands.
         standing: Posture in which the robot begins.
         odometry: Odometry of the robot.
-        joint_targets: Joint targets of this tick, in [rad], in the order of
-            the motors. Shape (joints,).
         command: Command of the policy at this tick.
         intended: Intended velocity at this tick.
     """
@@ -48,6 +47,7 @@ class PolicyLegs:
         tick: float,
         response: VelocityResponse | None = None,
         learns: bool = True,
+        pool: NetworkPool | None = None,
     ) -> None:
         """Begin in the default posture.
 
@@ -58,6 +58,8 @@ class PolicyLegs:
             tick: Control period, in [s].
             response: Measured response; by default commands are delivered.
             learns: Whether velocities are corrected by gyro and odometry.
+            pool: Pool that evaluates the network for many walkers at once
+                when it is flushed; by default at once for this one.
 
         Raises:
             PolicyError: If the period of the policy is no multiple of the
@@ -79,10 +81,11 @@ class PolicyLegs:
         self._joints = np.array([motors.index(n) for n in contract.joints])
         angles = zip(contract.joints, contract.default_posture, strict=True)
         self.standing = InitialPosture(forward, dict(angles))
-        self.joint_targets = self.standing.joint_targets
+        self._targets = self.standing.joint_targets.copy()
+        self._network, self._pool = network, pool
         self._runner = PolicyRunner(contract, network)
         self._gravity = GravityFilter()
-        self.odometry = LegOdometry(forward, self.joint_targets)
+        self.odometry = LegOdometry(forward, self._targets)
         self.command = self.intended = STILL
         self._learning = LEARNING if learns else 0.0
         self._correction: Array = np.zeros(3)
@@ -108,6 +111,16 @@ class PolicyLegs:
     def velocities(self) -> VelocitySet:
         """Velocities that the legs deliver, and how fast."""
         return self.response.velocities
+
+    @property
+    def joint_targets(self) -> Array:
+        """Joint targets, in [rad], in the order of the motors.
+
+        With a pool they are those of this tick once the pool has been
+        flushed. Shape (joints,).
+        """
+        self._targets[self._joints] = self._runner.targets
+        return self._targets
 
     def update(
         self, measurement: Measurement, velocity: BodyVelocity
@@ -173,8 +186,10 @@ class PolicyLegs:
             -self._gravity.up,
             self.odometry.velocity,
         )
-        targets = self.joint_targets.copy()
-        targets[self._joints] = self._runner.update(
-            motion, np.array(self.command)
-        )
-        self.joint_targets = targets
+        runner, network = self._runner, self._network
+        seen = runner.observe(motion, np.array(self.command))
+        if self._pool is not None:
+            self._pool.submit(network, seen, runner.memory, runner.act)
+            return
+        (answer,) = network.evaluate([seen], [runner.memory])
+        runner.act(*answer)

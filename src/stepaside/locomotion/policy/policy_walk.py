@@ -59,8 +59,6 @@ class PolicyWalk:
         legs: Learned legs.
         phase: Phase of motion.
         begun: None: a policy plans no steps.
-        joint_targets: Joint targets of the last tick, in [rad]. Shape
-            (joints,).
         heading_delay: 0: the heading is measured.
         pose_delay: 0: the pose is measured.
     """
@@ -79,9 +77,13 @@ class PolicyWalk:
         """
         self.legs, self.gait = legs, gait
         self.phase = Phase.STANDING
-        self.joint_targets = legs.joint_targets
         self._velocity = STILL
         self._next_decision = 0.0
+
+    @property
+    def joint_targets(self) -> Array:
+        """Joint targets of the last tick, in [rad]. Shape (joints,)."""
+        return self.legs.joint_targets
 
     @property
     def velocities(self) -> VelocitySet:
@@ -124,8 +126,7 @@ class PolicyWalk:
                 self._decide(now, decisions)
         elif now >= self._next_decision - 1e-9:
             self._decide(now, decisions)
-        self.joint_targets = self.legs.update(measurement, self._velocity)
-        return self.joint_targets
+        return self.legs.update(measurement, self._velocity)
 
     def _decide(self, now: float, decisions: IntentSource) -> None:
         """Ask for a decision, and walk as it says until the next one."""

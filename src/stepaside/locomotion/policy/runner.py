@@ -7,7 +7,7 @@ import numpy as np
 
 from ...core.poses import Array
 from .contract import PolicyContract
-from .network import PolicyNetwork
+from .network import Memory, PolicyNetwork
 
 STANDS_BELOW = 0.01  # magnitude of a command that counts as zero
 
@@ -35,17 +35,20 @@ class PolicyRunner:
 
     Attributes:
         contract: Contract of the network.
+        memory: Recurrent states of the network.
+        targets: Joint targets, in [rad], in the order of the contract. Shape
+            (joints,).
     """
 
     def __init__(
         self, contract: PolicyContract, network: PolicyNetwork
     ) -> None:
         """Begin standing in the default posture."""
-        self.contract, self._network = contract, network
+        self.contract, self.memory = contract, network.initial_memory()
         self._default = np.array(contract.default_posture)
         self._scale = np.array(contract.action_scale)
         self._previous: Array = np.zeros(len(contract.joints))
-        self._targets = self._default
+        self.targets = self._default
         self._command = np.zeros(3)
         self._history: list[Array] = []
         widths = [contract.width_of(term) for term in contract.terms]
@@ -61,10 +64,9 @@ class PolicyRunner:
         clock = contract.clock
         self._phases = np.array(() if clock is None else clock.offsets)
         self._stands = True
-        network.reset()
 
-    def update(self, body: BodyMotion, command: Array) -> Array:
-        """Return the joint targets of the next control period.
+    def observe(self, body: BodyMotion, command: Array) -> Array:
+        """Return the input of the network at a control period.
 
         Args:
             body: Measured state.
@@ -72,10 +74,7 @@ class PolicyRunner:
                 [rad/s]. Shape (3,).
 
         Returns:
-            Targets, in [rad], in the order of the contract. Shape (joints,).
-
-        Raises:
-            PolicyError: If the network returns NaN or infinity.
+            Shape (observation width,).
         """
         contract = self.contract
         change = contract.command_rate * contract.period
@@ -93,15 +92,27 @@ class PolicyRunner:
         if not self._history:
             self._history = [frame] * contract.history
         self._history = [*self._history[1:], frame]
-        raw = self._network.evaluate(self._flat_history())
+        return self._flat_history()
+
+    def act(self, raw: Array, memory: Memory) -> Array:
+        """Update the targets by the output of the network.
+
+        Args:
+            raw: Action. Shape (joints,).
+            memory: Recurrent states.
+
+        Returns:
+            The targets, in [rad]. Shape (joints,).
+        """
+        contract, self.memory = self.contract, memory
         limit = contract.action_clip
         clipped = np.minimum(np.maximum(raw, -limit), limit)
         self._previous = clipped if contract.observes_clipped else raw
         share = contract.action_filter
-        self._targets = share * self._targets + (1.0 - share) * (
+        self.targets = share * self.targets + (1.0 - share) * (
             self._default + self._scale * clipped
         )
-        return self._targets
+        return self.targets
 
     def _advance_clock(self) -> None:
         """Advance the phases by one control period."""
