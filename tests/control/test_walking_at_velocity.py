@@ -1,4 +1,4 @@
-"""Test the strategy that follows a velocity command."""
+"""Test the requests that follow a velocity command."""
 
 from math import pi
 
@@ -6,11 +6,10 @@ import pytest
 
 from stepaside.control.velocity_walk import (
     limit_velocity,
-    strategy_at_velocity,
+    request_at_velocity,
     velocity_limits,
 )
 from stepaside.planning import Direction, GaitSettings
-from stepaside.strategies import StandStill, Walk
 
 GAIT = GaitSettings()
 PACE = 0.4 / 0.547  # path time over walked time
@@ -41,28 +40,24 @@ def test_half_the_speed_halves_the_stride_not_the_turn(
     sign: float,
 ) -> None:
     speed, _ = velocity_limits(GAIT)
-    walk = strategy_at_velocity(sign * 0.5 * speed, 0.1, GAIT, under_way=None)
-    assert isinstance(walk, Walk)
+    walk = request_at_velocity(sign * 0.5 * speed, 0.1, GAIT, under_way=None)
     assert walk.direction.value == sign
-    assert walk.speed_factor == pytest.approx(0.5)
+    assert walk.intent.speed_factor == pytest.approx(0.5)
     # k theta* is what the template turns by in path time.
-    assert GAIT.gain * walk.bearing * PACE == pytest.approx(0.1)
+    assert GAIT.gain * walk.intent.heading * PACE == pytest.approx(0.1)
 
 
 def test_turning_in_place_keeps_position_and_direction() -> None:
-    walk = strategy_at_velocity(0.0, -0.2, GAIT, under_way=BACKWARD)
-    assert isinstance(walk, Walk)
-    assert walk.direction is BACKWARD and walk.bearing < 0.0
-    assert walk.speed_factor == pytest.approx(1e-3)
+    walk = request_at_velocity(0.0, -0.2, GAIT, under_way=BACKWARD)
+    assert walk.direction is BACKWARD and walk.intent.heading < 0.0
+    assert walk.intent.speed_factor == pytest.approx(1e-3)
 
 
 def test_reversal_halts_first() -> None:
-    assert isinstance(
-        strategy_at_velocity(0.0, 0.0, GAIT, under_way=None), StandStill
-    )
-    assert isinstance(
-        strategy_at_velocity(0.05, 0.0, GAIT, under_way=BACKWARD), StandStill
-    )
-    assert isinstance(
-        strategy_at_velocity(0.05, 0.0, GAIT, under_way=FORWARD), Walk
-    )
+    for forward, under_way, walks in (
+        (0.0, None, False),
+        (0.05, BACKWARD, False),
+        (0.05, FORWARD, True),
+    ):
+        request = request_at_velocity(forward, 0.0, GAIT, under_way=under_way)
+        assert request.intent.walks == walks

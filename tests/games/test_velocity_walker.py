@@ -88,13 +88,6 @@ def test_a_robot_may_serve_no_sighting() -> None:
             assert (robot.state().sighting is not None) == offered
 
 
-def test_turns_of_a_commanded_robot_are_calibrated_once() -> None:
-    """Against commands; its controller does not calibrate them again."""
-    control = replace(SETTINGS.control, learn_turns=True)
-    _, robots = commanded_robots(replace(SETTINGS, control=control))
-    assert [robot.scheme.decisions.turns for robot in robots] == [None, None]
-
-
 def test_a_hardware_like_robot_turns_by_its_command() -> None:
     """Feet twist and joints yield, which only the gyro measures."""
     hardware = replace(SETTINGS, seed=7, body=BODIES["hardware"])

@@ -113,8 +113,51 @@ def build_scheme(
     forward = None
     if isinstance(senses, CameraSight):
         forward = senses.perception.poses.kinematics.forward
+    walk = build_walk(
+        description,
+        gait,
+        control,
+        tick=tick,
+        delay=delay,
+        clearance=clearance,
+        forward=forward,
+    )
+    decisions = StrategyRunner(
+        strategy,
+        gait,
+        tick,
+        None if clearance is None else clearance.surroundings,
+        TurnCalibration(tick) if control.learn_turns else None,
+    )
+    return ControlScheme(decisions, walk, senses or MeasuredSight())
+
+
+def build_walk(
+    description: RobotDescription,
+    gait: GaitSettings,
+    control: ControlSettings,
+    *,
+    tick: float,
+    delay: float = 0.0,
+    clearance: ClearanceSetup | None = None,
+    forward: ForwardKinematics | None = None,
+) -> ManeuverWalk:
+    """Build the walk by maneuvers of one robot.
+
+    Args:
+        description: Robot description.
+        gait: Gait.
+        control: Control settings.
+        tick: Control period, in [s].
+        delay: Time from a command to the motion, in [s].
+        clearance: Known obstacles and required clearance, if any.
+        forward: Kinematics of the measured body; built if not given.
+
+    Raises:
+        ReachError: If the standing posture of the gait is out of reach.
+    """
     kinematics = LegKinematics(description, tick=tick)
-    walk = ManeuverWalk(
+    return ManeuverWalk(
         gait,
         kinematics,
         build_balance(
@@ -132,14 +175,6 @@ def build_scheme(
         if clearance is None
         else build_guard(clearance, gait, control),
     )
-    decisions = StrategyRunner(
-        strategy,
-        gait,
-        tick,
-        None if clearance is None else clearance.surroundings,
-        TurnCalibration(tick) if control.learn_turns else None,
-    )
-    return ControlScheme(decisions, walk, senses or MeasuredSight())
 
 
 def build_guard(

@@ -1,9 +1,10 @@
-"""Strategy that follows a velocity command within the limits of a gait."""
+"""Velocity commands within the limits of a gait."""
 
 from math import pi
 
+from ..locomotion.locomotion import MotionRequest
 from ..planning import Direction, GaitSettings
-from ..strategies import StandStill, Strategy, Walk
+from ..strategies.knowledge import STAND, Intent
 
 STILL = 1e-3  # speed [m/s] or turning rate [rad/s] that counts as zero
 IN_PLACE = 1e-3  # speed factor of a turn on the spot
@@ -36,14 +37,14 @@ def limit_velocity(
     return share * forward, share * turn
 
 
-def strategy_at_velocity(
+def request_at_velocity(
     forward: float,
     turn: float,
     gait: GaitSettings,
     *,
     under_way: Direction | None,
-) -> Strategy:
-    """Return the strategy that walks at a velocity.
+) -> MotionRequest:
+    """Return the request that walks at a velocity.
 
     Args:
         forward: Driving velocity, in [m/s].
@@ -54,12 +55,13 @@ def strategy_at_velocity(
     """
     forward, turn = limit_velocity(forward, turn, gait)
     speed, rate = velocity_limits(gait)
-    if abs(forward) < STILL and abs(turn) < STILL:
-        return StandStill()
     direction = Direction.FORWARD if forward >= 0.0 else Direction.BACKWARD
     if abs(forward) < STILL:
         direction = under_way or Direction.FORWARD
-    if under_way is not None and direction is not under_way:
-        return StandStill()
+    rests = abs(forward) < STILL and abs(turn) < STILL
+    if rests or under_way not in (None, direction):
+        return MotionRequest(STAND, direction, saturated=False)
     share = max(IN_PLACE, min(1.0, abs(forward) / speed))
-    return Walk(pi * turn / rate, direction, False, share)
+    return MotionRequest(
+        Intent(pi * turn / rate, share), direction, saturated=False
+    )

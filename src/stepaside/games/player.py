@@ -185,3 +185,57 @@ class Player(Protocol):
 
     def close(self) -> None:
         """Release its resources."""
+
+
+class PhysicalPlayer:
+    """Simulated robot in a match; what moves it is up to subclasses.
+
+    Attributes:
+        name: Name of the player.
+        robot: Simulated robot.
+        truth: True state.
+    """
+
+    def __init__(self, robot: "SimulatedRobot") -> None:
+        """Take a robot that stands in its world."""
+        self.name, self.robot = robot.name, robot
+        self.truth: GroundTruth = robot.truth
+
+    @property
+    def begun(self) -> StepStarted | None:
+        """None: its steps are unknown."""
+        return None
+
+    @property
+    def reports(self) -> "Sequence[FrameReport]":
+        """Detections of the images that arrived at the last tick: none."""
+        return ()
+
+    @property
+    def is_ready(self) -> bool:
+        """True: nothing has to happen before the game begins."""
+        return True
+
+    @property
+    def has_fallen(self) -> bool:
+        """Whether it has fallen."""
+        return self.truth.has_fallen
+
+    def start(self) -> None:
+        """Do nothing: it begins with the simulation."""
+
+    def snapshot(self) -> Snapshot:
+        """Return the state at this instant, without plans."""
+        return snapshot_of(self.robot)
+
+    def motion_log(self, *, closely: bool) -> MotionLog:
+        """Return an empty log of its motion, without estimates."""
+        return self.robot.state_log()
+
+    def push(self, *pushes: Push) -> None:
+        """Schedule pushes of the torso, now or later."""
+        self.robot.push(*pushes)
+
+    def close(self) -> None:
+        """Close the cameras."""
+        self.robot.close()

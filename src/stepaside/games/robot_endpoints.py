@@ -93,7 +93,7 @@ class NaoqiEndpoint(NamedTuple):
                 "a robot on NAOqi cannot be served in lock step: its calls "
                 "carry no time"
             )
-        gait = player.scheme.gait
+        gait = player.scheme.locomotion.gait
         return NaoqiServer(
             self.url,
             player,

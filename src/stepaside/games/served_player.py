@@ -1,45 +1,30 @@
 """Players whose joints another process commands."""
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..core.constants import GRAVITY
 from ..core.poses import Array
-from ..locomotion.walk_snapshots import StepStarted
 from ..perception.measurement import Measurement
-from ..sim.ground_truth import GroundTruth
-from ..sim.push import Push
-from ..sim.robot_state_log import RobotStateLog
 from ..sim.simulated_robot import SimulatedRobot
-from .player import Snapshot, snapshot_of
-
-if TYPE_CHECKING:
-    from ..perception.percept_stages import FrameReport
+from .player import PhysicalPlayer
 
 MOVING = 0.05  # change of a target from which a robot moves, in [rad]
 
 
-class ServedPlayer:
+class ServedPlayer(PhysicalPlayer):
     """Simulated robot whose joints another process commands.
 
     Until the game begins the simulation does not advance: the sensors
     constantly report a robot at rest, and commands are ignored.
 
-    Attributes:
-        name: Name of the player.
-        robot: Simulated robot.
-        truth: True state.
-        is_moving: Whether its targets have left the initial stance.
-        is_ready: True: its server waits for the client before the match.
-        begun: None: its plans are unknown to this process.
-        reports: Empty: its detections are unknown to this process.
-    """
+    Its plans and detections are unknown to this process. Its server waits
+    for the client before the match.
 
-    is_ready = True
-    begun: StepStarted | None = None
-    reports: "Sequence[FrameReport]" = ()
+    Attributes:
+        is_moving: Whether its targets have left the initial stance.
+    """
 
     def __init__(
         self, robot: SimulatedRobot, head: Sequence[int] = ()
@@ -51,8 +36,7 @@ class ServedPlayer:
             head: Indices of the head joints, whose motion does not count as
                 moving.
         """
-        self.name, self.robot = robot.name, robot
-        self.truth: GroundTruth = robot.truth
+        super().__init__(robot)
         self.is_moving = False
         self._head = list(head)
         self._waiting = True
@@ -98,29 +82,5 @@ class ServedPlayer:
         self.robot.servos.soften(stiffness)
         self.robot.write(targets)
 
-    @property
-    def has_fallen(self) -> bool:
-        """Whether it has fallen."""
-        return self.truth.has_fallen
-
-    def start(self) -> None:
-        """Do nothing: its client begins with the released chest button."""
-
     def tick(self) -> None:
         """Do nothing: the server has applied the last command."""
-
-    def snapshot(self) -> Snapshot:
-        """Return the state at this instant, without plans."""
-        return snapshot_of(self.robot)
-
-    def motion_log(self, *, closely: bool) -> RobotStateLog:
-        """Return an empty log of its motion; estimates are unknown."""
-        return self.robot.state_log()
-
-    def push(self, *pushes: Push) -> None:
-        """Schedule pushes of the torso, now or later."""
-        self.robot.push(*pushes)
-
-    def close(self) -> None:
-        """Close the cameras."""
-        self.robot.close()

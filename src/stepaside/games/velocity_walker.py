@@ -1,58 +1,52 @@
 """Simulated robots with their own walk, commanded by velocities."""
 
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from ..control import ControlScheme
-from ..control.scheme_builder import ClearanceSetup, build_scheme
-from ..control.sight_sources import MeasuredSight
-from ..control.turn_calibration import TurnCalibration
-from ..control.velocity_walk import limit_velocity, strategy_at_velocity
+from ..control.scheme_builder import ClearanceSetup, build_walk
+from ..control.velocity_scheme import VelocityScheme
 from ..core.poses import Array, Pose, wrap_angle
 from ..drivers.velocity.footstep_commands import FootCommand
-from ..drivers.velocity.velocity_body import REST, VelocityCommand
+from ..drivers.velocity.velocity_body import VelocityCommand
 from ..drivers.velocity.walking_robot import WalkerState
-from ..locomotion.walk_snapshots import Phase
+from ..locomotion.walk_snapshots import Phase, StepStarted
 from ..perception.images import ColourImage, SonarEcho
 from ..perception.measurement import Measurement, Sighting
-from ..planning import Direction, Foot
+from ..planning import Foot
 from ..sim.ground_truth import TrueRobotState
 from ..sim.ideal_sensors import IdealLineOfSight
 from ..sim.simulated_robot import SimulatedRobot
 from ..sim.world import World
-from ..strategies import StandStill
-from .walker import SimulatedPlayer
+from .player import PhysicalPlayer, Snapshot, snapshot_of
 from .walker_factory import WalkerSetup, place_robot
+from .walker_log import WalkerLog
 
 if TYPE_CHECKING:
     from ..sim.sensor_suite import SensorSuite
 
 HEAD_SPEED = 3.0  # of a head commanded by a client, in [rad/s]
-# Placeholder that lets the walk start: commands do not depend on sightings.
-PLACEHOLDER = Sighting(0.0, 0.0, 1.0)
 
 
-class VelocityWalker(SimulatedPlayer):
+class VelocityWalker(PhysicalPlayer):
     """Simulated robot that walks at commanded velocities.
 
-    At every tick its scheme adopts the strategy that follows the command.
+    Attributes:
+        scheme: Controller.
+        frame: Pose of its odometry in the world.
     """
 
     def __init__(
-        self, robot: SimulatedRobot, scheme: ControlScheme, frame: Pose
+        self, robot: SimulatedRobot, scheme: VelocityScheme, frame: Pose
     ) -> None:
         """Combine a robot and its controller.
 
         Args:
             robot: The robot.
-            scheme: Controller that does not calibrate turns: they are
-                calibrated here, against the commanded turns.
+            scheme: Controller.
             frame: Pose of its odometry in the world.
         """
-        super().__init__(robot, scheme, frame)
-        self._walking_direction: Direction | None = None
-        self._velocity = REST
+        super().__init__(robot)
+        self.scheme, self.frame = scheme, frame
         self._measurement: Measurement | None = None
         self._head: dict[int, float] = {}
         self._head_targets: Array | None = None
@@ -60,53 +54,57 @@ class VelocityWalker(SimulatedPlayer):
         self._echoes: dict[str, float | None] = {}
         self._ticks = -1
         self._steps = 0
-        self._updated = False
-        self._turns = TurnCalibration(robot.world.physics.tick)
+
+    @property
+    def begun(self) -> StepStarted | None:
+        """Step begun at the last tick, if any."""
+        return self.scheme.locomotion.begun
+
+    @property
+    def is_moving(self) -> bool:
+        """Whether it has left its standing state."""
+        return self.scheme.locomotion.phase is not Phase.STANDING
+
+    @property
+    def has_fallen(self) -> bool:
+        """Whether it has fallen, or has detected a fall."""
+        detected = self.scheme.locomotion.phase is Phase.FALLEN
+        return self.truth.has_fallen or detected
 
     def command(self, velocity: VelocityCommand) -> None:
         """Walk at a velocity from the next tick on."""
-        self._velocity = velocity
+        self.scheme.command(*velocity[:2])
 
     def tick(self) -> None:
         """Walk at the commanded velocity."""
-        scheme = self.scheme
-        if scheme.phase is Phase.STANDING:
-            self._walking_direction = None
-        measurement = self._read()
-        forward, turn = limit_velocity(*self._velocity[:2], scheme.gait)
-        strategy = strategy_at_velocity(
-            forward,
-            turn / self._turns.share,
-            scheme.gait,
-            under_way=self._walking_direction,
-        )
-        scheme.decisions.adopt(strategy)
-        targets = scheme.update(measurement)
+        targets = self.scheme.update(self._read())
         if self._head:
             targets = self._with_head(targets)
         self.robot.write(targets)
-        self._updated = True
-        self._turns.note(
-            float(measurement.gyro[2]),
-            scheme.decisions.templates.at(measurement.time).theta,
-            stands=scheme.phase is Phase.STANDING,
-        )
-        begun = scheme.begun
+        begun = self.begun
         if begun is not None and begun.planning_time is not None:
             self._steps += 1
-        if self._walking_direction is None and scheme.phase is Phase.WALKING:
-            self._walking_direction = strategy.direction
+
+    def snapshot(self) -> Snapshot:
+        """Return the state at this instant."""
+        walk = self.scheme.locomotion.state
+        return snapshot_of(self.robot, frame=self.frame, walk=walk)
+
+    def motion_log(self, *, closely: bool) -> WalkerLog:
+        """Return an empty log of its motion."""
+        return WalkerLog(
+            self.robot, self.scheme.locomotion, self.frame, closely=closely
+        )
 
     def state(self) -> WalkerState:
         """Return the state that the robot reports to its client."""
         measurement = self._read()
         now, scheme = measurement.time, self.scheme
-        walk = scheme.state
-        velocity = limit_velocity(*self._velocity[:2], scheme.gait)
+        walk = scheme.locomotion.state
         return WalkerState(
             now,
-            scheme.decisions.templates.at(now),
-            VelocityCommand(*velocity),
+            scheme.templates.at(now),
+            VelocityCommand(*scheme.velocity),
             measurement.joint_positions.tolist(),
             self._sighting(measurement),
             self._image,
@@ -122,7 +120,7 @@ class VelocityWalker(SimulatedPlayer):
 
     def _present_step(self, now: float) -> FootCommand | None:
         """Return the step in progress, with its remaining time."""
-        walk = self.scheme.state
+        walk = self.scheme.locomotion.state
         plan = walk.plan
         if plan is None:
             return None
@@ -139,7 +137,7 @@ class VelocityWalker(SimulatedPlayer):
         Raises:
             ValueError: If the robot has no such joint.
         """
-        kinematics = self.scheme.kinematics
+        kinematics = self.scheme.locomotion.kinematics
         for name, angle in angles.items():
             self._head[kinematics.joint_names.index(name)] = angle
 
@@ -169,15 +167,11 @@ class VelocityWalker(SimulatedPlayer):
 
     def _sighting(self, measurement: Measurement) -> Sighting | None:
         """Return the sighting with its bearing relative to the template."""
-        sighting, decisions = measurement.sighting, self.scheme.decisions
+        sighting, scheme = measurement.sighting, self.scheme
         if sighting is None:
             return None
-        torso_heading = (
-            decisions.headings.at(sighting.time)
-            if self._updated
-            else self.scheme.kinematics.torso_heading
-        )
-        template_heading = decisions.templates.at(sighting.time).theta
+        template_heading = scheme.templates.at(sighting.time).theta
+        torso_heading = scheme.headings.at(sighting.time)
         bearing = wrap_angle(
             torso_heading + sighting.bearing - template_heading
         )
@@ -207,23 +201,22 @@ def place_velocity_walker(
         ReachError: If the legs cannot reach the initial stance of the gait.
     """
     tick = world.physics.tick
-    scheme = build_scheme(
-        StandStill(),
+    walk = build_walk(
         setup.description,
         setup.gait,
-        replace(setup.control, learn_turns=False),
+        setup.control,
         tick=tick,
         delay=setup.body.delay_cycles * tick,
-        senses=MeasuredSight(PLACEHOLDER),
         clearance=clearance,
     )
     robot = place_robot(
         world,
         setup,
-        scheme.kinematics,
+        walk.kinematics,
         sight=sight,
         eyes=eyes,
         truth=truth,
         clearance=clearance,
     )
+    scheme = VelocityScheme(walk, tick)
     return VelocityWalker(robot, scheme, setup.odometry_in_world)

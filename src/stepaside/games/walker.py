@@ -8,10 +8,8 @@ from ..control.scheme import LocomotionScheme
 from ..control.sight_sources import CameraSight
 from ..core.poses import Pose
 from ..locomotion.walk_snapshots import Phase, StepStarted
-from ..sim.ground_truth import GroundTruth
-from ..sim.push import Push
 from ..sim.simulated_robot import SimulatedRobot
-from .player import MotionLog, Snapshot, snapshot_of
+from .player import PhysicalPlayer, Snapshot, snapshot_of
 from .walker_log import WalkerLog
 
 if TYPE_CHECKING:
@@ -19,15 +17,12 @@ if TYPE_CHECKING:
     from ..perception.perception import Perception
 
 
-class RobotPlayer:
+class RobotPlayer(PhysicalPlayer):
     """Simulated robot with its controller.
 
     Attributes:
-        name: Name of the player.
-        robot: Simulated robot.
         scheme: Controller.
         frame: Pose of its odometry in the world.
-        truth: True state.
     """
 
     scheme: LocomotionScheme
@@ -36,9 +31,8 @@ class RobotPlayer:
         self, robot: SimulatedRobot, scheme: LocomotionScheme, frame: Pose
     ) -> None:
         """Combine a robot and its controller."""
-        self.name = robot.name
-        self.robot, self.scheme, self.frame = robot, scheme, frame
-        self.truth: GroundTruth = robot.truth
+        super().__init__(robot)
+        self.scheme, self.frame = scheme, frame
 
     @property
     def begun(self) -> StepStarted | None:
@@ -86,18 +80,6 @@ class RobotPlayer:
         walk = self.scheme.state
         return snapshot_of(self.robot, frame=self.frame, walk=walk)
 
-    def motion_log(self, *, closely: bool) -> MotionLog:
-        """Return an empty log of its motion."""
-        return self.robot.state_log()
-
-    def push(self, *pushes: Push) -> None:
-        """Schedule pushes of the torso, now or later."""
-        self.robot.push(*pushes)
-
-    def close(self) -> None:
-        """Close the cameras."""
-        self.robot.close()
-
 
 class SimulatedPlayer(RobotPlayer):
     """Simulated robot that walks by maneuvers.
@@ -127,4 +109,6 @@ class SimulatedPlayer(RobotPlayer):
 
     def motion_log(self, *, closely: bool) -> WalkerLog:
         """Return an empty log of its motion."""
-        return WalkerLog(self.robot, self.scheme, self.frame, closely=closely)
+        return WalkerLog(
+            self.robot, self.scheme.locomotion, self.frame, closely=closely
+        )

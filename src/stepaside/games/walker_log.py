@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from ..control import ControlScheme
 from ..core.poses import Array, Pose
 from ..core.row_table import RowTable
+from ..locomotion.locomotion import PlannedLocomotion
 from ..planning import Foot
 from ..sim.simulated_robot import SimulatedRobot
 
@@ -29,7 +29,7 @@ class WalkerLog:
     def __init__(
         self,
         robot: SimulatedRobot,
-        scheme: ControlScheme,
+        locomotion: PlannedLocomotion,
         frame: Pose,
         *,
         closely: bool,
@@ -38,11 +38,11 @@ class WalkerLog:
 
         Args:
             robot: The robot.
-            scheme: Its controller.
+            locomotion: Its locomotion.
             frame: Pose of its odometry in the world.
             closely: Whether to record foot states and estimates.
         """
-        self._robot, self._scheme, self._frame = robot, scheme, frame
+        self._robot, self._locomotion, self._frame = robot, locomotion, frame
         self._states = robot.state_log()
         self._references = RowTable(4)
         self._close = (
@@ -52,7 +52,7 @@ class WalkerLog:
     def add(self) -> None:
         """Sample the present state."""
         self._states.add()
-        self._references.append()[:] = self._scheme.locomotion.planned_centers
+        self._references.append()[:] = self._locomotion.planned_centers
         if self._close is not None:
             self._close.append()[:] = self._close_row()
 
@@ -75,7 +75,7 @@ class WalkerLog:
 
     def _close_row(self) -> tuple[float, ...]:
         """Return foot states and estimates, in the order of their columns."""
-        walk, stance = self._scheme.state, self._robot.stance
+        walk, stance = self._locomotion.state, self._robot.stance
         step = walk.step(self._robot.world.time)
         foot = step.swing.other
         single = float(step.walking and step.remaining > 0.0)

@@ -1,0 +1,101 @@
+"""Control of a robot that walks at commanded velocities."""
+
+from ..core.poses import Array, Pose
+from ..locomotion.locomotion import MotionRequest, PlannedLocomotion
+from ..locomotion.walk_snapshots import Phase
+from ..perception.measurement import Measurement
+from ..planning import Direction, Foot
+from .state_history import StateHistory
+from .turn_calibration import TurnCalibration
+from .velocity_walk import limit_velocity, request_at_velocity
+
+
+class VelocityScheme:
+    """Control of one robot whose steps follow a velocity command.
+
+    Turns are calibrated against the commanded ones.
+
+    Attributes:
+        locomotion: Locomotion, from steps to joint targets.
+        headings: Past headings of the torso in odometry, in [rad].
+        templates: Past poses of the template unicycle in odometry.
+    """
+
+    def __init__(self, locomotion: PlannedLocomotion, tick: float) -> None:
+        """Begin standing.
+
+        Args:
+            locomotion: Locomotion of the robot.
+            tick: Control period, in [s].
+        """
+        self.locomotion = locomotion
+        self.headings: StateHistory[float] = StateHistory(tick)
+        self.headings.note(0.0, locomotion.torso_heading)
+        self.templates: StateHistory[Pose] = StateHistory(tick)
+        self.templates.note(0.0, locomotion.pose)
+        self._commanded = (0.0, 0.0)
+        self._turns = TurnCalibration(tick)
+        self._walking_direction: Direction | None = None
+
+    @property
+    def velocity(self) -> tuple[float, float]:
+        """Driving velocity [m/s] and turning rate [rad/s] that it follows."""
+        return limit_velocity(*self._commanded, self.locomotion.gait)
+
+    def command(self, forward: float, turn: float) -> None:
+        """Walk at a velocity, in [m/s] and [rad/s], from the next tick on."""
+        self._commanded = forward, turn
+
+    def update(self, measurement: Measurement) -> Array:
+        """Run one control tick.
+
+        Args:
+            measurement: Measurement of the tick.
+
+        Returns:
+            Joint targets, in [rad]. Shape (joints,).
+
+        Raises:
+            ReachError: If the legs cannot follow the reference.
+        """
+        walk, now = self.locomotion, measurement.time
+        if walk.phase is Phase.STANDING:
+            self._walking_direction = None
+        self.headings.note(now + walk.heading_delay, walk.torso_heading)
+        request = self._request()
+        targets = walk.update(measurement, self)
+        self.templates.note(now + walk.pose_delay, walk.pose)
+        self._turns.note(
+            float(measurement.gyro[2]),
+            self.templates.at(now).theta,
+            stands=walk.phase is Phase.STANDING,
+        )
+        if self._walking_direction is None and walk.phase is Phase.WALKING:
+            self._walking_direction = request.direction
+        return targets
+
+    def starts(self, now: float) -> bool:
+        """Return whether a standing robot starts to walk.
+
+        See :class:`~stepaside.locomotion.locomotion.IntentSource`.
+        """
+        return self._request().intent.walks
+
+    def decide(
+        self, now: float, support: Pose, side: Foot, *, moving: bool
+    ) -> MotionRequest:
+        """Return the step that follows the command.
+
+        See :class:`~stepaside.locomotion.locomotion.IntentSource`.
+        """
+        return self._request()
+
+    def _request(self) -> MotionRequest:
+        """Return the request of the present command."""
+        forward, turn = self.velocity
+        return request_at_velocity(
+            forward,
+            turn / self._turns.share,
+            self.locomotion.gait,
+            under_way=self._walking_direction,
+        )
