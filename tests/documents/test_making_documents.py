@@ -257,10 +257,10 @@ def test_counts_of_people_have_intervals() -> None:
         **{"people": [row], "passers_by": [row], "rows": [row]},
         **{"came": [row], "passed": row},
     }
-    for name in ("people", "passers-by", "people-seen", "comers"):
+    for name in ("people", "passers-by", "people-seen", "people-fast-gait"):
         assert counted(0, 15) in TABLES[name](result)
     assert TABLES["people-passed-by"](result).count(counted(0, 15)) == 2
-    for name in ("people", "people-seen", "comers"):
+    for name in ("people", "people-seen", "people-fast-gait"):
         assert counted(3, 15) in TABLES[name](result)
 
 
@@ -299,7 +299,7 @@ def test_every_figure_of_survival_names_the_pursuer(page: str) -> None:
     store, seen = Store(), 0
     text = (ROOT / "docs" / f"{page}.md").read_text("utf-8")
     for match in BLOCK.finditer(text):
-        if match["table"] in ("polygons",):
+        if match["table"] in ("map-decisions",):
             continue
         head = make(match["names"], match["table"], store).splitlines()[0]
         assert "pursuer" in head or "against" in head, match["source"]
@@ -329,10 +329,10 @@ def test_choices_of_heading_and_point_become_means(tmp_path: Path) -> None:
         for seed, d in enumerate([0.8, 1.0])
     ]
     head = header({}, command="none")
-    write_result(tmp_path / "instants.json", head, rows=rows)
-    assert make("instants", "instants", Store(tmp_path)).endswith(
-        "| both feet | torso | 2 | 0.600 | 0.700 | 0.900 | 0.880 |"
-    )
+    write_result(tmp_path / "sight-definitions.json", head, rows=rows)
+    assert make(
+        "sight-definitions", "sight-definitions", Store(tmp_path)
+    ).endswith("| both feet | torso | 2 | 0.600 | 0.700 | 0.900 | 0.880 |")
 
 
 def test_all_results_stand_in_the_index(store: Store) -> None:

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from stepaside.studies.result_files import read_result
-from tools.documents.tables.peers import peers
+from tools.documents.tables.ros2_sessions import peers
 
 ROOT = Path(__file__).parents[2]
 

@@ -74,7 +74,7 @@ def play(seen: Seen) -> Row:
 
 def main() -> None:
     """Run the duels and write the results."""
-    asked = ask(__doc__, lambda given: f"seeing-{given.kind}.json")
+    asked = ask(__doc__, lambda given: f"camera-errors-{given.kind}.json")
     asked.add_argument("kind", choices=["plain", "degraded"])
     asked.add_argument("--seeds", type=seeds_of, default="302:309")
     asked.add_argument("--workers", type=int)

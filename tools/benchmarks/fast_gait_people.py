@@ -76,7 +76,7 @@ def row_of(kind: str, records: list[Record]) -> Record:
 
 def main() -> None:
     """Simulate the duels and write the results."""
-    parser = ask(__doc__, "comers.json")
+    parser = ask(__doc__, "people-fast-gait.json")
     parser.add_argument("--seeds", type=seeds_of, default=range(0, 50))
     parser.add_argument("--kinds", nargs="+", choices=KINDS, default=KINDS)
     parser.add_argument("--records", type=Path, default=Path("runs/comers"))

@@ -67,7 +67,7 @@ def together(rows: list[Row]) -> Row:
 
 def main() -> None:
     """Run the duels and write the results."""
-    asked = ask(__doc__, "floors.json")
+    asked = ask(__doc__, "floor-friction.json")
     asked.add_argument("--seeds", type=seeds_of, default="200:230")
     asked.add_argument("--workers", type=int)
     arguments = asked.parse_args()

@@ -177,7 +177,7 @@ def measure(recipe: RoomRecipe, fine: float, games: int) -> dict[str, Any]:
 
 def main() -> None:
     """Measure and write the results."""
-    asked = ask(__doc__, "polygons.json")
+    asked = ask(__doc__, "map-decisions.json")
     asked.add_argument("--games", type=int, default=40)
     arguments = asked.parse_args()
     head = header({"games": arguments.games}, modules=MODULES)

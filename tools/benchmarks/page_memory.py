@@ -92,7 +92,7 @@ def come_and_go(process: int, minutes: float) -> dict[str, Any]:
 
 def main() -> None:
     """Serve, measure and write the results."""
-    asked = ask(__doc__, "pages.json")
+    asked = ask(__doc__, "page-memory.json")
     asked.add_argument("--minutes", type=float, default=60.0)
     arguments = asked.parse_args()
     words = ["view", "--run", "--no-open", f"--port={PORT}", "--seed=7"]

@@ -102,7 +102,7 @@ def resident() -> float:
 
 def main() -> None:
     """Simulate the games and write the results."""
-    asked = ask(__doc__, "coming-and-going.json")
+    asked = ask(__doc__, "repeated-visits.json")
     asked.add_argument("--minutes", type=float, default=30.0)
     asked.add_argument("--speed", type=float, default=0.5)
     asked.add_argument("--seed", type=int, default=1)

@@ -40,7 +40,7 @@ def call(*words: str) -> None:
 
 def main() -> None:
     """Run a duel, write each file, and write the results."""
-    asked = ask(__doc__, "replay.json")
+    asked = ask(__doc__, "replay-exports.json")
     asked.add_argument("--seed", type=int, default=7)
     arguments = asked.parse_args()
     files = {}

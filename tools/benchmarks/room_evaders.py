@@ -42,7 +42,7 @@ MET = (  # room and evader that play against all pursuers
 
 def main() -> None:
     """Run the tournaments and write the results."""
-    asked = ask(__doc__, "evading.json")
+    asked = ask(__doc__, "room-evaders.json")
     asked.add_argument("--seeds", type=seeds_of, default=range(1000, 1300))
     asked.add_argument("--small", type=seeds_of, default=range(1000, 1050))
     asked.add_argument("--workers", type=int)

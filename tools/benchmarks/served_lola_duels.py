@@ -24,7 +24,7 @@ def ready(world: Any, folder: Path) -> None:
 
 def main() -> None:
     """Run each body in lockstep and in real time."""
-    parser = ask(__doc__, "served.json")
+    parser = ask(__doc__, "served-lola.json")
     parser.add_argument("--seed", type=int, default=7)
     parser.add_argument("--duration", type=float, default=120.0)
     arguments = parser.parse_args()

@@ -12,7 +12,7 @@ DUELS = (  # motion interface, body, whether in lockstep
 
 def main() -> None:
     """Run every motion interface."""
-    parser = ask(__doc__, "stepped.json")
+    parser = ask(__doc__, "served-naoqi.json")
     parser.add_argument("--seed", type=int, default=7)
     parser.add_argument("--duration", type=float, default=120.0)
     arguments = parser.parse_args()

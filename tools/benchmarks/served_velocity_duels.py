@@ -72,7 +72,7 @@ def played(
 
 def main() -> None:
     """Run every interface with every body, in lockstep and in real time."""
-    parser = ask(__doc__, "driven.json")
+    parser = ask(__doc__, "served-velocities.json")
     parser.add_argument("--seed", type=int, default=7)
     parser.add_argument("--duration", type=float, default=120.0)
     arguments = parser.parse_args()

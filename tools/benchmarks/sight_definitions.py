@@ -3,7 +3,7 @@
 The desired heading is the direction of the line of sight minus a heading: that
 of the path at the time of the sighting (used), that of the foot that landed
 last, or the mean of both feet. The sighted point is the midpoint between the
-feet (used) or the torso. Writes docs/results/instants.json.
+feet (used) or the torso. Writes docs/results/sight-definitions.json.
 """
 
 import os
@@ -129,7 +129,7 @@ def _between_torsos(run: DuelRun) -> float:
 
 def main() -> None:
     """Run every combination with every seed."""
-    parser = ask(__doc__, "instants.json")
+    parser = ask(__doc__, "sight-definitions.json")
     parser.add_argument("--seeds", type=seeds_of, default=range(7, 11))
     asked = parser.parse_args()
     settings = DuelSettings(duration=DURATION)

@@ -30,7 +30,7 @@ def walk(settings: WalkSettings) -> Row:
 
 def main() -> None:
     """Simulate the walks and write the results."""
-    parser = ask(__doc__, "turning.json")
+    parser = ask(__doc__, "turn-ratio.json")
     parser.add_argument("--workers", type=int)
     asked = parser.parse_args()
     head = header({"duration_s": DURATION, "bearings_rad": BEARINGS})

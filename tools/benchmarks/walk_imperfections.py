@@ -79,7 +79,7 @@ def walks(seeds: range) -> dict[str, WalkSettings]:
 
 def main() -> None:
     """Simulate the walks and write the results."""
-    asked = ask(__doc__, "walking.json")
+    asked = ask(__doc__, "walk-imperfections.json")
     asked.add_argument("--seeds", type=seeds_of, default="1:11")
     asked.add_argument("--workers", type=int)
     arguments = asked.parse_args()

@@ -109,7 +109,7 @@ def passed_by(*results: Mapping[str, Any]) -> str:
     )
 
 
-def comers(*results: Mapping[str, Any]) -> str:
+def fast_gait(*results: Mapping[str, Any]) -> str:
     """List people from ahead who approach or pass, one per seed."""
     rows = [
         (

@@ -47,7 +47,7 @@ def outcomes(result: Mapping[str, Any]) -> str:
     )
 
 
-def polygons(result: Mapping[str, Any]) -> str:
+def map_decisions(result: Mapping[str, Any]) -> str:
     """List the time of a decision by size of the map."""
     parts = ("look-ahead", "pursuit", "guard")
     return table(

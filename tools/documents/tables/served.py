@@ -17,7 +17,7 @@ HEAD = (
 WAYS = {"ros2": "ROS 2", "naoqi": "NAOqi"}
 
 
-def duels(result: Mapping[str, Any]) -> str:
+def lola(result: Mapping[str, Any]) -> str:
     """List duels with joint control."""
     return table(
         (*HEAD, "unanswered frames"),
@@ -28,7 +28,7 @@ def duels(result: Mapping[str, Any]) -> str:
     )
 
 
-def driven(result: Mapping[str, Any]) -> str:
+def velocities(result: Mapping[str, Any]) -> str:
     """List duels of robots with velocity control."""
     return table(
         ("over", *HEAD),
@@ -36,7 +36,7 @@ def driven(result: Mapping[str, Any]) -> str:
     )
 
 
-def stepped(result: Mapping[str, Any]) -> str:
+def naoqi(result: Mapping[str, Any]) -> str:
     """List duels over NAOqi by motion interface."""
     return table(
         ("by", *HEAD), ((row["by"], *_duel(row)) for row in result["rows"])

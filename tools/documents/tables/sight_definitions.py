@@ -17,7 +17,7 @@ HEAD = (
 HEADINGS = {"path": "path, where the body is"}
 
 
-def instants(result: Mapping[str, Any]) -> str:
+def sight_definitions(result: Mapping[str, Any]) -> str:
     """List means over the seeds for each combination."""
     groups: dict[tuple[str, str], list[Mapping[str, Any]]] = {}
     for row in result["rows"]:
