@@ -106,7 +106,9 @@ def test_a_file_name_recurs_only_for_a_command() -> None:
     assert not [name for name, times in names.items() if times > 1]
 
 
-@pytest.mark.parametrize("package", ["planning", "control", "games"])
+@pytest.mark.parametrize(
+    "package", ["planning", "strategies", "control", "games"]
+)
 def test_every_public_name_exists(package: str) -> None:
     module = import_module(f"stepaside.{package}")
     assert list(module.__all__) == sorted(set(module.__all__))

@@ -1,7 +1,7 @@
 """Command-line interface: the group of all commands and its errors."""
 
+import gc
 import sys
-from concurrent.futures import BrokenExecutor
 from importlib import import_module
 from typing import Any, NoReturn
 
@@ -41,6 +41,11 @@ COMMANDS = {
 }
 
 
+# Containers made between two searches for garbage in cycles: imports make
+# hundreds of thousands, and none of them is garbage.
+GARBAGE = 100_000
+
+
 class LazyGroup(click.Group):
     """Command group that imports each command on first use."""
 
@@ -68,6 +73,7 @@ class LazyGroup(click.Group):
     def main(self, *args: Any, **extra: Any) -> NoReturn:
         """Run a command; report each expected error in one line, status 2."""
         extra["standalone_mode"] = False
+        gc.set_threshold(GARBAGE)
         try:
             with interruptible():
                 status = super().main(*args, **extra)
@@ -77,7 +83,7 @@ class LazyGroup(click.Group):
             _refuse(str(error))
         except ModuleNotFoundError as error:
             _refuse(install_hint(error))
-        except BrokenExecutor:
+        except _errors_of_executors():
             _refuse(
                 "a worker process was killed, possibly out of memory; "
                 "finished results are saved"
@@ -110,6 +116,13 @@ def all_commands() -> dict[str, click.Command]:
                     continue
             commands[full_name] = command
     return commands
+
+
+def _errors_of_executors() -> type[Exception]:
+    """Return the error of a lost worker; its module is imported late."""
+    from concurrent.futures import BrokenExecutor
+
+    return BrokenExecutor
 
 
 def _leave() -> NoReturn:

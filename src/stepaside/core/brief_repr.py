@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import MISSING, fields, is_dataclass
-from html import escape
 from typing import Any
 
 MOST = 4  # longest list or mapping written out, in [entries]
@@ -36,6 +35,8 @@ def html_repr(value: Any) -> str:
     Args:
         value: Instance of a dataclass or of a named tuple.
     """
+    from html import escape
+
     rows = "".join(
         f"<tr><td>{escape(name)}</td><td>{_marked(text, changed)}</td></tr>"
         for name, text, changed in _rows(value)
@@ -55,6 +56,8 @@ def _rows(value: Any, prefix: str = "") -> Iterator[tuple[str, str, bool]]:
 
 
 def _marked(text: str, is_bold: bool) -> str:
+    from html import escape
+
     return f"<b>{escape(text)}</b>" if is_bold else escape(text)
 
 

@@ -6,7 +6,6 @@ from math import degrees, isfinite, pi
 import numpy as np
 
 from ..core.poses import Array, Pose
-from ..locomotion.policy.legs_loader import load_legs
 from ..robots.description import load_robot
 from ..sim.person_motion import PersonMotion, template_approach
 from ..strategies import load_strategy
@@ -158,6 +157,8 @@ def _closest_approach(settings: DuelSettings) -> float | None:
         Pose(start.distance, 0.0, pi + (start.evader_offset or 0.0)),
     )
     if legs.walks:
+        from ..locomotion.policy.legs_loader import load_legs
+
         policy = load_legs(
             legs, load_robot(own.robot), tick=settings.physics.tick
         )

@@ -30,7 +30,6 @@ from .duel_settings import EVADER, PLAYERS, PURSUER, DuelSettings
 from .person_player import PersonPlayer
 from .player import Player
 from .served_player import ServedPlayer
-from .velocity_walker import place_velocity_walker
 from .walker import RobotPlayer
 from .walker_factory import (
     CameraSensing,
@@ -223,6 +222,8 @@ class DuelWorld:
         if settings.map.source == "given":  # it builds no map of its own
             clearance = clearance_in(settings.room.plan, settings.map, setup)
         if balances:
+            from .velocity_walker import place_velocity_walker
+
             return place_velocity_walker(
                 self.world,
                 setup,

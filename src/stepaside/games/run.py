@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from html import escape
 from itertools import combinations
 from math import degrees, isfinite
 from typing import (
@@ -135,6 +134,8 @@ class GameRun(Generic[SettingsT, SummaryT]):
 
     def _repr_html_(self) -> str:
         """Return the description and the summary, for notebooks."""
+        from html import escape
+
         return f"<p>{escape(repr(self))}</p>{html_repr(self.summary)}"
 
     @property

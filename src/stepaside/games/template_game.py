@@ -8,10 +8,6 @@ import numpy as np
 
 from ..core.poses import Array, Pose, wrap_angle
 from ..locomotion.locomotion import MotionRequest
-from ..locomotion.policy.policy_walk import (
-    decision_interval,
-    template_velocity,
-)
 from ..planning import GaitSettings
 from ..planning.path import UnicycleTrajectory
 from ..sim.person_motion import PersonMotion, Place
@@ -143,6 +139,11 @@ def play_point(
     Returns:
         Motion of both.
     """
+    from ..locomotion.policy.policy_walk import (
+        decision_interval,
+        template_velocity,
+    )
+
     limits = limits_of(gait, velocities)
     memory, pose = strategy.begin(), evader
     walk = motion(start, (evader.x, evader.y))

@@ -10,7 +10,6 @@ import re
 from base64 import b64encode
 from collections.abc import Mapping
 from hashlib import sha256
-from html import escape
 from typing import Any
 from unicodedata import category
 
@@ -80,6 +79,8 @@ def fill_page(template: str, texts: Mapping[str, str], run: Any) -> str:
         texts: Untrusted text for the placeholders.
         run: JSON value for ``@@RUN@@``.
     """
+    from html import escape
+
     filled = {name: escape(visible(text)) for name, text in texts.items()}
     filled |= {"RUN": for_script(run), "POLICY": policy_of(template)}
     return PLACEHOLDER.sub(lambda match: filled[match[1]], template)

@@ -1,6 +1,5 @@
 """Walks of a person: steering, straight, repeated or recorded."""
 
-import csv
 from collections.abc import Callable
 from math import atan2, cos, inf, pi, sin
 from pathlib import Path
@@ -122,6 +121,8 @@ def read_path(file: Path) -> Array:
     Raises:
         ConfigurationError: If the file is unreadable or invalid.
     """
+    import csv
+
     try:
         with file.open(encoding="utf-8", newline="") as lines:
             rows = list(csv.reader(lines))

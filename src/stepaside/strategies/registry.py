@@ -1,4 +1,7 @@
-"""Registry of strategies: by name, and from user files."""
+"""Registry of strategies: by name, and from user files.
+
+The module of a strategy is imported when it is made.
+"""
 
 import re
 from collections.abc import Callable, Mapping
@@ -8,6 +11,7 @@ from pathlib import Path
 from types import FunctionType, ModuleType
 from typing import Any
 
+from .. import strategies
 from ..core.errors import ConfigurationError
 from ..core.setting import ranges_of
 from ..core.user_file import (
@@ -16,55 +20,41 @@ from ..core.user_file import (
     load_user_file,
     shown_briefly,
 )
-from .constant_walk import StandStill, Walk
-from .dash_evasion import CHASER_RADIUS, DashEvasion
-from .deflected_evasion import DeflectedEvasion
 from .evasion import Evasion
-from .goal_walk import GoalWalk
-from .herding import HerdingPursuit
-from .irregular_pursuit import NoisyPursuit, WaitingPursuit
-from .lead_pursuit import LeadPursuit
-from .learned import load_learned_strategy
-from .look_ahead import LookAhead
-from .optimal_evasion import OptimalEvasion
-from .optimal_pursuit import OptimalPursuit
-from .pursuit import Pursuit
-from .robust_evasion import RobustEvasion
 from .strategy import Strategy
 from .strategy_validation import validate_strategy
-from .team_evasion import TeamEvasion
-from .team_pursuit import (
-    AssignedPursuit,
-    CyclicPursuit,
-    Encirclement,
-    Pincer,
-)
+
+
+def _matador() -> Strategy:
+    """Return the dash evader against a person who chases the robot."""
+    from .dash_evasion import CHASER_RADIUS, DashEvasion
+
+    return DashEvasion(CHASER_RADIUS, enough=inf, contact_time=6.0)
+
 
 STRATEGIES: Mapping[str, Callable[[Evasion], Strategy]] = {
     "evasion": lambda evasion: evasion,
-    "deflected": lambda evasion: DeflectedEvasion(evasion),
-    "look-ahead": lambda evasion: LookAhead(),
-    "robust": lambda evasion: RobustEvasion(),
-    "optimal": lambda evasion: OptimalEvasion(),
-    "step-aside": lambda evasion: DashEvasion(),
-    "matador": lambda evasion: DashEvasion(
-        CHASER_RADIUS, enough=inf, contact_time=6.0
-    ),
-    "pursuit": lambda evasion: Pursuit(),
-    "sharp": lambda evasion: Pursuit(gain_ratio=inf),
-    "herding": lambda evasion: HerdingPursuit(),
-    "lead": lambda evasion: LeadPursuit(),
-    "noisy": lambda evasion: NoisyPursuit(),
-    "stop-and-wait": lambda evasion: WaitingPursuit(),
-    "optimal-pursuit": lambda evasion: OptimalPursuit(),
-    "cyclic": lambda evasion: CyclicPursuit(),
-    "assigned": lambda evasion: AssignedPursuit(),
-    "encircle": lambda evasion: Encirclement(),
-    "pincer": lambda evasion: Pincer(),
-    "team-evasion": lambda evasion: TeamEvasion(),
-    "goal": lambda evasion: GoalWalk(),
-    "stand": lambda evasion: StandStill(),
-    "walk": lambda evasion: Walk(),
+    "deflected": lambda evasion: strategies.DeflectedEvasion(evasion),
+    "look-ahead": lambda evasion: strategies.LookAhead(),
+    "robust": lambda evasion: strategies.RobustEvasion(),
+    "optimal": lambda evasion: strategies.OptimalEvasion(),
+    "step-aside": lambda evasion: strategies.DashEvasion(),
+    "matador": lambda evasion: _matador(),
+    "pursuit": lambda evasion: strategies.Pursuit(),
+    "sharp": lambda evasion: strategies.Pursuit(gain_ratio=inf),
+    "herding": lambda evasion: strategies.HerdingPursuit(),
+    "lead": lambda evasion: strategies.LeadPursuit(),
+    "noisy": lambda evasion: strategies.NoisyPursuit(),
+    "stop-and-wait": lambda evasion: strategies.WaitingPursuit(),
+    "optimal-pursuit": lambda evasion: strategies.OptimalPursuit(),
+    "cyclic": lambda evasion: strategies.CyclicPursuit(),
+    "assigned": lambda evasion: strategies.AssignedPursuit(),
+    "encircle": lambda evasion: strategies.Encirclement(),
+    "pincer": lambda evasion: strategies.Pincer(),
+    "team-evasion": lambda evasion: strategies.TeamEvasion(),
+    "goal": lambda evasion: strategies.GoalWalk(),
+    "stand": lambda evasion: strategies.StandStill(),
+    "walk": lambda evasion: strategies.Walk(),
 }
 """Factory of each named strategy, given the settings of the paper's evader."""
 
@@ -127,7 +117,7 @@ def check_strategy_name(
     if name in STRATEGIES:
         return
     if with_gain := _WITH_GAIN.fullmatch(name):
-        ranges_of(Pursuit)["gain_ratio"].check(
+        ranges_of(strategies.Pursuit)["gain_ratio"].check(
             float(with_gain["ratio"]), f"RATIO of {what} pursuit-xRATIO"
         )
         return
@@ -171,8 +161,10 @@ def load_strategy(
         )
     check_strategy_name(name)
     if with_gain := _WITH_GAIN.fullmatch(name):
-        return Pursuit(gain_ratio=float(with_gain["ratio"]))
+        return strategies.Pursuit(gain_ratio=float(with_gain["ratio"]))
     if _NETWORK.fullmatch(name):
+        from .learned import load_learned_strategy
+
         learned = load_learned_strategy(name)
         validate_strategy(learned, name)
         return learned

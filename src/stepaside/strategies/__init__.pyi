@@ -1,0 +1,73 @@
+from .constant_walk import StandStill as StandStill
+from .constant_walk import Walk as Walk
+from .dash_evasion import DashEvasion as DashEvasion
+from .deflected_evasion import DeflectedEvasion as DeflectedEvasion
+from .evasion import Evasion as Evasion
+from .evasion import EvasionMemory as EvasionMemory
+from .goal_walk import GoalWalk as GoalWalk
+from .herding import HerdingPursuit as HerdingPursuit
+from .irregular_pursuit import NoisyPursuit as NoisyPursuit
+from .irregular_pursuit import WaitingPursuit as WaitingPursuit
+from .knowledge import STAND as STAND
+from .knowledge import Intent as Intent
+from .knowledge import Knowledge as Knowledge
+from .knowledge import Limits as Limits
+from .lead_pursuit import LeadPursuit as LeadPursuit
+from .learned import LearnedStrategy as LearnedStrategy
+from .look_ahead import LookAhead as LookAhead
+from .optimal_evasion import OptimalEvasion as OptimalEvasion
+from .optimal_pursuit import OptimalPursuit as OptimalPursuit
+from .pursuit import Pursuit as Pursuit
+from .registry import STRATEGIES as STRATEGIES
+from .registry import load_strategy as load_strategy
+from .robust_evasion import RobustEvasion as RobustEvasion
+from .strategy import Strategy as Strategy
+from .strategy_game import StepGame as StepGame
+from .strategy_game import StrategyOutcome as StrategyOutcome
+from .strategy_game import StrategyTrack as StrategyTrack
+from .strategy_game import UnicycleMatch as UnicycleMatch
+from .strategy_game import play_strategies as play_strategies
+from .team_evasion import TeamEvasion as TeamEvasion
+from .team_pursuit import AssignedPursuit as AssignedPursuit
+from .team_pursuit import CyclicPursuit as CyclicPursuit
+from .team_pursuit import Encirclement as Encirclement
+from .team_pursuit import Pincer as Pincer
+from .teleoperation import TeleoperatedPursuit as TeleoperatedPursuit
+
+__all__ = [
+    "AssignedPursuit",
+    "CyclicPursuit",
+    "DashEvasion",
+    "DeflectedEvasion",
+    "Encirclement",
+    "Evasion",
+    "EvasionMemory",
+    "GoalWalk",
+    "HerdingPursuit",
+    "Intent",
+    "Knowledge",
+    "LeadPursuit",
+    "LearnedStrategy",
+    "Limits",
+    "LookAhead",
+    "NoisyPursuit",
+    "OptimalEvasion",
+    "OptimalPursuit",
+    "Pincer",
+    "Pursuit",
+    "RobustEvasion",
+    "STAND",
+    "STRATEGIES",
+    "StandStill",
+    "StepGame",
+    "Strategy",
+    "StrategyOutcome",
+    "StrategyTrack",
+    "TeamEvasion",
+    "TeleoperatedPursuit",
+    "UnicycleMatch",
+    "WaitingPursuit",
+    "Walk",
+    "load_strategy",
+    "play_strategies",
+]
