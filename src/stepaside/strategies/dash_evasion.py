@@ -8,7 +8,6 @@ import numpy as np
 
 from ..core.errors import ConfigurationError, check_positive, check_within
 from ..core.poses import Array, Pose, wrap_angle
-from ..planning import Direction
 from .dash_rollouts import (
     Opponent,
     closest_approaches,
@@ -17,6 +16,7 @@ from .dash_rollouts import (
     roll_out,
 )
 from .knowledge import STAND, Intent, Knowledge, Limits
+from .strategy import BackwardStrategy
 from .velocity_set import STILL, BodyVelocity, VelocitySet, respond
 
 INTERVAL = 0.08  # between comparisons of a standing robot, in [s]
@@ -70,7 +70,7 @@ class DashMemory(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class DashEvasion:
+class DashEvasion(BackwardStrategy):
     """Evader that takes the straight dash with the largest clearance.
 
     At each decision it rolls out standing, dashes in all directions, and the
@@ -111,16 +111,6 @@ class DashEvasion:
         check_positive(self.contact_time, "contact_time", "s", error)
         check_within(self.horizon, 0.5, 20.0, "horizon", "s", error)
         check_within(self.directions, 4, 360, "directions", "1", error)
-
-    @property
-    def direction(self) -> Direction:
-        """Backward, where the legs are those of a unicycle."""
-        return Direction.BACKWARD
-
-    @property
-    def saturated(self) -> bool:
-        """False: a unicycle turns by (4)."""
-        return False
 
     def begin(self) -> DashMemory:
         """Return the memory before the first sighting."""

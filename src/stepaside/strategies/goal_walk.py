@@ -9,9 +9,8 @@ import numpy as np
 from ..core.poses import Pose, wrap_angle
 from ..core.ranges import Range
 from ..core.setting import check_settings, setting
-from ..planning import Direction
 from .knowledge import STAND, Intent, Knowledge
-from .pursuit import Pursuit
+from .pursuit import Pursuit, PursuitVariant
 
 ARRIVED = 0.2  # distance from the goal at which it halts, in [m]
 HORIZON = 4.0  # of the prediction, in [s]
@@ -21,7 +20,7 @@ SOON = 2.5  # time to a predicted contact at which it halts, in [s]
 
 
 @dataclass(frozen=True, slots=True)
-class GoalWalk:
+class GoalWalk(PursuitVariant):
     """Walk to a goal, giving way to others.
 
     Among headings to both sides of the way to the goal it takes the one that
@@ -48,20 +47,6 @@ class GoalWalk:
     def __post_init__(self) -> None:
         """Validate the settings."""
         check_settings(self)
-
-    @property
-    def direction(self) -> Direction:
-        """Forward, eq. (1)."""
-        return Direction.FORWARD
-
-    @property
-    def saturated(self) -> bool:
-        """Whether it turns by (6) instead of (8)."""
-        return self.pursuit.saturated
-
-    def begin(self) -> Any:
-        """Return the memory of :class:`Pursuit` before the first decision."""
-        return self.pursuit.begin()
 
     def decide(self, knowledge: Knowledge, memory: Any) -> tuple[Intent, Any]:
         """Head for the goal, beside others, and halt there."""

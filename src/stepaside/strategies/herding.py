@@ -4,15 +4,14 @@ from dataclasses import dataclass, field, replace
 from math import atan2, cos, hypot, sin
 
 from ..core.poses import wrap_angle
-from ..planning import Direction
 from .knowledge import Intent, Knowledge
-from .pursuit import Pursuit
+from .pursuit import Pursuit, PursuitVariant
 
 NEAR = 1e-6  # distance from the centre at which it has no bearing, in [m]
 
 
 @dataclass(frozen=True, slots=True)
-class HerdingPursuit:
+class HerdingPursuit(PursuitVariant):
     """Pursuer that heads between the evader and the centre of the room.
 
     Its target point divides the segment from the evader to the centre in
@@ -30,20 +29,6 @@ class HerdingPursuit:
 
     center: tuple[float, float] = (0.0, 0.0)
     pursuit: Pursuit = field(default_factory=Pursuit)
-
-    @property
-    def direction(self) -> Direction:
-        """Forward, eq. (1)."""
-        return Direction.FORWARD
-
-    @property
-    def saturated(self) -> bool:
-        """Whether it turns by (6) instead of (8)."""
-        return self.pursuit.saturated
-
-    def begin(self) -> int | None:
-        """Return the memory of :class:`Pursuit` before the first decision."""
-        return self.pursuit.begin()
 
     def decide(
         self, knowledge: Knowledge, memory: int | None

@@ -10,15 +10,14 @@ from ..core.errors import (
 )
 from ..core.poses import wrap_angle
 from ..core.random_streams import named_generator
-from ..planning import Direction
 from .knowledge import STAND, Intent, Knowledge
-from .pursuit import Pursuit
+from .pursuit import Pursuit, PursuitVariant
 
 ERROR = ConfigurationError
 
 
 @dataclass(frozen=True, slots=True)
-class WaitingPursuit:
+class WaitingPursuit(PursuitVariant):
     """The paper's pursuer, which stops and waits again and again.
 
     Attributes:
@@ -36,20 +35,6 @@ class WaitingPursuit:
         check_positive(self.walking, "walking", "s", ERROR)
         check_not_negative(self.waiting, "waiting", "s", ERROR)
 
-    @property
-    def direction(self) -> Direction:
-        """Forward, eq. (1)."""
-        return Direction.FORWARD
-
-    @property
-    def saturated(self) -> bool:
-        """Whether it turns by (6) instead of (8)."""
-        return self.pursuit.saturated
-
-    def begin(self) -> int | None:
-        """Return the memory of the pursuit."""
-        return self.pursuit.begin()
-
     def decide(
         self, knowledge: Knowledge, memory: int | None
     ) -> tuple[Intent, int | None]:
@@ -61,7 +46,7 @@ class WaitingPursuit:
 
 
 @dataclass(frozen=True, slots=True)
-class NoisyPursuit:
+class NoisyPursuit(PursuitVariant):
     """The paper's pursuer with a random error of its bearing.
 
     Attributes:
@@ -77,20 +62,6 @@ class NoisyPursuit:
     def __post_init__(self) -> None:
         """Validate the settings."""
         check_not_negative(self.deviation, "deviation", "rad", ERROR)
-
-    @property
-    def direction(self) -> Direction:
-        """Forward, eq. (1)."""
-        return Direction.FORWARD
-
-    @property
-    def saturated(self) -> bool:
-        """Whether it turns by (6) instead of (8)."""
-        return self.pursuit.saturated
-
-    def begin(self) -> int | None:
-        """Return the memory of the pursuit."""
-        return self.pursuit.begin()
 
     def decide(
         self, knowledge: Knowledge, memory: int | None

@@ -14,7 +14,6 @@ from ..core.errors import (
     check_within,
 )
 from ..core.poses import Pose
-from ..planning import Direction
 from .bound_cache import pursuit_table
 from .knowledge import ON_THE_SPOT, STAND, Intent, Knowledge, Limits
 from .opponent_track import Trace, note, pursuer_heading
@@ -27,6 +26,7 @@ from .search import (
 )
 from .search.candidate_maneuvers import DEEPEST
 from .search.step_motion import half_turn, step_both
+from .strategy import BackwardStrategy
 
 
 def poses_at_sighting(trace: Trace, heading: float) -> PlayerPair:
@@ -115,7 +115,7 @@ class LookAheadMemory(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class LookAhead:
+class LookAhead(BackwardStrategy):
     """Predictive evader: execute the first step of the best maneuver.
 
     A maneuver is a sequence of pieces with a constant turn each, followed by
@@ -189,16 +189,6 @@ class LookAhead:
             )
         if self.cells != 0:
             check_within(self.cells, 16, 200, "cells", "1", ERROR)
-
-    @property
-    def direction(self) -> Direction:
-        """Backward, eq. (3)."""
-        return Direction.BACKWARD
-
-    @property
-    def saturated(self) -> bool:
-        """False: it turns by (4)."""
-        return False
 
     def begin(self) -> LookAheadMemory:
         """Return the memory before the first sighting."""

@@ -3,15 +3,15 @@
 from dataclasses import dataclass, field, replace
 
 from ..arena import NO_OBSTACLES
-from ..planning import Direction
 from .knowledge import Intent, Knowledge
 from .look_ahead import LookAhead, LookAheadMemory
+from .strategy import BackwardStrategy
 
 TURNS = 15  # tried per step
 
 
 @dataclass(frozen=True, slots=True)
-class OptimalEvasion:
+class OptimalEvasion(BackwardStrategy):
     """Evader that maximises the value of the table after one step.
 
     The table holds for an open floor: obstacles are ignored.
@@ -28,16 +28,6 @@ class OptimalEvasion:
         """Prepare the search over one step."""
         step = LookAhead(pieces=(1,), turns=TURNS, tail=0, cells=self.cells)
         object.__setattr__(self, "step", step)
-
-    @property
-    def direction(self) -> Direction:
-        """Backward, eq. (3)."""
-        return Direction.BACKWARD
-
-    @property
-    def saturated(self) -> bool:
-        """False: it turns by (4)."""
-        return False
 
     def begin(self) -> LookAheadMemory:
         """Return the memory before the first sighting."""

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from math import atan2, cos, inf, pi, sin
+from typing import Any
 
 import numpy as np
 
@@ -102,3 +103,29 @@ class Pursuit:
             knowledge.obstacles_in_map, (x, y), evader, self.body_radius, side
         )
         return wrap_angle(atan2(v - y, u - x) - theta)
+
+
+class PursuitVariant:
+    """Base of strategies that drive and turn as a pursuit of their own.
+
+    Attributes:
+        pursuit: Pursuit of the target that the strategy chooses.
+    """
+
+    __slots__ = ()
+
+    pursuit: Pursuit
+
+    @property
+    def direction(self) -> Direction:
+        """Forward, eq. (1)."""
+        return self.pursuit.direction
+
+    @property
+    def saturated(self) -> bool:
+        """Whether it turns by (6) instead of (8)."""
+        return self.pursuit.saturated
+
+    def begin(self) -> Any:
+        """Return the memory of the pursuit."""
+        return self.pursuit.begin()

@@ -10,10 +10,10 @@ import numpy as np
 from ..core.constants import CAPTURE_DISTANCE
 from ..core.errors import ConfigurationError, check_positive, check_within
 from ..core.poses import Array
-from ..planning import Direction
 from .knowledge import ON_THE_SPOT, Intent, Knowledge
 from .opponent_models import MODELS, ModelFit
 from .search.pursuer_model import BeamRules
+from .strategy import BackwardStrategy
 
 ERROR = ConfigurationError
 MARGIN = 0.005  # in addition to the required clearance, in [m]
@@ -40,7 +40,7 @@ class RobustMemory(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class RobustEvasion:
+class RobustEvasion(BackwardStrategy):
     """Evader that plans against every model of the pursuer that is plausible.
 
     The models that explain the last seconds are kept; for each a beam search
@@ -66,16 +66,6 @@ class RobustEvasion:
         check_within(self.horizon, 1, 1000, "horizon", "1", ERROR)
         check_positive(self.capture, "capture", "m", ERROR)
         check_positive(self.body_radius, "body_radius", "m", ERROR)
-
-    @property
-    def direction(self) -> Direction:
-        """Backward, eq. (3)."""
-        return Direction.BACKWARD
-
-    @property
-    def saturated(self) -> bool:
-        """False: it turns by (4)."""
-        return False
 
     def begin(self) -> RobustMemory:
         """Return the memory before the first sighting."""

@@ -44,6 +44,22 @@ class Strategy(Protocol):
         """
 
 
+class BackwardStrategy:
+    """Base of evaders that drive backward, eq. (3), and turn by (8)."""
+
+    __slots__ = ()
+
+    @property
+    def direction(self) -> Direction:
+        """Backward, where the body is that of a unicycle."""
+        return Direction.BACKWARD
+
+    @property
+    def saturated(self) -> bool:
+        """False: it turns by (8)."""
+        return False
+
+
 def evaluate_strategy(
     strategy: Strategy, knowledge: Knowledge, memory: Any
 ) -> tuple[Intent, Any]:

@@ -9,10 +9,9 @@ import numpy as np
 from ..core.poses import wrap_angle
 from ..core.ranges import Range
 from ..core.setting import check_settings, setting
-from ..planning import Direction
 from .assignment import assign
 from .knowledge import STAND, Intent, Knowledge
-from .pursuit import Pursuit
+from .pursuit import Pursuit, PursuitVariant
 
 APART = 0.7  # from teammates from which pursuers turn away, in [m]
 TOO_NEAR = 0.45  # to a teammate ahead at which a pursuer halts, in [m]
@@ -23,24 +22,10 @@ Point = tuple[float, float]
 
 
 @dataclass(frozen=True, slots=True)
-class _TeamPursuit:
+class _TeamPursuit(PursuitVariant):
     """Base of pursuers that choose a point and head for it as the paper's."""
 
     pursuit: Pursuit = field(default_factory=Pursuit)
-
-    @property
-    def direction(self) -> Direction:
-        """Forward, eq. (1)."""
-        return Direction.FORWARD
-
-    @property
-    def saturated(self) -> bool:
-        """Whether it turns by (6) instead of (8)."""
-        return self.pursuit.saturated
-
-    def begin(self) -> Any:
-        """Return the memory of :class:`Pursuit` before the first decision."""
-        return self.pursuit.begin()
 
 
 @dataclass(frozen=True, slots=True)
