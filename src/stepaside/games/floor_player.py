@@ -311,7 +311,7 @@ class FloorPlayer:
             ConfigurationError: Always.
         """
         raise ConfigurationError(
-            f"a push needs a robot, got {self.name}, which is none"
+            f"only a robot can be pushed, got {self.name}"
         )
 
     def close(self) -> None:

@@ -393,8 +393,3 @@ def is_walk(run: Run) -> TypeGuard[WalkRun]:
 def is_play(run: Run) -> TypeGuard[PlayRun]:
     """Return whether a run is one of a play at a robot."""
     return isinstance(run.settings, PlaySettings)
-
-
-def is_experiment(run: Run) -> TypeGuard[ExperimentRun]:
-    """Return whether a run was recorded elsewhere."""
-    return isinstance(run.settings, ExperimentSettings)

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, replace
 from math import inf, pi, radians
-from typing import Literal, NamedTuple, get_args
+from typing import Literal, NamedTuple
 
 from ..core.errors import ConfigurationError
 from ..core.ranges import Range
@@ -13,7 +13,6 @@ from .approach import Approach, correcting_heading, predict_clearance
 from .knowledge import STAND, Intent, Knowledge
 
 Trigger = Literal["distance", "time"]
-TRIGGERS: tuple[str, ...] = get_args(Trigger)
 PACE_STEP = 0.125  # between the paces that are tried
 RELEASE_RATIO = 1.25  # release clearance over trigger clearance
 

@@ -24,7 +24,7 @@ class HerdingPursuit(PursuitVariant):
             ``Knowledge.pose_in_map``, in [m]. The origin of a known room is
             its centre; without a known room the frame is odometry, whose
             origin was the initial pose of the pursuer.
-            pursuit: Pursuit of the target point.
+        pursuit: Pursuit of the target point.
     """
 
     center: tuple[float, float] = (0.0, 0.0)

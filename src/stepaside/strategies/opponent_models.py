@@ -1,4 +1,4 @@
-"""Models of a pursuer, and which of them explain what has been seen."""
+"""Models of a pursuer, and their fit to its observed motion."""
 
 from math import atan2, hypot
 from typing import NamedTuple
@@ -25,11 +25,11 @@ EXACT = 4e-3  # error of a model that counts as none, in [rad] rms
 RULED_OUT = 3.0  # times the least error: a model that does not explain
 LEAST_MOTION = 0.3  # stride over that of the gait that shows a direction
 ASSUMED = 3  # models that are assumed at once
-FORGETTING = 0.995  # of the greatest speed that has been seen, per step
+FORGETTING = 0.995  # of the greatest observed speed, per step
 
 
 class ModelFit(NamedTuple):
-    """Errors of every model on what has been seen.
+    """Errors of every model on the observed motion.
 
     Attributes:
         time: Time of the last observation, in [s]; negative before it.

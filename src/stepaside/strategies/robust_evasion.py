@@ -20,7 +20,6 @@ MARGIN = 0.005  # in addition to the required clearance, in [m]
 TURNS = 7  # turns tried per step
 WIDER = 20  # times the width where no state survives the horizon
 KEPT = 0.5  # share of a plan that is walked before the next search
-AS_PREDICTED = 0.01  # of the pursuer's position that keeps the plan, in [m]
 
 
 class RobustMemory(NamedTuple):

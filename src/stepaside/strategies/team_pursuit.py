@@ -55,7 +55,7 @@ class AssignedPursuit(_TeamPursuit):
     """Pursuer of the evader that its team assigns to it.
 
     Every pursuer computes the assignment with the least total distance from
-    what it knows; with equal knowledge all compute the same.
+    its knowledge; with equal knowledge all compute the same.
     """
 
     def decide(self, knowledge: Knowledge, memory: Any) -> tuple[Intent, Any]:
@@ -120,7 +120,7 @@ class Encirclement(_TeamPursuit):
         own = knowledge.identity.name if knowledge.identity else ""
         ordered = sorted(angles, key=lambda name: (angles[name], name))
         spacing = tau / len(ordered)
-        # The mean, on the circle, of what each place would have to turn by.
+        # Circular mean of the turns that bring each pursuer to its place.
         turns = [angles[n] - spacing * k for k, n in enumerate(ordered)]
         turn = atan2(sum(map(sin, turns)), sum(map(cos, turns)))
         angle = turn + spacing * ordered.index(own)

@@ -13,7 +13,6 @@ import msgpack
 from ..joint.frames import FrameError
 
 SENSOR_BYTES = 896  # of every sensor frame
-ACTUATOR_BYTES = 786  # of an actuator frame with all keys
 LONGEST_ANSWER = 4096  # more than any encoding of an actuator frame
 MAX_FLOAT = 3.4028234e38  # largest number in single precision
 MAX_TEXT = 31  # longest text with a one-byte header, in characters

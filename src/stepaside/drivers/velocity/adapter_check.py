@@ -39,7 +39,7 @@ SLOW = 0.1  # duration of a method that is too long, in [s]
 STOP_TIMEOUT = 2.0  # in which a robot must stand, in [s]
 UNATTENDED = 1.5  # without commands, to see whether the robot stops, in [s]
 ANSWER = 2.0  # longest time that a method may take in the check, in [s]
-PASSED, FAILED, UNKNOWN = VERDICTS = ("pass", "fail", "unknown")
+PASSED, FAILED, UNKNOWN = ("pass", "fail", "unknown")
 
 
 class AdapterFinding(NamedTuple):
@@ -47,7 +47,7 @@ class AdapterFinding(NamedTuple):
 
     Attributes:
         name: What was checked.
-        verdict: One of ``VERDICTS``; unknown where nothing was measured.
+        verdict: "pass", "fail" or "unknown"; unknown without a measurement.
         text: The measurement in words, and the remedy.
         value: The measurement; None without one.
         unit: Its unit.

@@ -1,8 +1,8 @@
-"""Contract of a walking policy: what a network reads and what it commands.
+"""Contract of a walking policy: observations, actions and clocks.
 
 Networks of different trainers differ in order and scale of the observed
 quantities, in the meaning of their actions and in their clocks. A contract
-says all of it for one network, so that one runtime serves all of them.
+states them for one network, so that one runtime serves all.
 """
 
 from dataclasses import dataclass

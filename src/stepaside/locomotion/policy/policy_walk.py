@@ -129,7 +129,7 @@ class PolicyWalk:
         return self.legs.update(measurement, self._velocity)
 
     def _decide(self, now: float, decisions: IntentSource) -> None:
-        """Ask for a decision, and walk as it says until the next one."""
+        """Request a decision, and follow it until the next one."""
         moving = self.phase is not Phase.STANDING
         request = decisions.decide(
             now, self._support, Foot.LEFT, moving=moving

@@ -83,8 +83,8 @@ def read_archive(path: Path) -> TorchScriptArchive:
     """Read a TorchScript archive.
 
     Raises:
-        PolicyError: If the file is none, or holds something else than
-            modules and tensors.
+        PolicyError: If the file is not an archive, or contains objects other
+            than modules and tensors.
     """
     try:
         with ZipFile(path) as archive:
@@ -159,7 +159,7 @@ class _ModuleUnpickler(pickle.Unpickler):
         self._folder = entry.removesuffix(".pkl")
 
     def find_class(self, module: str, name: str) -> Any:
-        """Return what may be built, by its name in PyTorch."""
+        """Return an allowed constructor by its name in PyTorch."""
         if module.startswith("__torch__"):
             return _class_of(f"{module}.{name}")
         known: dict[str, Any] = {

@@ -21,7 +21,7 @@ GATES = {  # order of the gates in ONNX, by their order in PyTorch
 class UnknownWidth:
     """Width of the input, while it is not known.
 
-    Comparing it with a number shows what it has to be.
+    A comparison with a number determines it.
     """
 
     def __eq__(self, other: object) -> bool:
@@ -135,7 +135,7 @@ def _addmm(
 
 
 def _check_width(x: GraphTensor, width: int) -> None:
-    """Check the last axis of what a layer reads.
+    """Check the last axis of the input of a layer.
 
     Raises:
         WidthFound: If it was not known.
@@ -157,13 +157,9 @@ def _recurrent(kind: str) -> Operator:
         x: GraphTensor,
         states: Any,
         weights: Sequence[GraphTensor],
-        has_biases: bool,
-        layers: int,
-        dropout: float,
-        train: bool,
-        bidirectional: bool,
-        batch_first: bool,
+        *options: Any,
     ) -> tuple[GraphTensor, ...]:
+        has_biases, layers, _, _, bidirectional, batch_first = options
         if bidirectional:
             raise PolicyError(f"{kind} must not be bidirectional")
         if batch_first:
@@ -393,12 +389,10 @@ def _batch_norm(
     bias: GraphTensor,
     mean: GraphTensor,
     variance: GraphTensor,
-    training: bool,
-    momentum: float,
-    eps: float,
-    *_: Any,
+    *options: Any,
 ) -> GraphTensor:
     """Normalisation with constants."""
+    _, _, eps, *_ = options  # after training and momentum
     _check_width(x, mean.shape[0] or 0)
     inputs = [x, weight, bias, mean, variance]
     return graph.add("BatchNormalization", inputs, x.shape, epsilon=eps)
@@ -422,7 +416,7 @@ def _filled(value: float) -> Operator:
 
 
 def _same(_: TensorGraph, x: Any, *__: Any, **___: Any) -> Any:
-    """Return what is given: this operation only matters in training."""
+    """Return the tensor unchanged: the operation acts only in training."""
     return x
 
 
@@ -529,4 +523,4 @@ PLAIN: dict[str, Callable[..., Any]] = {
 """Operations on plain values, by their names in TorchScript."""
 
 DECIDING = frozenset({"eq", "ne", "lt", "le", "gt", "ge", "__not__"})
-"""Those whose result depends on the values of tensors."""
+"""Operators whose result depends on the values of tensors."""

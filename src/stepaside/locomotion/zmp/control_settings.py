@@ -10,7 +10,6 @@ from ...core.setting import check_settings, setting
 Method = Literal["closed-form", "measured", "mpc"]
 METHODS: tuple[str, ...] = get_args(Method)
 Tail = Literal["anticipative", "periodic", "truncated"]
-TAILS: tuple[str, ...] = get_args(Tail)
 SIZE = "about a hundred foot lengths"
 TICKS = "a faster rate acts within one tick"
 

@@ -11,7 +11,7 @@ from ...perception.camera_model import CameraModel
 
 UNKNOWN = np.full(9, 0.0)
 NO_ORIENTATION = np.array([-1.0] + [0.0] * 8)  # as sensor_msgs/Imu says it
-BOX, BALL, CYLINDER = "CUBE", "SPHERE", "CYLINDER"
+BOX = "CUBE"
 JPEG_QUALITY = 90
 
 

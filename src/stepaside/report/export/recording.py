@@ -82,13 +82,13 @@ class FootWrench(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Recording:
-    """Run with everything that can be known of it.
+    """Run with all signals that its folder or a repetition provides.
 
     Attributes:
         run: The run.
         models: Models of the robots whose joints were recorded, by player.
         signals: Signals of robots beyond their trajectories, by player.
-        absent: Sentences that say what is not in the recording, and why.
+        absent: Missing signals and the reasons, as sentences.
     """
 
     run: Run
@@ -143,7 +143,7 @@ def load_recording(
 def _signals_of_play(
     folder: Path, run: Run, models: Mapping[str, RobotModel]
 ) -> dict[str, RobotSignals]:
-    """Return what the robot of a play measured, at the samples of its run.
+    """Return the measurements of a play, at the samples of its run.
 
     Raises:
         ConfigurationError: If the rows cannot be read.

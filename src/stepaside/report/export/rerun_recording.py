@@ -29,7 +29,6 @@ from .signal_series import all_series
 TIMELINE = "time"
 WORLD = "world"
 LIFT = 0.002  # of lines and soles over the floor, in [m]
-PAIR = ("distance", "angle_between_headings")
 POINT_RADIUS = 0.015  # in [m]
 POINTS = {"com": "#5b2a86", "zmp": "#e0a400", "com_reference": "#888888"}
 DCM_COLOUR = "#1c7a42"

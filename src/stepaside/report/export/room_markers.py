@@ -54,7 +54,7 @@ class PlacedShape(NamedTuple):
 def shapes_over_time(run: Run) -> Iterator[tuple[float, list[PlacedShape]]]:
     """Yield times, in [s], with the shapes that moved since the last.
 
-    The first entry has all shapes; without any there is none.
+    The first entry has all shapes; nothing is yielded without shapes.
 
     Args:
         run: The run.

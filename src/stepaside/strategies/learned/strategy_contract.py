@@ -16,7 +16,7 @@ HEADINGS = 15  # of discrete actions
 
 @dataclass(frozen=True, slots=True)
 class StrategyContract:
-    """What a network reads, and what its outputs mean.
+    """Observation of a network, and meaning of its outputs.
 
     Attributes:
         direction: Whether the body drives forward, as a pursuer does, or
