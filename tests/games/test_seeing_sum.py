@@ -19,13 +19,13 @@ from stepaside.games.camera_duel import CameraSenses, SightObserver
 from stepaside.games.duel import Duel
 from stepaside.games.duel_furnishing import furnishing_of
 from stepaside.games.duel_settings import PLAYERS, DuelSettings, StartSettings
+from stepaside.games.floor_player import FloorPlayer
 from stepaside.games.initial_poses import (
     initial_poses,
     wall_distance,
     with_initial_poses,
 )
 from stepaside.games.outcome import Outcome
-from stepaside.games.person_player import PersonPlayer
 from stepaside.games.sight_evaluation import FrameCounts, SightEvaluator
 from stepaside.games.sight_summary import ErrorSpread, SightSummary
 from stepaside.games.walker import SimulatedPlayer
@@ -212,7 +212,7 @@ def test_a_person_has_no_cameras() -> None:
     observer = duel.sight_observer
     assert observer is not None and list(observer.evaluators) == ["evader"]
     person, robot = duel.players
-    assert isinstance(person, PersonPlayer)
+    assert isinstance(person, FloorPlayer)
     check_truth(observer.evaluators["evader"], robot.truth, person.truth)
     assert duel.tick() is None
     run = duel.run(Outcome.COMPLETED, 1.0)

@@ -11,7 +11,7 @@ import pytest
 from fake_page import Gui
 from stepaside.core.errors import ConfigurationError
 from stepaside.games.duel_settings import DuelSettings, StartSettings
-from stepaside.games.person_player import PersonPlayer
+from stepaside.games.floor_player import FloorPlayer
 from stepaside.games.walker import SimulatedPlayer
 from stepaside.locomotion.walk_snapshots import Phase
 from stepaside.report.viewer.drive_panel import DrivePanel, add_push
@@ -41,7 +41,7 @@ def stepped(session: LiveSession, duration: float) -> None:
 
 def test_a_person_walks_on_in_a_step(session: LiveSession) -> None:
     person, evader = session.duel.players
-    assert isinstance(person, PersonPlayer) and isinstance(
+    assert isinstance(person, FloorPlayer) and isinstance(
         evader, SimulatedPlayer
     )
     began = np.array(person.truth.position_torso_in_world)
@@ -63,7 +63,9 @@ def test_the_robot_is_pushed_and_the_person_is_not(
 ) -> None:
     """Who is refused loses nothing: the duel goes on, and pushes too."""
     before = session.duel
-    with pytest.raises(ConfigurationError, match="pursuer, which is a person"):
+    with pytest.raises(
+        ConfigurationError, match="only a robot can be pushed, got pursuer"
+    ):
         session.push(0, 0.4, pi / 2)
     assert session.error is None and session.duel is before
     stepped(session, 0.1)
@@ -86,7 +88,7 @@ def test_the_push_button_says_that_a_person_is_not_pushed(
     add_push(gui, session, said.append)
     gui["Robot"].value = "pursuer"
     gui["Push"].press()
-    assert said == ["a push needs a robot, got pursuer, which is a person"]
+    assert said == ["only a robot can be pushed, got pursuer"]
     gui["Robot"].value = "evader"
     gui["Push"].press()
     assert said[1:] == ["pushed the evader left by 0.5 N s"]

@@ -13,7 +13,7 @@ from stepaside.core.poses import Array, Pose
 from stepaside.games.duel import Duel
 from stepaside.games.duel_furnishing import furnishing_of
 from stepaside.games.duel_settings import DuelSettings, StartSettings
-from stepaside.games.person_player import PersonPlayer
+from stepaside.games.floor_player import FloorPlayer, PathSteering
 from stepaside.games.walker import SimulatedPlayer
 from stepaside.robots.head import rotation
 from stepaside.sim.ground_truth import torsos_apart
@@ -218,20 +218,29 @@ def world_of(model: mujoco.MjModel, data: mujoco.MjData) -> Any:
     return SimpleNamespace(model=model, data=data, physics=physics, time=0.0)
 
 
+def walker(
+    world: Any, motion: PersonMotion, evader: tuple[float, float]
+) -> tuple[FloorPlayer, Any]:
+    """A person, and the true state of the evader, which may be changed."""
+    other: Any = SimpleNamespace(position_torso_in_world=evader)
+    body = PersonBody(world, "her", motion.pose)
+    return FloorPlayer(body, PathSteering(motion, other, TICK)), other
+
+
 def test_a_person_walks_leg_by_leg_towards_the_evader() -> None:
     model, data = figure()
     world = world_of(model, data)
     motion = PersonMotion(
         PersonSettings("steer", 0.5), Pose(1.03, 2, 0), (4, 2)
     )
-    person = PersonBody(world, "her", motion)
-    assert (person.name, person.world) == ("her", world)
+    person, _ = walker(world, motion, (4.0, 2.0))
+    assert person.name == "her"
     trunk = int(model.body("her/trunk").mocapid[0])
     leg = int(model.body("her/left leg").mocapid[0])
     assert data.mocap_pos[trunk, :2].tolist() == [1.03, 2.0]
     for i in range(5):
         world.time = i * TICK
-        person.step((4.0, 2.0))
+        person.tick()
     way = 5 * TICK * 0.5
     assert way == pytest.approx(0.5 * STEP)
     assert data.mocap_pos[trunk, :2] == pytest.approx((1.03 + way, 2.0))
@@ -249,9 +258,9 @@ def test_a_recorded_person_is_where_the_end_of_the_tick_says(
     model, data = figure()
     world = world_of(model, data)
     motion = PersonMotion(PersonSettings(str(file)), STANDING, (4.0, 0.0))
-    person = PersonBody(world, "her", motion)
+    person, _ = walker(world, motion, (4.0, 0.0))
     world.time = 2.0
-    person.step((4.0, 0.0))
+    person.tick()
     assert person.truth.position_torso_in_world == pytest.approx(
         (2.0 + TICK, 0.0)
     )
@@ -260,7 +269,8 @@ def test_a_recorded_person_is_where_the_end_of_the_tick_says(
 def test_the_true_state_of_a_person_is_that_of_the_walk() -> None:
     model, data = figure()
     motion = PersonMotion(PersonSettings("steer"), Pose(1, 2, 0.7), (4.0, 2.0))
-    truth = PersonBody(world_of(model, data), "her", motion).truth
+    person, _ = walker(world_of(model, data), motion, (4.0, 2.0))
+    truth = person.truth
     assert truth.heading_in_world == 0.7
     assert truth.position_com_in_world.tolist() == [1.0, 2.0, 1.0]
     assert truth.has_fallen is False
@@ -274,15 +284,12 @@ def test_a_person_has_no_robot_quantities() -> None:
     motion = PersonMotion(PersonSettings("steer"), Pose(1, 2, 0.7), (4.0, 2.0))
     world = world_of(model, data)
     world.time = 1.5
-    person = PersonBody(world, "her", motion)
-    other: Any = SimpleNamespace(position_torso_in_world=(4.0, 2.0))
-    player = PersonPlayer(person, other)
+    player, _ = walker(world, motion, (4.0, 2.0))
     seen = player.snapshot()
     assert (seen.name, seen.time) == ("her", 1.5)
     assert seen.torso == (1.0, 2.0, 0.7) and seen.com == (1.0, 2.0, 1.0)
     unknown = (seen.frame, seen.walk, seen.zmp)
     assert unknown == (None,) * 3
-    assert player.truth is person.truth
     assert player.begun is None and player.reports == ()
     assert player.is_moving is True and player.has_fallen is False
     before = data.mocap_pos.copy()
@@ -293,11 +300,8 @@ def test_a_person_has_no_robot_quantities() -> None:
 def test_a_person_cannot_be_pushed() -> None:
     model, data = figure()
     motion = PersonMotion(PersonSettings("steer"), STANDING, (4.0, 2.0))
-    other: Any = SimpleNamespace(position_torso_in_world=(4.0, 2.0))
-    player = PersonPlayer(
-        PersonBody(world_of(model, data), "her", motion), other
-    )
-    with pytest.raises(ConfigurationError, match="robot, got her, which is a"):
+    player, _ = walker(world_of(model, data), motion, (4.0, 2.0))
+    with pytest.raises(ConfigurationError, match="a robot .* got her"):
         player.push(Push(1.0, 0.0, 0.0))
 
 
@@ -307,8 +311,7 @@ def test_a_person_steers_at_the_current_evader_position() -> None:
     motion = PersonMotion(
         PersonSettings("steer", 0.5, 2.0), STANDING, (4.0, 0.0)
     )
-    other: Any = SimpleNamespace(position_torso_in_world=(0.0, 4.0))
-    player = PersonPlayer(PersonBody(world, "her", motion), other)
+    player, other = walker(world, motion, (0.0, 4.0))
     for side in (1.0, -1.0):
         other.position_torso_in_world = (0.0, 4.0 * side)
         before = player.truth.heading_in_world
@@ -344,7 +347,7 @@ def test_a_person_starts_at_the_pursuer_pose() -> None:
         )
         duel = Duel(settings)
         person, evader = duel.players
-        assert isinstance(person, PersonPlayer) and isinstance(
+        assert isinstance(person, FloorPlayer) and isinstance(
             evader, SimulatedPlayer
         )
         assert (person.name, evader.name) == ("pursuer", "evader")

@@ -16,13 +16,14 @@ from camera_people import CAMERAS
 
 from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.games.floor_player import FloorPlayer, PathSteering
 from stepaside.games.match import Match, play
 from stepaside.games.outcome import Outcome
-from stepaside.games.person_player import PersonPlayer
 from stepaside.locomotion.zmp.control_settings import STABILISED
 from stepaside.planning import PRESETS
 from stepaside.sim.body_settings import BODIES
 from stepaside.sim.camera_settings import SceneSettings
+from stepaside.sim.person_crossings import RepeatedCrossings
 from stepaside.sim.person_settings import PersonSettings
 from stepaside.strategies import Evasion
 from stepaside.studies.person_encounters import PASSING
@@ -69,9 +70,7 @@ class Counts:
 
     def before(self, match: Match) -> None:
         """Update the counts at each tick."""
-        person, robot = match.players
-        assert isinstance(person, PersonPlayer)
-        visits = person.person.visits
+        robot, visits = match.players[1], visits_of(match)
         if robot.is_moving and not self._moved:
             self.triggers += 1
             passes = abs(visits.miss) >= PASSING
@@ -86,12 +85,18 @@ class Counts:
 
     def ended(self, match: Match, outcome: Outcome) -> None:
         """Add the counts of a game to the total."""
-        person = match.players[0]
-        assert isinstance(person, PersonPlayer)
-        self.crossings += person.person.visits.number
+        self.crossings += visits_of(match).number
         assert match.min_distance is not None
         self.closest = min(self.closest, match.min_distance)
         self._before, self._moved = self._before + match.world.time, False
+
+
+def visits_of(match: Match) -> RepeatedCrossings:
+    """Return the visits of the person in a match."""
+    person = match.players[0]
+    assert isinstance(person, FloorPlayer)
+    assert isinstance(person.steering, PathSteering)
+    return person.steering.motion.visits
 
 
 def resident() -> float:

@@ -27,7 +27,7 @@ from ..sim.world import World
 from ..strategies import load_strategy
 from .duel_furnishing import furnishing_of, movers_in
 from .duel_settings import EVADER, PLAYERS, PURSUER, DuelSettings
-from .person_player import PersonPlayer
+from .floor_player import FloorPlayer, PathSteering
 from .player import Player
 from .served_player import ServedPlayer
 from .walker import RobotPlayer
@@ -124,9 +124,9 @@ class DuelWorld:
             self.world.before_step.append(move)
         person = None
         if PURSUER not in self._setups:
-            motion = PersonMotion(settings.person, frames[0], frames[1][:2])
+            walk = PersonMotion(settings.person, frames[0], frames[1][:2])
             figure = FIGURES[settings.person.figure]
-            person = PersonBody(self.world, PURSUER, motion, figure)
+            person = PersonBody(self.world, PURSUER, walk.pose, figure)
         # A player's ideal sensor needs the true state of its opponent.
         self._robot_truths = {
             name: setup.true_state_in(self.world)
@@ -138,7 +138,9 @@ class DuelWorld:
         pursuer: Player = (
             self._robot(PURSUER)
             if person is None
-            else PersonPlayer(person, self._truths[EVADER])
+            else FloorPlayer(
+                person, PathSteering(walk, self._truths[EVADER], physics.tick)
+            )
         )
         self.players = (pursuer, self._robot(EVADER))
         mujoco.mj_forward(self.world.model, self.world.data)
@@ -265,7 +267,7 @@ class DuelWorld:
                 evaluators[own.name] = self._senses.evaluator_of(
                     own.robot,
                     self._truths[other.name],
-                    wears_trim=not isinstance(other, PersonPlayer),
+                    wears_trim=not isinstance(other, FloorPlayer),
                 )
         return SightObserver(evaluators, self._senses.renderer, every=every)
 

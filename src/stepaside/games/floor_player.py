@@ -5,20 +5,15 @@ moves it from tick to tick.
 """
 
 from collections.abc import Mapping, Sequence
-from math import hypot
 from typing import TYPE_CHECKING, Protocol
-
-import numpy as np
 
 from ..core.errors import ConfigurationError
 from ..core.player_identity import PlayerIdentity
-from ..core.poses import Array, Pose
+from ..core.poses import Pose
 from ..locomotion.walk_snapshots import StepStarted
 from ..planning import GaitSettings
 from ..sim.crowd_motion import RADIUS, CrowdMotion, Neighbour
-from ..sim.ground_truth import GroundTruth
-from ..sim.pedestrian_appearance import PedestrianModel
-from ..sim.person_body import REACH, mocap_indices, set_person_pose
+from ..sim.ground_truth import FloorTruth, GroundTruth
 from ..sim.person_motion import PersonMotion
 from ..sim.push import Push
 from ..sim.template_body import pose_template
@@ -36,54 +31,6 @@ MARKER_HEIGHT = 0.27  # that stands for the CoM of a marker, in [m]
 MARKER_REACH = 0.1  # of a marker, which touches nothing, in [m]
 
 
-class FloorTruth:
-    """True state of a player that physics does not move.
-
-    Attributes:
-        pose: Pose in the world.
-        reach: Radius that contains the whole body, in [m].
-    """
-
-    def __init__(self, pose: Pose, *, reach: float, height: float) -> None:
-        """Begin at a pose.
-
-        Args:
-            pose: Initial pose in the world.
-            reach: Radius that contains the whole body, in [m].
-            height: Height that stands for that of the CoM, in [m].
-        """
-        self.pose, self.reach, self._height = pose, reach, height
-
-    def move(self, pose: Pose) -> None:
-        """Move to a pose in the world."""
-        self.pose = pose
-
-    @property
-    def position_com_in_world(self) -> Array:
-        """Position at the height of the CoM, in [m]. Shape (3,)."""
-        return np.array([*self.pose[:2], self._height])
-
-    @property
-    def position_torso_in_world(self) -> tuple[float, float]:
-        """Position, in [m]."""
-        return self.pose[:2]
-
-    @property
-    def position_reference_in_world(self) -> tuple[float, float]:
-        """Position, in [m]."""
-        return self.pose[:2]
-
-    @property
-    def heading_in_world(self) -> float:
-        """Heading, in [rad]."""
-        return self.pose.theta
-
-    @property
-    def has_fallen(self) -> bool:
-        """Return false: it does not fall."""
-        return False
-
-
 class FloorBody(Protocol):
     """Body on the floor.
 
@@ -99,35 +46,6 @@ class FloorBody(Protocol):
 
     def move(self, pose: Pose) -> None:
         """Move to a pose in the world."""
-
-
-class PedestrianBody:
-    """Body of a person, whose legs swing with the distance walked.
-
-    Attributes:
-        name: Name of the player.
-        world: The world.
-        truth: True state.
-    """
-
-    def __init__(
-        self, world: World, name: str, pose: Pose, figure: PedestrianModel
-    ) -> None:
-        """Set the bodies to a pose."""
-        self.name, self.world, self._figure = name, world, figure
-        self.truth = FloorTruth(
-            pose, reach=REACH * figure.size, height=figure.size
-        )
-        self._parts, self._walked = mocap_indices(world.model, name), 0.0
-        self.move(pose)
-
-    def move(self, pose: Pose) -> None:
-        """Move to a pose in the world."""
-        before = self.truth.pose
-        self._walked += hypot(pose.x - before.x, pose.y - before.y)
-        self.truth.move(pose)
-        data, walked = self.world.data, self._walked
-        set_person_pose(data, self._parts, pose, walked, self._figure)
 
 
 class MarkerBody:
@@ -187,19 +105,23 @@ class CrowdSteering:
 
 
 class PathSteering:
-    """Walk of a person along a path relative to another player."""
+    """Walk of a person along a path relative to another player.
+
+    Attributes:
+        motion: The walk.
+    """
 
     def __init__(
         self, motion: PersonMotion, target: GroundTruth, tick: float
     ) -> None:
         """Take the walk and the true state of the other player."""
-        self._motion, self._target, self._tick = motion, target, tick
+        self.motion, self._target, self._tick = motion, target, tick
 
     def next_pose(self, time: float) -> Pose:
         """Return the pose at the end of a tick."""
         target = self._target.position_torso_in_world
-        self._motion.advance(time + self._tick, self._tick, target)
-        return self._motion.pose
+        self.motion.advance(time + self._tick, self._tick, target)
+        return self.motion.pose
 
 
 class RecordedSteering:
@@ -263,6 +185,7 @@ class FloorPlayer:
     Attributes:
         name: Name of the player.
         truth: Its true state.
+        steering: Its motion.
         begun: None: it plans no footsteps.
         reports: Empty: it has no cameras.
         is_ready: True.
@@ -278,7 +201,7 @@ class FloorPlayer:
 
     def __init__(self, body: FloorBody, steering: Steering) -> None:
         """Combine a body and its motion."""
-        self.name, self._body, self._steering = body.name, body, steering
+        self.name, self._body, self.steering = body.name, body, steering
         self.truth: GroundTruth = body.truth
 
     def start(self) -> None:
@@ -286,7 +209,7 @@ class FloorPlayer:
 
     def tick(self) -> None:
         """Advance the motion by one tick."""
-        self._body.move(self._steering.next_pose(self._body.world.time))
+        self._body.move(self.steering.next_pose(self._body.world.time))
 
     def snapshot(self) -> Snapshot:
         """Return the state at this instant."""

@@ -10,6 +10,7 @@ from ..sim.ground_truth import GroundTruth
 from ..sim.ideal_sensors import IdealLineOfSight
 from ..sim.obstacle_geoms import obstacle_mover
 from ..sim.pedestrian_appearance import FIGURES
+from ..sim.person_body import PersonBody
 from ..sim.person_motion import PersonMotion
 from ..sim.world import World
 from .floor_player import (
@@ -18,7 +19,6 @@ from .floor_player import (
     FloorPlayer,
     MarkerBody,
     PathSteering,
-    PedestrianBody,
     RecordedSteering,
     StrategySteering,
 )
@@ -113,7 +113,7 @@ class GameWorld:
         pose = _start_of(own)
         if own.body == "person":
             figure = FIGURES[own.person.figure]
-            return PedestrianBody(self.world, own.name, pose, figure)
+            return PersonBody(self.world, own.name, pose, figure)
         return MarkerBody(self.world, own.name, pose)
 
     def _player(self, own: PlayerSettings) -> Player:

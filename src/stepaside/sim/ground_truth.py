@@ -6,7 +6,7 @@ from typing import Protocol
 import mujoco
 import numpy as np
 
-from ..core.poses import Array
+from ..core.poses import Array, Pose
 from ..robots.description_types import ReferencePoint
 
 FALLEN = cos(radians(45.0))  # upward component of the torso's axis
@@ -45,6 +45,54 @@ def torsos_apart(one: GroundTruth, other: GroundTruth) -> float:
     (x, y) = one.position_torso_in_world
     (u, v) = other.position_torso_in_world
     return hypot(u - x, v - y)
+
+
+class FloorTruth:
+    """True state of a player that physics does not move.
+
+    Attributes:
+        pose: Pose in the world.
+        reach: Radius that contains the whole body, in [m].
+    """
+
+    def __init__(self, pose: Pose, *, reach: float, height: float) -> None:
+        """Begin at a pose.
+
+        Args:
+            pose: Initial pose in the world.
+            reach: Radius that contains the whole body, in [m].
+            height: Height that stands for that of the CoM, in [m].
+        """
+        self.pose, self.reach, self._height = pose, reach, height
+
+    def move(self, pose: Pose) -> None:
+        """Move to a pose in the world."""
+        self.pose = pose
+
+    @property
+    def position_com_in_world(self) -> Array:
+        """Position at the height of the CoM, in [m]. Shape (3,)."""
+        return np.array([*self.pose[:2], self._height])
+
+    @property
+    def position_torso_in_world(self) -> tuple[float, float]:
+        """Position, in [m]."""
+        return self.pose[:2]
+
+    @property
+    def position_reference_in_world(self) -> tuple[float, float]:
+        """Position, in [m]."""
+        return self.pose[:2]
+
+    @property
+    def heading_in_world(self) -> float:
+        """Heading, in [rad]."""
+        return self.pose.theta
+
+    @property
+    def has_fallen(self) -> bool:
+        """Return false: it does not fall."""
+        return False
 
 
 class TrueRobotState:

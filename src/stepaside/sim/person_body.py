@@ -1,14 +1,12 @@
-"""Body of a person in a world, moved along a walk."""
+"""Body of a person in a world."""
 
 from math import cos, hypot, pi, sin
 
 import mujoco
-import numpy as np
 
-from ..core.poses import Array, Pose
+from ..core.poses import Pose
+from .ground_truth import FloorTruth
 from .pedestrian_appearance import FIGURES, HIP, Colour, PedestrianModel
-from .person_crossings import RepeatedCrossings
-from .person_motion import PersonMotion
 from .world import FLOOR_BIT, World
 
 SKIN = (0.85, 0.68, 0.56, 1.0)
@@ -105,48 +103,12 @@ def set_person_pose(
         data.mocap_quat[index] = _quaternion(frame.theta, pitch)
 
 
-class PersonTruth:
-    """True state of a person: the axis of the trunk."""
-
-    def __init__(
-        self, motion: PersonMotion, figure: PedestrianModel = ADULT
-    ) -> None:
-        """Read the state from the walk of a person."""
-        self._motion, self._size = motion, figure.size
-        self.reach = REACH * figure.size
-
-    @property
-    def position_com_in_world(self) -> Array:
-        """Middle of the trunk, in [m]. Shape (3,)."""
-        return np.array([*self._motion.pose[:2], self._size])
-
-    @property
-    def position_torso_in_world(self) -> tuple[float, float]:
-        """Position of the axis of the trunk, in [m]."""
-        return self._motion.pose[:2]
-
-    @property
-    def position_reference_in_world(self) -> tuple[float, float]:
-        """Reference point: the axis of the trunk, in [m]."""
-        return self.position_torso_in_world
-
-    @property
-    def heading_in_world(self) -> float:
-        """Heading of the person, in [rad]."""
-        return self._motion.pose.theta
-
-    @property
-    def has_fallen(self) -> bool:
-        """Return false: a person does not fall."""
-        return False
-
-
 class PersonBody:
-    """Person in a world who follows a walk.
+    """Body of a person, whose legs swing with the distance walked.
 
     Attributes:
+        name: Name of the player.
         world: The world.
-        name: Name of the person in the world.
         truth: True state.
     """
 
@@ -154,41 +116,24 @@ class PersonBody:
         self,
         world: World,
         name: str,
-        motion: PersonMotion,
+        pose: Pose,
         figure: PedestrianModel = ADULT,
     ) -> None:
-        """Set the bodies to the start of the walk."""
-        self.world, self.name = world, name
-        self.truth = PersonTruth(motion, figure)
-        self._figure = figure
-        self._motion = motion
-        self._walked = 0.0
-        self._parts = mocap_indices(world.model, name)
-        self._update_bodies()
+        """Set the bodies to a pose."""
+        self.name, self.world, self._figure = name, world, figure
+        self.truth = FloorTruth(
+            pose, reach=REACH * figure.size, height=figure.size
+        )
+        self._parts, self._walked = mocap_indices(world.model, name), 0.0
+        self.move(pose)
 
-    @property
-    def visits(self) -> RepeatedCrossings:
-        """Repeated visits of the walk."""
-        return self._motion.visits
-
-    def step(self, other: tuple[float, float]) -> None:
-        """Advance the walk by one tick.
-
-        Args:
-            other: Position of the evader in the world, in [m].
-        """
-        before = self._motion.pose
-        tick = self.world.physics.tick
-        self._motion.advance(self.world.time + tick, tick, other)
-        x, y, _ = self._motion.pose
-        self._walked += hypot(x - before.x, y - before.y)
-        self._update_bodies()
-
-    def _update_bodies(self) -> None:
-        """Set the poses of trunk, legs and arms."""
-        data = self.world.data
-        pose = self._motion.pose
-        set_person_pose(data, self._parts, pose, self._walked, self._figure)
+    def move(self, pose: Pose) -> None:
+        """Move to a pose in the world."""
+        before = self.truth.pose
+        self._walked += hypot(pose.x - before.x, pose.y - before.y)
+        self.truth.move(pose)
+        data, walked = self.world.data, self._walked
+        set_person_pose(data, self._parts, pose, walked, self._figure)
 
 
 def _quaternion(heading: float, pitch: float) -> tuple[float, ...]:
