@@ -1,6 +1,7 @@
 """Test that compiled loops compute what Python computes, to the bit."""
 
-from math import cos, sin
+from fractions import Fraction
+from math import atan2, cos, sin, tan
 from typing import Any
 
 import numpy as np
@@ -76,7 +77,7 @@ def test_a_division_by_zero_is_infinite() -> None:
     [
         (FORMULA + "def loop(x):\n    return 0\n", "1"),  # two targets
         ("def loop(x):\n    while x[0] > 0.0:\n        x[0] -= 1.0\n", "1"),
-        ("def loop(x):\n    x[0] = tan(x[0])\n", "1"),
+        ("def loop(x):\n    x[0] = exp(x[0])\n", "1"),
         ("def loop(x):\n    return x[0]\n", "1"),  # a float
         ("def loop(x):\n    x[0, 0] = 1.0\n", "1"),
         ("def loop(x):\n    x[0] = 1\n", "1"),
@@ -90,3 +91,20 @@ def test_what_is_beyond_the_subset_is_refused(
 ) -> None:
     with pytest.raises(NotImplementedError):
         translate(source, arguments)
+
+
+def test_tangents_and_fused_products_have_the_bits_of_python() -> None:
+    source = (
+        "def fold(x):\n    for i in range(x.shape[0]):\n"
+        "        fused = fma(x[i, 0], x[i, 1], x[i, 2])\n"
+        "        x[i, 0] = tan(x[i, 0])\n"
+        "        x[i, 1] = atan2(x[i, 1], x[i, 2])\n"
+        "        x[i, 2] = fused"
+    )
+    rows = np.random.default_rng(1).normal(size=(50, 3))
+    rows[0] = 1.0 + 2.0**-30, 1.0 - 2.0**-30, -1.0  # 0 if rounded twice
+    folded = rows.copy()
+    Kernel("fold", source, "2")(folded)
+    for (a, b, c), found in zip(rows.tolist(), folded.tolist(), strict=True):
+        fused = float(Fraction(a) * Fraction(b) + Fraction(c))
+        assert found == [tan(a), atan2(b, c), fused]

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from stepaside.core.machine_code import plain_python
 from stepaside.core.poses import Array
 from stepaside.locomotion.zmp.state_estimator import (
     BodyState,
@@ -13,7 +14,11 @@ from stepaside.locomotion.zmp.state_estimator import (
     _level,
 )
 from stepaside.perception.measurement import Measurement
-from stepaside.robots.forward_kinematics import MeasuredPosture
+from stepaside.robots.description import load_robot
+from stepaside.robots.forward_kinematics import (
+    ForwardKinematics,
+    MeasuredPosture,
+)
 from stepaside.robots.head import rotation
 from stepaside.robots.leg_kinematics import BodyReference
 
@@ -307,3 +312,47 @@ def test_a_body_of_any_mass_knows_when_it_bears_no_weight(
         first = see(estimate, measured(left=press, right=0.0))
         later = see(estimate, measured(left=press, right=0.0))
         assert (later.velocity == first.velocity) == flies
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_machine_code_estimates_with_the_same_bits(seed: int) -> None:
+    """In single and double support, in flight, and with a two-axis gyro."""
+    forward = ForwardKinematics(load_robot("nao"))
+    sensors = forward.force_sensors()
+
+    def estimates() -> list[tuple[BodyState, float, Array]]:
+        draws = np.random.default_rng(seed)
+        estimate = StateEstimator(
+            ForwardKinematics(load_robot("nao")), sensors, ETA, 5.0 * TICK
+        )
+        found = []
+        for number in range(200):
+            gyro = draws.normal(scale=0.3, size=3)
+            gyro[2] = np.nan if number % 5 == 0 else gyro[2]
+            loads = draws.choice([0.0, 0.1, 9.0], size=2).repeat(4)
+            state = estimate.update(
+                Measurement(
+                    *(0.0, draws.normal(scale=0.2, size=forward.angles.size)),
+                    *(gyro, GRAVITY + draws.normal(size=3)),
+                    *(loads * draws.uniform(size=8), None),
+                ),
+                BodyReference(
+                    *((0.0, 0.0, 0.3), tuple(draws.normal(size=4))),
+                    tuple(draws.normal(size=4)),
+                ),
+                tuple(draws.normal(size=2)),
+                tuple(draws.normal(size=2)),
+            )
+            assert estimate.posture is not None
+            com = estimate.posture.position_com_in_torso
+            found.append((state, estimate.torso_heading, com.copy()))
+        return found
+
+    compiled = estimates()
+    with plain_python():
+        plain = estimates()
+    for (one, turn, com), (other, heading, place) in zip(
+        compiled, plain, strict=True
+    ):
+        assert one == other and turn == heading
+        np.testing.assert_array_equal(com, place)

@@ -1,4 +1,4 @@
-"""Compare integrators and time steps of the physics with a 1 ms reference.
+r"""Compare integrators and time steps of the physics with a 1 ms reference.
 
 The same walks are simulated with each: on an ideal body in open loop, with
 feedback after a push and on a slope, and on the hardware body on a level and
@@ -6,7 +6,7 @@ an uneven floor. Every seed draws its own bearing, push and floor. A variant
 is as accurate as the default if its differences from the reference are not
 larger than those of the default::
 
-    python tools/benchmarks/integrators.py --seeds 1:101 --workers 1 \\
+    python tools/benchmarks/integrators.py --seeds 1:101 --workers 1 \
         --variants implicitfast-2ms discrete-4ms
 """
 

@@ -2,11 +2,12 @@
 
 The subset of Python is small: floats, integers, and arrays of them by
 element; ``for`` over ``range``, ``if``, ``return``; arithmetic, comparisons,
-``abs``, ``min``, ``max``, ``sin`` and ``cos``; calls of formulas, which are
-functions of floats without branches that return a tuple of floats. Operations
-keep their order and nothing is fused, so that results have the bits of
-Python. Only divisions by zero differ: they give inf or NaN, which a loop has
-to reject. Both sides of ``and``, ``or`` and conditional expressions are
+``abs``, ``min``, ``max``, ``sin``, ``cos``, ``tan``, ``atan2`` and ``fma``,
+which rounds a x + b once; calls of formulas, which are functions of floats
+without branches that return a tuple of floats. Operations keep their order
+and nothing else is fused, so that results have the bits of Python. Only
+divisions by zero differ: they give inf or NaN, which a loop has to reject.
+Both sides of ``and``, ``or`` and conditional expressions are
 evaluated.
 """
 
@@ -18,9 +19,19 @@ DOUBLE, INTEGER, TRUTH = "double", "i64", "i1"
 HEAD = """\
 declare double @sin(double)
 declare double @cos(double)
+declare double @tan(double)
+declare double @atan2(double, double)
 declare double @llvm.fabs.f64(double)
+declare double @llvm.fma.f64(double, double, double)
 """
-LIBRARY = {"sin": "sin", "cos": "cos", "abs": "llvm.fabs.f64"}
+LIBRARY = {
+    "sin": "sin",
+    "cos": "cos",
+    "tan": "tan",
+    "atan2": "atan2",
+    "abs": "llvm.fabs.f64",
+    "fma": "llvm.fma.f64",
+}
 FLOAT_OPERATIONS = {
     ast.Add: "fadd",
     ast.Sub: "fsub",
@@ -325,9 +336,9 @@ class _Function:
                 best = self._select(better, other, best)
             return best
         if name in LIBRARY:
-            (argument,) = arguments
-            x = self.float_of(argument).text
-            called = f"call double @{LIBRARY[name]}(double {x})"
+            values = [self.float_of(each).text for each in arguments]
+            passed = ", ".join(f"double {value}" for value in values)
+            called = f"call double @{LIBRARY[name]}({passed})"
             return _Value(DOUBLE, self.add(called))
         raise NotImplementedError(f"a call of {name}")
 

@@ -19,6 +19,9 @@ class AttitudeFilter:
         roll: Angle about the x axis of the torso, in [rad].
         pitch: Angle about its y axis, in [rad].
         rate: Angular velocity in the torso frame, bias removed, in [rad/s].
+        bias: Bias of the gyro about the x and y axes, in [rad/s].
+        gains: Gains of the corrections of angles, in [1/s], and of the bias,
+            in [1/s^2].
     """
 
     def __init__(
@@ -37,10 +40,10 @@ class AttitudeFilter:
                 robot that starts upright and moves at once.
         """
         self._calibration = calibration
-        self._correction, self._bias_correction = correction, bias_correction
+        self.gains = correction, bias_correction
         self.roll = self.pitch = 0.0
         self.rate = (0.0, 0.0, 0.0)
-        self._bias = [0.0, 0.0]
+        self.bias = [0.0, 0.0]
         self._time_standing = 0.0
         self._sum = [0.0] * 5
         self._count = 0
@@ -61,7 +64,7 @@ class AttitudeFilter:
         readings = (*gyro.tolist()[:2], *specific_force.tolist())
         self._sum = [a + b for a, b in zip(self._sum, readings, strict=True)]
         wx, wy, fx, fy, fz = (value / self._count for value in self._sum)
-        self._bias = [wx, wy]
+        self.bias = [wx, wy]
         self.roll = atan2(fy, fz)
         self.pitch = atan2(-fx, hypot(fy, fz))
 
@@ -86,7 +89,7 @@ class AttitudeFilter:
             return
         wx, wy, wz = gyro.tolist()
         wz = 0.0 if isnan(wz) else wz  # a gyro with two axes
-        wx, wy = wx - self._bias[0], wy - self._bias[1]
+        wx, wy = wx - self.bias[0], wy - self.bias[1]
         self.rate = wx, wy, wz
         roll, pitch = self.roll, self.pitch
         sr, cr = sin(roll), cos(roll)
@@ -101,10 +104,10 @@ class AttitudeFilter:
         expected = sr * sp * ax + cr * ay + sr * cp * GRAVITY
         error_roll = (fy - expected) / GRAVITY
         if fx * fx + fy * fy + fz * fz > 1.0:
-            gain = self._correction
+            gain, bias_gain = self.gains
             roll += gain * duration * error_roll
             pitch += gain * duration * error_pitch
-            step = self._bias_correction * duration
-            self._bias[0] -= step * error_roll
-            self._bias[1] -= step * error_pitch
+            step = bias_gain * duration
+            self.bias[0] -= step * error_roll
+            self.bias[1] -= step * error_pitch
         self.roll, self.pitch = roll, pitch

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.errors import ModelError
-from ..core.machine_code import Kernel, is_enabled
+from ..core.machine_code import BoundKernel, Kernel, is_enabled
 from ..core.poses import Array
 from .description import REMEDY, RobotDescription
 from .expression_tracing import ExpressionTrace, Formula, Function, Number
@@ -55,6 +55,10 @@ class ForwardKinematics:
         description: Robot description.
         tree: Kinematic tree of the robot.
         mass: Mass of the robot, in [kg].
+        angles: Arguments of the compiled formulas: angles of the actuated
+            joints, in [rad]. Shape (joints,).
+        numbers: Their results: position of the CoM, positions, then rotation
+            matrices of the feet, by rows; then those of the head.
     """
 
     def __init__(
@@ -77,13 +81,13 @@ class ForwardKinematics:
             tuple(sorted(description.standing.items())),
             is_enabled(),
         )
-        self._numbers = np.empty(HEAD_OFFSET + (0 if head is None else 12))
-        self._angles = np.empty(len(tree.motors))
+        self.numbers = np.empty(HEAD_OFFSET + (0 if head is None else 12))
+        self.angles = np.empty(len(tree.motors))
         self._function: Function | None = None
         if kernel is None:
             self._function = formula.function()
         else:
-            self._run = kernel.bind(self._angles, self._numbers)
+            self._run = kernel.bind(self.angles, self.numbers)
         self._feet = [tree.sites[name] for name in feet]
         self._cache_key = b""
         self._posture: MeasuredPosture
@@ -116,13 +120,18 @@ class ForwardKinematics:
             self._cache_key = key
         return self._posture
 
+    @property
+    def compiled(self) -> BoundKernel | None:
+        """Kernel from :attr:`angles` to :attr:`numbers`, if it is used."""
+        return None if self._function is not None else self._run
+
     def _evaluate(self, angles: Array) -> Array:
         """Return the results of the formulas at angles, in [rad]."""
         if self._function is not None:
             return np.array(self._function(*angles.tolist()))
-        self._angles[:] = angles
+        self.angles[:] = angles
         self._run()
-        return self._numbers.copy()
+        return self.numbers.copy()
 
     def force_sensors(self) -> Array:
         """Return the positions of the foot force sensors.

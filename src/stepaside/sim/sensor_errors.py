@@ -180,9 +180,12 @@ class SensorErrors:
         self._body = body
         self._force_noise = body.force_noise * force_unit  # in [N]
         self._generator = generator
-        self._gyro_bias = body.gyro_bias * generator.uniform(-1, 1, 3)
-        self._specific_force_bias = (
-            body.accelerometer_bias * generator.uniform(-1, 1, 3)
+        # Of gyro, then accelerometer.
+        self._imu_bias = np.repeat(
+            (body.gyro_bias, body.accelerometer_bias), 3
+        ) * generator.uniform(-1, 1, 6)
+        self._imu_noise = np.repeat(
+            (body.gyro_noise, body.accelerometer_noise), 3
         )
         self._gains = 1.0 + body.force_gain_error * generator.uniform(-1, 1, 8)
         self._imu: deque[tuple[Array, Array]] = deque(
@@ -192,22 +195,26 @@ class SensorErrors:
     def encoders(self, angles: Array) -> Array:
         """Return quantised joint angles, in [rad]. Shape (joints,)."""
         step = self._body.encoder_step
-        return angles if step == 0.0 else np.rint(angles / step) * step
+        if step == 0.0:
+            return angles
+        steps = angles / step
+        np.rint(steps, out=steps)
+        steps *= step
+        return steps
 
     def imu(self, gyro: Array, force: Array) -> tuple[Array, Array]:
         """Return noisy, delayed gyro [rad/s] and accelerometer [m/s^2]."""
-        body, draw = self._body, self._generator.standard_normal
-        gyro = gyro + self._gyro_bias + body.gyro_noise * draw(3)
-        force = force + self._specific_force_bias
-        force += body.accelerometer_noise * draw(3)
-        self._imu.append((gyro, force))
+        readings = np.concatenate((gyro, force))
+        readings += self._imu_bias
+        readings += self._imu_noise * self._generator.standard_normal(6)
+        self._imu.append((readings[:3], readings[3:]))
         return self._imu[0]
 
     def foot_forces(self, forces: Array) -> Array:
         """Return noisy normal forces, in [N], at least zero. Shape (8,)."""
-        noise = self._force_noise * self._generator.standard_normal(8)
-        noisy: Array = np.maximum(forces * self._gains + noise, 0.0)
-        return noisy
+        noisy = forces * self._gains
+        noisy += self._force_noise * self._generator.standard_normal(8)
+        return np.maximum(noisy, 0.0, out=noisy)
 
 
 def perturb_masses(

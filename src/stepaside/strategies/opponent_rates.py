@@ -98,7 +98,7 @@ class FloorVelocity:
             return None
         rows = [*samples, (time, x, y)]
         count = len(rows)
-        middle = [sum(row[i] for row in rows) / count for i in range(3)]
+        middle = [sum(column) / count for column in zip(*rows, strict=True)]
         square = along = across = 0.0
         for t, u, v in rows:
             dt = t - middle[0]

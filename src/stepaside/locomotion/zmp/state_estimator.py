@@ -6,11 +6,13 @@ from typing import NamedTuple
 import numpy as np
 
 from ...core.constants import GRAVITY
+from ...core.machine_code import BoundKernel
 from ...core.poses import Array
 from ...perception.attitude import AttitudeFilter
 from ...perception.measurement import Measurement
 from ...robots.forward_kinematics import ForwardKinematics, MeasuredPosture
 from ...robots.leg_kinematics import BodyReference
+from .estimator_kernel import STATE, VALUES, estimator_kernel
 
 Vector = tuple[float, float]
 STANDS, TOUCHES = 0.2, 0.02  # least fractions of the weight on the feet
@@ -90,11 +92,44 @@ class StateEstimator:
         # Two equal poles at the bandwidth.
         self._position_gain = 1.0 - fade * fade
         self._velocity_gain = (1.0 - fade) ** 2 / tick
-        self.posture: MeasuredPosture | None = None
+        self._angles: Array | None = None  # of the last measurement
         self._com: Vector | None = None
         self._velocity: Vector = (0.0, 0.0)
         self._share = 0.5
         self._heading = 0.0
+        self._posture_kernel: BoundKernel | None = None
+        self._kernel: BoundKernel | None = None
+        if isinstance(kinematics, ForwardKinematics):
+            self._bind(kinematics)
+
+    def _bind(self, kinematics: ForwardKinematics) -> None:
+        """Prepare the estimation as machine code, if it is used."""
+        self._posture_kernel = kinematics.compiled
+        loop = estimator_kernel() if self._posture_kernel else None
+        if loop is None:
+            return
+        self._values, self._state = np.zeros(VALUES), np.zeros(STATE)
+        self._kernel = loop.bind(
+            self._values,
+            kinematics.numbers,
+            np.ascontiguousarray(self._sensors, dtype=np.float64),
+            self._state,
+            self._tick,
+            self._eta,
+            *self._attitude.gains,
+            GRAVITY,
+            self._position_gain,
+            self._velocity_gain,
+            TOUCHES * self._weight,
+            STANDS * self._weight,
+        )
+
+    @property
+    def posture(self) -> MeasuredPosture | None:
+        """Last measured posture; None before the first."""
+        if self._angles is None:
+            return None
+        return self.kinematics.posture(self._angles)
 
     @property
     def ready(self) -> bool:
@@ -129,6 +164,9 @@ class StateEstimator:
                 wrong tilt explains its own acceleration.
             reaction: ZMP shift by the swing leg of that command, in [m].
         """
+        self._angles = measurement.joint_positions
+        if self._kernel is not None and self._attitude.ready:
+            return self._run(measurement, feet, acceleration, reaction)
         attitude, eta = self._attitude, self._eta
         c, s = cos(self._heading), sin(self._heading)
         ax, ay = acceleration
@@ -142,7 +180,6 @@ class StateEstimator:
         left_force, right_force = _sums(forces)
         weight = self._weigh(left_force, right_force)
         posture = self.kinematics.posture(measurement.joint_positions)
-        self.posture = posture
         measured, (px, py) = self._locate(
             posture, forces, (left_force, right_force), feet
         )
@@ -161,6 +198,49 @@ class StateEstimator:
             (attitude.roll, attitude.pitch),
             attitude.rate,
             self._share,
+            weight,
+        )
+
+    def _run(
+        self,
+        measurement: Measurement,
+        feet: BodyReference,
+        acceleration: Vector,
+        reaction: Vector,
+    ) -> BodyState:
+        """Estimate by machine code; see :meth:`update`."""
+        assert self._kernel is not None and self._posture_kernel is not None
+        values, state, attitude = self._values, self._state, self._attitude
+        if self._com is not None:  # so far it was estimated in Python
+            state[:4] = *self._com, *self._velocity
+            state[8:10] = attitude.roll, attitude.pitch
+            state[13], state[15] = self._share, self._heading
+            state[16:] = attitude.bias
+            self._com = None
+        self.kinematics.angles[:] = measurement.joint_positions
+        self._posture_kernel()
+        values[:3], values[3:6] = measurement.gyro, measurement.accelerometer
+        values[6:14] = measurement.foot_forces
+        values[14:] = (
+            *feet.left_foot,
+            *feet.right_foot,
+            *acceleration,
+            *reaction,
+        )
+        self._kernel()
+        cx, cy, vx, vy, dx, dy, px, py, *others = state.tolist()
+        roll, pitch, wx, wy, wz, share, weight, heading, _, _ = others
+        attitude.roll, attitude.pitch = roll, pitch
+        attitude.rate = wx, wy, wz
+        self._heading = heading
+        return BodyState(
+            (cx, cy),
+            (vx, vy),
+            (dx, dy),
+            (px, py),
+            (roll, pitch),
+            (wx, wy, wz),
+            share,
             weight,
         )
 
