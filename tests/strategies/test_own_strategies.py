@@ -136,7 +136,7 @@ def test_strategies_have_names() -> None:
     others |= {"robust", "noisy", "stop-and-wait"}
     others |= {"sharp", "herding", "cyclic", "assigned", "encircle"}
     others |= {"pincer", "team-evasion", "goal"}
-    others |= {"step-aside", "matador"}
+    others |= {"step-aside", "matador", "wary"}
     paper = {"evasion", "deflected", "pursuit", "stand", "walk"}
     assert set(STRATEGIES) == paper | others
 

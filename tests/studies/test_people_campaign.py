@@ -3,7 +3,7 @@
 import json
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
-from math import atan2, degrees, pi
+from math import atan2, degrees, hypot, pi, sin
 from pathlib import Path
 from typing import Any
 
@@ -13,14 +13,17 @@ from click.testing import CliRunner
 from legs_robot import nao_on_legs
 from stepaside.cli.main import main
 from stepaside.core import worker_pool as pools
-from stepaside.core.poses import wrap_angle
+from stepaside.core.poses import Pose, wrap_angle
+from stepaside.games.duel_evaluation import template_closest_approach
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.locomotion.policy.legs_settings import LegsSettings
 from stepaside.planning import PRESETS
 from stepaside.report.people_figure import draw_people
+from stepaside.sim.person_motion import PersonMotion
 from stepaside.studies import people_campaign as campaign
 from stepaside.studies import person_encounters as study
 from stepaside.studies.campaign import CodeStamp, run_study
+from stepaside.studies.drawn_encounters import drawn_study
 from stepaside.studies.people_campaign import people_study
 from stepaside.studies.people_statistics import (
     origin_rows,
@@ -186,12 +189,55 @@ def test_the_command_writes_table_and_map(
     assert told.exit_code == 0, told.output
     assert "0/15" in told.stdout and "0.90 m" in told.stdout
     made = read_result(tmp_path / "found" / "people.json")
-    assert made["planned"] == made["done"] == 80
+    assert made["planned"] == made["done"] == 80 + 9 * 20
+    assert {row["reaction"] for row in made["reactions"]} == set(study.LADDER)
     assert {row["speed_m_s"] for row in made["people"]} == set(study.SPEEDS)
     assert not (tmp_path / "found" / "survival.json").exists()
     assert (tmp_path / "found" / "people.png").exists()
     asked = CliRunner().invoke(main, [*line.split(), "--json"])
     assert json.loads(asked.stdout)["person"]["passers_by"][0]["number"] == 20
+
+
+def test_people_who_turn_head_for_the_robot_at_the_given_distance() -> None:
+    for speed in (0.5, 1.4):
+        for bearing in (0, 180):
+            (each,) = encounters(
+                WALK, ("ideal",), seeds=1, speeds=(speed,),
+                bearings=(bearing,), reactions=("turning",),
+            )  # fmt: skip
+            settings = each.settings
+            distance = settings.start.distance
+            assert distance is not None and not each.passes
+            motion = PersonMotion(
+                settings.person, Pose(0.0, 0.0, 0.0), (distance, 0.0)
+            )
+            aside = []
+            for i in range(round((distance + 0.5) / speed / 0.01)):
+                motion.advance(0.01 * (i + 1), 0.01, (distance, 0.0))
+                x, y, course = motion.pose
+                gap = hypot(x - distance, y)
+                sight = wrap_angle(course - atan2(-y, distance - x))
+                aside.append((gap, abs(sight)))
+            # It would have passed at 1.2 m, and comes straight to the robot.
+            before = [gap * sin(sight) for gap, sight in aside if gap > 1.65]
+            assert before[-1] == pytest.approx(1.2, abs=0.1)
+            assert all(s < 0.02 for gap, s in aside if 0.5 < gap < 1.55)
+            assert min(aside)[0] < 0.05
+
+
+def test_half_of_the_drawn_people_are_found_hard_by_a_search() -> None:
+    base = study.base_settings(WALK)
+    short = drawn_study(base, "ideal", 4).cases
+    longer = drawn_study(base, "ideal", 40).cases
+    assert [each.key for each in short] == [e.key for e in longer[:4]]
+    assert len({each.key for each in longer}) == 40
+    assert {each.reaction for each in longer} == set(study.LADDER)
+    easy, hard = (
+        template_closest_approach(each.encounter().settings)
+        for each in short[:2]
+    )
+    assert easy is not None and hard is not None and hard < easy
+    assert short[1].is_hard and short[1].encounter() == short[1].encounter()
 
 
 def test_a_robot_that_sees_stands_far_from_walls() -> None:

@@ -20,6 +20,7 @@ from stepaside.robots.description import load_robot
 from stepaside.sim.body_settings import BODIES
 from stepaside.sim.camera_settings import RoomObject
 from stepaside.sim.passerby_settings import Passer
+from stepaside.sim.person_settings import PersonSettings
 from stepaside.sim.push import Push
 from stepaside.studies.duel_campaign import duel_study
 from stepaside.studies.duel_record import settings_hash
@@ -53,6 +54,7 @@ OTHERS: dict[str, Any] = {
     "physics.integrator": ["discrete"],
     "person.path": ["circle", "straight", "visits"],
     "person.figure": ["child"],
+    "person.reaction": [],  # needs a straight path
 }
 WALK = WalkSettings(control=FEEDBACK)
 # What every trial of a campaign sets itself.
@@ -126,6 +128,7 @@ def test_every_setting_of_an_encounter_changes_its_key() -> None:
     others = {f"base.{name}": values for name, values in OTHERS.items()}
     others |= {
         "sensing": ["cameras"],
+        "reaction": ["turning"],
         "base.pursuer": [],
         "base.pursuer_strategy": [],
         "base.room.plan": [],
@@ -134,6 +137,19 @@ def test_every_setting_of_an_encounter_changes_its_key() -> None:
     for name, made in changed(base, others):
         assert made.key not in keys, name
         keys.add(made.key)
+
+
+def test_the_reaction_of_a_person_changes_the_key_of_a_duel() -> None:
+    keys = {
+        key_of(replace(PERSON, person=PersonSettings(path, reaction=reaction)))
+        for path, reaction in (
+            ("steer", "none"),
+            ("straight", "none"),
+            ("straight", "curious"),
+            ("straight", "scared"),
+        )
+    }
+    assert len(keys) == 4
 
 
 def test_every_part_of_a_trial_changes_its_key() -> None:

@@ -20,7 +20,12 @@ from .options.setting_options import refuse_options
 from .options.settings_command import SettingsCommand, takes_settings
 from .output_files import attempt, writes_files
 from .plan import ENTRIES_OF_GAMES
-from .robustness_people import meet_people, print_people, write_people
+from .robustness_people import (
+    PeopleRequest,
+    meet_people,
+    print_people,
+    write_people,
+)
 from .robustness_walks import (
     CampaignRequest,
     plan_walks,
@@ -95,6 +100,12 @@ def _kinds() -> Collection[str]:
     return KINDS
 
 
+def _reactions() -> Collection[str]:
+    from ..studies.person_encounters import LADDER
+
+    return LADDER
+
+
 def _methods() -> Collection[str]:
     from ..studies.robustness_trial import METHODS
 
@@ -149,6 +160,29 @@ def _methods() -> Collection[str]:
     help="ONNX file of a walking policy, with --kind person; by default that "
     "of the robot's description.",
 )
+@click.option(
+    "--strategy",
+    default="",
+    metavar="NAME",
+    help="Strategy of the robot, with --kind person; by default evasion by "
+    "time to contact, or step-aside on learned legs.",
+)
+@click.option(
+    "--reaction",
+    "reactions",
+    type=NameType(_reactions),
+    multiple=True,
+    help="What people do near the robot, with --kind person; repeatable. All "
+    "by default.",
+)
+@click.option(
+    "--people",
+    type=click.IntRange(0, 10_000_000),
+    default=0,
+    help="Number of people drawn at random, with --kind person, instead of a "
+    "grid: from all sides, up to 1.4 m/s, with all reactions, every second "
+    "one found hard by a search in the template.",
+)
 @campaign_options(
     "Folder of results; an interrupted campaign in it is continued. "
     "runs/robustness-BODY by default, none with --json."
@@ -177,6 +211,9 @@ def robustness(
     phases: int,
     seeds: int,
     legs: str,
+    strategy: str,
+    reactions: tuple[str, ...],
+    people: int,
     campaign: CampaignOptions,
     figure: str | None,
     as_json: bool,
@@ -191,7 +228,14 @@ def robustness(
 
     kinds = _unique(kinds) or tuple(k for k in _kinds() if k != PERSON)
     if PERSON not in kinds:
-        refuse_options({"sensings", "legs"}, f"--kind {PERSON}")
+        refuse_options(
+            {"sensings", "legs", "strategy", "reactions", "people"},
+            f"--kind {PERSON}",
+        )
+    if people:
+        refuse_options({"reactions"}, "no --people")
+        if len(_unique(sensings)) > 1:
+            raise click.UsageError("--people takes one --sensing")
     if "push" not in kinds:
         refuse_options({"phases"}, "--kind push")
     body, changes = changes_of(settings)
@@ -217,22 +261,31 @@ def robustness(
             attempt(lambda: write_walks(folder, settings, request, answer))
     if PERSON in kinds and (last is None or last.completed):
         policy = _legs_of(settings.robot, legs)
-        people = {
+        met = PeopleRequest(
+            _unique(sensings),
+            seeds,
+            policy,
+            strategy,
+            _unique(reactions),
+            people,
+        )
+        asked = {
             "kind": PERSON,
-            "sensings": _unique(sensings),
+            "sensings": met.sensings,
             "body": body,
             "seeds": seeds,
             "seed": settings.seed,
             **({"legs": Path(policy.network).name} if policy.walks else {}),
+            **({"strategy": strategy} if strategy else {}),
+            **({"reactions": met.reactions} if reactions else {}),
+            **({"people": people} if people else {}),
             **({"changes": changes} if changes else {}),
         }
-        found, last = meet_people(
-            settings, _unique(sensings), seeds, policy, campaign
-        )
+        found, last = meet_people(settings, met, campaign)
         answer["person"] = found
         if output is not None and last.completed and campaign.is_whole:
             folder = output
-            attempt(lambda: write_people(folder, people, found))
+            attempt(lambda: write_people(folder, asked, found))
     assert last is not None
     if figure is not None and last.completed and "survival" in answer:
         from ..report.robustness_figure import draw_survival

@@ -105,7 +105,7 @@ def _theory(settings: DuelSettings, converged: float | None) -> TheorySummary:
         if expectation.expected is ExpectedEnd.CONTACT:
             circle = Circle(exists=False)
     return TheorySummary(
-        _closest_approach(settings)
+        template_closest_approach(settings)
         if expectation is None
         else expectation.closest_m,
         circle.exists,
@@ -141,8 +141,15 @@ def _player(
     return PlayerSummary(_number(radius), sight)
 
 
-def _closest_approach(settings: DuelSettings) -> float | None:
-    """Compute the closest approach of a person to the evader's template."""
+def template_closest_approach(settings: DuelSettings) -> float | None:
+    """Compute the closest approach of a person to the evader's template.
+
+    Args:
+        settings: Settings of the duel, with the initial poses filled in.
+
+    Returns:
+        Distance, in [m]; None where the template is no model of the game.
+    """
     start, own = settings.start, settings.robot_of(EVADER)
     gait, legs = own.gait, own.legs
     if settings.pursuer == "robot" or start.distance is None:

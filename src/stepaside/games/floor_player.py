@@ -83,10 +83,17 @@ class CrowdSteering:
         self,
         motion: CrowdMotion,
         others: Mapping[str, GroundTruth],
-        people: set[str],
+        people: Mapping[str, bool],
         tick: float,
     ) -> None:
-        """Take the walk, all other players and the names of people."""
+        """Take the walk and all other players.
+
+        Args:
+            motion: Walk of the person.
+            others: True states of all other players, by name.
+            people: Names of people, and whether they walk with this one.
+            tick: Control period, in [s].
+        """
         self._motion, self._others = motion, others
         self._people, self._tick = people, tick
 
@@ -97,6 +104,7 @@ class CrowdSteering:
                 *truth.position_torso_in_world,
                 name in self._people,
                 RADIUS if name in self._people else ROBOT_RADIUS,
+                self._people.get(name, False),
             )
             for name, truth in self._others.items()
         ]

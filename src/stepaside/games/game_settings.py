@@ -245,6 +245,17 @@ class GameSettings:
         """Return the settings of the player with a name."""
         return {p.name: p for p in self.players}[name]
 
+    def people_around(self, own: PlayerSettings) -> dict[str, bool]:
+        """Return all people by name, and whether they walk with a player.
+
+        People who share a named team walk as a group.
+        """
+        return {
+            p.name: p.team == own.team != "" and p is not own
+            for p in self.players
+            if p.body == "person"
+        }
+
     @property
     def names(self) -> tuple[str, ...]:
         """Names of the players, in the order in which they act."""

@@ -135,7 +135,7 @@ class GameWorld:
             motion = RecordedMotion(own.run, own.run_player)
             return FloorPlayer(body, RecordedSteering(motion, tick))
         if own.goal:
-            people = {p.name for p in settings.players if p.body == "person"}
+            people = settings.people_around(own)
             room = settings.room
             walk = CrowdMotion(
                 own.crowd,

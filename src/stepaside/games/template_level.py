@@ -5,7 +5,7 @@ people and recorded motions are those of a game in physics. Times are gait
 times.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -145,9 +145,15 @@ class CrowdTemplate:
     """Person who walks to a goal, without a body."""
 
     def __init__(
-        self, name: str, motion: CrowdMotion, people: set[str]
+        self, name: str, motion: CrowdMotion, people: Mapping[str, bool]
     ) -> None:
-        """Take the motion of a person, and the names of all people."""
+        """Take the motion of a person.
+
+        Args:
+            name: Name of the person.
+            motion: Its walk.
+            people: Names of people, and whether they walk with this one.
+        """
         self._name, self._motion, self._people = name, motion, people
 
     @property
@@ -158,7 +164,11 @@ class CrowdTemplate:
     def advance(self, time: float, players: World) -> None:
         """Advance by one sample."""
         others = [
-            Neighbour(*state.pose[:2], name in self._people)
+            Neighbour(
+                *state.pose[:2],
+                name in self._people,
+                is_companion=self._people.get(name, False),
+            )
             for name, state in players.items()
             if name != self._name
         ]
@@ -341,7 +351,7 @@ def _motion(settings: GameSettings, own: PlayerSettings) -> TemplateMotion:
     if own.body == "run":
         return RecordedTemplate(RecordedMotion(own.run, own.run_player))
     if own.goal:
-        people = {p.name for p in settings.players if p.body == "person"}
+        people = settings.people_around(own)
         motion = CrowdMotion(own.crowd, pose, own.goal[:2], obstacles)  # type: ignore[arg-type]
         return CrowdTemplate(own.name, motion, people)
     target = target_of_person(settings, own)

@@ -1,27 +1,63 @@
 """Walk of a person to a goal among other players.
 
-The reaction is the social force model of D. Helbing and P. Molnár (Physical
-Review E 51, 1995): an acceleration towards the desired velocity, and a
-repulsion from each other player and wall that decays with the distance.
+It follows the social force model. Reactions to robots are those of the
+simulator HuNavSim (N. Perez-Higueras et al., IEEE Robotics and Automation
+Letters 8, 2023), with its distances, durations and forces.
 """
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import atan2, exp, hypot
+from math import atan2, cos, hypot, pi, radians, sin
+from typing import NamedTuple
 
 from ..arena import NO_OBSTACLES, ObstacleSet
-from ..core.poses import Pose
+from ..core.poses import Pose, wrap_angle
 from ..core.ranges import Range
 from ..core.setting import check_settings, setting
+from .social_force import (
+    OBSTACLE_RANGE,
+    Vector,
+    desired_force,
+    group_force,
+    obstacle_force,
+    social_force,
+)
 
-REACTIONS = ("none", "avoid", "avoid-people")
-RELAXATION = 0.5  # time to reach the desired velocity, in [s]
-STRENGTH = 3.0  # of the repulsion at contact, in [m/s^2]
-RANGE = 0.3  # in which the repulsion decays by e, in [m]
+
+class Notice(NamedTuple):
+    """When a person notices a robot, and for how long it reacts.
+
+    Attributes:
+        within: Greatest distance, in [m].
+        lasts: Duration of the reaction, in [s].
+    """
+
+    within: float
+    lasts: float
+
+
+NOTICES = {
+    "surprised": Notice(4.0, 30.0),
+    "curious": Notice(10.0, 30.0),
+    "scared": Notice(3.0, 40.0),
+    "threatening": Notice(4.0, 40.0),
+}
+REACTIONS = ("none", "avoid-people", "regular", "impassive", *NOTICES)
+VIEW = radians(100.0)  # to either side, within which it notices a robot
 RADIUS = 0.25  # of a person, in [m]
 ARRIVED = 0.2  # distance from the goal at which the person halts, in [m]
-BEHIND = 0.3  # share of the repulsion from players out of sight
 FASTEST = 1.3  # greatest speed over the desired one
+FAR = 8.0  # distance beyond which others have no influence, in [m]
+WALL_FORCE_WITHIN = 1.0  # gap to a wall, in [m]
+NEAR_ENOUGH = 1.5  # distance at which a curious person halts, in [m]
+APPROACH_RATE = 0.18  # speed of a curious person per distance, in [1/s]
+BLOCKING = 1.1  # ahead of the robot, where a threatening one stands, in [m]
+SCARED_SPEED = 0.6  # greatest speed of a scared person, in [m/s]
+SCARE = 20.0  # force on a scared person at OBSTACLE_RANGE, in [m/s^2]
+TURN_RATE = pi  # of a person who turns to look at a robot, in [rad/s]
+SMOOTHING = 0.3  # time constant of the velocities of others, in [s]
+LOOKS_WITHIN = 1.2  # distance of a robot that a person looks at, in [m]
+STANDING = 0.1  # speed below which a robot stands, in [m/s]
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,9 +70,11 @@ class CrowdSettings:
         Range(0.0, 3.0, "m/s", "faster is running"),
     )
     reaction: str = setting(
-        "avoid",
-        "What the person gives way to: nothing, everybody, or people but not "
-        "robots",
+        "regular",
+        "Reaction to others: none, to people but not robots, or to both. "
+        "Robots are people for a regular person and obstacles for an "
+        "impassive one. A surprised person halts, a curious one comes nearer, "
+        "a scared one keeps away, and a threatening one blocks the robot",
         names=REACTIONS,
     )
     returns: bool = setting(
@@ -57,12 +95,14 @@ class Neighbour:
         y: Likewise.
         is_person: Whether it is a person.
         radius: Radius of its body, in [m].
+        is_companion: Whether it walks in the same group.
     """
 
     x: float
     y: float
     is_person: bool
     radius: float = RADIUS
+    is_companion: bool = False
 
 
 class CrowdMotion:
@@ -78,7 +118,7 @@ class CrowdMotion:
         self,
         settings: CrowdSettings,
         start: Pose,
-        goal: tuple[float, float],
+        goal: Vector,
         obstacles: ObstacleSet = NO_OBSTACLES,
     ) -> None:
         """Start a walk.
@@ -93,6 +133,9 @@ class CrowdMotion:
         self.pose = start
         self._goals = [goal, start[:2]]
         self._velocity = 0.0, 0.0
+        self._seen: Sequence[Neighbour] = ()
+        self._velocities: list[Vector] = []
+        self._reacted = 0.0
         self.arrived_at: float | None = None
 
     def advance(
@@ -103,58 +146,150 @@ class CrowdMotion:
         Args:
             time: Time at the end of the step, in [s].
             duration: Duration of the step, in [s].
-            others: All other players.
+            others: All other players, in the same order at every step.
         """
+        self._observe(others, duration)
         x, y, theta = self.pose
-        settings, (vx, vy) = self._settings, self._velocity
         gx, gy = self._goals[0]
-        left = hypot(gx - x, gy - y)
-        if left < ARRIVED:
+        if hypot(gx - x, gy - y) < ARRIVED:
             if self.arrived_at is None:
                 self.arrived_at = time
-            if settings.returns:
+            if self._settings.returns:
                 self._goals.reverse()
-        wanted = settings.speed if left >= ARRIVED else 0.0
-        scale = wanted / left if left > 0.0 else 0.0
-        ax = (scale * (gx - x) - vx) / RELAXATION
-        ay = (scale * (gy - y) - vy) / RELAXATION
-        if settings.reaction != "none":
-            fx, fy = self._repulsion(others)
-            ax, ay = ax + fx, ay + fy
-        vx, vy = vx + ax * duration, vy + ay * duration
-        speed, most = hypot(vx, vy), FASTEST * settings.speed
-        if speed > most:
-            vx, vy = vx * most / speed, vy * most / speed
+        noticed = self._noticed()
+        if noticed is not None:
+            self._reacted += duration
+        goal, speed = self._intention(noticed)
+        vx, vy = self._velocity
+        toward = goal[0] - x, goal[1] - y
+        ax, ay = desired_force(toward, self._velocity, speed, ARRIVED)
+        fx, fy = self._forces(noticed)
+        vx, vy = vx + (ax + fx) * duration, vy + (ay + fy) * duration
+        pace, most = hypot(vx, vy), FASTEST * self._settings.speed
+        if pace > most:
+            vx, vy = vx * most / pace, vy * most / pace
         self._velocity = vx, vy
-        if hypot(vx, vy) > 0.05:
+        robot = None if noticed is None else others[noticed]
+        if robot is not None and (
+            speed == 0.0 or hypot(robot.x - x, robot.y - y) < LOOKS_WITHIN
+        ):
+            sight = wrap_angle(atan2(robot.y - y, robot.x - x) - theta)
+            most = TURN_RATE * duration
+            theta = wrap_angle(theta + min(max(sight, -most), most))
+        elif hypot(vx, vy) > 0.05:
             theta = atan2(vy, vx)
         self.pose = Pose(x + vx * duration, y + vy * duration, theta)
 
-    def _repulsion(self, others: Sequence[Neighbour]) -> tuple[float, float]:
-        """Return the acceleration away from players and walls, [m/s^2]."""
+    def _observe(self, others: Sequence[Neighbour], duration: float) -> None:
+        """Update the velocities of the other players."""
+        if len(self._seen) != len(others):
+            self._velocities = [(0.0, 0.0)] * len(others)
+        else:
+            # Robots sway at each step, which is no motion to react to.
+            share = duration / (SMOOTHING + duration)
+            self._velocities = [
+                (
+                    u + share * ((now.x - was.x) / duration - u),
+                    v + share * ((now.y - was.y) / duration - v),
+                )
+                for (u, v), now, was in zip(
+                    self._velocities, others, self._seen, strict=True
+                )
+            ]
+        self._seen = others
+
+    def _noticed(self) -> int | None:
+        """Return the number of the robot that the person reacts to."""
+        notice = NOTICES.get(self._settings.reaction)
+        if notice is None or self._reacted > notice.lasts:
+            return None
+        x, y, theta = self.pose
+        found: list[tuple[float, int]] = []
+        for i, other in enumerate(self._seen):
+            dx, dy = other.x - x, other.y - y
+            angle = abs(wrap_angle(atan2(dy, dx) - theta))
+            distance = hypot(dx, dy)
+            in_view = distance <= notice.within and angle <= VIEW
+            if in_view and not other.is_person:
+                found.append((distance, i))
+        return min(found)[1] if found else None
+
+    def _intention(self, noticed: int | None) -> tuple[Vector, float]:
+        """Return goal, in [m], and desired speed, in [m/s]."""
+        settings = self._settings
+        goal, speed = self._goals[0], settings.speed
+        if noticed is None:
+            return goal, speed
+        robot, (x, y, _) = self._seen[noticed], self.pose
+        distance = hypot(robot.x - x, robot.y - y)
+        if settings.reaction == "surprised":
+            return goal, 0.0
+        if settings.reaction == "scared":
+            return goal, min(speed, SCARED_SPEED)
+        if settings.reaction == "curious":
+            slow = APPROACH_RATE * distance if distance > NEAR_ENOUGH else 0.0
+            return (robot.x, robot.y), min(speed, slow)
+        u, v = self._velocities[noticed]
+        ahead = (
+            atan2(v, u)
+            if hypot(u, v) > STANDING
+            else atan2(y - robot.y, x - robot.x)
+        )
+        place = (
+            robot.x + BLOCKING * cos(ahead),
+            robot.y + BLOCKING * sin(ahead),
+        )
+        return place, speed
+
+    def _forces(self, noticed: int | None) -> Vector:
+        """Return the acceleration by players and walls, in [m/s^2]."""
         x, y, _ = self.pose
-        vx, vy = self._velocity
         fx = fy = 0.0
-        people_only = self._settings.reaction == "avoid-people"
-        for other in others:
-            if people_only and not other.is_person:
+        reaction = self._settings.reaction
+        others = zip(self._seen, self._velocities, strict=True)
+        for other, (u, v) in others if reaction != "none" else ():
+            offset = x - other.x, y - other.y
+            away = hypot(*offset)
+            if not 0.0 < away < FAR:
                 continue
-            dx, dy = x - other.x, y - other.y
+            if other.is_person or self._is_regular:
+                vx, vy = self._velocity
+                ax, ay = social_force(offset, (vx - u, vy - v))
+            elif reaction == "impassive":
+                outward = offset[0] / away, offset[1] / away
+                gap = away - RADIUS - other.radius
+                ax, ay = obstacle_force(outward, gap)
+            else:
+                continue
+            fx, fy = fx + ax, fy + ay
+        if noticed is not None and reaction == "scared":
+            robot = self._seen[noticed]
+            dx, dy = x - robot.x, y - robot.y
             away = hypot(dx, dy)
-            if not 0.0 < away < 3.0:
-                continue
-            push = STRENGTH * exp((RADIUS + other.radius - away) / RANGE)
-            if -(dx * vx + dy * vy) < 0.0:
-                push *= BEHIND
-            # Both give way to one side, or they would stop face to face.
-            ux, uy = dx / away, dy / away
-            fx += push * (ux - 0.3 * uy)
-            fy += push * (uy + 0.3 * ux)
-        if self._obstacles:
-            gap = float(self._obstacles.clearance([(x, y)])[0])
-            if gap < 1.0:
-                nearest = int(self._obstacles.clearances([(x, y)])[0].argmin())
-                out = self._obstacles.directions_out([(x, y)])[0, nearest]
-                push = STRENGTH * exp(min((RADIUS - gap) / 0.15, 2.0))
-                fx, fy = fx + push * out[0], fy + push * out[1]
-        return float(fx), float(fy)
+            push = SCARE * OBSTACLE_RANGE / max(away - RADIUS, 0.1)
+            fx, fy = fx + push * dx / away, fy + push * dy / away
+        companions = [(o.x, o.y) for o in self._seen if o.is_companion]
+        ax, ay = group_force((x, y), companions)
+        wx, wy = self._wall_force()
+        return fx + ax + wx, fy + ay + wy
+
+    @property
+    def _is_regular(self) -> bool:
+        """Whether robots are like people for this person."""
+        notice = NOTICES.get(self._settings.reaction)
+        if notice is None:
+            return self._settings.reaction == "regular"
+        return self._reacted > notice.lasts
+
+    def _wall_force(self) -> Vector:
+        """Return the acceleration away from the nearest wall, [m/s^2]."""
+        x, y, _ = self.pose
+        if self._settings.reaction == "none" or not self._obstacles:
+            return 0.0, 0.0
+        gap = float(self._obstacles.clearance([(x, y)])[0])
+        if gap >= WALL_FORCE_WITHIN:
+            return 0.0, 0.0
+        nearest = int(self._obstacles.clearances([(x, y)])[0].argmin())
+        out = self._obstacles.directions_out([(x, y)])[0, nearest]
+        outward = float(out[0]), float(out[1])
+        return obstacle_force(outward, gap - RADIUS)

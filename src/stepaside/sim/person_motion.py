@@ -1,7 +1,7 @@
 """Walks of a person: steering, straight, repeated or recorded."""
 
 from collections.abc import Callable
-from math import atan2, cos, inf, pi, sin
+from math import atan2, cos, hypot, inf, pi, sin
 from pathlib import Path
 
 import numpy as np
@@ -10,10 +10,12 @@ from ..core.errors import ConfigurationError
 from ..core.poses import Array, Pose, wrap_angle
 from ..theory import laws
 from ..theory.unicycle.unicycle_game import Unicycle
+from .crowd_motion import CrowdMotion, CrowdSettings, Neighbour
 from .person_crossings import RepeatedCrossings
 from .person_settings import PATHS, PersonSettings
 
 Place = tuple[float, float]
+BEYOND = 8.0  # goal of a person who reacts, beyond the evader, in [m]
 
 
 class PersonMotion:
@@ -50,6 +52,14 @@ class PersonMotion:
         self._course = heading
         self.visits = RepeatedCrossings(settings.miss)
         self._walked, self._has_turned = 0.0, False
+        self._reacting: CrowdMotion | None = None
+        if settings.reaction != "none":
+            far = hypot(aim[0] - start.x, aim[1] - start.y) + BEYOND
+            self._reacting = CrowdMotion(
+                CrowdSettings(settings.speed, settings.reaction),
+                Pose(start.x, start.y, heading),
+                (start.x + far * cos(heading), start.y + far * sin(heading)),
+            )
         self.pose = self._pose_facing(start.x, start.y)
         if settings.path not in PATHS:
             self._recorded = read_path(Path(settings.path))
@@ -65,6 +75,11 @@ class PersonMotion:
         """
         if self._recorded is not None:
             self.pose = self._recorded_pose(time)
+            return
+        if self._reacting is not None:
+            robot = Neighbour(*evader, is_person=False)
+            self._reacting.advance(time, duration, [robot])
+            self.pose = self._reacting.pose
             return
         x, y, _ = self.pose
         settings = self._settings

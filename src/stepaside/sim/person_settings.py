@@ -6,6 +6,7 @@ from math import inf, pi
 from ..core.errors import ConfigurationError
 from ..core.ranges import Range
 from ..core.setting import check_settings, setting
+from .crowd_motion import REACTIONS
 from .pedestrian_appearance import FIGURES
 
 PATHS = ("steer", "straight", "visits")
@@ -73,6 +74,13 @@ class PersonSettings:
         "Let the person walk backward",
         option="--person-backward/--no-person-backward",
     )
+    reaction: str = setting(
+        "none",
+        "Reaction to the robot of a person on a straight path, by the social "
+        "force model; see docs/people.md",
+        names=tuple(name for name in REACTIONS if name != "avoid-people"),
+        option="--person-reaction",
+    )
     figure: str = setting(
         "adult",
         "Body model of the person",
@@ -86,4 +94,12 @@ class PersonSettings:
         if not self.path:
             raise ConfigurationError(
                 f"person.path must be {', '.join(PATHS)} or a file, got ''"
+            )
+        plain = self.path == "straight" and not self.backward
+        if self.reaction != "none" and not (
+            plain and self.halt_after == self.turn_after == inf
+        ):
+            raise ConfigurationError(
+                "person.reaction needs a straight path without halting, "
+                f"turning or walking backward, got {self.reaction!r}"
             )

@@ -33,6 +33,7 @@ from .team_pursuit import CyclicPursuit as CyclicPursuit
 from .team_pursuit import Encirclement as Encirclement
 from .team_pursuit import Pincer as Pincer
 from .teleoperation import TeleoperatedPursuit as TeleoperatedPursuit
+from .wary_evasion import WaryEvasion as WaryEvasion
 
 __all__ = [
     "AssignedPursuit",
@@ -68,6 +69,7 @@ __all__ = [
     "UnicycleMatch",
     "WaitingPursuit",
     "Walk",
+    "WaryEvasion",
     "load_strategy",
     "play_strategies",
 ]

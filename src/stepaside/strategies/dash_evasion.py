@@ -114,6 +114,13 @@ class DashEvasion(BackwardStrategy):
 
     def begin(self) -> DashMemory:
         """Return the memory before the first sighting."""
+        # Compiles the rollouts now instead of at the first decision.
+        someone = Opponent(1.0, 0.0, 0.0, 0.0, self.turning_radius)
+        still = VelocitySet((0.0, 1.0), (0.0, 1.0), (-1.0, 1.0))
+        pose = Pose(0.0, 0.0, 0.0)
+        dashes = make_dashes(self.directions, pose, still, LATER)
+        paths = roll_out(pose, STILL, dashes, still, 0.1)
+        closest_approaches(paths, someone, FEINTS, FEINT)
         return DashMemory()
 
     def decide(
@@ -187,16 +194,26 @@ class DashEvasion(BackwardStrategy):
         """
         dashes = make_dashes(self.directions, pose, velocities, LATER)
         paths = roll_out(pose, velocity, dashes, velocities, self.horizon)
-        straight = self.turning_radius == inf
-        least = closest_approaches(
-            paths, opponent, NO_FEINT if straight else FEINTS, FEINT
-        )
-        value = np.minimum(least, self.enough + SURPLUS * least)
+        value = self._values(paths, opponent)
         value = value + _bonus(dashes.angles, dashes.begins, present)
         best = int(np.argmax(value))
         if dashes.begins[best] > 0.0:
             return None, pose.theta
         return float(dashes.angles[best]), float(dashes.headings[best])
+
+    def _values(self, paths: Array, opponent: Opponent) -> Array:
+        """Return the value of each dash, in [m]. Shape (n,).
+
+        Args:
+            paths: Positions along each dash. Shape (steps + 1, n, 2).
+            opponent: The opponent.
+        """
+        straight = self.turning_radius == inf
+        least = closest_approaches(
+            paths, opponent, NO_FEINT if straight else FEINTS, FEINT
+        )
+        value: Array = np.minimum(least, self.enough + SURPLUS * least)
+        return value
 
     def _extrapolate(
         self, trace: tuple[TimedPosition, ...], now: float

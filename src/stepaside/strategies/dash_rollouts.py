@@ -1,11 +1,14 @@
 """Rollouts of straight dashes against behaviours of an opponent."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 from math import pi
 from typing import NamedTuple
 
 import numpy as np
 
+from ..core.compilation import compiled
 from ..core.poses import Array, Pose, wrap_angles
 from .velocity_set import BodyVelocity, VelocitySet, response_share
 
@@ -139,12 +142,9 @@ def roll_out(
         runs, greatest_velocities(dashes.angles - headings, velocities), 0.0
     )
     moved = np.empty((2, count, len(turns)))
-    for axis in range(2):
-        share = response_share(STEP, velocities.lags[axis])
-        now = np.full(len(turns), velocity[axis])
-        for i in range(count):
-            now = now + share * (commands[axis, i] - now)
-            moved[axis, i] = now
+    shares = [response_share(STEP, velocities.lags[i]) for i in range(2)]
+    kernel = _compiled(_fill_responses)
+    kernel(commands, np.array(velocity[:2]), np.array(shares), moved)
     cosine, sine = np.cos(headings), np.sin(headings)
     steps = STEP * np.stack(
         [
@@ -175,25 +175,87 @@ def closest_approaches(
     Returns:
         Smallest distance over time and feints, in [m]. Shape (n,).
     """
-    own_x, own_y = paths[..., 0][:, None], paths[..., 1][:, None]
     most = opponent.speed / opponent.turning_radius  # turning rate, [rad/s]
-    sides = feints[:, None]
-    shape = len(feints), paths.shape[1]
-    x, y = np.full(shape, opponent.x), np.full(shape, opponent.y)
-    course = np.full(shape, opponent.course)
-    way = STEP * opponent.speed
-    least = np.hypot(own_x[0] - x, own_y[0] - y)
-    for i in range(len(paths) - 1):
-        if most > 0.0:
-            sight = np.arctan2(own_y[i] - y, own_x[i] - x)
-            error = (sight - course + pi) % (2.0 * pi) - pi
-            rate = np.clip(STEERING_GAIN * error, -most, most)
-            if i * STEP < feint_duration:
-                rate = np.where(sides != 0.0, sides * most, rate)
-            course = course + STEP * rate
-        x = x + way * np.cos(course)
-        y = y + way * np.sin(course)
-        distance = np.hypot(own_x[i + 1] - x, own_y[i + 1] - y)
-        least = np.minimum(least, distance)
-    found: Array = least.min(axis=0)
-    return found
+    place = opponent.x, opponent.y, opponent.course
+    least = np.empty(paths.shape[1])
+    _compiled(_fill_least_distances)(
+        np.ascontiguousarray(paths),
+        (*place, opponent.speed, most),
+        feints,
+        round(feint_duration / STEP),
+        least,
+    )
+    return least
+
+
+@cache
+def _compiled(loop: Callable[..., None]) -> Callable[..., None]:
+    """Return a loop, compiled if possible."""
+    return compiled(loop)
+
+
+def _fill_responses(
+    commands: Array, velocity: Array, shares: Array, moved: Array
+) -> None:
+    """Write the velocities that follow commands with a lag.
+
+    Args:
+        commands: Velocities by axis, step and dash, in [m/s]. Shape (2,
+            steps, n).
+        velocity: Velocity before, in [m/s]. Shape (2,).
+        shares: Share of a command that is reached in a step. Shape (2,).
+        moved: Velocities after each step, in [m/s], written in place. Shape
+            (2, steps, n).
+    """
+    for axis in range(2):
+        for j in range(commands.shape[2]):
+            now = velocity[axis]
+            for i in range(commands.shape[1]):
+                now += shares[axis] * (commands[axis, i, j] - now)
+                moved[axis, i, j] = now
+
+
+def _fill_least_distances(
+    paths: Array,
+    opponent: tuple[float, float, float, float, float],
+    feints: Array,
+    feint_steps: int,
+    least: Array,
+) -> None:
+    """Write the smallest distance of each path over time and feints.
+
+    Args:
+        paths: Positions of the robot, in [m]. Shape (steps + 1, n, 2).
+        opponent: Position [m], course [rad], speed [m/s] and greatest turning
+            rate [rad/s] of the opponent.
+        feints: Sides to which it turns first. Shape (m,).
+        feint_steps: Number of steps for which it does.
+        least: Distances, in [m], written in place. Shape (n,).
+    """
+    x0, y0, course0, speed, most = opponent
+    way, sharp = STEP * speed, STEP * most
+    # Up to this error, an opponent steers in proportion to it.
+    slope = np.tan(min(most / STEERING_GAIN, 0.49 * pi))
+    turn_c, turn_s = np.cos(sharp), np.sin(sharp)
+    for j in range(paths.shape[1]):
+        square = np.inf
+        for side in feints:
+            x, y, c, s = x0, y0, np.cos(course0), np.sin(course0)
+            for i in range(paths.shape[0]):
+                dx, dy = paths[i, j, 0] - x, paths[i, j, 1] - y
+                square = min(square, dx * dx + dy * dy)
+                if most > 0.0:
+                    # Sine and cosine of the next turn.
+                    sine, cosine = turn_s, turn_c
+                    ahead, left = c * dx + s * dy, c * dy - s * dx
+                    if side != 0.0 and i < feint_steps:
+                        sine *= side
+                    elif abs(left) < slope * ahead:
+                        turn = STEP * STEERING_GAIN * np.arctan(left / ahead)
+                        sine, cosine = np.sin(turn), np.cos(turn)
+                    elif left < 0.0:
+                        sine = -sine
+                    c, s = c * cosine - s * sine, s * cosine + c * sine
+                x += way * c
+                y += way * s
+        least[j] = np.sqrt(square)

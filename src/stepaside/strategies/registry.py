@@ -40,6 +40,7 @@ STRATEGIES: Mapping[str, Callable[[Evasion], Strategy]] = {
     "optimal": lambda evasion: strategies.OptimalEvasion(),
     "step-aside": lambda evasion: strategies.DashEvasion(),
     "matador": lambda evasion: _matador(),
+    "wary": lambda evasion: strategies.WaryEvasion(),
     "pursuit": lambda evasion: strategies.Pursuit(),
     "sharp": lambda evasion: strategies.Pursuit(gain_ratio=inf),
     "herding": lambda evasion: strategies.HerdingPursuit(),

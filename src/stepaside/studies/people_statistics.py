@@ -1,11 +1,13 @@
 """Statistics of encounters with people: contacts, clearance, false alarms."""
 
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Iterable
 from math import pi
+from statistics import median
 
 from ..planning import GaitSettings
 from ..theory.unicycle.lateral_evasion import lateral_clearance
+from .drawn_encounters import DrawnEncounter
 from .person_encounters import Encounter
 from .records import Record
 from .survival_statistics import wilson_interval
@@ -16,7 +18,7 @@ SEEN_AT = 3.5  # distance at which a depth camera detects people, in [m]
 def people_rows(
     results: Iterable[tuple[Encounter, Record]],
 ) -> list[Record]:
-    """Tabulate people who approach the robot, by sensing and speed.
+    """Tabulate people who walk straight at it, by sensing and speed.
 
     Args:
         results: Encounters and their records.
@@ -32,7 +34,7 @@ def people_rows(
     for each, record in results:
         # The same in all encounters.
         gait, on_legs = each.base.gait, each.base.legs.walks
-        if not each.passes:
+        if not each.passes and each.reaction == "straight":
             groups[each.sensing, each.speed].append(record)
     rows = []
     for (sensing, speed), found in groups.items():
@@ -108,9 +110,9 @@ def origin_rows(
     results: Iterable[tuple[Encounter, Record]],
 ) -> list[Record]:
     """Tabulate closest approaches by sensing, speed and bearing."""
-    groups: dict[tuple[str, float, int], list[Record]] = defaultdict(list)
+    groups: dict[tuple[str, float, float], list[Record]] = defaultdict(list)
     for each, record in results:
-        if not each.passes:
+        if not each.passes and each.reaction == "straight":
             group = each.sensing, each.speed, each.bearing
             groups[group].append(record)
     return [
@@ -124,6 +126,51 @@ def origin_rows(
         }
         for (sensing, speed, bearing), found in groups.items()
     ]
+
+
+def reaction_rows(
+    results: Iterable[tuple[Encounter | DrawnEncounter, Record]],
+) -> list[Record]:
+    """Tabulate what came of people, by sensing and reaction.
+
+    Args:
+        results: Encounters and their records.
+
+    Returns:
+        For each row: number, contacts with their 95 % interval, contacts of
+        robots that stood, falls, causes of contacts and falls, least and
+        median closest approach, in [m].
+    """
+    groups: dict[tuple[str, str, bool], list[Record]] = defaultdict(list)
+    for each, record in results:
+        hard = isinstance(each, DrawnEncounter) and each.is_hard
+        if isinstance(each, DrawnEncounter) or not each.passes:
+            groups[each.sensing, each.reaction, hard].append(record)
+    rows = []
+    for (sensing, reaction, hard), found in sorted(
+        groups.items(), key=lambda item: (item[0][0], item[0][2])
+    ):
+        contacts = sum(row["outcome"] == "contact" for row in found)
+        low, high = wilson_interval(contacts, len(found))
+        closest = [row["closest_m"] for row in found]
+        rows.append(
+            {
+                "sensing": sensing,
+                "reaction": reaction,
+                "hard": hard,
+                "number": len(found),
+                "contacts": contacts,
+                "contacts_low": low,
+                "contacts_high": high,
+                "falls": sum(row["outcome"] == "fall" for row in found),
+                "causes": dict(
+                    Counter(row["cause"] for row in found if row.get("cause"))
+                ),
+                "closest_m": min(closest),
+                "median_closest_m": median(closest),
+            }
+        )
+    return rows
 
 
 def theory_room(gait: GaitSettings, speed: float) -> float:
