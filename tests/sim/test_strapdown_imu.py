@@ -4,11 +4,11 @@ import mujoco
 import numpy as np
 import pytest
 
+from stepaside.core.machine_code import plain_python
 from stepaside.sim.sensor_errors import (
     AveragedImu,
     StrapdownImu,
     axes_of,
-    turn_between,
 )
 
 MODEL = """
@@ -82,16 +82,39 @@ def test_a_falling_body_feels_no_force_and_a_resting_one_its_weight(
 
 
 @pytest.mark.parametrize("angle", [0.0, 1e-9, 0.2, 3.0])
-def test_the_turn_between_orientations(angle: float) -> None:
+def test_the_mean_rate_turns_one_orientation_into_the_next(
+    angle: float, world: tuple[mujoco.MjModel, mujoco.MjData]
+) -> None:
+    model, data = world
     axis = np.array([0.6, 0.0, -0.8])
     first = np.array([0.5, -0.5, 0.5, 0.5])
     turn = np.array([np.cos(angle / 2), *(np.sin(angle / 2) * axis)])
     second = np.empty(4)
     mujoco.mju_mulQuat(second, first, turn)
+    mount = axes_of(model.site_quat[0].tolist())
     for sign in (1.0, -1.0):  # a quaternion and its negative are one
-        found = turn_between(first, sign * second)
-        np.testing.assert_allclose(found, angle * axis, atol=1e-12)
+        imu = imu_of(world)
+        data.time, data.qpos[3:7] = 0.0, first
+        imu.read()
+        data.time, data.qpos[3:7] = 0.5, sign * second
+        rate, _, _ = imu.read()
+        np.testing.assert_allclose(
+            0.5 * rate, (angle * axis) @ mount, atol=1e-12
+        )
     axes = np.empty(9)
     mujoco.mju_quat2Mat(axes, second)
     found = axes_of(second.tolist()).reshape(-1)
     np.testing.assert_allclose(found, axes, atol=1e-15)
+
+
+def test_machine_code_has_the_bits_of_python(
+    world: tuple[mujoco.MjModel, mujoco.MjData],
+) -> None:
+    model, data = world
+    compiled = imu_of(world)
+    with plain_python():
+        plain = imu_of(world)
+    for _ in range(20):
+        mujoco.mj_step(model, data, nstep=STEPS)
+        found = zip(compiled.read(), plain.read(), strict=True)
+        assert all(np.array_equal(one, other) for one, other in found)

@@ -1,14 +1,16 @@
 """Time duels on learned legs beside the bare physics of the same motion.
 
-A recorded duel is played, then its commands are given to ``mj_step`` alone in
-the same process; both end in the same state. Processor time, least of some
-rounds::
+Duels are played one at a time and side by side, then their commands are given
+to ``mj_step`` alone in the same process; all end in the same states. Processor
+time, least of some rounds::
 
     python tools/benchmarks/policy_duel_cost.py runs/g1 runs/policy.onnx
 """
 
 from argparse import Namespace
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from time import thread_time
 
@@ -19,44 +21,77 @@ from benchmark_options import ask, machine
 from stepaside.core.poses import Array
 from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings
+from stepaside.games.match import Match, play_together
+from stepaside.games.outcome import Outcome
 from stepaside.games.robot_settings import with_legs, with_robot
+from stepaside.locomotion.policy.network_pool import NetworkPool
 from stepaside.studies.result_files import header, write_result
 
-DURATION = 20.0  # of the duel, in [s]
-ROUNDS = 5
+
+class CommandRecorder:
+    """Match observer that records the actuator commands of each tick."""
+
+    def __init__(self) -> None:
+        """Begin without commands."""
+        self.commands: list[Array] = []
+
+    def before(self, match: Match) -> None:
+        """Do nothing."""
+
+    def acted(self, match: Match) -> None:
+        """Copy the commands."""
+        self.commands.append(match.world.data.ctrl.copy())
+
+    def ended(self, match: Match, outcome: Outcome) -> None:
+        """Do nothing."""
 
 
-def measure_cost(robot: str, network: str) -> dict[str, float | bool]:
-    """Return simulated seconds per processor second of both ways."""
-    settings = with_legs(with_robot(DuelSettings(), robot), network)
-    settings = replace(settings, duration=DURATION, seed=7)
-    played = bare = np.inf
-    equal = True
-    for _ in range(ROUNDS):
-        duel = Duel(settings)
-        world = duel.world
-        data = mujoco.MjData(world.model)
-        mujoco.mj_copyData(data, world.model, world.data)
-        commands: list[Array] = []
-        begin = thread_time()
-        while world.time < DURATION:
-            duel.tick()
-            commands.append(world.data.ctrl.copy())
-        played = min(played, thread_time() - begin)
-        steps = world.physics.steps_per_tick
-        begin = thread_time()
-        for command in commands:
-            data.ctrl[:] = command
-            mujoco.mj_step(world.model, data, nstep=steps)
-        bare = min(bare, thread_time() - begin)
-        equal &= bool(np.array_equal(data.qpos, world.data.qpos))
-        duel.close()
-    return {
-        "duel_s_per_s": DURATION / played,
-        "bare_s_per_s": DURATION / bare,
-        "duel_over_bare": played / bare,
-        "equal": equal,
-    }
+def time_of(task: Callable[[], object]) -> float:
+    """Return the processor time of a task, in [s]."""
+    began = thread_time()
+    task()
+    return thread_time() - began
+
+
+def play_bare(duel: Duel, data: mujoco.MjData, commands: list[Array]) -> None:
+    """Give recorded commands to the physics alone."""
+    model, steps = duel.world.model, duel.world.physics.steps_per_tick
+    for command in commands:
+        data.ctrl[:] = command
+        mujoco.mj_step(model, data, nstep=steps)
+
+
+def measure_round(
+    games: Sequence[DuelSettings], duration: float
+) -> tuple[float, float, float, bool]:
+    """Return times one at a time, side by side and bare; whether all agree."""
+    alone = [Duel(game) for game in games]
+    one = sum(
+        time_of(partial(play_together, [duel], [duration])) for duel in alone
+    )
+    pool = NetworkPool()
+    recorders = [CommandRecorder() for _ in games]
+    duels = [
+        Duel(game, (recorder,), networks=pool)
+        for game, recorder in zip(games, recorders, strict=True)
+    ]
+    states = []
+    for duel in duels:
+        states.append(mujoco.MjData(duel.world.model))
+        mujoco.mj_copyData(states[-1], duel.world.model, duel.world.data)
+    together = time_of(partial(play_together, duels, [duration] * len(duels)))
+    bare = sum(
+        time_of(partial(play_bare, *each))
+        for each in zip(
+            duels, states, [r.commands for r in recorders], strict=True
+        )
+    )
+    equal = all(
+        np.array_equal(single.world.data.qpos, duel.world.data.qpos)
+        and np.array_equal(data.qpos, duel.world.data.qpos)
+        for single, duel, data in zip(alone, duels, states, strict=True)
+    )
+    return one, together, bare, equal
 
 
 def main() -> None:
@@ -68,9 +103,36 @@ def main() -> None:
     parser = ask(__doc__, name_of)
     parser.add_argument("robot", type=Path)
     parser.add_argument("network", type=Path)
+    parser.add_argument("--duels", type=int, default=16)
+    parser.add_argument("--duration", type=float, default=10.0)
+    parser.add_argument("--rounds", type=int, default=3)
     asked = parser.parse_args()
-    head = header({"duration_s": DURATION, "rounds": ROUNDS})
-    figures = measure_cost(str(asked.robot), str(asked.network))
+    settings = with_robot(DuelSettings(), str(asked.robot))
+    settings = with_legs(settings, str(asked.network))
+    games = [
+        replace(settings, duration=asked.duration, seed=seed)
+        for seed in range(1, asked.duels + 1)
+    ]
+    rounds = [
+        measure_round(games, asked.duration) for _ in range(asked.rounds)
+    ]
+    one, together, bare, _ = np.min(rounds, axis=0).tolist()
+    played = asked.duels * asked.duration
+    figures = {
+        "one_at_a_time_s_per_s": played / one,
+        "side_by_side_s_per_s": played / together,
+        "bare_s_per_s": played / bare,
+        "one_at_a_time_over_bare": one / bare,
+        "side_by_side_over_bare": together / bare,
+        "equal": all(equal for *_, equal in rounds),
+    }
+    head = header(
+        {
+            "duels": asked.duels,
+            "duration_s": asked.duration,
+            "rounds": asked.rounds,
+        }
+    )
     write_result(asked.output, head, machine=machine(), figures=figures)
     for name, value in figures.items():
         print(f"{name}: {value:.3g}")

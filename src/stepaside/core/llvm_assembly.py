@@ -2,13 +2,12 @@
 
 The subset of Python is small: floats, integers, and arrays of them by
 element; ``for`` over ``range``, ``if``, ``return``; arithmetic, comparisons,
-``abs``, ``min``, ``max``, ``sin``, ``cos``, ``tan``, ``atan2`` and ``fma``,
-which rounds a x + b once; calls of formulas, which are functions of floats
-without branches that return a tuple of floats. Operations keep their order
-and nothing else is fused, so that results have the bits of Python. Only
+``abs``, ``min``, ``max``, ``sqrt``, ``sin``, ``cos``, ``tan``, ``atan2`` and
+``fma``, which rounds a x + b once; calls of formulas, which are functions of
+floats without branches that return a tuple of floats. Operations keep their
+order and nothing else is fused, so that results have the bits of Python. Only
 divisions by zero differ: they give inf or NaN, which a loop has to reject.
-Both sides of ``and``, ``or`` and conditional expressions are
-evaluated.
+Both sides of ``and``, ``or`` and conditional expressions are evaluated.
 """
 
 import ast
@@ -23,6 +22,7 @@ declare double @tan(double)
 declare double @atan2(double, double)
 declare double @llvm.fabs.f64(double)
 declare double @llvm.fma.f64(double, double, double)
+declare double @llvm.sqrt.f64(double)
 """
 LIBRARY = {
     "sin": "sin",
@@ -31,6 +31,7 @@ LIBRARY = {
     "atan2": "atan2",
     "abs": "llvm.fabs.f64",
     "fma": "llvm.fma.f64",
+    "sqrt": "llvm.sqrt.f64",
 }
 FLOAT_OPERATIONS = {
     ast.Add: "fadd",

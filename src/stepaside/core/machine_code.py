@@ -7,9 +7,10 @@ half of that; it pays off within a few seconds of walking.
 """
 
 import ctypes
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from functools import cache, partial
+from math import atan2, cos, sin, sqrt
 from struct import pack, unpack
 from threading import Lock
 from typing import Any
@@ -152,6 +153,35 @@ def kernel_of(name: str, source: str, arguments: str) -> Kernel | None:
         The loop; None without machine code.
     """
     return Kernel(name, source, arguments) if is_enabled() else None
+
+
+def bound_loop(
+    name: str, source: str, arguments: str, *arrays: NDArray[Any]
+) -> Callable[[], int]:
+    """Return a loop over given arrays: machine code, or else plain Python.
+
+    Args:
+        name: Name of the loop.
+        source: See :func:`kernel_of`; it defines no formulas.
+        arguments: Likewise.
+        arrays: Contiguous arrays, whose memory must stay where it is.
+    """
+    if is_enabled():
+        return _kernel(name, source, arguments).bind(*arrays)
+    known: dict[str, Any] = {
+        "sin": sin,
+        "cos": cos,
+        "sqrt": sqrt,
+        "atan2": atan2,
+    }
+    exec(compile(source, f"<{name}>", "exec"), known)
+    return partial(known[name], *arrays)
+
+
+@cache
+def _kernel(name: str, source: str, arguments: str) -> Kernel:
+    """Return a loop, which is compiled once in a process."""
+    return Kernel(name, source, arguments)
 
 
 def callback_of(kernels: Sequence[BoundKernel], owner: int) -> Any:

@@ -60,10 +60,15 @@ class PolicyPlayer(RobotPlayer):
         """
         super().__init__(robot, scheme, frame)
         self._networks = networks
+        # Exact sightings are read when a decision is due.
+        self._sees_rarely = robot.sees_exactly
 
     def tick(self) -> None:
         """Read the sensors and decide."""
-        self.scheme.update(self.robot.read())
+        robot, walk = self.robot, self.scheme.locomotion
+        assert isinstance(walk, PolicyWalk)
+        sees = not self._sees_rarely or walk.decides(robot.world.time)
+        self.scheme.update(robot.read(sees=sees))
         self._networks.call_afterwards(self._send)
 
     def _send(self) -> None:

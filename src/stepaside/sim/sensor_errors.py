@@ -1,12 +1,11 @@
 """Errors of encoders, IMU, foot sensors and of the mass model."""
 
 from collections import deque
-from math import atan2, sqrt
 
 import mujoco
 import numpy as np
 
-from ..core.machine_code import BoundKernel, kernel_of
+from ..core.machine_code import BoundKernel, bound_loop, kernel_of
 from ..core.poses import Array
 from .body_settings import BodySettings
 
@@ -18,6 +17,60 @@ def add_readings(gyro, accelerometer, last, sums):
         last[i] = gyro[i]
     last[3] = 1.0
     sums[6] += 1.0
+"""
+
+STRAPDOWN = """\
+def strapdown(quaternion, velocity, spin, place, mount, gravity, clock, last,
+              out):
+    w, x, y, z = quaternion[0], quaternion[1], quaternion[2], quaternion[3]
+    axx, axy = 1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z)
+    axz, ayx = 2.0 * (x * z + w * y), 2.0 * (x * y + w * z)
+    ayy, ayz = 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x)
+    azx, azy = 2.0 * (x * z - w * y), 2.0 * (y * z + w * x)
+    azz = 1.0 - 2.0 * (x * x + y * y)
+    p, q, r = spin[0], spin[1], spin[2]
+    sx = q * place[2] - r * place[1]
+    sy = r * place[0] - p * place[2]
+    sz = p * place[1] - q * place[0]
+    u = velocity[0] + (axx * sx + axy * sy + axz * sz)
+    v = velocity[1] + (ayx * sx + ayy * sy + ayz * sz)
+    h = velocity[2] + (azx * sx + azy * sy + azz * sz)
+    gx, gy, gz = gravity[0], gravity[1], gravity[2]
+    mx, my, mz = p, q, r
+    fx = -(gx * axx + gy * ayx + gz * azx)
+    fy = -(gx * axy + gy * ayy + gz * azy)
+    fz = -(gx * axz + gy * ayz + gz * azz)
+    passed = clock[0] - last[0]
+    if last[0] >= 0.0 and passed > 0.0:
+        a, b, c, d = last[1], last[2], last[3], last[4]
+        cosine = a * w + b * x + c * y + d * z
+        tx = a * x - b * w - c * z + d * y
+        ty = a * y + b * z - c * w - d * x
+        tz = a * z - b * y + c * x - d * w
+        side = -1.0 if cosine < 0.0 else 1.0
+        sine = sqrt(tx * tx + ty * ty + tz * tz)
+        half = atan2(sine, side * cosine)
+        rate = 2.0 * side * (half / sine if sine > 0.0 else 1.0) / passed
+        mx, my, mz = rate * tx, rate * ty, rate * tz
+        u0 = (u - last[14]) / passed - gx
+        v0 = (v - last[15]) / passed - gy
+        h0 = (h - last[16]) / passed - gz
+        fx = 0.5 * (u0 * (last[5] + axx) + v0 * (last[8] + ayx)
+                    + h0 * (last[11] + azx))
+        fy = 0.5 * (u0 * (last[6] + axy) + v0 * (last[9] + ayy)
+                    + h0 * (last[12] + azy))
+        fz = 0.5 * (u0 * (last[7] + axz) + v0 * (last[10] + ayz)
+                    + h0 * (last[13] + azz))
+    last[0] = clock[0]
+    last[1], last[2], last[3], last[4] = w, x, y, z
+    last[5], last[6], last[7] = axx, axy, axz
+    last[8], last[9], last[10] = ayx, ayy, ayz
+    last[11], last[12], last[13] = azx, azy, azz
+    last[14], last[15], last[16] = u, v, h
+    for i in range(3):
+        out[i] = mx * mount[0, i] + my * mount[1, i] + mz * mount[2, i]
+        out[3 + i] = fx * mount[0, i] + fy * mount[1, i] + fz * mount[2, i]
+        out[6 + i] = p * mount[0, i] + q * mount[1, i] + r * mount[2, i]
 """
 
 
@@ -85,14 +138,20 @@ class StrapdownImu:
         """
         joint = model.body_jntadr[root]
         at, dof = model.jnt_qposadr[joint], model.jnt_dofadr[joint]
-        self._quaternion: Array = data.qpos[at + 3 : at + 7]  # views
-        self._velocity: Array = data.qvel[dof : dof + 3]
-        self._rate: Array = data.qvel[dof + 3 : dof + 6]
         self._data = data
-        self._gravity: Array = model.opt.gravity.copy()
-        self._place: list[float] = model.site_pos[site].tolist()
-        self._axes: Array = axes_of(model.site_quat[site].tolist())
-        self._last: tuple[float, Array, Array, Array] | None = None
+        self._clock, self._out = np.zeros(1), np.zeros(9)
+        self._last = np.zeros(17)  # time, quaternion, axes, velocity
+        self._last[0] = -1.0
+        self._integrate = bound_loop(
+            *("strapdown", STRAPDOWN, "111121111"),
+            data.qpos[at + 3 : at + 7],  # views
+            data.qvel[dof : dof + 3],
+            data.qvel[dof + 3 : dof + 6],
+            model.site_pos[site].copy(),
+            axes_of(model.site_quat[site].tolist()),
+            model.opt.gravity.copy(),
+            *(self._clock, self._last, self._out),
+        )
 
     def read(self) -> tuple[Array, Array, Array]:
         """Return mean rate and specific force since the last call, and rate.
@@ -102,20 +161,10 @@ class StrapdownImu:
             [m/s^2], since the last call, and the present angular velocity, in
             the frame of the IMU. Shape (3,) each.
         """
-        now, quaternion = self._data.time, self._quaternion.copy()
-        torso = axes_of(quaternion.tolist())
-        (a, b, c), (x, y, z) = self._rate.tolist(), self._place
-        swing = np.array([b * z - c * y, c * x - a * z, a * y - b * x])
-        velocity = self._velocity + torso @ swing
-        rate = self._rate.copy()
-        mean, force = rate, -self._gravity @ torso
-        if self._last is not None and now > self._last[0]:
-            before, last, axes, moved = self._last
-            mean = turn_between(last, quaternion) / (now - before)
-            change = (velocity - moved) / (now - before) - self._gravity
-            force = 0.5 * (change @ (axes + torso))
-        self._last = now, quaternion, torso, velocity
-        return mean @ self._axes, force @ self._axes, rate @ self._axes
+        self._clock[0] = self._data.time
+        self._integrate()
+        found = self._out.copy()
+        return found[:3], found[3:6], found[6:]
 
 
 def axes_of(quaternion: list[float]) -> Array:
@@ -131,33 +180,6 @@ def axes_of(quaternion: list[float]) -> Array:
             [2 * (xz - wy), 2 * (yz + wx), 1 - 2 * (xx + yy)],
         ]
     )
-
-
-def turn_between(first: Array, second: Array) -> Array:
-    """Return the rotation vector between two orientations, in [rad].
-
-    Args:
-        first: Unit quaternion (w, x, y, z) of a frame.
-        second: That of the frame into which it turns, in less than a turn.
-
-    Returns:
-        Axis times angle, in either frame. Shape (3,).
-    """
-    (a, b, c, d), (w, x, y, z) = first.tolist(), second.tolist()
-    cosine = a * w + b * x + c * y + d * z
-    sine = np.array(
-        [
-            a * x - b * w - c * z + d * y,
-            a * y + b * z - c * w - d * x,
-            a * z - b * y + c * x - d * w,
-        ]
-    )
-    if cosine < 0.0:
-        cosine, sine = -cosine, -sine
-    half = atan2(sqrt(sine.dot(sine)), cosine)
-    # half / sin(half), without dividing by half = 0
-    turn: Array = 2.0 * sine / np.sinc(half / np.pi)
-    return turn
 
 
 class SensorErrors:

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from stepaside.core.machine_code import plain_python
 from stepaside.core.poses import Array, Pose
 from stepaside.locomotion.policy.leg_odometry import LegOdometry
 from stepaside.perception.measurement import Measurement
@@ -112,3 +113,19 @@ def test_a_torso_rests_while_its_feet_turn_about_loaded_corners(
         angles = np.concatenate([feet, np.tile(axes, (2, 1, 1))], axis=1)
         odometry.update(sensed(angles.ravel(), forces), (0, 0), 0.0, PERIOD)
     assert odometry.pose == pytest.approx((0.0, 0.0, 0.0), abs=1e-9)
+
+
+def test_machine_code_has_the_bits_of_python() -> None:
+    generator = np.random.default_rng(3)
+    angles = generator.normal(size=(30, 24))
+    compiled = begun_with(angles[0])
+    with plain_python():
+        plain = begun_with(angles[0])
+    for row in angles:
+        forces = generator.normal(size=8)
+        given = (0.1, -0.2), 0.03 * generator.normal(), PERIOD
+        for odometry in (compiled, plain):
+            odometry.update(sensed(row, forces), *given)
+        assert compiled.pose == plain.pose
+        assert np.array_equal(compiled.velocity, plain.velocity)
+        assert np.array_equal(compiled.moved, plain.moved)

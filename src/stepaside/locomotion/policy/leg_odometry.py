@@ -4,12 +4,62 @@ from math import atan2, cos, sin
 
 import numpy as np
 
+from ...core.machine_code import bound_loop
 from ...core.poses import Array, Pose
 from ...perception.measurement import Measurement
 from ...planning import Foot
-from ...robots.forward_kinematics import ForwardKinematics, MeasuredPosture
+from ...robots.forward_kinematics import ForwardKinematics
 
 SMOOTHING = 0.1  # time constant of the velocity, in [s]: a few readings
+
+
+NOTE = """\
+def note(com, feet, axes, corners, forces, given, points, loads, velocity,
+         pose, moved):
+    roll, pitch, turn, duration = given[0], given[1], given[2], given[3]
+    sr, cr, sp, cp = sin(roll), cos(roll), sin(pitch), cos(pitch)
+    c, s = cos(0.5 * turn), sin(0.5 * turn)
+    load, u, v, w = 0.0, 0.0, 0.0, 0.0
+    ahead, left = 0.0, 0.0
+    for k in range(9):
+        x, y, z = com[0], com[1], com[2]
+        if k < 8:
+            i = 0 if k < 4 else 1
+            a, b = corners[k, 0], corners[k, 1]
+            x = feet[i, 0] + axes[3 * i, 0] * a + axes[3 * i, 1] * b
+            y = feet[i, 1] + axes[3 * i + 1, 0] * a + axes[3 * i + 1, 1] * b
+            z = feet[i, 2] + axes[3 * i + 2, 0] * a + axes[3 * i + 2, 1] * b
+        xl = cp * x + sp * sr * y + sp * cr * z
+        yl = cr * y - sr * z
+        zl = cp * sr * y - sp * x + cp * cr * z
+        dx = xl * c - yl * s - (points[k, 0] * c + points[k, 1] * s)
+        dy = xl * s + yl * c - (points[k, 1] * c - points[k, 0] * s)
+        dz = zl - points[k, 2]
+        points[k, 0], points[k, 1], points[k, 2] = xl, yl, zl
+        if k < 8:
+            load += loads[k]
+            u += loads[k] * dx
+            v += loads[k] * dy
+            w += loads[k] * dz
+            loads[k] = max(forces[k], 0.0)
+        else:
+            ahead, left = dx, dy
+    if load > 0.0:
+        u, v, w = -u / load, -v / load, -w / load
+        moved[0], moved[1] = u + ahead, v + left
+    else:
+        u, v = velocity[0] * duration, velocity[1] * duration
+        w = velocity[2] * duration
+        moved[0], moved[1] = u, v
+    share = min(1.0, duration / given[4])
+    velocity[0] += share * (u / duration - velocity[0])
+    velocity[1] += share * (v / duration - velocity[1])
+    velocity[2] += share * (w / duration - velocity[2])
+    c, s = cos(pose[2] + 0.5 * turn), sin(pose[2] + 0.5 * turn)
+    pose[0] += c * moved[0] - s * moved[1]
+    pose[1] += s * moved[0] + c * moved[1]
+    pose[2] += turn
+"""
 
 
 class LegOdometry:
@@ -22,8 +72,6 @@ class LegOdometry:
     walking robot, moves as the joints say in addition.
 
     Attributes:
-        pose: Pose in odometry: place of the CoM, and heading of the torso,
-            which counts turns.
         moved: Motion of the CoM over the last reading, ahead and to the left
             at the mean heading, in [m]. Shape (2,).
         velocity: Velocity of the torso in its level frame, smoothed, in
@@ -40,17 +88,27 @@ class LegOdometry:
             joint_positions: Initial joint angles, in [rad]. Shape (joints,).
         """
         self._forward = forward
-        self._corners_in_feet = np.zeros((2, 4, 3))
-        self._corners_in_feet[..., :2] = forward.force_sensors().reshape(
-            2, 4, 2
-        )
-        self.moved: Array = np.zeros(2)
-        self.pose = Pose(0.0, 0.0, 0.0)
-        self.velocity: Array = np.zeros(3)
-        self._points: Array = np.zeros((9, 3))
-        self._loads: Array = np.zeros(8)
         self._posture = forward.posture(joint_positions)
-        self._level: Array = np.eye(3)
+        self._tilt = 0.0, 0.0
+        self.moved: Array = np.zeros(2)
+        self.velocity: Array = np.zeros(3)
+        self._pose, self._loads = np.zeros(3), np.zeros(8)
+        self._com, self._feet = np.zeros(3), np.zeros((2, 3))
+        self._axes, self._forces = np.zeros((6, 3)), np.zeros(8)
+        # Roll, pitch, turn, duration, and the smoothing of the velocity.
+        self._given = np.array([0.0, 0.0, 0.0, 0.0, SMOOTHING])
+        self._note = bound_loop(
+            *("note", NOTE, "12221121111"),
+            *(self._com, self._feet, self._axes),
+            np.ascontiguousarray(forward.force_sensors()),
+            *(self._forces, self._given, np.zeros((9, 3)), self._loads),
+            *(self.velocity, self._pose, self.moved),
+        )
+
+    @property
+    def pose(self) -> Pose:
+        """Place of the CoM in odometry, and heading, which counts turns."""
+        return Pose(*self._pose.tolist())
 
     @property
     def stance(self) -> tuple[Pose, Foot]:
@@ -61,7 +119,7 @@ class LegOdometry:
         left, right = self._loads.reshape(2, 4).sum(axis=1).tolist()
         side = Foot.LEFT if left >= right else Foot.RIGHT
         i = 0 if side is Foot.LEFT else 1
-        posture, level = self._posture, self._level
+        posture, level = self._posture, _tilted(*self._tilt)
         ahead = level @ posture.axes_feet_in_torso[i, :, 0]
         place = level @ (
             posture.positions_feet_in_torso[i] - posture.position_com_in_torso
@@ -85,38 +143,14 @@ class LegOdometry:
                 [rad].
             duration: Time since the last reading, in [s].
         """
-        self._posture = self._forward.posture(measurement.joint_positions)
-        self._level = _tilted(*tilt)
-        points = self._locate(self._posture) @ self._level.T
-        c, s = cos(0.5 * turn), sin(0.5 * turn)
-        onward = np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]])
-        shifts = points @ onward - self._points @ onward.T
-        loads = self._loads
-        self._points, self._loads = points, measurement.foot_forces.clip(0.0)
-        load = float(loads.sum())
-        if load > 0.0:
-            torso = -(loads @ shifts[:8]) / load
-            self.moved = (torso + shifts[8])[:2]
-        else:  # in flight, or no reading before
-            torso = self.velocity * duration
-            self.moved = torso[:2]
-        share = min(1.0, duration / SMOOTHING)
-        self.velocity = self.velocity + share * (
-            torso / duration - self.velocity
-        )
-        x, y, theta = self.pose
-        dx, dy = self.moved.tolist()
-        c, s = cos(theta + 0.5 * turn), sin(theta + 0.5 * turn)
-        x += c * dx - s * dy
-        y += s * dx + c * dy
-        self.pose = Pose(x, y, theta + turn)
-
-    def _locate(self, posture: MeasuredPosture) -> Array:
-        """Return the corners of both soles and the CoM in the torso frame."""
-        axes = posture.axes_feet_in_torso.transpose(0, 2, 1)
-        feet = posture.positions_feet_in_torso[:, None]
-        corners = (feet + self._corners_in_feet @ axes).reshape(8, 3)
-        return np.vstack([corners, posture.position_com_in_torso])
+        posture = self._forward.posture(measurement.joint_positions)
+        self._posture, self._tilt = posture, tilt
+        self._com[:] = posture.position_com_in_torso
+        self._feet[:] = posture.positions_feet_in_torso
+        self._axes[:] = posture.axes_feet_in_torso.reshape(6, 3)
+        self._forces[:] = measurement.foot_forces
+        self._given[:4] = *tilt, turn, duration
+        self._note()
 
 
 def _tilted(roll: float, pitch: float) -> Array:

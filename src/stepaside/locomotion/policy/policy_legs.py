@@ -86,9 +86,9 @@ class PolicyLegs:
         self._runner = PolicyRunner(contract, network)
         self._gravity = GravityFilter()
         self.odometry = LegOdometry(forward, self._targets)
-        self.command = self.intended = STILL
+        self.command = self.intended = self._wanted = STILL
         self._learning = LEARNING if learns else 0.0
-        self._correction: Array = np.zeros(3)
+        self._correction = [0.0, 0.0, 0.0]
         self._turned, self._ticks = 0.0, 0
 
     @property
@@ -138,7 +138,9 @@ class PolicyLegs:
         Raises:
             PolicyError: If the network returns NaN or infinity.
         """
-        self.intended = self.velocities.nearest(velocity)
+        if velocity is not self._wanted:
+            self._wanted = velocity
+            self.intended = self.velocities.nearest(velocity)
         rate = self._note_imu(measurement)
         self._turned += rate * self._tick
         if self._ticks % self._every == 0:
@@ -148,15 +150,15 @@ class PolicyLegs:
 
     def _note_imu(self, measurement: Measurement) -> float:
         """Update attitude and turning; return the turning rate, [rad/s]."""
-        rate = float(self._gravity.rate[2])
+        rate = self._gravity.rate[2]
         ahead, left, _ = self.odometry.velocity.tolist()
         self._gravity.update(
             measurement.gyro,
             measurement.accelerometer,
-            np.array([-left * rate, ahead * rate, 0.0]),
+            (-left * rate, ahead * rate, 0.0),
             self._tick,
         )
-        return float(self._gravity.rate[2])
+        return self._gravity.rate[2]
 
     def _decide(self, measurement: Measurement) -> None:
         """Run the policy at its own period."""
@@ -166,14 +168,17 @@ class PolicyLegs:
         walks = self.intended != STILL
         self.command = STILL
         if walks:
-            moved = np.array([*self.odometry.moved, turned])
-            error = np.array(self.intended) * period - moved
-            self._correction = np.clip(
-                self._correction + self._learning * error, -BOUND, BOUND
-            )
-            corrected = np.array(self.intended) + self._correction
+            gain = self._learning
+            moved = *self.odometry.moved.tolist(), turned
+            self._correction = [
+                min(max(kept + gain * (wish * period - done), -BOUND), BOUND)
+                for kept, wish, done in zip(
+                    self._correction, self.intended, moved, strict=True
+                )
+            ]
+            wishes = zip(self.intended, self._correction, strict=True)
             self.command = self.response.command_for(
-                BodyVelocity(*corrected.tolist())
+                BodyVelocity(*(wish + learned for wish, learned in wishes))
             )
         velocities = measurement.joint_velocities
         assert velocities is not None
@@ -187,7 +192,7 @@ class PolicyLegs:
             self.odometry.velocity,
         )
         runner, network = self._runner, self._network
-        seen = runner.observe(motion, np.array(self.command))
+        seen = runner.observe(motion, self.command)
         if self._pool is not None:
             self._pool.submit(network, seen, runner.memory, runner.act)
             return

@@ -116,15 +116,19 @@ class PolicyWalk:
         half = 0.5 * self.gait.foot_spacing
         return self.legs.pose.compose(Pose(0.0, half, 0.0))
 
+    def decides(self, now: float) -> bool:
+        """Return whether a decision is due at a tick, at a time in [s]."""
+        if self.phase is Phase.STANDING:
+            return self.legs.ready
+        return now >= self._next_decision - 1e-9
+
     def update(
         self, measurement: Measurement, decisions: IntentSource
     ) -> Array:
         """Run one control tick; see :class:`.locomotion.Locomotion`."""
         now = measurement.time
-        if self.phase is Phase.STANDING:
-            if self.legs.ready and decisions.starts(now):
-                self._decide(now, decisions)
-        elif now >= self._next_decision - 1e-9:
+        stands = self.phase is Phase.STANDING
+        if self.decides(now) and (not stands or decisions.starts(now)):
             self._decide(now, decisions)
         return self.legs.update(measurement, self._velocity)
 

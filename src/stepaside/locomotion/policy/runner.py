@@ -1,9 +1,11 @@
 """Evaluation of a walking policy at its control period."""
 
-from math import pi
+from collections.abc import Sequence
+from math import cos, inf, pi, sin
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...core.poses import Array
 from .contract import PolicyContract
@@ -47,25 +49,37 @@ class PolicyRunner:
         self.contract, self.memory = contract, network.initial_memory()
         self._default = np.array(contract.default_posture)
         self._scale = np.array(contract.action_scale)
-        self._previous: Array = np.zeros(len(contract.joints))
         self.targets = self._default
-        self._command = np.zeros(3)
-        self._history: list[Array] = []
-        widths = [contract.width_of(term) for term in contract.terms]
-        self._parts = np.cumsum(widths)[:-1]
+        self._command = [0.0, 0.0, 0.0]
+        clock = contract.clock
+        self._phases = list(() if clock is None else clock.offsets)
+        self._stands = True
+        self._values, places = _places(len(contract.joints), len(self._phases))
+        self._parts = {
+            name: self._values[place] for name, place in places.items()
+        }
+        terms = [
+            np.arange(self._values.size)[places[term.name]]
+            for term in contract.terms
+        ]
+        self._order = np.concatenate(terms)
         self._scales = np.concatenate(
             [
-                np.broadcast_to(term.scale, width)
-                for term, width in zip(contract.terms, widths, strict=True)
+                np.broadcast_to(term.scale, contract.width_of(term))
+                for term in contract.terms
             ]
         )
+        widths = [len(term) for term in terms]
         clips = np.repeat([term.clip for term in contract.terms], widths)
         self._clips = clips if np.isfinite(clips).any() else None
-        clock = contract.clock
-        self._phases = np.array(() if clock is None else clock.offsets)
-        self._stands = True
+        self._history: Array | None = None
+        self._flat = _history_order(
+            widths, contract.history, by_term=contract.history_order == "term"
+        )
 
-    def observe(self, body: BodyMotion, command: Array) -> Array:
+    def observe(
+        self, body: BodyMotion, command: Sequence[float] | Array
+    ) -> Array:
         """Return the input of the network at a control period.
 
         Args:
@@ -76,23 +90,33 @@ class PolicyRunner:
         Returns:
             Shape (observation width,).
         """
-        contract = self.contract
+        contract, parts = self.contract, self._parts
         change = contract.command_rate * contract.period
-        missing = command - self._command
-        self._command = self._command + np.minimum(
-            np.maximum(missing, -change), change
-        )
+        self._command = [
+            last + min(max(given - last, -change), change)
+            for last, given in zip(self._command, command, strict=True)
+        ]
         self._advance_clock()
-        frame = np.concatenate(
-            [self._measured(term.name, body) for term in contract.terms]
+        parts["base_lin_vel"][:] = body.velocity
+        parts["base_ang_vel"][:] = body.angular_velocity
+        parts["projected_gravity"][:] = body.gravity
+        parts["command"][:] = self._command
+        np.subtract(
+            body.joint_positions, self._default, out=parts["joint_pos"]
         )
+        parts["joint_vel"][:] = body.joint_velocities
+        frame: Array = self._values.take(self._order)
         if self._clips is not None:
             frame = np.minimum(np.maximum(frame, -self._clips), self._clips)
         frame *= self._scales
-        if not self._history:
-            self._history = [frame] * contract.history
-        self._history = [*self._history[1:], frame]
-        return self._flat_history()
+        if contract.history == 1:
+            return frame
+        if self._history is None:
+            self._history = np.tile(frame, (contract.history, 1))
+        self._history[:-1] = self._history[1:]
+        self._history[-1] = frame
+        found: Array = self._history.ravel().take(self._flat)
+        return found
 
     def act(self, raw: Array, memory: Memory) -> Array:
         """Update the targets by the output of the network.
@@ -105,69 +129,80 @@ class PolicyRunner:
             The targets, in [rad]. Shape (joints,).
         """
         contract, self.memory = self.contract, memory
-        limit = contract.action_clip
-        clipped = np.minimum(np.maximum(raw, -limit), limit)
-        self._previous = clipped if contract.observes_clipped else raw
-        share = contract.action_filter
-        self.targets = share * self.targets + (1.0 - share) * (
-            self._default + self._scale * clipped
+        limit, share = contract.action_clip, contract.action_filter
+        clipped = raw
+        if limit < inf:
+            clipped = np.minimum(np.maximum(raw, -limit), limit)
+        self._parts["actions"][:] = (
+            clipped if contract.observes_clipped else raw
         )
-        return self.targets
+        targets = self._default + self._scale * clipped
+        if share > 0.0:
+            targets = share * self.targets + (1.0 - share) * targets
+        self.targets = targets
+        return targets
 
     def _advance_clock(self) -> None:
         """Advance the phases by one control period."""
         clock = self.contract.clock
         if clock is None:
             return
-        stands = float(np.abs(self._command).max()) < STANDS_BELOW
+        stands = max(map(abs, self._command)) < STANDS_BELOW
         if clock.standing != "runs" and stands:
-            self._phases = np.full(len(clock.offsets), pi)
+            self._phases = [pi] * len(clock.offsets)
         elif clock.standing != "runs" and self._stands:
-            self._phases = np.array(clock.offsets)
+            self._phases = list(clock.offsets)
         else:
             step = 2.0 * pi * self.contract.period / clock.period
-            self._phases = (self._phases + step + pi) % (2.0 * pi) - pi
+            self._phases = [
+                (phase + step + pi) % (2.0 * pi) - pi for phase in self._phases
+            ]
         self._stands = stands
+        seen = 0.0 if clock.standing == "silent" and stands else 1.0
+        self._parts["sin_phase"][:] = [seen * sin(x) for x in self._phases]
+        self._parts["cos_phase"][:] = [seen * cos(x) for x in self._phases]
 
-    def _measured(self, name: str, body: BodyMotion) -> Array:
-        if name in ("sin_phase", "cos_phase"):
-            clock = self.contract.clock
-            if clock and clock.standing == "silent" and self._stands:
-                return np.zeros(self._phases.size)
-            wave = np.sin if name == "sin_phase" else np.cos
-            found: Array = wave(self._phases)
-            return found
-        match name:
-            case "base_lin_vel":
-                return body.velocity
-            case "base_ang_vel":
-                return body.angular_velocity
-            case "projected_gravity":
-                return body.gravity
-            case "command":
-                return self._command
-            case "command_lin_vel":
-                return self._command[:2]
-            case "command_ang_vel":
-                return self._command[2:]
-            case "joint_pos":
-                angles: Array = body.joint_positions - self._default
-                return angles
-            case "joint_vel":
-                return body.joint_velocities
-        return self._previous
 
-    def _flat_history(self) -> Array:
-        """Return the input of the network. Shape (observation width,)."""
-        frames = self._history
-        if len(frames) == 1:
-            return frames[0]
-        if self.contract.history_order == "frame":
-            return np.concatenate(frames)
-        by_term = zip(
-            *(np.split(frame, self._parts) for frame in frames), strict=True
-        )
-        joined: Array = np.concatenate(
-            [value for term in by_term for value in term]
-        )
-        return joined
+def _places(joints: int, phases: int) -> tuple[Array, dict[str, slice]]:
+    """Return room for all quantities, and the place of each by its name.
+
+    Args:
+        joints: Number of joints.
+        phases: Number of phases of the clock.
+    """
+    widths = {
+        **dict.fromkeys(("base_lin_vel", "base_ang_vel"), 3),
+        **dict.fromkeys(("projected_gravity", "command"), 3),
+        **dict.fromkeys(("joint_pos", "joint_vel", "actions"), joints),
+        **dict.fromkeys(("sin_phase", "cos_phase"), phases),
+    }
+    ends = np.cumsum(list(widths.values())).tolist()
+    places = {
+        name: slice(end - width, end)
+        for (name, width), end in zip(widths.items(), ends, strict=True)
+    }
+    first = places["command"].start
+    places["command_lin_vel"] = slice(first, first + 2)
+    places["command_ang_vel"] = slice(first + 2, first + 3)
+    return np.zeros(ends[-1]), places
+
+
+def _history_order(
+    widths: Sequence[int], count: int, *, by_term: bool
+) -> NDArray[np.int_]:
+    """Return the order of past observations in the input of a network.
+
+    Args:
+        widths: Widths of the terms of an observation.
+        count: Number of observations.
+        by_term: Whether the past of one term precedes that of the next.
+
+    Returns:
+        Indices into the observations, one after the other. Shape
+        (observation width,).
+    """
+    indices = np.arange(count * sum(widths)).reshape(count, -1)
+    if not by_term:
+        return indices.ravel()
+    parts = np.split(indices, np.cumsum(widths)[:-1], axis=1)
+    return np.concatenate([part.ravel() for part in parts])

@@ -1,7 +1,7 @@
 """Response of a walking policy: velocities it delivers for its commands."""
 
 from bisect import bisect_right
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
@@ -9,6 +9,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ...core.errors import PolicyError
+from ...core.machine_code import bound_loop
+from ...core.poses import Array
 from ...strategies.velocity_set import (
     STILL,
     AxisValues,
@@ -20,6 +22,37 @@ from .contract import CommandRanges
 AXES = ("forward", "lateral", "turn")
 TOLERANCE = 1e-9  # of the share of an interval
 SWEEPS = 12  # over the axes of the inverse; it converges before
+
+INVERT = f"""\
+def invert(velocity, sizes, commands, effects, found, sums, command):
+    columns = commands.shape[1]
+    for i in range(3):
+        found[i] = -1.0
+        sums[i, 0], sums[i, 1], sums[i, 2] = 0.0, 0.0, 0.0
+    for sweep in range({SWEEPS}):
+        change = 0.0
+        for i in range(3):
+            wanted = velocity[i]
+            for j in range(3):
+                wanted -= sums[j, i] if j != i else 0.0
+            k = i * columns
+            for m in range(i * columns, i * columns + sizes[i] - 1):
+                k = m if effects[m, i] <= wanted else k
+            low = effects[k, i]
+            share = (wanted - low) / (effects[k + 1, i] - low)
+            share = min(1.0, max(0.0, share))
+            place = k + share
+            change = max(change, abs(place - found[i]))
+            found[i] = place
+            for a in range(3):
+                step = effects[k + 1, a] - effects[k, a]
+                sums[i, a] = effects[k, a] + share * step
+            first = commands[i, k - i * columns]
+            step = commands[i, k - i * columns + 1] - first
+            command[i] = first + share * step
+        if change <= {TOLERANCE}:
+            return
+"""
 
 
 class AxisResponse(NamedTuple):
@@ -118,32 +151,27 @@ class VelocityResponse:
         Each axis in turn is solved for what the others leave; the cross terms
         of walking policies are small.
         """
-        found = [(0, 0.0)] * 3
-        effects: list[tuple[float, ...]] = [STILL, STILL, STILL]
-        for _ in range(SWEEPS):
-            changed = False
-            for i, own in enumerate(self._own):
-                others = effects[i - 1][i] + effects[i - 2][i]
-                k, share = _locate(own, velocity[i] - others)
-                changed |= k != found[i][0] or (
-                    abs(share - found[i][1]) > TOLERANCE
-                )
-                found[i] = k, share
-                rows = self._effects[i]
-                (a, b, c), (u, v, w) = rows[k], rows[k + 1]
-                effects[i] = (
-                    a + share * (u - a),
-                    b + share * (v - b),
-                    c + share * (w - c),
-                )
-            if not changed:
-                break
-        command = (
-            axis.commands[k]
-            + share * (axis.commands[k + 1] - axis.commands[k])
-            for axis, (k, share) in zip(self.axes, found, strict=True)
+        wanted, invert, command = self._inverse
+        wanted[:] = velocity
+        invert()
+        return BodyVelocity(*command.tolist())
+
+    @cached_property
+    def _inverse(self) -> tuple[Array, Callable[[], int], Array]:
+        """Velocity, the loop that inverts it, and its command."""
+        sizes = np.array([len(axis.commands) for axis in self.axes])
+        commands = np.zeros((3, sizes.max()))
+        effects = np.zeros((3, sizes.max(), 3))
+        for i, axis in enumerate(self.axes):
+            commands[i, : sizes[i]] = axis.commands
+            effects[i, : sizes[i]] = self._effects[i]
+        wanted, command = np.zeros(3), np.zeros(3)
+        invert = bound_loop(
+            *("invert", INVERT, "1i22121"),
+            *(wanted, sizes, commands, effects.reshape(-1, 3)),
+            *(np.zeros(3), np.zeros((3, 3)), command),
         )
-        return BodyVelocity(*command)
+        return wanted, invert, command
 
     @cached_property
     def velocities(self) -> VelocitySet:
