@@ -230,7 +230,7 @@ class Scene:
 
 
 class Client:
-    """Somebody who looks."""
+    """Client of the page."""
 
     def __init__(self, number: int, aspect: float = 1.8) -> None:
         """Come with a page of one's own."""
@@ -259,7 +259,7 @@ class Client:
 
 
 class Server:
-    """A server that serves whoever is put there."""
+    """Server with given clients."""
 
     def __init__(self, **options: Any) -> None:
         """Begin with an empty page."""
@@ -280,7 +280,7 @@ class Server:
         self.going.append(call)
 
     def welcome(self, client: Any) -> None:
-        """Let somebody look."""
+        """Connect a client."""
         self.clients[client.client_id] = client
         for call in self.coming:
             call(client)

@@ -55,7 +55,7 @@ class FakeWorld:
         self.ticks += 1
 
     def robots_touch(self) -> bool:
-        """Whether somebody was told to touch."""
+        """Whether a contact was requested."""
         self.asked += 1
         return bool(self.contacts)
 
@@ -201,7 +201,7 @@ def begun(**changes: Any) -> StepStarted:
 
 
 def clock(monkeypatch: pytest.MonkeyPatch, step: float) -> None:
-    """A wall clock that moves on whenever somebody looks at it."""
+    """Wall clock that advances at every reading."""
 
     def ticking() -> Iterator[float]:
         now = 100.0

@@ -124,7 +124,12 @@ class Eyes:
         } | changes
         track = TargetTrack(
             Observation(
-                x=x, y=y, bearing=0.0, along=0.02, across=0.02, **values
+                x_in_odometry=x,
+                y_in_odometry=y,
+                bearing=0.0,
+                along=0.02,
+                across=0.02,
+                **values,
             ),
             velocity_in_odometry=velocity,
         )
@@ -149,7 +154,7 @@ def depth(time: float) -> DepthImage:
 
 
 def trim(column: float) -> ColourDetection:
-    """Somebody whose feet are cut off: his breadth tells the distance."""
+    """Person whose feet are cut off: the width determines the distance."""
     return ColourDetection(
         column,
         40.0,

@@ -23,7 +23,7 @@ NO_THEORY = TheorySummary(None, False, None, None, None)
 
 
 def figures(**changes: Any) -> DuelSummary:
-    """Figures of a duel in which nobody was ever triggered."""
+    """Figures of a duel without a trigger."""
     told = DuelSummary(
         seed=7,
         start=StartSummary(1.0, 0.0, 0.0),

@@ -82,7 +82,7 @@ class Case(NamedTuple):
     def duration(self) -> float:
         """Time until all players walk, in [s].
 
-        Images have to arrive first, somebody who comes is watched for a
+        Images have to arrive first, a person who comes is watched for a
         while, and feedback stands still for a second.
         """
         watched = self.pursuer == "person" and self.sensing == "cameras"
@@ -166,7 +166,7 @@ def test_only_missing_feedback_is_refused() -> None:
 
 
 # What only a walk is looked at for, what is told to robots that walk by
-# themselves, and pushes, which nobody gives here.
+# themselves, and pushes, which are not given here.
 NEAR = {"velocity", "tilt", "sole", "support", "heading_reference"}
 NEAR |= {"estimate", "pushes", "command"}
 

@@ -157,7 +157,7 @@ def test_a_calm_walk_walks(pace: float) -> None:
 
 
 def test_an_evader_is_as_calm_as_leaves_room() -> None:
-    """Whoever comes slowly is let past calmly, and the quick one is not."""
+    """A slow pursuer is evaded at a low pace, a fast one is not."""
     strategy = Evasion(trigger="time", calmest=0.5)
 
     def pace(speed: float, near: float = 0.05) -> float:

@@ -1,4 +1,4 @@
-"""Run the examples, as anybody would."""
+"""Run the examples as their documentation says."""
 
 import re
 import subprocess
@@ -36,7 +36,7 @@ def run(name: str, *arguments: str, folder: Path | None = None) -> str:
 
 @pytest.mark.parametrize("file", sorted(EXAMPLES.glob("*.py")), ids=str)
 def test_an_example_is_short_and_names_what_it_needs(file: Path) -> None:
-    """Anybody can run it alone: a line says what it stands on (PEP 723)."""
+    """It runs alone: a line lists its dependencies (PEP 723)."""
     lines = file.read_text(encoding="utf-8").splitlines()
     assert len(lines) <= 60
     assert lines[0] == "# /// script"

@@ -76,7 +76,7 @@ class NoWire:
         return [] if image is None or image is before else [image]
 
     def listen(self, patience: float) -> VelocityReport | None:
-        """Where it is; nobody tells it of the other."""
+        """Own state, without a sighting of the opponent."""
         state = self.robot.state()
         assert state.sighting is None
         return VelocityReport(state.time, state.pose)

@@ -381,7 +381,7 @@ def test_sightings_come_with_their_frame_and_with_their_age() -> None:
     assert body.read().sighting == Sighting(TICK - 0.05, 0.3, 0.9)
     assert body.read().sighting == Sighting(2 * TICK, 0.4, 0.8)
     late = pack_sight(SightMessage(begun + 3, 0.0, 0.5, 0.7))
-    messages.queue = [late]  # what was dropped stands in nobody's way
+    messages.queue = [late]  # dropped messages block no later ones
     assert body.read().sighting == Sighting(3 * TICK, 0.5, 0.7)
     messages.broken = True
     assert body.read().sighting == Sighting(3 * TICK, 0.5, 0.7)

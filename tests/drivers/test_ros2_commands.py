@@ -63,7 +63,7 @@ class Robot:
         return self.dds.reader(TOPIC, kind)
 
     def tell(self) -> None:
-        """Say where it is, and that somebody is ahead."""
+        """Publish its pose and a sighting straight ahead."""
         self.time += 0.05
         header = Header(Time.of(self.time), "nao/odom")
         own = Header(header.stamp, "nao/base_link")

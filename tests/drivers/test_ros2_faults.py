@@ -31,7 +31,7 @@ TAG = f"stepaside-faults-{os.getpid()}"
 LONGEST = 30.0  # for what takes a second, in [s]
 HERE = str(Path(__file__).parents[1])
 
-# A world in a process of its own: one unicycle that sees somebody ahead.
+# A world in a process of its own: one unicycle with a sighting straight ahead.
 
 WORLD = f"""
 import sys
@@ -85,7 +85,7 @@ def until(
         try:
             tick = player.tick()
         except SessionLost:
-            continue  # nobody is there yet
+            continue  # no peer is there yet
         if done(tick):
             return tick
     raise AssertionError("it never was so")

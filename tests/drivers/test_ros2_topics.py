@@ -290,7 +290,7 @@ def test_a_report_lost_in_lock_step_is_repeated() -> None:
         writer.write(Twist(Vector3(), Vector3()))
         until(lambda: (scene.server.hear(), scene.server.connected)[1])
         scene.server.speak()
-        first = until(lambda: take_messages(reader))  # nobody answers it
+        first = until(lambda: take_messages(reader))  # without an answer
         again = until(lambda: scene.server.hear() or take_messages(reader))
         assert again[0].header.stamp == first[-1].header.stamp
         writer.write(Twist(Vector3(0.05), Vector3()))

@@ -118,7 +118,7 @@ def test_the_robot_is_led_to_the_template_by_the_ramp() -> None:
         report(0.0),
         report(PERIOD * 20, hindrance="a second commander"),
     ],
-    ids="nobody stale nan future past hindered".split(),
+    ids="none stale nan future past hindered".split(),
 )
 def test_whatever_is_amiss_asks_for_rest_at_once(sick: VelocityReport) -> None:
     robot = FakeWalker([*REPORTS[:20], sick])

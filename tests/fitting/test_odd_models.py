@@ -105,7 +105,7 @@ def _leg(outline: tuple[float, ...], **changes: Any) -> DetectedLeg:
         ((-0.12, 0.06), (-2.4, 0.0), -1.0),
         ((-0.098, 0.072), (0.0, 2.8), 1.0),  # heels, but knees say more
         ((-0.05, 0.15), (-2.0, 0.0), 1.0),  # a bird's knees
-        ((-0.09, 0.085), (-3.1, 3.1), 0.0),  # nobody says
+        ((-0.09, 0.085), (-3.1, 3.1), 0.0),  # not stated
     ],
 )
 def test_toes_and_knees_determine_the_forward_direction(

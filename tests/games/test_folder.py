@@ -70,7 +70,7 @@ RUNS = {
     "robots": duel(robot(1.0)),
     "seeing robots": duel(robot(1.0, sees=True)),
     "a person": duel(person()),
-    "nobody walked": duel(
+    "all stood": duel(
         replace(robot(1.0), landings=np.zeros((0, 5))),
         outcome=Outcome.UNREACHABLE,
         message="pursuer lost its footing at 0.10 s: too far",

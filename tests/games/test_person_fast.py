@@ -87,7 +87,7 @@ def test_the_template_keeps_a_person_at_a_distance(
 
 def test_the_template_steps_aside_as_the_unicycle_of_theory() -> None:
     """Facing the person, until it is where the robot was."""
-    speed = 2.0  # so fast that it stops at nobody's side
+    speed = 2.0  # too fast to stop beside the robot
     late = FAST.start_support
     time = TIMED.contact_time + TIMED.clearance / speed - late
     aside = lateral_displacement(FAST.speed, 0.5 * pi * FAST.gain, time)

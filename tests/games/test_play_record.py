@@ -251,7 +251,7 @@ def test_without_a_sighting_a_play_has_one_player(tmp_path: Path) -> None:
     log = log_at(tmp_path / "p", EVADER)
     at = Pose(0.0, 0.0, 0.0)
     rest = VelocityCommand(0.0, 0.0)
-    why = (DrivingState.WAITING, "sees nobody")
+    why = (DrivingState.WAITING, "sees no opponent")
     for tick in range(5):
         log.note(VelocityTick(*why, 0.05 * tick, at, None, rest, rest))
     log.close()

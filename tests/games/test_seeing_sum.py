@@ -139,7 +139,7 @@ def test_only_the_evader_has_a_depth_camera(
     opened: list[tuple[Any, ...]] = []
 
     def open_eyes(*arguments: Any, with_depth: bool, looks_low: Any) -> Any:
-        assert looks_low is None  # where nobody comes
+        assert looks_low is None  # where no person comes
         opened.append((*arguments, with_depth))
         return f"eyes {len(opened)}"
 

@@ -17,7 +17,7 @@ GAINS = [f.name for f in fields(StabiliserSettings)]
 
 
 def test_gains_are_those_that_the_documents_were_measured_with() -> None:
-    """Whoever changes one measures the tables of docs/walking.md anew."""
+    """A changed value requires new tables in docs/walking.md."""
     assert asdict(StabiliserSettings()) == {
         "dead_zone": 0.015,
         "yielding": 5.0,

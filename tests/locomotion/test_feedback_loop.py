@@ -65,7 +65,7 @@ def stabiliser(**changes: Any) -> Any:
 
 
 def unasked(*_: Any) -> Any:
-    raise AssertionError("nobody needs to know")
+    raise AssertionError("must not be called")
 
 
 def resting_table() -> ReferenceTable:

@@ -61,8 +61,12 @@ def test_a_block_is_measured_at_its_size_and_position(
     assert thing.width == pytest.approx(away * angle, rel=0.1)
     assert thing.height == pytest.approx(0.5 + 1.5 * 19.5 / FOCAL)
     reach = thing.nearest + 0.5 * thing.width
-    assert thing.x == pytest.approx(0.3 + reach * np.cos(thing.bearing))
-    assert thing.y == pytest.approx(-0.2 + reach * np.sin(thing.bearing))
+    assert thing.x_in_odometry == pytest.approx(
+        0.3 + reach * np.cos(thing.bearing)
+    )
+    assert thing.y_in_odometry == pytest.approx(
+        -0.2 + reach * np.sin(thing.bearing)
+    )
     assert thing.whole
 
 
@@ -73,7 +77,7 @@ def test_the_axis_lies_half_a_depth_behind_the_front(
     columns: int, behind: float | None
 ) -> None:
     (thing,) = draw((10, 40, 40, 40 + columns, 1.6)).obstacles
-    x, y = thing.x - 0.3, thing.y + 0.2
+    x, y = thing.x_in_odometry - 0.3, thing.y_in_odometry + 0.2
     expected = behind or 0.5 * thing.width
     assert 0.11 <= expected <= 0.16
     assert np.hypot(x, y) - thing.nearest == pytest.approx(expected)
@@ -294,8 +298,12 @@ def test_legs_cut_by_the_upper_edge_are_one_person(
     if things == 1:
         (person,) = found
         both = [draw(leg).obstacles[0] for leg in legs]
-        assert person.x == pytest.approx(np.mean([leg.x for leg in both]))
-        assert person.y == pytest.approx(np.mean([leg.y for leg in both]))
+        assert person.x_in_odometry == pytest.approx(
+            np.mean([leg.x_in_odometry for leg in both])
+        )
+        assert person.y_in_odometry == pytest.approx(
+            np.mean([leg.y_in_odometry for leg in both])
+        )
         assert both[1].azimuth < person.azimuth < both[0].azimuth
         assert person.nearest == both[0].nearest
         assert person.whole and person.rises

@@ -47,8 +47,8 @@ def test_a_post_is_detected_at_its_position(roll: float, yaw: float) -> None:
     (post,) = scene.obstacles
     assert degrees(post.bearing) == pytest.approx(yaw + 8.0, abs=0.7)
     assert post.nearest == pytest.approx(1.48, abs=0.03)
-    assert post.x == pytest.approx(x, abs=0.05)
-    assert post.y == pytest.approx(y, abs=0.05)
+    assert post.x_in_odometry == pytest.approx(x, abs=0.05)
+    assert post.y_in_odometry == pytest.approx(y, abs=0.05)
     assert post.width == pytest.approx(0.24, abs=0.06)
 
 
@@ -63,7 +63,7 @@ def test_an_unmeasured_tilt_gives_false_obstacles() -> None:
 
 def test_the_nearest_obstacle_is_first() -> None:
     scene = find([(2.2, -0.5, 0.15, 1.7), (1.4, 0.3, 0.1, 0.4)])
-    assert [round(o.x, 1) for o in scene.obstacles] == [1.4, 2.2]
+    assert [round(o.x_in_odometry, 1) for o in scene.obstacles] == [1.4, 2.2]
     assert scene.obstacles[1].height > 0.8
 
 

@@ -56,8 +56,12 @@ def test_feet_are_located_at_their_near_edge(
         for s in (1.0, -1.0)
     ]
     (found,) = find(colours, legs)
-    assert hypot(found.x, found.y) == pytest.approx(distance - 0.05, abs=0.04)
-    assert degrees(atan2(found.y, found.x)) == pytest.approx(bearing, abs=3.0)
+    assert hypot(found.x_in_odometry, found.y_in_odometry) == pytest.approx(
+        distance - 0.05, abs=0.04
+    )
+    assert degrees(
+        atan2(found.y_in_odometry, found.x_in_odometry)
+    ) == pytest.approx(bearing, abs=3.0)
 
 
 def test_an_empty_floor_has_no_feet_from_any_side(
@@ -69,7 +73,7 @@ def test_an_empty_floor_has_no_feet_from_any_side(
 
 def test_two_people_apart_are_two_contacts(colours: FloorColours) -> None:
     found = find(colours, [(0.8, 0.3, 0.08, 1.0), (0.7, -0.25, 0.08, 1.0)])
-    assert [round(f.y, 1) for f in found] == [-0.2, 0.3]
+    assert [round(f.y_in_odometry, 1) for f in found] == [-0.2, 0.3]
 
 
 def test_an_unknown_floor_gives_no_contact() -> None:

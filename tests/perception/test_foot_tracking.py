@@ -62,7 +62,7 @@ class Standing:
     def follow(
         self, x: float, y: float, *, walked: bool = True
     ) -> TargetTrack:
-        """Somebody who is believed to be at a place, 0.15 m beside it."""
+        """Track with a position error of 0.15 m."""
         track = TargetTrack(
             Observation(0.0, x, y, 0.0, 0.15, 0.15, False, True)
         )
@@ -95,7 +95,7 @@ def test_the_lower_camera_tells_how_far_the_feet_are(
     assert len(report.azimuths) == 1 and report.image.camera is CAMERA
 
 
-def test_feet_found_nobody_and_move_nothing_that_rests() -> None:
+def test_feet_start_no_track_and_move_no_resting_one() -> None:
     robot = Standing()
     robot.see(0.02, robot.image(0.02, [], low=False))
     low = robot.image(0.04, legs_at(0.6, 0.0), low=True)
@@ -106,7 +106,7 @@ def test_feet_found_nobody_and_move_nothing_that_rests() -> None:
     assert resting.position_at(0.06) == pytest.approx((0.7, 0.0))
 
 
-def test_the_lower_camera_is_asked_for_when_somebody_is_close() -> None:
+def test_the_lower_camera_is_wanted_when_a_person_is_close() -> None:
     robot = Standing()
     perception = robot.perception
     near = robot.follow(CLOSE - 0.1, 0.0)
@@ -159,17 +159,23 @@ def test_it_is_the_same_wherever_odometry_began(
     (here,) = both[0].observe(near, down)
     moved_down = CameraPose(turn @ down[0] + shift, turn @ down[1], began[:2])
     (there,) = both[1].observe(near, moved_down)
-    moved = began.transform_points([(here.x, here.y)])[0]
-    assert (there.x, there.y) == pytest.approx(tuple(moved), abs=1e-6)
-    assert here.bearing == pytest.approx(atan2(here.y, here.x), abs=1e-6)
+    moved = began.transform_points([(here.x_in_odometry, here.y_in_odometry)])[
+        0
+    ]
+    assert (there.x_in_odometry, there.y_in_odometry) == pytest.approx(
+        tuple(moved), abs=1e-6
+    )
+    assert here.bearing == pytest.approx(
+        atan2(here.y_in_odometry, here.x_in_odometry), abs=1e-6
+    )
     off = wrap_angle(there.bearing - here.bearing - began.theta)
     assert off == pytest.approx(0.0, abs=1e-6)
 
 
-def test_floor_is_learnt_where_nobody_hides_it(
+def test_floor_is_learnt_where_no_person_hides_it(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """From half a metre to 2.5 m, not near anybody nor behind."""
+    """From 0.5 m to 2.5 m, neither near a person nor behind one."""
     feet, robot, floors = FootDetector(), Standing(), []
     monkeypatch.setattr(
         feet.colours, "learn", lambda _, floor: floors.append(floor)
@@ -197,7 +203,7 @@ def test_floor_is_learnt_where_nobody_hides_it(
     assert wanted.any() and farther > 100
 
 
-def test_of_the_floor_under_somebody_nothing_is_learnt() -> None:
+def test_floor_under_a_person_is_not_learnt() -> None:
     """Nor of what is hidden behind."""
     feet, robot = FootDetector(), Standing()
     someone = robot.follow(1.0, 0.0)

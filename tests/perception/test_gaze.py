@@ -179,7 +179,7 @@ def pitch_at(distance: float, height: float) -> float:
     return degrees(gaze.pitch)
 
 
-def test_it_looks_up_as_somebody_tall_comes_near() -> None:
+def test_it_looks_up_as_a_tall_person_comes_near() -> None:
     """To the hips, which join two legs; the floor stays in view, too."""
     pitches = [pitch_at(away, 1.5) for away in (3.0, 2.0, 1.0, 0.6, 0.4)]
     assert pitches == sorted(pitches, reverse=True)
@@ -193,7 +193,7 @@ def test_it_looks_up_as_somebody_tall_comes_near() -> None:
 
 
 def seen_sides(bearing: float, seconds: float = 9.0) -> set[float]:
-    """Over which shoulders it looks while somebody is at a bearing."""
+    """Shoulders over which it looks while a person is at a bearing."""
     glances = Glances(TICK, 2.0)
     looks = {
         glances.direction(bearing, 1.0) for _ in range(round(seconds / TICK))
@@ -207,13 +207,15 @@ def test_glances_go_over_both_shoulders_of_who_walks_backward() -> None:
 
 
 @pytest.mark.parametrize("side", [1.0, -1.0])
-def test_nobody_looks_away_so_far_that_the_other_is_lost(side: float) -> None:
+def test_the_gaze_never_turns_so_far_that_the_opponent_is_lost(
+    side: float,
+) -> None:
     """Who is on one side leaves only the shoulder of that side."""
     assert seen_sides(side * 1.2) == {side * MAX_YAW}
     assert abs(MAX_YAW + 1.2) > MAX_TURN > abs(MAX_YAW - 1.2)
 
 
-def test_from_who_is_very_near_nobody_looks_away() -> None:
+def test_the_gaze_stays_on_a_near_opponent() -> None:
     glances = Glances(TICK, 2.0)
     near = MIN_DISTANCE - 0.01
     assert {glances.direction(1.2, near) for _ in range(2000)} == {1.2}

@@ -133,7 +133,7 @@ def test_other_colours_show_no_floor() -> None:
 
 
 def test_the_floor_is_learnt_where_rays_passed() -> None:
-    """What stands before it, and floor that nobody saw, teaches nothing."""
+    """Objects in front of it, and unseen floor, are not learnt."""
     post = [(1.2, 0.0, 0.3, 0.8)]
     floor, axes = around(post), axes_of(1.2)
     near = NearFloorMapper(floor)
@@ -191,7 +191,7 @@ def standing() -> BodyPose:
 
 
 def test_who_has_lost_the_other_looks_with_the_upper_camera() -> None:
-    """The lower one shows nobody's trim."""
+    """The lower camera shows no trim."""
     lower, body = lower_of(around([])), standing()
     wanted = [lower.wanted(body, lost=False) for _ in range(4)]
     assert wanted.count(True) == 2
@@ -201,7 +201,7 @@ def test_who_has_lost_the_other_looks_with_the_upper_camera() -> None:
 
 
 def test_a_robot_that_scans_the_room_may_look_with_the_lower_camera() -> None:
-    """It seeks nobody yet; afterwards the upper one seeks the opponent."""
+    """It seeks no opponent yet; the upper camera does so afterwards."""
     mapping = FloorMapping(scan=RoomScan(behind=False))
     eyes = Eyes(mapping)
     now, low = 0.0, []
@@ -221,7 +221,7 @@ def test_a_robot_that_scans_the_room_may_look_with_the_lower_camera() -> None:
     assert not any(eyes.perception.looks_low() for _ in range(4))
 
 
-def test_nobody_is_sought_in_an_image_of_the_floor() -> None:
+def test_no_opponent_is_sought_in_an_image_of_the_floor() -> None:
     lower, body = lower_of(around([])), standing()
     report = lower.process(image([], axes_of(39.7), low=True), body)
     assert not report.sought and not report.azimuths

@@ -95,7 +95,7 @@ def track(
 
 
 def distance_of(seen: Observation) -> float:
-    return hypot(seen.x - PLACE[0], seen.y - PLACE[1])
+    return hypot(seen.x_in_odometry - PLACE[0], seen.y_in_odometry - PLACE[1])
 
 
 @pytest.mark.parametrize("distance", [0.9, 1.7])
@@ -119,7 +119,9 @@ def test_trim_that_is_whole_tells_bearing_and_distance(
     seen = observe_trim(IMAGE, found, eye(axes), RED, ())
     assert wrap_angle(seen.bearing - bearing) == pytest.approx(0.0, abs=0.01)
     assert distance_of(seen) == pytest.approx(distance, rel=0.01)
-    direction = atan2(seen.y - PLACE[1], seen.x - PLACE[0])
+    direction = atan2(
+        seen.y_in_odometry - PLACE[1], seen.x_in_odometry - PLACE[0]
+    )
     assert wrap_angle(direction - seen.bearing) == pytest.approx(0.0, abs=1e-9)
     assert seen.time == 3.5 and seen.identified and seen.ranged
     away = distance_of(seen)
@@ -209,7 +211,7 @@ def test_memory_is_of_where_it_is_by_now() -> None:
     assert 1.7 < distance_of(seen) < 1.8
 
 
-def test_nobody_is_nearer_than_can_be() -> None:
+def test_no_observation_is_nearer_than_possible() -> None:
     found = trim(1.5, YAW, cut_above=True)
     seen = observe(found, track(0.2, observe(found).bearing))
     assert distance_of(seen) == pytest.approx(MIN_DISTANCE)
@@ -232,9 +234,10 @@ def test_a_shadow_is_no_farther_than_the_near_limit() -> None:
     shadow = Shadow(YAW, 0.2, 0.3)
     seen = observe_shadow(DEPTH, shadow, EYE, ())
     away = 0.8 + SHADOW_MARGIN
-    assert (seen.x - PLACE[0], seen.y - PLACE[1]) == pytest.approx(
-        (away * cos(YAW), away * sin(YAW))
-    )
+    assert (
+        seen.x_in_odometry - PLACE[0],
+        seen.y_in_odometry - PLACE[1],
+    ) == pytest.approx((away * cos(YAW), away * sin(YAW)))
     assert seen.bearing == YAW and seen.time == 3.5
     assert seen.along == DEVIATION_BOUND
     assert seen.across == pytest.approx(0.08 * away)
@@ -255,7 +258,7 @@ def test_within_its_bounds_a_shadow_tells_no_distance() -> None:
     assert followed.deviation_at(4.5) > 0.8 * before
 
 
-def test_nobody_in_a_shadow_is_within_the_robot() -> None:
+def test_no_observation_in_a_shadow_is_within_the_robot() -> None:
     shadow = Shadow(YAW, 0.2, 0.3)
     seen = observe_shadow(DEPTH, shadow, EYE, (track(0.36, YAW),))
     assert distance_of(seen) == pytest.approx(MIN_SHADOW_DISTANCE)
@@ -288,7 +291,11 @@ def test_in_a_mapped_room_only_what_is_where_the_other_is_counts() -> None:
     empty = FloorMap()
 
     def told(other: tuple[float, float] | None) -> list[float]:
-        return [each.y for each in things if is_opponent(each, empty, other)]
+        return [
+            each.y_in_odometry
+            for each in things
+            if is_opponent(each, empty, other)
+        ]
 
     assert told((1.0, 0.0)) == [0.1]
     assert told((1.0, 0.7)) == [0.6]

@@ -253,7 +253,7 @@ def test_a_track_settles_after_the_settling_time(
         settled.append(people.settled(track, now, 0.0, 0.0))
     assert settled[-1] and not settled[0]
     assert 0.05 * (1 + settled.index(True)) == pytest.approx(wait, abs=0.26)
-    # After a gap the watch begins anew, of somebody known whatever the time.
+    # After a gap the observation starts again; a known person needs none.
     track.update(Observation(2.0, x, 0.0, 0.0, 0.03, 0.03, False, True))
     assert not people.settled(track, 2.1, 0.0, 0.0)
     for i in range(24):

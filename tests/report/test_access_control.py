@@ -58,7 +58,7 @@ def port_of(served: PageServer) -> int:
 
 
 def plug(served: PageServer, origin: str | None, path: str = "") -> Any:
-    """A socket of somebody who says to come from there."""
+    """Socket of a client with this origin."""
     return connect(
         f"ws://127.0.0.1:{port_of(served)}{path}",
         origin=origin,  # type: ignore[arg-type]
@@ -260,7 +260,7 @@ def test_everywhere_is_known_by_its_numbers_but_by_no_name() -> None:
         assert here.url == "http://[::1]:80" and not AccessControl(here).secret
 
 
-def test_a_port_that_is_taken_is_left_to_whoever_has_it(
+def test_an_occupied_port_is_left_to_its_owner(
     served: PageServer,
 ) -> None:
     other = listen("127.0.0.1", port_of(served))

@@ -58,7 +58,7 @@ def test_a_level_or_rising_sight_pulls_as_far_as_it_passes_by(
 
 
 class Player:
-    """Somebody who can be pushed, or not."""
+    """Player that can be pushed, or not."""
 
     def __init__(self, heading: float, *, refuses: bool = False) -> None:
         """Stand with a heading, in [rad]."""
@@ -72,12 +72,12 @@ class Player:
     def push(self, push: Any) -> None:
         """Keep a push, or refuse it."""
         if self.refuses:
-            raise ConfigurationError("nobody pushes a person")
+            raise ConfigurationError("a person is not pushed")
         self.pushes.append(push)
 
 
 def table(player: Player) -> tuple[Any, Any, Handle, list[str]]:
-    """Somebody to push, the scene, what is seen of them, and what is said."""
+    """Players, scene, drawn arrows and messages."""
     world = SimpleNamespace(time=7.0)
     duel = SimpleNamespace(world=world, players=(None, player))
     session: Any = SimpleNamespace(change=lambda request: request(duel))
@@ -129,5 +129,5 @@ def test_a_pull_of_nothing_is_none_and_a_refusal_is_told() -> None:
     for way in (np.zeros(2), np.array([0.3, 0.0])):
         drag(mesh, "start", way)
         drag(mesh, "end", way)
-    assert said == ["nobody pushes a person"]
+    assert said == ["a person is not pushed"]
     assert scene.items == {}

@@ -16,7 +16,7 @@ def played(score: Scoreboard, *distances: float, began: float = 0.0) -> None:
         score.update(began + 0.1 * number, distance)
 
 
-def test_what_nobody_drives_is_no_round() -> None:
+def test_an_undriven_game_is_no_round() -> None:
     score = Scoreboard()
     score.update(1.0, 0.3)
     score.end("fall")

@@ -1,4 +1,4 @@
-"""The page comes to whoever asks for it, with our scripts."""
+"""The page reaches each client with our scripts."""
 
 from types import SimpleNamespace
 from typing import Any

@@ -1,4 +1,4 @@
-"""A live duel with a person: whom nobody pushes, drives or plans for."""
+"""A live duel with a person, who is not pushed, driven or planned for."""
 
 from collections.abc import Iterator
 from math import pi
@@ -94,7 +94,7 @@ def test_the_push_button_says_that_a_person_is_not_pushed(
     assert said[1:] == ["pushed the evader left by 0.5 N s"]
 
 
-def test_nobody_drives_a_person(session: LiveSession) -> None:
+def test_a_person_cannot_be_driven(session: LiveSession) -> None:
     """It walks as it would have, and no score is kept."""
     gui: Any = Gui()
     panel = DrivePanel(gui, session)

@@ -1,4 +1,4 @@
-"""Text of anybody does nothing where it is shown."""
+"""Text of users is escaped wherever it is shown."""
 
 import html
 import json

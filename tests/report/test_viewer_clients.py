@@ -45,7 +45,7 @@ def test_a_light_is_of_one_viewer_alone(
     viewers.toggle_theme(None)  # who has gone meanwhile
 
 
-def test_cameras_go_along_until_somebody_takes_them(
+def test_cameras_follow_until_a_client_moves_them(
     looked: tuple[ViewerClients, Any],
 ) -> None:
     viewers, server = looked

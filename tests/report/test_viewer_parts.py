@@ -248,7 +248,7 @@ def test_a_plan_is_drawn_in_the_world(
         np.testing.assert_array_equal(prints[..., 2], HEIGHTS["footsteps"])
 
 
-def test_nothing_is_planned_before_anybody_walks() -> None:
+def test_nothing_is_planned_before_a_robot_walks() -> None:
     duel, trail = playing(0.0)
     for name, walk, frame in walks(duel):
         assert path_of(walk, frame).shape == (0, 2)
@@ -489,7 +489,7 @@ def test_words_follow_phases_and_bands(
         assert "**evading**" in alone
 
 
-def test_without_a_safety_area_nobody_is_triggered() -> None:
+def test_without_a_safety_area_no_trigger_is_drawn() -> None:
     assert "walks" in status_text((WALK, STAND), 0.1, 0.0, inf, None)
 
 

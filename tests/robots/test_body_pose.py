@@ -115,7 +115,7 @@ def test_measured_posture_is_that_of_the_model() -> None:
         np.testing.assert_allclose(
             posture.axes_feet_in_torso[i], frame, atol=1e-12
         )
-    # The CoM is nobody's view: it stays when the robot moves on.
+    # The CoM is a copy: it stays when the robot moves on.
     kept = posture.position_com_in_torso.copy()
     forward().posture(0.5 * angles)
     np.testing.assert_array_equal(posture.position_com_in_torso, kept)

@@ -151,7 +151,7 @@ def test_default_sensors_are_those_of_the_documents() -> None:
 
 
 def test_clutter_has_its_documented_positions() -> None:
-    """In nobody's way: duels go on within a meter or so of the middle."""
+    """Out of the way: duels stay within a metre or so of the middle."""
     places = {thing.kind: (thing.x, thing.y) for thing in CLUTTER}
     assert set(places) == set(KINDS)
     assert places["red box"] == (3.4, 1.6)

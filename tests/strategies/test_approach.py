@@ -64,7 +64,7 @@ def test_still_or_receding_opponents_never_make_contact() -> None:
     assert Approach(0.3, 0.0, 0.0, 0.0).contact_time(0.7) == inf
     assert Approach(0.3, 0.0, 0.5, 0.0).contact_time(0.7) == inf
     assert Approach(0.3, 0.0, -0.5, 0.0).contact_time(0.7) == 0.0
-    # Whoever hardly moves comes from where it is.
+    # The direction of approach of a slow player is its bearing.
     assert Approach(0.0, 1.0, 0.01, 0.0).origin == pytest.approx(pi / 2)
     assert abs(Approach(0.0, 1.0, 1.0, 0.0).origin) == pytest.approx(pi)
 

@@ -39,7 +39,7 @@ NOW = CodeStamp("new", {"mujoco": "1"})
 
 
 def made(seed: int, **changes: Any) -> dict[str, Any]:
-    """Record of a duel that nobody played."""
+    """Record of a duel that was not played."""
     return (
         dict.fromkeys(FIELDS)
         | {
@@ -310,7 +310,7 @@ def stay(number):
     time.sleep(300)
 
 if __name__ == "__main__":
-    # Whoever runs this in the background ignores Ctrl-C, and so would it.
+    # A background shell ignores Ctrl-C, and so would the child.
     signal.signal(signal.SIGINT, signal.default_int_handler)
     try:
         with worker_pool(1) as pool:

@@ -48,7 +48,7 @@ def grid(walk: WalkSettings = WALK, seeds: int = 2) -> list[Encounter]:
 
 
 def record(**changes: Any) -> dict[str, Any]:
-    """What happened to somebody who was let past."""
+    """Record of a person who passed by."""
     return {
         "outcome": "completed",
         "duration_s": 36.0,

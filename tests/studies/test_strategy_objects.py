@@ -60,7 +60,7 @@ class Other(Evasion):
 
 
 class Own:
-    """A strategy as somebody writes it."""
+    """Strategy as a user writes it."""
 
     direction = Direction.BACKWARD
     saturated = False

@@ -37,7 +37,7 @@ PAIRINGS = [("aside", "pure"), ("look-ahead", "pure")]
 
 @pytest.fixture(scope="module", autouse=True)
 def coarse_table(tmp_path_factory: pytest.TempPathFactory) -> Any:
-    """The bound is solved on few cells, and kept where nobody else looks."""
+    """The bound is solved on few cells, and cached for this test only."""
     patch = pytest.MonkeyPatch()
     patch.setenv("XDG_CACHE_HOME", str(tmp_path_factory.mktemp("cache")))
     patch.setattr(studied, "CELLS", 16)

@@ -170,7 +170,7 @@ def test_barrier_errors_fall_with_the_grid_spacing(table: Bound) -> None:
 def test_barrier_of_the_table_is_that_of_the_closed_form(
     table: Bound,
 ) -> None:
-    """Head on, and from behind, where nobody is caught."""
+    """Head on, and from behind, where no evader is captured."""
     reach = table.barrier(1.0)
     a, _, psi = table.grid.axes()
     points, _ = barrier_slice(1.0, pi)

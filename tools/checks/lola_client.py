@@ -8,7 +8,7 @@ it is kept here:
     git clone https://github.com/coders-group-eu/nao_logs /tmp/peer
     python tools/checks/lola_client.py /tmp/peer
 
-It needs this package with ``[robot]``, and nobody else at ``/tmp/robocup``,
+It needs this package with ``[robot]``, and ``/tmp/robocup`` for itself,
 which is the only place where that client looks for a robot. The world runs
 in lock step, so a machine may be busy, and the client's clock is told by the
 frames. Prints what happened, as JSON; ``tools/checks/README.md`` holds what
@@ -105,7 +105,7 @@ def serve(folder: Path) -> "subprocess.Popen[str]":
 
 
 def tried(checkout: Path, program: str) -> dict[str, Any]:
-    """What came of one program."""
+    """Outcome of one program."""
     from stepaside.games.run_archive import load_run
 
     with tempfile.TemporaryDirectory() as place:

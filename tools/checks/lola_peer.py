@@ -8,7 +8,7 @@ The peer is the controller of github.com/Bembelbots/WebotsLoLaController
 
 It needs opencv-python and this package with ``[robot]``. Webots itself is
 not needed: this file stands in for its ``controller`` module, with motors
-that are at once where they are told to be, and somebody who presses C, the
+that reach their targets at once, and a user who presses C, the
 chest button, when our client is ready. Prints what happened, as JSON;
 ``tools/checks/README.md`` holds what came out.
 """
@@ -69,7 +69,7 @@ class Device:
 
 
 class Sensor(Device):
-    """What measures a motor, or anything else."""
+    """Sensor of a motor or of anything else."""
 
     def __init__(self, name: str, motor: Device | None) -> None:
         """Watch a motor."""
@@ -107,7 +107,7 @@ class Robot:
         return self._devices[name]
 
     def getKeyboard(self) -> "Robot":  # noqa: N802
-        """Somebody at the keys."""
+        """User at the keyboard."""
         return self
 
     def enable(self, *_: Any) -> None:

@@ -81,7 +81,7 @@ def watched(deadline: float) -> Iterator[Clock]:
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0.0)
         signal.signal(signal.SIGALRM, before)
-        if outer[0]:  # whoever watches us has a clock of its own
+        if outer[0]:  # an outer supervisor has its own clock
             left = max(outer[0] - (monotonic() - began), 0.001)
             signal.setitimer(signal.ITIMER_REAL, left, outer[1])
 

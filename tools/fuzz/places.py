@@ -118,7 +118,7 @@ def place_case(name: str, run: Path, fault: str, part: float) -> Case:
     def try_it(folder: Path) -> str:
         whole, lacks = undisturbed(name, run)
         if lacks:
-            return f"not written though nobody disturbs: {lacks}"
+            return f"not written without a disturbance: {lacks}"
         number = int(part * len(whole.strike.touched))
         with room_in(folder, small=fault == "full"):
             found = play(name, run, folder, number, FAULTS[fault])

@@ -46,7 +46,7 @@ LONG = {
     "robot check": "robot --workers=2",
     "robot tune": "robot --workers=2",
 }
-# What is through before anybody would stop it.
+# Commands that end before a user would stop them.
 SHORT = {
     "compare",
     "doctor",

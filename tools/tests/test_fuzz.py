@@ -69,7 +69,7 @@ def fails() -> None:
 
 @fake.command()
 def hangs() -> None:
-    """Go on for ever, whoever asks."""
+    """Never end."""
     while True:
         try:
             sleep(0.01)

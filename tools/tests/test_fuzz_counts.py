@@ -1,4 +1,4 @@
-"""What fuzzing came to is counted by class, and kept by seed."""
+"""Count the outcomes of fuzzing by class, and store them by seed."""
 
 import json
 from pathlib import Path

@@ -220,7 +220,7 @@ def told(
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> Callable[..., str]:
-    """What the same command says where it tries nothing."""
+    """Output of the same command without trials."""
 
     def say(*options: str) -> str:
         monkeypatch.setattr(sys, "argv", ["mutation", *words(root, *options)])

@@ -19,7 +19,7 @@ NO_BAGS = ("video", "gif", "strip", "port", "opens", "serve_for")
 
 
 class BagOutputs(NamedTuple):
-    """What is written of a bag.
+    """Files that are written for a bag.
 
     Attributes:
         html: File of the offline page.

@@ -94,8 +94,8 @@ class DetectedObstacle:
     """Obstacle in a depth image, neither floor nor the robot itself.
 
     Attributes:
-        x: Estimated x of its vertical axis in odometry, in [m].
-        y: Estimated y of its vertical axis in odometry, in [m].
+        x_in_odometry: Estimated x of its vertical axis, in [m].
+        y_in_odometry: Estimated y of its vertical axis, in [m].
         nearest: Distance from the camera to its nearest part, in [m].
         bearing: Direction of its middle from the camera, in odometry, in
             [rad].
@@ -106,8 +106,8 @@ class DetectedObstacle:
         rises: Whether the upper image edge cuts it.
     """
 
-    x: float
-    y: float
+    x_in_odometry: float
+    y_in_odometry: float
     nearest: float
     bearing: float
     azimuth: float
@@ -252,7 +252,12 @@ def join_legs(obstacles: list[DetectedObstacle]) -> list[DetectedObstacle]:
     while remaining:
         leg = remaining.pop(0)
         for other in remaining:
-            apart = float(np.hypot(leg.x - other.x, leg.y - other.y))
+            apart = float(
+                np.hypot(
+                    leg.x_in_odometry - other.x_in_odometry,
+                    leg.y_in_odometry - other.y_in_odometry,
+                )
+            )
             if _is_leg(leg) and _is_leg(other) and apart < MAX_LEG_GAP:
                 remaining.remove(other)
                 leg = _person_between(leg, other)
@@ -276,8 +281,8 @@ def _person_between(
     ]
     middle = 0.5 * (min(ends) + max(ends))
     return DetectedObstacle(
-        0.5 * (leg.x + other.x),
-        0.5 * (leg.y + other.y),
+        0.5 * (leg.x_in_odometry + other.x_in_odometry),
+        0.5 * (leg.y_in_odometry + other.y_in_odometry),
         leg.nearest,
         leg.bearing + middle - leg.azimuth,
         middle,

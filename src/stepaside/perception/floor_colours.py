@@ -30,13 +30,13 @@ class FloorContact(NamedTuple):
     """Point at which an object stands on the floor.
 
     Attributes:
-        x: Middle of its near edge, x in odometry, in [m].
-        y: Middle of its near edge, y in odometry, in [m].
+        x_in_odometry: Middle of its near edge, in [m].
+        y_in_odometry: Middle of its near edge, in [m].
         distance: Distance from the own axis, in [m].
     """
 
-    x: float
-    y: float
+    x_in_odometry: float
+    y_in_odometry: float
     distance: float
 
 
@@ -201,11 +201,17 @@ def _join_feet(feet: list[FloorContact]) -> tuple[FloorContact, ...]:
     while remaining:
         foot = remaining.pop(0)
         for other in remaining:
-            if np.hypot(foot.x - other.x, foot.y - other.y) < MAX_FOOT_GAP:
+            if (
+                np.hypot(
+                    foot.x_in_odometry - other.x_in_odometry,
+                    foot.y_in_odometry - other.y_in_odometry,
+                )
+                < MAX_FOOT_GAP
+            ):
                 remaining.remove(other)
                 foot = FloorContact(
-                    0.5 * (foot.x + other.x),
-                    0.5 * (foot.y + other.y),
+                    0.5 * (foot.x_in_odometry + other.x_in_odometry),
+                    0.5 * (foot.y_in_odometry + other.y_in_odometry),
                     0.5 * (foot.distance + other.distance),
                 )
                 break

@@ -92,12 +92,14 @@ class FootDetector:
         own_x, own_y = camera.position_torso_in_odometry
         observations = []
         for contact in detect_feet(image, camera, self.colours):
-            bearing = atan2(contact.y - own_y, contact.x - own_x)
+            bearing = atan2(
+                contact.y_in_odometry - own_y, contact.x_in_odometry - own_x
+            )
             observations.append(
                 Observation(
                     image.time,
-                    contact.x + TOES * cos(bearing),
-                    contact.y + TOES * sin(bearing),
+                    contact.x_in_odometry + TOES * cos(bearing),
+                    contact.y_in_odometry + TOES * sin(bearing),
                     bearing,
                     ALONG,
                     ACROSS,

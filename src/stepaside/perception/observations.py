@@ -136,8 +136,8 @@ def observe_obstacle(
     aside = 0.03 if obstacle.whole else 0.12
     return Observation(
         image.time,
-        obstacle.x,
-        obstacle.y,
+        obstacle.x_in_odometry,
+        obstacle.y_in_odometry,
         obstacle.bearing,
         0.03,
         aside,
@@ -164,8 +164,10 @@ def is_opponent(
         return False
     x, y = position_opponent_in_odometry
     return hypot(
-        obstacle.x - x, obstacle.y - y
-    ) < BODY_RADIUS and not floor.is_occupied(obstacle.x, obstacle.y)
+        obstacle.x_in_odometry - x, obstacle.y_in_odometry - y
+    ) < BODY_RADIUS and not floor.is_occupied(
+        obstacle.x_in_odometry, obstacle.y_in_odometry
+    )
 
 
 def observe_shadow(

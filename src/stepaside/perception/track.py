@@ -45,8 +45,8 @@ class Observation(NamedTuple):
 
     Attributes:
         time: Time of the measurement, in [s].
-        x: Position, x in odometry, in [m].
-        y: Position, y in odometry, in [m].
+        x_in_odometry: Position, in [m].
+        y_in_odometry: Position, in [m].
         bearing: Direction from the sensor in odometry, in [rad].
         along: Standard deviation along the bearing, in [m].
         across: Standard deviation across the bearing, in [m].
@@ -56,8 +56,8 @@ class Observation(NamedTuple):
     """
 
     time: float
-    x: float
-    y: float
+    x_in_odometry: float
+    y_in_odometry: float
     bearing: float
     along: float
     across: float
@@ -112,7 +112,9 @@ class TargetTrack:
         self.ranged_at = first.time if first.ranged else -inf
         self.confirmed = False
         self.height = first.height
-        self._state = np.array([first.x, first.y, *velocity_in_odometry])
+        self._state = np.array(
+            [first.x_in_odometry, first.y_in_odometry, *velocity_in_odometry]
+        )
         self._covariance = np.zeros((4, 4))
         self._covariance[:2, :2] = first.covariance
         self._covariance[2, 2] = self._covariance[3, 3] = motion.speed**2
@@ -159,7 +161,10 @@ class TargetTrack:
             or max(observation.along, observation.across) > MAX_DEVIATION
         ):
             return
-        trail, position = self._trail, (observation.x, observation.y)
+        trail, position = (
+            self._trail,
+            (observation.x_in_odometry, observation.y_in_odometry),
+        )
         while trail and observation.time - trail[0][0] > TRAIL:
             trail.popleft()
         if not trail or observation.time - trail[-1][0] >= MIN_INTERVAL:
@@ -256,7 +261,10 @@ class TargetTrack:
     def _extrapolated(self, observation: Observation, state: Array) -> Array:
         """Extrapolate a delayed observation to the time of the state."""
         delay = max(0.0, self.time - observation.time)
-        return np.array([observation.x, observation.y]) + delay * state[2:]
+        return (
+            np.array([observation.x_in_odometry, observation.y_in_odometry])
+            + delay * state[2:]
+        )
 
     def _predicted(self, time: float) -> tuple[Array, Array]:
         step = max(0.0, time - self.time)

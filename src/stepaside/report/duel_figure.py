@@ -125,7 +125,7 @@ def _frame(run: Run) -> tuple[Array, Array]:
 
 
 def _draw_solids(axes: Any, run: Run, time: float) -> None:
-    """What va in the room at a time in [s], if they play in one."""
+    """Draw the obstacles of the room, if there is one, at a time in [s]."""
     for patch in () if run.plan is None else room_patches(run.plan, time):
         axes.add_patch(patch)
 

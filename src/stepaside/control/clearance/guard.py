@@ -118,7 +118,7 @@ class Guard:
         self,
         intent: Intent,
         plan_for: PlanFor,
-        support: Pose,
+        pose_plan_in_odometry: Pose,
         *,
         standing: bool,
     ) -> GuardDecision | None:
@@ -127,7 +127,7 @@ class Guard:
         Args:
             intent: Requested intent.
             plan_for: Function that plans a decision.
-            support: Pose of the support foot, the plan frame, in odometry.
+            pose_plan_in_odometry: Pose of the support foot, the plan frame.
             standing: Whether the robot stands; it may then also leave a
                 position within the margin.
 
@@ -138,19 +138,21 @@ class Guard:
             robot has to stand.
         """
         for choice in _choices(intent, standing=standing):
-            if self.accepts(plan_for(choice), support, standing=standing):
+            if self.accepts(
+                plan_for(choice), pose_plan_in_odometry, standing=standing
+            ):
                 return choice
         return None
 
     def choose_escape(
-        self, intent: Intent, plan_for: PlanFor, support: Pose
+        self, intent: Intent, plan_for: PlanFor, pose_plan_in_odometry: Pose
     ) -> GuardDecision | None:
         """Return the decision that leads a standing robot out of the margin.
 
         Args:
             intent: Requested intent.
             plan_for: Function that plans a decision.
-            support: Pose of the support foot, the plan frame, in odometry.
+            pose_plan_in_odometry: Pose of the support foot, the plan frame.
 
         Returns:
             The decision with the largest least clearance, which may fall below
@@ -160,51 +162,57 @@ class Guard:
         map_error = self.surroundings.map_error
         out = []
         for choice in (*_choices(intent, standing=True), *ESCAPES):
-            clearance = self.evaluate(plan_for(choice), support)
+            clearance = self.evaluate(plan_for(choice), pose_plan_in_odometry)
             if clearance.escapes(self.margin, map_error, GAINED):
                 out.append((clearance.least, choice))
         return max(out, key=itemgetter(0))[1] if out else None
 
     def adjust_footsteps(
-        self, plan: ManeuverPlan, support: Pose
+        self, plan: ManeuverPlan, pose_plan_in_odometry: Pose
     ) -> ManeuverPlan:
         """Return a plan with adjusted footsteps, if adjustment is enabled.
 
         Args:
             plan: The plan.
-            support: Pose of the plan frame in odometry.
+            pose_plan_in_odometry: Pose of the plan frame, the support foot.
         """
         if self._footholds is None:
             return plan
         pose_plan_in_map = self.surroundings.pose_odometry_in_map.compose(
-            support
+            pose_plan_in_odometry
         )
         return self._footholds.adjust(
             plan, pose_plan_in_map, self.surroundings.solids
         )
 
     def accepts(
-        self, plan: ManeuverPlan, support: Pose, *, standing: bool
+        self,
+        plan: ManeuverPlan,
+        pose_plan_in_odometry: Pose,
+        *,
+        standing: bool,
     ) -> bool:
         """Return whether a maneuver may be executed.
 
         Args:
             plan: The maneuver.
-            support: Pose of the plan frame in odometry.
+            pose_plan_in_odometry: Pose of the plan frame, the support foot.
             standing: Whether the robot stands; inside the margin it may then
                 move out of it.
         """
         if not self.surroundings.solids:
             return True
-        clearance = self.evaluate(plan, support)
+        clearance = self.evaluate(plan, pose_plan_in_odometry)
         if clearance.least >= self.margin:
             return True
         return standing and clearance.escapes(self.margin, 0.0)
 
-    def evaluate(self, plan: ManeuverPlan, support: Pose) -> ManeuverClearance:
+    def evaluate(
+        self, plan: ManeuverPlan, pose_plan_in_odometry: Pose
+    ) -> ManeuverClearance:
         """Return the clearance of the first step of a plan and its halt."""
         pose_plan_in_map = self.surroundings.pose_odometry_in_map.compose(
-            support
+            pose_plan_in_odometry
         )
         landed = Pose(*plan.placements[2].tolist())
         halt = self.halt_after(plan)

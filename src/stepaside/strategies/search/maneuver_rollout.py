@@ -11,7 +11,7 @@ from .value_lookup import ValueTable, value_at
 
 
 class SearchProblem(NamedTuple):
-    """What a search decides on.
+    """Candidates, objective and rules of a search.
 
     Attributes:
         maneuvers: Candidate maneuvers.
