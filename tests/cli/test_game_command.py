@@ -84,3 +84,22 @@ def test_bad_files_are_refused_in_one_line(
     (line,) = done.stderr.strip().splitlines()
     assert message in line
     assert not (tmp_path / "out").exists()
+
+
+def test_games_are_compared_and_have_no_robot_models_without_robots(
+    file: Path, tmp_path: Path
+) -> None:
+    folders = []
+    for seed in ("1", "2"):
+        folders.append(tmp_path / seed)
+        run(file, "--seed", seed, "--output", folders[-1])
+    figure = tmp_path / "both.png"
+    done = CliRunner().invoke(
+        main, ["compare", *map(str, folders), "--output", str(figure)]
+    )
+    assert done.exit_code == 0, done.output
+    assert "closest" in done.output and figure.is_file()
+    models = ["export", str(folders[0]), "--to", "urdf"]
+    refused = CliRunner().invoke(main, models)
+    assert refused.exit_code != 0
+    assert "urdf needs a run with a robot" in refused.output

@@ -287,9 +287,7 @@ def test_a_body_between_two_instants_counts() -> None:
 def test_a_measured_pose_corrects_odometry() -> None:
     """A robot that is where its odometry does not say knows it."""
     around = KnownRoom(Room(), Pose(1.0, 2.0, 0.5))
-    body = BodyReference(
-        (0.3, 0.1, 0.26), (0.3, 0.15, 0.0, 0.2), (0.3, 0.05, 0.0, 0.2)
-    )
+    body = Pose(0.3, 0.1, 0.2)
     nothing = np.zeros(3)
     blind = Measurement(0.0, nothing, nothing, nothing, nothing, None)
     around.note(blind, body)

@@ -114,7 +114,7 @@ class Around:
             [Disc(*put(room, (x, y)), radius) for x, y, radius in discs]
         )
 
-    def note(self, measurement: Measurement, body: BodyReference) -> None:
+    def note(self, measurement: Measurement, pose: Pose) -> None:
         """Learn nothing."""
 
 
@@ -214,12 +214,9 @@ def test_a_measured_pose_aligns_odometry_with_the_body(
 ) -> None:
     """The planned pose in odometry maps to the measured pose in the room."""
     around = KnownRoom(Room(None, None, (Disc(9.0, 9.0, 0.2),)), start)
-    x, y, yaw = planned
-    foot = (x, y, 0.0, yaw)
-    body = BodyReference((x, y, 0.27), foot, foot)
-    around.note(MEASUREMENT, body)
+    around.note(MEASUREMENT, planned)
     assert around.pose_odometry_in_map == start
-    around.note(MEASUREMENT._replace(pose_in_room=place), body)
+    around.note(MEASUREMENT._replace(pose_in_room=place), planned)
     found = around.pose_odometry_in_map.compose(planned)
     assert found[:2] == pytest.approx(place[:2], abs=1e-9)
     assert wrap_angle(found.theta - place.theta) == pytest.approx(0, abs=1e-9)

@@ -51,6 +51,27 @@ def test_the_configuration_of_a_game_is_read_back_equal() -> None:
     assert read_settings(GameSettings, text, "text") == settings
 
 
+def test_an_entry_with_a_count_is_that_many_players() -> None:
+    guests = {"name": "guest", "count": 3, "body": "person"}
+    settings = game(HUNTER, PREY, guests | {"draws_goal": True})
+    assert settings.names == ("red", "blue", "guest-1", "guest-2", "guest-3")
+    assert all(p.draws_goal for p in settings.players[2:])
+
+
+def test_changes_replace_settings_before_they_are_checked(
+    tmp_path: Path,
+) -> None:
+    file = tmp_path / "many.toml"
+    file.write_text(
+        '[[players]]\nname = "red"\nrole = "pursuer"\n'
+        '[[players]]\nname = "blue"\nrole = "evader"\n'
+        f"count = {MOST_ROBOTS}\n"
+    )
+    with pytest.raises(ConfigurationError, match="robots in physics"):
+        load_game(file)
+    assert load_game(file, level="steps", seed=9).seed == 9
+
+
 @pytest.mark.parametrize(
     "name", sorted(EXAMPLES.glob("*.toml")), ids=lambda file: file.stem
 )
@@ -77,6 +98,19 @@ def test_the_example_games_are_valid(name: Path) -> None:
         ([HUNTER, PREY | {"senses": "cameras"}], "senses must be ideal"),
         ([HUNTER, PREY | {"body": "run"}], "run must be a run folder"),
         ([HUNTER, PREY | {"wings": 2}], "unknown entry wings"),
+        ([HUNTER, PREY | {"count": 0}], "count must be a whole number"),
+        (
+            [HUNTER, PREY | {"count": 2, "start": [0.0, 0.0, 0.0]}],
+            "start must be omitted with count 2",
+        ),
+        (
+            [HUNTER, PREY | {"body": "person", "strategy": "evasion"}],
+            "strategy must be omitted with body 'person'",
+        ),
+        (
+            [HUNTER, PREY | {"body": "unicycle", "sight": {"delay": 0.1}}],
+            "sight must be omitted with body 'unicycle'",
+        ),
         (["red"], "must be a table"),
     ],
 )

@@ -85,3 +85,30 @@ def test_starts_in_a_room_keep_clear_of_its_walls() -> None:
     poses = [p.pose for p in settings.players]
     points = [pose[:2] for pose in poses if pose is not None]
     assert settings.room.clearance(points).min() >= 0.3
+
+
+@pytest.mark.parametrize(("width", "depth"), [(6.0, 6.0), (12.0, 1.6)])
+def test_drawn_goals_are_free_and_across_the_room(
+    width: float, depth: float
+) -> None:
+    room = {"width": width, "depth": depth}
+    guests = {"name": "guest", "body": "person", "draws_goal": True}
+    made = game(guests | {"count": 8}, room=room, near=0.6)
+    settings = with_starts(made)
+    for own in settings.players[3:]:
+        (x, y), (u, v, _) = own.goal, own.start
+        assert hypot(u - x, v - y) >= max(width, depth) / 3.0
+        assert abs(x) <= 0.5 * width - 0.3 and abs(y) <= 0.5 * depth - 0.3
+    assert with_starts(settings) == settings
+    other = with_starts(replace(made, seed=2))
+    assert other.players[3].goal != settings.players[3].goal
+
+
+def test_goals_and_bodies_in_walls_are_refused() -> None:
+    room = {"width": 4.0, "depth": 4.0}
+    guest = {"name": "guest", "body": "person", "goal": [2.5, 0.0]}
+    with pytest.raises(ConfigurationError, match="goal of guest must be on"):
+        with_starts(game(guest, room=room))
+    leaning = {"name": "leaning", "start": [1.95, 0.0, 0.0]}
+    with pytest.raises(ConfigurationError, match="start of leaning must be"):
+        with_starts(game(leaning, room=room))

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from stepaside.arena import Box, ObstacleSet
 from stepaside.core.player_identity import PlayerIdentity, Role
 from stepaside.core.poses import Pose
 from stepaside.strategies.assignment import assign
@@ -27,6 +28,7 @@ from stepaside.strategies.team_pursuit import (
     Pincer,
     keep_apart,
 )
+from stepaside.strategies.velocity_set import BodyVelocity, VelocitySet
 
 LIMITS = Limits(0.1, 0.2, 0.04, 0.547)
 ROLES = {"r": Role.PURSUER, "b": Role.EVADER, "g": Role.BYSTANDER}
@@ -224,3 +226,38 @@ def test_a_walker_heads_for_its_goal_and_gives_way() -> None:
     assert not walk.decide(hit, walk.begin())[0].walks
     there = GoalWalk(goal=(0.1, 0.0))
     assert not there.decide(ahead, there.begin())[0].walks
+
+
+LEGS = VelocitySet((-0.5, 0.7), (-0.35, 0.35), (-0.9, 0.9))
+
+
+def velocity(walk: GoalWalk, knowledge: Knowledge) -> BodyVelocity:
+    limits = replace(knowledge.limits, velocities=LEGS)
+    wanted = walk.decide(replace(knowledge, limits=limits), walk.begin())[0]
+    assert wanted.velocity is not None
+    return wanted.velocity
+
+
+def test_legs_of_any_direction_walk_to_the_goal_and_step_aside() -> None:
+    walk = GoalWalk(goal=(5.0, 0.0))
+    free = velocity(walk, known("g1", g2=(-3.0, 0.0)))
+    assert free.forward == pytest.approx(0.7) and abs(free.lateral) < 1e-9
+    ahead = known("g1", g2=(1.5, 0.05))
+    (other,) = ahead.others
+    comes = replace(ahead, others=(replace(other, velocity=(-0.5, 0.0)),))
+    assert velocity(walk, comes).lateral < -0.2
+    near = known("g1", g2=(0.4, 0.0))  # within contact: it backs away
+    assert velocity(walk, near).forward < 0.0
+
+
+def test_a_walker_keeps_clear_of_walls_while_it_gives_way() -> None:
+    walk = GoalWalk(goal=(5.0, 0.0))
+    ahead = known("g1", g2=(1.5, 0.05))
+    (other,) = ahead.others
+    comes = replace(ahead, others=(replace(other, velocity=(-0.5, 0.0)),))
+    slow = replace(ahead, others=(replace(other, velocity=(-0.3, 0.0)),))
+    wall = ObstacleSet((Box(1.0, -0.35, 4.0, 0.2),))  # on its right
+    assert velocity(walk, comes).lateral < 0.0
+    assert velocity(walk, replace(comes, obstacles_in_map=wall)).lateral > 0.0
+    assert heading(walk, slow) < -0.2
+    assert heading(walk, replace(slow, obstacles_in_map=wall)) > -0.2

@@ -29,6 +29,12 @@ COLUMNS = {
         ("closest", "min_distance_m", "{:.3f} m"),
         ("rate", "rate_hz", "{:.1f} Hz"),
     ),
+    "game": (
+        ("players", "players", "{}"),
+        ("closest", "closest_m", "{:.3f} m"),
+        ("captured", "captured_at_s", "{:.1f} s"),
+        ("path", "mean_path_m", "{:.2f} m"),
+    ),
     "play": (
         ("distance", "distance_m", "{:.3f} m"),
         ("radius", "radius_m", "{:.3f} m"),
@@ -63,9 +69,9 @@ COLUMNS = {
 def compare(runs: tuple[Path, ...], output: str | None, as_json: bool) -> None:
     """Plot the paths of several run folders, and their values over time.
 
-    For duels, plot distance and angle between headings; for walks, tilt and
-    speed; for records of `stepaside play`, the measured distance to the
-    opponent.
+    For duels, plot distance and angle between headings; for games of several
+    players, the distance of the nearest opponents; for walks, tilt and speed;
+    for records of `stepaside play`, the measured distance to the opponent.
     """
     from ..games.run_archive import load_run, results_of
 

@@ -1,6 +1,5 @@
 """``stepaside game``: a game of any number of players, from a file."""
 
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -35,17 +34,20 @@ def _levels() -> tuple[str, ...]:
     return GAME_LEVELS
 
 
+level_option = click.option(
+    "--level",
+    type=NameType(_levels),
+    help="Level of the game, instead of that of the file.",
+)
+
+
 @click.command("game")
 @click.argument(
     "file", type=click.Path(exists=True, dir_okay=False, path_type=Path)
 )
 @seed_option()
 @game_time_option()
-@click.option(
-    "--level",
-    type=NameType(_levels),
-    help="Level of the game, instead of that of the file.",
-)
+@level_option
 @folder_option(
     help="Run folder; a new one in runs/ by default, none with --json."
 )
@@ -73,7 +75,7 @@ def game(
     from ..report.run_folder import check_output, figure_name, free_folder
 
     given = {k: v for k, v in changes.items() if v is not None}
-    settings = replace(load_game(file), **given)
+    settings = load_game(file, **given)
     if output is None and not as_json:
         output = free_folder(Path("runs"), f"game-seed{settings.seed}")
     if output is not None:

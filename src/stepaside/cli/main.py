@@ -15,6 +15,7 @@ from ..core.signal_handling import INTERRUPTED, interruptible
 COMMANDS = {
     "duel": "Simulate a duel of two humanoids in physics.",
     "game": "Play a game of any number of players, from a file.",
+    "games": "Play a game file with many seeds; teams against teams.",
     "duels": "Run a study of many duels on all cores.",
     "study": "Run any grid or list of settings of a game.",
     "merge": "Join the outputs of the shards of a campaign.",

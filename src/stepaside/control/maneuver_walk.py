@@ -186,7 +186,9 @@ class ManeuverWalk:
         now = measurement.time
         if self._maneuvers.guard is not None:
             surroundings = self._maneuvers.guard.surroundings
-            surroundings.note(measurement, self.reference)
+            body = self.reference
+            planned = Pose(*body.com[:2], body.heading)
+            surroundings.note(measurement, planned)
         if self.plan is None:
             self._wait(now, decisions)
         elif self.decides(now):

@@ -12,7 +12,7 @@ from ..core.player_identity import PlayerIdentity
 from ..core.poses import Pose
 from ..locomotion.walk_snapshots import StepStarted
 from ..planning import GaitSettings
-from ..sim.crowd_motion import RADIUS, CrowdMotion, Neighbour
+from ..sim.crowd_motion import CrowdMotion
 from ..sim.ground_truth import FloorTruth, GroundTruth
 from ..sim.person_motion import PersonMotion
 from ..sim.push import Push
@@ -21,12 +21,11 @@ from ..sim.world import World
 from ..strategies.template_agent import PlayerState, TemplateAgent
 from .player import Snapshot, TruthLog
 from .recorded_motion import RecordedMotion
-from .template_level import PERIOD, UnicycleMotion
+from .template_level import PERIOD, FloorBulk, UnicycleMotion
 
 if TYPE_CHECKING:
     from ..perception.percept_stages import FrameReport
 
-ROBOT_RADIUS = 0.14  # of a robot, for people who give way to it, in [m]
 MARKER_HEIGHT = 0.27  # that stands for the CoM of a marker, in [m]
 MARKER_REACH = 0.1  # of a marker, which touches nothing, in [m]
 
@@ -83,33 +82,38 @@ class CrowdSteering:
         self,
         motion: CrowdMotion,
         others: Mapping[str, GroundTruth],
-        people: Mapping[str, bool],
+        bodies: Mapping[str, FloorBulk],
         tick: float,
     ) -> None:
-        """Take the walk and all other players.
-
-        Args:
-            motion: Walk of the person.
-            others: True states of all other players, by name.
-            people: Names of people, and whether they walk with this one.
-            tick: Control period, in [s].
-        """
+        """Take the walk, and true states and bodies of all others."""
         self._motion, self._others = motion, others
-        self._people, self._tick = people, tick
+        self._bodies, self._tick = bodies, tick
+        self._last, self._since = motion.pose, 0.0
 
     def next_pose(self, time: float) -> Pose:
-        """Return the pose at the end of a tick."""
+        """Return the pose at the end of a tick.
+
+        The person decides every 20 ms, as at the other levels, and keeps its
+        velocity in between.
+        """
+        now = time + self._tick
+        if now > self._since + 1e-9:
+            self._last, self._since = self._motion.pose, self._since + PERIOD
+            self._decide(self._since)
+        x, y, _ = self._last
+        ahead = self._motion.pose
+        share = 1.0 - (self._since - now) / PERIOD
+        return Pose(
+            x + share * (ahead.x - x), y + share * (ahead.y - y), ahead.theta
+        )
+
+    def _decide(self, until: float) -> None:
+        """Walk for one period, which ends at a time, in [s]."""
         neighbours = [
-            Neighbour(
-                *truth.position_torso_in_world,
-                name in self._people,
-                RADIUS if name in self._people else ROBOT_RADIUS,
-                self._people.get(name, False),
-            )
+            self._bodies[name].at(*truth.position_torso_in_world)
             for name, truth in self._others.items()
         ]
-        self._motion.advance(time + self._tick, self._tick, neighbours)
-        return self._motion.pose
+        self._motion.advance(until, PERIOD, neighbours)
 
 
 class PathSteering:

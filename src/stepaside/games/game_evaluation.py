@@ -20,7 +20,6 @@ from .trajectory import PlanningTimes, Trajectory
 
 MOVED = 0.02  # distance from the start that counts as motion, in [m]
 INTRUSIONS = (0.45, 1.2)  # of crowd navigation: intimate and personal, [m]
-ROBOT_RADIUS = 0.14  # of a robot or a unicycle among people, in [m]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -158,9 +157,12 @@ def _crowd(
             for person in people
         ]
     )
-    touching = apart < ROBOT_RADIUS + RADIUS
-    begun = int(np.count_nonzero(np.diff(touching.astype(int), axis=1) > 0))
-    collisions = begun + int(np.count_nonzero(touching[:, 0]))
+    if record.settings.level == "physics" and own.body == "robot":
+        collisions = int(own.name in record.touched)
+    else:
+        touching = apart < own.radius + RADIUS
+        begins = np.diff(touching.astype(int), axis=1, prepend=0) > 0
+        collisions = int(np.count_nonzero(begins))
     nearest = apart.min(axis=0)
     period = float(times[1] - times[0]) if len(times) > 1 else 0.0
     intimate, personal = (

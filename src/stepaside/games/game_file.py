@@ -12,14 +12,24 @@ from .configuration_file import (
     settings_entries,
 )
 from .game_settings import GameSettings, PlayerSettings
+from .player_names import MOST_PLAYERS
 from .robot_settings import (
     game_settings_from_description,
     settings_of_robot,
     with_legs,
 )
 
+ALWAYS = {"name", "role", "team", "body", "target", "start"}
+OF_TEMPLATE = {"robot", "gait", "strategy", "evasion", "goal", "draws_goal"}
+USED_BY = {  # entries of a player that its kind of body uses
+    "robot": ALWAYS | OF_TEMPLATE | {"control", "legs", "senses", "sight"},
+    "unicycle": ALWAYS | OF_TEMPLATE,
+    "person": ALWAYS | {"goal", "draws_goal", "person", "crowd"},
+    "run": ALWAYS | {"run", "run_player"},
+}
 
-def load_game(path: AnyPath) -> GameSettings:
+
+def load_game(path: AnyPath, **changes: Any) -> GameSettings:
     """Read a game file.
 
     Gait, control and legs of each player are those of its robot, changed by
@@ -27,6 +37,8 @@ def load_game(path: AnyPath) -> GameSettings:
 
     Args:
         path: TOML file.
+        changes: Settings of the game, like the seed, that replace those of
+            the file.
 
     Returns:
         The settings.
@@ -36,7 +48,7 @@ def load_game(path: AnyPath) -> GameSettings:
             invalid, or a robot does not exist.
     """
     file = as_path(path, "path")
-    return parse_game(load_entries(Path(file)), str(file))
+    return parse_game(load_entries(Path(file)) | changes, str(file))
 
 
 def parse_game(entries: dict[str, Any], source: str) -> GameSettings:
@@ -56,10 +68,33 @@ def parse_game(entries: dict[str, Any], source: str) -> GameSettings:
             f"{shown(listed)}"
         )
     players = [
-        settings_entries(_player(entry, f"{source}, player {number}"))
+        settings_entries(_player(each, f"{source}, player {number}"))
         for number, entry in enumerate(listed, start=1)
+        for each in _copies(entry, f"{source}, player {number}")
     ]
     return parse_settings(GameSettings, entries | {"players": players}, source)
+
+
+def _copies(entry: Any, source: str) -> list[Any]:
+    """Return an entry for each of ``count`` players alike, numbered."""
+    if not isinstance(entry, dict) or "count" not in entry:
+        return [entry]
+    rest = {name: value for name, value in entry.items() if name != "count"}
+    count = entry["count"]
+    if type(count) is not int or not 1 <= count <= MOST_PLAYERS:
+        raise ConfigurationError(
+            f"{source}: count must be a whole number from 1 to "
+            f"{MOST_PLAYERS}, got {shown(count)}"
+        )
+    if count > 1 and "start" in rest:
+        raise ConfigurationError(
+            f"{source}: start must be omitted with count {count}, or all "
+            "would start at one place"
+        )
+    return [
+        rest | {"name": f"{rest.get('name')}-{number}"}
+        for number in range(1, count + 1)
+    ]
 
 
 def _player(entry: Any, source: str) -> PlayerSettings:
@@ -89,4 +124,11 @@ def _player(entry: Any, source: str) -> PlayerSettings:
     if isinstance(network, str) and network:
         base = with_legs(base, network)
     source = f"{source}, {name}"
-    return parse_settings(PlayerSettings, entry, source, base=base)
+    player = parse_settings(PlayerSettings, entry, source, base=base)
+    for key in entry.keys() - USED_BY[player.body]:
+        if getattr(player, key) != getattr(base, key):
+            raise ConfigurationError(
+                f"{source}: {key} must be omitted with body {player.body!r}, "
+                "as it has no effect"
+            )
+    return player

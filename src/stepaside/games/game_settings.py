@@ -1,5 +1,6 @@
 """Settings of a game of any number of players: equal settings repeat it."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from math import pi
 from typing import ClassVar
@@ -15,8 +16,9 @@ from ..core.setting import REQUIRED, check_settings, setting
 from ..locomotion.policy.legs_settings import LegsSettings
 from ..locomotion.zmp.control_settings import ControlSettings
 from ..planning import GaitSettings
+from ..robots.description import load_robot
 from ..sim.body_settings import BODIES, BodySettings
-from ..sim.crowd_motion import CrowdSettings
+from ..sim.crowd_motion import RADIUS, CrowdSettings
 from ..sim.person_settings import PersonSettings
 from ..sim.physics_settings import PhysicsSettings, SightSettings
 from ..sim.push import MOST_PUSHES, Push, check_pushes
@@ -29,6 +31,7 @@ BODY_KINDS = ("robot", "unicycle", "person", "run")
 GAME_LEVELS = ("physics", "steps", "unicycle")
 MOST_ROBOTS = 12  # in physics
 USUAL_STRATEGIES = {"pursuer": "pursuit", "evader": "evasion"}
+NAO_RADIUS = 0.14  # within which its body stands and sways, in [m]
 POSITION = Range(-100.0, 100.0, "m", "the farthest initial distance")
 TURN = Range(-pi, pi, "rad", "half a turn")
 
@@ -82,6 +85,11 @@ class PlayerSettings:
     )
     goal: tuple[float, ...] = setting(
         (), "Position (x, y) in the world that the player walks to [m]"
+    )
+    draws_goal: bool = setting(
+        False,
+        "Draw the goal from the seed, at least a third of the longer side "
+        "of the room away from the start",
     )
     senses: str = setting(
         "ideal", "Sensing of other players", names=("ideal", "cameras")
@@ -167,6 +175,16 @@ class PlayerSettings:
         return Pose(*self.start) if self.start else None
 
     @property
+    def radius(self) -> float:
+        """Radius of the body among people, in [m].
+
+        That of a robot is NAO's, relative to the heights of their CoM.
+        """
+        if self.body == "person":
+            return RADIUS
+        return NAO_RADIUS * load_robot(self.robot).game.get("length_unit", 1.0)
+
+    @property
     def decides(self) -> bool:
         """Whether it has a strategy: a robot or a unicycle."""
         return self.body in ("robot", "unicycle")
@@ -236,10 +254,11 @@ class GameSettings:
             raise ConfigurationError(
                 "map.source must be given or none in a game file, got 'seen'"
             )
-        if self.room is not None and any(p.legs.walks for p in self.players):
-            raise ConfigurationError(
-                "legs.network must be empty in rooms, got a network"
-            )
+
+    @property
+    def knows_room(self) -> bool:
+        """Whether there is a room, and robots know it."""
+        return self.room is not None and self.map.source != "none"
 
     def player(self, name: str) -> PlayerSettings:
         """Return the settings of the player with a name."""
@@ -302,11 +321,24 @@ class GameSettings:
         """Return the settings with a text for each strategy object."""
         return replace(self, players=tuple(p.named() for p in self.players))
 
-    def with_starts(self, poses: tuple[Pose, ...]) -> "GameSettings":
-        """Return the settings with the initial poses filled in."""
+    def with_places(
+        self,
+        poses: Mapping[str, Pose],
+        goals: Mapping[str, tuple[float, ...]],
+    ) -> "GameSettings":
+        """Return the settings with starts and goals filled in.
+
+        Args:
+            poses: Initial pose of each player, by name.
+            goals: Goals of the players that have one, by name, in [m].
+        """
         players = tuple(
-            replace(p, start=tuple(map(float, pose)))
-            for p, pose in zip(self.players, poses, strict=True)
+            replace(
+                p,
+                start=tuple(map(float, poses[p.name])),
+                goal=goals.get(p.name, p.goal),
+            )
+            for p in self.players
         )
         return replace(self, players=players)
 

@@ -1,5 +1,6 @@
 """Initial poses of the players of a game."""
 
+from collections.abc import Mapping
 from math import atan2, cos, hypot, pi, radians, sin
 
 import numpy as np
@@ -43,11 +44,57 @@ def with_starts(settings: GameSettings) -> GameSettings:
     for player in drawn:
         heading = _draw_heading(settings, player, poses, generator)
         poses[player.name] = Pose(*poses[player.name][:2], heading)
-    return settings.with_starts(
-        tuple(
-            Pose(*poses[name][:2], wrap_angle(poses[name].theta))
-            for name in settings.names
-        )
+    wrapped = {
+        name: Pose(*pose[:2], wrap_angle(pose.theta))
+        for name, pose in poses.items()
+    }
+    return settings.with_places(wrapped, _goals_of(settings, wrapped))
+
+
+def _goals_of(
+    settings: GameSettings, poses: dict[str, Pose]
+) -> dict[str, tuple[float, ...]]:
+    """Return the goal of each player that has one, drawn where omitted."""
+    generator = named_generator(settings.seed, "goals")
+    goals = {p.name: p.goal for p in settings.players if p.goal}
+    if settings.room is not None and goals:
+        gaps = settings.room.clearance([*goals.values()])
+        for name, gap in zip(goals, gaps.tolist(), strict=True):
+            _check_free(f"goal of {name}", gap)
+    for player in settings.players:
+        if player.draws_goal and player.name not in goals:
+            goals[player.name] = _draw_goal(
+                settings, player, poses[player.name], goals, generator
+            )
+    return goals
+
+
+def _draw_goal(
+    settings: GameSettings,
+    player: PlayerSettings,
+    start: Pose,
+    goals: Mapping[str, tuple[float, ...]],
+    generator: np.random.Generator,
+) -> tuple[float, float]:
+    """Return a goal away from the start and from other goals, in [m]."""
+    room = settings.room
+    least = settings.far
+    if room is not None and room.width and room.depth:
+        least = max(room.width, room.depth) / 3.0
+    for _ in range(MOST_DRAWS):
+        place = _draw_place(settings, generator)
+        if place is None:
+            continue
+        x, y = place
+        if hypot(x - start.x, y - start.y) >= least and all(
+            hypot(x - u, y - v)
+            >= least_distance(player, settings.player(name))
+            for name, (u, v) in goals.items()
+        ):
+            return x, y
+    raise ConfigurationError(
+        f"goal of {player.name} must be at least {least:g} [m] from its "
+        "start, and there is no such place"
     )
 
 
@@ -86,11 +133,21 @@ def _check_apart(settings: GameSettings, poses: dict[str, Pose]) -> None:
         return
     gaps = room.clearance([poses[name][:2] for name in names])
     for name, gap in zip(names, gaps.tolist(), strict=True):
-        if gap < 0.0:
-            raise ConfigurationError(
-                f"start of {name} must be on the free floor of the room, got "
-                f"a clearance of {gap:.3g} [m]"
-            )
+        _check_free(f"start of {name}", gap - settings.player(name).radius)
+
+
+def _check_free(place: str, gap: float) -> None:
+    """Check that a place is on the free floor of the room.
+
+    Args:
+        place: What it is, for the message.
+        gap: Clearance of the body there, in [m].
+    """
+    if gap < 0.0:
+        raise ConfigurationError(
+            f"{place} must be on the free floor of the room, got a clearance "
+            f"of {gap:.3g} [m]"
+        )
 
 
 def _draw_position(
@@ -99,18 +156,11 @@ def _draw_position(
     poses: dict[str, Pose],
     generator: np.random.Generator,
 ) -> tuple[float, float]:
-    room = settings.room
     for _ in range(MOST_DRAWS):
-        if room is None or room.width is None or room.depth is None:
-            away = settings.far * float(np.sqrt(generator.uniform()))
-            angle = generator.uniform(-pi, pi)
-            x, y = away * cos(angle), away * sin(angle)
-        else:
-            x = generator.uniform(-0.5 * room.width, 0.5 * room.width)
-            y = generator.uniform(-0.5 * room.depth, 0.5 * room.depth)
-        if room is not None:
-            if float(room.clearance([(x, y)])[0]) < WALL_MARGIN:
-                continue
+        place = _draw_place(settings, generator)
+        if place is None:
+            continue
+        x, y = place
         if all(
             hypot(other.x - x, other.y - y)
             >= max(
@@ -118,11 +168,28 @@ def _draw_position(
             )
             for name, other in poses.items()
         ):
-            return float(x), float(y)
+            return x, y
     raise ConfigurationError(
         f"start of {player.name} must be at least {settings.near:g} [m] from "
         f"all others, and there is no such place among {len(poses)} players"
     )
+
+
+def _draw_place(
+    settings: GameSettings, generator: np.random.Generator
+) -> tuple[float, float] | None:
+    """Return a place on the free floor, in [m]; None if the draw missed it."""
+    room = settings.room
+    if room is None or room.width is None or room.depth is None:
+        away = settings.far * float(np.sqrt(generator.uniform()))
+        angle = generator.uniform(-pi, pi)
+        x, y = away * cos(angle), away * sin(angle)
+    else:
+        x = generator.uniform(-0.5 * room.width, 0.5 * room.width)
+        y = generator.uniform(-0.5 * room.depth, 0.5 * room.depth)
+    if room is not None and room.clearance([(x, y)])[0] < WALL_MARGIN:
+        return None
+    return float(x), float(y)
 
 
 def _draw_heading(

@@ -3,9 +3,14 @@
 from dataclasses import replace
 
 from ..core.poses import Pose
+from ..sim.crowd_motion import RADIUS
 from ..strategies import Strategy, load_strategy
 from ..strategies.goal_walk import GoalWalk
+from ..strategies.pursuit import Pursuit
 from .game_settings import PlayerSettings
+
+MARGIN = 0.06  # of bodies and of their sway, in [m]
+COMFORT = 0.35  # beyond contact, that a walk to a goal keeps free, in [m]
 
 
 def strategy_of(player: PlayerSettings, map_in_world: Pose) -> Strategy:
@@ -24,5 +29,12 @@ def strategy_of(player: PlayerSettings, map_in_world: Pose) -> Strategy:
     if isinstance(strategy, GoalWalk) and player.goal:
         x, y = player.goal
         goal = map_in_world.inverse().compose(Pose(x, y, 0.0))
-        strategy = replace(strategy, goal=(goal.x, goal.y))
+        contact = player.radius + RADIUS + MARGIN
+        strategy = replace(
+            strategy,
+            goal=(goal.x, goal.y),
+            contact=contact,
+            clearance=contact + COMFORT,
+            pursuit=Pursuit(body_radius=player.radius + MARGIN),
+        )
     return strategy

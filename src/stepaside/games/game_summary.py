@@ -69,7 +69,8 @@ class CrowdResult:
         people: Number of people.
         success: Whether it reached its goal, or stood to the end without
             one, and was never in contact and did not fall.
-        collisions: Times at which its distance to a person fell below the
+        collisions: In physics, contacts of its body, which end the game.
+            Else the times at which its distance to a person fell below the
             sum of their radii.
         time_s: Time to the goal, in [s]; None without a goal or if it was
             not reached.
@@ -119,3 +120,24 @@ class GameSummary:
     real_time_factor: float
     touched: list[str] = field(default_factory=list)
     fallen: list[str] = field(default_factory=list)
+
+    @property
+    def players(self) -> int:
+        """Number of players."""
+        return len(self.results)
+
+    @property
+    def closest_m(self) -> float | None:
+        """Closest approach of any pair, in [m]; None with one player."""
+        return min((pair.closest_m for pair in self.pairs), default=None)
+
+    @property
+    def captured_at_s(self) -> float | None:
+        """Time of the first capture of a pair, in [s]; None without one."""
+        times = (pair.captured_at_s for pair in self.pairs)
+        return min((time for time in times if time is not None), default=None)
+
+    @property
+    def mean_path_m(self) -> float:
+        """Mean length of the paths of all players, in [m]."""
+        return sum(each.path_m for each in self.results) / len(self.results)

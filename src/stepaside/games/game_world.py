@@ -27,7 +27,7 @@ from .game_settings import GameSettings, PlayerSettings
 from .game_strategies import strategy_of
 from .player import Player
 from .recorded_motion import RecordedMotion
-from .template_level import agent_of, target_of_person
+from .template_level import agent_of, bodies_of, target_of_person
 from .walker_factory import (
     PlayerSensing,
     WalkerSetup,
@@ -135,7 +135,6 @@ class GameWorld:
             motion = RecordedMotion(own.run, own.run_player)
             return FloorPlayer(body, RecordedSteering(motion, tick))
         if own.goal:
-            people = settings.people_around(own)
             room = settings.room
             walk = CrowdMotion(
                 own.crowd,
@@ -143,7 +142,10 @@ class GameWorld:
                 (own.goal[0], own.goal[1]),
                 *(() if room is None else (room.solid_set,)),
             )
-            return FloorPlayer(body, CrowdSteering(walk, others, people, tick))
+            return FloorPlayer(
+                body,
+                CrowdSteering(walk, others, bodies_of(settings, own), tick),
+            )
         target = self._truths[target_of_person(settings, own)]
         aim = target.position_torso_in_world
         path = PersonMotion(own.person, pose, aim)
@@ -153,10 +155,10 @@ class GameWorld:
         """Place a robot in the world, with its controller."""
         settings, setup = self._settings, self._setups[own.name]
         frame = setup.odometry_in_world
-        if settings.room is not None and settings.map.source != "none":
+        if settings.knows_room:
             frame = Pose(0.0, 0.0, 0.0)  # that of the known room
         strategy = strategy_of(own, frame)
-        sensing = self._sensing(own)
+        room, sensing = settings.room, self._sensing(own)
         truth = self._states[own.name]
         if own.legs.walks:
             from .policy_player import place_policy_player
@@ -169,6 +171,7 @@ class GameWorld:
                 sight=sensing,
                 truth=truth,
                 networks=self.networks,
+                room=room if settings.knows_room else None,
             )
         return place_walker(
             self.world,
@@ -176,7 +179,7 @@ class GameWorld:
             strategy,
             sight=sensing,
             truth=truth,
-            clearance=clearance_in(settings.room, settings.map, setup),
+            clearance=clearance_in(room, settings.map, setup),
         )
 
     def _sensing(self, own: PlayerSettings) -> PlayerSensing:

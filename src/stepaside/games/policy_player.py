@@ -4,6 +4,12 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from ..arena import Room
+from ..control.clearance.surroundings import (
+    KnownRoom,
+    OpenFloor,
+    Surroundings,
+)
 from ..control.scheme import LocomotionScheme
 from ..control.strategy_runner import StrategyRunner
 from ..core.errors import PolicyError
@@ -49,6 +55,7 @@ class PolicyPlayer(RobotPlayer):
         scheme: LocomotionScheme,
         frame: Pose,
         networks: NetworkPool,
+        surroundings: Surroundings,
     ) -> None:
         """Combine a robot and its controller.
 
@@ -57,9 +64,10 @@ class PolicyPlayer(RobotPlayer):
             scheme: Its controller.
             frame: Pose of its odometry in the world.
             networks: Networks of all players.
+            surroundings: Known obstacles.
         """
         super().__init__(robot, scheme, frame)
-        self._networks = networks
+        self._networks, self._surroundings = networks, surroundings
         # Exact sightings are read when a decision is due.
         self._sees_rarely = robot.sees_exactly
 
@@ -68,7 +76,9 @@ class PolicyPlayer(RobotPlayer):
         robot, walk = self.robot, self.scheme.locomotion
         assert isinstance(walk, PolicyWalk)
         sees = not self._sees_rarely or walk.decides(robot.world.time)
-        self.scheme.update(robot.read(sees=sees))
+        measured = robot.read(sees=sees)
+        self._surroundings.note(measured, walk.pose)
+        self.scheme.update(measured)
         self._networks.call_afterwards(self._send)
 
     def _send(self) -> None:
@@ -133,6 +143,7 @@ def place_on_legs(
     sight: IdealLineOfSight | PlayerSensing | None = None,
     eyes: "SensorSuite | None" = None,
     truth: TrueRobotState | None = None,
+    knows_pose: bool = False,
 ) -> SimulatedRobot:
     """Place a robot in a world, driven by the torques of its policy.
 
@@ -143,6 +154,7 @@ def place_on_legs(
         sight: Ideal sensor of the opponent, or of all other players.
         eyes: Cameras and sonars, if any.
         truth: True state of the robot, if it exists already.
+        knows_pose: Whether its pose in the room is measured.
     """
     contract = legs.contract
     gains = zip(contract.stiffness, contract.damping, strict=True)
@@ -161,6 +173,7 @@ def place_on_legs(
             players=sensors_of(sight),
             eyes=eyes,
             truth=truth,
+            knows_pose=knows_pose,
         ),
         gains=dict(zip(contract.joints, gains, strict=True)),
     )
@@ -176,8 +189,11 @@ def place_policy_player(
     cameras: CameraSensing | None = None,
     truth: TrueRobotState,
     networks: NetworkPool,
+    room: Room | None = None,
 ) -> PolicyPlayer:
     """Place one robot on learned legs in a world, with its controller.
+
+    No guard keeps learned legs clear of walls: only their strategy does.
 
     Args:
         world: World that contains the robot.
@@ -190,6 +206,7 @@ def place_policy_player(
         cameras: Cameras and perception, with camera sensing.
         truth: True state of the robot.
         networks: Networks of all players, flushed at each tick.
+        room: Room that it knows; None without.
 
     Raises:
         PolicyError: If the network cannot run on the robot.
@@ -203,12 +220,15 @@ def place_policy_player(
         sight=sight,
         eyes=None if cameras is None else cameras.eyes,
         truth=truth,
+        knows_pose=room is not None,
     )
+    frame = setup.odometry_in_world
+    around = OpenFloor() if room is None else KnownRoom(room, frame)
     scheme = LocomotionScheme(
         StrategyRunner(
-            strategy, setup.gait, tick, velocities=policy.velocities
+            strategy, setup.gait, tick, around, velocities=policy.velocities
         ),
         PolicyWalk(policy, setup.gait),
         sight_source(sight, cameras, tick=tick),
     )
-    return PolicyPlayer(robot, scheme, setup.odometry_in_world, networks)
+    return PolicyPlayer(robot, scheme, frame, networks, around)

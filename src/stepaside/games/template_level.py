@@ -7,7 +7,7 @@ times.
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
@@ -141,20 +141,50 @@ class UnicycleMotion:
         return [Pose(*pose) for pose in poses.tolist()]
 
 
+class FloorBulk(NamedTuple):
+    """Body of a player, as a person gives way to it.
+
+    Attributes:
+        is_person: Whether it is a person.
+        radius: Radius of the body, in [m].
+        is_companion: Whether it walks with the person.
+    """
+
+    is_person: bool
+    radius: float
+    is_companion: bool
+
+    def at(self, x: float, y: float) -> Neighbour:
+        """Return the body at a place, in [m]."""
+        return Neighbour(x, y, *self)
+
+
+def bodies_of(
+    settings: GameSettings, own: PlayerSettings
+) -> dict[str, FloorBulk]:
+    """Return the bodies of all players, by name, as a person sees them.
+
+    Args:
+        settings: Settings of the game.
+        own: Settings of the person.
+    """
+    people = settings.people_around(own)
+    return {
+        p.name: FloorBulk(
+            p.name in people, p.radius, people.get(p.name, False)
+        )
+        for p in settings.players
+    }
+
+
 class CrowdTemplate:
     """Person who walks to a goal, without a body."""
 
     def __init__(
-        self, name: str, motion: CrowdMotion, people: Mapping[str, bool]
+        self, name: str, motion: CrowdMotion, bodies: Mapping[str, FloorBulk]
     ) -> None:
-        """Take the motion of a person.
-
-        Args:
-            name: Name of the person.
-            motion: Its walk.
-            people: Names of people, and whether they walk with this one.
-        """
-        self._name, self._motion, self._people = name, motion, people
+        """Take the motion of a person, and the bodies of all players."""
+        self._name, self._motion, self._bodies = name, motion, bodies
 
     @property
     def pose(self) -> Pose:
@@ -164,11 +194,7 @@ class CrowdTemplate:
     def advance(self, time: float, players: World) -> None:
         """Advance by one sample."""
         others = [
-            Neighbour(
-                *state.pose[:2],
-                name in self._people,
-                is_companion=self._people.get(name, False),
-            )
+            self._bodies[name].at(*state.pose[:2])
             for name, state in players.items()
             if name != self._name
         ]
@@ -351,9 +377,8 @@ def _motion(settings: GameSettings, own: PlayerSettings) -> TemplateMotion:
     if own.body == "run":
         return RecordedTemplate(RecordedMotion(own.run, own.run_player))
     if own.goal:
-        people = settings.people_around(own)
         motion = CrowdMotion(own.crowd, pose, own.goal[:2], obstacles)  # type: ignore[arg-type]
-        return CrowdTemplate(own.name, motion, people)
+        return CrowdTemplate(own.name, motion, bodies_of(settings, own))
     target = target_of_person(settings, own)
     aim = settings.player(target).pose
     assert aim is not None
@@ -369,13 +394,14 @@ def agent_of(settings: GameSettings, own: PlayerSettings) -> TemplateAgent:
     """
     gait, room = own.gait, settings.room
     strategy: Strategy = strategy_of(own, Pose(0.0, 0.0, 0.0))
-    knows_room = room is not None and settings.map.source != "none"
     return TemplateAgent(
         strategy,
         Limits(gait.speed, gait.gain, gait.stride, gait.step_duration),
         own.identity,
         target=own.target,
-        obstacles=room.solid_set if room and knows_room else NO_OBSTACLES,
+        obstacles=room.solid_set
+        if room and settings.knows_room
+        else NO_OBSTACLES,
     )
 
 

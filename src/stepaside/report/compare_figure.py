@@ -4,7 +4,8 @@ from collections.abc import Sequence
 from typing import Any
 
 from ..core.errors import AnyPath
-from ..games.run import Run
+from ..core.player_colours import markers_of
+from ..games.run import Run, is_match
 from .cycle_means import whole_cycles
 from .figure_sizes import sheet
 from .figure_style import THEORY, colours_of, mark_level, new_figure, save
@@ -36,6 +37,7 @@ def draw_comparison(runs: Sequence[Run], file: AnyPath) -> None:
         line = LINES[number % len(LINES)]
         cycle = run.settings.cycle
         shade = 1.0 - 0.6 * (number // len(LINES)) / max(1, len(runs))
+        markers = markers_of(run.tracks) if is_match(run) else {}
         for name, colour in colours_of(run.players, run.identities).items():
             place = run.tracks[name].torso
             axes["path"].plot(
@@ -45,6 +47,9 @@ def draw_comparison(runs: Sequence[Run], file: AnyPath) -> None:
                 linestyle=line,
                 alpha=shade,
                 linewidth=1.1,
+                marker=markers.get(name),
+                markevery=max(1, len(place) // 8),
+                markersize=4.0,
             )
         for key, values in (
             ("distance", run.distance),
@@ -63,7 +68,10 @@ def draw_comparison(runs: Sequence[Run], file: AnyPath) -> None:
             )
     _draw_theories(axes, runs)
     axes["path"].set_aspect("equal", adjustable="datalim")
-    axes["path"].set_title("paths of the torsos: pursuer red, evader blue")
+    roles = "pursuer red, evader blue"
+    if any(is_match(run) for run in runs):
+        roles = "pursuers red, evaders blue, others grey"
+    axes["path"].set_title(f"paths of the torsos: {roles}")
     axes["path"].set_xlabel("x [m]")
     axes["path"].set_ylabel("y [m]")
     axes["distance"].set_ylabel("distance [m]")

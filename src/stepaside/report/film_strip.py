@@ -6,7 +6,7 @@ from pathlib import Path
 
 from matplotlib.lines import Line2D
 
-from ..games.run import Run
+from ..games.run import Run, is_match
 from ..games.run_archive import load_run
 from .duel_figure import draw_top
 from .figure_sizes import sheet
@@ -91,7 +91,8 @@ def legend_entries(
         settings: Settings of the film.
     """
     colours = colours_of(run.players, run.identities)
-    entries = [(f"path of the {n}", c, 1.5) for n, c in colours.items()]
+    the = "" if is_match(run) else "the "  # players of a match have names
+    entries = [(f"path of {the}{n}", c, 1.5) for n, c in colours.items()]
     if settings.layers and run.safety is not None:
         player, radius = run.safety
         label = f"ring: safety radius of the {player}, {radius:.3g} m"

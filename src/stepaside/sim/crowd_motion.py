@@ -286,10 +286,11 @@ class CrowdMotion:
         x, y, _ = self.pose
         if self._settings.reaction == "none" or not self._obstacles:
             return 0.0, 0.0
-        gap = float(self._obstacles.clearance([(x, y)])[0])
+        gaps = self._obstacles.clearances([(x, y)])[0]
+        nearest = int(gaps.argmin())
+        gap = float(gaps[nearest])
         if gap >= WALL_FORCE_WITHIN:
             return 0.0, 0.0
-        nearest = int(self._obstacles.clearances([(x, y)])[0].argmin())
         out = self._obstacles.directions_out([(x, y)])[0, nearest]
         outward = float(out[0]), float(out[1])
         return obstacle_force(outward, gap - RADIUS)

@@ -1,21 +1,29 @@
 """Walk to a goal among other players."""
 
 from dataclasses import dataclass, field
-from math import cos, hypot, pi, sin
+from math import atan2, cos, hypot, pi, sin
 from typing import Any
 
 import numpy as np
 
-from ..core.poses import Pose, wrap_angle
+from ..arena.shortest_path import first_waypoint
+from ..core.poses import Array, Pose, wrap_angle
 from ..core.ranges import Range
 from ..core.setting import check_settings, setting
+from .dash_rollouts import greatest_velocities
 from .knowledge import STAND, Intent, Knowledge
 from .pursuit import Pursuit, PursuitVariant
+from .velocity_set import BodyVelocity, VelocitySet
 
 ARRIVED = 0.2  # distance from the goal at which it halts, in [m]
 HORIZON = 4.0  # of the prediction, in [s]
 DEVIATIONS = np.linspace(-pi / 2, pi / 2, 19)  # tried headings, in [rad]
 WEIGHT = 4.0  # of a missing metre of clearance, in [rad]
+DIRECTIONS = 24  # of the velocities tried, in any direction
+SHARES = (0.0, 0.5, 1.0)  # of the fastest velocity in a direction
+REACTION = 0.5  # in which legs follow a new velocity, in [s]
+WALL_WEIGHT = 20.0  # of a missing metre of clearance from walls, in [rad]
+LOOKS = 5  # points along a heading at which walls are looked up
 SOON = 2.5  # time to a predicted contact at which it halts, in [s]
 
 
@@ -26,7 +34,8 @@ class GoalWalk(PursuitVariant):
     Among headings to both sides of the way to the goal it takes the one that
     deviates least and keeps the clearance to every other player, all of
     which are predicted with constant velocities. It halts while none keeps
-    clear of a contact.
+    clear of a contact. Legs that walk in any direction choose among
+    velocities likewise, by the progress that each loses.
     """
 
     goal: tuple[float, ...] = setting(
@@ -59,6 +68,14 @@ class GoalWalk(PursuitVariant):
         intent, memory = self.pursuit.decide(
             knowledge.towards(there.x, there.y), memory
         )
+        velocities = knowledge.limits.velocities
+        if velocities is not None:
+            solids, bearing = knowledge.obstacles_in_map, atan2(*there[1::-1])
+            if solids:
+                here, radius = knowledge.pose_in_map, self.pursuit.body_radius
+                u, v = first_waypoint(solids, here[:2], (x, y), radius)
+                bearing = atan2(v - here.y, u - here.x) - here.theta
+            return self._clear_velocity(knowledge, bearing, velocities), memory
         if not knowledge.others:
             return intent, memory
         heading = self._clear_heading(knowledge, intent.heading)
@@ -74,19 +91,85 @@ class GoalWalk(PursuitVariant):
         speed = limits.stride / limits.step_duration
         directions = wanted + DEVIATIONS
         own = speed * np.stack([np.cos(directions), np.sin(directions)])
-        costs, contact_times = np.abs(DEVIATIONS), []
-        for other in knowledge.others:
-            u, v = other.velocity or (0.0, 0.0)
-            x = other.distance * cos(other.bearing) + u * other.age
-            y = other.distance * sin(other.bearing) + v * other.age
-            dx, dy = u - own[0], v - own[1]
-            square = np.maximum(dx * dx + dy * dy, 1e-9)
-            when = np.clip(-(x * dx + y * dy) / square, 0.0, HORIZON)
-            least = np.hypot(x + when * dx, y + when * dy)
-            costs = costs + WEIGHT * np.maximum(self.clearance - least, 0.0)
-            contact_times.append(np.where(least < self.contact, when, np.inf))
-        best = int(costs.argmin())
-        approaching = min(times[best] for times in contact_times)
-        if approaching < SOON:
+        least, when = nearest_passages(knowledge, own)
+        missing = np.maximum(self.clearance - least, 0.0).sum(axis=0)
+        costs = np.abs(DEVIATIONS) + WEIGHT * missing
+        best = int((costs + self._wall_cost(knowledge, own)).argmin())
+        contacts = when[:, best][least[:, best] < self.contact]
+        if contacts.size and contacts.min() < SOON:
             return None
         return float(directions[best])
+
+    def _clear_velocity(
+        self, knowledge: Knowledge, bearing: float, velocities: VelocitySet
+    ) -> Intent:
+        """Return the velocity in any direction that keeps clear.
+
+        A candidate costs the progress that it loses, and the clearance that
+        it misses, the sooner the more.
+
+        Args:
+            knowledge: Knowledge of the player.
+            bearing: Direction of the way to the goal in the frame, in [rad].
+            velocities: Velocities that the legs deliver.
+        """
+        angles = bearing + np.linspace(-pi, pi, DIRECTIONS, endpoint=False)
+        fastest = greatest_velocities(angles, velocities)
+        own = np.concatenate([s * fastest for s in SHARES], axis=1)
+        progress = cos(bearing) * own[0] + sin(bearing) * own[1]
+        least, when = nearest_passages(knowledge, own, earliest=REACTION)
+        missing = np.maximum(self.clearance - least, 0.0)
+        missing += np.maximum(self.contact - least, 0.0) / when
+        costs = (progress.max() - progress) / max(progress.max(), 1e-9)
+        costs = costs + WEIGHT * missing.sum(axis=0)
+        best = int((costs + self._wall_cost(knowledge, own)).argmin())
+        turn = knowledge.limits.gain * wrap_angle(bearing)
+        wanted = BodyVelocity(float(own[0, best]), float(own[1, best]), turn)
+        return Intent(velocity=velocities.nearest(wanted))
+
+    def _wall_cost(self, knowledge: Knowledge, own: Array) -> Array:
+        """Return the cost of headings towards obstacles, in [rad].
+
+        Args:
+            knowledge: Knowledge of the player.
+            own: Velocity along each heading in the frame, in [m/s]. Shape
+                (2, n).
+
+        Returns:
+            Shape (n,).
+        """
+        solids, radius = knowledge.obstacles_in_map, self.pursuit.body_radius
+        if not solids:
+            return np.zeros(own.shape[1])
+        times = np.arange(1, LOOKS + 1) * (SOON / LOOKS)
+        ahead = np.moveaxis(own[:, :, None] * times, 0, -1).reshape(-1, 2)
+        points = knowledge.pose_in_map.transform_points(ahead)
+        gaps = solids.clearance(points).reshape(-1, LOOKS).min(axis=1)
+        cost: Array = WALL_WEIGHT * np.maximum(radius - gaps, 0.0)
+        return cost
+
+
+def nearest_passages(
+    knowledge: Knowledge, own: Array, *, earliest: float = 0.0
+) -> tuple[Array, Array]:
+    """Predict the closest approach of each other player, at constant velocity.
+
+    Args:
+        knowledge: Knowledge of the player.
+        own: Own velocities in the frame, in [m/s]. Shape (2, n).
+        earliest: Time from now before which approaches do not count, as no
+            choice changes them, in [s].
+
+    Returns:
+        Closest approaches until the horizon, in [m], and the times until
+        then, in [s]. Shapes (others, n).
+    """
+    rows = [
+        (*other.position, *(other.velocity or (0.0, 0.0)), other.age)
+        for other in knowledge.others
+    ]
+    x, y, u, v, age = np.array(rows).reshape(-1, 5).T[:, :, None]
+    x, y, dx, dy = x + u * age, y + v * age, u - own[0], v - own[1]
+    square = np.maximum(dx * dx + dy * dy, 1e-9)
+    when = np.clip(-(x * dx + y * dy) / square, earliest, HORIZON)
+    return np.hypot(x + when * dx, y + when * dy), when

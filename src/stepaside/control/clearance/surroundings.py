@@ -6,7 +6,6 @@ from ...arena import NO_OBSTACLES, ObstacleSet, Room
 from ...core.poses import Pose
 from ...perception.floor_map import CELL, FloorMap
 from ...perception.measurement import Measurement
-from ...robots.body_reference import BodyReference
 
 HERE = Pose(0.0, 0.0, 0.0)
 AHEAD = 2.0  # horizon for moving obstacles: two steps, in [s]
@@ -33,12 +32,12 @@ class Surroundings(Protocol):
     def pose_odometry_in_map(self) -> Pose:
         """Pose of the own odometry in the frame of the obstacles."""
 
-    def note(self, measurement: Measurement, body: BodyReference) -> None:
+    def note(self, measurement: Measurement, pose: Pose) -> None:
         """Update from the measurement of one tick.
 
         Args:
             measurement: Measurement of the tick.
-            body: Body reference of the tick, in odometry.
+            pose: Place of the CoM and heading in odometry at the tick.
         """
 
 
@@ -49,7 +48,7 @@ class OpenFloor:
     pose_odometry_in_map = HERE
     map_error = 0.0
 
-    def note(self, measurement: Measurement, body: BodyReference) -> None:
+    def note(self, measurement: Measurement, pose: Pose) -> None:
         """Ignore the measurement."""
 
 
@@ -80,13 +79,11 @@ class KnownRoom:
         self.solids = ObstacleSet(room.solids_at(0.0, AHEAD))
         self.pose_odometry_in_map = start
 
-    def note(self, measurement: Measurement, body: BodyReference) -> None:
+    def note(self, measurement: Measurement, pose: Pose) -> None:
         """Align odometry with the measured pose; update moving obstacles."""
         if measurement.pose_in_room is not None:
-            x, y, _ = body.com
-            planned = Pose(x, y, body.heading)
             self.pose_odometry_in_map = measurement.pose_in_room.compose(
-                planned.inverse()
+                pose.inverse()
             )
         now = measurement.time
         if self._room.moving and now >= self._next - 1e-9:
@@ -118,7 +115,7 @@ class MappedRoom:
         self.solids = NO_OBSTACLES
         self._read, self._next = 0, 0.0
 
-    def note(self, measurement: Measurement, body: BodyReference) -> None:
+    def note(self, measurement: Measurement, pose: Pose) -> None:
         """Read the map again if it has changed, a few times in each step."""
         now, version = measurement.time, self._floor.version
         if now < self._next - 1e-9 or version == self._read:
@@ -126,5 +123,5 @@ class MappedRoom:
         self._read, self._next = version, now + REFRESH_PERIOD
         known = self._floor.occupied()
         if not self._unseen_is_free:
-            known += self._floor.unknown(body.com[:2])
+            known += self._floor.unknown(pose[:2])
         self.solids = ObstacleSet(known)

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from ...core.atomic_output import folder_draft
+from ...core.errors import ConfigurationError
 from .recording import Recording
 
 Report = Callable[[int, int], None]
@@ -100,6 +101,7 @@ FORMATS = {
         "the same tables as Parquet", ("polars",), True, _write_parquet
     ),
 }
+OF_ROBOTS = ("urdf", "lerobot")  # formats of robots only
 
 
 def check_format(name: str) -> None:
@@ -131,7 +133,12 @@ def export_recording(
 
     Raises:
         OutputError: If it cannot be written.
+        ConfigurationError: If the format is of robots and there are none.
     """
+    if name in OF_ROBOTS and not recording.models:
+        raise ConfigurationError(
+            f"format {name} needs a run with a robot, got none"
+        )
     with folder_draft(folder) as draft:
         FORMATS[name].write(draft, recording, report)
         names = sorted(
