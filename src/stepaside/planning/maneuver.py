@@ -214,21 +214,41 @@ class ManeuverPlanner:
 def _inputs(
     schedule: Schedule, placements: Array, state: CenterState | None
 ) -> Array:
-    """Assemble the inputs of the schedule's constant maps."""
+    """Check the state, and assemble the inputs of the constant maps."""
+    if state is None:
+        if not schedule.standing:
+            raise PlanError("state must be given unless the robot stands")
+        midway = _midway(placements[0].tolist(), schedule.settings.zmp_forward)
+        state = CenterState(midway, (0.0, 0.0))
+    (x, y), (vx, vy) = state
+    check_finite(x + y, "CoM position", "m")
+    check_finite(vx + vy, "CoM velocity", "m/s")
+    return plan_inputs(schedule, placements, state)
+
+
+def plan_inputs(
+    schedule: Schedule, placements: Array, state: CenterState
+) -> Array:
+    """Assemble the inputs of the constant maps of a schedule.
+
+    The numbers may be traced, without a swing reaction.
+
+    Args:
+        schedule: The schedule.
+        placements: Placements of the feet; see :class:`.ManeuverPlan`.
+        state: Present CoM in the frame of the support foot.
+
+    Returns:
+        The inputs, in [m]. Shape (inputs, 2).
+    """
     gait = schedule.settings
     n = schedule.count
-    inputs = np.zeros((schedule.inputs, 2))
+    inputs = np.zeros((schedule.inputs, 2), dtype=placements.dtype)
     theta = placements[1:, 2]
     ahead = gait.zmp_forward
     inputs[: n + 1, 0] = placements[1:, 0] + ahead * np.cos(theta)
     inputs[: n + 1, 1] = placements[1:, 1] + ahead * np.sin(theta)
-    if state is None:
-        if not schedule.standing:
-            raise PlanError("state must be given unless the robot stands")
-        state = CenterState(_midway(placements[0].tolist(), ahead), (0.0, 0.0))
     (x, y), (vx, vy) = state
-    check_finite(x + y, "CoM position", "m")
-    check_finite(vx + vy, "CoM velocity", "m/s")
     inputs[n + 1] = (x, y) if schedule.standing else inputs[0]
     if schedule.has_swing_reaction:
         u, v, turned = placements[0].tolist()

@@ -64,14 +64,32 @@ class UnicycleTrajectory:
             rate = laws.saturated_rate(self.bearing, self.gain)
             arc *= abs(self.bearing)
         turning = np.minimum(t, arc)
-        poses = np.empty((*t.shape, 3))
-        theta = np.multiply(turning, rate, out=poses[..., 2])
         velocity = self.direction.value * self.speed
-        # A chord of an arc has length sinc(theta / 2) of the arc's and points
-        # along theta / 2; this form has no singularity at theta = 0.
-        half = 0.5 * theta
-        chord = (velocity * turning) * np.sinc(half / np.pi)
-        straight = velocity * (t - turning)
-        poses[..., 0] = chord * np.cos(half) + straight * np.cos(theta)
-        poses[..., 1] = chord * np.sin(half) + straight * np.sin(theta)
-        return poses
+        return arc_then_line(turning, t - turning, rate, velocity)
+
+
+def arc_then_line(
+    turning: Array, straight: Array, rate: float, velocity: float
+) -> Array:
+    """Return the poses after an arc of circle and a straight line.
+
+    A chord of an arc has length sinc(theta / 2) of the arc's and points
+    along theta / 2; this form has no singularity at theta = 0. The numbers
+    may be traced.
+
+    Args:
+        turning: Times on the arc, in [s]. Shape (n,).
+        straight: Times on the line, in [s]. Shape (n,).
+        rate: Turning rate on the arc, in [rad/s].
+        velocity: Driving velocity, negative backward, in [m/s].
+
+    Returns:
+        Poses (x [m], y [m], theta [rad]), columns. Shape (n, 3).
+    """
+    theta = turning * rate
+    half = 0.5 * theta
+    chord = (velocity * turning) * np.sinc(half / np.pi)
+    along = velocity * straight
+    x = chord * np.cos(half) + along * np.cos(theta)
+    y = chord * np.sin(half) + along * np.sin(theta)
+    return np.stack([x, y, theta], axis=-1)

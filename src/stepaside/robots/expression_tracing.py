@@ -137,6 +137,14 @@ class TracedNumber:
         """Apply a named function of one argument."""
         return self._trace.make(name, (self,), function(self.hint))
 
+    def sin(self) -> TracedNumber:
+        """Return the sine; NumPy calls this for arrays of numbers."""
+        return self.apply("sin", sin)
+
+    def cos(self) -> TracedNumber:
+        """Return the cosine; NumPy calls this for arrays of numbers."""
+        return self.apply("cos", cos)
+
 
 class Formula(NamedTuple):
     """Generated function of floats, as source.
@@ -265,20 +273,12 @@ def hint_of(number: Number) -> float:
 
 def sine(angle: Number) -> Number:
     """Return the sine of an angle, in [rad]."""
-    return (
-        angle.apply("sin", sin)
-        if isinstance(angle, TracedNumber)
-        else sin(angle)
-    )
+    return angle.sin() if isinstance(angle, TracedNumber) else sin(angle)
 
 
 def cosine(angle: Number) -> Number:
     """Return the cosine of an angle, in [rad]."""
-    return (
-        angle.apply("cos", cos)
-        if isinstance(angle, TracedNumber)
-        else cos(angle)
-    )
+    return angle.cos() if isinstance(angle, TracedNumber) else cos(angle)
 
 
 def _count_uses(results: Sequence[Number]) -> Counter[int]:

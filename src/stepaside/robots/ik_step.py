@@ -144,15 +144,19 @@ def step_kernel(formula: Formula, legs: LegJoints) -> Kernel | None:
         states and returns how many ticks keep to all limits. None without
         machine code.
     """
+    return formula.kernel("track_rows", step_loop(legs), "2220")
+
+
+def step_loop(legs: LegJoints) -> str:
+    """Return the source of the loop of :func:`step_kernel`."""
     n = len(legs.free)
     states = [f"states[i, {j}]" for j in range(n + BASE)]
     columns = 15 + (legs.lean > 0.0)
     references = [f"references[i, {j}]" for j in range(columns)]
-    loop = LOOP.format(
+    return LOOP.format(
         arguments=", ".join([*states, *references]),
         greatest_move=GREATEST_MOVE,
     )
-    return formula.kernel("track_rows", loop, "2220")
 
 
 def _eliminate_leg(traced: TracedLegs, side: int) -> _EliminatedLeg:

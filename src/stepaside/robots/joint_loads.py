@@ -54,13 +54,29 @@ class LoadFormulas:
     Attributes:
         kernel: Torques of the leg motors and mass positions of many ticks,
             as machine code, if it is used.
+        coordinates: Number of coordinates of the masses.
     """
 
     def __init__(self, legs: LegJoints) -> None:
         """Generate the formulas."""
         self._traced = traced = TracedMasses.of(legs)
         self._torques = traced.torques()
-        n, masses = len(legs.free), len(traced.points)
+        self.coordinates = len(traced.points)
+        self.kernel: Kernel | None = self.tick_formula.kernel(
+            "load_rows", self.loop, "222200"
+        )
+
+    @property
+    def tick_formula(self) -> Formula:
+        """Formula of :attr:`loads`."""
+        traced = self._traced
+        return traced.trace.formula("loads", [*self._torques, *traced.points])
+
+    @property
+    def loop(self) -> str:
+        """Source of the loop of :attr:`kernel`."""
+        legs, masses = self._traced.legs, self.coordinates
+        n = len(legs.free)
         arguments = [
             *(f"states[i + 1, {j}]" for j in range(n + 3)),
             *("c", "s"),
@@ -70,20 +86,12 @@ class LoadFormulas:
             *(f"contacts[i, {j}]" for j in range(7)),
             *([f"states[i + 1, {n + 6}]"] if legs.lean > 0.0 else []),
         ]
-        loop = LOOP.format(arguments=", ".join(arguments))
-        self.kernel: Kernel | None = self._loads.kernel(
-            "load_rows", loop, "222200"
-        )
-
-    @property
-    def _loads(self) -> Formula:
-        traced = self._traced
-        return traced.trace.formula("loads", [*self._torques, *traced.points])
+        return LOOP.format(arguments=", ".join(arguments))
 
     @cached_property
     def loads(self) -> Function:
         """Torques and mass positions of one tick, in Python."""
-        return self._loads.function()
+        return self.tick_formula.function()
 
     @cached_property
     def points(self) -> RowFunction:
@@ -100,7 +108,12 @@ class LoadFormulas:
 
 
 class LegLoads:
-    """Torques of the leg joints of one robot that tracks a reference."""
+    """Torques of the leg joints of one robot that tracks a reference.
+
+    Attributes:
+        formulas: Generated formulas.
+        leg_motors: Indices of the motors that move the legs.
+    """
 
     def __init__(
         self, kinematics: LegKinematics, *, zmp_forward: float, tick: float
@@ -119,11 +132,11 @@ class LegLoads:
         self._rate = 1.0 / (tick * tick)
         legs = kinematics.legs
         motors = legs.tree.motors
-        self._leg_motors = [motors.index(name) for name in _motors(legs)]
+        self.leg_motors = [motors.index(name) for name in _motors(legs)]
         self._number_of_motors = len(motors)
-        self._formulas = _load_formulas(legs)
+        self.formulas = _load_formulas(legs)
         # Mass positions two ticks ago and one tick ago, then of the last rows.
-        self._points = np.zeros((2, 3 * len(_lumped_masses(legs)[1])))
+        self._points = np.zeros((2, self.formulas.coordinates))
         self._calls = 0
 
     def torques(
@@ -143,7 +156,7 @@ class LegLoads:
         """
         position, heading, free, roll = self._kinematics.stance
         before, last = self._points[-2:].tolist()
-        results = self._formulas.loads(
+        results = self.formulas.loads(
             *free,
             *position,
             cos(heading),
@@ -154,11 +167,11 @@ class LegLoads:
             *self.ground_contact(reference, zmp),
             *self._kinematics.legs.roll_argument(roll),
         )
-        count = len(self._leg_motors)
+        count = len(self.leg_motors)
         self._points = np.array([last, results[count:]])
         self._calls += 1
         torques = np.zeros(self._number_of_motors)
-        torques[self._leg_motors] = results[:count]
+        torques[self.leg_motors] = results[:count]
         return torques
 
     def torque_rows(
@@ -180,8 +193,8 @@ class LegLoads:
         points = np.empty((ticks + 2, self._points.shape[1]))
         points[:2] = self._points[-2:]
         contacts = self._ground_contacts(references, zmp)
-        legs = np.empty((ticks, len(self._leg_motors)))
-        kernel = self._formulas.kernel
+        legs = np.empty((ticks, len(self.leg_motors)))
+        kernel = self.formulas.kernel
         if kernel is not None:
             calls = float(self._calls)
             kernel(states, contacts, points, legs, self._rate, calls)
@@ -194,12 +207,12 @@ class LegLoads:
                 np.array([sin(heading) for heading in headings]),
             ]
             roll = self._kinematics.legs.roll_arguments(after[n + 6])
-            results = self._formulas.points(*posture, *roll)
+            results = self.formulas.points(*posture, *roll)
             points[2:] = np.column_stack(results)
             rate = np.where(
                 self._calls + np.arange(ticks) > 1, self._rate, 0.0
             )
-            results = self._formulas.rows(
+            results = self.formulas.rows(
                 *posture,
                 *points[:-2].T,
                 *points[1:-1].T,
@@ -212,7 +225,7 @@ class LegLoads:
         self._points = points
         self._calls += ticks
         torques = np.zeros((ticks, self._number_of_motors))
-        torques[:, self._leg_motors] = legs
+        torques[:, self.leg_motors] = legs
         return torques
 
     def rewind(self, ticks: int) -> None:

@@ -67,6 +67,10 @@ class IdealServos:
 
     Targets are limited to the speed limits of the joints, and their velocity
     is fed forward.
+
+    Attributes:
+        lead: Addition to the target per change. Shape (joints,).
+        reach: Largest change of a target, in [rad]. Shape (joints,).
     """
 
     def __init__(
@@ -94,12 +98,12 @@ class IdealServos:
         self._ctrl = slice(int(actuators[0]), int(actuators[-1]) + 1)
         self._sent: Array = data.ctrl[self._ctrl]  # a view
         gains = model.actuator_gainprm[actuators, 0]
-        self._lead = -model.actuator_biasprm[actuators, 2] / gains / cycle
-        self._reach = speed_limits * cycle
+        self.lead = -model.actuator_biasprm[actuators, 2] / gains / cycle
+        self.reach = speed_limits * cycle
         if not feedforward:
-            self._lead = np.zeros(actuators.size)
-            self._reach = np.full(actuators.size, np.inf)
-        self._back = -self._reach
+            self.lead = np.zeros(actuators.size)
+            self.reach = np.full(actuators.size, np.inf)
+        self._back = -self.reach
         self._target = np.zeros(actuators.size)
         self._range = model.actuator_forcerange[self._ctrl]
         self._full = self._range[:, 1].copy()
@@ -108,8 +112,8 @@ class IdealServos:
         write = kernel_of("write_targets", WRITE_LOOP, "11111")
         if write is not None:
             self._write = write.bind(
-                *(self._wanted, self._target, self._reach),
-                *(self._lead, self._sent),
+                *(self._wanted, self._target, self.reach),
+                *(self.lead, self._sent),
             )
 
     def soften(self, stiffness: Array) -> None:
@@ -130,12 +134,12 @@ class IdealServos:
             return
         change = self._limited(targets)
         self._target += change
-        change *= self._lead
+        change *= self.lead
         np.add(change, self._target, out=self._sent)
 
     def _limited(self, targets: Array) -> Array:
         change = targets - self._target
-        np.minimum(change, self._reach, out=change)
+        np.minimum(change, self.reach, out=change)
         np.maximum(change, self._back, out=change)
         return change
 
@@ -208,7 +212,7 @@ class RealisticServos(IdealServos):
         if step is not None and self._slope is not None:
             self.kernel = step.bind(
                 *(data.qpos, data.qvel, self._qpos, self._dofs),
-                *(self._change, self._target, self._lead),
+                *(self._change, self._target, self.lead),
                 *(self._half_backlash, self._stall, self._slope),
                 *(self._clock, self._sent, self._range),
             )
@@ -247,7 +251,7 @@ class RealisticServos(IdealServos):
         half = self._half_backlash
         error -= np.minimum(np.maximum(error, -half), half)
         error += angle
-        error += self._lead * self._change
+        error += self.lead * self._change
         self._sent[:] = error
         if self._slope is not None:
             loss = self._slope * data.qvel[self._dofs]

@@ -151,7 +151,7 @@ class OpenLoop:
     ) -> None:
         """Prepare the open loop, with load feedforward if given."""
         self._kinematics = kinematics
-        self._feedforward = feedforward
+        self.feedforward = feedforward
         self._references: Array | None = None  # of the computed ticks
         self._targets: list[Array] = []
         self._headings: list[float] = []
@@ -190,7 +190,7 @@ class OpenLoop:
 
     def _compute(self, table: ReferenceTable, index: int) -> None:
         """Compute the targets from a tick on, up to one that meets a limit."""
-        kinematics, feedforward = self._kinematics, self._feedforward
+        kinematics, feedforward = self._kinematics, self.feedforward
         if self._used < len(self._targets):
             kinematics.rewind(self._used)
             if feedforward is not None:
@@ -256,7 +256,7 @@ class ClosedLoop:
         """Prepare the closed loop, with load feedforward if given."""
         self.stabiliser = stabiliser
         self._kinematics = kinematics
-        self._feedforward = feedforward
+        self.feedforward = feedforward
         self.commanded: BodyReference | None = None
 
     @property
@@ -316,11 +316,11 @@ class ClosedLoop:
         angles = measurement.joint_positions
         targets = self._kinematics.track(body)
         corrected = stabiliser.joints.update(angles, targets)
-        if self._feedforward is None:
+        if self.feedforward is None:
             return corrected
         (x, y), (u, v) = sample.zmp, stabiliser.zmp_shift
         share = stabiliser.settings.stabiliser.load_share
-        return corrected + share * self._feedforward.added(
+        return corrected + share * self.feedforward.added(
             body, (x + u, y + v)
         )
 

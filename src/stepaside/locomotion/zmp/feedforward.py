@@ -30,21 +30,28 @@ class LoadFeedforward:
     :math:`\delta + (d / k)\, \dot\delta = \tau / k`. The torque is
     extrapolated one tick ahead: a target acts until the next tick, and the
     accelerations are a tick old.
+
+    Attributes:
+        loads: Torques of the leg joints.
+        compliance: Deflection of each servo by torque, in [rad/(N m)]. Shape
+            (joints,).
+        gain: Weight of the deflection in the offset. Shape (joints,).
+        memory: Weight of the last offset. Shape (joints,).
     """
 
     def __init__(
         self, kinematics: LegKinematics, *, zmp_forward: float, tick: float
     ) -> None:
         """Prepare the feedforward of a robot; see :class:`LegLoads`."""
-        self._loads = LegLoads(kinematics, zmp_forward=zmp_forward, tick=tick)
+        self.loads = LegLoads(kinematics, zmp_forward=zmp_forward, tick=tick)
         servos = np.array(kinematics.legs.tree.servos, dtype=np.float64)
         stiffness, damping = servos.reshape(-1, 2).T
         stiff = stiffness > 0.0
-        self._compliance = np.where(
+        self.compliance = np.where(
             stiff, 1.0 / np.where(stiff, stiffness, 1.0), 0
         )
-        lead = damping * self._compliance / tick
-        self._gain, self._memory = 1.0 / (1.0 + lead), lead / (1.0 + lead)
+        lead = damping * self.compliance / tick
+        self.gain, self.memory = 1.0 / (1.0 + lead), lead / (1.0 + lead)
         # Before the present tick, then of the last rows.
         self._offsets = np.zeros((1, stiffness.size))
         self._deflections: Array | None = None
@@ -59,7 +66,7 @@ class LoadFeedforward:
             reference: Body reference of the present posture.
             zmp: ZMP of the plan in odometry, in [m].
         """
-        torques = self._loads.torques(reference, zmp)
+        torques = self.loads.torques(reference, zmp)
         offsets: Array = self._filtered(torques[None])[0]
         return offsets
 
@@ -77,18 +84,18 @@ class LoadFeedforward:
         Returns:
             Offsets, in [rad]. Shape (ticks, joints).
         """
-        return self._filtered(self._loads.torque_rows(states, references, zmp))
+        return self._filtered(self.loads.torque_rows(states, references, zmp))
 
     def rewind(self, ticks: int) -> None:
         """Return to the state after the first ``ticks`` of the last rows."""
         assert self._deflections is not None
-        self._loads.rewind(ticks)
+        self.loads.rewind(ticks)
         self._offsets = self._offsets[: ticks + 1]
         self._deflections = self._deflections[:ticks]
 
     def _filtered(self, torques: Array) -> Array:
         """Return the offsets for torques, in [N m]. Shapes (n, joints)."""
-        deflections = self._compliance * torques
+        deflections = self.compliance * torques
         last = self._deflections
         before = np.empty_like(deflections)
         before[0] = deflections[0] if last is None else last[-1]
@@ -98,9 +105,9 @@ class LoadFeedforward:
         offsets = np.empty((len(soon) + 1, soon.shape[1]))
         offsets[0] = self._offsets[-1]
         if self._kernel is not None:
-            self._kernel(soon, offsets, self._gain, self._memory)
+            self._kernel(soon, offsets, self.gain, self.memory)
         else:
-            for i, row in enumerate(self._gain * soon):
-                offsets[i + 1] = row + self._memory * offsets[i]
+            for i, row in enumerate(self.gain * soon):
+                offsets[i + 1] = row + self.memory * offsets[i]
         self._offsets, self._deflections = offsets, deflections
         return offsets[1:]

@@ -1,0 +1,368 @@
+"""JavaScript of an ideal duel: formulas, constant maps and model.
+
+Kinematics and joint loads are the formulas that :mod:`.expression_tracing`
+generates; the planner is traced, and its schedules are constant maps; laws
+and loops are translated from their Python source.
+"""
+
+import inspect
+import re
+from base64 import b64encode
+from collections.abc import Mapping
+from math import ceil, pi, tau
+from typing import Any, NamedTuple
+
+import mujoco
+import numpy as np
+
+from ..control.maneuver_walk import SETTLING, ManeuverWalk
+from ..core.errors import ConfigurationError
+from ..core.javascript import javascript_of
+from ..core.poses import Array
+from ..games.duel import Duel
+from ..games.duel_settings import EVADER, DuelSettings
+from ..games.walker import SimulatedPlayer
+from ..locomotion.zmp.feedback_loop import OpenLoop
+from ..locomotion.zmp.feedforward import BOUND, LoadFeedforward
+from ..locomotion.zmp.feedforward import LOOP as OFFSET_LOOP
+from ..planning import CenterState, ManeuverPlanner
+from ..planning.footsteps import beside_path
+from ..planning.maneuver import plan_inputs
+from ..planning.path import arc_then_line
+from ..planning.schedule import Schedule
+from ..planning.template_path import SHORT, STILL
+from ..robots.description import load_robot
+from ..robots.expression_tracing import ExpressionTrace, Formula
+from ..robots.ik_step import step_loop, trace_step
+from ..robots.joint_loads import LIFTED
+from ..robots.leg_kinematics import LegKinematics
+from ..sim.ground_truth import FALLEN
+from ..sim.servos import WRITE_LOOP
+from ..sim.simulated_robot import motor_of
+from ..sim.world import build_model
+from ..strategies import Evasion, Pursuit
+from ..theory import laws
+
+LAWS = (
+    *(laws.wrap_once, laws.evasion_heading, laws.side_behind),
+    *(laws.update_side, laws.is_evading),
+)
+MAX_OFFSETS = 16  # of the starts of plans from ticks
+MODEL_PARTS = ("actuator_", "body_", "dof_", "eq_", "geom_", "jnt_")
+
+
+class WalkingParts(NamedTuple):
+    """Parts of a robot that walks in open loop.
+
+    Attributes:
+        walk: Its locomotion.
+        kinematics: Joint motion generation.
+        feedforward: Feedforward of servo deflection.
+    """
+
+    walk: ManeuverWalk
+    kinematics: LegKinematics
+    feedforward: LoadFeedforward
+
+    @classmethod
+    def of(cls, player: object) -> "WalkingParts":
+        """Take the parts of a player.
+
+        Raises:
+            ConfigurationError: If it walks in any other way.
+        """
+        if isinstance(player, SimulatedPlayer):
+            walk = player.scheme.locomotion
+            if isinstance(walk, ManeuverWalk) and isinstance(
+                walk.balance, OpenLoop
+            ):
+                feedforward = walk.balance.feedforward
+                legs = walk.kinematics.legs
+                plain = legs.is_plain and legs.lean == 0.0
+                reacts = walk.gait.swing_reaction > 0.0
+                if feedforward is not None and plain and not reacts:
+                    return cls(walk, walk.kinematics, feedforward)
+        raise ConfigurationError(
+            "a page plays duels of ideal robots that walk by maneuvers in "
+            "open loop, such as two NAOs with the paper's gait"
+        )
+
+
+def check_playable(settings: DuelSettings) -> None:
+    """Check that a page can play a duel.
+
+    Raises:
+        ConfigurationError: If it cannot.
+    """
+    strategies = (settings.pursuer_strategy, settings.evader_strategy)
+    law = settings.strategy
+    alike = settings.robot_of("pursuer") == settings.robot_of(EVADER)
+    if (
+        strategies != ("pursuit", "evasion")
+        or law.trigger != "distance"
+        or law.saturated
+        or not alike
+        or settings.sensing != "ideal"
+        or settings.has_things
+    ):
+        raise ConfigurationError(
+            "a page plays the paper's duel: two equal robots, pursuit and "
+            "evasion by distance and eq. (4), ideal sensing, no obstacles"
+        )
+
+
+def game_script(duel: Duel) -> str:
+    """Return ``makeFormulas``, which returns the functions of a duel.
+
+    Args:
+        duel: Duel whose robots are of one kind.
+    """
+    parts = WalkingParts.of(duel.players[0])
+    legs = parts.kinematics.legs
+    step = trace_step(legs, parts.kinematics.description.standing)
+    loads = parts.feedforward.loads.formulas
+    plans = schedules_of(ManeuverPlanner(parts.walk.gait))
+    sources = [
+        *(inspect.getsource(law) for law in LAWS),
+        *(step.text, step_loop(legs)),
+        *(loads.tick_formula.text, loads.loop),
+        *(OFFSET_LOOP, WRITE_LOOP),
+        *(trace_plan(f"plan_{n}", s).text for n, s in plans.items()),
+    ]
+    constants = {"pi": pi, "tau": tau}
+    functions = [javascript_of(text, constants) for text in sources]
+    names = re.findall(r"^function (\w+)", "\n".join(functions), re.MULTILINE)
+    lines = [*functions, f"return {{ {', '.join(names)} }};"]
+    return "\n".join(["function makeFormulas() {", *lines, "}"])
+
+
+def schedules_of(planner: ManeuverPlanner) -> dict[str, Schedule]:
+    """Return the schedules of a start, of a step and of a halt."""
+    count = planner.settings.horizon
+    return {
+        "start": planner.schedule(count, standing=True),
+        "step": planner.schedule(count, standing=False),
+        "halt": planner.schedule(1, standing=False),
+    }
+
+
+def trace_plan(name: str, schedule: Schedule) -> Formula:
+    """Trace the planner, for gains whose arcs outlast the plan.
+
+    Args:
+        name: Name of the function.
+        schedule: Schedule of the plan; of one footstep, a halt.
+
+    Returns:
+        Function of desired heading [rad], driving velocity [m/s], gain
+        [1/s], and the side of the first foot; pose of the swing foot, then
+        of the support foot, which is 0, in the plan frame; position and
+        velocity of the CoM. Its results are the placements and the inputs
+        of a :class:`~stepaside.planning.plan.ManeuverPlan`, row by row.
+    """
+    trace, gait, n = ExpressionTrace(), schedule.settings, schedule.count
+    hints = {"bearing": 0.3, "velocity": gait.speed, "gain": gait.gain}
+    bearing, velocity, gain, side = (
+        trace.variable(each, hints.get(each, 1.0))
+        for each in (*hints, "side")
+    )
+    feet = [
+        [trace.variable(f"{foot}_{axis}") for axis in "xyt"]
+        for foot in ("swing", "support")
+    ]
+    x, y, u, v = (trace.variable(f"com_{each}") for each in "xyuv")
+    times = gait.path_interval * np.arange(1.0, n + 1.0)
+    half = 0.5 * gait.foot_spacing * side
+    if n == 1:
+        steps = np.array([[feet[1][0], 2.0 * half, feet[1][2]]])
+    else:
+        # Arrays of one element, which NumPy multiplies by those of times.
+        rate = np.array([laws.proportional_rate(bearing, gain)])
+        driven = np.array([velocity])
+        steps = beside_path(
+            arc_then_line(times, 0.0 * times, rate, driven), half
+        )
+    placements = np.concatenate([np.array(feet), steps])
+    state = CenterState((x, y), (u, v))  # type: ignore[arg-type]
+    inputs = plan_inputs(schedule, placements, state)
+    results = [*placements.ravel().tolist(), *inputs.ravel().tolist()]
+    return trace.formula(name, results)
+
+
+def game_data(duel: Duel) -> dict[str, Any]:
+    """Return the values of a duel at its start, as plain values.
+
+    Args:
+        duel: Duel whose robots are of one kind, before its first tick.
+    """
+    settings, physics = duel.settings, duel.world.physics
+    parts = [WalkingParts.of(player) for player in duel.players]
+    own, gait = parts[0], parts[0].walk.gait
+    legs, tree = own.kinematics.legs, own.kinematics.legs.tree
+    columns = dict(zip(tree.joints, legs.columns[1:], strict=True))
+    fixed = dict(zip(tree.joints, legs.fixed, strict=True))
+    planner = ManeuverPlanner(gait)
+    return {
+        "tick": physics.tick,
+        "steps": physics.steps_per_tick,
+        "free": len(legs.free),
+        "state": own.kinematics.state,
+        "posture": own.kinematics.posture.tolist(),
+        "columns": [columns[name] for name in tree.motors],
+        "fixed": [fixed[name] for name in tree.motors],
+        "limits": np.column_stack(
+            [legs.speeds * physics.tick, legs.low, legs.high]
+        ).tolist(),
+        "legs": own.feedforward.loads.leg_motors,
+        "masses": own.feedforward.loads.formulas.coordinates,
+        "compliance": own.feedforward.compliance.tolist(),
+        "weight": own.feedforward.gain.tolist(),
+        "memory": own.feedforward.memory.tolist(),
+        "bound": BOUND,
+        "lifted": LIFTED,
+        "fallen": FALLEN,
+        "still": STILL,
+        "short": SHORT * gait.foot_spacing,
+        "spacing": gait.foot_spacing,
+        "ahead": gait.zmp_forward,
+        "height": gait.com_height,
+        "support": gait.single_support,
+        "step": gait.step_duration,
+        "eta": gait.eta,
+        "speed": gait.speed,
+        "gain": gait.gain,
+        "most_gain": 1.0 / (gait.horizon * gait.path_interval),
+        "plans": {
+            name: schedule_data(schedule, name, physics.tick)
+            for name, schedule in schedules_of(planner).items()
+        },
+        "players": [player_data(duel, player) for player in duel.players],
+        "start": [
+            settings.start.distance,
+            settings.start.pursuer_offset,
+            settings.start.evader_offset,
+        ],
+        "evasion": evasion_data(settings.strategy),
+        "model": model_data(duel),
+    }
+
+
+def evasion_data(law: Evasion) -> dict[str, float | None]:
+    """Return the parameters of the evader; None for never."""
+    release = law.release_distance
+    return {
+        "angle": law.angle,
+        "radius": law.safety_radius,
+        "release": release if np.isfinite(release) else None,
+        "hysteresis": law.side_hysteresis,
+    }
+
+
+def player_data(duel: Duel, player: Any) -> dict[str, Any]:
+    """Return the addresses of a robot in the model, and its servos."""
+    model, robot = duel.world.model, player.robot
+    description = player.scheme.kinematics.description
+    motors = [
+        motor_of(model, model.joint(f"{player.name}/{name}").id)
+        for name in robot.joint_names
+    ]
+    return {
+        "name": player.name,
+        "direction": player.scheme.decisions.strategy.direction.value,
+        "torso": int(model.body(f"{player.name}/{description.torso}").id),
+        "qpos": robot.qpos_slice.start,
+        "ctrl": motors[0],
+        "lead": robot.servos.lead.tolist(),
+        "reach": robot.servos.reach.tolist(),
+        "hips": description.place.forward,
+        "radius": player.truth.reach,
+    }
+
+
+def schedule_data(
+    schedule: Schedule, name: str, tick: float
+) -> dict[str, Any]:
+    """Return the maps of a schedule at the ticks of its first part.
+
+    Plans begin when a step ends, which need not be on a tick: there are maps
+    for each offset that occurs.
+
+    Raises:
+        ConfigurationError: If the step takes no rational number of ticks.
+    """
+    first = schedule.first_step_duration
+    lasts = schedule.duration + SETTLING if name == "halt" else first
+    period = schedule.settings.step_duration
+    begins = np.arange(1 if name == "start" else MAX_OFFSETS + 1) * period
+    offsets = np.ceil((begins - 1e-9) / tick) * tick - begins
+    offsets = sorted(set(np.round(np.maximum(offsets, 0.0), 9).tolist()))
+    if len(offsets) > MAX_OFFSETS:
+        raise ConfigurationError(
+            f"steps of a page must end on one of {MAX_OFFSETS} parts of the "
+            f"control period, {tick:g} [s], got a step of {period:g} [s]"
+        )
+    landing = schedule.first_step_sampler.pendulum
+    return {
+        "first": first,
+        "lasts": lasts,
+        "begun": float(schedule.starts[1]) if schedule.standing else 0.0,
+        "standing": schedule.standing,
+        "landing": landing.tolist(),
+        "maps": [
+            map_data(schedule, offset, lasts, tick) for offset in offsets
+        ],
+    }
+
+
+def map_data(
+    schedule: Schedule, offset: float, lasts: float, tick: float
+) -> dict[str, Any]:
+    """Return the maps at the ticks from an offset on, in [s]."""
+    count = max(1, ceil((lasts - offset) / tick - 1e-6))
+    sampler = schedule.sampler(offset + tick * np.arange(count))
+    return {
+        "offset": offset,
+        "count": count,
+        "pendulum": packed(sampler.pendulum),
+        "feet": packed(sampler.feet),
+        "heights": packed(
+            np.stack([sampler.support_height, sampler.swing_height])
+        ),
+    }
+
+
+def model_data(duel: Duel) -> dict[str, Any]:
+    """Return the model as XML, and its numbers in full precision.
+
+    XML has six digits. An attribute that older versions of MuJoCo refuse is
+    left out; its default is the same.
+    """
+    settings, world = duel.settings, duel.world
+    specs: list[mujoco.MjSpec] = []
+    robots = {
+        name: load_robot(settings.robot_of(name).robot)
+        for name in settings.robots
+    }
+    build_model(
+        *(robots, world.physics, settings.body, settings.seed),
+        furnish=specs.append,
+        rendered=False,
+    )
+    arrays: Mapping[str, Array] = {
+        name: getattr(world.model, name)
+        for name in dir(world.model)
+        if name.startswith(MODEL_PARTS)
+    }
+    return {
+        "xml": specs[0].to_xml().replace(' input="pos"', ""),
+        "arrays": {
+            name: packed(array)
+            for name, array in arrays.items()
+            if isinstance(array, np.ndarray) and array.dtype == np.float64
+        },
+    }
+
+
+def packed(array: Array) -> str:
+    """Return an array of doubles as text."""
+    return b64encode(array.astype("<f8").tobytes()).decode("ascii")
