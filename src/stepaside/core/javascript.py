@@ -11,7 +11,9 @@ order.
 import ast
 from collections.abc import Mapping
 
-LIBRARY = {name: f"Math.{name}" for name in ("abs", "min", "max", "sin", "cos")}
+LIBRARY = {
+    name: f"Math.{name}" for name in ("abs", "min", "max", "sin", "cos")
+}
 OPERATORS: dict[type[ast.AST], str] = {
     ast.Add: "+",
     ast.Sub: "-",
@@ -44,12 +46,12 @@ def javascript_of(
     """
     functions = ast.parse(source).body
     return "\n".join(
-        _Function(constants or {}).translate(function)
+        _FunctionText(constants or {}).translate(function)
         for function in functions
     )
 
 
-class _Function:
+class _FunctionText:
     """Statements of one function, as lines of JavaScript."""
 
     def __init__(self, constants: Mapping[str, float]) -> None:
@@ -90,12 +92,13 @@ class _Function:
                 body=body,
             ):
                 self._variables[name] = None
-                first, end = ["0", *map(self._expression, limits)][-2:]
+                numbers = [self._expression(limit) for limit in limits]
+                first, end = ["0", *numbers][-2:]
                 head = f"for ({name} = {first}; {name} < {end}; {name}++) {{"
                 return [head, *self._block(body), "}"]
-            case ast.If(test=test, body=body, orelse=other):
+            case ast.If(test=test, body=body, orelse=others):
                 head = f"if ({self._expression(test)}) {{"
-                middle = ["} else {", *self._block(other)] if other else []
+                middle = ["} else {", *self._block(others)] if others else []
                 return [head, *self._block(body), *middle, "}"]
         raise _beyond(node)
 
@@ -107,8 +110,8 @@ class _Function:
                 left = ", ".join(map(self._target, places))
                 right = ", ".join(map(self._expression, values))
                 return [f"[{left}] = [{right}];"]
-        places = " = ".join(map(self._target, targets))
-        return [f"{places} = {self._expression(value)};"]
+        names = " = ".join(map(self._target, targets))
+        return [f"{names} = {self._expression(value)};"]
 
     def _target(self, node: ast.expr) -> str:
         match node:
@@ -140,9 +143,11 @@ class _Function:
                 pairs = zip([left, *others[:-1]], signs, others, strict=True)
                 tests = [self._joined(op, [a, b]) for a, op, b in pairs]
                 return f"({' && '.join(tests)})"
-            case ast.IfExp(test=test, body=body, orelse=other):
-                parts = [*map(self._expression, (test, body, other))]
-                return "({} ? {} : {})".format(*parts)
+            case ast.IfExp(test=test, body=one, orelse=other):
+                return (
+                    f"({self._expression(test)} ? {self._expression(one)} : "
+                    f"{self._expression(other)})"
+                )
             case ast.Call(func=ast.Name(id=name), args=arguments):
                 called = LIBRARY.get(name, name)
                 given = ", ".join(map(self._expression, arguments))

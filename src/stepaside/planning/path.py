@@ -69,7 +69,10 @@ class UnicycleTrajectory:
 
 
 def arc_then_line(
-    turning: Array, straight: Array, rate: float, velocity: float
+    turning: Array,
+    straight: Array,
+    rate: float | Array,
+    velocity: float | Array,
 ) -> Array:
     """Return the poses after an arc of circle and a straight line.
 

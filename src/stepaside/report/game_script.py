@@ -36,11 +36,13 @@ from ..robots.expression_tracing import ExpressionTrace, Formula
 from ..robots.ik_step import step_loop, trace_step
 from ..robots.joint_loads import LIFTED
 from ..robots.leg_kinematics import LegKinematics
+from ..sim.body_settings import BODIES
 from ..sim.ground_truth import FALLEN
+from ..sim.physics_settings import SightSettings
 from ..sim.servos import WRITE_LOOP
 from ..sim.simulated_robot import motor_of
 from ..sim.world import build_model
-from ..strategies import Evasion, Pursuit
+from ..strategies import Evasion
 from ..theory import laws
 
 LAWS = (
@@ -103,11 +105,18 @@ def check_playable(settings: DuelSettings) -> None:
         or law.saturated
         or not alike
         or settings.sensing != "ideal"
-        or settings.has_things
+        or settings.sight != SightSettings()
+        or settings.body != BODIES["ideal"]
+        or settings.physics.slope + settings.physics.unevenness > 0.0
+        or settings.pushes
+        or settings.room.things
+        or settings.room.plan
+        or settings.passers
     ):
         raise ConfigurationError(
-            "a page plays the paper's duel: two equal robots, pursuit and "
-            "evasion by distance and eq. (4), ideal sensing, no obstacles"
+            "a page plays the paper's duel: two equal robots with ideal "
+            "bodies and sensing on a level floor, pursuit, and evasion by "
+            "distance and eq. (4)"
         )
 
 
@@ -161,16 +170,18 @@ def trace_plan(name: str, schedule: Schedule) -> Formula:
         of a :class:`~stepaside.planning.plan.ManeuverPlan`, row by row.
     """
     trace, gait, n = ExpressionTrace(), schedule.settings, schedule.count
-    hints = {"bearing": 0.3, "velocity": gait.speed, "gain": gait.gain}
-    bearing, velocity, gain, side = (
-        trace.variable(each, hints.get(each, 1.0))
-        for each in (*hints, "side")
+
+    def variables(*names: str) -> Any:
+        return [trace.variable(name) for name in names]
+
+    bearing, velocity, gain, side = variables(
+        *("bearing", "velocity", "gain", "side")
     )
     feet = [
-        [trace.variable(f"{foot}_{axis}") for axis in "xyt"]
+        variables(*(f"{foot}_{axis}" for axis in "xyt"))
         for foot in ("swing", "support")
     ]
-    x, y, u, v = (trace.variable(f"com_{each}") for each in "xyuv")
+    x, y, u, v = variables(*(f"com_{each}" for each in "xyuv"))
     times = gait.path_interval * np.arange(1.0, n + 1.0)
     half = 0.5 * gait.foot_spacing * side
     if n == 1:
@@ -179,11 +190,10 @@ def trace_plan(name: str, schedule: Schedule) -> Formula:
         # Arrays of one element, which NumPy multiplies by those of times.
         rate = np.array([laws.proportional_rate(bearing, gain)])
         driven = np.array([velocity])
-        steps = beside_path(
-            arc_then_line(times, 0.0 * times, rate, driven), half
-        )
+        path = arc_then_line(times, 0.0 * times, rate, driven)
+        steps = beside_path(path, half)
     placements = np.concatenate([np.array(feet), steps])
-    state = CenterState((x, y), (u, v))  # type: ignore[arg-type]
+    state = CenterState((x, y), (u, v))
     inputs = plan_inputs(schedule, placements, state)
     results = [*placements.ravel().tolist(), *inputs.ravel().tolist()]
     return trace.formula(name, results)
@@ -262,6 +272,7 @@ def player_data(duel: Duel, player: Any) -> dict[str, Any]:
     """Return the addresses of a robot in the model, and its servos."""
     model, robot = duel.world.model, player.robot
     description = player.scheme.kinematics.description
+    torso = int(model.body(f"{player.name}/{description.torso}").id)
     motors = [
         motor_of(model, model.joint(f"{player.name}/{name}").id)
         for name in robot.joint_names
@@ -269,7 +280,8 @@ def player_data(duel: Duel, player: Any) -> dict[str, Any]:
     return {
         "name": player.name,
         "direction": player.scheme.decisions.strategy.direction.value,
-        "torso": int(model.body(f"{player.name}/{description.torso}").id),
+        "torso": torso,
+        "bodies": [torso, torso + int((model.body_rootid == torso).sum())],
         "qpos": robot.qpos_slice.start,
         "ctrl": motors[0],
         "lead": robot.servos.lead.tolist(),

@@ -3,6 +3,7 @@
 import io
 import zipfile
 from base64 import b64encode
+from collections.abc import Sequence
 from functools import cache
 from importlib.resources import files
 from typing import Any
@@ -27,7 +28,8 @@ TEMPLATE = "viewer.html.template"
 BEGIN = "/**\n * @license\n * Copyright 2010-"  # notice of three.js
 END = 'Object.defineProperty(t,"__esModule",{value:!0})}));'
 RATE = 20.0  # samples per second of the run
-SCRIPTS = ("scene.js", "plots.js", "page.js")
+SHARED = ("scene.js", "stage.js")
+SCRIPTS = (*SHARED, "plots.js", "page.js")
 LABEL_GAP = 0.04  # between a player's highest point and its label, in [m]
 TOP_MARGIN = 0.4  # around the players in the top view, in [m]
 
@@ -58,15 +60,20 @@ def three_js() -> str:
     return text[begin:end]
 
 
-def template() -> str:
-    """Return the page without a run: markup, three.js and own scripts."""
+def template(page: str, scripts: Sequence[str]) -> str:
+    """Return a page without a run: markup, style, three.js and scripts.
+
+    Args:
+        page: File of the markup.
+        scripts: Files of the scripts, in their order.
+    """
     folder = files(__package__).joinpath("page")
-    text, *scripts = (
+    text, style, *sources = (
         folder.joinpath(name).read_text(encoding="utf-8")
-        for name in ("page.html", *SCRIPTS)
+        for name in (page, "page.css", *scripts)
     )
-    text = text.replace("@@THREE@@", three_js())
-    return text.replace("@@SCRIPT@@", '"use strict";\n' + "".join(scripts))
+    text = text.replace("@@STYLE@@", style).replace("@@THREE@@", three_js())
+    return text.replace("@@SCRIPT@@", '"use strict";\n' + "".join(sources))
 
 
 def write_page(run: Run, file: AnyPath) -> None:
@@ -81,12 +88,14 @@ def write_page(run: Run, file: AnyPath) -> None:
         OutputError: If the file cannot be written.
     """
     file = as_path(file, "file")
-    text = fill_page(template(), {"NAME": run.name}, _page_data(run))
+    text = fill_page(
+        template("page.html", SCRIPTS), {"NAME": run.name}, page_data(run)
+    )
     with atomic_draft(file) as draft:
         draft.write_text(text, encoding="utf-8", newline="\n")
 
 
-def _page_data(run: Run) -> dict[str, Any]:
+def page_data(run: Run) -> dict[str, Any]:
     """Return the data that the page's scripts draw, as plain values."""
     scene = RunScene(run)
     geoms = visual_geoms_of(scene.model)

@@ -6,6 +6,9 @@ from .setting_options import Decorator
 from .settings_command import OptionGroup, takes_settings
 
 RUN = OptionGroup("Run", ("seed", "duration", "robot"))
+START = OptionGroup(
+    "Initial poses (drawn from the seed unless given)", ("start",)
+)
 STRATEGY = OptionGroup(
     "Strategy", ("evader_strategy", "pursuer_strategy", "strategy")
 )
@@ -21,9 +24,7 @@ DUEL = (
         "Robots (each with the gait and control of its description)",
         ("pursuer_robot", "evader_robot"),
     ),
-    OptionGroup(
-        "Initial poses (drawn from the seed unless given)", ("start",)
-    ),
+    START,
     OptionGroup("Room", ("room.plan", RECIPE, "map")),
     STRATEGY,
     GAIT,
@@ -38,6 +39,12 @@ DUEL = (
     OptionGroup("Pursuing person", ("pursuer", "person")),
     OptionGroup("Passing pedestrians", ("passers",)),
     OptionGroup("Pushes", ("pushes",)),
+)
+PAGE = (
+    RUN,
+    START,
+    OptionGroup("Evasion", ("strategy",)),
+    GAIT,
 )
 WALK = (
     RUN,
@@ -56,3 +63,8 @@ def duel_options(*without: str) -> Decorator:
         without: Entries whose options the command does not have.
     """
     return takes_settings(DuelSettings, *DUEL, without=without)
+
+
+def page_options() -> Decorator:
+    """Add the options of a duel that a page can play; pass ``settings``."""
+    return takes_settings(DuelSettings, *PAGE, without=("duration",))

@@ -320,9 +320,7 @@ class ClosedLoop:
             return corrected
         (x, y), (u, v) = sample.zmp, stabiliser.zmp_shift
         share = stabiliser.settings.stabiliser.load_share
-        return corrected + share * self.feedforward.added(
-            body, (x + u, y + v)
-        )
+        return corrected + share * self.feedforward.added(body, (x + u, y + v))
 
     def land(
         self,

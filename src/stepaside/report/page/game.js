@@ -273,7 +273,7 @@ class Game {
   }
   reset(settings) {
     const [distance, pursuer, evader] = settings.start;
-    this.settings = { ...settings };
+    this.settings = structuredClone(settings);
     this.ticks = 0;
     this.pushes = [];
     this.outcome = "";

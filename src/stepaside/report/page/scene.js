@@ -72,18 +72,20 @@ function makeScene(run, canvas, context) {
     (body < 0 ? world : bodies[body]).add(mesh);
   }
 
+  /* Corners of the two triangles of a straight part of a ribbon. */
+  function stripe([ax, ay], [bx, by], width, height) {
+    const length = Math.hypot(bx - ax, by - ay) || 1;
+    const nx = -0.5 * width * (by - ay) / length, ny = 0.5 * width * (bx - ax) / length;
+    return [ax + nx, ay + ny, height, ax - nx, ay - ny, height,
+      bx + nx, by + ny, height, bx + nx, by + ny, height,
+      ax - nx, ay - ny, height, bx - nx, by - ny, height];
+  }
+
   /* Flat ribbon through points (x, y); a prefix of its triangles draws a prefix of the path. */
   function ribbon(points, width, height, closed) {
     const all = closed ? [...points, points[0]] : points;
     const corners = [];
-    for (let i = 0; i + 1 < all.length; i++) {
-      const [ax, ay] = all[i], [bx, by] = all[i + 1];
-      const length = Math.hypot(bx - ax, by - ay) || 1;
-      const nx = -0.5 * width * (by - ay) / length, ny = 0.5 * width * (bx - ax) / length;
-      corners.push(ax + nx, ay + ny, height, ax - nx, ay - ny, height,
-        bx + nx, by + ny, height, bx + nx, by + ny, height,
-        ax - nx, ay - ny, height, bx - nx, by - ny, height);
-    }
+    for (let i = 0; i + 1 < all.length; i++) corners.push(...stripe(all[i], all[i + 1], width, height));
     const strip = new THREE.BufferGeometry();
     strip.setAttribute("position", new THREE.Float32BufferAttribute(corners, 3));
     strip.computeBoundingSphere();
@@ -121,6 +123,11 @@ function makeScene(run, canvas, context) {
     return { time, arrow };
   }
 
+  function printPose([, side, x, y, heading]) {
+    const c = Math.cos(heading), s = Math.sin(heading);
+    return new THREE.Matrix4().set(c, -s * side, 0, x, s, c * side, 0, y, 0, 0, 1, 0.003, 0, 0, 0, 1);
+  }
+
   const layers = {};
   const layer = (name, mesh) => { (layers[name] = layers[name] || []).push(mesh); return mesh; };
   const players = run.players.map((player, number) => {
@@ -133,14 +140,9 @@ function makeScene(run, canvas, context) {
       new THREE.PlaneGeometry(front - back, left - right)
         .translate(0.5 * (front + back), 0.5 * (left + right), 0),
       new THREE.MeshBasicMaterial({ transparent: true, opacity: 0.3,
-        side: THREE.DoubleSide, depthWrite: false }), Math.max(1, player.landings.length));
+        side: THREE.DoubleSide, depthWrite: false }), Math.max(1, player.landings.length, run.footprints || 0));
     themed.push([prints.material, number]);
-    player.landings.forEach(([, side, x, y, heading], i) => {
-      const c = Math.cos(heading), s = Math.sin(heading);
-      const pose = new THREE.Matrix4();
-      pose.set(c, -s * side, 0, x, s, c * side, 0, y, 0, 0, 1, 0.003, 0, 0, 0, 1);
-      prints.setMatrixAt(i, pose);
-    });
+    player.landings.forEach((landing, i) => prints.setMatrixAt(i, printPose(landing)));
     prints.count = 0;
     prints.frustumCulled = false;
     world.add(prints);
@@ -205,6 +207,19 @@ function makeScene(run, canvas, context) {
       player.prints.count = count;
       for (const push of player.pushes) push.arrow.visible = now >= push.time && now < push.time + 1;
     }
+    return attach();
+  }
+  /* Show bodies where a game has them: arrays by the number of the body. Return as show does. */
+  function place(xpos, xquat) {
+    run.bodies.forEach((number, i) => {
+      bodies[i].position.fromArray(xpos, 3 * number);
+      const [w, x, y, z] = xquat.subarray(4 * number, 4 * number + 4);
+      bodies[i].quaternion.set(x, y, z, w);
+    });
+    return attach();
+  }
+  /* Lines that move with the players; return the torsos' positions. */
+  function attach() {
     const torsos = players.map((player) => bodies[player.body].position);
     if (safety) safety.position.copy(bodies[guarded.body].position).setZ(0);
     if (sight) {
@@ -214,6 +229,39 @@ function makeScene(run, canvas, context) {
       sight.lookAt(second);
     }
     return torsos;
+  }
+  /* Path and footprints of a player that grow while a game is played; both forget their oldest part. */
+  function growing(number) {
+    const { trace, prints } = players[number], most = 6000, width = 0.014;
+    const strip = new THREE.BufferGeometry();
+    const corners = new THREE.BufferAttribute(new Float32Array(18 * most), 3);
+    strip.setAttribute("position", corners);
+    trace.geometry = strip;
+    let last = null, parts = 0, steps = 0;
+    const clear = () => { last = null; parts = steps = prints.count = 0; strip.setDrawRange(0, 0); };
+    clear();
+    return { clear,
+      move(point) {
+        if (last && Math.hypot(point[0] - last[0], point[1] - last[1]) < 0.004) return;
+        if (last) {
+          corners.array.set(stripe(last, point, width, 0.006), 18 * (parts++ % most));
+          corners.needsUpdate = true;
+          strip.setDrawRange(0, 6 * Math.min(parts, most));
+        }
+        last = point;
+      },
+      land(landing) {
+        prints.setMatrixAt(steps++ % run.footprints, printPose(landing));
+        prints.instanceMatrix.needsUpdate = true;
+        prints.count = Math.min(steps, run.footprints);
+      } };
+  }
+
+  /* Draw without shadows, with at most this number of points per pixel and axis. */
+  function simplify(points) {
+    renderer.shadowMap.enabled = sun.castShadow = false;
+    world.traverse(({ material }) => { if (material) material.needsUpdate = true; });
+    renderer.pixels = points;
   }
 
   function draw(target) {
@@ -225,5 +273,5 @@ function makeScene(run, canvas, context) {
     renderer.render(world, camera);
   }
 
-  return { renderer, camera, layers, applyTheme, show, draw, bodies };
+  return { renderer, camera, world, layers, applyTheme, show, place, growing, simplify, draw, bodies };
 }

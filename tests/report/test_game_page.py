@@ -1,0 +1,232 @@
+"""The page that plays, against the duels of Python."""
+
+import json
+import subprocess
+import tarfile
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from functools import partial
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
+from math import pi
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from browsing import CHROMIUM, launched, open_page
+from stepaside.core.errors import ConfigurationError
+from stepaside.core.poses import Pose
+from stepaside.games.duel import run_duel
+from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.planning import (
+    CenterState,
+    Direction,
+    Foot,
+    GaitSettings,
+    ManeuverPlanner,
+    TemplateDrive,
+)
+from stepaside.report import game_page
+from stepaside.report.game_page import engine_files, write_game_page
+from stepaside.report.game_script import schedules_of, trace_plan
+from stepaside.sim.body_settings import BODIES
+from stepaside.sim.push import Push
+from stepaside.strategies import Evasion
+
+PLANNER = ManeuverPlanner(GaitSettings())
+SECONDS = 4.0  # of each game: both robots walk, and turn
+NEAR = DuelSettings(seed=5, start=StartSettings(0.78, 0.4, -0.2))
+OTHER = replace(
+    NEAR,
+    start=StartSettings(0.7, -0.5, 0.3),
+    gait=GaitSettings(speed=0.08, stride=0.032, gain=0.3),
+    strategy=Evasion(angle=pi / 3),
+)
+CHANGES = {
+    "start": [0.7, -0.5, 0.3],
+    "speeds": [0.08, 0.08],
+    "gain": 0.3,
+    "angle": pi / 3,
+}
+
+
+class _QuietHandler(SimpleHTTPRequestHandler):
+    def log_message(self, format: str, *args: Any) -> None:  # noqa: A002
+        """Say nothing."""
+
+
+@contextmanager
+def served(folder: Path) -> Iterator[str]:
+    """Serve a folder; yield its address."""
+    handler = partial(_QuietHandler, directory=str(folder))
+    server = ThreadingHTTPServer(("127.0.0.1", 0), handler)
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    try:
+        yield f"http://127.0.0.1:{server.server_port}/"
+    finally:
+        server.shutdown()
+        server.server_close()
+
+
+def torsos(settings: DuelSettings, times: np.ndarray) -> np.ndarray:
+    """Positions of both torsos at times of a duel of Python, in [m]."""
+    run = run_duel(replace(settings, duration=float(times[-1])))
+    rows = np.searchsorted(run.times, times - 1e-6)
+    tracks = [run.tracks[name].torso[rows, :2] for name in run.players]
+    return np.hstack(tracks)
+
+
+@pytest.mark.parametrize("foot", Foot)
+@pytest.mark.parametrize("direction", Direction)
+@pytest.mark.parametrize("kind", ["start", "step", "halt"])
+def test_the_traced_planner_plans_as_the_planner(
+    kind: str, direction: Direction, foot: Foot
+) -> None:
+    bearing, share, state = 0.7, 0.8, CenterState((0.03, 0.02), (0.1, -0.05))
+    swing = Pose(-0.04, 0.1 * foot.value, -0.05)
+    if kind == "halt":
+        plan = PLANNER.plan_halt(
+            first_foot=foot, state=state, swing_start=swing
+        )
+    else:
+        plan = PLANNER.plan(
+            bearing,
+            direction,
+            first_foot=foot,
+            state=state,
+            swing_start=swing,
+            standing=kind == "start",
+            drive=TemplateDrive(speed_factor=share),
+        )
+    traced = trace_plan("plan", schedules_of(PLANNER)[kind]).function()
+    velocity = direction.value * share * PLANNER.settings.speed
+    numbers = traced(
+        *(bearing, velocity, PLANNER.settings.gain, foot.value),
+        *(*swing, 0.0, 0.0, 0.0),
+        *(*state.position, *state.velocity),
+    )
+    expected = [*plan.placements.ravel(), *plan.inputs.ravel()]
+    np.testing.assert_allclose(numbers, expected, rtol=0, atol=1e-14)
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [
+        DuelSettings(evader_strategy="look-ahead"),
+        DuelSettings(body=BODIES["hardware"]),
+        DuelSettings(strategy=Evasion(saturated=True)),
+        DuelSettings(sensing="cameras"),
+        DuelSettings(pursuer="person"),
+    ],
+)
+def test_other_duels_are_refused(
+    settings: DuelSettings, tmp_path: Path
+) -> None:
+    with pytest.raises(ConfigurationError, match="a page plays"):
+        write_game_page(settings, tmp_path / "page")
+    assert not (tmp_path / "page").exists()
+
+
+def test_a_missing_npm_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(game_page, "which", lambda name: None)
+    with pytest.raises(ConfigurationError, match="needs npm.*Node.js"):
+        game_page.fetch_engine(Path())
+
+
+def test_an_unreachable_registry_is_named(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    failed = subprocess.CompletedProcess([], 1, "", "ENOTFOUND")
+    monkeypatch.setattr(game_page, "which", lambda name: "npm")
+    monkeypatch.setattr(subprocess, "run", lambda *a, **k: failed)
+    with pytest.raises(ConfigurationError, match="registry must be reach"):
+        game_page.fetch_engine(tmp_path)
+
+
+def test_a_package_of_something_else_is_refused(tmp_path: Path) -> None:
+    package = tmp_path / "other.tgz"
+    with tarfile.open(package, "w:gz"):
+        pass
+    with pytest.raises(ConfigurationError, match=r"other\.tgz is no package"):
+        engine_files(package)
+
+
+@pytest.fixture(scope="module")
+def opened(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Any]:
+    """The page in a browser, loaded, and what went wrong on it."""
+    if CHROMIUM is None:
+        pytest.skip("there is no Chromium here")
+    folder = tmp_path_factory.mktemp("page")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(game_page, "RECORDED", 1.0)
+        try:
+            write_game_page(NEAR, folder)
+        except ConfigurationError as error:
+            if "npm" not in str(error):
+                raise
+            pytest.skip(str(error))
+    with served(folder) as address, launched() as browser:
+        page, wrong = open_page(browser, width=390, height=844), []
+        page.on("pageerror", lambda error: wrong.append(str(error)))
+        page.goto(address)
+        page.evaluate("stepaside.loaded")
+        yield page, wrong
+
+
+@pytest.mark.xdist_group("browser")
+@pytest.mark.timeout(900)
+@pytest.mark.parametrize(
+    ("settings", "changes"), [(NEAR, {}), (OTHER, CHANGES)]
+)
+def test_the_browser_plays_the_duel_of_python(
+    opened: Any, settings: DuelSettings, changes: dict[str, Any]
+) -> None:
+    page, wrong = opened
+    call = f"stepaside.simulate({SECONDS}, {json.dumps(changes)})"
+    rows = np.array(page.evaluate(call))
+    assert rows[-1, 0] == pytest.approx(SECONDS)
+    expected = torsos(settings, rows[:, 0])
+    assert np.ptp(expected, axis=0).max() > 0.1  # the robots have walked
+    np.testing.assert_allclose(rows[:, 1:], expected, rtol=0, atol=1e-3)
+    assert wrong == []
+
+
+@pytest.mark.xdist_group("browser")
+@pytest.mark.timeout(900)
+def test_a_push_acts_as_in_python(opened: Any) -> None:
+    page, _ = opened
+    push = Push(0.6, time=1.0, direction=pi / 2, player="evader")
+    rows = page.evaluate(
+        """() => {
+          stepaside.simulate(1);
+          const { game } = stepaside, { heading } = game.players[1].truth();
+          game.push(1, -0.6 * Math.sin(heading), 0.6 * Math.cos(heading));
+          return game.simulate(1);
+        }"""
+    )
+    rows = np.array(rows)
+    expected = torsos(replace(NEAR, pushes=(push,)), rows[:, 0])
+    unpushed = torsos(NEAR, rows[:, 0])
+    assert np.abs(expected - unpushed).max() > 3e-3
+    np.testing.assert_allclose(rows[:, 1:], expected, rtol=0, atol=1e-3)
+
+
+@pytest.mark.xdist_group("browser")
+@pytest.mark.timeout(900)
+def test_settings_act_on_the_game(opened: Any) -> None:
+    page, wrong = opened
+    slider = page.get_by_label("angle of evasion")
+    slider.fill("30")
+    assert page.evaluate("stepaside.game.settings.angle") == pytest.approx(
+        pi / 6
+    )
+    page.get_by_label("start: distance").fill("1.5")
+    assert page.evaluate("stepaside.game.time") < 1.0
+    assert page.evaluate("stepaside.game.distance") == pytest.approx(
+        1.5, abs=0.02
+    )
+    assert page.evaluate("document.body.scrollWidth") <= 390
+    assert wrong == []
