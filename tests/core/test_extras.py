@@ -39,6 +39,7 @@ NEEDS = {
     "view --no-open --serve-for 0.1": "viewer",
     "replay run --no-open --serve-for 0.1": "viewer",
     "replay run --html page.html": "viewer",
+    "page folder": "viewer",
     "export run --to mcap": "export",
     "export run --to rerun": "rerun",
     "export run --to parquet": "tables",

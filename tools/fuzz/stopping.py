@@ -54,6 +54,7 @@ SHORT = {
     "merge",
     "legs convert",
     "legs inspect",
+    "page",
     "plan",
     "unicycles",
     "room",

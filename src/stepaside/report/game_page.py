@@ -47,15 +47,14 @@ def write_game_page(
     """
     check_playable(settings)
     check_folder(folder, new=False)
+    page = template("play.html", (*SHARED, "game.js", "play.js"))
+    with TemporaryDirectory() as temporary:
+        engine = engine_files(package or fetch_engine(Path(temporary)))
     duel = Duel(settings)
     script, data = game_script(duel), game_data(duel)
-    with TemporaryDirectory() as temporary:
-        archive = package or fetch_engine(Path(temporary))
-        engine = engine_files(archive)
+    page = page.replace('"use strict";\n', f'"use strict";\n{script}\n', 1)
     run = run_duel(replace(settings, duration=RECORDED))
     recorded = page_data(run) | {"footprints": FOOTPRINTS}
-    page = template("play.html", (*SHARED, "game.js", "play.js"))
-    page = page.replace('"use strict";\n', f'"use strict";\n{script}\n', 1)
     contents = {
         "index.html": fill_page(page, {"NAME": "play"}, recorded).encode(),
         "game.json": json.dumps(data, allow_nan=False).encode(),

@@ -257,11 +257,15 @@ function makeScene(run, canvas, context) {
       } };
   }
 
-  /* Draw without shadows, with at most this number of points per pixel and axis. */
+  /* Draw without shadows and highlights, with at most this number of points per pixel and axis. */
   function simplify(points) {
     renderer.shadowMap.enabled = sun.castShadow = false;
-    world.traverse(({ material }) => { if (material) material.needsUpdate = true; });
     renderer.pixels = points;
+    world.traverse((mesh) => {
+      if (!mesh.material || !mesh.material.isMeshStandardMaterial) return;
+      const { color, map, transparent, opacity, depthWrite } = mesh.material;
+      mesh.material = new THREE.MeshLambertMaterial({ color, map, transparent, opacity, depthWrite });
+    });
   }
 
   function draw(target) {
