@@ -9,7 +9,7 @@ half of that; it pays off within a few seconds of walking.
 import ctypes
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
-from functools import cache, partial
+from functools import cache, lru_cache, partial
 from math import atan2, cos, sin, sqrt
 from struct import pack, unpack
 from threading import Lock
@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from .llvm_assembly import translate
 
 Argument = NDArray[Any] | float
+KEPT = 64  # kernels; those of a robot are about ten
 OPTIMISATION = 0  # of LLVM; formulas have no common subexpressions left
 CALLBACK = """\
 define void @kernel(ptr %first, ptr %second) {{
@@ -152,7 +153,13 @@ def kernel_of(name: str, source: str, arguments: str) -> Kernel | None:
     Returns:
         The loop; None without machine code.
     """
-    return Kernel(name, source, arguments) if is_enabled() else None
+    return _kernel(name, source, arguments) if is_enabled() else None
+
+
+@lru_cache(maxsize=KEPT)
+def _kernel(name: str, source: str, arguments: str) -> Kernel:
+    """Return a loop, which is compiled once for all its arrays."""
+    return Kernel(name, source, arguments)
 
 
 def bound_loop(
@@ -176,12 +183,6 @@ def bound_loop(
     }
     exec(compile(source, f"<{name}>", "exec"), known)
     return partial(known[name], *arrays)
-
-
-@cache
-def _kernel(name: str, source: str, arguments: str) -> Kernel:
-    """Return a loop, which is compiled once in a process."""
-    return Kernel(name, source, arguments)
 
 
 def callback_of(kernels: Sequence[BoundKernel], owner: int) -> Any:

@@ -4,11 +4,19 @@ from collections import deque
 
 import numpy as np
 
+from ...core.machine_code import BoundKernel, kernel_of
 from ...core.poses import Array
 from .control_settings import StabiliserSettings
 from .state_estimator import BodyState
 
 Tilt = tuple[float, float]
+LOOP = """\
+def correct(measured, past, correction, gain, keep, bound):
+    for i in range(measured.shape[0]):
+        error = (past[i] - measured[i]) * gain
+        error += keep * correction[i]
+        correction[i] = max(min(error, bound), -bound)
+"""
 
 
 class Ankles:
@@ -84,7 +92,8 @@ class JointCorrection:
         self._keep = 1.0 - leak * tick
         # The servo ramps to a target over one more tick.
         self._targets: deque[Array] = deque(maxlen=round(delay / tick) + 2)
-        self._correction: Array | float = 0.0
+        self._correction: Array | None = None
+        self._correct: BoundKernel | None = None
 
     def update(self, measured: Array, targets: Array) -> Array:
         """Return the corrected targets of one tick.
@@ -93,12 +102,30 @@ class JointCorrection:
             measured: Measured joint positions, in [rad]. Shape (joints,).
             targets: Joint targets, in [rad]. Shape (joints,).
         """
+        if self._correction is None:
+            self._correction = np.zeros(len(targets))
+            self._bind(self._correction)
         if len(self._targets) == self._targets.maxlen:
-            error = self._targets[0] - measured
-            error *= self._gain
-            error += self._keep * self._correction
-            np.minimum(error, self._bound, out=error)
-            self._correction = np.maximum(error, -self._bound, out=error)
+            if self._correct is not None:
+                self._measured[:], self._past[:] = measured, self._targets[0]
+                self._correct()
+            else:
+                error = self._targets[0] - measured
+                error *= self._gain
+                error += self._keep * self._correction
+                np.minimum(error, self._bound, out=error)
+                np.maximum(error, -self._bound, out=self._correction)
         self._targets.append(targets)
         corrected: Array = targets + self._correction
         return corrected
+
+    def _bind(self, correction: Array) -> None:
+        """Prepare the integral as machine code, if it is used."""
+        loop = kernel_of("correct", LOOP, "111000")
+        if loop is not None:
+            self._measured = np.zeros_like(correction)
+            self._past = np.zeros_like(correction)
+            self._correct = loop.bind(
+                *(self._measured, self._past, correction),
+                *(self._gain, self._keep, self._bound),
+            )
