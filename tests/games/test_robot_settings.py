@@ -20,6 +20,7 @@ from stepaside.games.duel_circle import circle_of_theory, time_scale
 from stepaside.games.duel_settings import DuelSettings, RobotSettings
 from stepaside.games.initial_poses import draw_start
 from stepaside.games.robot_settings import (
+    body_of_robot,
     settings_of_robot,
     with_players,
     with_robot,
@@ -27,6 +28,7 @@ from stepaside.games.robot_settings import (
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.planning import GaitSettings
 from stepaside.robots.description import load_robot
+from stepaside.sim.body_settings import BODIES
 from stepaside.theory.unicycle.circle_equations import find_circle
 
 NAO = load_robot("nao")
@@ -188,3 +190,27 @@ def test_equal_gaits_reach_the_circle_of_the_paper_at_any_time_scale() -> None:
     assert settings.cycle == pytest.approx(2.0 * slow.step_duration)
     nearer = replace(DuelSettings(), pursuer_robot=both)
     assert nearer.cycle == settings.cycle
+
+
+def test_a_body_has_the_errors_of_its_robot(tmp_path: Path) -> None:
+    """Those that its description gives; options come first."""
+    robot = changed_nao(
+        tmp_path, **{'name = "NAO"': 'name = "NAO"\nbody.delay_cycles = 1'}
+    )
+    assert body_of_robot(robot, "ideal") == BODIES["ideal"]
+    for name in ("delayed", "hardware"):
+        assert body_of_robot("nao", name) == BODIES[name]
+        expected = replace(BODIES[name], delay_cycles=1)
+        assert body_of_robot(robot, name) == expected
+    for options, cycles in (([], 1), (["--delay-cycles", "2"], 2)):
+        shown = CliRunner().invoke(
+            main,
+            ["walk", "--robot", robot, "--body", "hardware", *options]
+            + ["--print-config"],
+        )
+        assert tomllib.loads(shown.output)["body"]["delay_cycles"] == cycles
+    wrong = changed_nao(
+        tmp_path, **{'name = "NAO"': 'name = "NAO"\nbody.delay = 1'}
+    )
+    with pytest.raises(ConfigurationError, match="body: unknown entry delay"):
+        body_of_robot(wrong, "hardware")

@@ -80,14 +80,16 @@ def measure(
     """
     import tomli_w
 
-    from ..games.robot_settings import settings_from_description
+    from ..games.robot_settings import (
+        body_of_robot,
+        settings_from_description,
+    )
     from ..locomotion.policy.legs_settings import LegsSettings
     from ..locomotion.policy.response_file import (
         response_entries,
         response_path,
     )
     from ..robots.description import load_robot
-    from ..sim.body_settings import BODIES as PRESETS
 
     description = load_robot(robot)
     network = legs or settings_from_description(description).legs.network
@@ -97,7 +99,7 @@ def measure(
         )
     settings = LegsSettings(network, legs_contract)
     file = response_path(description.folder, Path(network))
-    walked = PRESETS[body]
+    walked = body_of_robot(description.folder, body)
     if delay_cycles is not None:
         walked = replace(walked, delay_cycles=delay_cycles)
     result = _measure(

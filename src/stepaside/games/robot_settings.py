@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
+from pathlib import Path
 from typing import Any, TypeVar
 
 from ..core.errors import ConfigurationError, check_positive
@@ -9,6 +10,7 @@ from ..locomotion.policy.legs_settings import LegsSettings
 from ..locomotion.zmp.control_settings import ControlSettings
 from ..planning import GaitSettings
 from ..robots.description import FILE, RobotDescription, load_robot
+from ..sim.body_settings import BODIES, BodySettings
 from .configuration_file import parse_settings
 from .duel_settings import DuelSettings, RobotSettings, StartSettings
 
@@ -91,6 +93,27 @@ def settings_from_description(description: RobotDescription) -> RobotSettings:
             ControlSettings, dict(description.control), f"{source}, control"
         ),
         LegsSettings(network),
+    )
+
+
+def body_of_robot(robot: str | Path, name: str) -> BodySettings:
+    """Return the body of a preset, with the errors of a robot.
+
+    Args:
+        robot: Name of the robot, or folder of its description, whose
+            ``[body]`` replaces values of NAO.
+        name: Name of the preset; the ideal body is that of all robots.
+
+    Raises:
+        StepAsideError: If the description is invalid.
+    """
+    preset = BODIES[name]
+    description = load_robot(robot)
+    if name == "ideal" or not description.body:
+        return preset
+    source = f"{description.folder / FILE}, body"
+    return parse_settings(
+        BodySettings, dict(description.body), source, base=preset
     )
 
 

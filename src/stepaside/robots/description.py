@@ -51,6 +51,8 @@ class RobotDescription:
         overlay: Elements that are added to the model when it is read.
         locomotion: Walking policy of the robot and its contract; see
             :mod:`stepaside.locomotion.policy.contract_reader`. Optional.
+        body: Errors of its body that differ from NAO's, in the bodies other
+            than the ideal one; see :class:`.BodySettings`. Optional.
         lean: Roll of the torso with the CoM over one foot, in [rad], which
             relieves the roll joint of that hip; 0 to 0.3.
     """
@@ -78,6 +80,7 @@ class RobotDescription:
     place: ReferencePoint = ReferencePoint()
     overlay: Overlay = NO_OVERLAY
     locomotion: dict[str, Any] = field(default_factory=dict)
+    body: dict[str, Any] = field(default_factory=dict)
     lean: float = 0.0
 
     @property

@@ -181,6 +181,7 @@ OPTIONAL: dict[str, Callable[[str, object], Any]] = {
     "sole": _by_name(_number),
     "control": _table,
     "locomotion": _table,
+    "body": _table,
     "game": _by_name(_number),
     "sensors": _fields(
         SensorNames,

@@ -210,7 +210,7 @@ def test_a_malformed_deployment_file_is_named(tmp_path: Path) -> None:
     ("changes", "words"),
     [
         ({"kp": [1.0, 1.0, 1.0], "kd": [-0.0] * 3}, ("stiffness", "-0")),
-        ({"kp": [40.0, 0.0, 20.0]}, ("stiffness must be > 0",)),
+        ({"kp": [40.0, 0.0, 20.0]}, ("stiffness is 0",)),
         ({"action_scale": [0.0, 1.0, 1.0]}, ("action_scale is 0",)),
     ],
 )
@@ -247,6 +247,18 @@ def test_a_joint_that_the_robot_lacks_is_named(tmp_path: Path) -> None:
         ({"clock": {"speed": 1.0}}, "locomotion.clock is malformed"),
         ({"period": "soon"}, "locomotion.period is malformed"),
         ({"terms": [{"name": "command", "scale": [1.0, 2.0]}]}, "'command'"),
+        ({"joints": ["hip", "hip", "knee"]}, "joints must be named once"),
+        ({"history": 0}, "history must be >= 1, got 0"),
+        ({"history_order": "row"}, "history_order must be one of term, frame"),
+        ({"period": -0.02}, "period must be > 0"),
+        ({"action_filter": 1.0}, "action_filter must lie in"),
+        ({"command_rate": 0.0}, "command_rate must be > 0"),
+        ({"clock": {"period": 0.0}}, "clock.period must be > 0"),
+        ({"clock": {"period": 1.0, "standing": "sits"}}, "be one of runs,"),
+        ({"stiffness": -5.0}, "stiffness must be >= 0, got -5"),
+        ({"command_ranges": {"turn": [1, -1]}}, "turn must ascend"),
+        ({"command_ranges": {"forward": [0.5, 1]}}, "forward must .* 0"),
+        ({"command_ranges": {"ahead": [-1, 1]}}, "command_ranges.ahead"),
     ],
 )
 def test_a_bad_entry_is_named(

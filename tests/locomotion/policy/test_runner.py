@@ -195,9 +195,12 @@ def test_a_recurrent_state_is_fed_back(tmp_path: Path) -> None:
         )
 
 
-def test_an_output_that_is_not_finite_is_named(tmp_path: Path) -> None:
+@pytest.mark.parametrize("value", [np.nan, -np.inf, 1e30])
+def test_an_output_that_is_not_finite_is_named(
+    value: float, tmp_path: Path
+) -> None:
     file = write_policy(
-        tmp_path / "a.onnx", np.zeros((3, 3)), np.array([0.0, np.nan, 0.0])
+        tmp_path / "a.onnx", np.zeros((3, 3)), np.array([0.0, value, 0.0])
     )
     runner = Walker(CONTRACT, PolicyNetwork(file))
     with pytest.raises(PolicyError, match="output 1 .* must be finite"):

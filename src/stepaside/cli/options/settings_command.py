@@ -15,7 +15,12 @@ import click
 from ...arena import RoomRecipe
 from ...core.setting import Setting
 from ...games.configuration_file import load_entries, parse_settings
-from ...games.robot_settings import with_legs, with_players, with_robot
+from ...games.robot_settings import (
+    body_of_robot,
+    with_legs,
+    with_players,
+    with_robot,
+)
 from ...strategies.registry import OF_EVASION
 from ..terminal import write_result
 from .implied_settings import (
@@ -159,7 +164,8 @@ def _settings(
     ignored: Collection[str],
 ) -> Any:
     """Return the settings of a command from options and file."""
-    given = {entry.path: value for entry, value in options}
+    named = {entry.path: value for entry, value in options}
+    given = dict(named)
     file = {} if config is None else load_entries(config)
     settings, needs_feedback = _base_settings(
         kind, given, dict(file), str(config), ignored
@@ -182,6 +188,8 @@ def _settings(
     for entry, _ in options:
         if entry.path in given:
             given[entry.path] = entry.value_of(given[entry.path])
+    if "body" in named and hasattr(settings, "robot"):
+        given["body"] = body_of_robot(settings.robot, named["body"])
     return changed(settings, with_room(given))
 
 

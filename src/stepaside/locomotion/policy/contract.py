@@ -7,7 +7,7 @@ states them for one network, so that one runtime serves all.
 
 from dataclasses import dataclass
 from math import inf, pi
-from typing import Literal, NamedTuple
+from typing import Literal, NamedTuple, get_args
 
 from ...core.errors import PolicyError
 
@@ -131,12 +131,13 @@ class PolicyContract:
     command_rate: float = inf
 
     def __post_init__(self) -> None:
-        """Check names and numbers of entries.
+        """Check names, numbers and ranges of entries.
 
         Raises:
-            PolicyError: If a term is unknown, or an entry does not fit the
-                number of joints.
+            PolicyError: If a term is unknown, an entry does not fit the
+                number of joints, or a value is out of its range.
         """
+        self._check_ranges()
         for name in PER_JOINT:
             given = len(getattr(self, name))
             if given != len(self.joints):
@@ -159,6 +160,38 @@ class PolicyContract:
                     f"the scale of {term.name!r} must have 1 or "
                     f"{self.width_of(term)} values, got {len(term.scale)}"
                 )
+
+    def _check_ranges(self) -> None:
+        """Check values by themselves."""
+        orders, standings = get_args(HistoryOrder), get_args(Standing)
+        clock = self.clock or PhaseClock(1.0)
+        share, rate = self.action_filter, self.command_rate
+        twice = [x for x in self.joints if self.joints.count(x) > 1]
+        rules = [
+            ("joints", twice, not twice, "be named once each"),
+            ("history", self.history, self.history >= 1, "be >= 1"),
+            ("period", self.period, self.period > 0.0, "be > 0 [s]"),
+            ("action_filter", share, 0.0 <= share < 1.0, "lie in [0, 1)"),
+            ("command_rate", rate, rate > 0.0, "be > 0 [1/s]"),
+            ("clock.period", clock.period, clock.period > 0.0, "be > 0 [s]"),
+        ]
+        for name, word, words in (
+            ("history_order", self.history_order, orders),
+            ("clock.standing", clock.standing, standings),
+        ):
+            rule = f"be one of {', '.join(words)}"
+            rules.append((name, word, word in words, rule))
+        for axis, limits in self.command_ranges._asdict().items():
+            low, high = limits
+            holds = low <= 0.0 <= high and low < high
+            name = f"command_ranges.{axis}"
+            rules.append((name, limits, holds, "ascend and contain 0"))
+        for name in ("stiffness", "damping"):
+            least = min(getattr(self, name), default=0.0)
+            rules.append((name, least, least >= 0.0, "be >= 0"))
+        for name, value, holds, rule in rules:
+            if not holds:
+                raise PolicyError(f"{name} must {rule}, got {value}")
 
     def width_of(self, term: ObservationTerm) -> int:
         """Return the number of values of a term."""

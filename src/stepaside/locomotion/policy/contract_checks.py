@@ -104,17 +104,15 @@ def _implausible(reading: ContractReading) -> list[Finding]:
     }
     stiffness, damping = arrays.get("stiffness"), arrays.get("damping")
     if stiffness is not None:
-        if (stiffness <= 0.0).any():
-            texts.append("stiffness must be > 0 [N m/rad] at every joint")
+        if (stiffness == 0.0).any():
+            texts.append("stiffness is 0 N m/rad: those joints are limp")
         elif stiffness.size > 1 and (stiffness == 1.0).all():
             texts.append(
                 "stiffness is 1 N m/rad at every joint: the exporter did not "
                 "write the gains"
             )
     if damping is not None:
-        if (damping < 0.0).any():
-            texts.append("damping must be >= 0 [N m s/rad] at every joint")
-        elif damping.size and (damping == 0.0).all():
+        if damping.size and (damping == 0.0).all():
             sign = "-0" if np.signbit(damping).any() else "0"
             texts.append(
                 f"damping is {sign} at every joint: the exporter did not "

@@ -241,6 +241,13 @@ def _from_metadata(key: str, target: str, text: str) -> Any:
 
 def _from_entry(key: str, value: Any) -> Any:
     """Convert an entry of a robot description."""
+    if key == "command_ranges" and isinstance(value, Mapping):
+        for axis in value:
+            if axis not in CommandRanges._fields:
+                raise PolicyError(
+                    f"unknown entry locomotion.command_ranges.{axis}; there "
+                    f"are {', '.join(CommandRanges._fields)}"
+                )
     try:
         return _value_of(key, value)
     except PolicyError:

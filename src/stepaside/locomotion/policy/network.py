@@ -13,6 +13,7 @@ from ...core.errors import PolicyError
 from ...core.poses import Array
 
 Memory = tuple[NDArray[np.float32], ...]  # recurrent states of one walker
+LARGEST_ACTION = 1e4  # beyond, a simulation becomes unstable
 BATCHES = 2, 5, 16, 33  # numbers of rows in which bits are compared
 
 
@@ -106,7 +107,7 @@ class PolicyNetwork:
             memories: Recurrent states of each.
 
         Raises:
-            PolicyError: If an output is NaN or infinite.
+            PolicyError: If an output is NaN, infinite or huge.
         """
         if len(observations) == 1:
             return self._run(self._session, observations, memories)
@@ -145,11 +146,12 @@ class PolicyNetwork:
             feed[given.name] = np.concatenate(parts, axis=_batch_axis(given))
         found = session.run(self._outputs, feed)
         actions: Array = found[0].astype(np.float64)
-        if not np.isfinite(actions).all():
-            row, at = np.argwhere(~np.isfinite(actions))[0].tolist()
+        usable = np.abs(actions) <= LARGEST_ACTION  # NaN is not
+        if not usable.all():
+            row, at = np.argwhere(~usable)[0].tolist()
             raise PolicyError(
-                f"legs: output {at} of {self.path} must be finite, "
-                f"got {actions[row, at]}"
+                f"legs: output {at} of {self.path} must be finite and at most "
+                f"{LARGEST_ACTION:g}, got {actions[row, at]:g}"
             )
         if not self.states:
             return [(action, ()) for action in actions]
