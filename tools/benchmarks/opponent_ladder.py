@@ -83,6 +83,7 @@ def main() -> None:
     asked.add_argument("--seeds", type=seeds_of, default=range(1000, 1200))
     asked.add_argument("--in-room", default=",".join(IN_ROOM))
     asked.add_argument("--in-open", default=",".join(IN_OPEN))
+    asked.add_argument("--offline", type=int, default=20)
     asked.add_argument("--workers", type=int)
     asked.add_argument("--records", type=Path)
     arguments = asked.parse_args()
@@ -102,7 +103,9 @@ def main() -> None:
                 raise run.failure or KeyboardInterrupt
             rows = tournament_rows(list(run.records()), settings.game)
             offline = {
-                pursuer: offline_times(settings, pursuer, seeds)
+                pursuer: offline_times(
+                    settings, pursuer, seeds[: arguments.offline]
+                )
                 for pursuer in pursuers
                 if world != "open floor"
             }

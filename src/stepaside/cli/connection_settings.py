@@ -11,7 +11,12 @@ from click.core import ParameterSource
 from ..core.ranges import Range
 from ..core.setting import REQUIRED, check_settings, setting
 from ..core.user_file import FILE_AND_NAME
-from ..games.duel_settings import EVADER, PLAYERS, DuelSettings
+from ..games.duel_settings import (
+    EVADER,
+    PLAYERS,
+    DuelSettings,
+    load_evader,
+)
 from ..games.play_settings import PYTHON
 from ..locomotion.zmp.control_settings import OPEN_LOOP, STABILISED
 from ..strategies import Strategy, load_strategy
@@ -178,12 +183,9 @@ class ConnectionSettings:
 
     def strategy(self, settings: DuelSettings) -> Strategy:
         """Load the strategy of the role."""
-        chosen = (
-            settings.evader_strategy
-            if self.role == EVADER
-            else settings.pursuer_strategy
-        )
-        return load_strategy(chosen, settings.strategy)
+        if self.role == EVADER:
+            return load_evader(settings)
+        return load_strategy(settings.pursuer_strategy, settings.strategy)
 
     def mover_factory(
         self, settings: DuelSettings

@@ -13,7 +13,7 @@ from ..games.duel_settings import EVADER, PURSUER, DuelSettings
 from ..strategies.registry import OF_EVASION
 from .connection_settings import ROS2, ConnectionSettings, with_feedback
 from .options.common_options import json_option
-from .options.duel_options import CONTROL, GAIT, STRATEGY
+from .options.duel_options import CONTROL, GAIT, SHIELD, STRATEGY
 from .options.setting_options import entries_at, refuse_options, takes
 from .options.settings_command import (
     OptionGroup,
@@ -39,6 +39,7 @@ INTERRUPTED = "interrupted"
 @takes_settings(
     DuelSettings,
     STRATEGY,
+    SHIELD,
     GAIT,
     CONTROL,
     OptionGroup(

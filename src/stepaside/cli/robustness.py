@@ -1,6 +1,7 @@
 """``stepaside robustness``: survival of a walk under disturbances."""
 
 from collections.abc import Collection
+from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -8,6 +9,7 @@ import click
 
 from ..games.duel_settings import SENSING
 from ..games.walk_settings import WalkSettings
+from ..strategies.shield_settings import ShieldSettings
 from .campaign_options import CampaignOptions, campaign_options
 from .options.common_options import (
     figure_option,
@@ -16,7 +18,7 @@ from .options.common_options import (
 )
 from .options.duel_options import WALK
 from .options.parameter_types import NameType
-from .options.setting_options import refuse_options
+from .options.setting_options import refuse_options, takes
 from .options.settings_command import SettingsCommand, takes_settings
 from .output_files import attempt, writes_files
 from .plan import ENTRIES_OF_GAMES
@@ -193,6 +195,7 @@ def _methods() -> Collection[str]:
 @figure_width
 @json_option
 @writes_files
+@takes(ShieldSettings, "shield")
 @takes_settings(
     WalkSettings,
     *WALK,
@@ -214,6 +217,7 @@ def robustness(
     strategy: str,
     reactions: tuple[str, ...],
     people: int,
+    shield: ShieldSettings,
     campaign: CampaignOptions,
     figure: str | None,
     as_json: bool,
@@ -268,6 +272,7 @@ def robustness(
             strategy,
             _unique(reactions),
             people,
+            shield,
         )
         asked = {
             "kind": PERSON,
@@ -277,6 +282,7 @@ def robustness(
             "seed": settings.seed,
             **({"legs": Path(policy.network).name} if policy.walks else {}),
             **({"strategy": strategy} if strategy else {}),
+            **({"shield": asdict(shield)} if shield.enabled else {}),
             **({"reactions": met.reactions} if reactions else {}),
             **({"people": people} if people else {}),
             **({"changes": changes} if changes else {}),

@@ -4,6 +4,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..strategies.shield_settings import ShieldSettings
 from .campaign_options import CampaignOptions
 from .campaign_reports import run_campaign
 from .terminal import echo
@@ -26,6 +27,7 @@ class PeopleRequest:
         reactions: What people do near the robot; empty for everything.
         number: Number of people drawn at random instead of a grid; 0 for the
             grid.
+        shield: Shield of the robot.
     """
 
     sensings: tuple[str, ...]
@@ -34,6 +36,7 @@ class PeopleRequest:
     strategy: str = ""
     reactions: tuple[str, ...] = ()
     number: int = 0
+    shield: ShieldSettings = ShieldSettings()
 
 
 def meet_people(
@@ -65,7 +68,9 @@ def meet_people(
         encounters,
     )
 
-    base = base_settings(settings, request.legs, request.strategy)
+    base = base_settings(
+        settings, request.legs, request.strategy, request.shield
+    )
     if request.number:
         base = replace(base, seed=settings.seed)
         (sensing,) = request.sensings
@@ -83,6 +88,7 @@ def meet_people(
         seeds=request.seeds,
         legs=request.legs,
         strategy=request.strategy,
+        shield=request.shield,
         reactions=request.reactions or LADDER,
     )
     run = run_campaign(people_study(list(grid)), campaign, "games")

@@ -8,7 +8,6 @@ import numpy as np
 from ..core.poses import Array, Pose
 from ..robots.description import load_robot
 from ..sim.person_motion import PersonMotion, template_approach
-from ..strategies import load_strategy
 from ..theory.unicycle.circle_equations import Circle
 from ..theory.unicycle.circle_fit import fit_circle
 from ..theory.unicycle.unicycle_game import Unicycle
@@ -20,7 +19,7 @@ from .duel_circle import (
     missing_circle_reason,
     time_scale,
 )
-from .duel_settings import EVADER, PLAYERS, DuelSettings
+from .duel_settings import EVADER, PLAYERS, DuelSettings, load_evader
 from .duel_summary import (
     DuelSummary,
     PlanTimes,
@@ -171,14 +170,14 @@ def template_closest_approach(settings: DuelSettings) -> float | None:
         )
         return play_point(
             *initial,
-            load_strategy(settings.evader_strategy, settings.strategy),
+            load_evader(settings),
             gait,
             policy.velocities,
             duration=settings.duration,
         ).closest_m
     if settings.strategy.trigger == "time":
         return play_template(
-            *initial, settings.strategy, gait, duration=settings.duration
+            *initial, load_evader(settings), gait, duration=settings.duration
         ).closest_m
     pace = time_scale(gait)
     return template_approach(

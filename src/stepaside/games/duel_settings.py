@@ -23,7 +23,7 @@ from ..sim.passerby_settings import MOST_PASSERS, Passer
 from ..sim.person_settings import PURSUERS, PersonSettings
 from ..sim.physics_settings import PhysicsSettings, SightSettings
 from ..sim.push import MOST_PUSHES, Push, check_pushes
-from ..strategies import Evasion, Strategy
+from ..strategies import Evasion, Strategy, load_strategy
 from ..strategies.registry import (
     OF_EVASION,
     STRATEGIES,
@@ -31,6 +31,8 @@ from ..strategies.registry import (
     describe_strategy,
     is_described,
 )
+from ..strategies.shield import shielded
+from ..strategies.shield_settings import ShieldSettings
 from .strategy_resolution import EVASION, resolve_strategies
 
 ERROR = ConfigurationError
@@ -154,6 +156,9 @@ class DuelSettings:
         f"Strategy of a robot pursuer: {STRATEGY_NAMES}",
         option="--pursuer-strategy",
         default_text="pursuit",
+    )
+    shield: ShieldSettings = setting(
+        ShieldSettings(), "Shield of the evader", needs=("shield.enabled", "")
     )
     gait: GaitSettings = setting(
         GaitSettings(),
@@ -370,3 +375,9 @@ class DuelSettings:
         """Whether both strategies are those of the paper, without a room."""
         played = (self.evader_strategy, self.pursuer_strategy)
         return self.room.plan is None and played == (EVASION, PURSUIT)
+
+
+def load_evader(settings: DuelSettings) -> Strategy:
+    """Load the strategy of the evader, within its shield if it has one."""
+    strategy = load_strategy(settings.evader_strategy, settings.strategy)
+    return shielded(strategy, settings.shield)

@@ -26,7 +26,13 @@ from ..sim.push import pushes_by_robot
 from ..sim.world import World
 from ..strategies import load_strategy
 from .duel_furnishing import furnishing_of, movers_in
-from .duel_settings import EVADER, PLAYERS, PURSUER, DuelSettings
+from .duel_settings import (
+    EVADER,
+    PLAYERS,
+    PURSUER,
+    DuelSettings,
+    load_evader,
+)
 from .floor_player import FloorPlayer, PathSteering
 from .player import Player
 from .served_player import ServedPlayer
@@ -101,10 +107,11 @@ class DuelWorld:
             for name in settings.robots
         }
         physics = _physics_of(settings, self._setups, self.networks)
-        named = settings.pursuer_strategy, settings.evader_strategy
         self._strategies = {
-            name: load_strategy(strategy, settings.strategy)
-            for name, strategy in zip(PLAYERS, named, strict=True)
+            name: load_evader(settings)
+            if name == EVADER
+            else load_strategy(settings.pursuer_strategy, settings.strategy)
+            for name in PLAYERS
             if name in self._setups and name not in remote
         }
         directions = {n: s.direction for n, s in self._strategies.items()}

@@ -24,6 +24,7 @@ from ..sim.physics_settings import PhysicsSettings, SightSettings
 from ..sim.push import MOST_PUSHES, Push, check_pushes
 from ..strategies import Evasion, Strategy
 from ..strategies.registry import check_strategy_name, describe_strategy
+from ..strategies.shield_settings import ShieldSettings
 from .duel_settings import BODY_HELP, RobotSettings
 from .player_names import MOST_PLAYERS, PLAYER_NAME
 
@@ -72,6 +73,9 @@ class PlayerSettings:
     )
     evasion: Evasion = setting(
         Evasion(), "Settings of the paper's evasion strategy"
+    )
+    shield: ShieldSettings = setting(
+        ShieldSettings(), "Shield of the player", needs=("shield.enabled", "")
     )
     target: str = setting(
         "",

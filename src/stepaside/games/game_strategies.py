@@ -7,6 +7,7 @@ from ..sim.crowd_motion import RADIUS
 from ..strategies import Strategy, load_strategy
 from ..strategies.goal_walk import GoalWalk
 from ..strategies.pursuit import Pursuit
+from ..strategies.shield import shielded
 from .game_settings import PlayerSettings
 
 MARGIN = 0.06  # of bodies and of their sway, in [m]
@@ -37,4 +38,4 @@ def strategy_of(player: PlayerSettings, map_in_world: Pose) -> Strategy:
             clearance=contact + COMFORT,
             pursuit=Pursuit(body_radius=player.radius + MARGIN),
         )
-    return strategy
+    return shielded(strategy, player.shield)

@@ -20,6 +20,7 @@ from ..locomotion.policy.legs_settings import LegsSettings
 from ..sim.crowd_motion import REACTIONS
 from ..sim.person_settings import PersonSettings
 from ..strategies import DashEvasion, Evasion
+from ..strategies.shield_settings import ShieldSettings
 from .records import Record
 
 SPEEDS = (0.3, 0.6, 1.0, 1.4)  # of people, in [m/s]
@@ -39,6 +40,7 @@ HALTS_AT = 1.2  # distance from the robot at which people halt, in [m]
 TURNS_AT = 1.6  # likewise at which they turn towards it
 TURNING_OFFSET = 1.2  # of the path of people before they turn, in [m]
 NO_LEGS = LegsSettings()
+NO_SHIELD = ShieldSettings()
 PASSING = 1.0  # least offset of people who only pass, in [m]
 STANDING = 1.5  # time before a person can trigger evasion, in [s]
 WALL_CLEARANCE = 4.0  # from the person to the walls with cameras, in [m]
@@ -143,7 +145,10 @@ class Encounter:
 
 
 def base_settings(
-    walk: WalkSettings, legs: LegsSettings = NO_LEGS, strategy: str = ""
+    walk: WalkSettings,
+    legs: LegsSettings = NO_LEGS,
+    strategy: str = "",
+    shield: ShieldSettings = NO_SHIELD,
 ) -> DuelSettings:
     """Return the game settings of a campaign.
 
@@ -151,6 +156,7 @@ def base_settings(
         walk: Robot, gait, physics, body and control.
         legs: Walking policy; with one the robot steps aside.
         strategy: Strategy of the robot; by default that for its legs.
+        shield: Shield of the robot.
     """
     base = DuelSettings(
         robot=walk.robot,
@@ -160,6 +166,7 @@ def base_settings(
         control=walk.control,
         pursuer="person",
         strategy=Evasion(trigger="time"),
+        shield=shield,
     )
     if legs.walks:
         base = replace(
@@ -178,6 +185,7 @@ def encounters(
     seeds: int,
     legs: LegsSettings = NO_LEGS,
     strategy: str = "",
+    shield: ShieldSettings = NO_SHIELD,
     speeds: Sequence[float] | None = None,
     bearings: Sequence[int] | None = None,
     offsets: Sequence[float] | None = None,
@@ -193,6 +201,7 @@ def encounters(
         seeds: Number of seeds for each combination.
         legs: Walking policy of the robot; none by default.
         strategy: Strategy of the robot; by default that for its legs.
+        shield: Shield of the robot.
         speeds: Speeds of people, in [m/s]; by default those for the legs.
         bearings: Initial bearings of people, in [deg]; likewise.
         offsets: Lateral offsets of straight paths, in [m]; likewise.
@@ -201,7 +210,7 @@ def encounters(
     Raises:
         ConfigurationError: If the robot cannot sense like that.
     """
-    base = base_settings(walk, legs, strategy)
+    base = base_settings(walk, legs, strategy, shield)
     speeds = speeds or (SPEEDS_ON_LEGS if legs.walks else SPEEDS)
     bearings = bearings or (BEARINGS_ON_LEGS if legs.walks else BEARINGS)
     offsets = offsets or (OFFSETS_ON_LEGS if legs.walks else OFFSETS)

@@ -12,6 +12,7 @@ START = OptionGroup(
 STRATEGY = OptionGroup(
     "Strategy", ("evader_strategy", "pursuer_strategy", "strategy")
 )
+SHIELD = OptionGroup("Shield of the evader (docs/shield.md)", ("shield",))
 GAIT = OptionGroup("Gait", ("gait",))
 BODY = OptionGroup(
     "Body (each option modifies the preset of --body)", ("body",)
@@ -27,6 +28,7 @@ DUEL = (
     START,
     OptionGroup("Room", ("room.plan", RECIPE, "map")),
     STRATEGY,
+    SHIELD,
     GAIT,
     OptionGroup("Learned legs (docs/legs.md)", ("legs",)),
     BODY,

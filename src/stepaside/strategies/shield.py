@@ -1,0 +1,269 @@
+"""Shield: a least-restrictive filter around the strategy of a robot."""
+
+from dataclasses import dataclass
+from math import atan2, cos, exp, hypot, pi, sin, tau
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..core.errors import StrategyError
+from ..core.poses import Array, Pose
+from ..planning import Direction
+from .knowledge import STAND, Intent, Knowledge
+from .shield_model import ShieldModel
+from .shield_settings import ShieldSettings
+from .strategy import Strategy
+from .velocity_set import BodyVelocity
+
+TRACE = 4.0  # windows for which positions of the opponent are kept
+LEAST_MOTION = 0.02  # in a window that shows a heading, in [m]
+HEADINGS = 12  # of an opponent whose heading is not known
+KEEPING = 0.005  # value of the last choice before others, in [m]
+
+
+class HeldMotion(NamedTuple):
+    """Motion that replaces decisions of the strategy for a while.
+
+    Attributes:
+        number: Its number in the choices of the model.
+        heading: Heading in the map at which it began, in [rad].
+        until: Time until which it is held, in [s].
+    """
+
+    number: int
+    heading: float
+    until: float
+
+
+class ShieldMemory(NamedTuple):
+    """Memory of a shield.
+
+    Attributes:
+        inner: Memory of the strategy.
+        trace: Time [s] and position [m] of the opponent, the oldest first.
+        held: Motion that replaces decisions; None for none.
+        time: Time of the last decision, in [s].
+        drift: Own velocity over the floor then, by the lag of the legs, in
+            [m/s].
+        command: Velocity over the floor that was commanded, in [m/s].
+        replaced: Number of decisions that were replaced.
+        guarded: Whether contact was excluded at the last decision.
+    """
+
+    inner: Any
+    trace: tuple[tuple[float, float, float], ...] = ()
+    held: HeldMotion | None = None
+    time: float = 0.0
+    drift: tuple[float, float] = (0.0, 0.0)
+    command: tuple[float, float] = (0.0, 0.0)
+    replaced: int = 0
+    guarded: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class ShieldedStrategy:
+    """Any strategy, of which unsafe decisions are replaced.
+
+    A decision stands if no person within the bounds of the settings can come
+    within contact while it is carried out, and if the robot can prevent
+    contact for ever afterwards; else the motion is taken that guarantees the
+    largest distance. A robot that stands must start where standing for its
+    response time is no longer safe. Assumptions and proof are in
+    docs/shield.md.
+
+    Attributes:
+        strategy: The strategy.
+        shield: Settings of the shield.
+    """
+
+    strategy: Strategy
+    shield: ShieldSettings
+
+    @property
+    def direction(self) -> Direction:
+        """That of the strategy."""
+        return self.strategy.direction
+
+    @property
+    def saturated(self) -> bool:
+        """That of the strategy."""
+        return self.strategy.saturated
+
+    def begin(self) -> ShieldMemory:
+        """Return the memory before the first sighting."""
+        return ShieldMemory(self.strategy.begin())
+
+    def decide(
+        self, knowledge: Knowledge, memory: ShieldMemory
+    ) -> tuple[Intent, ShieldMemory]:
+        """Decide as the strategy does, where that is safe."""
+        decided = self.strategy.decide(knowledge, memory.inner)
+        if not (isinstance(decided, tuple) and isinstance(decided[0], Intent)):
+            raise StrategyError(f"decide must return an Intent, got {decided}")
+        intent, inner = decided
+        model = self.model_for(knowledge)
+        trace = _with_sighting(memory.trace, knowledge, TRACE * model.window)
+        drift = _drift(model, memory, knowledge)
+        begins = knowledge.step_start_in_map or knowledge.pose_in_map
+        own = Pose(
+            begins.x + model.lag * drift[0],
+            begins.y + model.lag * drift[1],
+            begins.theta,
+        )
+        memory = memory._replace(
+            inner=inner, trace=trace, drift=drift, time=knowledge.time
+        )
+        if intent.walks and intent.velocity and not model.velocities:
+            # The nearest intent of a unicycle is what it will walk.
+            from .nearest_unicycle_intent import unicycle_intent
+
+            intent = unicycle_intent(intent, knowledge.limits, self.direction)
+        intent, memory = self._filter(intent, model, own, knowledge, memory)
+        command = (0.0, 0.0)
+        if intent.walks:
+            twist, _ = model.twist(intent)
+            command = _turned(twist.forward, twist.lateral, begins.theta)
+        return intent, memory._replace(command=command)
+
+    def model_for(self, knowledge: Knowledge) -> ShieldModel:
+        """Return the model of the robot that decides."""
+        return ShieldModel(
+            knowledge.limits, self.shield, self.direction, self.saturated
+        )
+
+    def _filter(
+        self,
+        intent: Intent,
+        model: ShieldModel,
+        own: Pose,
+        knowledge: Knowledge,
+        memory: ShieldMemory,
+    ) -> tuple[Intent, ShieldMemory]:
+        """Return the intent, or that of a motion in its place."""
+        table, required = model.table(), model.required
+        poses = relative_poses(own, memory.trace, model, knowledge.time)
+        if poses is None or table.outside < required:
+            # Unknown as yet; or contact can be forced from everywhere.
+            return intent, memory._replace(held=None, guarded=False)
+        if not intent.walks:
+            value = float(table.standing_value(poses).min())
+            if knowledge.moving:
+                value -= model.limits.stride
+        else:
+            motion, duration = model.motion_of(intent)
+            value = float(table.outcomes(poses, motion[None], duration)[0])
+        if value >= required:
+            return intent, memory._replace(held=None, guarded=True)
+        held, now = memory.held, knowledge.time
+        guarded = memory.guarded
+        if held is None or now > held.until - 1e-6:
+            found = table.outcomes(poses, table.game.motions, model.period)
+            worth = np.minimum(found, table.outside)
+            if held is not None:
+                worth[held.number] += KEEPING
+            best = int(np.argmax(worth))
+            guarded = bool(found[best] >= required)
+            if found[best] <= value:
+                return intent, memory._replace(held=None, guarded=False)
+            held = HeldMotion(best, own.theta, now + model.period)
+        return _intent_of(held, model, own), memory._replace(
+            held=held, replaced=memory.replaced + 1, guarded=guarded
+        )
+
+
+def shielded(strategy: Strategy, settings: ShieldSettings) -> Strategy:
+    """Return a strategy, within a shield if the settings enable one."""
+    if not settings.enabled:
+        return strategy
+    return ShieldedStrategy(strategy, settings)
+
+
+def relative_poses(
+    own: Pose,
+    trace: tuple[tuple[float, float, float], ...],
+    model: ShieldModel,
+    now: float,
+) -> Array | None:
+    """Return the poses of the robot in the frame of the opponent.
+
+    The opponent is where it was in the middle of a window, and looks along
+    its chord.
+
+    Args:
+        own: Pose of the robot in the map.
+        trace: Time [s] and position [m] of the opponent, the oldest first.
+        model: Model of the robot.
+        now: Present time, in [s].
+
+    Returns:
+        Poses, in [m] and [rad]. Shape (n, 3); one for each heading of an
+        opponent that hardly moves; None until a window has passed.
+    """
+    last = trace[-1]
+    earlier = [row for row in trace if row[0] <= last[0] - model.window + 1e-6]
+    if not earlier:
+        return None
+    first = earlier[-1]
+    dx, dy = last[1] - first[1], last[2] - first[2]
+    x, y = 0.5 * (first[1] + last[1]), 0.5 * (first[2] + last[2])
+    headings = [atan2(dy, dx)]
+    least = LEAST_MOTION + 2.0 * model.settings.sighting_error
+    if hypot(dx, dy) < min(least, 0.5 * model.settings.speed * model.window):
+        headings = [tau * i / HEADINGS for i in range(HEADINGS)]
+    rows = []
+    for heading in headings:
+        c, s = cos(heading), sin(heading)
+        u, v = own.x - x, own.y - y
+        turned = (own.theta - heading + pi) % tau - pi
+        rows.append((c * u + s * v, c * v - s * u, turned))
+    return np.array(rows)
+
+
+def _with_sighting(
+    trace: tuple[tuple[float, float, float], ...],
+    knowledge: Knowledge,
+    kept: float,
+) -> tuple[tuple[float, float, float], ...]:
+    """Add the position of the opponent to a trace, and forget old ones."""
+    time, pose = knowledge.time - knowledge.age, knowledge.pose_in_map
+    sight = pose.theta + knowledge.bearing
+    seen = (
+        time,
+        pose.x + knowledge.distance * cos(sight),
+        pose.y + knowledge.distance * sin(sight),
+    )
+    return (*(row for row in trace if time - kept <= row[0] < time), seen)
+
+
+def _drift(
+    model: ShieldModel, memory: ShieldMemory, knowledge: Knowledge
+) -> tuple[float, float]:
+    """Return the own velocity over the floor, by the lag of the legs."""
+    if model.velocities is None or not knowledge.moving:
+        return 0.0, 0.0
+    passed = max(0.0, knowledge.time - memory.time)
+    rest = exp(-passed / model.lag) if model.lag > 0.0 else 0.0
+    (u, v), (a, b) = memory.drift, memory.command
+    return a + rest * (u - a), b + rest * (v - b)
+
+
+def _intent_of(held: HeldMotion, model: ShieldModel, own: Pose) -> Intent:
+    """Return the intent that carries on with a motion."""
+    ahead, left, rate = model.choices()[held.number].tolist()
+    if model.velocities is not None:
+        if (ahead, left, rate) == (0.0, 0.0, 0.0):
+            return STAND
+        u, v = _turned(ahead, left, held.heading - own.theta)
+        return Intent(velocity=BodyVelocity(u, v, rate))
+    limits = model.limits
+    turn = rate * limits.step_duration
+    share = limits.gain * limits.stride / limits.speed
+    heading = turn if model.saturated else turn / share
+    speed = abs(ahead) * limits.step_duration / limits.stride
+    return Intent(min(max(heading, -pi), pi), min(speed, 1.0))
+
+
+def _turned(x: float, y: float, angle: float) -> tuple[float, float]:
+    """Return a vector turned to the left by an angle."""
+    c, s = cos(angle), sin(angle)
+    return c * x - s * y, s * x + c * y

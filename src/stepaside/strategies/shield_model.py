@@ -1,0 +1,271 @@
+"""Robot of the shield: its motions, margins and table, from its limits."""
+
+from dataclasses import dataclass
+from functools import lru_cache
+from hashlib import sha256
+from math import cos, pi, sin, tau
+from typing import NamedTuple
+
+import numpy as np
+
+from ..core.atomic_output import atomic_draft
+from ..core.compilation import cache_folder
+from ..core.poses import Array
+from ..planning import Direction
+from ..theory.shield import PersonModel, ShieldGame, ShieldTable, sub_poses
+from ..theory.shield.shield_table import CELLS, PoseGrid
+from .dash_rollouts import greatest_velocities
+from .knowledge import ON_THE_SPOT, Intent, Limits
+from .shield_settings import ShieldSettings
+from .velocity_set import STILL, BodyVelocity, VelocitySet
+
+LEGS_INTERVAL = 0.08  # between decisions on a body velocity, in [s]
+LEGS_PERIOD = 0.48  # of the motions of legs: several cells of the grid, [s]
+LEGS_DIRECTIONS = 16
+LEGS_RESPONSE = 0.1  # of legs that stand, beyond their lag, in [s]
+WALK_LOSS = 0.01  # of the paper's walk per step, in [m]; see docs/shield.md
+LEGS_LOSS = 0.03  # of learned legs that were not measured, in [m]
+OFFSET = 0.03  # of a swaying body from its template, in [m]
+CELLS_PER_PERIOD = 6  # passed by the opponent while a motion is held
+TURNS = (-1.0, -0.5, 0.0, 0.5, 1.0)  # of a unicycle's step, of the largest
+FORMAT = 1  # of the files
+
+
+class Motion(NamedTuple):
+    """Motion to which a robot commits.
+
+    Attributes:
+        poses: Poses in the initial frame; see :func:`.sub_poses`. Shape
+            (parts, 3).
+        duration: Duration, in [s].
+    """
+
+    poses: Array
+    duration: float
+
+
+@dataclass(frozen=True, slots=True)
+class ShieldModel:
+    """Robot and person of a shield.
+
+    Attributes:
+        limits: Limits of the gait, or of the legs.
+        settings: Settings of the shield.
+        direction: Direction in which a unicycle drives.
+        saturated: Whether it turns by (6).
+    """
+
+    limits: Limits
+    settings: ShieldSettings
+    direction: Direction
+    saturated: bool
+
+    @property
+    def velocities(self) -> VelocitySet | None:
+        """Velocities of the legs; None for a unicycle."""
+        return self.limits.velocities
+
+    @property
+    def lag(self) -> float:
+        """Time by which the body follows its commands, in [s]."""
+        legs = self.velocities
+        return 0.0 if legs is None else max(0.0, *legs.lags[:2])
+
+    @property
+    def window(self) -> float:
+        """Time over which the opponent's heading is measured, in [s]."""
+        legs = self.velocities is not None
+        return LEGS_INTERVAL if legs else self.limits.step_duration
+
+    @property
+    def delay(self) -> float:
+        """Age of the state of the opponent at a decision, in [s]."""
+        return 0.5 * self.window + self.settings.sighting_delay
+
+    @property
+    def loss(self) -> float:
+        """Departure of the body from its template per decision, in [m]."""
+        if self.settings.loss is not None:
+            return self.settings.loss
+        if self.velocities is None:
+            return WALK_LOSS
+        return self.velocities.loss or LEGS_LOSS
+
+    @property
+    def response(self) -> float:
+        """Time from the decision to start until the robot moves, in [s]."""
+        if self.settings.response is not None:
+            return self.settings.response
+        legs = self.velocities is not None
+        return LEGS_RESPONSE if legs else 2.0 * self.limits.step_duration
+
+    @property
+    def required(self) -> float:
+        """Least distance of the observed states, in [m]; docs/shield.md."""
+        settings, limits = self.settings, self.limits
+        ahead = 0.5 * limits.stride  # of the template before the body
+        if self.velocities is not None:
+            ahead = self.lag * max(*map(abs, self.velocities.forward))
+        return (
+            settings.contact
+            + settings.sighting_error
+            + self.loss
+            + OFFSET
+            + ahead
+            + settings.speed * self.delay
+        )
+
+    @property
+    def turn(self) -> float:
+        """Largest turn of a step of a unicycle, in [rad]."""
+        share = self.limits.gain * self.limits.stride / self.limits.speed
+        return share if self.saturated else pi * share
+
+    def twist(self, intent: Intent) -> tuple[BodyVelocity, float]:
+        """Return the velocity and the duration to which an intent commits."""
+        limits, sign = self.limits, float(self.direction.value)
+        if intent.velocity is not None:
+            return intent.velocity, LEGS_INTERVAL
+        if self.velocities is not None:
+            turn = limits.gain * intent.heading
+            ahead = sign * intent.speed_factor * limits.speed
+            return BodyVelocity(ahead, 0.0, turn), limits.step_duration
+        duration = limits.step_duration / intent.pace
+        share = limits.gain * limits.stride / limits.speed
+        turn = intent.heading * (1.0 if self.saturated else share)
+        turn = min(max(turn, -self.turn), self.turn)
+        ahead = sign * intent.speed_factor * limits.stride
+        return BodyVelocity(ahead / duration, 0.0, turn / duration), duration
+
+    def motion_of(self, intent: Intent) -> Motion:
+        """Return the motion to which an intent commits."""
+        if not intent.walks:
+            return Motion(sub_poses([STILL], LEGS_INTERVAL)[0], LEGS_INTERVAL)
+        twist, duration = self.twist(intent)
+        return Motion(sub_poses([twist], duration)[0], duration)
+
+    @property
+    def period(self) -> float:
+        """Time for which a substituted motion is held, in [s]."""
+        if self.velocities is not None:
+            return LEGS_PERIOD
+        person, step = self.settings, self.limits.step_duration
+        longest = min(
+            CELLS_PER_PERIOD * self.required / CELLS / person.speed,
+            0.5 * person.turning_radius / person.speed,
+            step / self.turn,  # a turn by one radian
+        )
+        steps = max(1, round(longest / step))
+        return steps * self.limits.step_duration
+
+    def choices(self) -> Array:
+        """Return the velocities among which the shield chooses.
+
+        Components ahead and to the left, in the frame at the begin, in
+        [m/s], and turning rate [rad/s]. Shape (n, 3).
+        """
+        legs = self.velocities
+        if legs is None:
+            step, sign = self.limits.step_duration, self.direction.value
+            return (
+                np.array(
+                    [
+                        (sign * share * self.limits.stride, 0.0, u * self.turn)
+                        for share in (1.0, ON_THE_SPOT)
+                        for u in TURNS
+                    ]
+                )
+                / step
+            )
+        rate = min(-legs.turn[0], legs.turn[1])
+        angles = tau / LEGS_DIRECTIONS * np.arange(LEGS_DIRECTIONS)
+        found = [(0.0, 0.0, sign * rate) for sign in (0.0, -1.0, 1.0)]
+        for turn in (0.0, -rate, rate):
+            turned = turn * self.period * np.array([0.0, 0.5, 1.0])
+            ahead, left = greatest_velocities(
+                angles[:, None] - turned, _symmetric(legs)
+            )
+            speeds = np.hypot(ahead, left).min(axis=1)
+            found += [
+                (speed * cos(angle), speed * sin(angle), turn)
+                for speed, angle in zip(speeds, angles, strict=True)
+            ]
+        return np.array(found)
+
+    def motions(self) -> Array:
+        """Return the motions of :meth:`choices`. Shape (n, parts, 3).
+
+        Legs hold a velocity over the floor while they turn.
+        """
+        choices = self.choices()
+        if self.velocities is None:
+            return sub_poses(choices, self.period)
+        straight = sub_poses(choices * [1.0, 1.0, 0.0], self.period)
+        straight[:, :, 2] = sub_poses(choices, self.period)[:, :, 2]
+        return straight
+
+    def game(self) -> ShieldGame:
+        """Return the game, with losses per decision."""
+        settings = self.settings
+        person = PersonModel(settings.speed, settings.turning_radius)
+        error = settings.sighting_error
+        # The chord of a window is that far from the direction of walking.
+        aside = person.turn * self.window / 8.0
+        heading = 2.0 * error / (person.speed * self.window)
+        return ShieldGame(
+            person,
+            self.motions(),
+            self.period,
+            loss=self.loss + 2.0 * error + person.speed * self.period * aside,
+            more_turn=2.0 * heading / self.period,
+        )
+
+    def table(self) -> ShieldTable:
+        """Return the table of the game, solved once and kept."""
+        return _table(self)
+
+
+def _symmetric(legs: VelocitySet) -> VelocitySet:
+    """Return the velocities that both sides deliver."""
+    side = min(-legs.lateral[0], legs.lateral[1])
+    return legs._replace(lateral=(-side, side))
+
+
+@lru_cache(maxsize=8)
+def _table(model: ShieldModel) -> ShieldTable:
+    """Load a table from the cache of compiled code, or solve the game."""
+    from ..theory.shield import solve_shield
+
+    game = model.game()
+    digest = sha256(repr((FORMAT, CELLS, model)).encode())
+    digest.update(game.motions.tobytes())
+    file = cache_folder() / f"shield-{digest.hexdigest()[:16]}.npz"
+    try:
+        with np.load(file) as saved:
+            left, spacing, outside, seconds = saved["numbers"].tolist()
+            i, j, k = saved["values"].shape
+            return ShieldTable(
+                game, PoseGrid(left, spacing, (i, j, k)), saved["values"],
+                saved["eroded"], saved["standing"], outside,
+                model.response, seconds,
+            )  # fmt: skip
+    except (OSError, ValueError, KeyError, EOFError):
+        pass
+    table = solve_shield(
+        game,
+        model.required,
+        response=model.response + LEGS_INTERVAL,
+        cells=CELLS,
+    )
+    numbers = [
+        table.grid.left, table.grid.spacing, table.outside, table.seconds,
+    ]  # fmt: skip
+    try:
+        with atomic_draft(file) as draft, draft.open("wb") as out:
+            np.savez_compressed(
+                out, numbers=numbers, values=table.values,
+                eroded=table.eroded, standing=table.standing,
+            )  # fmt: skip
+    except OSError:  # the cache only saves time
+        pass
+    return table

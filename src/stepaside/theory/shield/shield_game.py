@@ -1,0 +1,133 @@
+r"""Game of a person and a robot that commits to a motion for a period.
+
+The state is the pose of the robot in the frame of the person (x ahead, y to
+the left, both in [m]; heading in [rad]). At each decision the robot commits
+to a motion for a period; the person then walks at any speed up to
+:math:`V` and turns at any rate up to :math:`V / R`; and at the end the state
+is displaced by up to a disturbance. See docs/shield.md.
+"""
+
+from dataclasses import dataclass
+from math import pi
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ...core.errors import check_positive, check_within
+
+Array = NDArray[np.float64]
+PARTS = 4  # of a period, in which the distance is measured
+TURNS = 11  # of a person who walks at full speed
+SLOW_TURNS = 3  # of one who walks at half speed, or turns on the spot
+
+
+@dataclass(frozen=True, slots=True)
+class PersonModel:
+    """What a person may do.
+
+    Attributes:
+        speed: Greatest speed, in [m/s].
+        turning_radius: Radius of the tightest turn at that speed, in [m]; the
+            turning rate that follows bounds slower walks, too.
+    """
+
+    speed: float
+    turning_radius: float
+
+    def __post_init__(self) -> None:
+        """Check the values."""
+        check_positive(self.speed, "speed", "m/s")
+        check_positive(self.turning_radius, "turning_radius", "m")
+
+    @property
+    def turn(self) -> float:
+        """Greatest turning rate, in [rad/s]."""
+        return self.speed / self.turning_radius
+
+    def walks(self, duration: float, more_turn: float = 0.0) -> Array:
+        """Return the walks that are tried against the robot.
+
+        Args:
+            duration: Duration, in [s].
+            more_turn: Turning rate beyond the greatest, in [rad/s].
+
+        Returns:
+            Poses in the initial frame. Shape (n, PARTS, 3).
+        """
+        most = self.turn + more_turn
+        twists = [
+            (share * self.speed, 0.0, rate)
+            for share, count in ((1.0, TURNS), (0.5, SLOW_TURNS), (0.0, 3))
+            for rate in np.linspace(-most, most, count)
+        ]
+        return sub_poses(twists, duration)
+
+
+def sub_poses(twists: ArrayLike, duration: float) -> Array:
+    """Return poses along arcs at the ends of the parts of a duration.
+
+    Args:
+        twists: Velocities ahead [m/s], to the left [m/s] and turning [rad/s],
+            held in the frame of the body. Shape (n, 3).
+        duration: Duration, in [s].
+
+    Returns:
+        Poses in the initial frame, in [m] and [rad]. Shape (n, PARTS, 3).
+    """
+    rates = np.atleast_2d(np.asarray(twists, dtype=np.float64))
+    times = duration * np.arange(1, PARTS + 1) / PARTS
+    angle = rates[:, 2:] * times
+    along = times * np.sinc(angle / pi)
+    across = 0.5 * angle * times * np.sinc(0.5 * angle / pi) ** 2
+    u, v = rates[:, :1], rates[:, 1:2]
+    return np.stack(
+        [u * along - v * across, u * across + v * along, angle], axis=2
+    )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ShieldGame:
+    """Person, motions of the robot, and disturbance of a sampled game.
+
+    Attributes:
+        person: What the person may do.
+        motions: Poses in the frame of the robot, see :func:`sub_poses`; with
+            each its mirror image. Shape (n, PARTS, 3).
+        period: Time between two decisions of the robot, in [s].
+        loss: Radius of the disturbance of the position per decision, in [m].
+        heading_loss: Disturbance of the robot's heading, in [rad].
+        more_turn: Turning rate by which an error of the person's heading is
+            accounted for, in [rad/s].
+    """
+
+    person: PersonModel
+    motions: Array
+    period: float
+    loss: float = 0.0
+    heading_loss: float = 0.0
+    more_turn: float = 0.0
+
+    def __post_init__(self) -> None:
+        """Check the values."""
+        check_positive(self.period, "period", "s")
+        check_within(self.loss, 0.0, 1.0, "loss", "m")
+        check_within(self.heading_loss, 0.0, 1.0, "heading_loss", "rad")
+        check_within(self.more_turn, 0.0, 10.0, "more_turn", "rad/s")
+
+    @property
+    def speed(self) -> float:
+        """Greatest speed of the robot, in [m/s]."""
+        ends = self.motions[:, -1]
+        return float(np.hypot(ends[:, 0], ends[:, 1]).max()) / self.period
+
+    @property
+    def turn(self) -> float:
+        """Greatest turning rate of the robot, in [rad/s]."""
+        return float(np.abs(self.motions[:, -1, 2]).max()) / self.period
+
+    @property
+    def sag(self) -> float:
+        """Greatest deviation from the chord of a part of a period, in [m]."""
+        part = self.period / PARTS
+        person = self.person.speed * (self.person.turn + self.more_turn)
+        return (person + self.speed * self.turn) * part**2 / 8.0

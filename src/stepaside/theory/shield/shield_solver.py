@@ -1,0 +1,442 @@
+r"""Value of the shield game by relaxation on a grid, in compiled loops.
+
+With :math:`T` the motion over a period, :math:`B` the ball of the disturbance
+and :math:`d` the least distance on the way,
+
+.. math::
+    V(x) = \max_w \min_u \min\bigl(d(x, w, u),
+    \min_{\delta \in B} V(T(x, w, u) + \delta)\bigr).
+
+Values begin at the distance and only fall, so each sweep may use those it has
+just lowered. Outside the grid the value is just above the required one, if
+it is in a layer along the edges that no single motion can jump over.
+"""
+
+from math import atan2, ceil, cos, pi, sin, sqrt, tau
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+
+from ...core.compilation import compiled, inlined
+from ...core.errors import check_within
+from .shield_game import Array, ShieldGame, sub_poses
+from .shield_table import CELLS, PoseGrid, ShieldTable
+
+HEADINGS = 24
+MOST = 600  # sweeps
+STILL = 1e-4  # change in a sweep that counts as none, of the cut-off
+CUT = 1.5  # cut-off of the values over the required distance
+SAFE = 1.001  # value outside the grid over the required distance
+GROWTH = 1.5  # of the grid, where states outside are not safe
+TRIALS = 3
+
+
+@inlined
+def look_up(
+    v: Any, x: float, y: float, theta: float, grid: PoseGrid, outside: float
+) -> float:
+    """Interpolate linearly between the nodes of a cell."""
+    if y < 0.0:
+        y, theta = -y, -theta
+    u = (x - grid.left) / grid.spacing
+    w = y / grid.spacing
+    count = grid.shape[2]
+    a = (theta / tau * count) % count
+    if u < 0.0 or u >= grid.shape[0] - 1 or w >= grid.shape[1] - 1:
+        return outside
+    i, j, k = int(u), int(w), int(a) % count
+    s, t, r = u - i, w - j, a - int(a)
+    n = (k + 1) % count
+    p, q = 1.0 - s, 1.0 - t
+    low = p * (q * v[i, j, k] + t * v[i, j + 1, k]) + s * (
+        q * v[i + 1, j, k] + t * v[i + 1, j + 1, k]
+    )
+    high = p * (q * v[i, j, n] + t * v[i, j + 1, n]) + s * (
+        q * v[i + 1, j, n] + t * v[i + 1, j + 1, n]
+    )
+    found: float = (1.0 - r) * low + r * high
+    return found
+
+
+@inlined
+def outcome_of(
+    v: Any,
+    pose: tuple[float, float, float],
+    motion: Any,
+    walk: Any,
+    sag: float,
+    grid: PoseGrid,
+    outside: float,
+) -> float:
+    """Return least distance on the way and value after it.
+
+    Args:
+        v: Values at the end.
+        pose: Pose of the robot in the frame of the person.
+        motion: Poses in the initial frame of the robot. Shape (parts, 3).
+        walk: Poses of the person in its initial frame. Shape (parts, 3).
+        sag: Deviation of the distance from that of chords, in [m].
+        grid: Grid of the values.
+        outside: Value outside the grid.
+    """
+    x, y, theta = pose
+    c, s = cos(theta), sin(theta)
+    px, py = x, y
+    least = x * x + y * y
+    for n in range(len(motion)):
+        nx = x + c * motion[n, 0] - s * motion[n, 1] - walk[n, 0]
+        ny = y + s * motion[n, 0] + c * motion[n, 1] - walk[n, 1]
+        dx, dy = nx - px, ny - py
+        share = -(px * dx + py * dy) / (dx * dx + dy * dy + 1e-30)
+        share = min(max(share, 0.0), 1.0)
+        cx, cy = px + share * dx, py + share * dy
+        least = min(least, cx * cx + cy * cy)
+        px, py = nx, ny
+    turned = walk[len(motion) - 1, 2]
+    c, s = cos(turned), sin(turned)
+    after = look_up(
+        v,
+        c * px + s * py,
+        c * py - s * px,
+        theta + motion[len(motion) - 1, 2] - turned,
+        grid,
+        outside,
+    )
+    return min(after, sqrt(least) - sag)
+
+
+@inlined
+def worst_walk(
+    v: Any,
+    pose: tuple[float, float, float],
+    motion: Any,
+    walks: Any,
+    first: int,
+    floor: float,
+    sag: float,
+    grid: PoseGrid,
+    outside: float,
+) -> tuple[float, int]:
+    """Return the worst outcome over the person's walks, and its number.
+
+    The search ends where the outcome is at most ``floor``; the walk
+    ``first`` is tried first.
+    """
+    worst = outcome_of(v, pose, motion, walks[first], sag, grid, outside)
+    at = first
+    for m in range(len(walks)):
+        if worst <= floor:
+            break
+        found = outcome_of(v, pose, motion, walks[m], sag, grid, outside)
+        if found < worst:
+            worst, at = found, m
+    return worst, at
+
+
+@compiled
+def evaluate_motions(
+    v: Any,
+    pose: Any,
+    motions: Any,
+    walks: Any,
+    sag: float,
+    grid: PoseGrid,
+    outside: float,
+    out: Any,
+) -> None:
+    """Compute the worst outcome of each motion; see :func:`outcome_of`."""
+    state = (pose[0], pose[1], pose[2])
+    for k in range(len(motions)):
+        out[k], _ = worst_walk(
+            v, state, motions[k], walks, 0, -1.0, sag, grid, outside
+        )
+
+
+@compiled
+def look_up_all(
+    v: Any, poses: Any, grid: PoseGrid, outside: float, out: Any
+) -> None:
+    """Interpolate at many poses. Shape (n, 3)."""
+    for n in range(len(poses)):
+        x, y = poses[n, 0], poses[n, 1]
+        found = look_up(v, x, y, poses[n, 2], grid, outside)
+        out[n] = min(found, sqrt(x * x + y * y))
+
+
+@compiled
+def relax_shield(
+    v: Any,
+    eroded: Any,
+    guesses: Any,
+    active: Any,
+    motions: Any,
+    walks: Any,
+    sag: float,
+    grid: PoseGrid,
+    outside: float,
+) -> float:
+    """Lower the values by one period; return the greatest change.
+
+    Args:
+        v: Values of the nodes; lowered in place.
+        eroded: Least values within the disturbance.
+        guesses: Best motion and worst walk of each node in the last sweep;
+            replaced. Shape (*grid.shape, 2).
+        active: Input: whether the values at the positions of a column can
+            change. Output: whether they did. Shape ``grid.shape[:2]``.
+        motions: Motions of the robot. Shape (n, parts, 3).
+        walks: Walks of the person. Shape (m, parts, 3).
+        sag: Deviation of the distance from that of chords, in [m].
+        grid: Grid of the values.
+        outside: Value outside the grid.
+    """
+    change = 0.0
+    for i in range(grid.shape[0]):
+        x = grid.left + grid.spacing * i
+        for j in range(grid.shape[1]):
+            y = grid.spacing * j
+            if not active[i, j]:
+                continue
+            active[i, j] = False
+            for k in range(grid.shape[2]):
+                pose = (x, y, tau / grid.shape[2] * k)
+                kept, answer = guesses[i, j, k, 0], guesses[i, j, k, 1]
+                best = -1.0
+                for n in range(-1, len(motions)):
+                    number = kept if n < 0 else n
+                    found, at = worst_walk(
+                        eroded, pose, motions[number], walks, answer, best,
+                        sag, grid, outside,
+                    )  # fmt: skip
+                    if found > best:
+                        best = found
+                        guesses[i, j, k, 0] = number
+                        guesses[i, j, k, 1] = at
+                    answer = at
+                    if best >= v[i, j, k]:
+                        break
+                lower = min(v[i, j, k], max(best, 0.0))
+                if v[i, j, k] > lower:
+                    change = max(change, v[i, j, k] - lower)
+                    active[i, j] = True
+                    v[i, j, k] = lower
+    return change
+
+
+def eroded_values(
+    v: Array, grid: PoseGrid, loss: float, heading_loss: float
+) -> Array:
+    """Return the least values within a disturbance.
+
+    Values are interpolated linearly between nodes; eight directions of the
+    displacement are tried, and both of the heading.
+
+    Args:
+        v: Values of the nodes.
+        grid: Their grid.
+        loss: Radius of the displacement, in [m].
+        heading_loss: Greatest turn, in [rad].
+    """
+    found = v
+    times = max(1, ceil(loss / grid.spacing))
+    share = loss / times / grid.spacing / cos(pi / 8)
+    for _ in range(times if loss > 0.0 else 0):
+        # One more node on every side: mirrored at y = 0, else kept.
+        around = np.pad(found, ((1, 1), (1, 1), (0, 0)), mode="edge")
+        mirrored = -np.arange(grid.shape[2]) % grid.shape[2]
+        around[1:-1, 0] = found[:, 1, mirrored]
+        around[0, 0], around[-1, 0] = around[1, 0], around[-2, 0]
+        least = found
+        for di in (-1, 0, 1):
+            for dj in (-1, 0, 1):
+                if di or dj:
+                    part = share / sqrt(di * di + dj * dj)
+                    there = around[
+                        1 + di : 1 + di + len(found),
+                        1 + dj : 1 + dj + found.shape[1],
+                    ]
+                    least = np.minimum(
+                        least, (1.0 - part) * found + part * there
+                    )
+        found = least
+    part = heading_loss / tau * grid.shape[2]
+    if part > 0.0:
+        found = np.minimum.reduce(
+            [
+                (1.0 - part) * found + part * np.roll(found, shift, axis=2)
+                for shift in (-1, 0, 1)
+            ]
+        )
+    return found
+
+
+def solve_shield(
+    game: ShieldGame,
+    least: float,
+    *,
+    response: float = 0.0,
+    cells: int = CELLS,
+    headings: int = HEADINGS,
+) -> ShieldTable:
+    """Compute the distance that the robot can keep from every state.
+
+    Args:
+        game: Person, motions and disturbance.
+        least: Distance that is required, in [m]; values above 1.5 times it
+            are cut off.
+        response: Time for which a standing robot still stands, in [s].
+        cells: Number of cells in the required distance.
+        headings: Number of headings.
+
+    Returns:
+        Tables. States outside the grid may turn out unsafe where the robot is
+        too slow, or the required distance too large, for the person.
+
+    Raises:
+        PlanError: If a value is out of range.
+    """
+    check_within(cells, 4, 100, "cells", "1")
+    check_within(headings, 8, 180, "headings", "1")
+    check_within(response, 0.0, 10.0, "response", "s")
+    begin = perf_counter()
+    scale = GROWTH
+    for _ in range(TRIALS):
+        grid = _cover(game, least, scale * response, scale, cells, headings)
+        v, eroded, outside = _converge_shield(game, grid, least)
+        if outside >= least:
+            break
+        scale *= GROWTH
+    else:  # no state is safe
+        v, eroded, outside = np.zeros_like(v), np.zeros_like(v), 0.0
+    standing = _standing(game, grid, v, outside, response)
+    return ShieldTable(
+        game, grid, v, eroded, standing, outside, response,
+        perf_counter() - begin,
+    )  # fmt: skip
+
+
+def _layer(game: ShieldGame) -> float:
+    """Return the width of the layer that no motion jumps over, in [m]."""
+    speed = game.speed + game.person.speed
+    return speed * game.period + game.loss
+
+
+def _cover(
+    game: ShieldGame,
+    least: float,
+    response: float,
+    scale: float,
+    cells: int,
+    headings: int,
+) -> PoseGrid:
+    """Return a grid over the states that can be unsafe, and a layer.
+
+    The barrier of an omnidirectional robot reaches at most by its speed times
+    the time of a turn by one radian ahead, and by the time that it needs to
+    clear the distance; turning and standing come before.
+    """
+    person = game.person
+    speed = max(game.speed - game.loss / game.period, 1e-3)
+    waits = response + 2.0 * game.period
+    if game.turn > 0.0:
+        waits += 0.5 * pi / game.turn
+    clears = 1.5 * CUT * least / speed
+    reach = min(clears, 1.0 / person.turn + 0.5 * waits) + waits
+    top, layer = CUT * least, _layer(game)
+    swerves = 0.5 * person.turn * person.speed * waits**2
+    ahead = top + scale * person.speed * reach + layer
+    aside = top + min(scale * swerves, ahead) + layer
+    behind = scale * top + layer
+    spacing = least / cells
+    left = -spacing * ceil(behind / spacing)
+    shape = (
+        ceil((ahead - left) / spacing) + 1,
+        ceil(aside / spacing) + 1,
+        headings,
+    )
+    return PoseGrid(left, spacing, shape)
+
+
+def _edge(v: Array, game: ShieldGame, grid: PoseGrid) -> float:
+    """Return the least value of the layer along the edges, in [m]."""
+    width = ceil(_layer(game) / grid.spacing) + 1
+    return float(min(v[:width].min(), v[-width:].min(), v[:, -width:].min()))
+
+
+def _converge_shield(
+    game: ShieldGame, grid: PoseGrid, least: float
+) -> tuple[Array, Array, float]:
+    """Relax until nothing changes; return values, eroded and outside.
+
+    States outside are taken to be just safe, which holds if the states of
+    the layer along the edges are; it ends where they are not.
+    """
+    x, y, _ = grid.axes()
+    most = CUT * least
+    distance = np.minimum(np.hypot(x[:, None], y), most)
+    v = np.repeat(distance[:, :, None], grid.shape[2], axis=2)
+    walks = game.person.walks(game.period, game.more_turn)
+    guesses = np.zeros((*grid.shape, 2), dtype=np.int64)
+    changed, outside = (v < most).any(axis=2), SAFE * least
+    for _ in range(MOST):
+        eroded = eroded_values(v, grid, game.loss, game.heading_loss)
+        active = _near(changed, ceil(_layer(game) / grid.spacing) + 2)
+        change = relax_shield(
+            v, eroded, guesses, active, game.motions, walks, game.sag, grid,
+            outside,
+        )  # fmt: skip
+        changed = active
+        if _edge(v, game, grid) < least:
+            return v, eroded, 0.0
+        if change < STILL * most:
+            break
+    return v, eroded_values(v, grid, game.loss, game.heading_loss), outside
+
+
+def _near(marked: Any, width: int) -> Any:
+    """Return the nodes that have a marked one within a width. Shape (n, m)."""
+    for _ in range(2):  # along x, then along y
+        total = np.cumsum(marked, axis=0, dtype=np.int64)
+        total = np.pad(total, ((width + 1, width), (0, 0)), mode="edge")
+        total[: width + 1] = 0
+        found = total[2 * width + 1 :] > total[: -2 * width - 1]
+        marked = found.T
+    return np.ascontiguousarray(marked)
+
+
+def _standing(
+    game: ShieldGame, grid: PoseGrid, v: Array, outside: float, response: float
+) -> Array:
+    """Return the value of a robot that stands for a time first."""
+    count = ceil(response / game.period - 1e-9)
+    if count == 0:
+        return v.copy()
+    held = response / count
+    stands = sub_poses([(0.0, 0.0, 0.0)], held)
+    walks = game.person.walks(held, game.more_turn)
+    found = v
+    for _ in range(count):
+        before = eroded_values(found, grid, game.loss, 0.0)
+        found = found.copy()
+        guesses = np.zeros((*grid.shape, 2), dtype=np.int64)
+        active = np.ones(grid.shape[:2], dtype=np.bool_)
+        relax_shield(
+            found, before, guesses, active, stands, walks, game.sag, grid,
+            outside,
+        )  # fmt: skip
+    return found
+
+
+def relative_pose(
+    robot: tuple[float, float, float], person: tuple[float, float, float]
+) -> tuple[float, float, float]:
+    """Return a pose of the robot in the frame of the person."""
+    dx, dy = robot[0] - person[0], robot[1] - person[1]
+    c, s = cos(person[2]), sin(person[2])
+    turned = robot[2] - person[2]
+    return (
+        c * dx + s * dy,
+        c * dy - s * dx,
+        atan2(sin(turned), cos(turned)),
+    )
