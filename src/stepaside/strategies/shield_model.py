@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from hashlib import sha256
 from math import cos, pi, sin, tau
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -12,12 +12,15 @@ from ..core.atomic_output import atomic_draft
 from ..core.compilation import cache_folder
 from ..core.poses import Array
 from ..planning import Direction
-from ..theory.shield import PersonModel, ShieldGame, ShieldTable, sub_poses
-from ..theory.shield.shield_table import CELLS, PoseGrid
 from .dash_rollouts import greatest_velocities
 from .knowledge import ON_THE_SPOT, Intent, Limits
 from .shield_settings import ShieldSettings
 from .velocity_set import STILL, BodyVelocity, VelocitySet
+
+if TYPE_CHECKING:  # the solver imports Numba
+    from ..theory.shield import ShieldGame, ShieldTable
+
+CELLS = 10  # of the grid of the table in the required distance
 
 LEGS_INTERVAL = 0.08  # between decisions on a body velocity, in [s]
 LEGS_PERIOD = 0.48  # of the motions of legs: several cells of the grid, [s]
@@ -139,6 +142,8 @@ class ShieldModel:
 
     def motion_of(self, intent: Intent) -> Motion:
         """Return the motion to which an intent commits."""
+        from ..theory.shield import sub_poses
+
         if not intent.walks:
             return Motion(sub_poses([STILL], LEGS_INTERVAL)[0], LEGS_INTERVAL)
         twist, duration = self.twist(intent)
@@ -197,6 +202,8 @@ class ShieldModel:
 
         Legs hold a velocity over the floor while they turn.
         """
+        from ..theory.shield import sub_poses
+
         choices = self.choices()
         if self.velocities is None:
             return sub_poses(choices, self.period)
@@ -204,8 +211,10 @@ class ShieldModel:
         straight[:, :, 2] = sub_poses(choices, self.period)[:, :, 2]
         return straight
 
-    def game(self) -> ShieldGame:
+    def game(self) -> "ShieldGame":
         """Return the game, with losses per decision."""
+        from ..theory.shield import PersonModel, ShieldGame
+
         settings = self.settings
         person = PersonModel(settings.speed, settings.turning_radius)
         error = settings.sighting_error
@@ -220,7 +229,7 @@ class ShieldModel:
             more_turn=2.0 * heading / self.period,
         )
 
-    def table(self) -> ShieldTable:
+    def table(self) -> "ShieldTable":
         """Return the table of the game, solved once and kept."""
         return _table(self)
 
@@ -232,9 +241,9 @@ def _symmetric(legs: VelocitySet) -> VelocitySet:
 
 
 @lru_cache(maxsize=8)
-def _table(model: ShieldModel) -> ShieldTable:
+def _table(model: ShieldModel) -> "ShieldTable":
     """Load a table from the cache of compiled code, or solve the game."""
-    from ..theory.shield import solve_shield
+    from ..theory.shield import PoseGrid, ShieldTable, solve_shield
 
     game = model.game()
     digest = sha256(repr((FORMAT, CELLS, model)).encode())

@@ -8,7 +8,8 @@ is displaced by up to a disturbance. See docs/shield.md.
 """
 
 from dataclasses import dataclass
-from math import pi
+from math import pi, tau
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,6 +19,7 @@ from ...core.errors import check_positive, check_within
 Array = NDArray[np.float64]
 PARTS = 4  # of a period, in which the distance is measured
 TURNS = 11  # of a person who walks at full speed
+CELLS = 10  # in the required distance
 SLOW_TURNS = 3  # of one who walks at half speed, or turns on the spot
 
 
@@ -131,3 +133,25 @@ class ShieldGame:
         part = self.period / PARTS
         person = self.person.speed * (self.person.turn + self.more_turn)
         return (person + self.speed * self.turn) * part**2 / 8.0
+
+
+class PoseGrid(NamedTuple):
+    """Grid over half the poses of a robot in the frame of a person.
+
+    Attributes:
+        left: x of the first node, in [m]; y begins at 0.
+        spacing: Spacing of positions, in [m].
+        shape: Nodes along x, y >= 0 and the heading.
+    """
+
+    left: float
+    spacing: float
+    shape: tuple[int, int, int]
+
+    def axes(self) -> tuple[Array, Array, Array]:
+        """Return the coordinates of the nodes, in [m], [m] and [rad]."""
+        i, j, k = (np.arange(n, dtype=np.float64) for n in self.shape)
+        x: Array = self.left + self.spacing * i
+        y: Array = self.spacing * j
+        theta: Array = tau / self.shape[2] * k
+        return x, y, theta

@@ -12,16 +12,18 @@ just lowered. Outside the grid the value is just above the required one, if
 it is in a layer along the edges that no single motion can jump over.
 """
 
-from math import atan2, ceil, cos, pi, sin, sqrt, tau
+from math import ceil, cos, inf, pi, sqrt, tau
 from time import perf_counter
 from typing import Any
 
 import numpy as np
 
-from ...core.compilation import compiled, inlined
+from ...core.compilation import compiled
 from ...core.errors import check_within
-from .shield_game import Array, ShieldGame, sub_poses
-from .shield_table import CELLS, PoseGrid, ShieldTable
+from ..chauffeur.chauffeur_game import guaranteed_distance
+from .shield_game import CELLS, Array, PoseGrid, ShieldGame, sub_poses
+from .shield_outcomes import worst_walk
+from .shield_table import ShieldTable
 
 HEADINGS = 24
 MOST = 600  # sweeps
@@ -30,138 +32,6 @@ CUT = 1.5  # cut-off of the values over the required distance
 SAFE = 1.001  # value outside the grid over the required distance
 GROWTH = 1.5  # of the grid, where states outside are not safe
 TRIALS = 3
-
-
-@inlined
-def look_up(
-    v: Any, x: float, y: float, theta: float, grid: PoseGrid, outside: float
-) -> float:
-    """Interpolate linearly between the nodes of a cell."""
-    if y < 0.0:
-        y, theta = -y, -theta
-    u = (x - grid.left) / grid.spacing
-    w = y / grid.spacing
-    count = grid.shape[2]
-    a = (theta / tau * count) % count
-    if u < 0.0 or u >= grid.shape[0] - 1 or w >= grid.shape[1] - 1:
-        return outside
-    i, j, k = int(u), int(w), int(a) % count
-    s, t, r = u - i, w - j, a - int(a)
-    n = (k + 1) % count
-    p, q = 1.0 - s, 1.0 - t
-    low = p * (q * v[i, j, k] + t * v[i, j + 1, k]) + s * (
-        q * v[i + 1, j, k] + t * v[i + 1, j + 1, k]
-    )
-    high = p * (q * v[i, j, n] + t * v[i, j + 1, n]) + s * (
-        q * v[i + 1, j, n] + t * v[i + 1, j + 1, n]
-    )
-    found: float = (1.0 - r) * low + r * high
-    return found
-
-
-@inlined
-def outcome_of(
-    v: Any,
-    pose: tuple[float, float, float],
-    motion: Any,
-    walk: Any,
-    sag: float,
-    grid: PoseGrid,
-    outside: float,
-) -> float:
-    """Return least distance on the way and value after it.
-
-    Args:
-        v: Values at the end.
-        pose: Pose of the robot in the frame of the person.
-        motion: Poses in the initial frame of the robot. Shape (parts, 3).
-        walk: Poses of the person in its initial frame. Shape (parts, 3).
-        sag: Deviation of the distance from that of chords, in [m].
-        grid: Grid of the values.
-        outside: Value outside the grid.
-    """
-    x, y, theta = pose
-    c, s = cos(theta), sin(theta)
-    px, py = x, y
-    least = x * x + y * y
-    for n in range(len(motion)):
-        nx = x + c * motion[n, 0] - s * motion[n, 1] - walk[n, 0]
-        ny = y + s * motion[n, 0] + c * motion[n, 1] - walk[n, 1]
-        dx, dy = nx - px, ny - py
-        share = -(px * dx + py * dy) / (dx * dx + dy * dy + 1e-30)
-        share = min(max(share, 0.0), 1.0)
-        cx, cy = px + share * dx, py + share * dy
-        least = min(least, cx * cx + cy * cy)
-        px, py = nx, ny
-    turned = walk[len(motion) - 1, 2]
-    c, s = cos(turned), sin(turned)
-    after = look_up(
-        v,
-        c * px + s * py,
-        c * py - s * px,
-        theta + motion[len(motion) - 1, 2] - turned,
-        grid,
-        outside,
-    )
-    return min(after, sqrt(least) - sag)
-
-
-@inlined
-def worst_walk(
-    v: Any,
-    pose: tuple[float, float, float],
-    motion: Any,
-    walks: Any,
-    first: int,
-    floor: float,
-    sag: float,
-    grid: PoseGrid,
-    outside: float,
-) -> tuple[float, int]:
-    """Return the worst outcome over the person's walks, and its number.
-
-    The search ends where the outcome is at most ``floor``; the walk
-    ``first`` is tried first.
-    """
-    worst = outcome_of(v, pose, motion, walks[first], sag, grid, outside)
-    at = first
-    for m in range(len(walks)):
-        if worst <= floor:
-            break
-        found = outcome_of(v, pose, motion, walks[m], sag, grid, outside)
-        if found < worst:
-            worst, at = found, m
-    return worst, at
-
-
-@compiled
-def evaluate_motions(
-    v: Any,
-    pose: Any,
-    motions: Any,
-    walks: Any,
-    sag: float,
-    grid: PoseGrid,
-    outside: float,
-    out: Any,
-) -> None:
-    """Compute the worst outcome of each motion; see :func:`outcome_of`."""
-    state = (pose[0], pose[1], pose[2])
-    for k in range(len(motions)):
-        out[k], _ = worst_walk(
-            v, state, motions[k], walks, 0, -1.0, sag, grid, outside
-        )
-
-
-@compiled
-def look_up_all(
-    v: Any, poses: Any, grid: PoseGrid, outside: float, out: Any
-) -> None:
-    """Interpolate at many poses. Shape (n, 3)."""
-    for n in range(len(poses)):
-        x, y = poses[n, 0], poses[n, 1]
-        found = look_up(v, x, y, poses[n, 2], grid, outside)
-        out[n] = min(found, sqrt(x * x + y * y))
 
 
 @compiled
@@ -301,19 +171,35 @@ def solve_shield(
     check_within(response, 0.0, 10.0, "response", "s")
     begin = perf_counter()
     scale = GROWTH
+    hopeless = least >= _keepable(game)
     for _ in range(TRIALS):
         grid = _cover(game, least, scale * response, scale, cells, headings)
-        v, eroded, outside = _converge_shield(game, grid, least)
+        v = eroded = np.zeros(grid.shape)
+        outside = 0.0
+        if hopeless:
+            break
+        found, lowest, outside = _converge_shield(game, grid, least)
         if outside >= least:
+            v, eroded = found, lowest
             break
         scale *= GROWTH
-    else:  # no state is safe
-        v, eroded, outside = np.zeros_like(v), np.zeros_like(v), 0.0
-    standing = _standing(game, grid, v, outside, response)
+    standing = v
+    if outside >= least:
+        standing = _standing(game, grid, v, outside, response)
     return ShieldTable(
         game, grid, v, eroded, standing, outside, response,
         perf_counter() - begin,
     )  # fmt: skip
+
+
+def _keepable(game: ShieldGame) -> float:
+    """Return the distance that a point without turns could keep, in [m]."""
+    ratio = (game.speed - game.loss / game.period) / game.person.speed
+    if ratio <= 1e-6:
+        return 0.0
+    if ratio >= 1.0:
+        return inf
+    return game.person.turning_radius * guaranteed_distance(ratio)
 
 
 def _layer(game: ShieldGame) -> float:
@@ -426,17 +312,3 @@ def _standing(
             outside,
         )  # fmt: skip
     return found
-
-
-def relative_pose(
-    robot: tuple[float, float, float], person: tuple[float, float, float]
-) -> tuple[float, float, float]:
-    """Return a pose of the robot in the frame of the person."""
-    dx, dy = robot[0] - person[0], robot[1] - person[1]
-    c, s = cos(person[2]), sin(person[2])
-    turned = robot[2] - person[2]
-    return (
-        c * dx + s * dy,
-        c * dy - s * dx,
-        atan2(sin(turned), cos(turned)),
-    )

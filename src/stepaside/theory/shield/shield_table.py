@@ -1,38 +1,13 @@
 """Table of a solved shield game."""
 
 from dataclasses import dataclass
-from math import tau
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ...core.brief_repr import brief_repr
-from .shield_game import Array, ShieldGame
-
-CELLS = 10  # of the grid in the required distance
-
-
-class PoseGrid(NamedTuple):
-    """Grid over half the poses of a robot in the frame of a person.
-
-    Attributes:
-        left: x of the first node, in [m]; y begins at 0.
-        spacing: Spacing of positions, in [m].
-        shape: Nodes along x, y >= 0 and the heading.
-    """
-
-    left: float
-    spacing: float
-    shape: tuple[int, int, int]
-
-    def axes(self) -> tuple[Array, Array, Array]:
-        """Return the coordinates of the nodes, in [m], [m] and [rad]."""
-        i, j, k = (np.arange(n, dtype=np.float64) for n in self.shape)
-        x: Array = self.left + self.spacing * i
-        y: Array = self.spacing * j
-        theta: Array = tau / self.shape[2] * k
-        return x, y, theta
+from .shield_game import Array, PoseGrid, ShieldGame
+from .shield_outcomes import evaluate_motions, look_up_all
 
 
 @dataclass(frozen=True)
@@ -101,8 +76,6 @@ class ShieldTable:
             Least distance on the way and value after it, at worst, in [m].
             Shape (n,).
         """
-        from .shield_solver import evaluate_motions
-
         walks = self.game.person.walks(duration, self.game.more_turn)
         found = np.full(len(motions), np.inf)
         out = np.empty(len(motions))
@@ -121,8 +94,6 @@ class ShieldTable:
         return found
 
     def _look_up(self, table: Array, poses: ArrayLike) -> Array:
-        from .shield_solver import look_up_all
-
         states = np.atleast_2d(np.asarray(poses, dtype=np.float64))
         out = np.empty(len(states))
         look_up_all(table, states, self.grid, self.outside, out)

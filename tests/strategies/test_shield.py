@@ -1,0 +1,165 @@
+"""Test the shield around a strategy."""
+
+from dataclasses import replace
+from math import atan2, cos, hypot, pi, sin
+
+import numpy as np
+import pytest
+
+from stepaside.core.poses import Pose, wrap_angle
+from stepaside.planning import Direction
+from stepaside.strategies import StandStill
+from stepaside.strategies.knowledge import Intent, Knowledge, Limits
+from stepaside.strategies.shield import (
+    ShieldedStrategy,
+    ShieldMemory,
+    shielded,
+)
+from stepaside.strategies.shield_settings import ShieldSettings
+from stepaside.strategies.velocity_set import (
+    AxisValues,
+    BodyVelocity,
+    VelocitySet,
+)
+
+LIMITS = Limits(0.1, 0.2, 0.04, 0.5)
+PERSON = ShieldSettings(True, 0.1, 4.0, 0.3)
+SPEED = PERSON.speed
+
+
+@pytest.fixture(autouse=True)
+def coarse(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("stepaside.strategies.shield_model.CELLS", 6)
+
+
+def known(time: float, distance: float, **changes: object) -> Knowledge:
+    """Return knowledge of a person who comes from ahead."""
+    knowledge = Knowledge(time, 0.0, distance, LIMITS)
+    return replace(knowledge, **changes)  # type: ignore[arg-type]
+
+
+def approach(strategy: ShieldedStrategy, distance: float) -> list[Intent]:
+    """Return the decisions of a standing robot whom a person approaches."""
+    memory, intents = strategy.begin(), []
+    for i in range(3):
+        time = 0.5 * i
+        intent, memory = strategy.decide(
+            known(time, distance - SPEED * time), memory
+        )
+        intents.append(intent)
+    return intents
+
+
+def test_disabled_shield_is_no_shield() -> None:
+    strategy = StandStill()
+    assert shielded(strategy, ShieldSettings()) is strategy
+
+
+def test_robot_stands_while_that_is_safe() -> None:
+    strategy = ShieldedStrategy(StandStill(), PERSON)
+    assert not any(intent.walks for intent in approach(strategy, 6.0))
+
+
+def test_obligation_to_start_sets_a_standing_robot_in_motion() -> None:
+    strategy = ShieldedStrategy(StandStill(), PERSON)
+    assert approach(strategy, 1.2)[-1].walks
+
+
+def test_obligation_depends_on_the_course_of_the_person() -> None:
+    """At the same distance, a person who walks away obliges to nothing."""
+    strategy = ShieldedStrategy(StandStill(), PERSON)
+    memory: ShieldMemory = strategy.begin()
+    for i in range(3):
+        knowledge = known(0.5 * i, 1.1 + SPEED * 0.5 * i)
+        intent, memory = strategy.decide(knowledge, memory)
+    assert memory.guarded and not intent.walks
+
+
+def test_person_beyond_every_robot_changes_nothing() -> None:
+    """Where contact can be forced from everywhere, the strategy decides."""
+    faster = replace(PERSON, speed=1.4, turning_radius=0.5)
+    strategy = ShieldedStrategy(StandStill(), faster)
+    assert not any(intent.walks for intent in approach(strategy, 1.2))
+
+
+def play(seed: int, start: tuple[float, float, float]) -> float:
+    """Return the closest approach to a shielded robot that walks at random.
+
+    Unicycles in steps; the person turns towards the robot, or at random.
+    """
+    random = np.random.default_rng(seed)
+
+    class AtRandom(StandStill):
+        """Evader that walks at random."""
+
+        direction = Direction.BACKWARD
+
+        def decide(
+            self, knowledge: Knowledge, memory: object
+        ) -> tuple[Intent, object]:
+            return Intent(float(random.uniform(-pi, pi))), memory
+
+    strategy = ShieldedStrategy(AtRandom(), PERSON)
+    memory = strategy.begin()
+    own, person = Pose(*start), Pose(0.0, 0.0, 0.0)
+    most = SPEED / PERSON.turning_radius * 0.5
+    closest = np.inf
+    for i in range(80):
+        dx, dy = person.x - own.x, person.y - own.y
+        bearing = wrap_angle(atan2(dy, dx) - own.theta)
+        knowledge = Knowledge(
+            0.5 * i, bearing, hypot(dx, dy), LIMITS,
+            pose_in_map=own, moving=i > 0,
+        )  # fmt: skip
+        intent, memory = strategy.decide(knowledge, memory)
+        if i == 1 and not memory.guarded:
+            return np.inf  # no certified start
+        turn = min(max(0.08 * intent.heading, -0.08 * pi), 0.08 * pi)
+        way = -0.04 * intent.speed_factor * intent.walks
+        own = own.compose(
+            Pose(way * cos(0.5 * turn), way * sin(0.5 * turn), turn)
+        )
+        aim = wrap_angle(atan2(own.y - person.y, own.x - person.x) - person[2])
+        rate = min(max(aim, -most), most)
+        if random.random() < 0.3:
+            rate = most * float(random.choice([-1.0, 1.0]))
+        person = person.compose(Pose(0.5 * SPEED, 0.0, rate))
+        closest = min(closest, hypot(person.x - own.x, person.y - own.y))
+    return closest
+
+
+def test_no_contact_from_certified_starts() -> None:
+    found = [
+        play(seed, (x, y, theta))
+        for seed, (x, y, theta) in enumerate(
+            np.random.default_rng(2)
+            .uniform([-0.5, -0.7, -pi], [2.0, 0.7, pi], (30, 3))
+            .tolist()
+        )
+    ]
+    assert sum(np.isfinite(found)) > 10
+    assert min(found) > PERSON.contact
+
+
+def test_legs_hold_a_velocity_over_the_floor_while_they_turn() -> None:
+    legs = VelocitySet(
+        (-0.6, 0.6), (-0.3, 0.3), (-0.9, 0.9), AxisValues(0.1, 0.1, 0.1)
+    )
+    limits = replace(LIMITS, velocities=legs)
+    shield = ShieldSettings(True, 0.7, 8.0, 0.3, response=0.1)
+    model = ShieldedStrategy(StandStill(), shield).model_for(
+        replace(known(0.0, 2.0), limits=limits)
+    )
+    choices, motions = model.choices(), model.motions()
+    np.testing.assert_allclose(
+        motions[:, -1, :2], choices[:, :2] * model.period, atol=1e-12
+    )
+    for (ahead, left, rate), _ in zip(choices, motions, strict=True):
+        for share in (0.0, 0.5, 1.0):
+            turned = -share * rate * model.period
+            velocity = BodyVelocity(
+                ahead * cos(turned) - left * sin(turned),
+                ahead * sin(turned) + left * cos(turned),
+                rate,
+            )
+            assert np.allclose(legs.nearest(velocity), velocity)

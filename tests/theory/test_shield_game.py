@@ -1,0 +1,105 @@
+"""Test the sampled game of the shield."""
+
+from functools import cache
+from math import pi, tau
+
+import numpy as np
+import pytest
+
+from stepaside.theory.chauffeur.chauffeur_game import guaranteed_distance
+from stepaside.theory.shield import (
+    PersonModel,
+    PoseGrid,
+    ShieldGame,
+    ShieldTable,
+    solve_shield,
+    sub_poses,
+)
+from stepaside.theory.shield.shield_solver import eroded_values
+
+SPEED = 0.6  # of the robot, by that of the person
+PERIOD = 0.25  # in turning radii per speed of the person
+CLOSED = guaranteed_distance(SPEED)
+
+
+def omnidirectional(loss: float = 0.0, speed: float = SPEED) -> ShieldGame:
+    """Return the game of a point against a person of unit speed and radius."""
+    angles = tau / 16 * np.arange(16)
+    twists = [(speed * np.cos(a), speed * np.sin(a), 0.0) for a in angles]
+    motions = sub_poses([*twists, (0.0, 0.0, 0.0)], PERIOD)
+    return ShieldGame(PersonModel(1.0, 1.0), motions, PERIOD, loss)
+
+
+@cache
+def solved(share: float, loss: float = 0.0) -> ShieldTable:
+    """Return the table for a share of the closed form."""
+    game = omnidirectional(loss)
+    return solve_shield(
+        game, share * CLOSED, cells=6, headings=8, response=PERIOD
+    )
+
+
+def test_arcs_are_those_of_a_unicycle() -> None:
+    (arc,) = sub_poses([(1.0, 0.0, 0.5 * pi)], 1.0)
+    np.testing.assert_allclose(arc[-1], [2.0 / pi, 2.0 / pi, 0.5 * pi])
+    (crab,) = sub_poses([(0.0, 1.0, 0.0)], 2.0)
+    np.testing.assert_allclose(crab[-1], [0.0, 2.0, 0.0], atol=1e-12)
+
+
+def test_distances_below_the_closed_form_can_be_kept_and_above_not() -> None:
+    assert solved(0.75).outside > 0.0
+    assert solved(1.15).outside == 0.0
+
+
+def test_losses_per_decision_cost_speed() -> None:
+    """A distance that is safe without losses is not with them."""
+    assert solved(0.75, loss=0.5 * SPEED * PERIOD).outside == 0.0
+
+
+def test_value_is_at_most_the_distance_and_mirrored() -> None:
+    table = solved(0.75)
+    random = np.random.default_rng(3)
+    poses = random.uniform([-0.4, -0.4, -pi], [1.0, 0.4, pi], (300, 3))
+    values = table.value(poses)
+    assert (values <= np.hypot(poses[:, 0], poses[:, 1]) + 1e-12).all()
+    np.testing.assert_allclose(
+        values, table.value(poses * [1.0, -1.0, -1.0]), atol=1e-9
+    )
+
+
+def test_standing_first_is_never_better() -> None:
+    table = solved(0.75)
+    assert (table.standing <= table.values + 1e-12).all()
+    assert (table.standing < table.values - 1e-3).any()
+
+
+def test_safe_states_have_a_motion_after_which_they_are_safe() -> None:
+    """The step of the induction, against walks between those of the grid."""
+    table, random = solved(0.75), np.random.default_rng(5)
+    required = 0.75 * CLOSED
+    poses = random.uniform([-0.3, -0.4, -pi], [0.9, 0.4, pi], (400, 3))
+    safe = poses[table.value(poses) >= required]
+    assert len(safe) > 50
+    found = [
+        table.outcomes(pose, table.game.motions, PERIOD).max() for pose in safe
+    ]
+    # Values between nodes are interpolated: half a cell of error.
+    assert min(found) > required - 0.5 * table.grid.spacing
+
+
+def test_erosion_lowers_a_slope_by_the_loss() -> None:
+    grid = PoseGrid(0.0, 0.1, (20, 20, 8))
+    x, y, _ = grid.axes()
+    slope = np.repeat((x[:, None] + 2.0 * y)[:, :, None], 8, axis=2)
+    eroded = eroded_values(slope, grid, 0.25, 0.0)
+    lowered = (slope - eroded)[5:-5, 5:-5]
+    least = 0.25 * np.hypot(1.0, 2.0)
+    assert (lowered >= least - 1e-9).all()
+    assert (lowered <= least / np.cos(pi / 8) + 1e-9).all()
+
+
+@pytest.mark.parametrize("name", ["speed", "turning_radius"])
+def test_invalid_person_is_refused(name: str) -> None:
+    values = {"speed": 1.0, "turning_radius": 1.0} | {name: 0.0}
+    with pytest.raises(ValueError, match=name):
+        PersonModel(**values)
