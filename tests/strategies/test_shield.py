@@ -1,6 +1,6 @@
 """Test the shield around a strategy."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from math import atan2, cos, hypot, pi, sin
 
 import numpy as np
@@ -82,6 +82,28 @@ def test_person_beyond_every_robot_changes_nothing() -> None:
     assert not any(intent.walks for intent in approach(strategy, 1.2))
 
 
+@dataclass(frozen=True)
+class AtRandom:
+    """Evader that walks at random.
+
+    Attributes:
+        random: Source of its headings.
+    """
+
+    random: np.random.Generator
+    direction: Direction = Direction.BACKWARD
+    saturated: bool = False
+
+    def begin(self) -> None:
+        """Return an empty memory."""
+
+    def decide(
+        self, knowledge: Knowledge, memory: None
+    ) -> tuple[Intent, None]:
+        """Decide on a random heading."""
+        return Intent(float(self.random.uniform(-pi, pi))), None
+
+
 def play(seed: int, start: tuple[float, float, float]) -> float:
     """Return the closest approach to a shielded robot that walks at random.
 
@@ -89,17 +111,7 @@ def play(seed: int, start: tuple[float, float, float]) -> float:
     """
     random = np.random.default_rng(seed)
 
-    class AtRandom(StandStill):
-        """Evader that walks at random."""
-
-        direction = Direction.BACKWARD
-
-        def decide(
-            self, knowledge: Knowledge, memory: object
-        ) -> tuple[Intent, object]:
-            return Intent(float(random.uniform(-pi, pi))), memory
-
-    strategy = ShieldedStrategy(AtRandom(), PERSON)
+    strategy = ShieldedStrategy(AtRandom(random), PERSON)
     memory = strategy.begin()
     own, person = Pose(*start), Pose(0.0, 0.0, 0.0)
     most = SPEED / PERSON.turning_radius * 0.5
