@@ -10,7 +10,7 @@ INSTALL := -m pip install --disable-pip-version-check --no-warn-script-location 
 	--root-user-action=ignore --constraint constraints.txt
 
 .PHONY: setup duel test-tools test types suite python other other-setup other-test mutate \
-	fuzz bench figures docs docs-run docs-setup wheel clean constraints \
+	fuzz bench figures docs docs-run docs-setup wheel release clean constraints \
 	ros2-peers test-export
 
 setup: $(STAMP)
@@ -83,6 +83,14 @@ wheel: setup
 	$(BIN)/python -m venv .venv-wheel
 	.venv-wheel/bin/python $(INSTALL) dist/*.whl
 	.venv-wheel/bin/python tests/installed_package.py
+
+# Wheel and source distribution in dist/, checked as a package index would.
+release: setup
+	rm -rf dist .venv-release
+	$(BIN)/python -m venv .venv-release
+	.venv-release/bin/python $(INSTALL) --quiet build twine
+	.venv-release/bin/python -m build --outdir dist .
+	.venv-release/bin/python -m twine check --strict dist/*
 
 # Real ROS 2 nodes against our topics, on the loopback interface; their wheels
 # are for Python 3.12, and where there is none nothing is checked.

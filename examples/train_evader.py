@@ -5,11 +5,14 @@
 
 Run it alone: ``python examples/train_evader.py`` on an open floor, or
 ``... discs 200`` in rooms with three discs, with 200 updates. The policy is
-evader-open.onnx or evader-discs.onnx, for ``stepaside duel --strategy``.
+evader-open.onnx or evader-discs.onnx, for ``stepaside duel --strategy``, the
+training curve training-open.png or training-discs.png.
 """
 
 import sys
 from time import process_time
+
+import matplotlib.pyplot as plt
 
 from stepaside.arena import RoomRecipe
 from stepaside.envs import VectorDuel
@@ -39,10 +42,12 @@ def main(floor: str, updates: int) -> None:
         full_state=True,
     )
     learner = PolicyOptimiser(games, OptimisationSettings(updates), seed=1)
+    curve = []
     for n in range(updates):
-        found = learner.update(n, 1.0 - n / updates)
+        curve.append(learner.update(n, 1.0 - n / updates).closest_m)
         if n % 10 == 0:
-            print(f"{process_time():4.0f} s: {found.closest_m:.3f} m, {n}")
+            print(f"{process_time():4.0f} s: {curve[-1]:.3f} m, {n}")
+    draw_curve(curve, f"training-{floor}.png")
     learner.strategy().save(f"evader-{floor}.onnx")
     rated = [(f"evader-{floor}.onnx", "evader"), ("aside", "evader")]
     study = rating_study(rated, max(2, updates // 2), 60.0, WORLDS[floor])
@@ -53,6 +58,17 @@ def main(floor: str, updates: int) -> None:
                 f"{row['survived']:.2f}, closest approach over bound "
                 f"{row['mean_ratio']:.3f} +- {row['mean_ratio_pm']:.3f}"
             )
+
+
+def draw_curve(curve: list[float], file: str) -> None:
+    """Draw the mean closest approach of the games that ended, in [m]."""
+    plt.figure(figsize=(6.0, 2.6), layout="constrained")
+    plt.plot(curve, color="#1f5fbf")
+    plt.xlabel("update")
+    plt.ylabel("closest approach [m]")
+    plt.ylim(bottom=0.0)
+    plt.grid(alpha=0.3)
+    plt.savefig(file, dpi=120)
 
 
 if __name__ == "__main__":

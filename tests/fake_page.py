@@ -51,6 +51,7 @@ class Panel(Handle):
     def __init__(self) -> None:
         """Begin without a place."""
         super().__init__("panel", place="", width=0.0)
+        self.minimized = False
         self.tabs: list[Handle] = []
 
     def dock_left(self) -> None:
@@ -64,6 +65,14 @@ class Panel(Handle):
     def set_width(self, width: float) -> None:
         """Be so wide."""
         self.width = width
+
+    def float(self, **place: float) -> None:
+        """Lie over the scene."""
+        self.place, self.width = "over", place["width"]
+
+    def minimize(self) -> None:
+        """Show the title only."""
+        self.minimized = True
 
     def add_tab(self, label: str) -> Handle:
         """Add a tab, to be filled."""
@@ -79,6 +88,7 @@ class Gui:
         self.items: dict[str, Handle] = {}
         self.folders: dict[str, Handle] = {}
         self.texts: list[Handle] = []
+        self.html: list[Handle] = []
         self.plots: list[Handle] = []
         self.themes: list[bool] = []
         self.main_panel = Panel()
@@ -133,6 +143,7 @@ class Gui:
         options: Any,
         initial_value: Any = None,
         visible: bool = True,
+        order: float | None = None,
     ) -> Handle:
         """Add a choice."""
         value = options[0] if initial_value is None else initial_value
@@ -149,6 +160,11 @@ class Gui:
         made.visible = visible
         self.texts.append(made)
         return made
+
+    def add_html(self, content: str) -> Handle:
+        """Add a text with tags."""
+        self.html.append(Handle("html", content=content))
+        return self.html[-1]
 
     def add_uplot(self, data: Any, series: Any, **options: Any) -> Handle:
         """Add a plot."""

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 import stepaside
-from tools.documents import notebooks
+from tools.documents import gallery, notebooks
 
 DOCS = Path(__file__).parents[2] / "docs"
 TREE = re.compile(r"```{toctree}\n(.*?)```", re.DOTALL)
@@ -68,3 +68,12 @@ def test_a_script_must_name_what_it_runs(tmp_path: Path) -> None:
 @pytest.mark.parametrize("script", notebooks.scripts(), ids=lambda s: s.stem)
 def test_every_tutorial_names_modules_that_exist(script: Path) -> None:
     assert set(notebooks.fingerprint(script)) == {"script", "code"}
+
+
+def test_the_gallery_holds_the_pictures_of_its_commands() -> None:
+    """``python -m tools.documents.gallery --page`` writes the page."""
+    assert gallery.PAGE.read_text(encoding="utf-8") == gallery.page()
+    files = [gallery.file_of(n + 1) for n in range(len(gallery.ENTRIES))]
+    assert sorted(gallery.PICTURES.iterdir()) == sorted(files)
+    for entry in gallery.ENTRIES:
+        assert not entry.example or (gallery.ROOT / entry.example).exists()

@@ -9,6 +9,7 @@ from threading import Event, RLock, Thread
 from types import SimpleNamespace
 from typing import Any
 
+import mujoco
 import numpy as np
 import pytest
 
@@ -16,7 +17,7 @@ from fake_page import Client, Gui, open_fake
 from match_callbacks import observe_ticks
 from stepaside.control.strategy_runner import StrategyRunner
 from stepaside.core.errors import ConfigurationError, StepAsideError
-from stepaside.core.poses import Array, wrap_angle
+from stepaside.core.poses import Array, Pose, wrap_angle
 from stepaside.games.duel import Duel, run_duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.outcome import Outcome
@@ -110,7 +111,14 @@ def test_what_grows_is_cut() -> None:
     """Steps, plots and traces: the newest stay, of each player its own."""
     trail = PlotHistory()
     assert trail.history.maxlen == trails.MAX_SAMPLES
-    now = SimpleNamespace(time=0.0, ticks=0, physics=SimpleNamespace(tick=0.1))
+    model = mujoco.MjModel.from_xml_string("<mujoco/>")
+    now = SimpleNamespace(
+        time=0.0,
+        ticks=0,
+        physics=SimpleNamespace(tick=0.1),
+        model=model,
+        data=mujoco.MjData(model),
+    )
     for number in range(130):
         players = [
             SimpleNamespace(
@@ -133,7 +141,10 @@ def test_what_grows_is_cut() -> None:
 def _seen() -> Any:
     """What is seen of a player who stands still."""
     return SimpleNamespace(
-        name="any", place=(0.0, 0.0, 0.0), com=(0.0, 0.0, 0.3), zmp=(0.0, 0.0)
+        name="any",
+        place=Pose(0.0, 0.0, 0.0),
+        com=(0.0, 0.0, 0.3),
+        zmp=(0.0, 0.0),
     )
 
 
@@ -404,6 +415,7 @@ def test_plots_show_the_history_beside_theory() -> None:
     assert colours == [PURSUER, ON_BOTH_FLOORS[EVADER]]
     for plot in gui.plots:  # seconds, and no date
         assert plot.options["scales"]["x"]["time"] is False
+    session.trail.labels, session.trail.signals = (), []
     session.trail.history = [(0.1, 1.0, 170.0)]
     before = distance.data
     plots.show(session)

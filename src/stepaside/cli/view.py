@@ -35,6 +35,11 @@ if TYPE_CHECKING:
     show_default=True,
     help="Start the simulation immediately, or paused.",
 )
+@click.option(
+    "--demo/--no-demo",
+    help="Show large text and no controls, and play one duel after the other "
+    "with the next seeds, for an audience.",
+)
 @serve_for_option("--duration")
 @duel_options("duration")
 def view(
@@ -43,12 +48,13 @@ def view(
     port: int,
     opens: bool,
     run: bool,
+    demo: bool,
     serve_for: float | None,
 ) -> None:
     """Serve a page on which to watch a duel, push and drive the robots."""
     from ..report.viewer.live_page import Page
 
-    page = Page(settings, host=host, port=port)
+    page = Page(settings, host=host, port=port, demo=demo)
     if page.gate.secret:
         echo(
             f"stepaside: other machines can reach {host}; anyone with the "

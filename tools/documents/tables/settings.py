@@ -91,7 +91,7 @@ def settings(_: Any) -> str:
                 f"`{option}`" if option else "",
                 known.text.removesuffix("."),
                 values,
-                _default(setting.default),
+                "" if path in LISTS else _default(setting.default),
                 why,
             )
         )

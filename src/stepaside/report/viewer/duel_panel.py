@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from dataclasses import replace
 from math import degrees, radians
+from typing import Any
 
 import viser
 
@@ -18,6 +19,7 @@ from ...locomotion.zmp.control_settings import (
 )
 from ...planning import GaitSettings
 from ...sim.body_settings import BODIES, BodySettings
+from .duel_presets import duel_presets
 from .live_session import LiveSession
 
 LAWS = ("proportional (4)", "saturated (6)")
@@ -59,7 +61,11 @@ def walking_speed_text(gait: GaitSettings) -> str:
 
 
 class DuelPanel:
-    """Controls of the evader's strategy and of the next duel."""
+    """Controls of the evader's strategy and of the next duel.
+
+    Attributes:
+        preset: Choice of a duel by name.
+    """
 
     def __init__(
         self,
@@ -78,6 +84,8 @@ class DuelPanel:
         self._notify = notify
         settings = session.settings
         self._bodies_by_name, self._body_name = body_choices(settings)
+        self._presets = duel_presets(settings)
+        self.preset = gui.add_dropdown("Preset", tuple(self._presets))
         start = self._session.duel.settings.start
         with gui.add_folder("Evader (from its next step)"):
             self._angle = gui.add_number(
@@ -140,6 +148,8 @@ class DuelPanel:
             return
         self._notify("")
         session = self._session
+        if strategy == session.settings.strategy:
+            return
         session.adopt_settings(
             replace(
                 session.settings, strategy=strategy, evader_strategy=EVASION
@@ -152,6 +162,37 @@ class DuelPanel:
                 evader.scheme.decisions.adopt(strategy)
 
         session.change(change)
+
+    def play_preset(self) -> bool:
+        """Start the duel of the chosen preset.
+
+        Returns:
+            Whether its settings were valid.
+        """
+        settings = self._presets[self.preset.value]
+        try:
+            self._session.reset(settings)
+        except StepAsideError as error:
+            self._notify(str(error))
+            return False
+        body = next(
+            name
+            for name, (body, _) in self._bodies_by_name.items()
+            if body == settings.body
+        )
+        controls: list[tuple[Any, Any]] = [
+            (self._angle, degrees(settings.strategy.angle)),
+            (self._law, LAWS[settings.strategy.saturated]),
+            (self._distance, round(settings.start.distance or 1.0, 3)),
+            (self._speed_m_s, settings.gait.speed),
+            (self._gain, settings.gait.gain),
+            (self._sensing, settings.sensing),
+            (self._body, body),
+        ]
+        for control, value in controls:
+            control.value = value
+        self._notify("")
+        return True
 
     def restart(self) -> bool:
         """Start a duel with the settings of the controls.

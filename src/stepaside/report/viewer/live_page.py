@@ -2,6 +2,7 @@
 
 import logging
 import threading
+from dataclasses import replace
 from math import inf
 from pathlib import Path
 from time import perf_counter, sleep
@@ -15,6 +16,7 @@ from ...games.strategy_resolution import EVASION
 from ..palette import THEMES
 from ..text_escaping import for_markdown
 from .camera_panel import CameraPanel
+from .demo_caption import DemoCaption, is_over
 from .dragging import PushDragging
 from .drive_panel import DrivePanel, add_push
 from .duel_panel import DuelPanel
@@ -22,6 +24,7 @@ from .live_drawing import draw_session
 from .live_session import LiveSession, LiveSnapshot
 from .page_layout import arrange_panels
 from .page_server import open_server
+from .plot_history import MAX_POSES, PERIOD, BodyPoses
 from .plots import Plots
 from .run_saving import RunSaver
 from .scene_bodies import SceneBodies
@@ -47,7 +50,12 @@ class Page:
     """
 
     def __init__(
-        self, settings: DuelSettings, *, host: str, port: int
+        self,
+        settings: DuelSettings,
+        *,
+        host: str,
+        port: int,
+        demo: bool = False,
     ) -> None:
         """Serve a duel, which is paused at first.
 
@@ -55,6 +63,8 @@ class Page:
             settings: Settings of the duel.
             host: Address to serve at.
             port: First port to try.
+            demo: Whether the page is for an audience: large text, panels
+                minimised, one duel after the other with the next seeds.
 
         Raises:
             StepAsideError: If the address cannot be used or the settings are
@@ -84,27 +94,38 @@ class Page:
         served.joystick.connect(self._drive.steer)
         with layout.settings:
             self._duel = DuelPanel(gui, self.session, self._notify)
+        self._duel.preset.on_update(lambda _: self._play_preset())
         with layout.layers:
             self._add_layers()
         self._reset_cameras()
+        self._caption = DemoCaption(gui) if demo else None
+        if demo:
+            layout.controls.minimize()
         self._saving = RunSaver(Path("runs"))
         self._publisher = threading.Thread(target=self._publish, daemon=True)
 
     def _set_scene(self) -> tuple[SceneLayers, ViewerClients]:
         """Add lights, players and labels to the scene."""
-        scene, model = self.server.scene, self.session.duel.world.model
+        scene = self.server.scene
         scene.set_up_direction("+z")
         scene.configure_default_lights(cast_shadow=True)
         self.server.initial_camera.position = (-0.5, -1.6, 1.3)
         self.server.initial_camera.look_at = (0.5, 0.0, 0.2)
-        self._bodies = SceneBodies(scene, model)
-        self._bodies.add_labels(model, PLAYERS)
-        dragging = PushDragging(scene, self.session, self._notify)
-        for number, player in enumerate(PLAYERS):
-            dragging.add(number, self._bodies.meshes_of(model, player))
+        self._dragging = PushDragging(scene, self.session, self._notify)
+        self._bodies = self._add_bodies()
         return SceneLayers(scene), ViewerClients(
             self.server, self.session.settings.room.plan
         )
+
+    def _add_bodies(self) -> SceneBodies:
+        """Add the bodies of the duel, whose robots can be dragged."""
+        model = self.session.duel.world.model
+        bodies = SceneBodies(self.server.scene, model)
+        bodies.add_labels(model, PLAYERS)
+        for number, player in enumerate(PLAYERS):
+            self._dragging.add(number, bodies.meshes_of(model, player))
+        self._shown = stage_of(self.session.settings)
+        return bodies
 
     def start(self) -> None:
         """Start the thread that updates the page."""
@@ -123,6 +144,13 @@ class Page:
         self._play = gui.add_button("Start", hint="Key: space.")
         action = gui.add_button_group("Duel", ("step", "reset", "save"))
         speed = gui.add_dropdown("Speed", SPEEDS, initial_value="1")
+        self._back: Any = gui.add_slider(
+            "Look back [s]",
+            min=0.0,
+            max=MAX_POSES * PERIOD,
+            step=PERIOD,
+            initial_value=0.0,
+        )
         camera = gui.add_button_group("Camera", CAMERAS)
         theme = gui.add_button_group("Light", THEMES)
         actions = {
@@ -188,6 +216,11 @@ class Page:
         if self._duel.restart():
             self._drive.reset()
 
+    def _play_preset(self) -> None:
+        """Start the duel of the chosen preset."""
+        if self._duel.play_preset():
+            self._drive.reset()
+
     def _save(self) -> None:
         """Write a run folder, and show its path."""
         try:
@@ -237,10 +270,16 @@ class Page:
             self._generation = session.generation
             self.layers.clear()
             self._reset_cameras()
+            self._renew_stage()
         snapshot = session.snapshot()
+        past = self._past(snapshot.time)
         with self.server.atomic():
-            self._bodies.move(snapshot.positions, snapshot.quaternions)
-            draw_session(self.layers, session)
+            if past is not None:
+                self.layers.clear()
+                self._bodies.move(past[1], past[2])
+            else:
+                self._bodies.move(snapshot.positions, snapshot.quaternions)
+                draw_session(self.layers, session)
         self._viewers.aim(
             [np.array(player.torso[:2]) for player in snapshot.players],
             [float(player.com[2]) for player in snapshot.players],
@@ -254,10 +293,12 @@ class Page:
             session.theory,
             approach=snapshot.approach,
         )
-        speed = ""
+        speed = text = ""
         if session.running and session.real_time_factor > 0.0:
             speed = f", {session.real_time_factor:.1f} x real time"
-        text = (
+        if past is not None:
+            text = f"**looking back**: the bodies at {past[0]:.1f} s\n\n"
+        text += (
             f"{status}\n\n{self._outlook(snapshot)}\n\n"
             f"{snapshot.time:.1f} s simulated{speed}\n\n"
             f"distance {snapshot.distance:.2f} m, "
@@ -270,7 +311,28 @@ class Page:
             text += f"\n\n**stopped: {for_markdown(session.error)}**"
         if self._status.content != text:
             self._status.content = text
+        if self._caption is not None:
+            self._caption.show(snapshot, self._outlook(snapshot))
+            if is_over(snapshot, ended=session.outcome is not None):
+                seed = session.settings.seed + 1
+                session.reset(replace(session.settings, seed=seed))
         self._drive.show(snapshot.time, snapshot.distance)
+
+    def _renew_stage(self) -> None:
+        """Replace the bodies if those of the duel are others."""
+        settings = self.session.settings
+        if self._shown != stage_of(settings):
+            self._bodies.remove()
+            self._bodies = self._add_bodies()
+            self._viewers.show_room(settings.room.plan)
+
+    def _past(self, now: float) -> BodyPoses | None:
+        """Return the poses to show instead of the present ones, if any."""
+        back = float(self._back.value)
+        if back <= 0.0:
+            return None
+        with self.session.lock:
+            return self.session.trail.poses_at(now - back)
 
     @property
     def _trigger_distance(self) -> float:
@@ -299,3 +361,14 @@ class Page:
             theory=session.theory,
             settling=session.settling,
         )
+
+
+def stage_of(settings: DuelSettings) -> tuple[Any, ...]:
+    """Return what decides which bodies a duel has."""
+    return (
+        settings.room,
+        settings.pursuer,
+        settings.person.figure,
+        settings.passers,
+        *(settings.robot_of(player).robot for player in PLAYERS),
+    )

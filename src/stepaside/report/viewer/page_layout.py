@@ -21,11 +21,13 @@ class PageLayout(NamedTuple):
         play: Tab with the controls of the running duel.
         settings: Tab with the settings of the next duel.
         layers: Tab with the layers of the scene.
+        controls: The panel of these tabs.
     """
 
     play: Any
     settings: Any
     layers: Any
+    controls: Any
 
 
 def arrange_panels(gui: viser.GuiApi) -> PageLayout:
@@ -41,10 +43,12 @@ def arrange_panels(gui: viser.GuiApi) -> PageLayout:
     gui.main_panel.dock_right()
     gui.main_panel.set_width(STATUS_WIDTH)
     controls = gui.add_panel()
-    tabs = [controls.add_tab(name) for name in ("Play", "Settings", "Layers")]
+    play, settings, layers = (
+        controls.add_tab(name) for name in ("Play", "Settings", "Layers")
+    )
     controls.dock_left()
     controls.set_width(CONTROL_WIDTH)
-    return PageLayout(*tabs)
+    return PageLayout(play, settings, layers, controls)
 
 
 def set_theme(gui: viser.GuiApi, theme: str) -> None:

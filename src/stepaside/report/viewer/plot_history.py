@@ -1,15 +1,19 @@
 """Recent history of a live duel, for plots, traces and footsteps."""
 
 from collections import deque
-from math import degrees
+from math import degrees, nan
 from typing import TYPE_CHECKING
 
+import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
+from ...core.poses import Array
 from ...games.approach_forecast import CourseApproach, estimate_approach
 from ...games.duel_circle import angle_between
 from ...games.match import Match
 from ...games.outcome import Outcome
+from ...games.player import Snapshot
 from ...locomotion.walk_snapshots import StepStarted
 
 if TYPE_CHECKING:
@@ -20,6 +24,10 @@ MAX_SAMPLES = 6000  # of the plots
 MAX_OFFSETS = 100  # samples of the offset
 MAX_TRACE = 1500  # points of a trace
 MAX_STEPS = 100  # of each player
+MAX_POSES = 1200  # of all bodies, to look back
+AXES = ("x [m]", "y [m]", "z [m]")
+HINGE = mujoco.mjtJoint.mjJNT_HINGE
+BodyPoses = tuple[float, Array, Array]
 
 
 class PlotHistory:
@@ -32,6 +40,11 @@ class PlotHistory:
         traces: Recent positions of CoM and ZMP in the world, in [m], by
             ``player/CoM`` and ``player/ZMP``.
         steps: Last steps of each player, by name.
+        signals: Further quantities of every sample in ``history``, in the
+            order of ``labels``. Each of shape (labels,).
+        labels: Names of these quantities, with units; empty at first.
+        poses: Time [s] and positions (bodies, 3) and quaternions (bodies, 4)
+            of all bodies at the last samples.
         frames: Newest image of each camera with its detections, by player
             and camera.
     """
@@ -46,6 +59,9 @@ class PlotHistory:
         )
         self.traces: dict[str, deque[tuple[float, float]]] = {}
         self.steps: dict[str, deque[StepStarted]] = {}
+        self.signals: deque[NDArray[np.float32]] = deque(maxlen=MAX_SAMPLES)
+        self.labels: tuple[str, ...] = ()
+        self.poses: deque[BodyPoses] = deque(maxlen=MAX_POSES)
         self.frames: dict[str, FrameReport] = {}
 
     def before(self, match: Match) -> None:
@@ -60,11 +76,42 @@ class PlotHistory:
             self.history.append((match.world.time, match.distance, angle))
             x, y = (pursuer - evader)[0, :2].tolist()
             self.offsets.append((match.world.time, x, y))
+            self._record_signals(match, snapshots)
         for snapshot in snapshots:
             self._trace(f"{snapshot.name}/CoM", snapshot.com[:2])
             # The ZMP is NaN while no foot is in contact.
             if snapshot.zmp is not None and np.isfinite(snapshot.zmp[0]):
                 self._trace(f"{snapshot.name}/ZMP", snapshot.zmp)
+
+    def poses_at(self, time: float) -> BodyPoses | None:
+        """Return the poses of all bodies at the sample nearest to a time.
+
+        Args:
+            time: Simulated time, in [s].
+        """
+        return min(
+            self.poses, key=lambda poses: abs(poses[0] - time), default=None
+        )
+
+    def _record_signals(self, match: Match, snapshots: list[Snapshot]) -> None:
+        """Record poses, joint angles, CoM and ZMP of a sample."""
+        data, model = match.world.data, match.world.model
+        self.poses.append(
+            (match.world.time, data.xpos.copy(), data.xquat.copy())
+        )
+        joints = [j for j in range(model.njnt) if model.jnt_type[j] == HINGE]
+        values: list[float] = []
+        for snapshot in snapshots:
+            zmp = (nan, nan) if snapshot.zmp is None else snapshot.zmp
+            values += [*snapshot.com, snapshot.place.theta, *zmp]
+        values += data.qpos[model.jnt_qposadr[joints]].tolist()
+        self.signals.append(np.array(values, dtype=np.float32))
+        if not self.labels:
+            names = [snapshot.name for snapshot in snapshots]
+            self.labels = (
+                *(label for name in names for label in _labels_of(name)),
+                *(f"{model.joint(j).name} [rad]" for j in joints),
+            )
 
     def acted(self, match: Match) -> None:
         """Store the steps that begin, and the images that arrived."""
@@ -101,3 +148,10 @@ class PlotHistory:
     def _trace(self, name: str, position: tuple[float, float]) -> None:
         trace = self.traces.setdefault(name, deque(maxlen=MAX_TRACE))
         trace.append(position)
+
+
+def _labels_of(player: str) -> list[str]:
+    """Return the labels of the quantities of one player."""
+    com = [f"{player}/CoM {axis}" for axis in AXES]
+    zmp = [f"{player}/ZMP {axis}" for axis in AXES[:2]]
+    return [*com, f"{player}/heading [rad]", *zmp]

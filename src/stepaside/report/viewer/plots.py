@@ -1,4 +1,6 @@
-"""Plots of distance and angle over time, with the theory's values."""
+"""Plots over time, with the theory's values."""
+
+from collections.abc import Callable, Sequence
 
 import numpy as np
 import viser
@@ -11,6 +13,7 @@ from .live_session import LiveSession
 
 PADDING = (12, 12, 0, 0)  # for the last tick labels, in [pixels]
 LAST = 1e6  # order of elements below all others
+NO_SIGNAL = "none"
 TITLES = ("Distance [m]", "Angle between the headings [deg]")
 Data = tuple[Array, ...]
 
@@ -74,14 +77,71 @@ def plot_data(times: Array, values: Array, level: float | None) -> Data:
     return *data, np.full(len(data[0]), level)
 
 
+class SignalPlot:
+    """Plot of one recorded quantity, which a viewer chooses."""
+
+    def __init__(self, gui: viser.GuiApi, labels: Sequence[str]) -> None:
+        """Add the choice and an empty plot to a page.
+
+        Args:
+            gui: Controls of the page.
+            labels: Quantities with their units.
+        """
+        self._gui = gui
+        self._choice = gui.add_dropdown(
+            "Signal", (NO_SIGNAL, *labels), order=LAST + 2
+        )
+        self._plot: viser.GuiUplotHandle | None = None
+        self._shown = NO_SIGNAL
+
+    @property
+    def label(self) -> str:
+        """The quantity that is chosen; empty if there is none."""
+        return "" if self._choice.value == NO_SIGNAL else self._choice.value
+
+    def offer(self, labels: Sequence[str]) -> None:
+        """Offer other quantities."""
+        options = (NO_SIGNAL, *labels)
+        if tuple(self._choice.options) != options:
+            self._choice.options = options
+
+    def on_choice(self, call: Callable[[], None]) -> None:
+        """Call a function whenever a viewer chooses a quantity."""
+        self._choice.on_update(lambda _: call())
+
+    def show(self, times: Array, values: Array) -> None:
+        """Show the chosen quantity.
+
+        Args:
+            times: In [s]. Shape (n,).
+            values: At these times. Shape (n,).
+        """
+        data = plot_data(times, values, None)
+        if self._plot is not None and self._shown == self.label:
+            self._plot.data = data
+            return
+        self.hide()
+        self._shown, title = self.label, self.label
+        self._plot = add_plot(
+            self._gui, title, "signal", EVADER, data, order=LAST + 3
+        )
+
+    def hide(self) -> None:
+        """Remove the plot."""
+        if self._plot is not None:
+            self._plot.remove()
+            self._plot = None
+
+
 class Plots:
-    """Plots of distance and angle of a live duel."""
+    """Plots of a live duel: distance, angle, and a signal."""
 
     def __init__(self, gui: viser.GuiApi) -> None:
         """Add empty plots to a page."""
         self._gui = gui
         empty = plot_data(np.zeros(1), np.zeros(1), None)
         self._plots = [self._add(number, empty) for number in (0, 1)]
+        self._signal = SignalPlot(gui, ())
 
     def _add(self, number: int, data: Data) -> viser.GuiUplotHandle:
         """Add one of the two plots below all other elements."""
@@ -92,7 +152,9 @@ class Plots:
     def show(self, session: LiveSession) -> None:
         """Show the history of a session."""
         with session.lock:
-            rows = np.array(session.trail.history).reshape(-1, 3)
+            trail = session.trail
+            rows = np.array(trail.history).reshape(-1, 3)
+            labels, signals = trail.labels, [*trail.signals]
         if len(rows) < 2:
             return
         theory = session.theory or (None, None)
@@ -104,3 +166,10 @@ class Plots:
             else:  # the number of lines of a plot is fixed
                 plot.remove()
                 self._plots[number] = self._add(number, data)
+        self._signal.offer(labels)
+        if self._signal.label in labels and len(signals) == len(rows):
+            column = labels.index(self._signal.label)
+            values = np.array([row[column] for row in signals], dtype=float)
+            self._signal.show(rows[:, 0], values)
+        else:
+            self._signal.hide()

@@ -17,7 +17,7 @@ from ..scene import RunScene
 from ..text_escaping import for_markdown
 from .page_layout import STATUS_WIDTH
 from .page_server import open_server
-from .plots import TITLES, add_plot, plot_data
+from .plots import TITLES, SignalPlot, add_plot, plot_data
 from .scene_bodies import SceneBodies
 from .scene_layers import (
     HEIGHTS,
@@ -35,6 +35,15 @@ LOG = logging.getLogger(__name__)
 RATE = 30.0  # updates of the scene per second
 EVERYBODY = "All players"  # choice of the camera's target
 PLOT_SAMPLES = 1500  # of a curve, approximately
+COLUMNS = {  # of the arrays of a trajectory, by the end of their names
+    "com": ("x [m]", "y [m]", "z [m]"),
+    "torso": ("x [m]", "y [m]", "heading [rad]"),
+    "place": ("x [m]", "y [m]", "heading [rad]"),
+    "reference": ("x [m]", "y [m]"),
+    "zmp": ("x [m]", "y [m]"),
+    "velocity": ("x [m/s]", "y [m/s]"),
+    "tilt": ("roll [rad]", "pitch [rad]"),
+}
 REPLAY_LAYERS = (
     "CoM trace",
     "footsteps",
@@ -120,6 +129,21 @@ class ReplayPage:
             self._add_plot(TITLES[0], run.distance, distance, PURSUER)
         if run.has_orientation:
             self._add_plot(TITLES[1], run.orientation, angle, EVADER)
+        self._signals = recorded_signals(run)
+        self._signal = SignalPlot(self.server.gui, tuple(self._signals))
+        self._signal.on_choice(self._show_signal)
+
+    def _show_signal(self) -> None:
+        """Show the chosen signal."""
+        if not self._signal.label:
+            self._signal.hide()
+            return
+        name, column = self._signals[self._signal.label]
+        values = self._run.arrays()[name].reshape(len(self._run.times), -1)
+        every = slice(None, None, max(1, len(values) // PLOT_SAMPLES))
+        self._signal.show(
+            self._run.times[every], values[every, column].astype(float)
+        )
 
     def _add_plot(
         self, title: str, values: Array, level: float | None, colour: str
@@ -255,3 +279,22 @@ class ReplayPage:
         if theoretical is not None:
             circle = ring(*theoretical, HEIGHTS["theoretical circle"])
             layers.draw("theoretical circle", "both", circle, THEORY)
+
+
+def recorded_signals(run: Run) -> dict[str, tuple[str, int]]:
+    """Return array and column of each recorded quantity, by its label.
+
+    Those of :class:`~stepaside.games.trajectory.Trajectory` with a row for
+    every sample.
+    """
+    found = {}
+    for name, array in run.arrays().items():
+        if name == "times_s" or len(array) != len(run.times):
+            continue
+        count = array.reshape(len(array), -1).shape[1]
+        columns = COLUMNS.get(name.rpartition("_")[2], ())
+        if len(columns) < count:
+            columns = tuple(str(column + 1) for column in range(count))
+        for column in range(count):
+            found[f"{name} {columns[column]}"] = name, column
+    return found

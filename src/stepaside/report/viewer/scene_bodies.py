@@ -110,6 +110,13 @@ class SceneBodies:
                 depth_test=False,
             )
 
+    def remove(self) -> None:
+        """Remove all bodies and labels from the scene."""
+        for frame in self._frames.values():
+            frame.remove()
+        for label in self._labels.values():
+            label.remove()
+
     def _bodies_of(self, model: mujoco.MjModel, player: str) -> list[int]:
         """Return the numbers of a player's visible bodies."""
         return [

@@ -43,7 +43,7 @@ class ViewerClients:
             room: Room that the top view shows; None for an open floor.
         """
         self._server = server
-        self._walls = wall_corners(room)
+        self.show_room(room)
         self._themes: dict[int, str] = {}
         self.cameras: dict[int, str] = {}
         server.on_client_connect(self._connect)
@@ -57,6 +57,10 @@ class ViewerClients:
     def _disconnect(self, client: Any) -> None:
         self._themes.pop(client.client_id, None)
         self.cameras.pop(client.client_id, None)
+
+    def show_room(self, room: Room | None) -> None:
+        """Show a room in the top view; None for an open floor."""
+        self._walls = wall_corners(room)
 
     def toggle_theme(self, client: Any) -> None:
         """Switch the theme of one viewer.
