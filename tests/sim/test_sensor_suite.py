@@ -25,11 +25,8 @@ from stepaside.sim.camera_settings import (
     DepthSettings,
     SonarSettings,
 )
-from stepaside.sim.sensor_suite import (
-    ImageNoise,
-    SensorStream,
-    SensorSuite,
-)
+from stepaside.sim.sensor_stream import SensorStream
+from stepaside.sim.sensor_suite import ImageNoise, SensorSuite
 
 TICK = 0.004
 NAO = load_robot("nao")
@@ -43,7 +40,7 @@ PLAIN = CameraSettings(
 
 def stream(
     period: float = 0.1, latency: float = 0.0, drop: float = 0.0
-) -> SensorStream:
+) -> SensorStream[Percept]:
     def take(now: float) -> Percept:
         return SonarEcho(now, "left", None)
 
@@ -51,7 +48,9 @@ def stream(
     return SensorStream(take, period, latency, drop, generator, 0, deque())
 
 
-def watch(sensor: SensorStream, ticks: int) -> tuple[list[float], list[float]]:
+def watch(
+    sensor: SensorStream[Percept], ticks: int
+) -> tuple[list[float], list[float]]:
     """Return times of exposure, and ages at arrival."""
     noted: list[Percept] = []
     ages, taken = [], []

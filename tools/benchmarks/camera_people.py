@@ -1,4 +1,4 @@
-"""Simulate people approaching and passing a robot with cameras and fast gait.
+"""Simulate people approaching and passing a robot that sees, with fast gait.
 
 They do not wear the colours of a robot, so colour images contain no
 detections: two images per second are ray cast. Depth images and sonar have
@@ -7,6 +7,7 @@ their usual rates::
     python tools/benchmarks/camera_people.py --speed 0.8 --seeds 1:6
     python tools/benchmarks/camera_people.py --speed 0.5 --seeds 1:6 \
         --body hardware
+    python tools/benchmarks/camera_people.py --sensing lidar
 """
 
 from argparse import Namespace
@@ -36,6 +37,7 @@ CAMERAS = CameraSettings(colour=ColourSettings(renderer="raycast", rate=2.0))
 
 
 def grid(
+    sensing: str,
     body: str,
     speed: float,
     seeds: range,
@@ -53,7 +55,7 @@ def grid(
         replace(each, base=replace(each.base, cameras=CAMERAS))
         for each in encounters(
             walk,
-            ("cameras",),
+            (sensing,),
             seeds=len(seeds),
             speeds=(speed,),
             bearings=bearings,
@@ -64,7 +66,7 @@ def grid(
 
 def _name(asked: Namespace) -> str:
     end = "" if asked.body == "ideal" else f"-{asked.body}"
-    return f"people-cameras{end}.json"
+    return f"people-{asked.sensing}{end}.json"
 
 
 def main() -> None:
@@ -73,18 +75,22 @@ def main() -> None:
     asked.add_argument("--speed", type=float, default=0.8)
     asked.add_argument("--seeds", type=seeds_of, default="1:3")
     asked.add_argument("--body", choices=BODIES, default="ideal")
+    asked.add_argument(
+        "--sensing", choices=("cameras", "lidar"), default="cameras"
+    )
     asked.add_argument("--workers", type=int)
     arguments = asked.parse_args()
     speed, seeds, body = arguments.speed, arguments.seeds, arguments.body
-    output = arguments.output
+    output, how = arguments.output, (arguments.sensing, body, speed)
     groups = {
-        "ahead": grid(body, speed, seeds, AHEAD, *AIMED),
-        "behind": grid(body, speed, seeds[:1], BEHIND, AIMED[0]),
-        "past": grid(body, speed, seeds, AHEAD, *BY),
+        "ahead": grid(*how, seeds, AHEAD, *AIMED),
+        "behind": grid(*how, seeds[:1], BEHIND, AIMED[0]),
+        "past": grid(*how, seeds, AHEAD, *BY),
     }
     jobs = {each.key: each for group in groups.values() for each in group}
     settings = {
         "body": body,
+        **({} if how[0] == "cameras" else {"sensing": how[0]}),
         "speed_m_s": speed,
         "seeds": [seeds.start, seeds.stop],
     }

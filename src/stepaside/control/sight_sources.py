@@ -1,7 +1,7 @@
 """Sources of sightings of the opponent: measurements or camera."""
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Generic, NamedTuple, Protocol, TypeVar
 
 from ..core.player_identity import PlayerIdentity
 from ..core.poses import Array
@@ -12,6 +12,7 @@ from ..planning import Foot
 from ..strategies.opponent_choice import choose_opponent
 
 if TYPE_CHECKING:
+    from ..perception.lidar_perception import LidarPerception
     from ..perception.perception import Perception
 
 StepAt = Callable[[float], CurrentStep]
@@ -151,29 +152,27 @@ class SightOfPlayers:
         """Leave the head as it is."""
 
 
-class CameraSight:
-    """Sightings from images, relative to the support foot.
+P = TypeVar("P", bound="Perception | LidarPerception")
 
-    The camera pose uses the torso tilt that balance estimates; without an
-    estimate, an attitude filter of its own.
+
+class _PerceivedSight(Generic[P]):
+    """Sightings from exteroceptive sensors, relative to the support foot.
+
+    The pose of a sensor uses the torso tilt that balance estimates; without
+    an estimate, an attitude filter of its own.
 
     Attributes:
-        perception: Perception with its gaze.
-        in_sight: None: colours tell one opponent from the rest.
+        perception: Perception.
+        in_sight: None: it selects one opponent.
     """
 
     in_sight: PlayersInSight | None = None
 
-    def __init__(self, perception: "Perception", *, tick: float) -> None:
+    def __init__(self, perception: P, *, tick: float) -> None:
         """Wrap a perception, at a control period in [s]."""
         self.perception = perception
         self._attitude = AttitudeFilter(CORRECTION, 0.0, calibration=0.0)
         self._tick = tick
-
-    @property
-    def turning(self) -> float:
-        """Turn on the spot for a scan: 1 left, -1 right, or 0."""
-        return self.perception.head.turning
 
     def see(
         self,
@@ -181,7 +180,7 @@ class CameraSight:
         step: StepAt,
         tilt: tuple[float, float] | None,
     ) -> Sighting | None:
-        """Return the sighting by the images so far."""
+        """Return the sighting by the images or scans so far."""
         if tilt is None:
             own = self._attitude
             gyro, force = measurement.gyro, measurement.accelerometer
@@ -193,6 +192,28 @@ class CameraSight:
             measurement, made.support, left_supports, tilt
         )
 
+
+class CameraSight(_PerceivedSight["Perception"]):
+    """Sightings from images, with a head that looks at the opponent."""
+
+    @property
+    def turning(self) -> float:
+        """Turn on the spot for a scan: 1 left, -1 right, or 0."""
+        return self.perception.head.turning
+
     def aim(self, targets: Array) -> None:
         """Turn the head to the last known position of the opponent."""
         self.perception.aim(targets)
+
+
+class LidarSight(_PerceivedSight["LidarPerception"]):
+    """Sightings from scans of a lidar.
+
+    Attributes:
+        turning: 0: it sees all around.
+    """
+
+    turning = 0.0
+
+    def aim(self, targets: Array) -> None:
+        """Leave the head as it is."""

@@ -18,7 +18,11 @@ from ..locomotion.policy.legs_settings import LegsSettings
 from ..locomotion.zmp.control_settings import ControlSettings
 from ..planning import PRESETS, GaitSettings
 from ..sim.body_settings import BODIES, BodySettings
-from ..sim.camera_settings import CameraSettings, SceneSettings
+from ..sim.camera_settings import (
+    CameraSettings,
+    LidarSettings,
+    SceneSettings,
+)
 from ..sim.passerby_settings import MOST_PASSERS, Passer
 from ..sim.person_settings import PURSUERS, PersonSettings
 from ..sim.physics_settings import PhysicsSettings, SightSettings
@@ -36,7 +40,7 @@ from ..strategies.shield_settings import ShieldSettings
 from .strategy_resolution import EVASION, resolve_strategies
 
 ERROR = ConfigurationError
-SENSING = ("ideal", "cameras")
+SENSING = ("ideal", "cameras", "lidar")
 PLAYERS = PURSUER, EVADER = ("pursuer", "evader")
 PURSUIT = "pursuit"  # of the paper, like EVASION
 STRATEGY_NAMES = (
@@ -192,7 +196,7 @@ class DuelSettings:
     sensing: str = setting(
         "ideal",
         "Sensing of opponents: true poses (ideal), or detection in simulated "
-        "camera images",
+        "camera images, or of people in the scans of a simulated lidar",
         names=SENSING,
         option="--sensing",
     )
@@ -200,6 +204,11 @@ class DuelSettings:
         CameraSettings(),
         "Cameras and sonars, with camera sensing",
         needs=("sensing", "cameras"),
+    )
+    lidar: LidarSettings = setting(
+        LidarSettings(),
+        "Lidar, with lidar sensing",
+        needs=("sensing", "lidar"),
     )
     room: SceneSettings = setting(
         SceneSettings(), "Room, and what the cameras see of it"
@@ -290,6 +299,11 @@ class DuelSettings:
                     "legs.network must be empty in rooms, got "
                     f"{self.legs.network!r}"
                 )
+        if self.sensing == "lidar" and self.pursuer != "person":
+            raise ConfigurationError(
+                "sensing must be 'ideal' or 'cameras' with a robot as "
+                "pursuer, got 'lidar': a lidar detects people"
+            )
         check_count(self.pushes, MOST_PUSHES, "pushes")
         check_pushes(self.pushes, self.robots)
         check_count(self.passers, MOST_PASSERS, "passers")

@@ -98,6 +98,11 @@ class DuelWorld:
                 be met by the robots.
         """
         self._settings, self._remote = settings, remote
+        if settings.sensing == "lidar" and remote:
+            raise ConfigurationError(
+                "sensing must be ideal or cameras for a robot that another "
+                "process controls, got 'lidar'"
+            )
         self.networks = networks or NetworkPool()
         self.has_things = bool(
             settings.room.things or settings.room.plan or settings.passers
@@ -163,6 +168,8 @@ class DuelWorld:
         sight, eyes = None, None
         if self._senses is not None:
             eyes = self._senses.eyes_of(self.world, name)
+        elif self._settings.sensing == "lidar":
+            return self._controlled_robot(name, None, None)
         elif remote is None or remote.ideal_sight:
             settings = self._settings
             sight = IdealLineOfSight(
@@ -185,7 +192,9 @@ class DuelWorld:
         settings, setup = self._settings, self._setups[name]
         played, truth = self._strategies[name], self._robot_truths[name]
         cameras = None
-        if self._senses is not None and eyes is not None:
+        if settings.sensing == "lidar":
+            cameras = self._lidar_of(setup)
+        elif self._senses is not None and eyes is not None:
             cameras = CameraSensing(eyes, self._senses.perceptions[name])
         legs = settings.robot_of(name).legs
         if legs.walks:
@@ -212,8 +221,25 @@ class DuelWorld:
                 settings.room.plan,
                 settings.map,
                 setup,
-                None if cameras is None else cameras.perception,
+                self._senses.perceptions[name] if self._senses else None,
             ),
+        )
+
+    def _lidar_of(self, setup: WalkerSetup) -> CameraSensing:
+        """Return the sensing of a robot with a lidar."""
+        from ..perception.lidar_perception import LidarPerception
+        from ..sim.lidar import Lidar
+
+        settings, description = self._settings, setup.description
+        return CameraSensing(
+            Lidar(
+                self.world,
+                setup.name,
+                description.torso,
+                settings.lidar,
+                settings.seed,
+            ),
+            LidarPerception(description, settings.lidar.far),
         )
 
     def _remote_robot(

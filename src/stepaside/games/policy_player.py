@@ -38,6 +38,7 @@ from .walker_factory import (
 )
 
 if TYPE_CHECKING:
+    from ..sim.lidar import Lidar
     from ..sim.sensor_suite import SensorSuite
 
 AT_ONCE = 1.0  # a fall until then is one of the policy, in [s]
@@ -141,7 +142,7 @@ def place_on_legs(
     legs: PolicyLegs,
     *,
     sight: IdealLineOfSight | PlayerSensing | None = None,
-    eyes: "SensorSuite | None" = None,
+    eyes: "SensorSuite | Lidar | None" = None,
     truth: TrueRobotState | None = None,
     knows_pose: bool = False,
 ) -> SimulatedRobot:

@@ -6,7 +6,14 @@ from math import atan2, radians
 import numpy as np
 
 from ..core.poses import Array, wrap_angle, wrap_angles
-from ..perception.images import ColourImage, DepthImage, Percept, SonarEcho
+from ..perception.images import (
+    AnyPercept,
+    ColourImage,
+    DepthImage,
+    LidarScan,
+    Percept,
+    SonarEcho,
+)
 from ..perception.measurement import Sighting
 from ..perception.percept_stages import FrameReport
 from ..perception.perception import Perception
@@ -114,9 +121,9 @@ class SightEvaluator:
         if sighting is not self._sighting:
             self._sighting, self._true_sighting = sighting, self._truth()
 
-    def record_truth(self, percept: Percept) -> None:
+    def record_truth(self, percept: AnyPercept) -> None:
         """Store the truth at the instant at which an image is taken."""
-        if isinstance(percept, SonarEcho):
+        if isinstance(percept, SonarEcho | LidarScan):
             return
         is_colour = isinstance(percept, ColourImage)
         mount = self._head.top if is_colour else self._head.depth

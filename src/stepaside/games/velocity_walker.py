@@ -22,6 +22,7 @@ from .walker_factory import WalkerSetup, place_robot
 from .walker_log import WalkerLog
 
 if TYPE_CHECKING:
+    from ..sim.lidar import Lidar
     from ..sim.sensor_suite import SensorSuite
 
 HEAD_SPEED = 3.0  # of a head commanded by a client, in [rad/s]
@@ -184,7 +185,7 @@ def place_velocity_walker(
     *,
     truth: TrueRobotState,
     sight: IdealLineOfSight | None = None,
-    eyes: "SensorSuite | None" = None,
+    eyes: "SensorSuite | Lidar | None" = None,
     clearance: ClearanceSetup | None = None,
 ) -> VelocityWalker:
     """Place a robot that walks at commanded velocities in a world.

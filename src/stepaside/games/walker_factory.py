@@ -14,6 +14,7 @@ from ..control.clearance.swept_outline import lateral_sway
 from ..control.scheme_builder import ClearanceSetup, build_scheme
 from ..control.sight_sources import (
     CameraSight,
+    LidarSight,
     MeasuredSight,
     SightOfPlayers,
     SightSource,
@@ -22,6 +23,7 @@ from ..core.player_identity import PlayerIdentity
 from ..core.poses import Pose
 from ..core.random_streams import named_generator
 from ..locomotion.zmp.control_settings import ControlSettings
+from ..perception.lidar_perception import LidarPerception
 from ..perception.measurement import Sighting
 from ..planning import GaitSettings
 from ..robots.description import RobotDescription
@@ -37,6 +39,7 @@ from .walker import SimulatedPlayer
 
 if TYPE_CHECKING:
     from ..perception.perception import Perception
+    from ..sim.lidar import Lidar
     from ..sim.sensor_suite import SensorSuite
 
 
@@ -87,15 +90,15 @@ class PlayerSensing(NamedTuple):
 
 
 class CameraSensing(NamedTuple):
-    """Camera sensing of one robot.
+    """Sensing of one robot by cameras or a lidar.
 
     Attributes:
-        eyes: Cameras and sonars.
-        perception: Perception of their images.
+        eyes: Cameras and sonars, or the lidar.
+        perception: Perception of their images, or of its scans.
     """
 
-    eyes: "SensorSuite"
-    perception: "Perception"
+    eyes: "SensorSuite | Lidar"
+    perception: "Perception | LidarPerception"
 
 
 def place_walker(
@@ -154,7 +157,7 @@ def place_robot(
     kinematics: LegKinematics,
     *,
     sight: IdealLineOfSight | PlayerSensing | None = None,
-    eyes: "SensorSuite | None" = None,
+    eyes: "SensorSuite | Lidar | None" = None,
     truth: TrueRobotState | None = None,
     clearance: ClearanceSetup | None = None,
 ) -> SimulatedRobot:
@@ -214,7 +217,10 @@ def sight_source(
         tick: Control period, in [s].
     """
     if cameras is not None:
-        return CameraSight(cameras.perception, tick=tick)
+        perception = cameras.perception
+        if isinstance(perception, LidarPerception):
+            return LidarSight(perception, tick=tick)
+        return CameraSight(perception, tick=tick)
     if isinstance(sight, PlayerSensing):
         return SightOfPlayers(sight.identity, sight.target)
     return MeasuredSight(sighting)

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..core.poses import Array
 from .camera_model import CameraModel
 
 Pixels = NDArray[np.uint8]
@@ -64,4 +65,19 @@ class SonarEcho:
     distance: float | None
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class LidarScan:
+    """Returns of one turn of a lidar.
+
+    Attributes:
+        time: Middle of the turn, in [s].
+        points_in_torso: Positions of the returns in the frame of the torso,
+            in [m]. Shape (n, 3).
+    """
+
+    time: float
+    points_in_torso: Array
+
+
 Percept = ColourImage | DepthImage | SonarEcho
+AnyPercept = Percept | LidarScan

@@ -7,7 +7,7 @@ from ..core.player_identity import PlayerIdentity
 from ..core.poses import Array, Pose
 
 if TYPE_CHECKING:
-    from .images import Percept
+    from .images import AnyPercept
 
 
 class Sighting(NamedTuple):
@@ -79,7 +79,7 @@ class Measurement(NamedTuple):
     accelerometer: Array
     foot_forces: Array
     sighting: Sighting | None
-    percepts: tuple["Percept", ...] = ()
+    percepts: tuple["AnyPercept", ...] = ()
     pose_in_room: Pose | None = None
     joint_velocities: Array | None = None
     players: tuple[Sighting, ...] = ()

@@ -8,7 +8,14 @@ from ..robots.body_pose import BodyPose
 from .camera_pose import BodyPoseHistory
 from .floor_map import FloorMap
 from .head_motion import GazeTarget, HeadControl
-from .images import ColourImage, DepthImage, Percept, SonarEcho
+from .images import (
+    AnyPercept,
+    ColourImage,
+    DepthImage,
+    LidarScan,
+    Percept,
+    SonarEcho,
+)
 from .measurement import Measurement, Sighting
 from .percept_stages import (
     BottomCameraStage,
@@ -164,11 +171,15 @@ class Perception:
         return self._stages.bottom.wanted(self.body, lost=lost)
 
     def _process(
-        self, now: float, percepts: Sequence[Percept]
+        self, now: float, percepts: Sequence[AnyPercept]
     ) -> Sighting | None:
         self.reports.clear()
         # A LoLA frame brings a value of each sonar, though most often none.
-        arrived = [p for p in percepts if not _is_empty(p)]
+        arrived = [
+            percept
+            for percept in percepts
+            if not isinstance(percept, LidarScan) and not _is_empty(percept)
+        ]
         if arrived or now >= self._next_update:
             self._next_update = now + self._update_period - 1e-9
             for percept in arrived:

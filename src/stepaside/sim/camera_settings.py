@@ -163,6 +163,47 @@ class SonarSettings:
 
 
 @dataclass(frozen=True, slots=True)
+class LidarSettings:
+    """Settings of a lidar above the head.
+
+    Rate, noise and near limit are those of Livox's Mid-360, which humanoids
+    of that size carry; it measures farther and more points.
+    """
+
+    rays: int = setting(
+        360,
+        "Rays of each of four elevations",
+        Range(36, 4096, "1", "a ray per 10 deg; more take long", whole=True),
+    )
+    rate: float = setting(10.0, "Turns per second", RATE)
+    latency: float = setting(0.05, "Latency, from a turn to arrival", LATENCY)
+    near: float = setting(
+        0.1,
+        "Shortest distance that is measured",
+        Range(0.01, 20.0, "m", "the size of a lens"),
+    )
+    far: float = setting(
+        10.0,
+        "Longest distance that is measured",
+        Range(0.01, 100.0, "m", "from near to the end of a hall"),
+    )
+    noise: float = setting(
+        0.02,
+        "Standard deviation of a distance",
+        Range(0.0, 1.0, "m", "more is no measurement"),
+    )
+    missing: float = setting(
+        0.02,
+        "Fraction of rays without return",
+        Range(0.0, 1.0, "1", "a fraction"),
+    )
+
+    def __post_init__(self) -> None:
+        """Check the ranges."""
+        check_settings(self)
+
+
+@dataclass(frozen=True, slots=True)
 class CameraSettings:
     """Settings of all exteroceptive sensors of the robots."""
 

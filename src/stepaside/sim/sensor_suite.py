@@ -2,7 +2,6 @@
 
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass
 from math import atan, hypot
 
 import cv2
@@ -29,60 +28,11 @@ from .ray_casting import (
     cone,
 )
 from .room_furnishing import LOWER
+from .sensor_stream import SensorStream
 from .view_cone import geoms_in_cone
 from .world import World
 
 RAYCAST_WIDTH = 160  # largest width of a ray-cast image, in [pixels]
-Take = Callable[[float], Percept]
-
-
-@dataclass(slots=True, eq=False)
-class SensorStream:
-    """Sensor with a rate, a latency and losses.
-
-    Attributes:
-        take: Function that returns a percept at a time.
-        period: Period of the exposures, in [s].
-        latency: Delay from exposure to arrival, in [s].
-        drop: Fraction of lost percepts.
-        generator: Random generator of the losses.
-        taken: Number of exposures.
-        pending: Times of arrival and percepts that have not arrived.
-    """
-
-    take: Take
-    period: float
-    latency: float
-    drop: float
-    generator: np.random.Generator
-    taken: int
-    pending: deque[tuple[float, Percept]]
-
-    @property
-    def due(self) -> float:
-        """Time of the next exposure or arrival, in [s]."""
-        due = self.taken * self.period
-        if self.pending:
-            due = min(due, self.pending[0][0])
-        return due - 1e-9
-
-    def read(self, now: float, exposed: list[Percept]) -> list[Percept]:
-        """Return percepts that have arrived; take one when it is due.
-
-        Args:
-            now: Time, in [s].
-            exposed: List to which a new percept is appended.
-        """
-        if now >= self.taken * self.period - 1e-9:
-            self.taken += 1
-            if self.drop == 0.0 or self.generator.random() >= self.drop:
-                percept = self.take(now)
-                exposed.append(percept)
-                self.pending.append((now + self.latency, percept))
-        arrived = []
-        while self.pending and self.pending[0][0] <= now + 1e-9:
-            arrived.append(self.pending.popleft()[1])
-        return arrived
 
 
 class SensorSuite:
@@ -154,8 +104,12 @@ class SensorSuite:
         return named_generator(self._seed, f"eyes/{self._name}/{purpose}")
 
     def _stream(
-        self, purpose: str, take: Take, rate: float, latency: float
-    ) -> SensorStream:
+        self,
+        purpose: str,
+        take: Callable[[float], Percept],
+        rate: float,
+        latency: float,
+    ) -> SensorStream[Percept]:
         settings = self._settings
         tick = self._world.physics.tick
         return SensorStream(
@@ -168,7 +122,7 @@ class SensorSuite:
             deque(),
         )
 
-    def _colour(self, body: str) -> SensorStream:
+    def _colour(self, body: str) -> SensorStream[Percept]:
         settings, camera = self._settings.colour, self.camera
         head, low = self._head, self._looks_low
         upper = self._pixels(body, head.top, head.camera)
@@ -215,7 +169,7 @@ class SensorSuite:
 
         return draw
 
-    def _depth(self, body: str) -> SensorStream:
+    def _depth(self, body: str) -> SensorStream[Percept]:
         world, settings = self._world, self._settings.depth
         camera = settings.model()
         rays = camera.rays().reshape(-1, 3)
@@ -231,7 +185,7 @@ class SensorSuite:
 
         return self._stream("depth", take, settings.rate, settings.latency)
 
-    def _sonars(self, torso: str) -> list[SensorStream]:
+    def _sonars(self, torso: str) -> list[SensorStream[Percept]]:
         world, settings = self._world, self._settings.sonar
         streams = []
         for key, mount in self._head.sonars.items():

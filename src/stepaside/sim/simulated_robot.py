@@ -32,6 +32,7 @@ from .true_stance import StanceWatch, TrueStance
 from .world import World, transform_free_joint
 
 if TYPE_CHECKING:
+    from .lidar import Lidar
     from .sensor_suite import SensorSuite
 
 
@@ -94,7 +95,7 @@ class SensorSetup:
     integrates_imu: bool = False
     sight: IdealLineOfSight | None = None
     players: tuple[IdealLineOfSight, ...] = ()
-    eyes: SensorSuite | None = None
+    eyes: SensorSuite | Lidar | None = None
     truth: TrueRobotState | None = None
     knows_pose: bool = False
 
