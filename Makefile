@@ -11,7 +11,7 @@ INSTALL := -m pip install --disable-pip-version-check --no-warn-script-location 
 
 .PHONY: setup duel test-tools test types suite python other other-setup other-test mutate \
 	fuzz bench figures docs docs-run docs-setup wheel release clean constraints \
-	ros2-peers test-export
+	ros2-peers test-export test-rcss
 
 setup: $(STAMP)
 
@@ -111,6 +111,13 @@ endif
 	.venv-ros2-$*/bin/python -m pip install --disable-pip-version-check \
 		--quiet $(ROS2_PACKAGES:%=ros-$*-%)
 	touch $@
+
+# The RoboCup simulator, which pins an older MuJoCo and runs with ours.
+test-rcss: setup
+	$(BIN)/python $(INSTALL) --quiet --no-deps --upgrade \
+		--target .venv-rcss rcsssmj==0.2.1
+	PYTHONPATH=.venv-rcss $(BIN)/python -m pytest --numprocesses 2 \
+		tests/drivers/test_rcss_robot.py
 
 # Exported runs, read back by large libraries that `make setup` leaves out.
 test-export: .venv-export/.installed

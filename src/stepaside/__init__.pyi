@@ -3,6 +3,9 @@ from .control import ControlScheme as ControlScheme
 from .control.scheme_builder import build_scheme as build_scheme
 from .core.errors import StepAsideError as StepAsideError
 from .core.poses import Pose as Pose
+from .drivers.joint.joint_robot import JointReport as JointReport
+from .drivers.joint.joint_robot import JointRobot as JointRobot
+from .drivers.joint.joint_robot import JointTarget as JointTarget
 from .drivers.velocity.velocity_body import VelocityReport as VelocityReport
 from .drivers.velocity.velocity_limits import VelocityLimits as VelocityLimits
 from .drivers.velocity.velocity_robot import VelocityRobot as VelocityRobot
@@ -68,6 +71,9 @@ __all__ = [
     "Foot",
     "GaitSettings",
     "Intent",
+    "JointReport",
+    "JointRobot",
+    "JointTarget",
     "Knowledge",
     "ManeuverPlan",
     "ManeuverPlanner",

@@ -75,6 +75,7 @@ class FakeMind:
         self.begun = None
         self.sighting: Sighting | None = None
         self.state = standing_still()
+        self.pose = Pose(0.0, 0.0, 0.0)
 
     def update(self, measurement: Any) -> Any:
         """Walk."""

@@ -56,6 +56,7 @@ def test_every_column_has_its_values(tmp_path: Path) -> None:
             1 + i,
             scheme.state,
             run.steps[-1],
+            scheme.pose,
         )
         log.note(tick)
         ticks.append(tick)

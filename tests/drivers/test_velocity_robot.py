@@ -5,11 +5,9 @@ from pathlib import Path
 import pytest
 
 from stepaside.core.errors import ConfigurationError
+from stepaside.drivers.robot_loader import load_robot_class
 from stepaside.drivers.velocity.velocity_limits import VelocityLimits
-from stepaside.drivers.velocity.velocity_robot import (
-    VelocityRobot,
-    load_velocity_robot,
-)
+from stepaside.drivers.velocity.velocity_robot import VelocityRobot
 
 VALID = """
 import stepaside as sa
@@ -33,7 +31,7 @@ def robot_file(folder: Path, text: str) -> str:
 
 
 def test_a_robot_of_a_file_is_loaded(tmp_path: Path) -> None:
-    kind = load_velocity_robot(robot_file(tmp_path, VALID))
+    kind = load_robot_class(robot_file(tmp_path, VALID))
     assert issubclass(kind, VelocityRobot) and kind.keeps_walking
     assert kind.limits == VelocityLimits(0.5, 0.4, 1.0)
 
@@ -41,7 +39,7 @@ def test_a_robot_of_a_file_is_loaded(tmp_path: Path) -> None:
 def test_to_stop_is_to_command_zero_where_the_sdk_has_no_other_way(
     tmp_path: Path,
 ) -> None:
-    robot = load_velocity_robot(robot_file(tmp_path, VALID))()
+    robot = load_robot_class(robot_file(tmp_path, VALID))()
     robot.stop()
     assert vars(robot)["last"] == (0.0, 0.0, 0.0)
 
@@ -73,10 +71,10 @@ def test_an_invalid_class_is_refused_by_the_name_of_what_is_wrong(
     assert before in VALID
     text = VALID.replace(before, after, 1)
     with pytest.raises(ConfigurationError, match=said):
-        load_velocity_robot(robot_file(tmp_path, text))
+        load_robot_class(robot_file(tmp_path, text))
 
 
 @pytest.mark.parametrize("name", ["robot.py", "robot.py:", "robot.py:a b"])
 def test_a_robot_needs_file_and_class(name: str) -> None:
     with pytest.raises(ConfigurationError, match=r"FILE\.py:CLASS"):
-        load_velocity_robot(name)
+        load_robot_class(name)

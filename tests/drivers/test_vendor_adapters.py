@@ -17,12 +17,11 @@ import pytest
 
 from stepaside.core.poses import Pose
 from stepaside.drivers.guardian_process import SessionLost
+from stepaside.drivers.joint.joint_robot import JointRobot, JointTarget
+from stepaside.drivers.robot_loader import load_robot_class
 from stepaside.drivers.velocity.adapter_body import AdapterBody
 from stepaside.drivers.velocity.velocity_body import REST, VelocityCommand
-from stepaside.drivers.velocity.velocity_robot import (
-    VelocityRobot,
-    load_velocity_robot,
-)
+from stepaside.drivers.velocity.velocity_robot import VelocityRobot
 
 ADAPTERS = Path(__file__).parents[2] / "examples" / "adapters"
 WALK = VelocityCommand(-0.2, 0.4)
@@ -31,7 +30,9 @@ CALLS: list[tuple[Any, ...]] = []
 
 def adapter(name: str) -> type[VelocityRobot]:
     file = ADAPTERS / f"{name.lower()}_robot.py"
-    return load_velocity_robot(f"{file}:{name}Robot")
+    kind = load_robot_class(f"{file}:{name}Robot")
+    assert issubclass(kind, VelocityRobot)
+    return kind
 
 
 def waits_for(call: tuple[Any, ...]) -> None:
@@ -270,3 +271,76 @@ def test_an_error_code_of_a_unitree_ends_the_session(
         unitree.command(WALK)
     with pytest.raises(SessionLost, match=r"stop\(\) of UnitreeRobot"):
         unitree.close()
+
+
+class JointCommands:
+    """Stub of Booster's publisher."""
+
+    def InitChannel(self) -> None:
+        """Do nothing."""
+
+    def Write(self, message: Any) -> bool:
+        """Note the last leg's target and gains."""
+        motor = message.motor_cmd_at(21)
+        CALLS.append(("Write", motor.q, motor.kp, motor.kd))
+        return True
+
+
+class LowCmd:
+    """Stub of Booster's message."""
+
+    cmd_type = ""
+
+    def resize_motor_cmd(self, count: int) -> None:
+        """Make empty commands."""
+        self.motors = [SimpleNamespace(q=0.0, kp=0.0, kd=0.0)] * count
+
+    def motor_cmd_at(self, number: int) -> Any:
+        """Return one command."""
+        return self.motors[number]
+
+
+def test_booster_is_driven_by_its_joints(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    states: list[Callable[[Any], None]] = []
+
+    def subscriber(note: Callable[[Any], None]) -> Any:
+        states.append(note)
+        return SimpleNamespace(InitChannel=lambda: None)
+
+    name = "booster_robotics_sdk_python"
+    stub = ModuleType(name)
+    vars(stub).update(
+        ChannelFactory=ChannelFactory,
+        B1LocoClient=B1LocoClient,
+        B1LowStateSubscriber=subscriber,
+        B1LowCmdPublisher=JointCommands,
+        LowCmd=LowCmd,
+        LowCmdType=SimpleNamespace(SERIAL="serial"),
+        RobotMode=SimpleNamespace(kCustom="custom", kDamping="damping"),
+    )
+    monkeypatch.setitem(sys.modules, name, stub)
+    kind = load_robot_class(f"{ADAPTERS / 'booster_joints.py'}:BoosterJoints")
+    assert issubclass(kind, JointRobot)
+    robot = kind()
+    robot.open()
+    assert robot.listen() is None
+    motors = [SimpleNamespace(q=0.1 * i, dq=-0.1 * i) for i in range(22)]
+    imu = SimpleNamespace(gyro=[1, 2, 3], acc=[0, 0, 9.8], rpy=[0.1, 0.2, 3])
+    states[0](SimpleNamespace(motor_state_serial=motors, imu_state=imu))
+    report = robot.listen()
+    assert report is not None and report.tilt == (0.1, 0.2)
+    assert report.positions["Right_Ankle_Roll"] == pytest.approx(2.1)
+    assert report.velocities["Left_Hip_Pitch"] == pytest.approx(-1.0)
+    targets = dict.fromkeys(report.positions, JointTarget(0.0, 1.0, 1.0))
+    targets["Right_Ankle_Roll"] = JointTarget(0.3, 30.0, 2.0)
+    robot.command(targets)
+    robot.command(targets)
+    robot.release()
+    assert CALLS[1:] == [
+        ("ChangeMode", "custom"),
+        ("Write", 0.3, 30.0, 2.0),
+        ("Write", 0.3, 30.0, 2.0),
+        ("ChangeMode", "damping"),
+    ]

@@ -27,9 +27,10 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from ..drivers.naoqi.velocity_mover import Mover
+    from ..drivers.robot_loader import RobotClass
     from ..drivers.ros2.dds_domain import DdsParticipant
 
-LOLA, NAOQI, ROS2 = "lola:", "naoqi:", "ros2:"
+LOLA, NAOQI, ROS2, RCSS = "lola:", "naoqi:", "ros2:", "rcss:"
 _SWITCH = re.compile(r"key|gamepad(:.+)?|ros2:/.+")
 MOTION_INTERFACES = ("velocity", "footsteps", "joints")
 
@@ -41,8 +42,9 @@ class ConnectionSettings:
     robot: str = setting(
         REQUIRED,
         "Address of the robot: lola:PATH, lola:HOST:PORT or lola: (on the "
-        "robot itself); naoqi:tcp://HOST:PORT; ros2:/NAMESPACE; or "
-        "FILE.py:CLASS, a VelocityRobot in Python",
+        "robot itself); naoqi:tcp://HOST:PORT; ros2:/NAMESPACE; "
+        "rcss:HOST:PORT; or FILE.py:CLASS, a VelocityRobot or JointRobot in "
+        "Python",
         option="--robot",
     )
     role: str = setting(
@@ -168,7 +170,7 @@ class ConnectionSettings:
     @property
     def in_python(self) -> bool:
         """Whether the robot is a class in a user's file."""
-        known = self.robot.startswith((LOLA, NAOQI, ROS2))
+        known = self.robot.startswith((LOLA, NAOQI, ROS2, RCSS))
         return not known and FILE_AND_NAME.fullmatch(self.robot) is not None
 
     @property
@@ -177,9 +179,30 @@ class ConnectionSettings:
         return PYTHON if self.in_python else self.robot.partition(":")[0]
 
     @property
-    def moves_joints(self) -> bool:
-        """Whether the robot receives joint targets."""
-        return self.interface == "joints" or self.robot.startswith(LOLA)
+    def on_nao(self) -> bool:
+        """Whether the protocol is that of a NAO, with its chest button."""
+        return self.robot.startswith((LOLA, NAOQI))
+
+    def robot_class(self) -> "RobotClass | None":
+        """Load the class of a robot in Python; None for another."""
+        if not self.in_python:
+            return None
+        from ..drivers.robot_loader import load_robot_class
+
+        return load_robot_class(self.robot)
+
+    def moves_joints(self, made: "RobotClass | None") -> bool:
+        """Return whether the robot receives joint targets.
+
+        Args:
+            made: Class of a robot in Python; None for another.
+        """
+        if made is not None:
+            from ..drivers.joint.joint_robot import JointRobot
+
+            return issubclass(made, JointRobot)
+        by_joints = self.robot.startswith((LOLA, RCSS))
+        return by_joints or self.interface == "joints"
 
     def strategy(self, settings: DuelSettings) -> Strategy:
         """Load the strategy of the role."""

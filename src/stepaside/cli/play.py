@@ -41,11 +41,13 @@ INTERRUPTED = "interrupted"
     STRATEGY,
     SHIELD,
     GAIT,
+    OptionGroup("Learned legs (docs/legs.md)", ("legs",)),
     CONTROL,
     OptionGroup(
         "Sensing",
         ("sensing", "cameras.added_latency", "cameras.colour.optics"),
     ),
+    robot_argument="description",
 )
 @takes(ConnectionSettings, "connection")
 @json_option
@@ -61,8 +63,11 @@ def play(
                                (--interface)
     --robot ros2:/NAMESPACE    velocities for the robot's own walking
                                controller, on ROS 2 topics
-    --robot FILE.py:CLASS      velocities for any robot, by a class that
-                               calls its SDK (docs/connect-your-robot.md)
+    --robot rcss:HOST:PORT     joint targets for a K1 or T1 in the RoboCup
+                               simulator
+    --robot FILE.py:CLASS      velocities or joint targets for any robot, by
+                               a class that calls its SDK
+                               (docs/connect-your-robot.md)
 
     With joint control, the robot slowly moves to its stance and turns its
     LEDs green; its chest button starts and stops the walk. With its own
@@ -83,10 +88,12 @@ def play(
         raise click.UsageError("--json requires --check")
     from ..drivers.guardian_process import SessionLost
     from ..drivers.status_line import StatusLine
-    from .robot_connections import open_joints, open_velocity
+    from .joint_connections import open_joints
+    from .robot_connections import open_velocity
 
-    _refuse_unused(settings, connection)
-    joints = connection.moves_joints
+    made = connection.robot_class()
+    joints = connection.moves_joints(made)
+    _refuse_unused(settings, connection, joints=joints)
     with ExitStack() as stack:
         line = StatusLine(sys.stderr)
         stack.callback(line.close)
@@ -107,12 +114,15 @@ def play(
             wait = 0.0  # later sessions wait by --reconnect
             with ExitStack() as opened:
                 if joints:
-                    joint_loop = open_joints(settings, now)
+                    joint_loop = open_joints(settings, now, made)
                     opened.callback(joint_loop.body.close)
                     return _run_joints(
-                        joint_loop, observers, connection.duration
+                        joint_loop,
+                        observers,
+                        connection.duration,
+                        has_button=connection.on_nao,
                     )
-                velocity_loop = open_velocity(settings, now)
+                velocity_loop = open_velocity(settings, now, made)
                 opened.callback(velocity_loop.body.close)
                 return _run_velocity(
                     velocity_loop, observers, connection.duration
@@ -129,7 +139,7 @@ def play(
 
 
 def _refuse_unused(
-    settings: DuelSettings, connection: ConnectionSettings
+    settings: DuelSettings, connection: ConnectionSettings, *, joints: bool
 ) -> None:
     """Refuse options that have no effect with this role and robot."""
     evades = connection.role == EVADER
@@ -146,14 +156,17 @@ def _refuse_unused(
             {e.name for e in entries_at(DuelSettings, "strategy")},
             f"the strategy {' or '.join(OF_EVASION)}, got {strategy}",
         )
-    if connection.moves_joints:
+    if joints:
         refuse_options(
-            {"max_speed", "max_turn", "sim_time", "dead_man"},
+            {"max_speed", "max_turn", "sim_time"},
             "a robot with velocity commands",
         )
+        if connection.on_nao:
+            refuse_options({"dead_man"}, "a robot without a chest button")
     else:
         refuse_options(
             {"delay_ticks", "reconnect"}
+            | {e.name for e in entries_at(DuelSettings, "legs")}
             | {e.name for e in entries_at(DuelSettings, "control")},
             "joint control",
         )
@@ -201,9 +214,24 @@ def _run_sessions(session: Callable[[], str], reconnect: float | None) -> str:
 
 
 def _run_joints(
-    loop: "JointLoop", observers: list[Any], duration: float | None
+    loop: "JointLoop",
+    observers: list[Any],
+    duration: float | None,
+    *,
+    has_button: bool,
 ) -> str:
-    """Run a joint control loop until it rests; return why it ended."""
+    """Run a joint control loop until it rests; return why it ended.
+
+    Args:
+        loop: The loop.
+        observers: Receivers of each tick.
+        duration: Time to walk, in [s]; None for no limit.
+        has_button: Whether a robot that went limp can be started again.
+
+    Raises:
+        SessionLost: If the session failed, or the robot went limp without
+            a button.
+    """
     import gc
 
     from ..drivers.guardian_process import SessionLost
@@ -212,7 +240,7 @@ def _run_joints(
     gc.collect()
     gc.freeze()  # exclude loaded modules, so that collections stay short
     body = loop.body
-    reason = ""
+    reason, was_stiff = "", False
     while True:
         try:
             tick = loop.tick()
@@ -220,6 +248,10 @@ def _run_joints(
                 observer.note(tick)
             if reason and tick.state is RobotState.LIMP:
                 return reason
+            if tick.state is not RobotState.LIMP:
+                was_stiff = True
+            elif was_stiff and not has_button:
+                raise SessionLost(f"the robot was released: {tick.reason}")
             walked = tick.measurement.time
             if duration is not None and tick.state is RobotState.WALKING:
                 if walked >= duration - 1e-9:

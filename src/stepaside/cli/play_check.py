@@ -31,12 +31,18 @@ def check_adapter(connection: "ConnectionSettings", *, as_json: bool) -> None:
         raise click.UsageError(
             f"--check requires --robot FILE.py:CLASS, got {connection.robot!r}"
         )
+    from ..drivers.robot_loader import load_robot_class
     from ..drivers.velocity.adapter_body import connect_adapter_stopper
     from ..drivers.velocity.adapter_check import AdapterCheck
     from ..drivers.velocity.velocity_guardian import fork_velocity_guardian
-    from ..drivers.velocity.velocity_robot import load_velocity_robot
+    from ..drivers.velocity.velocity_robot import VelocityRobot
 
-    make = load_velocity_robot(connection.robot)
+    make = load_robot_class(connection.robot)
+    if not issubclass(make, VelocityRobot):
+        raise click.UsageError(
+            "--check requires a VelocityRobot; of a JointRobot, --dry-run "
+            f"reads and judges the reports, got {connection.robot!r}"
+        )
     guardian = None
     if not connection.dry_run:
         echo(f"stepaside: {WARNING}", err=True)

@@ -1,97 +1,26 @@
-"""Robot connections of ``stepaside play``."""
+"""Connections of ``stepaside play`` to robots with velocity commands."""
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import click
 
 from .connection_settings import (
     LOLA,
     NAOQI,
+    RCSS,
     ROS2,
     ConnectionSettings,
-    with_feedback,
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable
 
-    from ..control.scheme import LocomotionScheme
-    from ..core.poses import Array
     from ..drivers.dead_man_switch import DeadManSwitch
-    from ..drivers.joint.joint_body import JointBody
-    from ..drivers.joint.joint_loop import JointLoop
+    from ..drivers.robot_loader import RobotClass
     from ..drivers.velocity.velocity_body import VelocityBody
     from ..drivers.velocity.velocity_limits import VelocityLimits
     from ..drivers.velocity.velocity_loop import VelocityLoop
     from ..games.duel_settings import DuelSettings
-
-
-def open_joints(
-    settings: "DuelSettings", connection: ConnectionSettings
-) -> "JointLoop":
-    """Connect to a robot for joint control."""
-    from ..control import ControlScheme
-    from ..drivers.joint.joint_loop import JointLoop
-    from ..drivers.lola.nao_joints import NAO_MOTORS
-    from ..drivers.scheme_factory import control_scheme_factory
-    from ..robots.description import load_robot
-
-    settings = with_feedback(settings)
-    strategy = connection.strategy(settings)
-    sees = settings.sensing == "cameras"
-    open_robot = _joints_of(settings, connection, sees=sees)
-
-    def open_body(scheme: "LocomotionScheme") -> "JointBody":
-        assert isinstance(scheme, ControlScheme)  # as the factory makes it
-        kinematics = scheme.kinematics
-        return open_robot(kinematics.joint_names, scheme.joint_targets)
-
-    make = control_scheme_factory(
-        load_robot(connection.description),
-        settings.gait,
-        settings.control,
-        tick=NAO_MOTORS.tick,
-        delay_ticks=connection.delay_ticks,
-        sees_as=connection.role if sees else None,
-    )
-    return JointLoop(open_body, strategy, make, dry_run=connection.dry_run)
-
-
-def _joints_of(
-    settings: "DuelSettings", connection: ConnectionSettings, *, sees: bool
-) -> "Callable[[Sequence[str], Array], JointBody]":
-    """Return a function that connects, given joint names and stance."""
-    from functools import partial
-
-    from ..drivers.joint.session_options import SessionOptions
-    from .camera_connections import open_cameras
-
-    robot = connection.robot
-    session: dict[str, Any] = {
-        "dry_run": connection.dry_run,
-        "guarded": True,
-        "patience": connection.wait,
-    }
-    if robot.startswith(NAOQI):
-        from ..drivers.naoqi.joint_connection import open_joints as open_naoqi
-        from ..drivers.naoqi.naoqi_url import parse_url
-
-        url = parse_url(robot)
-        connection = connection.with_images(url)
-        camera = (
-            partial(open_cameras, settings, None, connection) if sees else None
-        )
-        how = SessionOptions(**session, open_eyes=camera)
-        return partial(open_naoqi, url, how=how)
-    from ..drivers.lola.lola_address import parse_address
-    from ..drivers.lola.lola_connection import open_lola
-
-    address = parse_address(robot)
-    camera = (
-        partial(open_cameras, settings, address, connection) if sees else None
-    )
-    how = SessionOptions(**session, open_eyes=camera)
-    return partial(open_lola, address, how=how)
 
 
 class VelocityConnection(NamedTuple):
@@ -110,9 +39,17 @@ class VelocityConnection(NamedTuple):
 
 
 def open_velocity(
-    settings: "DuelSettings", connection: ConnectionSettings
+    settings: "DuelSettings",
+    connection: ConnectionSettings,
+    make: "RobotClass | None",
 ) -> "VelocityLoop":
-    """Connect to a robot with its own walking controller."""
+    """Connect to a robot with its own walking controller.
+
+    Args:
+        settings: Settings of the player.
+        connection: Connection to the robot.
+        make: Class of a robot in Python; None for another.
+    """
     from math import inf
 
     from ..drivers.velocity.template_controller import TemplateController
@@ -120,7 +57,7 @@ def open_velocity(
     from ..drivers.velocity.watchdog import WatchSettings
 
     strategy = connection.strategy(settings)
-    ways = _velocity_connection(settings, connection)
+    ways = _velocity_connection(settings, connection, make)
     limits = ways.limits.within(
         connection.max_speed or inf, connection.max_turn or inf
     )
@@ -142,13 +79,13 @@ def _held(
     from ..drivers.dead_man_switch import DeadManBody
 
     try:
-        return DeadManBody(body, _open_switch(connection.dead_man, connection))
+        return DeadManBody(body, open_switch(connection.dead_man, connection))
     except BaseException:
         body.close()
         raise
 
 
-def _open_switch(name: str, connection: ConnectionSettings) -> "DeadManSwitch":
+def open_switch(name: str, connection: ConnectionSettings) -> "DeadManSwitch":
     """Open a dead-man switch by its name."""
     import sys
 
@@ -192,6 +129,7 @@ def _guarded(
 def _velocity_connection(
     settings: "DuelSettings",
     connection: ConnectionSettings,
+    make: "RobotClass | None",
 ) -> VelocityConnection:
     """Return the ways to connect to a robot."""
     from ..drivers.velocity.velocity_limits import VelocityLimits
@@ -204,8 +142,8 @@ def _velocity_connection(
             f"follows the opponent, got {robot!r}; over ROS 2 the opponent's "
             "position is received on a topic"
         )
-    if connection.in_python:
-        return _adapter_connection(connection)
+    if make is not None:
+        return _adapter_connection(connection, make)
     if robot.startswith(ROS2):
         return VelocityConnection(*_ros2_connection(connection), limits)
     if robot.startswith(NAOQI):
@@ -213,21 +151,23 @@ def _velocity_connection(
             *_naoqi_connection(settings, connection), limits
         )
     raise click.BadParameter(
-        f"must begin with {LOLA}, {NAOQI} or {ROS2}, or be FILE.py:CLASS, "
-        f"got {robot!r}",
+        f"must begin with {LOLA}, {NAOQI}, {ROS2} or {RCSS}, or be "
+        f"FILE.py:CLASS, got {robot!r}",
         param_hint="--robot",
     )
 
 
-def _adapter_connection(connection: ConnectionSettings) -> VelocityConnection:
+def _adapter_connection(
+    connection: ConnectionSettings, make: "RobotClass"
+) -> VelocityConnection:
     """Return the ways to connect to a robot in a user's file."""
     from ..drivers.velocity.adapter_body import (
         AdapterBody,
         connect_adapter_stopper,
     )
-    from ..drivers.velocity.velocity_robot import load_velocity_robot
+    from ..drivers.velocity.velocity_robot import VelocityRobot
 
-    make = load_velocity_robot(connection.robot)
+    assert issubclass(make, VelocityRobot)  # joints are opened elsewhere
     return VelocityConnection(
         lambda: AdapterBody(make(), dry_run=connection.dry_run),
         lambda: connect_adapter_stopper(make),

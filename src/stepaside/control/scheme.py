@@ -104,6 +104,11 @@ class LocomotionScheme:
         return self.locomotion.phase
 
     @property
+    def pose(self) -> Pose:
+        """Pose of the template in odometry."""
+        return self.locomotion.pose
+
+    @property
     def begun(self) -> StepStarted | None:
         """Step that began at the last tick; None if none did."""
         return self.locomotion.begun

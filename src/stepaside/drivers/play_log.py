@@ -33,7 +33,8 @@ class PlayLog:
     A tick of :class:`JointTick` adds ``joint_positions``, ``targets``,
     ``gyro``, ``accelerometer``, ``foot_forces`` and ``phase``, and in the
     odometry frame of the controller numbered ``mind``: ``support`` (x, y,
-    heading of the stance foot, then 1 for left or -1 for right),
+    heading of the stance foot, then 1 for left or -1 for right; of other
+    locomotion place of the CoM and heading of the torso, then NaN),
     ``com_reference``, ``zmp_reference`` and ``begun``, the step that began
     at this tick (landing time, 1 left or -1 right, x, y, heading, processor
     time of planning; NaN if none began).
@@ -163,7 +164,7 @@ def _joint_columns(tick: JointTick) -> dict[str, Array | float]:
         "foot_forces": m.foot_forces,
         "phase": float(PHASES.index(tick.phase)),
         "mind": float(tick.mind),
-        "support": _support(tick.walk, m.time),
+        "support": _support(tick),
         **_references(tick.walk),
         "begun": NO_STEP if tick.begun is None else _begun(tick.begun),
     }
@@ -180,11 +181,11 @@ def _references(walk: WalkState | None) -> dict[str, Array | float]:
     }
 
 
-def _support(walk: WalkState | None, now: float) -> Array:
+def _support(tick: JointTick) -> Array:
     """Return the pose of the stance foot in odometry, and its side."""
-    if walk is None:
-        return np.full(4, np.nan)
-    step = walk.step(now)
+    if tick.walk is None:
+        return np.array([*tick.pose, np.nan])
+    step = tick.walk.step(tick.time)
     return np.array([*step.support, -float(step.swing.value)])
 
 

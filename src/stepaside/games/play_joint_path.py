@@ -11,6 +11,7 @@ from ..planning import GaitSettings
 from ..robots.body_pose import SpatialTorsoPose, torso_pose_on_foot
 from ..robots.description import RobotDescription
 from ..robots.forward_kinematics import ForwardKinematics, MeasuredPosture
+from ..robots.head import rotation
 from .play_rows import PlayedRows
 from .trajectory import Trajectory
 
@@ -22,9 +23,11 @@ class OdometryPath:
     """Reconstruction of a robot's motion from its recorded rows.
 
     In each row the robot stands on the support foot of its controller, with
-    the tilt of its IMU and the measured joint angles. Each controller that
-    was started has its own odometry, whose origin is midway between the last
-    feet positions in the odometry of the controller before it.
+    the tilt of its IMU and the measured joint angles; on learned legs its CoM
+    is at the place of their odometry, and its lowest sole on the floor. Each
+    controller that was started has its own odometry, whose origin is midway
+    between the last feet positions in the odometry of the controller before
+    it.
     """
 
     def __init__(
@@ -98,6 +101,9 @@ class OdometryPath:
             ):
                 rows.setdefault(name, []).append(np.asarray(value))
         arrays = {name: np.array(values) for name, values in rows.items()}
+        for name in ("com_reference", "zmp_reference"):
+            if np.isnan(arrays[name]).all():  # learned legs have none
+                del arrays[name]
         for name in ("place", "torso"):
             arrays[name][:, 2] = np.unwrap(arrays[name][:, 2])
         arrays["qpos"] = arrays["qpos"].astype(np.float32)
@@ -130,10 +136,34 @@ class OdometryPath:
         posture = self._forward.posture(measured)
         support = frame.compose(Pose(x, y, heading))
         roll, pitch = self._tilts[row].tolist()
+        if np.isnan(side):
+            return posture, self._stand_under_com(
+                posture, support, (roll, pitch)
+            )
         foot = 0 if side > 0.0 else 1
         return posture, torso_pose_on_foot(
             posture, foot, support, (roll, pitch)
         )
+
+    def _stand_under_com(
+        self,
+        posture: MeasuredPosture,
+        support: Pose,
+        tilt: tuple[float, float],
+    ) -> SpatialTorsoPose:
+        """Return the torso of a robot whose lowest sole touches the floor.
+
+        Args:
+            posture: Measured posture.
+            support: Place of the CoM, and heading of the torso.
+            tilt: Roll and pitch of the torso, in [rad].
+        """
+        axes = rotation(*tilt, support.theta)
+        corners = self._corners(posture)
+        com = axes @ posture.position_com_in_torso
+        lowest = float((corners @ axes.T)[:, 2].min())
+        place = np.array([support.x - com[0], support.y - com[1], -lowest])
+        return SpatialTorsoPose(place, axes, support.theta)
 
     def _qpos(self, row: int, body: SpatialTorsoPose) -> Array:
         """Return position and quaternion of the torso, then all joints."""
@@ -155,19 +185,22 @@ class OdometryPath:
         total = float(forces.sum())
         if not total > MIN_FOOT_FORCE:
             return np.full(2, np.nan)
-        flat = np.column_stack([self._sensors, np.zeros(len(forces))])
-        corners = np.concatenate(
+        center_in_torso = forces @ self._corners(posture) / total
+        center: Array = (
+            body.position_in_odometry + body.axes_in_odometry @ center_in_torso
+        )[:2]
+        return center
+
+    def _corners(self, posture: MeasuredPosture) -> Array:
+        """Return the force sensors in the torso frame, in [m]. (8, 3)."""
+        flat = np.column_stack([self._sensors, np.zeros(len(self._sensors))])
+        return np.concatenate(
             [
                 posture.positions_feet_in_torso[i]
                 + flat[4 * i : 4 * i + 4] @ posture.axes_feet_in_torso[i].T
                 for i in range(2)
             ]
         )
-        center_in_torso = forces @ corners / total
-        center: Array = (
-            body.position_in_odometry + body.axes_in_odometry @ center_in_torso
-        )[:2]
-        return center
 
     def _landings(self, frames: dict[float, Pose]) -> Array:
         begun, controllers = self._columns["begun"], self._columns["mind"]

@@ -12,7 +12,10 @@ from ..strategies.registry import check_strategy_name
 from .duel_settings import EVADER, PLAYERS, PURSUER, RobotSettings
 from .strategy_resolution import EVASION
 
-LANGUAGES = LOLA, NAOQI, ROS2, PYTHON = ("lola", "naoqi", "ros2", "python")
+LANGUAGES = LOLA, NAOQI, ROS2, PYTHON, RCSS = (
+    *("lola", "naoqi", "ros2"),
+    *("python", "rcss"),
+)
 
 
 @dataclass(frozen=True, slots=True)

@@ -58,7 +58,7 @@ class Measurement(NamedTuple):
             Shape (3,).
         foot_forces: Normal force at the corners of the soles, in [N]:
             left front-left, front-right, rear-left, rear-right, then right.
-            Shape (8,).
+            NaN from a robot without such sensors. Shape (8,).
         sighting: Latest sighting of the opponent, if any.
         percepts: Images and echoes that arrived since the last tick.
         pose_in_room: CoM and heading of the torso in the frame of a known
@@ -71,6 +71,8 @@ class Measurement(NamedTuple):
         latest_gyro: Angular velocity of the torso at this instant, in
             [rad/s], where ``gyro`` is a mean since the last tick; None where
             it is the only reading. Shape (3,).
+        tilt: Roll and pitch of the torso, in [rad], from a robot whose IMU
+            estimates them; else None.
     """
 
     time: float
@@ -84,3 +86,4 @@ class Measurement(NamedTuple):
     joint_velocities: Array | None = None
     players: tuple[Sighting, ...] = ()
     latest_gyro: Array | None = None
+    tilt: tuple[float, float] | None = None

@@ -90,6 +90,7 @@ def takes_settings(
     without: Collection[str] = (),
     ignored: Collection[str] = (),
     meanings: Mapping[str, str] | None = None,
+    robot_argument: str | None = None,
 ) -> Decorator:
     """Add options and ``--config`` to a command; pass it ``settings``.
 
@@ -99,6 +100,8 @@ def takes_settings(
         without: Entries whose options the command does not have.
         ignored: Top-level entries of a file that belong to other commands.
         meanings: Meanings of options that differ in this command, by entry.
+        robot_argument: Argument of the command that chooses the robot, if
+            not an option of these settings.
 
     Returns:
         Decorator of a command with an argument ``settings``.
@@ -117,7 +120,8 @@ def takes_settings(
         def command(**values: Any) -> Any:
             options = given_options(values, entries)
             file = values.pop("config")
-            settings = _settings(kind, options, file, ignored)
+            robot = None if robot_argument is None else values[robot_argument]
+            settings = _settings(kind, options, file, ignored, robot)
             given = [entry for entry, _ in options]
             _refuse_unused(given, entries, settings)
             if values.pop("print_config"):
@@ -162,10 +166,13 @@ def _settings(
     options: list[tuple[Entry, Any]],
     config: Path | None,
     ignored: Collection[str],
+    robot: str | None,
 ) -> Any:
     """Return the settings of a command from options and file."""
     named = {entry.path: value for entry, value in options}
     given = dict(named)
+    if robot is not None:
+        given["robot"] = robot
     file = {} if config is None else load_entries(config)
     settings, needs_feedback = _base_settings(
         kind, given, dict(file), str(config), ignored

@@ -47,6 +47,7 @@ class FrameReceiver:
         self._passed = 0  # frames since then
         self.count = -1
         self.refused = 0
+        self._refusal = ""
         self.lock_step = False
 
     def listen(self) -> tuple[JointFrame, float]:
@@ -73,7 +74,9 @@ class FrameReceiver:
                 self._number(frame, now)
                 return frame, gap
             if now >= deadline:
-                refused = f", {self.refused} refused" if self.refused else ""
+                refused = ""
+                if self.refused:
+                    refused = f", {self.refused} refused: {self._refusal}"
                 raise SessionLost(
                     f"no valid frame for {now - self._heard:.3f} s{refused}"
                 )
@@ -83,6 +86,7 @@ class FrameReceiver:
             return self._read(data)
         except FrameError as error:
             self.refused += 1
+            self._refusal = str(error)
             if self.refused.bit_count() == 1:  # 1, 2, 4, 8...
                 log.warning("frame refused (%d): %s", self.refused, error)
             return None

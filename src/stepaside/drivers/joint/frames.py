@@ -30,7 +30,7 @@ class JointFrame(NamedTuple):
             Shape (3,).
         gyroscope: Angular velocity in the torso frame, in [rad/s].
             Shape (3,).
-        angles: Roll and pitch of the torso, in [rad].
+        angles: Roll and pitch of the torso by the robot, in [rad].
         foot_forces: Forces on the foot sensors, in [N]. Shape (sensors,).
         load: Sum of all foot sensors, in [kg].
         echoes: Distances of the sonars, in [m], by name; None without an
@@ -43,6 +43,7 @@ class JointFrame(NamedTuple):
         lock_step: Whether the robot is simulated and waits for answers.
         velocity: Joint velocities, in [rad/s], from a robot that measures
             them; else None. Shape (motors,).
+        hindrance: Reason why the robot must not walk now; empty if it may.
     """
 
     position: Array
@@ -63,6 +64,7 @@ class JointFrame(NamedTuple):
     counted: bool
     lock_step: bool
     velocity: Array | None = None
+    hindrance: str = ""
 
 
 class MotorGains(NamedTuple):
@@ -139,4 +141,5 @@ def measurement_of(
         joint_velocities=None
         if frame.velocity is None
         else joints.from_motors(frame.velocity),
+        tilt=frame.angles,
     )

@@ -48,12 +48,15 @@ class JointInterface(NamedTuple):
         codec: Conversion between frames and what the link carries.
         gains: Gains of the motors while control moves them, from a robot that
             takes gains; None for its own.
+        stands: Whether the robot stands by its own controller while it is not
+            stiff: stiffness then rises and falls at once.
     """
 
     link: FrameLink
     motors: MotorTable
     codec: Codec
     gains: MotorGains | None = None
+    stands: bool = False
 
 
 class SystemClock(NamedTuple):
@@ -116,7 +119,7 @@ class JointBody:
             ModelError: If the robot has no motor for one of the joints.
         """
         settings = safety or SafetySettings()
-        link, motors, codec, gains = interface
+        link, motors, codec, gains, stands = interface
         self._gains = gains
         self._link, self._sight, self._guardian = link, sight, guardian
         self._eyes, self._motors = eyes, motors
@@ -124,7 +127,11 @@ class JointBody:
         self._joints = JointMap(tuple(stance), motors)
         angles = np.array(list(stance.values()), dtype=np.float64)
         self._motion = JointMotionState(
-            self._joints, angles, motors, soft=gains is not None
+            self._joints,
+            angles,
+            motors,
+            soft=gains is not None,
+            at_once=stands,
         )
         self._vitals = SafetyMonitor(settings.look_ahead, motors)
         self._silence = settings.silence

@@ -5,13 +5,14 @@ from dataclasses import dataclass
 
 from ...control.scheme import LocomotionScheme
 from ...core.errors import ReachError, StrategyError
-from ...core.poses import Array
+from ...core.poses import Array, Pose
 from ...locomotion.walk_snapshots import Phase, StepStarted, WalkState
 from ...perception.measurement import Measurement, Sighting
 from ...strategies import StandStill, Strategy
 from .joint_body import JointBody
 from .safety_state_machine import RobotState
 
+SETTLING = 1.0  # of learned legs that were told to stand, in [s]
 MakeScheme = Callable[[Strategy], LocomotionScheme]
 
 
@@ -31,6 +32,7 @@ class JointTick:
         walk: State of a walk by maneuvers, in the odometry of that scheme;
             None of other locomotion.
         begun: Step that began at this tick; None if none did.
+        pose: Pose of the template in that odometry.
     """
 
     state: RobotState
@@ -43,6 +45,7 @@ class JointTick:
     mind: int
     walk: WalkState | None
     begun: StepStarted | None
+    pose: Pose
 
     @property
     def time(self) -> float:
@@ -89,6 +92,7 @@ class JointLoop:
         self._scheme: LocomotionScheme
         self._schemes = 0
         self._renew_scheme()
+        self._stood = 0  # ticks of a stop in which control has stood
         self._dry_run = dry_run
         self.body = open_body(self._scheme)
 
@@ -128,15 +132,22 @@ class JointLoop:
             self._schemes,
             scheme.state,
             scheme.begun if is_controlled else None,
+            scheme.pose,
         )
 
     def _update(self, measurement: Measurement, state: RobotState) -> Array:
         """Update control, and release the robot if that fails."""
         self._used = True
         scheme, body = self._scheme, self.body
+        if state is not RobotState.STOPPING:
+            self._stood = 0
         if state is RobotState.STOPPING:
             scheme.decisions.adopt(StandStill())  # ends the walk
-            if scheme.phase is Phase.STANDING:
+            self._stood = (
+                self._stood + 1 if scheme.phase is Phase.STANDING else 0
+            )
+            settling = 0.0 if scheme.state is not None else SETTLING
+            if self._stood * body.tick > settling:
                 body.halted()
         try:
             targets = scheme.update(measurement)

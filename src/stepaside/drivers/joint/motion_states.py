@@ -30,6 +30,7 @@ class JointMotionState:
         motors: MotorTable,
         *,
         soft: bool = False,
+        at_once: bool = False,
     ) -> None:
         """Start limp.
 
@@ -40,11 +41,16 @@ class JointMotionState:
             motors: Motors of the robot.
             soft: Whether control chooses the gains of the motors: its targets
                 may then be far from the angles, and are not limited.
+            at_once: Whether stiffness rises and falls within one tick.
         """
         self._joints, self._motors, self._soft = joints, motors, soft
         self._stance_targets = stance
         self._limiter: TargetLimiter | None = None
-        self._ramp = StiffnessRamp(motors.tick)
+        self._ramp = (
+            StiffnessRamp(motors.tick, motors.tick, motors.tick)
+            if at_once
+            else StiffnessRamp(motors.tick)
+        )
         self.targets: Array = np.zeros(motors.count)
 
     def reached(self, state: RobotState, measured: Array) -> bool:

@@ -42,6 +42,7 @@ class SafetyInputs(NamedTuple):
         force: Specific force by the accelerometer, in [m/s^2].
         frozen: Time for which the accelerometer's reading has been constant
             while the legs moved, in [s].
+        hindrance: Reason by the robot why it must not walk; empty if it may.
     """
 
     time: float
@@ -56,6 +57,7 @@ class SafetyInputs(NamedTuple):
     current: float = 0.0
     force: tuple[float, float, float] = UPRIGHT
     frozen: float = 0.0
+    hindrance: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -184,6 +186,10 @@ def _touches(inputs: SafetyInputs, limits: SafetySettings) -> str:
     return "a foot bumper is pressed" if inputs.bumper else ""
 
 
+def _is_hindered(inputs: SafetyInputs, limits: SafetySettings) -> str:
+    return inputs.hindrance
+
+
 CONDITIONS = (
     SafetyCondition(_falls, SafetyReaction.LIMP),
     SafetyCondition(_is_critical, SafetyReaction.LIMP),
@@ -193,6 +199,7 @@ CONDITIONS = (
     SafetyCondition(_has_bad_accelerometer, SafetyReaction.STAND, lasting=0.3),
     SafetyCondition(_is_lifted, SafetyReaction.STAND, lasting=0.3),
     SafetyCondition(_touches, SafetyReaction.STAND, lasting=0.05),
+    SafetyCondition(_is_hindered, SafetyReaction.STAND),
 )
 
 

@@ -55,6 +55,7 @@ class SafetyMonitor:
             charge=frame.charge,
             current=float(current_ratios.max()),
             force=(x, y, z),
+            hindrance=frame.hindrance,
             frozen=self._frozen(frame, now) if walks else self._forget(),
         )
 

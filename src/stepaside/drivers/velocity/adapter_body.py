@@ -5,25 +5,25 @@ import re
 from collections.abc import Callable
 from concurrent.futures import Future
 from math import hypot, isfinite, pi
-from queue import SimpleQueue
-from threading import Thread
 from time import monotonic, sleep
 from typing import Any
 
-from ...core.errors import ConfigurationError
 from ...core.poses import Pose, wrap_angle
 from ...core.user_file import FAILURES, shown_briefly
 from ...perception.measurement import Sighting
 from ..guardian_process import SessionLost
+from ..method_thread import (
+    BLOCKED,
+    CLOSE_TIMEOUT,
+    MethodThread,
+    open_robot,
+)
 from .velocity_body import REST, VelocityCommand, VelocityReport
 from .velocity_robot import VelocityRobot
 
 PERIOD = 0.02  # between two reports at least, in [s]
 POLL = 0.005  # between two calls of listen() that returned None, in [s]
-OPEN_TIMEOUT = 15.0  # for open(), in [s]
 PREPARE_TIMEOUT = 30.0  # for prepare(), in [s]: to stand up
-CLOSE_TIMEOUT = 2.0  # for stop() and close() at the end, in [s]
-BLOCKED = 0.25  # time after which a method counts as blocked, in [s]
 UNSTOPPED = 0.5  # for stop() while another method is blocked, in [s]
 FORSAKEN = 5.0  # time of a blocked method that ends the session, in [s]
 FASTEST = 10.0  # plausible speed of a walking robot, in [m/s]
@@ -31,96 +31,6 @@ FASTEST_TURN = 15.0  # plausible turning rate, in [rad/s]
 MIN_PASSED = 0.02  # over which a jump is judged at least, in [s]
 _NUMBER = re.compile(r"[-\d.]+")
 log = logging.getLogger(__name__)
-
-
-class MethodThread:
-    """Thread that calls the methods of a robot, one after the other.
-
-    A method that does not return blocks this thread, and not control.
-    """
-
-    def __init__(
-        self,
-        robot: VelocityRobot,
-        *,
-        clock: Callable[[], float] = monotonic,
-    ) -> None:
-        """Start the thread."""
-        self.robot, self._clock = robot, clock
-        self._queue: SimpleQueue[tuple[str, Any, Future[Any]]] = SimpleQueue()
-        self._running: tuple[str, float] | None = None
-        self._thread = Thread(target=self._work, daemon=True)
-        self._thread.start()
-
-    @property
-    def blocked(self) -> tuple[str, float] | None:
-        """The method that has been running for too long, and its time [s]."""
-        running = self._running
-        if running is None:
-            return None
-        waited = self._clock() - running[1]
-        return (running[0], waited) if waited > BLOCKED else None
-
-    def begin(self, method: str, call: Any = None) -> "Future[Any]":
-        """Call a method after those that were begun before.
-
-        Args:
-            method: Name of the method, for messages.
-            call: What is called; the method without arguments by default.
-
-        Returns:
-            Its result, or :class:`SessionLost` if it fails.
-        """
-        result: Future[Any] = Future()
-        self._queue.put((method, call or getattr(self.robot, method), result))
-        return result
-
-    def run(self, method: str, within: float, call: Any = None) -> Any:
-        """Call a method and wait for its result.
-
-        Args:
-            method: Name of the method.
-            within: Longest time to wait, in [s].
-            call: What is called; the method without arguments by default.
-
-        Raises:
-            SessionLost: If it fails or does not return in time.
-        """
-        try:
-            return self.begin(method, call).result(within)
-        except TimeoutError as error:
-            raise SessionLost(
-                f"{self.name_of(method)} did not return within {within:g} s"
-            ) from error
-
-    def stop_apart(self) -> "Future[Any]":
-        """Call stop() at once, in a thread of its own."""
-        result: Future[Any] = Future()
-        stop = self.robot.stop
-        Thread(
-            target=self._call, args=("stop", stop, result), daemon=True
-        ).start()
-        return result
-
-    def name_of(self, method: str) -> str:
-        """Return the name of a method for messages."""
-        return f"{method}() of {type(self.robot).__name__}"
-
-    def _work(self) -> None:
-        while True:
-            method, call, result = self._queue.get()
-            self._running = method, self._clock()
-            self._call(method, call, result)
-            self._running = None
-
-    def _call(self, method: str, call: Any, result: "Future[Any]") -> None:
-        try:
-            result.set_result(call())
-        except FAILURES as error:
-            text = f"{self.name_of(method)} failed: {_described(error)}"
-            lost = SessionLost(text)
-            lost.__cause__ = error
-            result.set_exception(lost)
 
 
 class AdapterBody:
@@ -226,7 +136,7 @@ class AdapterBody:
             stopping = (
                 self._methods.begin("stop")
                 if free
-                else self._stopping or self._methods.stop_apart()
+                else self._stopping or self._methods.call_apart("stop")
             )
             try:
                 stopping.result(CLOSE_TIMEOUT if free else UNSTOPPED)
@@ -262,7 +172,7 @@ class AdapterBody:
         name = self._methods.name_of(method)
         if self._stopping is None:
             log.warning("%s has not returned for %.2f s", name, waited)
-            self._stopping = self._methods.stop_apart()
+            self._stopping = self._methods.call_apart("stop")
             self._stop_began = self._clock()
         if self._stopping.done():
             self._stopping.result()
@@ -309,21 +219,6 @@ class AdapterBody:
         if kind and kind != self._logged:
             log.warning("%s", text)
         self._logged = kind
-
-
-def open_robot(methods: MethodThread) -> None:
-    """Call open() of a robot.
-
-    Raises:
-        SessionLost: If it raised an OSError or does not return.
-        ConfigurationError: If it fails otherwise, which is not retried.
-    """
-    try:
-        methods.run("open", OPEN_TIMEOUT)
-    except SessionLost as error:
-        if isinstance(error.__cause__, OSError):
-            raise
-        raise ConfigurationError(str(error)) from error
 
 
 def connect_adapter_stopper(
@@ -408,7 +303,3 @@ def converted_report(got: Any, name: str) -> VelocityReport:
             f"{name} must return a VelocityReport(time, Pose(x, y, theta)) "
             f"or None, got {shown_briefly(got)}"
         ) from error
-
-
-def _described(error: BaseException) -> str:
-    return f"{type(error).__name__}: {error}" if str(error) else repr(error)

@@ -12,15 +12,17 @@ from typing import Any, NamedTuple
 from ...core.poses import wrap_angle
 from ...strategies.velocity_set import BodyVelocity
 from ..guardian_process import Guardian, SessionLost
-from ..sighting_checks import sighting_fault
-from .adapter_body import (
+from ..method_thread import (
     BLOCKED,
     CLOSE_TIMEOUT,
     OPEN_TIMEOUT,
+    MethodThread,
+)
+from ..sighting_checks import sighting_fault
+from .adapter_body import (
     PERIOD,
     POLL,
     PREPARE_TIMEOUT,
-    MethodThread,
     converted_report,
     report_fault,
 )
@@ -213,7 +215,7 @@ class AdapterCheck:
 
     def _stop_beside(self) -> None:
         try:
-            self._methods.stop_apart().result(CLOSE_TIMEOUT)
+            self._methods.call_apart("stop").result(CLOSE_TIMEOUT)
         except TimeoutError as error:
             raise SessionLost(
                 f"{self._methods.name_of('stop')} did not return either"

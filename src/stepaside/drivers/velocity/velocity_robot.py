@@ -1,19 +1,12 @@
 """Base class of robots that users connect with a few lines of Python."""
 
 from math import isfinite
-from typing import Any, ClassVar
+from typing import ClassVar
 
 from ...core.errors import ConfigurationError
-from ...core.user_file import (
-    FAILURES,
-    FILE_AND_NAME,
-    load_user_file,
-    shown_briefly,
-)
+from ...core.user_file import shown_briefly
 from .velocity_body import VelocityReport
 from .velocity_limits import VelocityLimits
-
-METHODS = ("open", "prepare", "listen", "command", "stop", "close")
 
 
 class VelocityRobot:
@@ -76,49 +69,20 @@ class VelocityRobot:
         """Disconnect; :meth:`stop` has been called before."""
 
 
-def load_velocity_robot(name: str) -> type[VelocityRobot]:
-    """Load a robot of a user's file.
+METHODS = ("open", "prepare", "listen", "command", "stop", "close")
+REQUIRED = ("listen", "command")
+
+
+def check_velocity_robot(kind: type[VelocityRobot], where: str) -> None:
+    """Check limits and flags of a class.
 
     Args:
-        name: FILE.py:CLASS. The file is executed.
-
-    Returns:
-        The class, which makes a robot without connecting to it.
+        kind: The class; its methods have been checked.
+        where: Its name, for messages.
 
     Raises:
-        ConfigurationError: If there is no such class, or it is invalid.
+        ConfigurationError: If one is invalid.
     """
-    found = FILE_AND_NAME.fullmatch(name)
-    if not (found and found["name"].isidentifier()):
-        raise ConfigurationError(f"robot must be FILE.py:CLASS, got {name!r}")
-    where = f"robot {name}"
-    loaded = load_user_file(found["file"], where)
-    kind = getattr(loaded, found["name"], None)
-    if not (isinstance(kind, type) and issubclass(kind, VelocityRobot)):
-        offered = ", ".join(_robots_in(loaded)) or "no VelocityRobot"
-        raise ConfigurationError(
-            f"{where}: must be a subclass of stepaside.VelocityRobot; the "
-            f"file has {offered}"
-        )
-    _check_class(kind, where)
-    try:
-        kind()
-    except FAILURES as error:
-        raise ConfigurationError(
-            f"{where}: {kind.__name__}() must make a robot without "
-            f"connecting, got {type(error).__name__}: {error}"
-        ) from error
-    return kind
-
-
-def _check_class(kind: type[VelocityRobot], where: str) -> None:
-    """Check methods, limits and flags of a class."""
-    for name in METHODS:
-        if not callable(getattr(kind, name)):
-            raise ConfigurationError(f"{where}: {name} must be a method")
-    for name in ("listen", "command"):
-        if getattr(kind, name) is getattr(VelocityRobot, name):
-            raise ConfigurationError(f"{where}: lacks the method {name}()")
     limits = getattr(kind, "limits", None)
     if not isinstance(limits, VelocityLimits):
         raise ConfigurationError(
@@ -137,13 +101,3 @@ def _check_class(kind: type[VelocityRobot], where: str) -> None:
             f"{where}: keeps_walking must be True or False, got "
             f"{shown_briefly(kind.keeps_walking)}"
         )
-
-
-def _robots_in(loaded: Any) -> list[str]:
-    return sorted(
-        name
-        for name, thing in vars(loaded).items()
-        if isinstance(thing, type)
-        and issubclass(thing, VelocityRobot)
-        and thing is not VelocityRobot
-    )

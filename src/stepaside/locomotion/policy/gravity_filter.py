@@ -1,7 +1,7 @@
 """Direction of gravity in the torso frame, from gyro and accelerometer."""
 
 from collections.abc import Sequence
-from math import asin, atan2, sqrt
+from math import asin, atan2, cos, sin, sqrt
 
 import numpy as np
 
@@ -88,6 +88,19 @@ class GravityFilter:
         w = z + duration * (x * q - y * p)
         length = sqrt(u * u + v * v + w * w)
         self._up = [u / length, v / length, w / length]
+
+    def adopt(self, tilt: tuple[float, float]) -> None:
+        """Replace the direction by the estimate of the robot itself.
+
+        It needs no calibration then.
+
+        Args:
+            tilt: Roll and pitch of the torso, in [rad].
+        """
+        roll, pitch = tilt
+        c = cos(pitch)
+        self._up = [-sin(pitch), c * sin(roll), c * cos(roll)]
+        self._time = CALIBRATION
 
     def _calibrate(self, specific_force: Array, duration: float) -> None:
         """Average the direction of gravity of a robot that stands."""

@@ -11,6 +11,9 @@ from ...planning import Foot
 from ...robots.forward_kinematics import ForwardKinematics
 
 SMOOTHING = 0.1  # time constant of the velocity, in [s]: a few readings
+# Height above the lowest corner at which one carries 1/e of its load, in [m]:
+# soles give way by millimetres, and are lifted by centimetres.
+CONTACT = 0.001
 
 
 NOTE = """\
@@ -68,8 +71,9 @@ class LegOdometry:
     A corner of a sole that is loaded at one reading does not move until the
     next, whether its foot lies flat, rolls or pivots. The torso moves by the
     opposite of the motion of these corners in the torso frame, the mean over
-    all eight by their loads. The CoM, which is the reference point of a
-    walking robot, moves as the joints say in addition.
+    all eight by their loads; without force sensors the lowest corners count
+    as loaded. The CoM, which is the reference point of a walking robot, moves
+    as the joints say in addition.
 
     Attributes:
         moved: Motion of the CoM over the last reading, ahead and to the left
@@ -149,8 +153,21 @@ class LegOdometry:
         self._feet[:] = posture.positions_feet_in_torso
         self._axes[:] = posture.axes_feet_in_torso.reshape(6, 3)
         self._forces[:] = measurement.foot_forces
+        if np.isnan(self._forces).any():
+            self._forces[:] = self._loads_by_height()
         self._given[:4] = *tilt, turn, duration
         self._note()
+
+    def _loads_by_height(self) -> Array:
+        """Return weights of the corners of both soles by their height."""
+        posture, up = self._posture, _tilted(*self._tilt)[2]
+        height = posture.positions_feet_in_torso @ up
+        corners = self._forward.force_sensors().reshape(2, 4, 2)
+        slopes = up @ posture.axes_feet_in_torso[:, :, :2]
+        heights = height[:, None] + (corners @ slopes[:, :, None])[..., 0]
+        above = heights.reshape(8) - heights.min()
+        weights: Array = np.exp(-above / CONTACT)
+        return weights
 
 
 def _tilted(roll: float, pitch: float) -> Array:

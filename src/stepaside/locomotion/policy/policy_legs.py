@@ -158,6 +158,8 @@ class PolicyLegs:
             (-left * rate, ahead * rate, 0.0),
             self._tick,
         )
+        if measurement.tilt is not None:
+            self._gravity.adopt(measurement.tilt)
         return self._gravity.rate[2]
 
     def _decide(self, measurement: Measurement) -> None:

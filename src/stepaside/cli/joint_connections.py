@@ -1,0 +1,232 @@
+"""Connections of ``stepaside play`` to robots that are driven by joints."""
+
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from .connection_settings import (
+    NAOQI,
+    RCSS,
+    ConnectionSettings,
+    with_feedback,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from ..control.scheme import LocomotionScheme
+    from ..core.poses import Array
+    from ..drivers.joint.joint_body import JointBody
+    from ..drivers.joint.joint_loop import JointLoop
+    from ..drivers.joint.joint_robot import JointRobot
+    from ..drivers.robot_loader import RobotClass
+    from ..games.duel_settings import DuelSettings
+    from ..robots.description import RobotDescription
+
+
+def open_joints(
+    settings: "DuelSettings",
+    connection: ConnectionSettings,
+    make: "RobotClass | None",
+) -> "JointLoop":
+    """Connect to a robot for joint control.
+
+    Args:
+        settings: Settings of the player.
+        connection: Connection to the robot.
+        make: Class of a robot in Python; None for another.
+    """
+    from ..robots.description import load_robot
+
+    description = load_robot(connection.description)
+    if make is not None:
+        from ..drivers.joint.joint_robot import JointRobot
+
+        assert issubclass(make, JointRobot)  # velocities are opened elsewhere
+        return _open_robot(settings, connection, description, make)
+    if connection.robot.startswith(RCSS):
+        make_league = _league_robot(connection, description)
+        return _open_robot(settings, connection, description, make_league)
+    return _open_nao(settings, connection, description)
+
+
+def _open_nao(
+    settings: "DuelSettings",
+    connection: ConnectionSettings,
+    description: "RobotDescription",
+) -> "JointLoop":
+    """Connect to a NAO over LoLA or NAOqi."""
+    from ..control import ControlScheme
+    from ..drivers.joint.joint_loop import JointLoop
+    from ..drivers.lola.nao_joints import NAO_MOTORS
+    from ..drivers.scheme_factory import control_scheme_factory
+
+    if settings.legs.walks:
+        raise click.UsageError(
+            "--legs requires a robot that takes gains and measures joint "
+            f"velocities, got {connection.robot!r}"
+        )
+    settings = with_feedback(settings)
+    sees = settings.sensing == "cameras"
+    open_robot = _joints_of(settings, connection, sees=sees)
+
+    def open_body(scheme: "LocomotionScheme") -> "JointBody":
+        assert isinstance(scheme, ControlScheme)  # as the factory makes it
+        kinematics = scheme.kinematics
+        return open_robot(kinematics.joint_names, scheme.joint_targets)
+
+    make = control_scheme_factory(
+        description,
+        settings.gait,
+        settings.control,
+        tick=NAO_MOTORS.tick,
+        delay_ticks=connection.delay_ticks,
+        sees_as=connection.role if sees else None,
+    )
+    strategy = connection.strategy(settings)
+    return JointLoop(open_body, strategy, make, dry_run=connection.dry_run)
+
+
+def _league_robot(
+    connection: ConnectionSettings, description: "RobotDescription"
+) -> "Callable[[], JointRobot]":
+    """Return a function that makes a robot of the RoboCup simulator."""
+    from functools import partial
+
+    from ..drivers.rcss.rcss_robot import (
+        LeagueRobot,
+        league_model_of,
+        parse_rcss_address,
+    )
+
+    address = parse_rcss_address(connection.robot)
+    model = league_model_of(description.speed_limits)
+    return partial(
+        LeagueRobot, address, model, connection.role, description.standing
+    )
+
+
+def _open_robot(
+    settings: "DuelSettings",
+    connection: ConnectionSettings,
+    description: "RobotDescription",
+    make: "Callable[[], JointRobot]",
+) -> "JointLoop":
+    """Connect to a robot that takes joint targets with gains."""
+    from ..drivers.guardian_process import open_with_retries
+    from ..drivers.joint.adapter_link import (
+        AdapterLink,
+        connect_releaser,
+        own_gains,
+    )
+    from ..drivers.joint.joint_body import JointBody, JointInterface
+    from ..drivers.joint.joint_loop import JointLoop
+    from ..drivers.joint.joint_map import motors_of
+    from ..drivers.joint.stiffness_guardian import guard_release
+    from ..drivers.scheme_factory import (
+        control_scheme_factory,
+        policy_gains,
+        policy_scheme_factory,
+    )
+    from ..locomotion.policy.legs_loader import load_policy
+    from ..robots.tree_cache import load_tree
+    from .robot_connections import open_switch
+
+    if settings.sensing == "cameras":
+        raise click.UsageError(
+            "--sensing cameras requires a robot on LoLA or NAOqi, got "
+            f"{connection.robot!r}; its reports bring sightings"
+        )
+    robot, legs = make(), settings.legs
+    motors = motors_of(description, tick=robot.tick, crouch={})
+    servos = description.overlay.servos.items()
+    own = own_gains(robot, motors, {name: servo[:2] for name, servo in servos})
+    gains = None
+    if legs.walks:
+        contract, _ = load_policy(legs, description)
+        gains = policy_gains(contract, motors, own)
+        make_scheme: Any = policy_scheme_factory(
+            description, legs, settings.gait, tick=robot.tick
+        )
+    else:
+        settings = with_feedback(settings)
+        make_scheme = control_scheme_factory(
+            description,
+            settings.gait,
+            settings.control,
+            tick=robot.tick,
+            delay_ticks=connection.delay_ticks,
+        )
+    names = load_tree(description).motors
+
+    def open_body(scheme: "LocomotionScheme") -> "JointBody":
+        guardian = None
+        if not connection.dry_run and robot.keeps_targets and robot.paced:
+            guardian = guard_release(lambda: connect_releaser(make))
+        try:
+            switch = None
+            if connection.dead_man is not None:
+                switch = open_switch(connection.dead_man, connection)
+            link = open_with_retries(
+                lambda: AdapterLink(
+                    make(),
+                    motors,
+                    own,
+                    needs_forces=not legs.walks,
+                    switch=switch,
+                ),
+                connection.wait,
+            )
+            return JointBody(
+                JointInterface(link, motors, link.codec, gains, stands=True),
+                dict(zip(names, scheme.joint_targets.tolist(), strict=True)),
+                sight=link,
+                guardian=guardian,
+                dry_run=connection.dry_run,
+            )
+        except BaseException:
+            if guardian is not None:
+                guardian.dismiss()
+            raise
+
+    strategy = connection.strategy(settings)
+    return JointLoop(
+        open_body, strategy, make_scheme, dry_run=connection.dry_run
+    )
+
+
+def _joints_of(
+    settings: "DuelSettings", connection: ConnectionSettings, *, sees: bool
+) -> "Callable[[Sequence[str], Array], JointBody]":
+    """Return a function that connects, given joint names and stance."""
+    from functools import partial
+
+    from ..drivers.joint.session_options import SessionOptions
+    from .camera_connections import open_cameras
+
+    robot = connection.robot
+    session: dict[str, Any] = {
+        "dry_run": connection.dry_run,
+        "guarded": True,
+        "patience": connection.wait,
+    }
+    if robot.startswith(NAOQI):
+        from ..drivers.naoqi.joint_connection import open_joints as open_naoqi
+        from ..drivers.naoqi.naoqi_url import parse_url
+
+        url = parse_url(robot)
+        connection = connection.with_images(url)
+        camera = (
+            partial(open_cameras, settings, None, connection) if sees else None
+        )
+        how = SessionOptions(**session, open_eyes=camera)
+        return partial(open_naoqi, url, how=how)
+    from ..drivers.lola.lola_address import parse_address
+    from ..drivers.lola.lola_connection import open_lola
+
+    address = parse_address(robot)
+    camera = (
+        partial(open_cameras, settings, address, connection) if sees else None
+    )
+    how = SessionOptions(**session, open_eyes=camera)
+    return partial(open_lola, address, how=how)

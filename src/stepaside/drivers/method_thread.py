@@ -1,0 +1,129 @@
+"""Thread that calls the methods of a robot that a user connects in Python."""
+
+from collections.abc import Callable
+from concurrent.futures import Future
+from queue import SimpleQueue
+from threading import Thread
+from time import monotonic
+from typing import Any
+
+from ..core.errors import ConfigurationError
+from ..core.user_file import FAILURES
+from .guardian_process import SessionLost
+
+OPEN_TIMEOUT = 15.0  # for open(), in [s]
+CLOSE_TIMEOUT = 2.0  # for the last methods of a session, in [s]
+BLOCKED = 0.25  # time after which a method counts as blocked, in [s]
+
+
+class MethodThread:
+    """Thread that calls the methods of a robot, one after the other.
+
+    A method that does not return blocks this thread, and not control.
+
+    Attributes:
+        robot: The robot.
+        clock: Time of this computer, in [s].
+    """
+
+    def __init__(
+        self,
+        robot: Any,
+        *,
+        clock: Callable[[], float] = monotonic,
+    ) -> None:
+        """Start the thread."""
+        self.robot, self.clock = robot, clock
+        self._queue: SimpleQueue[tuple[str, Any, Future[Any]]] = SimpleQueue()
+        self._running: tuple[str, float] | None = None
+        self._thread = Thread(target=self._work, daemon=True)
+        self._thread.start()
+
+    @property
+    def blocked(self) -> tuple[str, float] | None:
+        """The method that has been running for too long, and its time [s]."""
+        running = self._running
+        if running is None:
+            return None
+        waited = self.clock() - running[1]
+        return (running[0], waited) if waited > BLOCKED else None
+
+    def begin(self, method: str, call: Any = None) -> "Future[Any]":
+        """Call a method after those that were begun before.
+
+        Args:
+            method: Name of the method, for messages.
+            call: What is called; the method without arguments by default.
+
+        Returns:
+            Its result, or :class:`SessionLost` if it fails.
+        """
+        result: Future[Any] = Future()
+        self._queue.put((method, call or getattr(self.robot, method), result))
+        return result
+
+    def run(self, method: str, within: float, call: Any = None) -> Any:
+        """Call a method and wait for its result.
+
+        Args:
+            method: Name of the method.
+            within: Longest time to wait, in [s].
+            call: What is called; the method without arguments by default.
+
+        Raises:
+            SessionLost: If it fails or does not return in time.
+        """
+        try:
+            return self.begin(method, call).result(within)
+        except TimeoutError as error:
+            raise SessionLost(
+                f"{self.name_of(method)} did not return within {within:g} s"
+            ) from error
+
+    def call_apart(self, method: str) -> "Future[Any]":
+        """Call a method at once, in a thread of its own."""
+        result: Future[Any] = Future()
+        call = getattr(self.robot, method)
+        Thread(
+            target=self._call, args=(method, call, result), daemon=True
+        ).start()
+        return result
+
+    def name_of(self, method: str) -> str:
+        """Return the name of a method for messages."""
+        return f"{method}() of {type(self.robot).__name__}"
+
+    def _work(self) -> None:
+        while True:
+            method, call, result = self._queue.get()
+            self._running = method, self.clock()
+            self._call(method, call, result)
+            self._running = None
+
+    def _call(self, method: str, call: Any, result: "Future[Any]") -> None:
+        try:
+            result.set_result(call())
+        except FAILURES as error:
+            text = f"{self.name_of(method)} failed: {_described(error)}"
+            lost = SessionLost(text)
+            lost.__cause__ = error
+            result.set_exception(lost)
+
+
+def open_robot(methods: MethodThread) -> None:
+    """Call open() of a robot.
+
+    Raises:
+        SessionLost: If it raised an OSError or does not return.
+        ConfigurationError: If it fails otherwise, which is not retried.
+    """
+    try:
+        methods.run("open", OPEN_TIMEOUT)
+    except SessionLost as error:
+        if isinstance(error.__cause__, OSError):
+            raise
+        raise ConfigurationError(str(error)) from error
+
+
+def _described(error: BaseException) -> str:
+    return f"{type(error).__name__}: {error}" if str(error) else repr(error)

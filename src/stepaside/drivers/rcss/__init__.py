@@ -1,0 +1,1 @@
+"""Driver of the RoboCup simulator on MuJoCo, rcssservermj."""
