@@ -19,6 +19,7 @@ from .duel_env import DuelEnv
 from .environment_settings import EnvironmentSettings
 from .registration import register_environments
 from .vector_duel import VectorDuel
+from .vector_physics import VectorPhysicsDuel
 
 register_environments()
 
@@ -26,6 +27,7 @@ __all__ = [
     "DuelEnv",
     "EnvironmentSettings",
     "VectorDuel",
+    "VectorPhysicsDuel",
     "duel_v0",
     "game_v0",
     "register_environments",

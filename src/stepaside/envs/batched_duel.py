@@ -121,7 +121,7 @@ class BatchedDuel:
         if settings.level == "physics":
             raise ConfigurationError(
                 "level must be unicycle or steps for compiled games, got "
-                "physics: use vectorization_mode 'async'"
+                "physics: use VectorPhysicsDuel"
             )
         if not 1 <= number <= MOST_GAMES:
             raise ConfigurationError(

@@ -1,5 +1,6 @@
 """Gymnasium environment of one player against a strategy."""
 
+from collections.abc import Generator
 from typing import Any, ClassVar
 
 import gymnasium
@@ -8,6 +9,7 @@ from numpy.typing import NDArray
 
 from ..core.errors import ConfigurationError, PlanError
 from ..games.duel_settings import PURSUER
+from ..locomotion.policy.network_pool import NetworkPool
 from ..strategies.registry import load_strategy
 from ..strategies.strategy import Strategy
 from .distance_reward import reward_sign
@@ -73,6 +75,7 @@ class DuelEnv(gymnasium.Env[NDArray[np.float32], Any]):
         *,
         opponent: str | Strategy | None = None,
         render_mode: str | None = None,
+        networks: NetworkPool | None = None,
         **settings: Any,
     ) -> None:
         """Build the environment.
@@ -83,6 +86,8 @@ class DuelEnv(gymnasium.Env[NDArray[np.float32], Any]):
                 FILE.onnx or a strategy; by default that of the paper.
             render_mode: "rgb_array" for images from above, "human" for a
                 page with them, or None.
+            networks: Networks of learned legs, shared with other
+                environments.
             settings: Fields of :class:`.EnvironmentSettings`.
 
         Raises:
@@ -100,7 +105,10 @@ class DuelEnv(gymnasium.Env[NDArray[np.float32], Any]):
         played = load_opponent(opponent, role)
         strategies = (None, played) if role == PURSUER else (played, None)
         self._source = EpisodeSource(
-            given, strategies, images=render_mode is not None
+            given,
+            strategies,
+            images=render_mode is not None,
+            networks=networks,
         )
         self._index = PLAYERS.index(role)
         self._actions = IntentActions(given)
@@ -140,15 +148,34 @@ class DuelEnv(gymnasium.Env[NDArray[np.float32], Any]):
         Raises:
             PlanError: If the action is invalid, or the episode is over.
         """
+        reward = self._source.play(self.begin_step(action))
+        return self.end_step(reward)
+
+    def begin_step(self, action: Any) -> Generator[None, None, float]:
+        """Begin a step that is played beside those of other environments.
+
+        Returns:
+            Generator that yields whenever networks of robots have to be
+            evaluated, and returns the reward of the evader.
+
+        Raises:
+            PlanError: If the action is invalid, or the episode is over.
+        """
         if self._episode is None or self._episode.over:
             raise PlanError("reset the environment first: no episode is on")
         intent = self._actions.intent(action)
         pair = (intent, None) if self._index == 0 else (None, intent)
-        reward = self._episode.step(pair) * reward_sign(self.role)
+        return self._episode.step(pair)
+
+    def end_step(
+        self, reward: float
+    ) -> tuple[NDArray[np.float32], float, bool, bool, dict[str, Any]]:
+        """Return the result of a step with some reward of the evader."""
         episode = self._episode
+        assert episode is not None
         return (
             self._observation(),
-            reward,
+            reward * reward_sign(self.role),
             episode.terminated,
             episode.truncated,
             episode.info(),

@@ -126,7 +126,7 @@ class DuelParallelEnv(ParallelEnv[str, NDArray[np.float32], Any]):
                 )
         intents = [self._actions[n].intent(actions[n]) for n in PLAYERS]
         episode = self._episode
-        reward = episode.step(intents)
+        reward = self._source.play(episode.step(intents))
         observed, infos = self._observations(), self._infos()
         if episode.over:
             self.agents = []

@@ -1,12 +1,13 @@
 """One episode of an environment, at any level."""
 
-from collections.abc import Sequence
+from collections.abc import Generator, Sequence
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..locomotion.policy.network_pool import NetworkPool
 from ..report.palette import colours_in
 from ..strategies.knowledge import Intent
 from ..strategies.learned.observation_terms import (
@@ -70,11 +71,16 @@ class EnvironmentEpisode:
         """Whether the episode is over."""
         return self.terminated or self.truncated
 
-    def step(self, intents: Sequence[Intent | None]) -> float:
-        """Play one decision and return the reward of the evader."""
+    def step(
+        self, intents: Sequence[Intent | None]
+    ) -> Generator[None, None, float]:
+        """Play one decision and return the reward of the evader.
+
+        Yields whenever networks of robots have to be evaluated.
+        """
         game = self.game
         closest, distance = game.closest, game.distance
-        game.step(intents)
+        yield from game.step(intents)
         self.terminated = bool(game.ended)
         self.truncated = game.truncated and not self.terminated
         self._note()
@@ -130,10 +136,16 @@ class EpisodeSource:
 
     Attributes:
         settings: Settings of the environment.
+        networks: Networks of robots on learned legs.
     """
 
     def __init__(
-        self, settings: EnvironmentSettings, strategies: Pair, *, images: bool
+        self,
+        settings: EnvironmentSettings,
+        strategies: Pair,
+        *,
+        images: bool,
+        networks: NetworkPool | None = None,
     ) -> None:
         """Draw the arenas.
 
@@ -142,12 +154,14 @@ class EpisodeSource:
             strategies: Strategies of pursuer and evader; None for a player
                 that is controlled from outside.
             images: Whether images will be drawn.
+            networks: Networks of learned legs, shared with other sources.
 
         Raises:
             ConfigurationError: If the settings are invalid.
         """
         self.settings, self._strategies = settings, strategies
         self._images = images
+        self.networks = networks or NetworkPool()
         self._page: Any = None
         self._pool: ArenaPool | None = None
         if settings.level != "physics":
@@ -177,8 +191,23 @@ class EpisodeSource:
             seed=(settings.first_arena + seed + STRIDE * number) % SEEDS,
             duration=settings.duration,
         )
-        game: EnvironmentGame = PhysicsDuel(duel, self._strategies)
+        game: EnvironmentGame = PhysicsDuel(
+            duel, self._strategies, networks=self.networks
+        )
         return game
+
+    def play(self, step: Generator[None, None, float]) -> float:
+        """Play a step of an episode alone, and return its reward.
+
+        Args:
+            step: Of :meth:`EnvironmentEpisode.step`.
+        """
+        while True:
+            try:
+                next(step)
+            except StopIteration as end:
+                return float(end.value)
+            self.networks.flush()
 
     def show(self, episode: EnvironmentEpisode, mode: str) -> Any:
         """Return an image of an episode, or show it on a page.

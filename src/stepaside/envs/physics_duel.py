@@ -1,6 +1,6 @@
 """One game of an environment between simulated humanoids."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from ..arena import OPEN_FLOOR
@@ -9,6 +9,7 @@ from ..core.poses import Pose
 from ..games.duel import Duel
 from ..games.duel_settings import EVADER, PLAYERS, PURSUER, DuelSettings
 from ..games.outcome import Outcome
+from ..locomotion.policy.network_pool import NetworkPool
 from ..planning import Direction
 from ..strategies.knowledge import Intent, Knowledge
 from ..strategies.strategy import Strategy
@@ -37,6 +38,7 @@ class PhysicsDuel:
         strategies: tuple[Strategy | str | None, Strategy | str | None],
         *,
         rendered: bool = False,
+        networks: NetworkPool | None = None,
     ) -> None:
         """Place the robots.
 
@@ -45,6 +47,7 @@ class PhysicsDuel:
             strategies: Strategies of pursuer and evader; None for a player
                 whose intents are given.
             rendered: Whether images will be rendered.
+            networks: Networks of learned legs, shared with other games.
 
         Raises:
             StepAsideError: If the settings contradict each other, or a
@@ -66,7 +69,9 @@ class PhysicsDuel:
         if settings.pursuer == "robot":
             changes["pursuer_strategy"] = pursuer
         settings = replace(settings, **changes)  # type: ignore[arg-type]
-        self.duel = Duel(settings, recorded=False, rendered=rendered)
+        self.duel = Duel(
+            settings, recorded=False, rendered=rendered, networks=networks
+        )
         self.room = settings.room.plan or OPEN_FLOOR
         self._duration = settings.duration
         self._leader = self._held[EVADER if EVADER in self._held else PURSUER]
@@ -74,7 +79,7 @@ class PhysicsDuel:
         for held in self._held.values():
             held.reset()  # decisions of its validation
         while any(held.known is None for held in self._held.values()):
-            self._tick()
+            self._outcome = self.duel.tick()
             if self.ended or self.time > LONGEST_WAIT:
                 self.close()
                 raise StrategyError(
@@ -130,8 +135,11 @@ class PhysicsDuel:
         pursuer, evader = (p.snapshot().place for p in self.duel.players)
         return pursuer, evader
 
-    def step(self, intents: Sequence[Intent | None]) -> None:
+    def step(self, intents: Sequence[Intent | None]) -> Iterator[None]:
         """Play until the next decision.
+
+        Yields whenever robots wait for their networks: ``duel.networks``
+        must be flushed then.
 
         Args:
             intents: Intent of pursuer and evader; None for a player with a
@@ -147,7 +155,7 @@ class PhysicsDuel:
         steps, until = leader.steps, self.time
         until += leader.known.limits.step_duration
         while not (self.ended or self.truncated):
-            self._tick()
+            yield from self._tick()
             if leader.steps > steps:
                 return
             if self.time >= until - 1e-9 and not leader.known.moving:
@@ -160,6 +168,9 @@ class PhysicsDuel:
         """Release the robots."""
         self.duel.close()
 
-    def _tick(self) -> None:
+    def _tick(self) -> Iterator[None]:
         """Advance by one control tick."""
-        self._outcome = self.duel.tick()
+        self._outcome = self.duel.decide()
+        if self._outcome is None:
+            yield
+            self._outcome = self.duel.advance()

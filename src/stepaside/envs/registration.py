@@ -12,6 +12,6 @@ def register_environments() -> None:
             gymnasium.register(
                 name,
                 entry_point="stepaside.envs.duel_env:DuelEnv",
-                vector_entry_point="stepaside.envs.vector_duel:VectorDuel",
+                vector_entry_point="stepaside.envs.vector_physics:make_vector_env",
                 kwargs={"role": role},
             )

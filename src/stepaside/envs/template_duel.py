@@ -1,6 +1,6 @@
 """One game of an environment, without physics or in physics."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Protocol
 
 from ..arena import Room
@@ -63,8 +63,10 @@ class EnvironmentGame(Protocol):
     def room(self) -> Room:
         """The room."""
 
-    def step(self, intents: Sequence[Intent | None]) -> None:
+    def step(self, intents: Sequence[Intent | None]) -> Iterator[None]:
         """Play until the next decision.
+
+        Yields whenever networks of robots have to be evaluated.
 
         Args:
             intents: Intent of pursuer and evader; None for a player with a
@@ -137,7 +139,7 @@ class TemplateDuel:
         pursuer, evader = self._players
         return pursuer.pose, evader.pose
 
-    def step(self, intents: Sequence[Intent | None]) -> None:
+    def step(self, intents: Sequence[Intent | None]) -> Iterator[None]:
         """Play until the next decision.
 
         Args:
@@ -147,6 +149,7 @@ class TemplateDuel:
         Raises:
             StrategyError: If a strategy returns no intent.
         """
+        yield from ()  # it has no networks
         pursues, evades = (
             self._intent(n, intent) for n, intent in enumerate(intents)
         )

@@ -9,43 +9,47 @@ Result = Mapping[str, Any]
 
 
 def rating(result: Result) -> str:
-    """List every strategy in every world against every opponent."""
-    head = (
-        "strategy",
-        "world",
-        "opponent",
-        "games",
-        "survived",
-        "95 %",
-        "closest [m]",
-        "regret [m]",
-        "of the bound",
-    )
-    return table(head, [_rated(row) for row in result["rows"]])
+    """List every strategy in every world, a column for each opponent.
+
+    A cell holds the mean closest approach in [m] and the share of games that
+    were survived.
+    """
+    rows = result["rows"]
+    opponents = list(dict.fromkeys(row["opponent"] for row in rows))
+    cells: dict[tuple[str, str], dict[str, Any]] = {}
+    for row in rows:
+        place = (row["strategy"], row["world"])
+        cells.setdefault(place, {})[row["opponent"]] = row
+    head = ("strategy", "world", *opponents, "regret [m]", "of the bound")
+    lines = []
+    for (strategy, world), found in cells.items():
+        bounded = next(
+            (r for r in found.values() if r["mean_ratio"] is not None), None
+        )
+        lines.append(
+            (
+                f"`{strategy}`",
+                world,
+                *(_closest(found[name]) for name in opponents),
+                *_of_the_bound(bounded),
+            )
+        )
+    return table(head, lines)
 
 
-def _rated(row: Mapping[str, Any]) -> tuple[str, ...]:
-    """Return one line of a rating."""
-    low, high = row["survived_low"], row["survived_high"]
+def _closest(row: Mapping[str, Any]) -> str:
+    """Return mean closest approach and survival of a row."""
+    return f"{row['mean_closest_m']:.2f} ({100 * row['survived']:.0f} %)"
+
+
+def _of_the_bound(row: Mapping[str, Any] | None) -> tuple[str, str]:
+    """Return mean regret and mean share of the bound; empty without one."""
+    if row is None:
+        return "", ""
     return (
-        f"`{row['strategy']}`",
-        row["world"],
-        row["opponent"],
-        str(row["games"]),
-        f"{100 * row['survived']:.0f} %",
-        f"{100 * low:.0f}-{100 * high:.0f}",
-        _with_interval(row, "mean_closest"),
-        _with_interval(row, "mean_regret"),
-        ""
-        if row["mean_ratio"] is None
-        else f"{row['mean_ratio']:.3f} ± {row['mean_ratio_pm']:.3f}",
+        f"{row['mean_regret_m']:.3f} ± {row['mean_regret_pm_m']:.3f}",
+        f"{row['mean_ratio']:.3f} ± {row['mean_ratio_pm']:.3f}",
     )
-
-
-def _with_interval(row: Mapping[str, Any], name: str) -> str:
-    """Return a mean in [m] with half its interval; empty without one."""
-    value, half = row[f"{name}_m"], row[f"{name}_pm_m"]
-    return "" if value is None else f"{value:.3f} ± {half:.3f}"
 
 
 def scores(result: Result) -> str:
