@@ -307,7 +307,7 @@ class Server:
         yield
 
     def get_clients(self) -> dict[int, Any]:
-        """Who looks."""
+        """Connected clients."""
         return dict(self.clients)
 
     def stop(self) -> None:

@@ -29,7 +29,7 @@ class FakeTruth:
 
     @property
     def position_reference_in_world(self) -> tuple[float, float]:
-        """What stands for it: a hand's breadth to the left."""
+        """Reference point: 0.1 m to the left."""
         x, y = self.position_torso_in_world
         return x, y + 0.1
 
@@ -60,7 +60,7 @@ class FakeWorld:
         return bool(self.contacts)
 
     def touching(self) -> tuple[str, ...]:
-        """Who was told to touch."""
+        """Players whose contact was requested."""
         return self.contacts
 
 
@@ -116,7 +116,7 @@ class FakePlayer:
         self.does.get(self.world.ticks, lambda: None)()
 
     def snapshot(self) -> Snapshot:
-        """What was told to be seen, of a place if nothing else."""
+        """Requested sighting, by default of a position."""
         x, y = self.truth.position_torso_in_world
         values: dict[str, Any] = {
             "place": Pose(x, y + 0.1, self.truth.heading_in_world),
@@ -174,7 +174,7 @@ def game(
 
 
 def raising(error: BaseException) -> Callable[[], None]:
-    """What raises an error when it is done."""
+    """Callable that raises an error."""
 
     def act() -> None:
         raise error

@@ -177,7 +177,7 @@ class Run:
         return [known.bearing for known in self.scheme.decisions.memory]
 
     def phase(self) -> Phase:
-        """What the robot is doing by now."""
+        """Present activity of the robot."""
         return self.scheme.phase
 
     def until(

@@ -42,7 +42,7 @@ class DayBody(FakeBody):
     hears = False
 
     def read(self) -> Any:
-        """What it feels; the other is heard five times a second."""
+        """Measurement; sightings arrive five times a second."""
         measured = super().read()
         if not self.hears:
             return measured

@@ -77,7 +77,7 @@ class Eyes:
 
     @property
     def target(self) -> GazeTarget | None:
-        """What the head looks at."""
+        """Target of the gaze."""
         return self.perception.gaze_target
 
     @property

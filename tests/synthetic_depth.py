@@ -21,7 +21,7 @@ def draw(
     walls: Sequence[Wall] = (),
     time: float = 0.0,
 ) -> DepthImage:
-    """What a depth camera at a place sees, without noise."""
+    """Depth image of a camera at a pose, without noise."""
     rays = camera.rays() @ axes.T
     with np.errstate(divide="ignore"):
         depth = np.where(rays[..., 2] < 0.0, -place[2] / rays[..., 2], np.inf)

@@ -225,7 +225,7 @@ ANGLES: dict[str, Callable[[Any], Any]] = {
 def test_what_cannot_be_a_bearing_is_refused_with_its_unit(
     name: str, angle: Any
 ) -> None:
-    """Degrees that were taken for radians, and what is no number at all."""
+    """Degrees passed as radians, NaN and infinities."""
     in_rows = name.startswith(("play_games", "Bound"))
     if in_rows and (angle is True or angle == "1"):
         return  # an array turns them into numbers
@@ -252,7 +252,7 @@ def is_asked_for(name: str, key: str, text: str) -> bool:
 
 
 def test_every_angle_at_a_door_is_tried() -> None:
-    """What results hold, and what robots report, is not asked for."""
+    """Values of results and reports of robots are not checked."""
     left_out = (  # results, readings, and arrays of the compiled search
         *("Circle", "Outcomes", "Run", "Track", "ManeuverPlan "),
         *("Sighting", "Measurement", "Configuration", "BodySettings"),

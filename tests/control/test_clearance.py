@@ -233,7 +233,7 @@ def test_a_blocked_intent_is_slowed_then_turned_then_refused() -> None:
 
 @pytest.mark.parametrize("wanted", [-0.3, 0.0, 0.1, 0.4])
 def test_a_robot_before_a_pillar_steps_back(wanted: float) -> None:
-    """Where a NAO stood once: it sways too near to it but in a sharp turn."""
+    """Recorded case: every step but a sharp turn sways too near the wall."""
     planner, nao = ManeuverPlanner(GAIT), measure_outline(NAO, GAIT)
     room = Room(3.0, 3.0, (Disc(0.0, 0.0, 0.2),))
     around = KnownRoom(room, Pose(0.0, 0.0, 0.0))

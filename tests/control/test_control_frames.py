@@ -84,7 +84,7 @@ def body_in(frame: Pose, body: BodyReference) -> BodyReference:
 
 
 def row_in(frame: Pose, row: ReferenceSample) -> ReferenceSample:
-    """What a plan asks for in a frame, in its parent."""
+    """References of a plan in a frame, expressed in the parent frame."""
     return ReferenceSample(
         body_in(frame, row.body),
         put(frame, row.zmp),
@@ -320,7 +320,7 @@ def estimates(frame: Pose) -> list[Any]:
 
 @pytest.mark.parametrize("frame", [Pose(1.0, -2.0, 2.3), Pose(0, 0, -1.1)])
 def test_an_estimate_turns_with_odometry(frame: Pose) -> None:
-    """What is of the torso itself does not: its tilt and its rates."""
+    """Quantities in the torso frame, tilt and rates, do not turn."""
     plain, moved = estimates(Pose(0.0, 0.0, 0.0)), estimates(frame)
     for one, two in zip(plain, moved, strict=True):
         for name, law in (
@@ -336,7 +336,7 @@ def test_an_estimate_turns_with_odometry(frame: Pose) -> None:
 
 
 def fed_back(frame: Pose, method: str) -> list[Any]:
-    """What feedback does of a state that is off, in some odometry."""
+    """Correction of a disturbed state, in some odometry frame."""
     feedback, fake = stabiliser(method, delay=3 * TICK, lean=0.1)
     made: Any = fake
     off = (0.03, -0.02), (0.05, 0.04)

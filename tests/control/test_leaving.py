@@ -44,7 +44,7 @@ def plan_for(choice: GuardDecision) -> ManeuverPlan:
 
 
 def beside(gap: float, around: Any, *, out: bool) -> GuardDecision | None:
-    """What is chosen beside a wall on the left, at a distance in [m]."""
+    """Decision beside a wall on the left, at a distance in [m]."""
     guard = Guard(around, NAO, PLANNER, margin=MARGIN)
     half = float(NAO.trunk[:, 1].max())
     around.solids = ObstacleSet((Box(0.0, half + gap + 0.5, 9.0, 1.0),))

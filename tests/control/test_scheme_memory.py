@@ -92,7 +92,7 @@ def dull(**changes: Any) -> Run:
 
 
 def weights(run: Run, rounds: int, times: int = 4) -> list[int]:
-    """What the control holds, again and again at one phase of the gait."""
+    """Sizes of the control's memory, at one phase of the gait each time."""
     found = []
     for _ in range(times + 1):
         for _ in range(rounds * AGAIN):

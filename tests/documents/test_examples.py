@@ -25,7 +25,7 @@ SHORT = {  # seconds of simulation, where an example takes them
 
 
 def run(name: str, *arguments: str, folder: Path | None = None) -> str:
-    """What an example prints."""
+    """Output of an example."""
     command = [sys.executable, str(EXAMPLES / name), *arguments]
     done = subprocess.run(
         command, capture_output=True, text=True, check=False, cwd=folder

@@ -182,7 +182,7 @@ def test_a_picture_is_drawn_again_only_when_results_change(
 
 
 def test_the_figure_of_the_duel_is_drawn_from_its_tracks() -> None:
-    """What the committed tracks hold is what a summary was made of."""
+    """The committed tracks are those of the committed summary."""
     store = Store()
     result = store.result("duel-seed7")
     with np.load(store.folder / result["trajectories"]["file"]) as tracks:

@@ -192,5 +192,5 @@ class Seer(SimulatedUnicycle):
         self.pose = Pose(0.0, 0.0, 0.0)
 
     def state(self) -> Any:
-        """What it says of itself, and sees."""
+        """Own state and sighting."""
         return super().state()._replace(image=self.image)

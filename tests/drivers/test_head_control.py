@@ -86,7 +86,7 @@ class NoWire:
         self._velocity = velocity
 
     def act(self) -> VelocityCommand:
-        """What the robot is to do at this tick."""
+        """Command of this tick."""
         if self._ticks % EVERY == 0:
             self.tick = self.playing.tick()
         self._ticks += 1

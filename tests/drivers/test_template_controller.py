@@ -47,7 +47,7 @@ class SidestepStrategy:
 
 
 def way(time: float, start: Pose, rate: float) -> Pose:
-    """Where a robot is that walks on an arc."""
+    """Pose of a robot that walks on an arc."""
     return start.compose(Pose(0.3 * time, -0.1 * time, rate * time))
 
 

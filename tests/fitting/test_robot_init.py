@@ -321,7 +321,7 @@ def test_weak_ankles_get_a_gentler_gait(tmp_path: Path) -> None:
 
 
 def test_units_of_nao_are_one() -> None:
-    """What a robot is to NAO, NAO is to itself."""
+    """NAO as its own reference."""
     nao = load_robot("nao")
     mass = float(nao.compile().body_mass.sum())
     sole = (-0.05, 0.1, 0.04, 0.04)

@@ -184,7 +184,7 @@ def test_a_search_combines_helpful_changes(
 def test_a_search_escapes_from_falls(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Who falls later is nearer to walking; two changes are needed here."""
+    """A later fall is a better gait; two changes are needed here."""
     own = described(tmp_path)
     gait = settings_from_description(own).gait
     walks = []

@@ -99,7 +99,7 @@ def test_falls_are_detected_and_end_the_duel() -> None:
 def soles_on_the_floor(
     arrays: dict[str, Array], name: str, landings: Array
 ) -> Array:
-    """Where each foot stands in physics, once the other one swings.
+    """Pose of each foot in physics while the other one swings.
 
     Args:
         arrays: Record of a duel.

@@ -58,7 +58,7 @@ class NoWire:
             self._playing.tick()
 
     def listen(self, patience: float) -> VelocityReport | None:
-        """What the robot says."""
+        """State that the robot reports."""
         state = self._robot.state()
         return VelocityReport(state.time, state.pose, state.sighting)
 
@@ -67,7 +67,7 @@ class NoWire:
         self._velocity = velocity
 
     def act(self) -> VelocityCommand:
-        """What the robot is to do at this tick."""
+        """Command of this tick."""
         if self._ticks % 4 == 0:
             self._playing.tick()
         self._ticks += 1

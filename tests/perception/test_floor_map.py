@@ -154,7 +154,7 @@ def test_hits_on_the_opponent_are_erased_when_it_is_recognised() -> None:
 
 
 def test_obstacles_beside_the_opponent_stay() -> None:
-    """Who walks along a wall does not wipe it off the map."""
+    """A player who walks along a wall does not remove it from the map."""
     wall = Box(1.4, 0.0, 0.1, 2.0)
     seen = looked(FloorMap(), (wall,), times=4)
     cells = seen.occupied_cells()

@@ -45,7 +45,7 @@ class Standing:
         )
 
     def image(self, time: float, legs: Legs, *, low: bool) -> ColourImage:
-        """What one camera of the head sees of legs on a floor."""
+        """Image of legs on a floor by one camera of the head."""
         body, mount = self.perception.body, self.mount(low=low)
         assert body is not None
         place, axes, _ = camera_pose(body, mount)
@@ -132,7 +132,7 @@ def test_who_looks_for_a_robot_uses_one_camera() -> None:
 def test_it_is_the_same_wherever_odometry_began(
     frame: tuple[float, float, float],
 ) -> None:
-    """What is learnt of the floor, and where feet are found on it."""
+    """Learnt floor colours, and the feet found with them."""
     robot, began = Standing(), Pose(*frame)
     body = robot.perception.body
     assert body is not None

@@ -210,7 +210,7 @@ def test_glances_go_over_both_shoulders_of_who_walks_backward() -> None:
 def test_the_gaze_never_turns_so_far_that_the_opponent_is_lost(
     side: float,
 ) -> None:
-    """Who is on one side leaves only the shoulder of that side."""
+    """A person on one side leaves only the shoulder of that side."""
     assert seen_sides(side * 1.2) == {side * MAX_YAW}
     assert abs(MAX_YAW + 1.2) > MAX_TURN > abs(MAX_YAW - 1.2)
 

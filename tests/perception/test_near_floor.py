@@ -54,7 +54,7 @@ def image(posts: list[Post], axes: Array, *, low: bool) -> ColourImage:
 
 
 def learnt(floor: FloorMap, posts: list[Post]) -> NearFloorMapper:
-    """Who saw the floor behind, where nothing stands."""
+    """Map with known free floor behind."""
     near = NearFloorMapper(floor)
     for yaw in (2.0, pi, -2.0):
         axes = axes_of(1.2, yaw)
@@ -107,7 +107,7 @@ def test_floor_that_is_lighter_close_by_is_seen() -> None:
 def test_nothing_of_a_thing_or_right_beside_it_is_shown(
     away: float, bearing: float
 ) -> None:
-    """Where an image was taken is known to a few centimetres."""
+    """The camera position is known to a few centimetres."""
     post = away * cos(bearing), away * sin(bearing), 0.1, 0.8
     colours, axes = learnt(around([post]), [post]).colours, axes_of(39.7)
     floor = FloorMap()

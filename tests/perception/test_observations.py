@@ -155,7 +155,7 @@ def test_only_what_is_sure_tells_distance_by_its_height(
 
 
 def test_confidence_of_four_fifths_is_sure() -> None:
-    """What the constants mean, in one place."""
+    """Meaning of the constants, in one place."""
     assert (MIN_CONFIDENCE, DEFAULT_DISTANCE, MIN_DISTANCE) == (0.8, 1.2, 0.35)
     assert (DEVIATION_WIDTH, DEVIATION_TRACK, SHADOW_MARGIN) == (
         0.35,

@@ -254,7 +254,7 @@ def test_a_frame_counts_a_miss_only_within_its_view(
     bearing: float,
     missed: bool,
 ) -> None:
-    """What is inside 85 percent of its width: 25.3 of 29.7 degrees."""
+    """Within 85 percent of its width: 25.3 of 29.7 degrees."""
     body = eyes.perception.body
     assert body is not None
     show(monkeypatch)

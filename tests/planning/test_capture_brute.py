@@ -123,7 +123,7 @@ def test_no_random_controller_withstands_more_than_the_bound() -> None:
 
 
 def reachable(start: Array, heading: Array, corners: Array) -> float:
-    """Where a ray leaves the hull of some corners; 0 if it misses."""
+    """Distance at which a ray leaves a hull of corners; 0 if it misses."""
     hull = corners[ConvexHull(corners).vertices]
     return ray_interval(start, heading, hull)[1]
 

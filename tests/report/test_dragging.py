@@ -66,7 +66,7 @@ class Player:
         self.heading, self.pushes = heading, list[Any]()
 
     def snapshot(self) -> Any:
-        """Where it stands."""
+        """Pose of the player."""
         return SimpleNamespace(torso=(0.0, 0.0, self.heading))
 
     def push(self, push: Any) -> None:

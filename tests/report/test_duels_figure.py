@@ -54,7 +54,7 @@ def panels(
 
 
 def legend(figure: Figure) -> dict[str, Any]:
-    """What the figure's legend names: its handles by their label."""
+    """Handles of the figure's legend, by label."""
     if not figure.legends:
         return {}
     (found,) = figure.legends

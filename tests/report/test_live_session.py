@@ -282,7 +282,7 @@ def test_the_hand_steers_the_same_planner(session: LiveSession) -> None:
 def test_history_is_bounded(
     session: LiveSession, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """What is full forgets its oldest, so that a page can stay open."""
+    """A full history drops its oldest entries, so a page can stay open."""
     assert session.trail.history.maxlen == trails.MAX_SAMPLES
     monkeypatch.setattr(trails, "MAX_SAMPLES", 4)
     monkeypatch.setattr(trails, "MAX_TRACE", 3)
@@ -317,7 +317,7 @@ def test_words_say_what_goes_on(
 def test_of_a_live_duel_the_first_minutes_are_kept(
     session: LiveSession, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """What would grow for ever is cut."""
+    """Histories are bounded."""
     monkeypatch.setattr(saving, "MAX_RECORDED", 1.0)
     run_until(session, 2.0)
     duel = session.duel

@@ -340,7 +340,7 @@ def test_the_written_page_opens_without_a_network(
 
 
 def seen_at(page: Any, time: float) -> str:
-    """What a written page draws of a time, in [s], as text, and only once."""
+    """Drawing of a written page at a time, in [s], as text, once."""
     with looking(page):
         draws = page.evaluate(f"(stepaside.seek({time}), draws)")
         drawn = page.evaluate("document.getElementById('world').toDataURL()")

@@ -62,7 +62,7 @@ def thinned(track: Trajectory, every: int) -> Trajectory:
 
 
 def content(run: DuelRun, folder: Path) -> Any:
-    """What the page's script is given."""
+    """Data of the page's script."""
     file = folder / "run.html"
     write_page(run, file)
     text = file.read_text(encoding="utf-8")

@@ -61,7 +61,7 @@ def test_a_person_walks_on_in_a_step(session: LiveSession) -> None:
 def test_the_robot_is_pushed_and_the_person_is_not(
     session: LiveSession,
 ) -> None:
-    """Who is refused loses nothing: the duel goes on, and pushes too."""
+    """After the refusal the duel continues, and accepts other pushes."""
     before = session.duel
     with pytest.raises(
         ConfigurationError, match="only a robot can be pushed, got pursuer"

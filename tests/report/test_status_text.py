@@ -1,4 +1,4 @@
-"""What is said of a pursuer that comes, passes by or leaves."""
+"""Test the status text of a pursuer that approaches, passes or leaves."""
 
 from dataclasses import replace
 from math import cos, hypot, inf, nan, sin
@@ -21,7 +21,7 @@ PLACE = st.floats(-20.0, 20.0)
 
 
 def seen(offset: tuple[float, float], velocity: tuple[float, float]) -> str:
-    """What is said of a pursuer while the evader stands."""
+    """Status text of a pursuer while the evader stands."""
     return outlook(
         hypot(*offset),
         Phase.STANDING,

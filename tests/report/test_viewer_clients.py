@@ -1,4 +1,4 @@
-"""What each viewer of a page has alone."""
+"""Test what each client of a page has for itself."""
 
 from typing import Any
 

@@ -139,7 +139,7 @@ def test_what_grows_is_cut() -> None:
 
 
 def _seen() -> Any:
-    """What is seen of a player who stands still."""
+    """Snapshot of a standing player."""
     return SimpleNamespace(
         name="any",
         place=Pose(0.0, 0.0, 0.0),

@@ -76,7 +76,7 @@ def read(folder: Path, entries: dict[str, Any]) -> dict[str, Any]:
 
 
 def told(folder: Path, name: str, value: Any) -> str:
-    """What is said of a description with another value somewhere."""
+    """Message about a description with one changed value."""
     entries, (*way, last) = tomllib.loads(TEXT), way_of(name)
     at(entries, way)[last] = value
     with pytest.raises(ModelError) as refused:

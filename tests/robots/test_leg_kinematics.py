@@ -34,7 +34,7 @@ def state(kinematics: LegKinematics) -> tuple[mujoco.MjModel, mujoco.MjData]:
 
 
 def reached(kinematics: LegKinematics) -> Array:
-    """What the 17 rows are of, measured by MuJoCo; rotations as vectors."""
+    """The 17 task coordinates by MuJoCo; rotations as vectors."""
     _, data = state(kinematics)
     rows: list[float] = []
     for name in (NAO.left_foot, NAO.right_foot):

@@ -133,7 +133,7 @@ def test_optics_are_those_of_the_vendors() -> None:
 
 
 def test_default_sensors_are_those_of_the_documents() -> None:
-    """What `docs/sensing.md` says of them."""
+    """Values in `docs/sensing.md`."""
     assert ColourSettings() == ColourSettings(
         "v5", 320, 240, 15.0, 0.05, 4.0, "auto"
     )

@@ -41,7 +41,7 @@ def points(geom: str, assets: str = "") -> tuple[Array, Array]:
 
 @pytest.mark.parametrize("kind", REACHES)
 def test_points_span_the_geom(kind: str) -> None:
-    """Those of the rims of a cylinder lie every 15 degrees."""
+    """Points on the rims of a cylinder are 15 degrees apart."""
     found, axes = points(f'type="{kind}" size="0.3 0.2 0.1"')
     reach = REACHES[kind](axes)
     slack = 0.01 * SIZE[0] if kind == "cylinder" else 1e-12

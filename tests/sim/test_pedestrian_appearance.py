@@ -279,7 +279,7 @@ def test_the_true_state_of_a_person_is_that_of_the_walk() -> None:
 
 
 def test_a_person_has_no_robot_quantities() -> None:
-    """What only a robot has is None, and a walk is no plan of ours."""
+    """Quantities that only a robot has are None."""
     model, data = figure()
     motion = PersonMotion(PersonSettings("steer"), Pose(1, 2, 0.7), (4.0, 2.0))
     world = world_of(model, data)

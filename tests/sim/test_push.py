@@ -144,7 +144,7 @@ def test_pushes_out_of_range_are_refused(values: Any, name: str) -> None:
 
 
 def test_pushes_are_grouped_by_robot() -> None:
-    """Who is not named is the last: the walker, or the evader."""
+    """Without a name the last player is pushed: the walker, or the evader."""
     one, other = Push(1.0, 2.0, 0.0), Push(2.0, 1.0, 0.0, player="pursuer")
     players = ("pursuer", "evader")
     found = pushes_by_robot([one, other], players)

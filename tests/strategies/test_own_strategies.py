@@ -159,7 +159,7 @@ def test_only_strategies_of_files_have_a_file(tmp_path: Path) -> None:
 
 
 def test_a_file_without_strategies_says_so(tmp_path: Path) -> None:
-    """What it imports is none of its own."""
+    """Imported classes do not count as its own."""
     file = tmp_path / "empty.py"
     file.write_text("from stepaside.strategies import Evasion, Intent\nX = 3")
     with pytest.raises(ConfigurationError, match="but no strategy$"):

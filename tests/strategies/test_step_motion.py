@@ -298,7 +298,7 @@ def test_it_turns_on_the_spot_first_only_if_that_is_better(seed: int) -> None:
 
 
 def test_a_search_ends_when_it_has_rolled_out_enough() -> None:
-    """What it has by then counts; one maneuver is always whole."""
+    """The plan so far counts; at least one maneuver is complete."""
     both, packed = (
         place(FACED, Pose(0.3, 0.4, 0.0)),
         PACKED,

@@ -39,7 +39,7 @@ DISTANCES = st.floats(0.1, 3.0)
 
 
 def known(bearing: float = 0.0, distance: float = 0.5) -> Knowledge:
-    """What a player knows of another at a bearing and a distance."""
+    """Knowledge of a player at a bearing and a distance."""
     return Knowledge(1.0, bearing, distance, LIMITS)
 
 

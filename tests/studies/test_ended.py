@@ -1,4 +1,4 @@
-"""What is there after a command was ended, however it was."""
+"""Test the files after a command was ended in any way."""
 
 import os
 import platform

@@ -28,7 +28,7 @@ OUTCOMES = ("completed", "contact", "fall")
 
 @st.composite
 def results(draw: st.DrawFn) -> dict[str, Any]:
-    """What happened in some encounters of the grid."""
+    """Records of some encounters of the grid."""
     each = st.floats(0.1, 9.0)
     some = st.sampled_from(GRID)
     done = draw(st.lists(some, min_size=1, unique_by=lambda one: one.key))

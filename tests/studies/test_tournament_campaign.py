@@ -23,9 +23,9 @@ from stepaside.strategies import bound_cache as tables
 from stepaside.studies import tournament_campaign as campaign
 from stepaside.studies import tournament_record as studied
 from stepaside.studies.campaign import CodeStamp, run_study
-from stepaside.studies.physics_game import outcome_of, players_touched
 from stepaside.studies.result_store import ResultStore
 from stepaside.studies.tournament_campaign import tournament_study
+from stepaside.studies.tournament_physics import outcome_of, players_touched
 from stepaside.studies.tournament_record import play_record, play_track
 from stepaside.studies.tournament_rows import tournament_rows
 from stepaside.studies.tournament_settings import TournamentSettings
@@ -412,7 +412,7 @@ def test_only_humanoids_see_a_map() -> None:
 def test_a_duel_that_is_stopped_is_no_game_and_stops_the_others(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Who plays here, and not in processes of its own, is interrupted."""
+    """Games in this process, without workers, are interrupted."""
     ended = SimpleNamespace(outcome=Outcome.INTERRUPTED)
     played: list[int] = []
 

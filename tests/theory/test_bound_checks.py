@@ -122,7 +122,7 @@ def test_refinement_measures_differences_at_every_node(
 def test_table_holds_the_final_values_of_the_march(
     scheme: DiscretisationScheme,
 ) -> None:
-    """What fell late is the change over the last tenth of the horizon."""
+    """Late decrease: the change over the last tenth of the horizon."""
     horizon = 8.0
     found = solve_bound(GAME, SMALL, horizon=horizon, scheme=scheme)
     before = found.values.copy()

@@ -21,8 +21,8 @@ from stepaside.core.constants import CAPTURE_DISTANCE
 from stepaside.games import DuelSettings, run_duel
 from stepaside.games.run_archive import results_of
 from stepaside.sim.camera_settings import SceneSettings
-from stepaside.studies.physics_game import clearance
 from stepaside.studies.result_files import header, read_result, write_result
+from stepaside.studies.tournament_physics import clearance
 
 RECIPE = RoomRecipe(discs=3)
 PLAYERS = ("pursuer", "evader")
@@ -129,7 +129,7 @@ def main() -> None:
         "seeds": [arguments.seeds.start, arguments.seeds.stop],
         "duration_s": arguments.duration,
     }
-    head = header(settings, modules=("studies/physics_game",))
+    head = header(settings, modules=("studies/tournament_physics",))
     jobs = {
         f"{arguments.strategy} {arguments.map} {seed}": Played(
             arguments.strategy, arguments.map, seed, arguments.duration

@@ -13,47 +13,36 @@ from ..studies.executors import POOL, SPECIFICATIONS, check_executor
 from ..studies.result_store import ResultStore
 from ..studies.result_table import TABLES
 from .options.common_options import workers_option
+from .options.parameter_types import TextType
 
 RECORDS = "records"  # folder of the records in an output folder
 C = TypeVar("C")
 
 
-class ShardType(click.ParamType[tuple[int, int]]):
+class ShardType(TextType[tuple[int, int]]):
     """Part of the cases of a campaign: ``2/4`` for the second of four."""
 
     name = "I/N"
 
-    def convert(
-        self,
-        value: Any,
-        param: click.Parameter | None,
-        ctx: click.Context | None,
-    ) -> tuple[int, int]:
+    def parse(self, value: Any) -> tuple[int, int]:
         """Parse the number of a shard and of all shards."""
         if isinstance(value, tuple):
             return value
         found = re.fullmatch(r"(\d{1,6})/(\d{1,6})", str(value).strip())
         if found is None or not 1 <= int(found[1]) <= int(found[2]):
-            self.fail(
+            raise click.BadParameter(
                 "must be I/N with integers 1 <= I <= N [1] like 1/4, "
-                f"got {value!r}",
-                param,
-                ctx,
+                f"got {value!r}"
             )
         return int(found[1]), int(found[2])
 
 
-class ExecutorType(click.ParamType[str]):
+class ExecutorType(TextType[str]):
     """Specification of an executor."""
 
     name = "EXECUTOR"
 
-    def convert(
-        self,
-        value: Any,
-        param: click.Parameter | None,
-        ctx: click.Context | None,
-    ) -> str:
+    def parse(self, value: Any) -> str:
         """Refuse a specification of no executor."""
         check_executor(str(value))
         return str(value)

@@ -1,11 +1,11 @@
 """Output of ``stepaside circle``: JSON values and printed tables."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 from ..theory.unicycle.circle_equations import Circle
 from ..theory.unicycle.unicycle_game import Game
-from .tables import print_columns, print_table, table_rows
+from .tables import format_value, print_columns, print_table, table_rows
 from .terminal import echo
 from .unicycle_options import finite
 
@@ -143,11 +143,22 @@ def print_circles(result: dict[str, Any]) -> None:
     ]
     if circles:
         echo()
-        print_columns(circles, _COLUMNS)
+        _print_rows(circles, _COLUMNS)
     if result["starts"] is not None:
         echo("\n  games that did not end on a circle")
         names = ("captured_share", "unsettled_share")
         print_table(table_rows(result["starts"], names))
     if result.get("remedies"):
         echo()
-        print_columns(result["remedies"], _REMEDIES)
+        _print_rows(result["remedies"], _REMEDIES)
+
+
+def _print_rows(
+    rows: Iterable[Mapping[str, Any]], columns: Mapping[str, str]
+) -> None:
+    """Print rows of values; heads of the columns are by name of the value."""
+    cells = [
+        [format_value(name, row[name]) for name in columns] for row in rows
+    ]
+    heads, left = list(columns.values()), range(len(columns))
+    print_columns(heads, cells, left=left, indent="  ")

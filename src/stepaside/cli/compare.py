@@ -9,6 +9,7 @@ from ..core.atomic_output import FIGURES, free_file
 from ..report.text_escaping import visible
 from .options.common_options import figure_width, json_option
 from .output_files import OutputFile, attempt, writes_files
+from .tables import print_columns
 from .terminal import echo, print_json
 
 if TYPE_CHECKING:
@@ -119,14 +120,21 @@ def _draw(runs: "list[Run]", file: Path) -> None:
 def _print(runs: "list[Run]") -> None:
     """Print one line per run."""
     columns = COLUMNS[runs[0].game]
-    line = "{:<28} {:<11} {:>11} {:>8} {:>9} {:>8}"
-    echo(line.format("run", "outcome", *(head for head, _, _ in columns)))
-    for run in runs:
-        cells = (
-            _number(getattr(run.summary, name), text)
-            for _, name, text in columns
-        )
-        echo(line.format(visible(run.name), run.outcome.value, *cells))
+    print_columns(
+        ("run", "outcome", *(head for head, _, _ in columns)),
+        [
+            (
+                visible(run.name),
+                run.outcome.value,
+                *(
+                    _number(getattr(run.summary, name), text)
+                    for _, name, text in columns
+                ),
+            )
+            for run in runs
+        ],
+        left=(0, 1),
+    )
 
 
 def _number(value: float | None, text: str) -> str:

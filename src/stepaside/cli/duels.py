@@ -15,10 +15,11 @@ from .options.common_options import (
     json_option,
 )
 from .options.duel_options import duel_options
+from .options.parameter_types import TextType
 from .options.settings_command import SettingsCommand
 from .output_files import attempt, writes_files
 from .progress import SIMULATED, announce_effort
-from .tables import label_of
+from .tables import interval, label_of, number, print_columns
 from .terminal import echo, print_json
 
 if TYPE_CHECKING:
@@ -29,35 +30,26 @@ SUMMARY = "summary.json"
 FIGURE_NAME = "duels.png"
 
 
-class SeedsType(click.ParamType[range]):
+class SeedsType(TextType[range]):
     """Range of seeds: ``0:1000`` for 0 to 999, ``7`` for one seed."""
 
     name = "FIRST:END"
 
-    def convert(
-        self,
-        value: Any,
-        param: click.Parameter | None,
-        ctx: click.Context | None,
-    ) -> range:
+    def parse(self, value: Any) -> range:
         """Parse a range of seeds."""
         if isinstance(value, range):
             return value
         found = re.fullmatch(r"(\d{1,9})(?::(\d{1,9}))?", str(value).strip())
         if found is None:
-            self.fail(
+            raise click.BadParameter(
                 "must be FIRST:END or one seed, integers >= 0 [1] like "
-                f"0:1000, got {value!r}",
-                param,
-                ctx,
+                f"0:1000, got {value!r}"
             )
         first = int(found[1])
         end = first + 1 if found[2] is None else int(found[2])
         if not 1 <= end - first <= LARGEST:
-            self.fail(
-                f"END must be 1 to {LARGEST} past FIRST [1], got {value!r}",
-                param,
-                ctx,
+            raise click.BadParameter(
+                f"END must be 1 to {LARGEST} past FIRST [1], got {value!r}"
             )
         return range(first, end)
 
@@ -161,19 +153,22 @@ def _print(summary: dict[str, Any]) -> None:
     echo(_proportion("on the circle", summary["on_the_circle"]))
     by = f"before {summary['on_the_circle_by_s']:.0f} s"
     echo(_proportion(by, summary["on_the_circle_in_time"]))
-    echo(
-        f"\n{'':<34}{'theory':>9}{'mean':>9}{'+-95 %':>9}"
-        f"{'min':>9}{'max':>9}  worst seed"
+    echo()
+    print_columns(
+        ("", "theory", "mean", "+-95 %", "min", "max", "worst seed"),
+        [
+            (
+                label_of(name, unit=True),
+                "" if row["theory"] is None else number(row["theory"]),
+                number(row["mean"]),
+                number(row["mean_high"] - row["mean"]),
+                number(row["least"]),
+                number(row["greatest"]),
+                str(row["worst_seed"]),
+            )
+            for name, row in summary["figures"].items()
+        ],
     )
-    for name, row in summary["figures"].items():
-        theory = "" if row["theory"] is None else f"{row['theory']:.3f}"
-        half = row["mean_high"] - row["mean"]
-        echo(
-            f"{label_of(name, unit=True):<34}{theory:>9}"
-            f"{row['mean']:>9.3f}{half:>9.3f}"
-            f"{row['least']:>9.3f}{row['greatest']:>9.3f}"
-            f"  {row['worst_seed']}"
-        )
     for entry in summary["not_completed"]:
         echo(f"seed {entry['seed']}: {entry['message']}")
 
@@ -182,5 +177,5 @@ def _proportion(name: str, count: dict[str, float]) -> str:
     """Return one line with a proportion and its 95 % interval."""
     return (
         f"{name:<20}{count['number']:>5} of {count['of']}"
-        f"   95 %: {100 * count['low']:.1f}-{100 * count['high']:.1f} %"
+        f"   95 %: {interval(count['low'], count['high'])}"
     )

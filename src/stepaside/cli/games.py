@@ -12,6 +12,7 @@ from .game import level_option
 from .options.common_options import game_time_option, json_option
 from .output_files import attempt, writes_files
 from .progress import SIMULATED, announce_effort
+from .tables import interval, number, print_columns
 from .terminal import echo, print_json
 
 if TYPE_CHECKING:
@@ -118,19 +119,24 @@ def print_rows(rows: list[dict[str, Any]]) -> None:
     Args:
         rows: Rows of :func:`stepaside.studies.game_campaign.game_rows`.
     """
-    echo(
-        f"{'pursuers':<15}{'evaders':<15}{'games':>6}{'captured':>20}"
-        f"{'contact':>20}{'fell':>20}{'mean':>9}{'closest':>9}"
+    heads = ("pursuers", "evaders", "games", "captured", "contact", "fell")
+    print_columns(
+        (*heads, "mean", "closest"),
+        [
+            (
+                row["pursuers"] or "of the file",
+                row["evaders"] or "of the file",
+                str(row["games"]),
+                _share(row["captured"]),
+                _share(row["contact"]),
+                _share(row["fell"]),
+                number(row["mean_closest_m"], "m"),
+                number(row["least_closest_m"], "m"),
+            )
+            for row in rows
+        ],
+        left=(0, 1),
     )
-    for row in rows:
-        counts = (row["captured"], row["contact"], row["fell"])
-        values = (row["mean_closest_m"], row["least_closest_m"])
-        echo(
-            f"{row['pursuers'] or 'of the file':<15}"
-            f"{row['evaders'] or 'of the file':<15}{row['games']:>6}"
-            + "".join(f"{_share(count):>20}" for count in counts)
-            + "".join(f"{_metres(value):>9}" for value in values)
-        )
     for row in rows:
         for robot in row["crowd"]:
             time = robot["mean_time_s"]
@@ -138,7 +144,7 @@ def print_rows(rows: list[dict[str, Any]]) -> None:
                 f"\n{robot['name']} among {robot['people']} people: success "
                 f"{_share(robot['success'])}, collided "
                 f"{_share(robot['collided'])}, mean time to the goal "
-                f"{'-' if time is None else f'{time:.1f} s'}, "
+                f"{number(time, 's', 1)}, "
                 f"{100 * robot['share_below_0_45']:.1f} % of the time below "
                 f"0.45 m, {100 * robot['share_below_1_2']:.1f} % below 1.2 m"
             )
@@ -146,9 +152,4 @@ def print_rows(rows: list[dict[str, Any]]) -> None:
 
 def _share(count: dict[str, float]) -> str:
     """Return a number of games with its 95 % interval."""
-    low, high = 100 * count["low"], 100 * count["high"]
-    return f"{count['number']} ({low:.0f}-{high:.0f} %)"
-
-
-def _metres(value: float | None) -> str:
-    return "-" if value is None else f"{value:.3f} m"
+    return f"{count['number']} ({interval(count['low'], count['high'], 0)})"

@@ -16,6 +16,7 @@ from .options.common_options import (
 from .options.parameter_types import NameType, OutputFile
 from .output_files import attempt, writes_files
 from .progress import DECISIONS, announce_effort
+from .tables import interval, number, percent, print_columns
 from .terminal import echo, print_json
 
 FEW = 200  # games that need no worker processes
@@ -29,22 +30,25 @@ def _roles() -> tuple[str, ...]:
 
 def print_scores(result: dict[str, Any]) -> None:
     """Print all pairings, and the scores below them."""
-    echo(
-        f"{'strategy':<16}{'world':<18}{'opponent':<10}{'survived':>9}"
-        f"{'95 %':>14}{'closest':>9}{'+-':>7}{'regret':>8}{'ratio':>7}"
+    heads = ("strategy", "world", "opponent", "survived", "95 %")
+    print_columns(
+        (*heads, "closest", "+-", "regret", "ratio"),
+        [
+            (
+                row["strategy"],
+                row["world"],
+                row["opponent"],
+                percent(row["survived"]),
+                interval(row["survived_low"], row["survived_high"]),
+                number(row["mean_closest_m"], "m"),
+                number(row["mean_closest_pm_m"]),
+                number(row["mean_regret_m"]),
+                number(row["mean_ratio"]),
+            )
+            for row in result["rows"]
+        ],
+        left=range(3),
     )
-    for row in result["rows"]:
-        regret, ratio = row["mean_regret_m"], row["mean_ratio"]
-        echo(
-            f"{row['strategy'][-15:]:<16}{row['world']:<18}"
-            f"{row['opponent']:<10}{100 * row['survived']:>7.1f} %"
-            f"{100 * row['survived_low']:>7.1f}"
-            f"-{100 * row['survived_high']:<6.1f}"
-            f"{row['mean_closest_m']:>7.3f} m"
-            f"{row['mean_closest_pm_m']:>7.3f}"
-            f"{'' if regret is None else f'{regret:.3f}':>8}"
-            f"{'' if ratio is None else f'{ratio:.3f}':>7}"
-        )
     for row in result["scores"]:
         echo(
             f"{row['strategy']}, {row['role']}: score "

@@ -35,6 +35,7 @@ from .robustness_walks import (
     summarise_walks,
     write_walks,
 )
+from .tables import interval, print_columns
 from .terminal import echo, exit_interrupted, print_json, resume_message
 
 if TYPE_CHECKING:
@@ -55,16 +56,20 @@ def print_campaign(answer: dict[str, Any]) -> None:
     """Print survival rates, then push limits."""
     from ..studies.robustness_trial import UNITS
 
-    head = ("method", "disturbance", "strength", "survived", "95 %")
-    echo("{:<12} {:<16} {:>10} {:>9}  {}".format(*head))
-    for row in answer["survival"]:
-        kind = f"{row['kind']} {row['direction']}".strip()
-        echo(
-            f"{row['method']:<12} {kind:<16} {row['strength']:>10g} "
-            f"{row['survived']:>4}/{row['trials']:<4}  "
-            f"{100 * row['low']:.0f}-{100 * row['high']:.0f} %"
-            f"   [{UNITS[row['kind']]}]"
-        )
+    print_columns(
+        ("method", "disturbance", "strength", "survived", "95 %"),
+        [
+            (
+                row["method"],
+                f"{row['kind']} {row['direction']}".strip(),
+                f"{row['strength']:g} {UNITS[row['kind']]}",
+                f"{row['survived']}/{row['trials']}",
+                interval(row["low"], row["high"], 0),
+            )
+            for row in answer["survival"]
+        ],
+        left=(0, 1),
+    )
     if answer["limits"]:
         _print_limits(answer["limits"], answer["limits_by_method"])
 

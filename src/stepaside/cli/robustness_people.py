@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 from ..strategies.shield_settings import ShieldSettings
 from .campaign_options import CampaignOptions
 from .campaign_reports import run_campaign
+from .tables import interval, number, print_columns
 from .terminal import echo
 
 if TYPE_CHECKING:
@@ -129,18 +130,23 @@ def write_people(
 def print_people(answer: dict[str, Any]) -> None:
     """Print encounters with approaching and with passing people."""
     if answer.get("people"):
-        head = ("sensing", "speed", "contacts", "closest", "template")
-        echo("{:<8} {:>9} {:>9} {:>8} {:>9}   theory".format(*head))
-    for row in answer.get("people", ()):
-        template = row["template_closest_m"]
-        simulated = "-" if template is None else f"{template:.2f} m"
-        room = row["theory_room_m"]
-        in_theory = "-" if room is None else f"{room:.2f} m"
-        echo(
-            f"{row['sensing']:<8} {row['speed_m_s']:>5g} m/s "
-            f"{row['contacts']:>4}/{row['number']:<4} "
-            f"{row['closest_m']:>6.2f} m {simulated:>9} "
-            f"{in_theory:>8}"
+        print_columns(
+            ("sensing", "speed", "contacts", "closest", "template", "theory"),
+            [
+                (
+                    row["sensing"],
+                    f"{row['speed_m_s']:g} m/s",
+                    f"{row['contacts']}/{row['number']}",
+                    *(
+                        number(row[name], "m", 2)
+                        for name in (
+                            *("closest_m", "template_closest_m"),
+                            "theory_room_m",
+                        )
+                    ),
+                )
+                for row in answer["people"]
+            ],
         )
     for row in answer.get("passers_by", ()):
         echo(
@@ -148,17 +154,23 @@ def print_people(answer: dict[str, Any]) -> None:
             f"{row['number']} passing pedestrians, "
             f"{row['false_triggers_per_hour']:.1f} per hour"
         )
-    echo(
-        f"\n{'sensing':<8} {'reaction':<22} {'contacts':>8} {'95 %':>8} "
-        f"{'falls':>5} {'closest':>9}  causes"
+    echo()
+    heads = ("sensing", "reaction", "contacts", "95 %", "falls", "closest")
+    print_columns(
+        (*heads, "causes"),
+        [_reaction_cells(row) for row in answer["reactions"]],
+        left=(0, 1, 6),
     )
-    for row in answer["reactions"]:
-        causes = ", ".join(f"{n} {c}" for c, n in row["causes"].items())
-        kind = row["reaction"] + (" (searched)" if row["hard"] else "")
-        low, high = row["contacts_low"], row["contacts_high"]
-        echo(
-            f"{row['sensing']:<8} {kind:<22} "
-            f"{row['contacts']:>3}/{row['number']:<4} "
-            f"{100 * low:>3.0f}-{100 * high:<3.0f} % "
-            f"{row['falls']:>4} {row['closest_m']:>7.2f} m  {causes}"
-        )
+
+
+def _reaction_cells(row: dict[str, Any]) -> tuple[str, ...]:
+    """Return the cells of the encounters with one reaction."""
+    return (
+        row["sensing"],
+        row["reaction"] + (" (searched)" if row["hard"] else ""),
+        f"{row['contacts']}/{row['number']}",
+        interval(row["contacts_low"], row["contacts_high"], 0),
+        str(row["falls"]),
+        number(row["closest_m"], "m", 2),
+        ", ".join(f"{n} {c}" for c, n in row["causes"].items()),
+    )

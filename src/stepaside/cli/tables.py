@@ -1,6 +1,6 @@
 """Printed tables: labels, units and values of result entries."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Container, Iterable, Mapping, Sequence
 from math import degrees
 from typing import Any
 
@@ -131,23 +131,44 @@ def scalar_rows(
     return table_rows(result, names, digits)
 
 
+def percent(fraction: float | None) -> str:
+    """Return a fraction in percent; "-" for None."""
+    return "-" if fraction is None else f"{100 * fraction:.1f} %"
+
+
+def interval(low: float, high: float, digits: int = 1) -> str:
+    """Return an interval of fractions, in percent."""
+    return f"{100 * low:.{digits}f}-{100 * high:.{digits}f} %"
+
+
+def number(value: float | None, unit: str = "", digits: int = 3) -> str:
+    """Return a number with its unit; "-" for None."""
+    return "-" if value is None else f"{value:.{digits}f} {unit}".strip()
+
+
 def print_columns(
-    rows: Iterable[Mapping[str, Any]], columns: Mapping[str, str]
+    heads: Sequence[str],
+    rows: Iterable[Sequence[str]],
+    *,
+    left: Container[int] = (0,),
+    indent: str = "",
 ) -> None:
-    """Print one line per row, below a header.
+    """Print one line per row, below a header, in aligned columns.
 
     Args:
-        rows: Values by name.
-        columns: Heads of the columns by name of the value.
+        heads: Heads of the columns.
+        rows: Cells of each row.
+        left: Columns that are aligned to the left.
+        indent: Text before each line.
     """
-    cells = [
-        [format_value(name, row[name]) for name in columns] for row in rows
-    ]
-    table = [list(columns.values()), *cells]
+    table = [heads, *rows]
     widths = [max(map(len, column)) for column in zip(*table, strict=True)]
     for line in table:
-        pairs = zip(line, widths, strict=True)
-        echo("  " + "  ".join(f"{c:<{w}}" for c, w in pairs).rstrip())
+        cells = [
+            cell.ljust(width) if k in left else cell.rjust(width)
+            for k, (cell, width) in enumerate(zip(line, widths, strict=True))
+        ]
+        echo(indent + "  ".join(cells).rstrip())
 
 
 def print_table(rows: list[tuple[str, str]]) -> None:

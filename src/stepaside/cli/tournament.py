@@ -28,6 +28,7 @@ from .options.parameter_types import (
 from .options.setting_options import refuse_options, takes
 from .output_files import attempt, writes_files
 from .progress import DECISIONS, SIMULATED, announce_effort
+from .tables import interval, number, percent, print_columns
 from .terminal import echo, print_json
 
 if TYPE_CHECKING:
@@ -43,34 +44,34 @@ def print_rows(rows: list[dict[str, Any]]) -> None:
             "circle: distance [m] on the paper's circle for moving aside, at "
             "the pursuer's gain; touched: contact with an obstacle"
         )
-    echo(
-        f"{'evader':<12}{'pursuer':<11}{'circle':>7}{'games':>6}"
-        f"{'survived':>10}{'95 %':>14}{'captured':>10}{'contact':>9}"
-        f"{'touched':>9}{'closest':>9}"
-        f"{'of bound':>9}{'floor':>7}{'turning':>9}{'unseen':>8}{'ms':>7}"
+    heads = "evader pursuer circle games survived 95_% captured contact "
+    heads += "touched closest of_bound floor turning unseen ms"
+    print_columns(
+        [head.replace("_", " ") for head in heads.split()],
+        [_cells(row) for row in rows],
+        left=(0, 1),
     )
-    for row in rows:
-        low, high = row["survived_low"], row["survived_high"]
-        echo(
-            f"{row['evader'][-11:]:<12}{row['pursuer'][-10:]:<11}"
-            f"{_circle(row['circle_distance_m']):>7}"
-            f"{row['games']:>6}{100 * row['survived']:>8.1f} %"
-            f"{100 * low:>7.1f}-{100 * high:<6.1f}"
-            f"{100 * row['captured']:>8.1f} %"
-            f"{_percent(row['contact']):>9}"
-            f"{100 * row['touched_obstacle']:>7.1f} %"
-            f"{row['mean_closest_m']:>7.3f} m{row['closest_over_bound']:>9.3f}"
-            f"{row['floor_used_m2']:>7.2f}{row['turning_rad_s']:>9.3f}"
-            f"{100 * row['out_of_view']:>6.1f} %{row['decision_ms']:>7.2f}"
-        )
 
 
-def _circle(distance: float | None) -> str:
-    return "-" if distance is None else f"{distance:.3f}"
-
-
-def _percent(fraction: float | None) -> str:
-    return "-" if fraction is None else f"{100 * fraction:.1f} %"
+def _cells(row: dict[str, Any]) -> list[str]:
+    """Return the cells of a pairing."""
+    return [
+        row["evader"],
+        row["pursuer"],
+        number(row["circle_distance_m"]),
+        str(row["games"]),
+        percent(row["survived"]),
+        interval(row["survived_low"], row["survived_high"]),
+        percent(row["captured"]),
+        percent(row["contact"]),
+        percent(row["touched_obstacle"]),
+        number(row["mean_closest_m"], "m"),
+        number(row["closest_over_bound"]),
+        number(row["floor_used_m2"], digits=2),
+        number(row["turning_rad_s"]),
+        percent(row["out_of_view"]),
+        number(row["decision_ms"], digits=2),
+    ]
 
 
 SOLVES = (

@@ -15,7 +15,7 @@ from ..sim.camera_settings import SceneSettings
 from ..strategies.strategy_game import StepGame, StrategyOutcome, StrategyTrack
 from .claims import Readings
 from .evasion_claims import DURATION
-from .physics_game import clearance, outcome_of, players_touched
+from .tournament_physics import clearance, outcome_of, players_touched
 from .tournament_record import bound_of, play_track
 from .tournament_settings import TournamentSettings
 

@@ -22,7 +22,7 @@ from .tournament_strategies import (
 
 if TYPE_CHECKING:
     from ..games.run import DuelRun
-    from .physics_game import DuelPaths
+    from .tournament_physics import DuelPaths
 
 FIELDS = (  # of every record
     "evader",
@@ -52,7 +52,7 @@ def play_paths(
     """Play one game of a tournament; return its room and both paths."""
     if settings.level != HUMANOIDS:
         return play_track(settings, pairing, seed)
-    from .physics_game import paths_of
+    from .tournament_physics import paths_of
 
     room, run = _play_humanoids(settings, pairing, seed)
     return room, paths_of(run)
@@ -68,7 +68,7 @@ def _play_humanoids(
     """
     from ..games.duel import run_duel
     from ..games.outcome import Outcome
-    from .physics_game import duel_settings
+    from .tournament_physics import duel_settings
 
     room, starts = settings.arena(seed)
     run = run_duel(
@@ -159,7 +159,7 @@ def _humanoid_values(
     settings: TournamentSettings, pairing: Pairing, seed: int
 ) -> Record:
     """Play a game in physics and return its values."""
-    from .physics_game import record_values_of
+    from .tournament_physics import record_values_of
 
     _, run = _play_humanoids(settings, pairing, seed)
     pursuer, evader = (

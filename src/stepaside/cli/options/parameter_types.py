@@ -5,7 +5,7 @@ from collections.abc import Callable, Collection, Mapping
 from dataclasses import replace
 from math import isfinite, radians, tau
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import click
 
@@ -16,6 +16,7 @@ from ...sim.push import Push
 from ...strategies.registry import absolute_name, check_strategy_name
 
 UNITS = {"rad": 1.0, "deg": radians(1.0)}
+T = TypeVar("T")
 REASON = "outside this range squares and ratios overflow a double"
 
 
@@ -29,17 +30,39 @@ def positive(unit: str, *also: float | None) -> Range:
     return Range(1e-9, 1e9, unit, REASON, also=also)
 
 
-class AngleType(click.ParamType[float]):
-    """Angle in [rad], written as ``1.2``, ``1.2rad`` or ``70deg``."""
+class TextType(click.ParamType[T]):
+    """Option type that parses one value."""
 
-    name = "angle"
+    def parse(self, value: Any) -> T:
+        """Return the value of a text, or a value of this type unchanged.
+
+        Raises:
+            click.BadParameter: If it is invalid.
+            StepAsideError: Likewise.
+        """
+        raise NotImplementedError
 
     def convert(
         self,
         value: Any,
         param: click.Parameter | None,
         ctx: click.Context | None,
-    ) -> float:
+    ) -> T:
+        """Parse a value of an option."""
+        try:
+            return self.parse(value)
+        except click.BadParameter as error:
+            self.fail(error.message, param, ctx)
+        except StepAsideError as error:
+            self.fail(str(error), param, ctx)
+
+
+class AngleType(TextType[float]):
+    """Angle in [rad], written as ``1.2``, ``1.2rad`` or ``70deg``."""
+
+    name = "angle"
+
+    def parse(self, value: Any) -> float:
         """Parse an angle."""
         text, scale = str(value).strip(), 1.0
         for unit, factor in UNITS.items():
@@ -51,16 +74,14 @@ class AngleType(click.ParamType[float]):
         except (ValueError, OverflowError):
             angle = float("nan")
         if not -tau <= angle <= tau:
-            self.fail(
+            raise click.BadParameter(
                 "must be an angle like 1.2, 1.2rad or 70deg, within one full "
-                f"turn, got {shown(value)}",
-                param,
-                ctx,
+                f"turn, got {shown(value)}"
             )
         return angle
 
 
-class NumberType(click.ParamType[float]):
+class NumberType(TextType[float]):
     """Number within a range."""
 
     name = "number"
@@ -80,29 +101,20 @@ class NumberType(click.ParamType[float]):
         self.range = positive(unit, *((0.0,) if allow_zero else ()))
         self.is_bounded = bounded
 
-    def convert(
-        self,
-        value: Any,
-        param: click.Parameter | None,
-        ctx: click.Context | None,
-    ) -> float:
+    def parse(self, value: Any) -> float:
         """Parse a number."""
         try:
             number = float(value)
         except (ValueError, OverflowError):
             number = float("nan")
         if number != number:
-            self.fail(
-                f"must be a number [{self.unit}], got {shown(value)}",
-                param,
-                ctx,
+            raise click.BadParameter(
+                f"must be a number [{self.unit}], got {shown(value)}"
             )
         if self.is_bounded and not self.range.holds(number):
-            self.fail(
+            raise click.BadParameter(
                 f"must lie in {self.range.text} [{self.unit}], "
-                f"got {shown(value)}",
-                param,
-                ctx,
+                f"got {shown(value)}"
             )
         return number
 
@@ -166,7 +178,7 @@ class WordOrValueType(click.ParamType[Any]):
         return self.kind.convert(value, param, ctx)
 
 
-class OutputFile(click.ParamType[str]):
+class OutputFile(TextType[str]):
     """Output file; a name without suffix gets the default suffix."""
 
     name = "file"
@@ -175,12 +187,7 @@ class OutputFile(click.ParamType[str]):
         """Store the allowed suffixes, the default first; any if empty."""
         self.suffixes = suffixes
 
-    def convert(
-        self,
-        value: Any,
-        param: click.Parameter | None,
-        ctx: click.Context | None,
-    ) -> str:
+    def parse(self, value: Any) -> str:
         """Return the path, with a suffix."""
         file = Path(value)
         if self.suffixes and file.name and not file.suffix:
@@ -188,7 +195,7 @@ class OutputFile(click.ParamType[str]):
         return str(value)
 
 
-class SizeType(click.ParamType[tuple[float, float] | None]):
+class SizeType(TextType[tuple[float, float] | None]):
     """Width and depth of a room in [m], like 2.5x4; ``open`` for no walls."""
 
     name = "size"
@@ -197,12 +204,7 @@ class SizeType(click.ParamType[tuple[float, float] | None]):
         """Return the placeholder for the help."""
         return "[WIDTHxDEPTH|open]"
 
-    def convert(
-        self,
-        value: Any,
-        param: click.Parameter | None,
-        ctx: click.Context | None,
-    ) -> tuple[float, float] | None:
+    def parse(self, value: Any) -> tuple[float, float] | None:
         """Parse width and depth."""
         if value is None or value == "open":
             return None
@@ -213,15 +215,13 @@ class SizeType(click.ParamType[tuple[float, float] | None]):
         except ValueError:
             width = depth = float("nan")
         if not (isfinite(width) and isfinite(depth)):
-            self.fail(
-                f"must be like 3x3 or 2.5x4 [m], or open, got {value!r:.60}",
-                param,
-                ctx,
+            raise click.BadParameter(
+                f"must be like 3x3 or 2.5x4 [m], or open, got {value!r:.60}"
             )
         return width, depth
 
 
-class ArenaType(click.ParamType[Any]):
+class ArenaType(TextType[Any]):
     """Size like 3x3, ``open``, or a room file."""
 
     name = "room"
@@ -230,70 +230,52 @@ class ArenaType(click.ParamType[Any]):
         """Return the placeholder for the help."""
         return "[WIDTHxDEPTH|open|FILE]"
 
-    def convert(
-        self,
-        value: Any,
-        param: click.Parameter | None,
-        ctx: click.Context | None,
-    ) -> Any:
+    def parse(self, value: Any) -> Any:
         """Return the path of a room file, else the size."""
         file = Path(str(value))
         if file.suffix.lower() in (".toml", ".json"):
             if not file.is_file():
-                self.fail(f"must be an existing file, got {value!r:.80}")
+                raise click.BadParameter(
+                    f"must be an existing file, got {value!r:.80}"
+                )
             return file
-        return SizeType().convert(value, param, ctx)
+        return SizeType().parse(value)
 
 
-class RoomType(click.ParamType[int | Path]):
+class RoomType(TextType[int | Path]):
     """Seed of a random room, or room file."""
 
     name = "FILE|SEED"
 
-    def convert(
-        self,
-        value: Any,
-        param: click.Parameter | None,
-        ctx: click.Context | None,
-    ) -> int | Path:
+    def parse(self, value: Any) -> int | Path:
         """Return the seed if there are only digits, else the path."""
         if isinstance(value, int | Path):
             return value
         if str(value).isdecimal():
             return int(value)
         if not Path(value).is_file():
-            self.fail(
+            raise click.BadParameter(
                 "must be an integer >= 0 or an existing file, got "
-                f"{value!r:.60}",
-                param,
-                ctx,
+                f"{value!r:.60}"
             )
         return Path(value)
 
 
-class StrategyType(click.ParamType[str]):
+class StrategyType(TextType[str]):
     """Strategy: a name of the registry, FILE.py:NAME or FILE.onnx."""
 
     name = "NAME|FILE.py:NAME|FILE.onnx"
 
-    def convert(
-        self,
-        value: Any,
-        param: click.Parameter | None,
-        ctx: click.Context | None,
-    ) -> str:
+    def parse(self, value: Any) -> str:
         """Check the syntax; a file is loaded when its strategy is used."""
-        try:
-            check_strategy_name(str(value))
-        except StepAsideError as error:
-            self.fail(str(error), param, ctx)
+        check_strategy_name(str(value))
         return absolute_name(str(value))
 
 
 NO_VALUE = "none"  # removes the values of the configuration
 
 
-class PushType(click.ParamType[Push | None]):
+class PushType(TextType[Push | None]):
     """Push: ``1.2@5:90deg`` is 1.2 N s at 5 s to the left, or ``none``.
 
     The player may precede it, as in ``pursuer=1.2@5:90deg``.
@@ -305,35 +287,25 @@ class PushType(click.ParamType[Push | None]):
         r"(?P<direction>.+)"
     )
 
-    def convert(
-        self,
-        value: Any,
-        param: click.Parameter | None,
-        ctx: click.Context | None,
-    ) -> Push | None:
+    def parse(self, value: Any) -> Push | None:
         """Parse a push."""
         if value == NO_VALUE:
             return None
         parts = self.syntax.fullmatch(str(value))
         if parts is None:
-            self.fail(
+            raise click.BadParameter(
                 "must be IMPULSE@TIME:DIRECTION [N s, s, angle] like "
-                f"1.2@5:90deg, got {value!r}",
-                param,
-                ctx,
+                f"1.2@5:90deg, got {value!r}"
             )
-        try:
-            return Push(
-                IMPULSE.convert(parts["impulse"], param, ctx),
-                TIME.convert(parts["time"], param, ctx),
-                ANGLE.convert(parts["direction"], param, ctx),
-                player=parts["player"] or "",
-            )
-        except StepAsideError as error:
-            self.fail(str(error), param, ctx)
+        return Push(
+            IMPULSE.parse(parts["impulse"]),
+            TIME.parse(parts["time"]),
+            ANGLE.parse(parts["direction"]),
+            player=parts["player"] or "",
+        )
 
 
-class PasserType(click.ParamType[Passer | None]):
+class PasserType(TextType[Passer | None]):
     """Passing pedestrian: ``0.8@3:90deg:1.5``, or ``none``.
 
     The example walks at 0.8 m/s, starts 3 m to the left of the evader, and
@@ -346,35 +318,25 @@ class PasserType(click.ParamType[Passer | None]):
         r"(?::(?P<miss>.+))?"
     )
 
-    def convert(
-        self,
-        value: Any,
-        param: click.Parameter | None,
-        ctx: click.Context | None,
-    ) -> Passer | None:
+    def parse(self, value: Any) -> Passer | None:
         """Parse a pedestrian."""
         if value == NO_VALUE:
             return None
         parts = self.syntax.fullmatch(str(value))
         if parts is None:
-            self.fail(
+            raise click.BadParameter(
                 "must be SPEED@DISTANCE:BEARING[:MISS] [m/s, m, angle, m] "
-                f"like 0.8@3:90deg:1.5, got {value!r}",
-                param,
-                ctx,
+                f"like 0.8@3:90deg:1.5, got {value!r}"
             )
-        try:
-            passer = Passer(
-                SPEED.convert(parts["speed"], param, ctx),
-                LENGTH.convert(parts["distance"], param, ctx),
-                ANGLE.convert(parts["bearing"], param, ctx),
-            )
-            if parts["miss"] is None:
-                return passer
-            miss = LENGTH.convert(parts["miss"], param, ctx)
-            return replace(passer, miss=miss)
-        except StepAsideError as error:
-            self.fail(str(error), param, ctx)
+        passer = Passer(
+            SPEED.parse(parts["speed"]),
+            LENGTH.parse(parts["distance"]),
+            ANGLE.parse(parts["bearing"]),
+        )
+        if parts["miss"] is None:
+            return passer
+        miss = LENGTH.parse(parts["miss"])
+        return replace(passer, miss=miss)
 
 
 # Numbers in pushes and pedestrians, whose settings check the ranges.

@@ -9,7 +9,7 @@ import pytest
 from stepaside.games.duel_summary import PlanTimes
 from stepaside.games.run import DuelRun
 from stepaside.games.trajectory import Trajectory
-from stepaside.studies.physics_game import record_values_of
+from stepaside.studies.tournament_physics import record_values_of
 from synthetic_duel_record import Record
 from synthetic_run import figures, run_of
 
