@@ -3,12 +3,8 @@
 import json
 import subprocess
 import tarfile
-import threading
 from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import replace
-from functools import partial
-from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from math import pi
 from pathlib import Path
 from typing import Any
@@ -35,6 +31,7 @@ from stepaside.report.game_script import schedules_of, trace_plan
 from stepaside.sim.body_settings import BODIES
 from stepaside.sim.push import Push
 from stepaside.strategies import Evasion
+from tools.static_server import served_folder
 
 PLANNER = ManeuverPlanner(GaitSettings())
 SECONDS = 4.0  # of each game: both robots walk, and turn
@@ -51,24 +48,6 @@ CHANGES = {
     "gain": 0.3,
     "angle": pi / 3,
 }
-
-
-class _QuietHandler(SimpleHTTPRequestHandler):
-    def log_message(self, format: str, *args: Any) -> None:  # noqa: A002
-        """Say nothing."""
-
-
-@contextmanager
-def served(folder: Path) -> Iterator[str]:
-    """Serve a folder; yield its address."""
-    handler = partial(_QuietHandler, directory=str(folder))
-    server = ThreadingHTTPServer(("127.0.0.1", 0), handler)
-    threading.Thread(target=server.serve_forever, daemon=True).start()
-    try:
-        yield f"http://127.0.0.1:{server.server_port}/"
-    finally:
-        server.shutdown()
-        server.server_close()
 
 
 def torsos(settings: DuelSettings, times: np.ndarray) -> np.ndarray:
@@ -168,7 +147,7 @@ def opened(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Any]:
             if "npm" not in str(error):
                 raise
             pytest.skip(str(error))
-    with served(folder) as address, launched() as browser:
+    with served_folder(folder) as address, launched() as browser:
         page, wrong = open_page(browser, width=390, height=844), []
         page.on("pageerror", lambda error: wrong.append(str(error)))
         page.goto(address)

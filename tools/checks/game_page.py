@@ -1,6 +1,6 @@
 """Compare the page that plays with Python, and measure it, in Chromium.
 
-    python tools/checks/game_page.py --seeds 7 11 --pictures artefacts
+    python -m tools.checks.game_page --seeds 7 11 --pictures artefacts
 
 npm fetches MuJoCo's WebAssembly build; ``--engine`` takes its package.
 Chromium renders in software unless the machine has a graphics card.
@@ -9,11 +9,6 @@ Chromium renders in software unless the machine has a graphics card.
 import argparse
 import json
 import shutil
-import threading
-from collections.abc import Iterator
-from contextlib import contextmanager
-from functools import partial
-from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -24,30 +19,11 @@ from playwright.sync_api import sync_playwright
 from stepaside.games.duel import run_duel
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.report.game_page import write_game_page
+from tools.static_server import served_folder
 
 SECONDS = 20.0  # of each game
 SIZES = ((1280, 720), (1920, 1080), (390, 844))
 WAIT = 200_000  # in [ms]
-
-
-class QuietHandler(SimpleHTTPRequestHandler):
-    """Handler of a folder that reports nothing."""
-
-    def log_message(self, format: str, *args: Any) -> None:  # noqa: A002
-        """Say nothing."""
-
-
-@contextmanager
-def served(folder: Path) -> Iterator[str]:
-    """Serve a folder; yield its address."""
-    handler = partial(QuietHandler, directory=str(folder))
-    server = ThreadingHTTPServer(("127.0.0.1", 0), handler)
-    threading.Thread(target=server.serve_forever, daemon=True).start()
-    try:
-        yield f"http://127.0.0.1:{server.server_port}/"
-    finally:
-        server.shutdown()
-        server.server_close()
 
 
 def greatest_distance(rows: np.ndarray, settings: DuelSettings) -> float:
@@ -87,7 +63,7 @@ def main() -> None:
             settings = DuelSettings(seed=seed, duration=SECONDS)
             write_game_page(settings, folder, options.engine)
             size = sum(file.stat().st_size for file in folder.iterdir())
-            with served(folder) as address:
+            with served_folder(folder) as address:
                 page = browser.new_page(viewport={"width": 390, "height": 844})
                 page.set_default_timeout(WAIT)
                 page.goto(address)

@@ -7,7 +7,8 @@ depend on the speed of the machine::
     python -m tools.documents.photographs page.gif   # some
 
 ``view.png`` is a live page with cameras, ``page.gif`` an animation of one on
-which the pursuer is pushed by hand, ``replay.png`` the offline page.
+which the pursuer is pushed by hand, ``replay.png`` the offline page,
+``play.png`` the page that plays.
 """
 
 from argparse import ArgumentParser
@@ -26,9 +27,11 @@ from tqdm import tqdm
 
 from stepaside.games.duel import run_duel
 from stepaside.games.duel_settings import DuelSettings
+from stepaside.report.game_page import write_game_page
 from stepaside.report.replay_page import write_page
 from stepaside.report.viewer.live_page import Page
 
+from ..static_server import served_folder
 from .pictures import IMAGES
 
 DESK = {"width": 1280, "height": 720}
@@ -38,6 +41,7 @@ WAIT = 200_000  # in [ms]
 DRAWN = """() => new Promise((told) => requestAnimationFrame(
   () => requestAnimationFrame(told)))"""
 SEEN_AT = 12.0  # moment of the live page with cameras, in [s]
+PLAYED = 50.0  # of the page that plays, in [s]
 FILMED, PUSHED = (6.0, 16.0), 10.0  # in [s]
 EACH, RATE = 0.2, 8  # time between pictures in [s]; pictures a second
 
@@ -120,7 +124,30 @@ def replay(browser: Any) -> None:
         page.screenshot(path=IMAGES / "replay.png")
 
 
-TAKEN = {"view.png": view, "page.gif": film, "replay.png": replay}
+def play(browser: Any) -> None:
+    """Take a screenshot of the page that plays, on the circle."""
+    with TemporaryDirectory() as place:
+        write_game_page(DuelSettings(seed=7), Path(place))
+        with served_folder(Path(place)) as address:
+            page = opened(browser, address)
+            page.evaluate("stepaside.loaded.then(() => toggle(false))")
+            page.evaluate(
+                f"""while (stepaside.game.time < {PLAYED}) {{
+                  stepaside.game.tick();
+                  note();
+                }}
+                byId("rate").hidden = true;"""
+            )
+            page.evaluate(DRAWN)
+            page.screenshot(path=IMAGES / "play.png")
+
+
+TAKEN = {
+    "view.png": view,
+    "page.gif": film,
+    "replay.png": replay,
+    "play.png": play,
+}
 
 
 def main() -> None:

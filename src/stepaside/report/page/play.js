@@ -6,8 +6,8 @@ const degrees = (angle) => angle * 180 / Math.PI, radians = (angle) => angle * M
 
 /* Settings of the game: label, unit, range, and where the value stands. Those of the start restart it. */
 const CONTROLS = [
-  ["speed of the pursuer", "m/s", 0.02, 0.14, 0.005, (s) => s.speeds[0], (s, v) => { s.speeds[0] = v; }],
-  ["speed of the evader", "m/s", 0.02, 0.14, 0.005, (s) => s.speeds[1], (s, v) => { s.speeds[1] = v; }],
+  ["speed of the pursuer", "m/s", 0.02, 0.12, 0.005, (s) => s.speeds[0], (s, v) => { s.speeds[0] = v; }],
+  ["speed of the evader", "m/s", 0.02, 0.12, 0.005, (s) => s.speeds[1], (s, v) => { s.speeds[1] = v; }],
   ["steering gain k", "1/s", 0.05, 0.4, 0.01, (s) => s.gain, (s, v) => { s.gain = v; }],
   ["angle of evasion \u03b1", "\u00b0", 0, 180, 5, (s) => degrees(s.angle), (s, v) => { s.angle = radians(v); }],
   ["start: distance", "m", 0.6, 2, 0.01, (s) => s.start[0], (s, v) => { s.start[0] = v; }, true],
@@ -129,7 +129,7 @@ function measure(now) {
   if (now - measured.from < 1000) return;
   const passed = (now - measured.from) / 1000, time = game ? game.time : clock;
   measured.rate = measured.frames / passed;
-  if (measured.rate < ENOUGH) simplify();
+  if (game && playing && measured.rate < ENOUGH) simplify();
   const factor = Math.max(0, time - measured.time) / passed;
   byId("rate").textContent = `${measured.rate.toFixed(0)} frames/s, ${factor.toFixed(2)} x real time`;
   Object.assign(measured, { frames: 0, from: now, time });
