@@ -15,6 +15,27 @@ from cyclonedds.idl import IdlStruct  # noqa: E402
 from stepaside.drivers.ros2 import messages as m  # noqa: E402
 
 STORE = rosbags.get_typestore(rosbags.Stores.ROS2_HUMBLE)
+# Of vision_msgs 4, the same in Humble, Jazzy and Kilted.
+DEFINITIONS = {
+    "ObjectHypothesis": "string class_id\nfloat64 score\n",
+    "ObjectHypothesisWithPose": (
+        "vision_msgs/ObjectHypothesis hypothesis\n"
+        "geometry_msgs/PoseWithCovariance pose\n"
+    ),
+    "BoundingBox3D": "geometry_msgs/Pose center\ngeometry_msgs/Vector3 size\n",
+    "Detection3D": (
+        "std_msgs/Header header\n"
+        "vision_msgs/ObjectHypothesisWithPose[] results\n"
+        "vision_msgs/BoundingBox3D bbox\nstring id\n"
+    ),
+    "Detection3DArray": (
+        "std_msgs/Header header\nvision_msgs/Detection3D[] detections\n"
+    ),
+}
+for _name, _text in DEFINITIONS.items():
+    STORE.register(
+        rosbags.get_types_from_msg(_text, f"vision_msgs/msg/{_name}")
+    )
 STAMP = m.Time(1_700_000_000, 123_456_789)
 HEADER = m.Header(STAMP, "nao/odom")
 POSE = m.PoseMessage(
@@ -23,7 +44,19 @@ POSE = m.PoseMessage(
 TWIST = m.Twist(m.Vector3(0.1, 0.2, 0.3), m.Vector3(-0.4, 0.5, -0.6))
 MATRIX = tuple(0.5 * i for i in range(36))
 MOVED = m.Transform(m.Vector3(1.0, 2.0, 3.0), m.Quaternion(0.0, 0.0, 0.6, 0.8))
+GUESS = m.ObjectHypothesisWithPose(
+    m.ObjectHypothesis("person", 0.9), m.PoseWithCovariance(POSE, MATRIX)
+)
+BOX = m.BoundingBox3D(POSE, m.Vector3(0.5, 0.6, 1.7))
+FOUND = m.Detection3D(HEADER, [GUESS], BOX, "7")
 SAMPLES: dict[str, Any] = {
+    "vision_msgs/msg/ObjectHypothesis": GUESS.hypothesis,
+    "vision_msgs/msg/ObjectHypothesisWithPose": GUESS,
+    "vision_msgs/msg/BoundingBox3D": BOX,
+    "vision_msgs/msg/Detection3D": FOUND,
+    "vision_msgs/msg/Detection3DArray": m.Detection3DArray(
+        HEADER, [FOUND, m.Detection3D(HEADER, [], BOX, "")]
+    ),
     "sensor_msgs/msg/RegionOfInterest": m.RegionOfInterest(1, 2, 3, 4, True),
     "sensor_msgs/msg/CameraInfo": m.CameraInfo(
         HEADER,

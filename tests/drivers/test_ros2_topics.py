@@ -18,16 +18,23 @@ from stepaside.core.poses import Pose  # noqa: E402
 from stepaside.drivers.ros2 import dds_domain as domain  # noqa: E402
 from stepaside.drivers.ros2.dds_domain import DdsParticipant, take_messages  # noqa: E402
 from stepaside.drivers.ros2.messages import (  # noqa: E402
+    BoundingBox3D,
     ClockMessage,
+    Detection3D,
+    Detection3DArray,
     Header,
     JointState,
+    ObjectHypothesis,
+    ObjectHypothesisWithPose,
     Odometry,
     Point,
     PointStamped,
     PoseStamped,
+    PoseWithCovariance,
     TFMessage,
     Time,
     Twist,
+    TwistWithCovariance,
     Vector3,
 )
 from stepaside.drivers.ros2.namespaces import parse_namespace  # noqa: E402
@@ -39,6 +46,7 @@ from stepaside.drivers.ros2.ros2_body import (
 from stepaside.drivers.ros2.ros2_server import EVERY, Ros2Server, WorldClock
 from stepaside.drivers.ros2.topics import (  # noqa: E402
     dds_topic,
+    parse_remapping,
     pose_message,
     pose_of,
     yaw_rotation,
@@ -177,6 +185,113 @@ def test_the_opponent_may_be_given_in_either_frame(
     assert sighting.bearing == pytest.approx(atan2(left, ahead))
     assert sighting.distance == pytest.approx(hypot(left, ahead))
     dds.close()
+
+
+def detection(kind: str, x: float, y: float) -> Detection3D:
+    """An object of a class, which a second hypothesis doubts."""
+    pose = pose_message(Pose(x, y, 0.0))
+    nowhere = PoseWithCovariance(pose, [0.0] * 36)
+    return Detection3D(
+        Header(Time.of(0.0), ""),
+        [
+            ObjectHypothesisWithPose(ObjectHypothesis(name, score), nowhere)
+            for name, score in (("lamp", 0.1), (kind, 0.8))
+        ],
+        BoundingBox3D(pose, Vector3(0.5, 0.5, 1.7)),
+        "",
+    )
+
+
+@pytest.mark.parametrize(
+    ("opponent", "frame", "seen"),
+    [
+        ("", "nao/base_link", (0.5, -0.2)),
+        ("person", "nao/base_link", (1.0, 0.4)),
+        ("robot", "nao/base_link", None),
+        ("person", "camera_optical_frame", None),
+    ],
+)
+def test_the_nearest_detection_of_a_class_is_the_opponent(
+    scene: Scene, opponent: str, frame: str, seen: tuple[float, float] | None
+) -> None:
+    """The topics may have other names."""
+    names = {"detections": "/detector/objects"}
+    body = Ros2Body(
+        DdsParticipant(0, tag=TAG),
+        "/nao",
+        remapping=names,
+        opponent=opponent,
+    )
+    dds = DdsParticipant(0, tag=TAG)
+    writer = dds.writer("rt/detector/objects", Detection3DArray)
+    found = [
+        detection("person", 3.0, 0.0),
+        detection("person", 1.0, 0.4),
+        detection("chair", 0.5, -0.2),
+    ]
+    try:
+        met(scene, body, REST)
+        until(lambda: writer.get_matched_subscriptions())
+
+        def heard() -> Any:
+            header = Header(Time.of(scene.walker.time), frame)
+            writer.write(Detection3DArray(header, found))
+            scene.round()
+            report = body.listen(0.002)
+            if report is None or (seen and report.sighting is None):
+                return None
+            return report
+
+        report = until(heard)
+        for _ in range(20):  # the first may come before the detections
+            report = heard() or report
+        if seen is None:
+            assert report.sighting is None
+            optical = "optical" in frame
+            assert (frame in report.hindrance) is optical
+        else:
+            assert report.sighting.bearing == pytest.approx(
+                atan2(seen[1], seen[0])
+            )
+            assert report.sighting.distance == pytest.approx(hypot(*seen))
+    finally:
+        body.close()
+        dds.close()
+
+
+def test_commands_and_odometry_have_the_names_that_are_asked_for() -> None:
+    dds = DdsParticipant(0, tag=TAG)
+    names = parse_remapping(["odom:=/state/odom", "cmd_vel:=nav/cmd_vel"])
+    body = Ros2Body(DdsParticipant(0, tag=TAG), "/nao", remapping=names)
+    odometry = dds.writer("rt/state/odom", Odometry)
+    commands = dds.reader("rt/nav/cmd_vel", Twist)
+    pose = PoseWithCovariance(pose_message(Pose(1.0, 0.0, 0.0)), [0.0] * 36)
+    still = TwistWithCovariance(Twist(Vector3(), Vector3()), [0.0] * 36)
+    header = Header(Time.of(3.0), "odom")
+    try:
+
+        def heard() -> Any:
+            odometry.write(Odometry(header, "base_footprint", pose, still))
+            return body.listen(0.002)
+
+        assert until(heard).pose.x == 1.0
+
+        def obeyed() -> Any:
+            body.command(VelocityCommand(0.25, 0.0))
+            return take_messages(commands)
+
+        assert until(obeyed)[0].linear.x == 0.25
+    finally:
+        body.close()
+        dds.close()
+
+
+@pytest.mark.parametrize(
+    "rules", [["cmd_vel"], ["speed:=/a"], ["odom:="], 2 * ["odom:=/a"]]
+)
+def test_an_invalid_remapping_is_refused(rules: list[str]) -> None:
+    with pytest.raises(ConfigurationError, match="remap"):
+        parse_remapping(rules)
 
 
 def test_time_frames_and_joints_are_published(scene: Scene) -> None:

@@ -100,6 +100,18 @@ class ConnectionSettings:
         "ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST",
         option="--network/--no-network",
     )
+    remap: tuple[str, ...] = setting(
+        (),
+        "Another name of a topic of a ROS 2 robot, NAME:=/TOPIC, with NAME "
+        "odom, cmd_vel, other, other_pose or detections; repeatable",
+        option="--remap",
+    )
+    opponent: str = setting(
+        "",
+        "Class of the detections (vision_msgs/Detection3DArray) that are "
+        "the opponent; any by default",
+        option="--opponent",
+    )
     sim_time: bool = setting(
         False,
         "The robot is simulated: its clock may pause or run at any rate",

@@ -29,7 +29,7 @@ CONNECTING = 6.0  # longest time that connecting takes, in [s]
 PAUSE = 0.3  # between two attempts, in [s]
 UNUSED_BY_CHECK = {
     *("record", "duration", "dead_man", "images", "max_speed", "max_turn"),
-    *("sim_time", "interface", "role"),
+    *("sim_time", "interface", "role", "remap", "opponent"),
 }
 TIME_IS_UP = "played long enough"
 INTERRUPTED = "interrupted"
@@ -172,6 +172,8 @@ def _refuse_unused(
         )
     if settings.sensing != "cameras":
         refuse_options({"images"}, "--sensing cameras, got ideal")
+    if not connection.robot.startswith(ROS2):
+        refuse_options({"remap", "opponent"}, f"a robot at {ROS2}")
     sources = connection.robot, connection.images, connection.dead_man
     if not any(ROS2 in str(source) for source in sources):
         refuse_options({"domain", "network"}, f"a robot or images at {ROS2}")

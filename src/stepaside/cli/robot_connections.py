@@ -183,11 +183,21 @@ def _ros2_connection(
 
     namespace = parse_namespace(connection.robot)
 
+    def remapping() -> dict[str, str]:
+        from ..drivers.ros2.topics import parse_remapping
+
+        return parse_remapping(connection.remap)
+
     def open_ros2() -> "VelocityBody":
         from ..drivers.ros2.ros2_body import Ros2Body
 
-        dds = connection.join_domain()
-        return Ros2Body(dds, namespace, dry_run=connection.dry_run)
+        return Ros2Body(
+            connection.join_domain(),
+            namespace,
+            dry_run=connection.dry_run,
+            remapping=remapping(),
+            opponent=connection.opponent,
+        )
 
     def join_ros2() -> "Callable[[], None]":
         from ..drivers.ros2.dds_domain import DdsParticipant
@@ -196,6 +206,7 @@ def _ros2_connection(
         return register_stopper(
             DdsParticipant(connection.domain, beyond=connection.network),
             namespace,
+            remapping(),
         )
 
     return open_ros2, join_ros2

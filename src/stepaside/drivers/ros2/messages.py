@@ -149,6 +149,54 @@ class TwistWithCovariance(
 
 
 @dataclass
+class ObjectHypothesis(
+    IdlStruct, typename="vision_msgs.msg.dds_.ObjectHypothesis_"
+):
+    """Class of a detected object, with its score."""
+
+    class_id: str
+    score: float64
+
+
+@dataclass
+class ObjectHypothesisWithPose(
+    IdlStruct, typename="vision_msgs.msg.dds_.ObjectHypothesisWithPose_"
+):
+    """Class of a detected object, with its pose."""
+
+    hypothesis: ObjectHypothesis
+    pose: PoseWithCovariance
+
+
+@dataclass
+class BoundingBox3D(IdlStruct, typename="vision_msgs.msg.dds_.BoundingBox3D_"):
+    """Box around a detected object."""
+
+    center: PoseMessage
+    size: Vector3
+
+
+@dataclass
+class Detection3D(IdlStruct, typename="vision_msgs.msg.dds_.Detection3D_"):
+    """Detected object."""
+
+    header: Header
+    results: sequence[ObjectHypothesisWithPose]
+    bbox: BoundingBox3D
+    id: str
+
+
+@dataclass
+class Detection3DArray(
+    IdlStruct, typename="vision_msgs.msg.dds_.Detection3DArray_"
+):
+    """Objects detected at one instant."""
+
+    header: Header
+    detections: sequence[Detection3D]
+
+
+@dataclass
 class Odometry(IdlStruct, typename="nav_msgs.msg.dds_.Odometry_"):
     """Estimated pose and velocity of a robot."""
 

@@ -1,7 +1,7 @@
 """Driver for a robot that follows velocity commands on ROS 2 topics."""
 
 import logging
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import partial
 from math import atan2, hypot, inf
 from time import monotonic, sleep
@@ -14,16 +14,27 @@ from ..guardian_process import SessionLost
 from ..velocity.velocity_body import REST, VelocityCommand, VelocityReport
 from .dds_domain import DdsParticipant, take_messages
 from .endpoint_discovery import Endpoints
-from .messages import Header, Odometry, PointStamped, PoseStamped, Time
+from .messages import (
+    Detection3DArray,
+    Header,
+    Odometry,
+    PointStamped,
+    PoseStamped,
+    Time,
+)
 from .topics import (
     COMMAND,
+    DETECTIONS,
     IDEAL,
+    NO_REMAPPING,
     ODOMETRY,
     POINT,
     POSE,
     dds_topic,
+    nearest_detection,
     pose_of,
     position_of,
+    ros_topic,
 )
 from .velocity_commands import KINDS, CommandWriter, ros_type
 
@@ -42,14 +53,21 @@ class Ros2Body:
 
     Reads ``odom`` and the opponent's position: ``other`` (a point) or
     ``other_pose``, in the odometry frame if the header says so, else in the
-    robot's own frame, x forward and y left; from a simulated robot also
+    robot's own frame, x forward and y left; or ``detections`` of another
+    program, of which the nearest one counts; from a simulated robot also
     ``ideal_sight``. Writes ``cmd_vel`` as ``Twist`` or ``TwistStamped``,
     whichever the robot subscribes to. Commands carry the stamp of the newest
     odometry, as robots reject stamps that are old by their clock.
     """
 
     def __init__(
-        self, dds: DdsParticipant, namespace: str, *, dry_run: bool = False
+        self,
+        dds: DdsParticipant,
+        namespace: str,
+        *,
+        dry_run: bool = False,
+        remapping: Mapping[str, str] = NO_REMAPPING,
+        opponent: str = "",
     ) -> None:
         """Subscribe to the robot's topics.
 
@@ -57,27 +75,32 @@ class Ros2Body:
             dds: DDS participant; closed with the body.
             namespace: Namespace of the robot, with a leading slash; or empty.
             dry_run: Whether nothing is commanded.
+            remapping: Topics with another name.
+            opponent: Class of the detections that count; empty for any.
         """
         self._dds, self._namespace = dds, namespace
+        self._opponent, self._fault = opponent, ""
+
+        def topic_of(name: str) -> str:
+            return dds_topic(namespace, name, remapping)
 
         def reader(name: str, kind: type[Any]) -> Any:
-            return dds.reader(dds_topic(namespace, name), kind)
+            return dds.reader(topic_of(name), kind)
 
         self._odometry = reader(ODOMETRY, Odometry)
-        self._publishers = Endpoints(
-            dds, dds_topic(namespace, ODOMETRY), writers=True
-        )
+        self._odometry_name = ros_topic(namespace, ODOMETRY, remapping)
+        self._publishers = Endpoints(dds, topic_of(ODOMETRY), writers=True)
         self._hint_at = monotonic() + HINT_AFTER
         self._sights = {
             POINT: reader(POINT, PointStamped),
             POSE: reader(POSE, PoseStamped),
             IDEAL: reader(IDEAL, PointStamped),
         }
-        topic = dds_topic(namespace, COMMAND)
-        self._others = Endpoints(dds, topic, writers=True)
+        self._detections = reader(DETECTIONS, Detection3DArray)
+        self._others = Endpoints(dds, topic_of(COMMAND), writers=True)
         self._commands: CommandWriter | None = None
         if not dry_run:
-            self._commands = CommandWriter(dds, namespace)
+            self._commands = CommandWriter(dds, namespace, remapping)
         self._header = UNSTAMPED
         self._poses: StateHistory[Pose] = StateHistory(POSE_TICK)
         self._sighting: Sighting | None = None
@@ -110,7 +133,7 @@ class Ros2Body:
         if monotonic() < self._hint_at:
             return
         self._hint_at = inf
-        name, types = f"{self._namespace}/{ODOMETRY}", self._publishers.types
+        name, types = self._odometry_name, self._publishers.types
         if not types:
             log.warning("nothing publishes %s; %s", name, self._dds.reach)
             return
@@ -142,7 +165,7 @@ class Ros2Body:
             log.warning("%s", error)
         finally:
             del self._odometry, self._sights, self._others, self._commands
-            del self._publishers
+            del self._publishers, self._detections
             self._dds.close()
 
     def _report(self, odometry: Odometry) -> VelocityReport:
@@ -159,7 +182,10 @@ class Ros2Body:
                         "uses the ideal line of sight of %s",
                         self._namespace or "/",
                     )
-                self._note(message, odometry.header.frame_id)
+                point, stamp = position_of(message), message.header
+                self._note((point.x, point.y), stamp, odometry)
+        for detections in take_messages(self._detections):
+            self._note_detections(detections, odometry)
         return VelocityReport(time, pose, self._sighting, self._hindrance())
 
     def _hindrance(self) -> str:
@@ -167,22 +193,44 @@ class Ros2Body:
         if self._commands and (reason := self._commands.hindrance()):
             return reason
         others = self.commanders
-        return f"{others} others command this robot" if others else ""
+        if others:
+            return f"{others} others command this robot"
+        return self._fault
+
+    def _note_detections(
+        self, message: Detection3DArray, odometry: Odometry
+    ) -> None:
+        """Convert the nearest detection to a sighting.
+
+        Detections in the axes of a camera are refused: there, x is to the
+        right and y down.
+        """
+        frame, self._fault = message.header.frame_id, ""
+        if frame.endswith(("optical", "optical_frame")):
+            self._fault = (
+                f"detections are in {frame}, and must be in "
+                f"{odometry.child_frame_id} or {odometry.header.frame_id}"
+            )
+            return
+        place = nearest_detection(message, self._opponent)
+        if place is not None:
+            self._note(place, message.header, odometry)
 
     def _note(
-        self, message: PointStamped | PoseStamped, odometry_frame: str
+        self, place: tuple[float, float], stamp: Header, odometry: Odometry
     ) -> None:
         """Convert the opponent's position to a sighting."""
-        point, time = position_of(message), message.header.stamp.seconds
-        x, y = point.x, point.y
-        if message.header.frame_id == odometry_frame:
+        time, (x, y) = stamp.stamp.seconds, place
+        if stamp.frame_id == odometry.header.frame_id:
             pose_in_odometry = self._poses.at(time)
             x, y, _ = pose_in_odometry.inverse().compose(Pose(x, y, 0.0))
         self._sighting = Sighting(time, atan2(y, x), hypot(x, y))
 
 
 def register_stopper(
-    dds: DdsParticipant, namespace: str
+    dds: DdsParticipant,
+    namespace: str,
+    remapping: Mapping[str, str] = NO_REMAPPING,
 ) -> Callable[[], None]:
     """Register a robot's topics, and return a function that stops it.
 
@@ -191,14 +239,19 @@ def register_stopper(
     Args:
         dds: DDS participant; closed after the robot has been stopped.
         namespace: Namespace of the robot, with a leading slash; or empty.
+        remapping: Topics with another name.
     """
     for kind in KINDS:
-        dds.register(dds_topic(namespace, COMMAND), kind)
-    return partial(command_standstill, dds, namespace)
+        dds.register(dds_topic(namespace, COMMAND, remapping), kind)
+    return partial(command_standstill, dds, namespace, remapping=remapping)
 
 
 def command_standstill(
-    dds: DdsParticipant, namespace: str, duration: float = GUARDIAN_DURATION
+    dds: DdsParticipant,
+    namespace: str,
+    duration: float = GUARDIAN_DURATION,
+    *,
+    remapping: Mapping[str, str] = NO_REMAPPING,
 ) -> None:
     """Command zero velocity when control has failed.
 
@@ -207,8 +260,9 @@ def command_standstill(
         namespace: Namespace of the robot, with a leading slash; or empty.
         duration: Duration of the commands, in [s]; discovery takes some
             of it.
+        remapping: Topics with another name.
     """
-    commands = CommandWriter(dds, namespace)
+    commands = CommandWriter(dds, namespace, remapping)
     for _ in range(round(duration / STOP_PAUSE)):
         commands.write(REST, UNSTAMPED)
         sleep(STOP_PAUSE)

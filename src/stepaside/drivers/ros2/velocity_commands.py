@@ -5,13 +5,14 @@ type does not match a reader of the other, without any error.
 """
 
 import logging
+from collections.abc import Mapping
 from typing import Any
 
 from ..velocity.velocity_body import VelocityCommand
 from .dds_domain import DdsParticipant, take_messages
 from .endpoint_discovery import Endpoints
 from .messages import Header, Twist, TwistStamped
-from .topics import COMMAND, dds_topic, vector
+from .topics import COMMAND, NO_REMAPPING, dds_topic, ros_topic, vector
 
 KINDS: tuple[type[Any], ...] = (Twist, TwistStamped)
 HANDLES = 1 << 64  # CycloneDDS has handles as signed and unsigned numbers
@@ -24,15 +25,22 @@ class CommandWriter:
     A writer is created when the first subscriber of its type is discovered.
     """
 
-    def __init__(self, dds: DdsParticipant, namespace: str) -> None:
+    def __init__(
+        self,
+        dds: DdsParticipant,
+        namespace: str,
+        remapping: Mapping[str, str] = NO_REMAPPING,
+    ) -> None:
         """Start the discovery of subscribers.
 
         Args:
             dds: DDS participant; the caller closes it.
             namespace: Namespace of the robot, with a leading slash; or empty.
+            remapping: Topics with another name.
         """
-        self._dds, self._name = dds, f"{namespace}/{COMMAND}"
-        self._topic = dds_topic(namespace, COMMAND)
+        self._dds = dds
+        self._name = ros_topic(namespace, COMMAND, remapping)
+        self._topic = dds_topic(namespace, COMMAND, remapping)
         self._subscribers = Endpoints(dds, self._topic, writers=False)
         self._writers: dict[type[Any], Any] = {}
 
