@@ -81,10 +81,12 @@ def main() -> None:
     asked.add_argument("--workers", type=int)
     arguments = asked.parse_args()
     speed, seeds, body = arguments.speed, arguments.seeds, arguments.body
+    # Cameras never detect people from behind.
+    behind = seeds if arguments.sensing == "lidar" else seeds[:1]
     output, how = arguments.output, (arguments.sensing, body, speed)
     groups = {
         "ahead": grid(*how, seeds, AHEAD, *AIMED),
-        "behind": grid(*how, seeds[:1], BEHIND, AIMED[0]),
+        "behind": grid(*how, behind, BEHIND, AIMED[0]),
         "past": grid(*how, seeds, AHEAD, *BY),
     }
     jobs = {each.key: each for group in groups.values() for each in group}

@@ -72,6 +72,7 @@ TABLES: dict[str, Callable[..., str]] = {
     "passers-by": people.passers_by,
     "people": people.people,
     "people-passed-by": people.passed_by,
+    "people-reactions": people.reactions,
     "people-seen": people.seen,
     "policy-circles": policies.circles,
     "policy-tracking": policies.tracking,

@@ -66,14 +66,15 @@ def passers_by(*results: Mapping[str, Any]) -> str:
 
 
 def seen(*results: Mapping[str, Any]) -> str:
-    """List people who approach or pass a robot with cameras."""
+    """List people who approach a robot with cameras or a lidar."""
     rows = []
     for result in results:
         settings = result["settings"]
         body, speed = settings["body"], f"{settings['speed_m_s']:g}"
         rows += [
             (
-                *(body, speed, "the front" if ahead else "behind"),
+                *(row["sensing"], body, speed),
+                "the front" if ahead else "behind",
                 str(row["number"]),
                 counted(row["contacts"], row["number"]),
                 counted(row["falls"], row["number"]),
@@ -85,18 +86,46 @@ def seen(*results: Mapping[str, Any]) -> str:
             for ahead in [row["from"] == "ahead"]
         ]
     head = (
-        *("body", "speed [m/s]", "come from", "people", "touched", "fell"),
-        *("closest [m]", "mean [m]", "begun at [m]"),
+        *("seen by", "body", "speed [m/s]", "come from", "people"),
+        *("touched", "fell", "closest [m]", "mean [m]", "begun at [m]"),
+    )
+    return table(head, rows)
+
+
+def reactions(*results: Mapping[str, Any]) -> str:
+    """List what came of people by reaction, drawn at random and searched."""
+    rows = [
+        (
+            row["sensing"],
+            row["reaction"],
+            "searched" if row["hard"] else "drawn",
+            str(row["number"]),
+            counted(row["contacts"], row["number"]),
+            counted(row["falls"], row["number"]),
+            number(row["closest_m"], 2),
+            number(row["median_closest_m"], 2),
+            ", ".join(f"{n} {c}" for c, n in row["causes"].items()) or "-",
+        )
+        for result in results
+        for row in result["reactions"]
+    ]
+    head = (
+        *("seen by", "reaction", "people", "games", "touched", "fell"),
+        *("closest [m]", "median [m]", "causes"),
     )
     return table(head, rows)
 
 
 def passed_by(*results: Mapping[str, Any]) -> str:
-    """List false triggers of a robot with cameras."""
+    """List false triggers of a robot with cameras or a lidar."""
     return table(
-        ("body", "speed [m/s]", "passers-by", "false triggers", "touched"),
+        (
+            *("seen by", "body", "speed [m/s]", "passers-by"),
+            *("false triggers", "touched"),
+        ),
         [
             (
+                passed["sensing"],
                 result["settings"]["body"],
                 f"{result['settings']['speed_m_s']:g}",
                 str(passed["number"]),
