@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from stepaside.arena import Disc, Room
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.sim.person_motion import (
@@ -268,6 +269,24 @@ def test_a_straight_retreat_is_the_difference_of_the_speeds() -> None:
     begun = 0.2 / 0.15
     gap = RADIUS - (8.0 - begun) * (0.15 - SPEED)
     assert least == pytest.approx(gap, abs=2e-3)
+
+
+@pytest.mark.parametrize("path", ["straight", "steer"])
+@pytest.mark.parametrize("reaction", ["none", "regular"])
+def test_a_person_stays_in_its_room(path: str, reaction: str) -> None:
+    """The evader stands behind a disc, near a corner."""
+    if path == "steer" and reaction != "none":
+        return
+    room = Room(4.0, 4.0, (Disc(0.5, 0.3, 0.3),))
+    person = PersonSettings(path, 1.0, 1.0, reaction=reaction)
+    start, evader = Pose(-1.2, -0.4, 0.3), (1.6, 1.4)
+    motion = PersonMotion(person, start, evader, room.solid_set)
+    for i in range(800):
+        motion.advance(0.01 * (i + 1), 0.01, evader)
+        place = [motion.pose[:2]]
+        assert room.solid_set.clearance(place)[0] > 0.1
+    moved = hypot(motion.pose.x - start.x, motion.pose.y - start.y)
+    assert moved > 1.0
 
 
 def walked(person: PersonSettings, ways: int = 40) -> list[Pose]:

@@ -282,12 +282,14 @@ class DuelSettings:
                 f"pursuer_strategy must be {PURSUIT!r} for a person, whose "
                 f"path is person.path, got {self.pursuer_strategy!r}"
             )
-        if self.pursuer == "person" and self.room.plan is not None:
+        maps = self.room.plan is not None and self.map.source == "seen"
+        if maps and self.pursuer == "person":
             raise ConfigurationError(
-                "room.plan must be omitted with a person as pursuer: people "
-                "walk on an open floor"
+                "map.source must be 'given' or 'none' with a person as "
+                "pursuer, got 'seen': on a map that is being made only robots "
+                "are told from obstacles"
             )
-        if self.room.plan is not None and self.map.source == "seen":
+        if maps:
             if self.sensing != "cameras":
                 raise ConfigurationError(
                     "sensing must be 'cameras' with map.source = 'seen', "

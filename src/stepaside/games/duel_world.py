@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import mujoco
 
+from ..arena import NO_OBSTACLES
 from ..core.errors import ConfigurationError
 from ..core.poses import Pose
 from ..core.random_streams import named_generator
@@ -136,7 +137,13 @@ class DuelWorld:
             self.world.before_step.append(move)
         person = None
         if PURSUER not in self._setups:
-            walk = PersonMotion(settings.person, frames[0], frames[1][:2])
+            plan = settings.room.plan
+            walk = PersonMotion(
+                settings.person,
+                frames[0],
+                frames[1][:2],
+                NO_OBSTACLES if plan is None else plan.solid_set,
+            )
             figure = FIGURES[settings.person.figure]
             person = PersonBody(self.world, PURSUER, walk.pose, figure)
         # A player's ideal sensor needs the true state of its opponent.

@@ -1,5 +1,6 @@
 """World of a game of any number of players, with its players."""
 
+from ..arena import NO_OBSTACLES
 from ..core.poses import Pose
 from ..core.random_streams import named_generator
 from ..locomotion.policy.network_pool import NetworkPool
@@ -148,7 +149,11 @@ class GameWorld:
             )
         target = self._truths[target_of_person(settings, own)]
         aim = target.position_torso_in_world
-        path = PersonMotion(own.person, pose, aim)
+        room = settings.room
+        path = PersonMotion(
+            *(own.person, pose, aim),
+            NO_OBSTACLES if room is None else room.solid_set,
+        )
         return FloorPlayer(body, PathSteering(path, target, tick))
 
     def _robot(self, own: PlayerSettings) -> Player:

@@ -382,7 +382,8 @@ def _motion(settings: GameSettings, own: PlayerSettings) -> TemplateMotion:
     target = target_of_person(settings, own)
     aim = settings.player(target).pose
     assert aim is not None
-    return PersonTemplate(PersonMotion(own.person, pose, aim[:2]), target)
+    walk = PersonMotion(own.person, pose, aim[:2], obstacles)
+    return PersonTemplate(walk, target)
 
 
 def agent_of(settings: GameSettings, own: PlayerSettings) -> TemplateAgent:

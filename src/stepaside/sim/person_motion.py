@@ -6,11 +6,12 @@ from pathlib import Path
 
 import numpy as np
 
+from ..arena import NO_OBSTACLES, ObstacleSet
 from ..core.errors import ConfigurationError
 from ..core.poses import Array, Pose, wrap_angle
 from ..theory import laws
 from ..theory.unicycle.unicycle_game import Unicycle
-from .crowd_motion import CrowdMotion, CrowdSettings, Neighbour
+from .crowd_motion import RADIUS, CrowdMotion, CrowdSettings, Neighbour
 from .person_crossings import RepeatedCrossings
 from .person_settings import PATHS, PersonSettings
 
@@ -27,7 +28,11 @@ class PersonMotion:
     """
 
     def __init__(
-        self, settings: PersonSettings, start: Pose, evader: Place
+        self,
+        settings: PersonSettings,
+        start: Pose,
+        evader: Place,
+        obstacles: ObstacleSet = NO_OBSTACLES,
     ) -> None:
         """Start a walk.
 
@@ -35,11 +40,13 @@ class PersonMotion:
             settings: Settings of the walk.
             start: Initial pose in the world; a recorded path ignores it.
             evader: Initial position of the evader in the world, in [m].
+            obstacles: Walls and obstacles of a room, along which a person
+                slides; a recorded path ignores them.
 
         Raises:
             ConfigurationError: If a recorded path cannot be read.
         """
-        self._settings = settings
+        self._settings, self._obstacles = settings, obstacles
         self._recorded: Array | None = None
         heading = start.theta
         if settings.path in ("straight", "visits"):
@@ -59,6 +66,7 @@ class PersonMotion:
                 CrowdSettings(settings.speed, settings.reaction),
                 Pose(start.x, start.y, heading),
                 (start.x + far * cos(heading), start.y + far * sin(heading)),
+                obstacles,
             )
         self.pose = self._pose_facing(start.x, start.y)
         if settings.path not in PATHS:
@@ -105,9 +113,21 @@ class PersonMotion:
             self._course += turn
         self._walked += step_length
         course = self._course
-        self.pose = self._pose_facing(
-            x + step_length * cos(course), y + step_length * sin(course)
-        )
+        step = step_length * cos(course), step_length * sin(course)
+        dx, dy = self._along_walls((x, y), step)
+        self.pose = self._pose_facing(x + dx, y + dy)
+
+    def _along_walls(self, place: Place, step: Place) -> Place:
+        """Return a step without its components into near obstacles, [m]."""
+        if not self._obstacles:
+            return step
+        near = self._obstacles.clearances([place])[0] < RADIUS
+        outward = self._obstacles.directions_out([place])[0]
+        dx, dy = step
+        for u, v in outward[near].tolist():
+            inward = min(0.0, dx * u + dy * v)
+            dx, dy = dx - inward * u, dy - inward * v
+        return dx, dy
 
     def _pose_facing(self, x: float, y: float) -> Pose:
         """Return the pose at a position, facing along the walk or backward."""
