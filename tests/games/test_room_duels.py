@@ -21,6 +21,7 @@ from stepaside.arena import (
 from stepaside.arena.room_generation import RoomRecipe
 from stepaside.cli.main import main
 from stepaside.cli.options.print_config import commented
+from stepaside.control.clearance.map_settings import MapSettings
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Pose
 from stepaside.games.configuration_file import (
@@ -141,12 +142,18 @@ def test_unplayable_rooms_are_refused(room: Room, words: str) -> None:
         Duel(placed(room))
 
 
-def test_a_room_excludes_other_starts_and_people() -> None:
+def test_a_room_excludes_other_starts_and_a_map_of_people() -> None:
     room = replace(FULL, starts=STARTS)
     with pytest.raises(ConfigurationError, match="start.distance must be"):
         Duel(placed(room, start=StartSettings(distance=1.0)))
-    with pytest.raises(ConfigurationError, match="open floor"):
-        placed(room, pursuer="person")
+    with pytest.raises(ConfigurationError, match="with a person as pursuer"):
+        placed(
+            room,
+            pursuer="person",
+            sensing="cameras",
+            map=MapSettings(source="seen"),
+        )
+    assert placed(room, pursuer="person").robots == ("evader",)
 
 
 def test_a_configuration_keeps_the_room() -> None:
