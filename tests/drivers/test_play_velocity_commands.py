@@ -32,7 +32,7 @@ def refused(capsys: pytest.CaptureFixture[str], *words: str) -> str:
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        ("play --role evader --robot nao:x", "ros2:, or be FILE.py:CLASS"),
+        ("play --role evader --robot nao:x", "rcss:, or be FILE.py:CLASS"),
         ("play --role evader --robot ros2:/na-o", "namespace must be"),
         ("play --role evader --robot naoqi:x:0", "naoqi:tcp://HOST:PORT"),
         (
