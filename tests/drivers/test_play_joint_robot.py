@@ -1,0 +1,105 @@
+"""Test ``play`` with a joint-driven robot in Python, and its guardian."""
+
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from time import monotonic, sleep
+
+import pytest
+
+ROBOT = '''
+import os
+from time import monotonic, sleep
+import stepaside as sa
+from stepaside.drivers.lola.nao_joints import NAO_MOTORS
+
+class Echo(sa.JointRobot):
+    """NAO whose joints are where they are told to be."""
+
+    tick = 0.012
+    gains = dict.fromkeys(NAO_MOTORS.names, (100.0, 5.0))
+
+    def open(self):
+        self.angles = dict.fromkeys(NAO_MOTORS.names, 0.0)
+        self.speeds = dict.fromkeys(NAO_MOTORS.names, 0.0)
+
+    def listen(self):
+        sleep(0.004)
+        now = monotonic()
+        force = (0.0, 0.0, 9.8 + 0.01 * (now % 0.1))
+        sees = sa.Sighting.of_position(now, 0.6, 0.1)
+        return sa.JointReport(
+            now, self.angles, self.speeds, (0.0, 0.0, 0.0), force,
+            (0.0, 0.0), [6.5] * 8, sees,
+        )
+
+    def command(self, targets):
+        self.note("command")
+        self.angles = {name: each.angle for name, each in targets.items()}
+
+    def release(self):
+        self.note(f"release {os.getpid()}")
+
+    def note(self, word):
+        with open(os.environ["ECHO_LOG"], "a") as log:
+            print(word, file=log)
+'''
+PLAY = "from stepaside.cli.main import main; main()"
+LONGEST = 60.0  # for what takes seconds on an idle machine, in [s]
+
+
+@pytest.fixture
+def play(tmp_path: Path) -> Iterator["subprocess.Popen[str]"]:
+    """A play of the robot, which logs its calls."""
+    file = tmp_path / "echo.py"
+    file.write_text(ROBOT, encoding="utf-8")
+    words = [sys.executable, "-c", PLAY, "play", "--robot", f"{file}:Echo"]
+    process = subprocess.Popen(
+        words,
+        env=os.environ | {"ECHO_LOG": str(tmp_path / "log")},
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    yield process
+    process.kill()
+    process.communicate()
+
+
+def calls(folder: Path) -> list[str]:
+    """The calls so far."""
+    log = folder / "log"
+    return log.read_text(encoding="utf-8").split("\n") if log.exists() else []
+
+
+def until_commanded(folder: Path) -> None:
+    deadline = monotonic() + LONGEST
+    while calls(folder).count("command") < 20:
+        assert monotonic() < deadline
+        sleep(0.02)
+
+
+@pytest.mark.parametrize("fate", [signal.SIGKILL, signal.SIGSTOP])
+def test_the_guardian_releases_the_joints(
+    fate: signal.Signals, play: "subprocess.Popen[str]", tmp_path: Path
+) -> None:
+    until_commanded(tmp_path)
+    play.send_signal(fate)
+    assert play.wait(LONGEST) == -signal.SIGKILL
+    deadline = monotonic() + LONGEST
+    while not calls(tmp_path)[-2].startswith("release"):
+        assert monotonic() < deadline
+        sleep(0.02)
+    assert calls(tmp_path)[-2] != f"release {play.pid}"
+
+
+def test_an_interrupt_rests_and_releases_the_joints(
+    play: "subprocess.Popen[str]", tmp_path: Path
+) -> None:
+    until_commanded(tmp_path)
+    play.send_signal(signal.SIGINT)
+    said = play.communicate(timeout=LONGEST)[1]
+    assert "resting" in said
+    assert calls(tmp_path)[-2] == f"release {play.pid}"
