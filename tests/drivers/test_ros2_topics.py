@@ -154,7 +154,7 @@ def test_the_ideal_sight_has_the_robots_sighting(
 
 
 @pytest.mark.parametrize("kind", ["point", "pose"])
-@pytest.mark.parametrize("frame", ["nao/base_link", "nao/odom"])
+@pytest.mark.parametrize("frame", ["nao/base_footprint", "nao/odom"])
 def test_the_opponent_may_be_given_in_either_frame(
     scene: Scene, body: Ros2Body, kind: str, frame: str
 ) -> None:
@@ -205,9 +205,9 @@ def detection(kind: str, x: float, y: float) -> Detection3D:
 @pytest.mark.parametrize(
     ("opponent", "frame", "seen"),
     [
-        ("", "nao/base_link", (0.5, -0.2)),
-        ("person", "nao/base_link", (1.0, 0.4)),
-        ("robot", "nao/base_link", None),
+        ("", "nao/base_footprint", (0.5, -0.2)),
+        ("person", "nao/base_footprint", (1.0, 0.4)),
+        ("robot", "nao/base_footprint", None),
         ("person", "camera_optical_frame", None),
     ],
 )
@@ -316,7 +316,7 @@ def test_time_frames_and_joints_are_published(scene: Scene) -> None:
     until(told)
     (transform,) = found[TFMessage].transforms
     assert transform.header.frame_id == "nao/odom"
-    assert transform.child_frame_id == "nao/base_link"
+    assert transform.child_frame_id == "nao/base_footprint"
     assert list(found[JointState].position) == [0.1, 0.2]
     assert list(found[JointState].name) == ["LKneePitch", "RKneePitch"]
     clock = found[ClockMessage].clock.seconds

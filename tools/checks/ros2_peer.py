@@ -188,7 +188,7 @@ class Commander:
         twist = message.twist.twist
         moves = twist.linear.x, twist.angular.z
         frames = message.header.frame_id, message.child_frame_id
-        ours = frames == ("ours/odom", "ours/base_link")
+        ours = frames == ("ours/odom", "ours/base_footprint")
         ours = ours and (place.x, place.y) == START
         self.heard.note("odom", ours and moves in ((0.0, 0.0), ASKED))
 

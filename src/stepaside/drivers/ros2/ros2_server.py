@@ -266,7 +266,7 @@ class Ros2Server:
         stamp = Time.of(state.time)
         self._clock.publish(state.time)
         self._cameras.publish(state.image)
-        own = frame(self._namespace, "base_link")
+        own = frame(self._namespace, "base_footprint")
         fixed = Header(stamp, frame(self._namespace, "odom"))
         sighting = state.sighting
         if sighting is not None and sighting is not self._published:
