@@ -1,7 +1,7 @@
 """Test the shield around a strategy."""
 
 from dataclasses import dataclass, replace
-from math import atan2, cos, hypot, pi, sin
+from math import atan2, cos, exp, hypot, pi, sin
 
 import numpy as np
 import pytest
@@ -16,6 +16,11 @@ from stepaside.strategies.shield import (
     shielded,
 )
 from stepaside.strategies.shield_settings import ShieldSettings
+from stepaside.strategies.shield_template import (
+    LEGS_LOSS,
+    LEGS_PERIOD,
+    TemplatePoint,
+)
 from stepaside.strategies.velocity_set import (
     AxisValues,
     BodyVelocity,
@@ -151,6 +156,27 @@ def test_no_contact_from_certified_starts() -> None:
     ]
     assert sum(np.isfinite(found)) > 10
     assert min(found) > PERSON.contact
+
+
+def test_template_point_follows_commands_and_body_rests_at_it() -> None:
+    """Without another loss, a lagging body is its lag behind the point."""
+    lag, tick = 0.3, 0.01
+    point, body, velocity = TemplatePoint((0.0, 0.0)), 0.0, 0.0
+    for i in range(400):
+        command = 0.7 if i < 200 else 0.0
+        velocity += (1.0 - exp(-tick / lag)) * (command - velocity)
+        body += tick * velocity
+        point = point.advance((command, 0.0), (body, 0.0), lag, tick)
+        assert abs(point.position[0] - body) <= lag * 0.7 + 0.01
+    assert point.position[0] == pytest.approx(body, abs=0.01)
+    assert body == pytest.approx(1.4, abs=0.01)
+
+
+def test_template_point_follows_a_displaced_body_slowly() -> None:
+    """By no more than the loss in a period, whatever the body does."""
+    point = TemplatePoint((0.0, 0.0))
+    moved = point.advance((0.2, 0.0), (0.0, 5.0), 0.3, LEGS_PERIOD)
+    assert moved.position[1] == pytest.approx(LEGS_LOSS, rel=0.01)
 
 
 def test_legs_hold_a_velocity_over_the_floor_while_they_turn() -> None:

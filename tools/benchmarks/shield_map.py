@@ -246,9 +246,9 @@ def main() -> None:
             load_robot(arguments.robot),
             tick=0.02,
         )
-        person = ShieldSettings(True, 1.2, 8.0, 0.45)
+        person = ShieldSettings(True, 1.0, 8.0, 0.45)
         robots["learned legs"] = MappedRobot(
-            LEGS_GAIT, policy.velocities, person, 20.0
+            LEGS_GAIT, policy.velocities, person, 25.0
         )
     robots = {n: r for n, r in robots.items() if arguments.only in n}
     maps = {}

@@ -169,6 +169,7 @@ def measurement_facts(result: "LegsMeasurement") -> dict[str, Any]:
         "falls": result.falls,
         "gains": result.gains().tolist(),
         "limits": velocities.bounds,
+        "tube_m": velocities.tube,
         "lag_s": [axis.lag for axis in result.response.axes],
         "halting": [axis.halting for axis in result.response.axes],
         "odometry_ratio": result.odometry_ratio(),

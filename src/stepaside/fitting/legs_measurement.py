@@ -2,8 +2,8 @@
 
 from collections.abc import Callable
 from concurrent.futures import Executor
-from dataclasses import dataclass
-from math import hypot
+from dataclasses import dataclass, replace
+from math import hypot, isfinite
 from typing import NamedTuple
 
 import mujoco
@@ -29,6 +29,7 @@ from ..robots.description import RobotDescription
 from ..sim.body_settings import BodySettings, at_tick
 from ..sim.physics_settings import PhysicsSettings
 from ..sim.world import World
+from ..strategies.shield_template import TemplatePoint
 from ..strategies.velocity_set import STILL, BodyVelocity
 
 STANDING = 1.5  # before the command, in [s]: the gyro is calibrated in 1 s
@@ -36,6 +37,8 @@ SETTLING = 3.0  # from the command to a steady walk, in [s]
 STEADY = 6.0  # over which the velocity is averaged, in [s]
 RANDOM_WALK = 60.0  # of random commands, in [s]
 HOLDS = 1.0, 4.0  # shortest and longest time of a random command, in [s]
+TRACKING_WALK = 40.0  # of random velocities, in [s]
+TRACKING_WALKS = 3
 HALTING = 2.0  # from the end of the command to the end of a trial, in [s]
 SHARES = (-1.0, -0.75, -0.5, -0.25, 0.0, 0.25, 0.5, 0.75, 1.0)
 # Combined commands, as shares of the range, that check the sum of the axes.
@@ -58,6 +61,8 @@ class LegsTrial:
         body: Deviations of the body from an ideal one.
         command: Command of the policy.
         seed: Seed of sensor errors.
+        response: Response by which velocities are commanded; None for
+            commands as they are.
     """
 
     description: RobotDescription
@@ -65,6 +70,7 @@ class LegsTrial:
     body: BodySettings
     command: BodyVelocity
     seed: int
+    response: VelocityResponse | None = None
 
 
 class LegsTrialResult(NamedTuple):
@@ -141,6 +147,43 @@ def run_random_walk(trial: LegsTrial) -> float | None:
     return None
 
 
+def run_tracking_walk(trial: LegsTrial) -> float:
+    """Walk at random velocities; return the tube of the body.
+
+    Velocities are drawn from the set that the legs deliver, and hold for 1 to
+    4 s.
+
+    Returns:
+        Greatest distance of the body from its template point, see
+        :mod:`stepaside.strategies.shield_template`, in [m]; NaN after a fall.
+
+    Raises:
+        PolicyError: If the network cannot run on the robot.
+    """
+    assert trial.response is not None
+    walk, legs = _LegsWalk(trial), trial.response.velocities
+    generator = named_generator(trial.seed, "tracking walk")
+    low, high = np.array(legs[:3]).T
+    wanted, until, tick = STILL, STANDING, walk.world.physics.tick
+    lag = max(0.0, *legs.lags[:2])
+    template = TemplatePoint(walk.truth.position_reference_in_world)
+    tube = 0.0
+    while walk.world.time < TRACKING_WALK:
+        if walk.world.time + 1e-9 >= until:
+            drawn = BodyVelocity(*generator.uniform(low, high).tolist())
+            wanted = legs.nearest(drawn)
+            until += float(generator.uniform(*HOLDS))
+        theta = walk.truth.heading_in_world
+        u, v, _ = Pose(0.0, 0.0, theta).compose(Pose(*wanted[:2], 0.0))
+        if not walk.advance(wanted):
+            return float("nan")
+        body = walk.truth.position_reference_in_world
+        template = template.advance((u, v), body, lag, tick)
+        x, y = template.position
+        tube = max(tube, hypot(body[0] - x, body[1] - y))
+    return tube
+
+
 class _LegsWalk:
     """Robot on a policy in a world of its own.
 
@@ -165,7 +208,8 @@ class _LegsWalk:
             network,
             description,
             tick=physics.tick,
-            learns=False,
+            response=trial.response,
+            learns=trial.response is not None,
         )
         setup = WalkerSetup(
             "robot",
@@ -346,13 +390,20 @@ def measure_legs(
         LegsTrial(description, legs, body, STILL, seed + i)
         for i in range(random_walks)
     ]
+    singles = results[: -len(COMBINED)]
+    axes = [_axis(i, singles) for i in range(3)]
+    response = VelocityResponse((axes[0], axes[1], axes[2]))
+    tracking = [
+        LegsTrial(description, legs, body, STILL, seed + i, response)
+        for i in range(TRACKING_WALKS)
+    ]
+    tubes = list(executor.map(run_tracking_walk, tracking))
+    kept = [tube for tube in tubes if isfinite(tube)]
+    response = replace(response, tube=max(kept, default=0.0))
     falls = []
     for fall in executor.map(run_random_walk, random):
         falls.append(fall)
         report(len(trials) + len(falls), len(trials) + random_walks)
-    singles = results[: -len(COMBINED)]
-    axes = [_axis(i, singles) for i in range(3)]
-    response = VelocityResponse((axes[0], axes[1], axes[2]))
     return LegsMeasurement(
         tuple(results),
         response,

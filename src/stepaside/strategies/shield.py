@@ -1,7 +1,7 @@
 """Shield: a least-restrictive filter around the strategy of a robot."""
 
 from dataclasses import dataclass
-from math import atan2, cos, exp, hypot, pi, sin, tau
+from math import atan2, cos, hypot, pi, sin, tau
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -12,6 +12,7 @@ from ..planning import Direction
 from .knowledge import STAND, Intent, Knowledge
 from .shield_model import ShieldModel
 from .shield_settings import ShieldSettings
+from .shield_template import TemplatePoint
 from .strategy import Strategy
 from .velocity_set import BodyVelocity
 
@@ -43,8 +44,7 @@ class ShieldMemory(NamedTuple):
         trace: Time [s] and position [m] of the opponent, the oldest first.
         held: Motion that replaces decisions; None for none.
         time: Time of the last decision, in [s].
-        drift: Own velocity over the floor then, by the lag of the legs, in
-            [m/s].
+        template: Template point of legs then; None before.
         command: Velocity over the floor that was commanded, in [m/s].
         replaced: Number of decisions that were replaced.
         guarded: Whether contact was excluded at the last decision.
@@ -54,7 +54,7 @@ class ShieldMemory(NamedTuple):
     trace: tuple[tuple[float, float, float], ...] = ()
     held: HeldMotion | None = None
     time: float = 0.0
-    drift: tuple[float, float] = (0.0, 0.0)
+    template: TemplatePoint | None = None
     command: tuple[float, float] = (0.0, 0.0)
     replaced: int = 0
     guarded: bool = False
@@ -103,15 +103,13 @@ class ShieldedStrategy:
         intent, inner = decided
         model = self.model_for(knowledge)
         trace = _with_sighting(memory.trace, knowledge, TRACE * model.window)
-        drift = _drift(model, memory, knowledge)
         begins = knowledge.step_start_in_map or knowledge.pose_in_map
-        own = Pose(
-            begins.x + model.lag * drift[0],
-            begins.y + model.lag * drift[1],
-            begins.theta,
-        )
+        template = _template(model, memory, knowledge)
+        own = begins
+        if model.velocities is not None:
+            own = Pose(*template.position, begins.theta)
         memory = memory._replace(
-            inner=inner, trace=trace, drift=drift, time=knowledge.time
+            inner=inner, trace=trace, template=template, time=knowledge.time
         )
         if intent.walks and intent.velocity and not model.velocities:
             # The nearest intent of a unicycle is what it will walk.
@@ -235,16 +233,15 @@ def _with_sighting(
     return (*(row for row in trace if time - kept <= row[0] < time), seen)
 
 
-def _drift(
+def _template(
     model: ShieldModel, memory: ShieldMemory, knowledge: Knowledge
-) -> tuple[float, float]:
-    """Return the own velocity over the floor, by the lag of the legs."""
-    if model.velocities is None or not knowledge.moving:
-        return 0.0, 0.0
+) -> TemplatePoint:
+    """Return the template point of the own body."""
+    body = knowledge.pose_in_map[:2]
+    if memory.template is None:
+        return TemplatePoint(body)
     passed = max(0.0, knowledge.time - memory.time)
-    rest = exp(-passed / model.lag) if model.lag > 0.0 else 0.0
-    (u, v), (a, b) = memory.drift, memory.command
-    return a + rest * (u - a), b + rest * (v - b)
+    return memory.template.advance(memory.command, body, model.lag, passed)
 
 
 def _intent_of(held: HeldMotion, model: ShieldModel, own: Pose) -> Intent:

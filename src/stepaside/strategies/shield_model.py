@@ -15,6 +15,7 @@ from ..planning import Direction
 from .dash_rollouts import greatest_velocities
 from .knowledge import ON_THE_SPOT, Intent, Limits
 from .shield_settings import ShieldSettings
+from .shield_template import LEGS_LOSS, LEGS_PERIOD
 from .velocity_set import STILL, BodyVelocity, VelocitySet
 
 if TYPE_CHECKING:  # the solver imports Numba
@@ -23,12 +24,11 @@ if TYPE_CHECKING:  # the solver imports Numba
 CELLS = 10  # of the grid of the table in the required distance
 
 LEGS_INTERVAL = 0.08  # between decisions on a body velocity, in [s]
-LEGS_PERIOD = 0.48  # of the motions of legs: several cells of the grid, [s]
 LEGS_DIRECTIONS = 16
 LEGS_RESPONSE = 0.1  # of legs that stand, beyond their lag, in [s]
 WALK_LOSS = 0.01  # of the paper's walk per step, in [m]; see docs/shield.md
-LEGS_LOSS = 0.03  # of learned legs that were not measured, in [m]
-OFFSET = 0.03  # of a swaying body from its template, in [m]
+SWAY = 0.03  # of a body on the paper's legs, in [m]
+UNMEASURED = 0.2  # tube of legs beyond their lag, if not measured, in [m]
 CELLS_PER_PERIOD = 6  # passed by the opponent while a motion is held
 TURNS = (-1.0, -0.5, 0.0, 0.5, 1.0)  # of a unicycle's step, of the largest
 FORMAT = 1  # of the files
@@ -90,9 +90,16 @@ class ShieldModel:
         """Departure of the body from its template per decision, in [m]."""
         if self.settings.loss is not None:
             return self.settings.loss
-        if self.velocities is None:
-            return WALK_LOSS
-        return self.velocities.loss or LEGS_LOSS
+        return WALK_LOSS if self.velocities is None else LEGS_LOSS
+
+    @property
+    def tube(self) -> float:
+        """Greatest distance of the body from its template, in [m]."""
+        legs = self.velocities
+        if legs is None:  # half a stride behind the begin of its next step
+            return SWAY + 0.5 * self.limits.stride
+        fastest = max(*map(abs, legs.forward))
+        return legs.tube or UNMEASURED + self.lag * fastest
 
     @property
     def response(self) -> float:
@@ -105,16 +112,12 @@ class ShieldModel:
     @property
     def required(self) -> float:
         """Least distance of the observed states, in [m]; docs/shield.md."""
-        settings, limits = self.settings, self.limits
-        ahead = 0.5 * limits.stride  # of the template before the body
-        if self.velocities is not None:
-            ahead = self.lag * max(*map(abs, self.velocities.forward))
+        settings = self.settings
         return (
             settings.contact
             + settings.sighting_error
             + self.loss
-            + OFFSET
-            + ahead
+            + self.tube
             + settings.speed * self.delay
         )
 

@@ -53,8 +53,9 @@ class VelocitySet(NamedTuple):
             final velocity, in [s].
         halting: Motion along each axis from the command to stand until the
             body stands, at the greatest velocity, in [m, m, rad].
-        loss: Greatest departure of the body from commands that are followed
-            with these lags, per decision, in [m]; 0 if it is not known.
+        tube: Greatest distance of the body from a point that follows
+            commands at once, see :mod:`.shield_template`, in [m]; 0 if it is
+            not known.
     """
 
     forward: Bounds
@@ -62,7 +63,7 @@ class VelocitySet(NamedTuple):
     turn: Bounds
     lags: AxisValues = AxisValues()
     halting: AxisValues = AxisValues()
-    loss: float = 0.0
+    tube: float = 0.0
 
     @property
     def bounds(self) -> dict[str, Bounds]:

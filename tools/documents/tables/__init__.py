@@ -45,6 +45,7 @@ TABLES: dict[str, Callable[..., str]] = {
     "certified": many_duels.certified,
     "certified-starts": unicycles.certified_starts,
     "chauffeur": bounds.chauffeur,
+    "shield-maps": bounds.shield_maps,
     "people-fast-gait": people.fast_gait,
     "served-velocities": served.velocities,
     "served-naoqi": served.naoqi,

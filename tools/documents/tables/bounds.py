@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
-from .markdown import NONE, number, table
+from .markdown import NONE, counted, number, table
 
 Result = Mapping[str, Any]
 GAMES = {"pursuit": "against eqs. (1)-(2)", "cars": "two identical cars"}
@@ -129,4 +129,41 @@ def chauffeur(result: Result) -> str:
         )
         for row in result["rows"]
     ]
+    return table(head, rows)
+
+
+def shield_maps(result: Result) -> str:
+    """Count contacts of games from certified starts, and from others."""
+    head = (
+        "robot",
+        "person [m/s], radius [m]",
+        "contact [m]",
+        "required [m]",
+        "start ahead, aside [m]",
+        "starts",
+        "games",
+        "contacts",
+        "closest [m]",
+    )
+    rows = []
+    for name, found in result["maps"].items():
+        for starts in ("certified", "outside"):
+            kinds = found[starts].values()
+            games = sum(kind["games"] for kind in kinds)
+            contacts = sum(kind["contacts"] for kind in kinds)
+            rows.append(
+                (
+                    name,
+                    f"{number(found['person_speed_m_s'], 2)}, "
+                    f"{number(found['turning_radius_m'], 1)}",
+                    number(found["contact_m"], 2),
+                    number(found["required_m"], 2),
+                    f"{number(found['start_ahead_m'], 2)}, "
+                    f"{number(found['start_aside_m'], 2)}",
+                    starts,
+                    str(games),
+                    counted(contacts, games),
+                    number(min(kind["closest_m"] for kind in kinds), 2),
+                )
+            )
     return table(head, rows)

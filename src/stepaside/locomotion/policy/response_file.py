@@ -27,6 +27,7 @@ def response_entries(
     axes = zip(AXES, response.axes, strict=True)
     return {
         "network": digest_of(network),
+        "tube": response.tube,
         **{
             name: {
                 "commands": list(axis.commands),
@@ -68,9 +69,10 @@ def load_response(folder: Path, network: Path) -> VelocityResponse | None:
             )
             for name in AXES
         ]
+        tube = float(entries.get("tube", 0.0))
     except (ValueError, KeyError, TypeError) as error:
         raise PolicyError(
             f"{path} is not a response of legs: `stepaside legs measure` "
             "writes it anew"
         ) from error
-    return VelocityResponse((axes[0], axes[1], axes[2]))
+    return VelocityResponse((axes[0], axes[1], axes[2]), tube)

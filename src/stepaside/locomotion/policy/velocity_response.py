@@ -79,9 +79,12 @@ class VelocityResponse:
 
     Attributes:
         axes: Response to commands ahead, to the left and of turning.
+        tube: Greatest distance of the body from its template point, in [m]; 0
+            if it was not measured.
     """
 
     axes: tuple[AxisResponse, AxisResponse, AxisResponse]
+    tube: float = 0.0
 
     def __post_init__(self) -> None:
         """Check the tables.
@@ -179,7 +182,9 @@ class VelocityResponse:
         bounds = [(own[0], own[-1]) for own in self._own]
         lags = AxisValues(*(axis.lag for axis in self.axes))
         halting = AxisValues(*(axis.halting for axis in self.axes))
-        return VelocitySet(bounds[0], bounds[1], bounds[2], lags, halting)
+        return VelocitySet(
+            bounds[0], bounds[1], bounds[2], lags, halting, self.tube
+        )
 
 
 def _locate(values: Sequence[float], value: float) -> tuple[int, float]:
