@@ -13,8 +13,8 @@ import pytest
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Pose
 from stepaside.drivers.guardian_process import SessionLost
+from stepaside.drivers.method_thread import BLOCKED
 from stepaside.drivers.velocity.adapter_body import (
-    BLOCKED,
     UNSTOPPED,
     AdapterBody,
     connect_adapter_stopper,

@@ -40,6 +40,7 @@ def test_to_stop_is_to_command_zero_where_the_sdk_has_no_other_way(
     tmp_path: Path,
 ) -> None:
     robot = load_robot_class(robot_file(tmp_path, VALID))()
+    assert isinstance(robot, VelocityRobot)
     robot.stop()
     assert vars(robot)["last"] == (0.0, 0.0, 0.0)
 
