@@ -16,8 +16,11 @@ if TYPE_CHECKING:
 
     from ..control.scheme import LocomotionScheme
     from ..core.poses import Array
+    from ..drivers.joint.adapter_link import AdapterLink
+    from ..drivers.joint.frames import MotorGains
     from ..drivers.joint.joint_body import JointBody
     from ..drivers.joint.joint_loop import JointLoop
+    from ..drivers.joint.joint_map import MotorTable
     from ..drivers.joint.joint_robot import JointRobot
     from ..drivers.robot_loader import RobotClass
     from ..games.duel_settings import DuelSettings
@@ -113,24 +116,14 @@ def _open_robot(
     make: "Callable[[], JointRobot]",
 ) -> "JointLoop":
     """Connect to a robot that takes joint targets with gains."""
-    from ..drivers.guardian_process import open_with_retries
-    from ..drivers.joint.adapter_link import (
-        AdapterLink,
-        connect_releaser,
-        own_gains,
-    )
+    from ..drivers.joint.adapter_link import connect_releaser, own_gains
     from ..drivers.joint.joint_body import JointBody, JointInterface
     from ..drivers.joint.joint_loop import JointLoop
     from ..drivers.joint.joint_map import motors_of
     from ..drivers.joint.stiffness_guardian import guard_release
-    from ..drivers.scheme_factory import (
-        control_scheme_factory,
-        policy_gains,
-        policy_scheme_factory,
-    )
+    from ..drivers.scheme_factory import policy_gains
     from ..locomotion.policy.legs_loader import load_policy
     from ..robots.tree_cache import load_tree
-    from .robot_connections import open_switch
 
     if settings.sensing == "cameras":
         raise click.UsageError(
@@ -145,18 +138,11 @@ def _open_robot(
     if legs.walks:
         contract, _ = load_policy(legs, description)
         gains = policy_gains(contract, motors, own)
-        make_scheme: Any = policy_scheme_factory(
-            description, legs, settings.gait, tick=robot.tick
-        )
     else:
         settings = with_feedback(settings)
-        make_scheme = control_scheme_factory(
-            description,
-            settings.gait,
-            settings.control,
-            tick=robot.tick,
-            delay_ticks=connection.delay_ticks,
-        )
+    make_scheme = _scheme_factory(
+        settings, connection, description, tick=robot.tick
+    )
     names = load_tree(description).motors
 
     def open_body(scheme: "LocomotionScheme") -> "JointBody":
@@ -164,18 +150,8 @@ def _open_robot(
         if not connection.dry_run and robot.keeps_targets and robot.paced:
             guardian = guard_release(lambda: connect_releaser(make))
         try:
-            switch = None
-            if connection.dead_man is not None:
-                switch = open_switch(connection.dead_man, connection)
-            link = open_with_retries(
-                lambda: AdapterLink(
-                    make(),
-                    motors,
-                    own,
-                    needs_forces=not legs.walks,
-                    switch=switch,
-                ),
-                connection.wait,
+            link = _link_to(
+                make, motors, own, connection, needs_forces=not legs.walks
             )
             return JointBody(
                 JointInterface(link, motors, link.codec, gains, stands=True),
@@ -192,6 +168,57 @@ def _open_robot(
     strategy = connection.strategy(settings)
     return JointLoop(
         open_body, strategy, make_scheme, dry_run=connection.dry_run
+    )
+
+
+def _link_to(
+    make: "Callable[[], JointRobot]",
+    motors: "MotorTable",
+    own: "MotorGains",
+    connection: ConnectionSettings,
+    *,
+    needs_forces: bool,
+) -> "AdapterLink":
+    """Connect to a robot, with its dead man's switch if there is one."""
+    from ..drivers.guardian_process import open_with_retries
+    from ..drivers.joint.adapter_link import AdapterLink
+    from .robot_connections import open_switch
+
+    switch = None
+    if connection.dead_man is not None:
+        switch = open_switch(connection.dead_man, connection)
+    return open_with_retries(
+        lambda: AdapterLink(
+            make(), motors, own, needs_forces=needs_forces, switch=switch
+        ),
+        connection.wait,
+    )
+
+
+def _scheme_factory(
+    settings: "DuelSettings",
+    connection: ConnectionSettings,
+    description: "RobotDescription",
+    *,
+    tick: float,
+) -> "Callable[..., LocomotionScheme]":
+    """Return the factory of the controller, with or without learned legs."""
+    from ..drivers.scheme_factory import (
+        control_scheme_factory,
+        policy_scheme_factory,
+    )
+
+    gait = settings.gait
+    if settings.legs.walks:
+        return policy_scheme_factory(
+            description, settings.legs, gait, tick=tick
+        )
+    return control_scheme_factory(
+        description,
+        gait,
+        settings.control,
+        tick=tick,
+        delay_ticks=connection.delay_ticks,
     )
 
 

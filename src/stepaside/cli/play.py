@@ -107,6 +107,7 @@ def play(
             stack.push(record.leave)
             observers.append(record)
         wait = connection.wait
+        reconnect = connection.reconnect if joints else None
 
         def session() -> str:
             nonlocal wait
@@ -129,9 +130,7 @@ def play(
                 )
 
         try:
-            ended = _run_sessions(
-                session, connection.reconnect if joints else None
-            )
+            ended = _run_sessions(session, reconnect)
             if record is not None:
                 record.end(ended)
         except SessionLost as error:

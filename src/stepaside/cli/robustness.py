@@ -279,19 +279,7 @@ def robustness(
             people,
             shield,
         )
-        asked = {
-            "kind": PERSON,
-            "sensings": met.sensings,
-            "body": body,
-            "seeds": seeds,
-            "seed": settings.seed,
-            **({"legs": Path(policy.network).name} if policy.walks else {}),
-            **({"strategy": strategy} if strategy else {}),
-            **({"shield": asdict(shield)} if shield.enabled else {}),
-            **({"reactions": met.reactions} if reactions else {}),
-            **({"people": people} if people else {}),
-            **({"changes": changes} if changes else {}),
-        }
+        asked = _description_of(met, body, settings.seed, changes)
         found, last = meet_people(settings, met, campaign)
         answer["person"] = found
         if output is not None and last.completed and campaign.is_whole:
@@ -299,15 +287,44 @@ def robustness(
             attempt(lambda: write_people(folder, asked, found))
     assert last is not None
     if figure is not None and last.completed and "survival" in answer:
-        from ..report.robustness_figure import draw_survival
-        from ..studies.robustness_trial import UNITS
-
-        attempt(lambda: draw_survival(answer["survival"], UNITS, Path(figure)))
+        _draw(answer, Path(figure))
     _print_all(answer, output, stopped=last.interrupted, as_json=as_json)
     if last.failure is not None:
         raise last.failure
     if not as_json:
         echo(f"\nresults: {output}")
+
+
+def _draw(answer: dict[str, Any], file: Path) -> None:
+    """Draw the survival of walks."""
+    from ..report.robustness_figure import draw_survival
+    from ..studies.robustness_trial import UNITS
+
+    attempt(lambda: draw_survival(answer["survival"], UNITS, file))
+
+
+def _description_of(
+    met: "PeopleRequest", body: str, seed: int, changes: str
+) -> dict[str, Any]:
+    """Return a request as it stands in its results, without defaults."""
+    network = Path(met.legs.network).name if met.legs.walks else ""
+    shield = asdict(met.shield) if met.shield.enabled else {}
+    chosen = {
+        "legs": network,
+        "strategy": met.strategy,
+        "shield": shield,
+        "reactions": met.reactions,
+        "people": met.number,
+        "changes": changes,
+    }
+    return {
+        "kind": PERSON,
+        "sensings": met.sensings,
+        "body": body,
+        "seeds": met.seeds,
+        "seed": seed,
+        **{name: value for name, value in chosen.items() if value},
+    }
 
 
 def _print_all(

@@ -135,32 +135,14 @@ class DuelWorld:
         for move in movers_in(settings, self.world.model, self.world.data):
             move(0.0)
             self.world.before_step.append(move)
-        person = None
-        if PURSUER not in self._setups:
-            plan = settings.room.plan
-            walk = PersonMotion(
-                settings.person,
-                frames[0],
-                frames[1][:2],
-                NO_OBSTACLES if plan is None else plan.solid_set,
-            )
-            figure = FIGURES[settings.person.figure]
-            person = PersonBody(self.world, PURSUER, walk.pose, figure)
         # A player's ideal sensor needs the true state of its opponent.
         self._robot_truths = {
             name: setup.true_state_in(self.world)
             for name, setup in self._setups.items()
         }
         self._truths: dict[str, GroundTruth] = {**self._robot_truths}
-        if person is not None:
-            self._truths[PURSUER] = person.truth
-        pursuer: Player = (
-            self._robot(PURSUER)
-            if person is None
-            else FloorPlayer(
-                person, PathSteering(walk, self._truths[EVADER], physics.tick)
-            )
-        )
+        person = None if PURSUER in self._setups else self._person(frames)
+        pursuer = self._robot(PURSUER) if person is None else person
         self.players = (pursuer, self._robot(EVADER))
         mujoco.mj_forward(self.world.model, self.world.data)
         for name, pushes in pushes_by_robot(
@@ -168,6 +150,21 @@ class DuelWorld:
         ).items():
             if pushes:
                 self.players[PLAYERS.index(name)].push(*pushes)
+
+    def _person(self, frames: tuple[Pose, Pose]) -> Player:
+        """Place the person who pursues, whose truth sensors may need."""
+        settings, plan = self._settings.person, self._settings.room.plan
+        walk = PersonMotion(
+            settings,
+            frames[0],
+            frames[1][:2],
+            NO_OBSTACLES if plan is None else plan.solid_set,
+        )
+        figure = FIGURES[settings.figure]
+        body = PersonBody(self.world, PURSUER, walk.pose, figure)
+        self._truths[PURSUER] = body.truth
+        evader, tick = self._truths[EVADER], self.world.physics.tick
+        return FloorPlayer(body, PathSteering(walk, evader, tick))
 
     def _robot(self, name: str) -> Player:
         """Place a robot in the world, with the sensors of the settings."""

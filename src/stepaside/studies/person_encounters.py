@@ -265,7 +265,7 @@ def cause_of(run: DuelRun) -> str | None:
     """Explain how a game with a person ended.
 
     Returns:
-        None if nobody touched or fell. "fall"; "did not start" if the robot
+        None without contact and fall. "fall"; "did not start" if the robot
         never moved; "walked into" a person at rest; "point too" if the
         template, which knows the person exactly, is touched as well; "late
         change" of the person's velocity; else "legs", which fell short of
