@@ -6,7 +6,7 @@ begins with a correction of the bearing by the sine of its error, and only a
 change of the target needs an inverse tangent.
 """
 
-from math import atan2, cos, sin
+from math import atan2
 from typing import Any
 
 import numpy as np
@@ -64,29 +64,36 @@ def nearer_of(
 
 @compiled
 def gather(rows: Any, targets: Any, found: Any) -> None:
-    """Copy the rows of each game's target. Shape (rows, SIZE)."""
+    """Copy the first four rows of each game's target. Shape (4, SIZE)."""
     for g in range(SIZE):
         t = targets[g]
-        for k in range(rows.shape[0]):
+        for k in range(4):
             found[k, g] = rows[k, t, g]
 
 
 @compiled
-def correct_bearing(dx: Any, dy: Any, sight: Any) -> int:
-    """Correct bearings to the directions of offsets; return how many are far.
+def correct_bearing(
+    x: Any, y: Any, target_x: Any, target_y: Any, sight: Any, far: Any
+) -> float:
+    """Correct bearings to the directions of targets; return how many are far.
 
     Args:
-        dx: Offsets of the targets, in [m]. Shape (SIZE,).
-        dy: Likewise.
+        x: Own positions, in [m]. Shape (SIZE,).
+        y: Likewise.
+        target_x: Positions of the targets, in [m].
+        target_y: Likewise.
         sight: Bearings, in [rad]; those that are far off stay.
+        far: Output: 1 where the bearing is far off.
     """
-    flagged = 0
+    flagged = 0.0
     for g in range(SIZE):
+        dx, dy = target_x[g] - x[g], target_y[g] - y[g]
         s, c = sine_cosine(sight[g])
-        along = c * dx[g] + s * dy[g]
-        error = (c * dy[g] - s * dx[g]) / along  # its tangent, as it is tiny
+        along = c * dx + s * dy
+        error = (c * dy - s * dx) / along  # its tangent, as it is tiny
         off = (along <= 0.0) | (abs(error) > TINY)
-        flagged += 1 if off else 0
+        far[g] = 1.0 if off else 0.0
+        flagged += far[g]
         sight[g] += 0.0 if off else error
     return flagged
 
@@ -122,16 +129,16 @@ def begin_step(
     """
     x, y, theta, sight, sin0, cos0 = block[:6]
     for i in range(x.shape[0]):
-        gather(block[:2], targets[i], seen)
-        for g in range(SIZE):
-            seen[2, g] = seen[0, g] - x[i, g]
-            seen[3, g] = seen[1, g] - y[i, g]
-        if correct_bearing(seen[2], seen[3], sight[i]) > 0:
-            for g in range(SIZE):
-                exact = atan2(seen[3, g], seen[2, g])
-                off = exact - sight[i, g]
-                if abs(sin(off)) > TINY or cos(off) < 0.0:
-                    sight[i, g] = exact
+        target, far = int(rules[i, 3]), seen[2]
+        if target >= 0:
+            seen[0], seen[1] = x[target], y[target]
+        else:
+            gather(block, targets[i], seen)
+        flagged = correct_bearing(x[i], y[i], seen[0], seen[1], sight[i], far)
+        for g in range(SIZE if flagged > 0.0 else 0):
+            if far[g] > 0.0:
+                dx, dy = seen[0, g] - x[i, g], seen[1, g] - y[i, g]
+                sight[i, g] = atan2(dy, dx)
         initial_errors(
             theta[i], sight[i], sin0[i], cos0[i], shift[i], rules[i, 2]
         )
@@ -154,16 +161,16 @@ def velocities(
 
 
 @compiled
-def sight_rates(own: Any, seen: Any, i: int, rate: Any) -> None:
+def sight_rates(stage: Any, i: int, seen: Any, rate: Any) -> None:
     """Compute the rates of the bearings of targets, in [rad/s].
 
     Args:
-        own: Rows x, y, u, v of all players. Shape (4, players, SIZE).
-        seen: The same of the targets. Shape (4, SIZE).
+        stage: Rows x, y, u, v, ... of all players. Shape (8, players, SIZE).
         i: Index of the player.
+        seen: x, y, u, v of the targets. Shape (4, SIZE).
         rate: Output. Shape (SIZE,).
     """
-    x, y, u, v = own[0, i], own[1, i], own[2, i], own[3, i]
+    x, y, u, v = stage[0, i], stage[1, i], stage[2, i], stage[3, i]
     for g in range(SIZE):
         dx, dy = seen[0, g] - x[g], seen[1, g] - y[g]
         du, dv = seen[2, g] - u[g], seen[3, g] - v[g]
@@ -232,10 +239,11 @@ def add_slope(
     for i in range(x.shape[0]):
         target = int(rules[i, 3])
         if target >= 0:
-            sight_rates(stage[:4], stage[:4, target], i, rate[i])
+            for k in range(4):
+                seen[k] = stage[k, target]
         else:
-            gather(stage[:4], targets[i], seen)
-            sight_rates(stage[:4], seen, i, rate[i])
+            gather(stage, targets[i], seen)
+        sight_rates(stage, i, seen, rate[i])
         turning_rates(sight[i], theta[i], shift[i], rules[i, 1], turning[i])
     for i in range(x.shape[0]):
         accumulate(block[6, i], u[i], weight)
