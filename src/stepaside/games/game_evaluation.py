@@ -11,7 +11,7 @@ from ..core.constants import CAPTURE_DISTANCE
 from ..core.poses import Array
 from ..sim.crowd_motion import RADIUS
 from ..theory.unicycle.circle_fit import fit_circle
-from .duel_circle import angle_between, distance_between
+from .duel_circle import angle_between, cycle_mean, distance_between
 from .duel_summary import PlanTimes
 from .game_settings import GameSettings, PlayerSettings
 from .game_summary import CrowdResult, GameSummary, PairResult, PlayerResult
@@ -126,14 +126,18 @@ def _player(
     poses, times = record.tracks[own.name].unicycle, record.times
     moved = np.hypot(*(poses[:, :2] - poses[0, :2]).T) > MOVED
     first = np.flatnonzero(moved)
-    steps = np.diff(poses[:, :2], axis=0)
+    ways = [*poses[:, :2].T]
+    if record.settings.level == "physics" and own.body == "robot":
+        cycle = 2.0 * own.gait.step_duration
+        ways = [cycle_mean(way, times, cycle) for way in ways]
+    steps = np.diff(ways, axis=1)
     radius = fit_circle(poses[_tail(times), :2])[1] if first.size else np.nan
     return PlayerResult(
         name=own.name,
         role=own.role,
         team=own.identity.team,
         body=own.body,
-        path_m=float(np.hypot(steps[:, 0], steps[:, 1]).sum()),
+        path_m=float(np.hypot(*steps).sum()),
         radius_m=float(radius) if isfinite(radius) else None,
         moved_at_s=float(times[first[0]]) if first.size else None,
         fell=own.name in record.fallen,

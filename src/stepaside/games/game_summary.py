@@ -14,7 +14,7 @@ class PlayerResult:
         role: Its role.
         team: Its team.
         body: Kind of its body.
-        path_m: Length of its path, in [m].
+        path_m: Length of its path, without the sway of a gait cycle, in [m].
         radius_m: Radius of the circle fitted to its reference point in the
             last third, in [m].
         moved_at_s: Time at which it had first moved by 2 cm, in [s].

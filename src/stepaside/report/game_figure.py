@@ -59,6 +59,7 @@ def _draw_snapshots(figure: Any, run: MatchRun) -> None:
         index = run.index_at(float(time))
         draw_top(axes, run, index)
         axes.set_title(f"{run.times[index]:.1f} s")
+        axes.margins(0.12)  # wedges are not cut off at the edge
     for axes in shown[-1]:
         axes.set_xlabel("x [m]")
     for axes in shown[:, 0]:
