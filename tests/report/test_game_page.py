@@ -169,7 +169,7 @@ def test_the_browser_plays_the_duel_of_python(
     assert rows[-1, 0] == pytest.approx(SECONDS)
     expected = torsos(settings, rows[:, 0])
     assert np.ptp(expected, axis=0).max() > 0.1  # the robots have walked
-    np.testing.assert_allclose(rows[:, 1:], expected, rtol=0, atol=1e-3)
+    np.testing.assert_allclose(rows[:, 1:], expected, rtol=0, atol=1e-4)
     assert wrong == []
 
 
@@ -190,7 +190,7 @@ def test_a_push_acts_as_in_python(opened: Any) -> None:
     expected = torsos(replace(NEAR, pushes=(push,)), rows[:, 0])
     unpushed = torsos(NEAR, rows[:, 0])
     assert np.abs(expected - unpushed).max() > 3e-3
-    np.testing.assert_allclose(rows[:, 1:], expected, rtol=0, atol=1e-3)
+    np.testing.assert_allclose(rows[:, 1:], expected, rtol=0, atol=1e-4)
 
 
 @pytest.mark.xdist_group("browser")
