@@ -27,8 +27,8 @@ from stepaside.strategies.velocity_set import (
     VelocitySet,
 )
 
-LIMITS = Limits(0.1, 0.2, 0.04, 0.5)
-PERSON = ShieldSettings(True, 0.1, 4.0, 0.3)
+LIMITS = Limits(0.1, 0.2, 0.04, 0.5)  # 0.08 m/s of gait time
+PERSON = ShieldSettings(True, 0.1, 8.0, 0.3)
 SPEED = PERSON.speed
 
 

@@ -20,7 +20,9 @@ from .robot_settings import (
 )
 
 ALWAYS = {"name", "role", "team", "body", "target", "start"}
-OF_TEMPLATE = {"robot", "gait", "strategy", "evasion", "goal", "draws_goal"}
+OF_TEMPLATE = {
+    *("robot", "gait", "strategy", "evasion", "shield", "goal", "draws_goal")
+}
 USED_BY = {  # entries of a player that its kind of body uses
     "robot": ALWAYS | OF_TEMPLATE | {"control", "legs", "senses", "sight"},
     "unicycle": ALWAYS | OF_TEMPLATE,

@@ -87,10 +87,12 @@ class ShieldModel:
 
     @property
     def loss(self) -> float:
-        """Departure of the body from its template per decision, in [m]."""
+        """Departure of the body from its template per period, in [m]."""
         if self.settings.loss is not None:
             return self.settings.loss
-        return WALK_LOSS if self.velocities is None else LEGS_LOSS
+        if self.velocities is not None:
+            return LEGS_LOSS
+        return WALK_LOSS * round(self.period / self.limits.step_duration)
 
     @property
     def tube(self) -> float:
@@ -159,7 +161,7 @@ class ShieldModel:
             return LEGS_PERIOD
         person, step = self.settings, self.limits.step_duration
         longest = min(
-            CELLS_PER_PERIOD * self.required / CELLS / person.speed,
+            CELLS_PER_PERIOD * person.contact / CELLS / person.speed,
             0.5 * person.turning_radius / person.speed,
             step / self.turn,  # a turn by one radian
         )
