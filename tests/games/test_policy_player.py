@@ -11,6 +11,7 @@ pytest.importorskip("onnxruntime")
 from legs_robot import nao_on_legs
 from stepaside.arena import Room
 from stepaside.core.errors import ConfigurationError, PolicyError
+from stepaside.core.poses import Pose
 from stepaside.games.duel import Duel, run_duel, run_duels
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.match import play
@@ -117,10 +118,32 @@ def test_an_ideal_body_is_controlled_at_the_period_of_its_policy(
     duel.close()
 
 
-def test_rooms_are_refused(standing: DuelSettings) -> None:
+def test_maps_from_cameras_are_refused_in_rooms(
+    standing: DuelSettings,
+) -> None:
     room = replace(standing.room, plan=Room(4.0, 4.0))
+    seeing = replace(standing, sensing="cameras")
     with pytest.raises(ConfigurationError, match="legs.network must be empty"):
-        replace(standing, room=room)
+        replace(seeing, room=room)
+
+
+def test_a_robot_in_a_room_knows_it(standing: DuelSettings) -> None:
+    """Distances of random starts are those of the robot, also in a room."""
+    starts = Pose(-1.0, 0.0, 0.0), Pose(1.0, 0.0, np.pi)
+    strategy = Sidestepper()
+    settings = replace(
+        standing,
+        start=replace(standing.start, distance=None, least=0.5),
+        room=replace(standing.room, plan=Room(2.6, 2.6, starts=starts)),
+        evader_strategy=strategy,
+    )
+    duel = Duel(settings)
+    play(duel, 1.3)
+    assert duel.settings.start.least == 0.5
+    assert duel.settings.start.distance == pytest.approx(2.0)
+    known = strategy.told[-1]
+    assert known.pose_in_map[:2] == pytest.approx((1.0, 0.0), abs=0.05)
+    assert known.obstacles_in_map
 
 
 def test_a_body_keeps_its_delays_at_another_tick() -> None:

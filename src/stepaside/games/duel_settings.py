@@ -296,10 +296,10 @@ class DuelSettings:
                     f"got {self.sensing!r}"
                 )
         if any(self.robot_of(name).legs.walks for name in self.robots):
-            if self.room.plan is not None:
+            if self.room.plan is not None and self.sensing == "cameras":
                 raise ConfigurationError(
-                    "legs.network must be empty in rooms, got "
-                    f"{self.legs.network!r}"
+                    "legs.network must be empty in rooms with camera sensing, "
+                    f"got {self.legs.network!r}"
                 )
         if self.sensing == "lidar" and self.pursuer != "person":
             raise ConfigurationError(

@@ -200,6 +200,12 @@ class DuelWorld:
             cameras = self._lidar_of(setup)
         elif self._senses is not None and eyes is not None:
             cameras = CameraSensing(eyes, self._senses.perceptions[name])
+        clearance = clearance_in(
+            settings.room.plan,
+            settings.map,
+            setup,
+            self._senses.perceptions[name] if self._senses else None,
+        )
         legs = settings.robot_of(name).legs
         if legs.walks:
             from .policy_player import place_policy_player
@@ -213,6 +219,7 @@ class DuelWorld:
                 cameras=cameras,
                 truth=truth,
                 networks=self.networks,
+                clearance=clearance,
             )
         return place_walker(
             self.world,
@@ -221,12 +228,7 @@ class DuelWorld:
             sight=sight,
             cameras=cameras,
             truth=truth,
-            clearance=clearance_in(
-                settings.room.plan,
-                settings.map,
-                setup,
-                self._senses.perceptions[name] if self._senses else None,
-            ),
+            clearance=clearance,
         )
 
     def _lidar_of(self, setup: WalkerSetup) -> CameraSensing:

@@ -176,7 +176,7 @@ class GameWorld:
                 sight=sensing,
                 truth=truth,
                 networks=self.networks,
-                room=room if settings.knows_room else None,
+                clearance=clearance_in(room, settings.map, setup),
             )
         return place_walker(
             self.world,

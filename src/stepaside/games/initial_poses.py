@@ -1,6 +1,6 @@
 """Initial poses of the players of a duel."""
 
-from dataclasses import fields, replace
+from dataclasses import replace
 from math import atan2, hypot, pi, radians
 
 from ..arena import check_initial_poses, draw_initial_poses
@@ -107,14 +107,16 @@ def wall_distance(settings: DuelSettings) -> float:
 
 
 def _agreeing(given: StartSettings, drawn: StartSettings) -> StartSettings:
-    """Return the start of a room; reject a different one in the settings."""
-    for field in fields(StartSettings):
-        value = getattr(given, field.name)
-        if value is None:
-            continue
-        if not abs(value - getattr(drawn, field.name)) < SAME:
+    """Return the start of a room; reject a different one in the settings.
+
+    Distances between which starts are drawn stay those of the robots.
+    """
+    found = {}
+    for name in ("distance", "pursuer_offset", "evader_offset"):
+        value, found[name] = getattr(given, name), getattr(drawn, name)
+        if value is not None and not abs(value - found[name]) < SAME:
             raise ConfigurationError(
-                f"start.{field.name} must be omitted in a room, which gives "
+                f"start.{name} must be omitted in a room, which gives "
                 f"the initial poses, got {value:g}"
             )
-    return drawn
+    return replace(given, **found)

@@ -4,13 +4,10 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from ..arena import Room
-from ..control.clearance.surroundings import (
-    KnownRoom,
-    OpenFloor,
-    Surroundings,
-)
+from ..control.clearance.surroundings import OpenFloor, Surroundings
+from ..control.clearance.velocity_guard import VelocityGuard
 from ..control.scheme import LocomotionScheme
+from ..control.scheme_builder import ClearanceSetup
 from ..control.strategy_runner import StrategyRunner
 from ..core.errors import PolicyError
 from ..core.poses import Pose
@@ -35,6 +32,7 @@ from .walker_factory import (
     WalkerSetup,
     sensors_of,
     sight_source,
+    with_body_radius,
 )
 
 if TYPE_CHECKING:
@@ -190,11 +188,9 @@ def place_policy_player(
     cameras: CameraSensing | None = None,
     truth: TrueRobotState,
     networks: NetworkPool,
-    room: Room | None = None,
+    clearance: ClearanceSetup | None = None,
 ) -> PolicyPlayer:
     """Place one robot on learned legs in a world, with its controller.
-
-    No guard keeps learned legs clear of walls: only their strategy does.
 
     Args:
         world: World that contains the robot.
@@ -207,7 +203,7 @@ def place_policy_player(
         cameras: Cameras and perception, with camera sensing.
         truth: True state of the robot.
         networks: Networks of all players, flushed at each tick.
-        room: Room that it knows; None without.
+        clearance: Knowledge of the room and required clearance.
 
     Raises:
         PolicyError: If the network cannot run on the robot.
@@ -221,15 +217,24 @@ def place_policy_player(
         sight=sight,
         eyes=None if cameras is None else cameras.eyes,
         truth=truth,
-        knows_pose=room is not None,
+        knows_pose=clearance is not None,
     )
     frame = setup.odometry_in_world
-    around = OpenFloor() if room is None else KnownRoom(room, frame)
+    around: Surroundings = OpenFloor()
+    guard: VelocityGuard | None = None
+    if clearance is not None:
+        around = clearance.surroundings
+        distance = clearance.outline.radius + clearance.margin
+        guard = VelocityGuard(around, policy.velocities, distance)
     scheme = LocomotionScheme(
         StrategyRunner(
-            strategy, setup.gait, tick, around, velocities=policy.velocities
+            with_body_radius(strategy, clearance, setup.gait),
+            setup.gait,
+            tick,
+            around,
+            velocities=policy.velocities,
         ),
-        PolicyWalk(policy, setup.gait),
+        PolicyWalk(policy, setup.gait, guard),
         sight_source(sight, cameras, tick=tick),
     )
     return PolicyPlayer(robot, scheme, frame, networks, around)

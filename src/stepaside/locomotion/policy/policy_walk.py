@@ -1,5 +1,7 @@
 """Locomotion by a walking policy: decisions in, joint targets out."""
 
+from typing import Protocol
+
 from ...core.poses import Array, Pose
 from ...perception.measurement import Measurement
 from ...planning import Foot, GaitSettings
@@ -11,6 +13,21 @@ from ..zmp.current_step import CurrentStep, resting_step
 from .policy_legs import PolicyLegs
 
 VELOCITY_INTERVAL = 0.08  # between decisions on a body velocity, in [s]
+
+
+class VelocityFilter(Protocol):
+    """Filter of the velocities that a robot walks."""
+
+    def admit(
+        self, velocity: BodyVelocity, pose: Pose, duration: float
+    ) -> BodyVelocity:
+        """Return the velocity that is walked instead of a desired one.
+
+        Args:
+            velocity: Desired velocity.
+            pose: Pose of the robot in odometry.
+            duration: Time until the next decision, in [s].
+        """
 
 
 def template_velocity(
@@ -67,15 +84,21 @@ class PolicyWalk:
     heading_delay = 0.0
     pose_delay = 0.0
 
-    def __init__(self, legs: PolicyLegs, gait: GaitSettings) -> None:
+    def __init__(
+        self,
+        legs: PolicyLegs,
+        gait: GaitSettings,
+        guard: VelocityFilter | None = None,
+    ) -> None:
         """Begin standing.
 
         Args:
             legs: Learned legs of the robot.
             gait: Speed and steering gain of the template; the duration of its
                 step is the interval between decisions.
+            guard: Guard against obstacles; none by default.
         """
-        self.legs, self.gait = legs, gait
+        self.legs, self.gait, self._guard = legs, gait, guard
         self.phase = Phase.STANDING
         self._velocity = STILL
         self._next_decision = 0.0
@@ -142,6 +165,10 @@ class PolicyWalk:
         if request is not None:
             self._velocity = template_velocity(request, self.gait)
             interval = decision_interval(request.intent, self.gait)
+        if self._guard is not None:
+            self._velocity = self._guard.admit(
+                self._velocity, self.legs.pose, interval
+            )
         walks = self._velocity != STILL
         self.phase = Phase.WALKING if walks else Phase.STANDING
         self._next_decision = now + interval
