@@ -18,6 +18,7 @@ from stepaside.strategies import (
     Knowledge,
     Limits,
     Strategy,
+    WaryEvasion,
     load_strategy,
 )
 from stepaside.strategies.velocity_set import AxisValues, VelocitySet
@@ -92,6 +93,36 @@ def test_mirrored_walkers_are_avoided_on_mirrored_paths() -> None:
     np.testing.assert_allclose(
         left.evader[:, :2] * [1, -1], right.evader[:, :2], atol=1e-6
     )
+
+
+@pytest.mark.parametrize("bearing", [0, 100, -170])
+def test_a_wary_robot_keeps_room_for_a_turn(bearing: int) -> None:
+    """The person would pass at 1.2 m, and turns to the robot 1.7 m away."""
+    distance, miss, near = 7.0, 1.2, 1.7
+    course = atan2(miss, distance)
+    aside, along = distance * sin(course), distance * cos(course)
+    walked = along - sqrt(near**2 - aside**2)
+    x, y = walked * cos(course), walked * sin(course)
+    turn = atan2(-y, distance - x) - course
+    person = PersonSettings(
+        "straight", 1.4, miss=miss, turn_after=walked, turn=turn
+    )
+    wary = play(person, radians(bearing), strategy=load_strategy("wary"))
+    assert wary.closest_m > 0.7
+    # Of those who walk on, it keeps as clear as the one that expects it.
+    straight = play(
+        PersonSettings("straight", 1.4),
+        radians(bearing),
+        strategy=load_strategy("wary"),
+    )
+    assert straight.closest_m > 1.0
+
+
+def test_the_weight_of_doubt_and_its_range_are_checked() -> None:
+    with pytest.raises(ConfigurationError, match="doubt"):
+        WaryEvasion(doubt=-0.1)
+    with pytest.raises(ConfigurationError, match="alertness"):
+        WaryEvasion(alertness=-0.1)
 
 
 @pytest.mark.parametrize("bearing", [0, 60, 90])
