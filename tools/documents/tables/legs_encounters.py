@@ -13,14 +13,17 @@ MILLISECONDS = 1e3  # per second
 
 
 def body_of(settings: Mapping[str, Any]) -> str:
-    """Return the body of a campaign: its preset, and another delay.
+    """Return the body of a campaign: its preset, another delay, cameras.
 
     Args:
         settings: Settings of the result.
     """
-    body: str = settings["body"]
-    own = json.loads(settings["changes"]).get("body")
+    changes = json.loads(settings["changes"])
+    own, body = changes.get("body"), settings["body"]
     if own is None:
+        body = "ideal"
+        if settings["sensings"] == ["cameras"]:
+            body += f", {changes['robot'].upper()} with cameras"
         return body
     hardware = BODIES["hardware"]
     if own["servo_gain"] == hardware.servo_gain:
