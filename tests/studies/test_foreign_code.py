@@ -113,9 +113,9 @@ def test_what_a_strategy_prints_is_not_among_json(
 @pytest.mark.parametrize(
     "words",
     [
-        ("duel", "--duration", "0.5", "--strategy"),
-        ("duels", "--seeds", "1:3", "--duration", "0.5", "--strategy"),
-        ("tournament", "--seeds", "1:3", "--duration", "2", "--evader"),
+        ("duel", "--duration", "0.1", "--strategy"),
+        ("duels", "--seeds", "1:2", "--duration", "0.1", "--strategy"),
+        ("tournament", "--seeds", "1:2", "--duration", "1", "--evader"),
     ],
 )
 def test_what_workers_print_is_not_among_json(
