@@ -21,7 +21,6 @@ from stepaside.core.errors import ConfigurationError
 from stepaside.games.duel import Duel, run_duel
 from stepaside.games.duel_settings import (
     PLAYERS,
-    SENSING,
     DuelSettings,
     StartSettings,
 )
@@ -50,6 +49,7 @@ from stepaside.sim.person_settings import PURSUERS
 from stepaside.strategies import Evasion
 from synthetic_run import check_same
 
+SENSING = ("ideal", "cameras")  # a lidar sees people only
 PUSHED = 0.24  # [s]; a push is over, and what it does has been felt
 LONG = 60.0  # [s]; no event of a loop that runs comes as late as this
 CAMERAS = CameraSettings(  # as small as they still find each other
