@@ -72,6 +72,7 @@ def look_at(log: PlayLog, walker: SimulatedPlayer) -> None:
                 1,
                 scheme.state,
                 scheme.begun,
+                scheme.pose,
             )
         )
 
