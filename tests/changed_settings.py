@@ -69,4 +69,4 @@ def _others(value: Any, hint: Any) -> list[Any]:
             for i, each in enumerate(value)
             for other in _others(each, type(each))
         ]
-    return [1.0, 1, "other"]
+    return [1.0, 0.1, 1, "other"]

@@ -83,20 +83,13 @@ def test_a_document_says_what_the_results_say(file: Path) -> None:
     assert not complaints(file, STORE)
 
 
-# Small tables that a short command above them prints.
-PRINTED_BY_THE_COMMAND_ABOVE = {
-    ("docs/games.md", "pursuers"),
-    ("docs/games.md", "robot"),
-}
-
-
 def test_every_table_of_measurements_is_made() -> None:
     found = {
         (name_of(file), head[1].split("|")[0].strip())
         for file in DOCUMENTS
         for head in HEAD.finditer(outside_of_blocks(file))
     }
-    assert found == NOT_MEASURED | PRINTED_BY_THE_COMMAND_ABOVE
+    assert found == NOT_MEASURED
 
 
 def test_every_printed_figure_is_made() -> None:

@@ -271,8 +271,10 @@ def test_people_around_learned_legs_are_counted_by_body() -> None:
         **{"closest_m": 0.5, "mean_closest_m": 0.6, "triggered_at_m": None},
         **{"template_closest_m": 0.7, "false_triggers": 3},
     }
-    plain = {"settings": {"body": "ideal", "changes": "{}"}}
-    own = {"settings": {"body": "own", "changes": json.dumps({"body": body})}}
+    ideal = {"body": "ideal", "changes": "{}", "sensings": ["ideal"]}
+    changed = json.dumps({"body": body})
+    plain = {"settings": ideal}
+    own = {"settings": ideal | {"body": "own", "changes": changed}}
     rows = {"people": [row], "passers_by": [row]}
     results = plain | rows, own | rows
     for name in ("legs-people", "legs-passers-by"):

@@ -167,7 +167,10 @@ def test_a_topic_is_held_while_it_is_true() -> None:
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        ("--robot lola:x --dead-man key", "requires a robot with velocity"),
+        (
+            "--robot lola:x --dead-man key",
+            "requires a robot without a chest button",
+        ),
         ("--robot ros2:/x --dead-man foot", "must be key, gamepad, gamepad:"),
     ],
 )

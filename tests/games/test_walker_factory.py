@@ -85,8 +85,7 @@ def test_a_mapped_room_is_known_by_the_map(
     assert clearance.surroundings.pose_odometry_in_map == Pose(0.0, 0.0, 0.0)
     assert clearance.surroundings.solids.shapes == ()
     now: Any = SimpleNamespace(time=0.0)
-    body: Any = SimpleNamespace(com=(0.1, 0.2, 0.26))
-    clearance.surroundings.note(now, body)
+    clearance.surroundings.note(now, Pose(0.1, 0.2, 0.0))
     others = (UNSEEN,) if unseen == "taken" else ()
     assert clearance.surroundings.solids.shapes == (PILLAR, *others)
 

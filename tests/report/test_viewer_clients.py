@@ -142,6 +142,8 @@ def test_panels_lie_on_both_sides_of_the_scene() -> None:
     layout = arrange_panels(gui)
     assert gui.main_panel.place == "right"
     (acting,) = gui.panels
-    assert acting.place == "left" and acting.tabs == list(layout)
-    assert [tab.label for tab in layout] == ["Play", "Settings", "Layers"]
+    tabs = [layout.play, layout.settings, layout.layers]
+    assert acting.place == "left" and acting.tabs == tabs
+    assert layout.controls is acting
+    assert [tab.label for tab in tabs] == ["Play", "Settings", "Layers"]
     assert CAMERAS[0] == "free"

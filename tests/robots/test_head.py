@@ -94,7 +94,6 @@ def rewritten(folder: Path, old: str, new: str) -> HeadDescription:
     [
         ("[coupling]", "[copling]", "coupling"),
         ("pitch_min =", "pitch_mn =", "pitch_min"),
-        ('camera = "head_camera"', "", "camera"),
         ("pitch = 8.0", 'pitch = "down"', "real number"),
         ("[sonar.left]", "[sonar.left", "head.toml"),
         ("turn = [-0.00478508, ", "turn = [", "rotation"),

@@ -29,6 +29,7 @@ SHORT = ["--duration=0.02", "--json"]
 BASES = {
     "duel": SHORT,
     "game": ["--level=unicycle", *SHORT],
+    "games": ["--seeds=0:1", "--workers=1", "--level=unicycle", *SHORT],
     "duels": ["--seeds=0:1", *SHORT],
     "view": ["--no-open", "--serve-for=0.01", "--port=8601"],
     "replay": ["--no-open", "--serve-for=0.01", "--port=8602"],
@@ -55,7 +56,7 @@ BASES = {
 }
 # What they read, where that is no run.
 EXAMPLES = Path(__file__).parents[2] / "examples"
-FILES = {"game": EXAMPLES / "two-pursuers.toml"}
+FILES = dict.fromkeys(("game", "games"), EXAMPLES / "two-pursuers.toml")
 PATHS = (
     *("", ".", "..", "/", "/proc/x", "/dev/full", "/dev/null", "here/x"),
     *("a" * 300, "file/x", "loop", "dangling", "o.xyz", "file"),

@@ -30,6 +30,7 @@ from .groups import Worked, members, obey_ctrl_c
 LONG = {
     "duel": "--duration=3000 --output=duel",
     "game": "game.toml --duration=3000 --output=game",
+    "games": "game.toml --seeds=0:1000 --workers=2 --output=many",
     "duels": "--seeds=0:1000 --workers=2 --output=duels",
     "view": "--no-open --port=8761",
     "replay": "run --video=film.mp4 --speed=0.05",
