@@ -112,9 +112,10 @@ def test_every_named_generator_of_the_package_is_on_the_page() -> None:
                 if isinstance(name, ast.JoinedStr):
                     name = name.values[0]
                 assert isinstance(name, ast.Constant)
-                found.add(str(name.value).split("/")[0])
+                found.add(str(name.value).split("/")[0].strip())
     listed = [
-        row[0].strip("`").split("/")[0] for row in rows("Random numbers")
+        re.split("[/ ][A-Z]", row[0].strip("`"))[0]
+        for row in rows("Random numbers")
     ]
     assert sorted(listed) == sorted(found)
 
