@@ -7,7 +7,10 @@ import numpy as np
 
 from .figure_style import plt, save
 
-COLOURS = ("blue", "orange", "green", "red", "purple", "brown", "pink", "gray")
+COLOURS = (
+    *("blue", "orange", "green", "red", "purple"),
+    *("brown", "pink", "gray", "olive", "cyan"),
+)
 
 
 def draw_rating(rows: Sequence[Mapping[str, Any]], path: str) -> None:
