@@ -211,3 +211,79 @@ def test_in_steps_robots_end_on_the_polygon_of_cyclic_pursuit() -> None:
             2 * radius * sin(pi / 3), rel=0.01
         )
         assert pair.angle_deg == pytest.approx(120.0, abs=0.5)
+
+
+PATH_OF_PERSON = {
+    "goal": {"goal": [2.0, 1.0]},
+    "drawn goal": {"draws_goal": True},
+    "steer": {"person": {"speed": 0.5}},
+    "straight": {"person": {"path": "straight", "speed": 0.5}},
+    "aside": {"person": {"path": "straight", "speed": 0.5, "miss": 1.2}},
+    "visits": {"person": {"path": "visits", "speed": 0.5}},
+    "reacting": {
+        "person": {"path": "straight", "speed": 0.5, "reaction": "regular"}
+    },
+}
+
+
+@pytest.mark.parametrize("level", ["steps", "physics"])
+@pytest.mark.parametrize("path", PATH_OF_PERSON)
+def test_people_begin_in_the_direction_of_their_walk(
+    path: str, level: str
+) -> None:
+    more = PATH_OF_PERSON[path]
+    run = run_game(
+        game(
+            {"name": "robot", "start": [0.0, 0.0, 0.0]},
+            {"name": "guest", "body": "person", **more},
+            seed=2,
+            duration=0.2,
+            level=level,
+        )
+    )
+    headings = run.tracks["guest"].place[:, 2]
+    assert np.abs(np.diff(headings)).max() < 0.05  # not an arbitrary angle
+    guest = run.settings.player("guest")
+    np.testing.assert_allclose(run.tracks["guest"].place[0], guest.start)
+
+
+@pytest.mark.parametrize("path", ["steer", "straight"])
+def test_a_person_walks_backward_from_its_start(path: str) -> None:
+    walk = {"path": path, "speed": 0.5, "backward": True}
+    settings = game(
+        {"name": "robot", "start": [0.0, 0.0, 0.0]},
+        {
+            "name": "guest",
+            "body": "person",
+            "person": walk,
+            "start": [2.0, 0.0, 0.0],
+        },
+        duration=0.4,
+        level="steps",
+    )
+    run = run_game(settings)
+    x, y, theta = run.tracks["guest"].place.T
+    np.testing.assert_allclose(theta, 0.0, atol=1e-6)  # it looks away
+    np.testing.assert_allclose(x, 2.0 - 0.5 * run.times, atol=1e-6)
+    np.testing.assert_allclose(y, 0.0, atol=1e-6)
+
+
+def test_a_recorded_path_of_a_person_begins_at_its_first_point(
+    tmp_path: Path,
+) -> None:
+    file = tmp_path / "path.csv"
+    file.write_text("time,x,y\n0,1.5,1\n4,1.5,3\n")
+    run = run_game(
+        game(
+            {"name": "robot", "start": [0.0, 0.0, 0.0]},
+            {
+                "name": "guest",
+                "body": "person",
+                "person": {"path": str(file)},
+            },
+            duration=0.1,
+        )
+    )
+    first, *_ = run.tracks["guest"].place
+    np.testing.assert_allclose(first, [1.5, 1.0, pi / 2])
+    assert np.ptp(run.tracks["guest"].place[:, :2], axis=0).max() < 0.1

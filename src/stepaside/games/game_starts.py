@@ -10,8 +10,11 @@ from ..core.poses import Pose, wrap_angle
 from ..core.random_streams import named_generator
 from ..robots.description import load_robot
 from ..sim.crowd_motion import RADIUS
+from ..sim.person_motion import PersonMotion
+from ..sim.person_settings import PATHS
 from .game_settings import GameSettings, PlayerSettings
 from .recorded_motion import RecordedMotion
+from .template_level import walk_on_path
 
 MOST_DRAWS = 2000  # of one position, before the floor counts as full
 WALL_MARGIN = 0.3  # clearance of a start from walls and obstacles, in [m]
@@ -23,7 +26,8 @@ def with_starts(settings: GameSettings) -> GameSettings:
 
     Positions are drawn from the seed where they are omitted, then headings:
     as in a duel, pursuers look up to a right angle beside their opponent,
-    evaders up to 30 degrees beside theirs, others anywhere.
+    evaders up to 30 degrees beside theirs, people with a goal to the goal,
+    others anywhere. A person with a path begins where and as the path does.
 
     Raises:
         ConfigurationError: If given starts overlap, or there is no space.
@@ -31,9 +35,7 @@ def with_starts(settings: GameSettings) -> GameSettings:
     generator = named_generator(settings.seed, "starts")
     poses: dict[str, Pose] = {}
     for player in settings.players:
-        given = player.pose
-        if player.body == "run":
-            given = RecordedMotion(player.run, player.run_player).pose_at(0.0)
+        given = _given_pose(player)
         if given is not None:
             poses[player.name] = given
     _check_apart(settings, poses)
@@ -41,14 +43,38 @@ def with_starts(settings: GameSettings) -> GameSettings:
     for player in drawn:
         x, y = _draw_position(settings, player, poses, generator)
         poses[player.name] = Pose(x, y, 0.0)
+    goals = _goals_of(settings, poses)
     for player in drawn:
-        heading = _draw_heading(settings, player, poses, generator)
-        poses[player.name] = Pose(*poses[player.name][:2], heading)
-    wrapped = {
+        x, y, _ = poses[player.name]
+        if player.body == "person" and player.name in goals:
+            u, v = goals[player.name]
+            heading = atan2(v - y, u - x)
+        else:
+            heading = _draw_heading(settings, player, poses, generator)
+        poses[player.name] = Pose(x, y, heading)
+    placed = settings.with_places(_wrapped(poses), goals)
+    for player in placed.players:
+        if player.body == "person" and not player.goal:
+            poses[player.name] = walk_on_path(placed, player).pose
+    return settings.with_places(_wrapped(poses), goals)
+
+
+def _given_pose(player: PlayerSettings) -> Pose | None:
+    """Return the initial pose that is not drawn; None if it is."""
+    if player.body == "run":
+        return RecordedMotion(player.run, player.run_player).pose_at(0.0)
+    own, walks = player.person, not (player.goal or player.draws_goal)
+    if player.body == "person" and walks and own.path not in PATHS:
+        return PersonMotion(own, Pose(0.0, 0.0, 0.0), (0.0, 0.0)).pose
+    return player.pose
+
+
+def _wrapped(poses: Mapping[str, Pose]) -> dict[str, Pose]:
+    """Return the poses with headings in half a turn to either side."""
+    return {
         name: Pose(*pose[:2], wrap_angle(pose.theta))
         for name, pose in poses.items()
     }
-    return settings.with_places(wrapped, _goals_of(settings, wrapped))
 
 
 def _goals_of(

@@ -7,6 +7,7 @@ times.
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from math import pi
 from typing import NamedTuple, Protocol
 
 import numpy as np
@@ -380,10 +381,7 @@ def _motion(settings: GameSettings, own: PlayerSettings) -> TemplateMotion:
         motion = CrowdMotion(own.crowd, pose, own.goal[:2], obstacles)  # type: ignore[arg-type]
         return CrowdTemplate(own.name, motion, bodies_of(settings, own))
     target = target_of_person(settings, own)
-    aim = settings.player(target).pose
-    assert aim is not None
-    walk = PersonMotion(own.person, pose, aim[:2], obstacles)
-    return PersonTemplate(walk, target)
+    return PersonTemplate(walk_on_path(settings, own), target)
 
 
 def agent_of(settings: GameSettings, own: PlayerSettings) -> TemplateAgent:
@@ -403,6 +401,29 @@ def agent_of(settings: GameSettings, own: PlayerSettings) -> TemplateAgent:
         obstacles=room.solid_set
         if room and settings.knows_room
         else NO_OBSTACLES,
+    )
+
+
+def walk_on_path(settings: GameSettings, own: PlayerSettings) -> PersonMotion:
+    """Return the walk of a person without a goal, at its begin.
+
+    Args:
+        settings: Settings with the initial poses filled in.
+        own: Settings of the person.
+
+    Raises:
+        ConfigurationError: If there is no other player.
+    """
+    pose = own.pose
+    aim = settings.player(target_of_person(settings, own)).pose
+    assert pose is not None and aim is not None
+    room = settings.room
+    course = pose.theta + (pi if own.person.backward else 0.0)
+    return PersonMotion(
+        own.person,
+        Pose(pose.x, pose.y, course),
+        (aim.x, aim.y),
+        NO_OBSTACLES if room is None else room.solid_set,
     )
 
 
