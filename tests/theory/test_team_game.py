@@ -6,6 +6,10 @@ import numpy as np
 import pytest
 
 from stepaside.core.errors import PlanError
+from stepaside.theory.teams.compiled_team import (
+    MOST_SWEPT,
+    small_arc_tangent,
+)
 from stepaside.theory.teams.team_game import play_team_games
 from stepaside.theory.teams.team_players import TeamPlayer
 from stepaside.theory.unicycle import make_game, play_games
@@ -52,8 +56,14 @@ def test_compiled_and_array_games_agree(count: int) -> None:
         play_team_games(players, starts, 4.0, backend=backend)
         for backend in ("numba", "numpy")
     )
-    np.testing.assert_allclose(one.closest, other.closest, atol=1e-6)
-    np.testing.assert_allclose(one.poses, other.poses, atol=1e-6)
+    np.testing.assert_allclose(one.closest, other.closest, atol=1e-9)
+    np.testing.assert_allclose(one.poses, other.poses, atol=1e-9)
+
+
+def test_the_series_of_a_swept_angle_is_exact() -> None:
+    tangents = np.linspace(-MOST_SWEPT, MOST_SWEPT, 1001)
+    found = [small_arc_tangent(t) for t in tangents.tolist()]
+    np.testing.assert_allclose(found, np.arctan(tangents), rtol=4e-16)
 
 
 def test_an_evader_turns_from_the_nearest_pursuer() -> None:

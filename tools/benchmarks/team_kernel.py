@@ -1,6 +1,6 @@
 """Time games of several unicycles against the kernel of two.
 
-All are compiled and played in one process, alternately; the best of three
+All are compiled and played in one process, alternately; the best of five
 counts for each. Each game has one evader; all others pursue it. Processor
 time on one core::
 
@@ -12,6 +12,7 @@ import os
 os.environ.setdefault("NUMBA_NUM_THREADS", "1")
 
 import time
+from typing import Any
 
 import numpy as np
 from benchmark_options import ask, machine
@@ -25,7 +26,7 @@ from stepaside.theory.unicycle.unicycle_game import make_game
 
 STEP = 0.01  # in [s]
 COUNTS = (2, 4, 8)  # players
-ROUNDS = 3
+ROUNDS = 5
 
 
 def team_rate(count: int, games: int, steps: int) -> float:
@@ -52,7 +53,7 @@ def pair_rate(games: int, steps: int) -> float:
     return 2.0 * games * steps / passed
 
 
-def measure(games: int, steps: int) -> dict[str, float]:
+def measure(games: int, steps: int) -> list[dict[str, Any]]:
     """Return player-steps and pair-steps per second, and their ratios."""
     pair_rate(64, 10)  # compile, or load from the cache
     for count in COUNTS:
@@ -63,13 +64,26 @@ def measure(games: int, steps: int) -> dict[str, float]:
         for count in COUNTS:
             rate = team_rate(count, games // count, steps)
             teams[count] = max(teams[count], rate)
-    figures = {"two_player_steps_per_s": two, "two_pair_steps_per_s": two / 2}
-    for count, rate in teams.items():
-        pairs = 0.5 * (count - 1)  # per player
-        figures[f"team_of_{count}_player_steps_per_s"] = rate
-        figures[f"team_of_{count}_pair_steps_per_s"] = rate * pairs
-        figures[f"team_of_{count}_cost_per_player_over_two"] = two / rate
-    return figures
+    rows = [rates(2, two, two), *(rates(n, r, two) for n, r in teams.items())]
+    return [{"kernel": "two players"} | rows[0]] + [
+        {"kernel": "several players"} | row for row in rows[1:]
+    ]
+
+
+def rates(count: int, rate: float, two: float) -> dict[str, float]:
+    """Return rates of a kernel.
+
+    Args:
+        count: Number of players.
+        rate: Player-steps per second.
+        two: Those of the kernel of two players.
+    """
+    return {
+        "players": count,
+        "player_steps_per_s": rate,
+        "pair_steps_per_s": rate * 0.5 * (count - 1),
+        "cost_per_player_over_two": two / rate,
+    }
 
 
 def main() -> None:
@@ -79,12 +93,13 @@ def main() -> None:
     asked.add_argument("--steps", type=int, default=1000)
     arguments = asked.parse_args()
 
-    figures = measure(arguments.games, arguments.steps)
+    rows = measure(arguments.games, arguments.steps)
     settings = {"games": arguments.games, "steps": arguments.steps}
-    head = header(settings, modules=UNICYCLES, libraries=("numpy", "numba"))
-    write_result(arguments.output, head, machine=machine(), figures=figures)
-    for name, value in figures.items():
-        print(f"{name}: {value:.3g}")
+    modules = ("theory/teams", *UNICYCLES)
+    head = header(settings, modules=modules, libraries=("numpy", "numba"))
+    write_result(arguments.output, head, machine=machine(), rows=rows)
+    for row in rows:
+        print(", ".join(f"{key} {value}" for key, value in row.items()))
 
 
 if __name__ == "__main__":

@@ -85,6 +85,7 @@ TABLES: dict[str, Callable[..., str]] = {
     "rating": learning.rating,
     "rating-scores": learning.scores,
     "remedies": unicycles.remedies,
+    "team-kernel": unicycles.team_kernel,
     "side-changes": unicycles.side_changes,
     "steps-beyond": unicycles.steps_beyond,
     "rms": walking.rms,

@@ -101,3 +101,25 @@ def steps_beyond(result: Result) -> str:
 
 def _percent(share: float) -> str:
     return f"{100.0 * share:.1f} %"
+
+
+def team_kernel(result: Result) -> str:
+    """List rates of compiled games by the number of players."""
+    head = (
+        "kernel",
+        "players",
+        "player-steps per second",
+        "pair-steps per second",
+        "player-step over half a step of two",
+    )
+    rows = [
+        (
+            row["kernel"],
+            str(row["players"]),
+            f"{row['player_steps_per_s'] / 1e6:.0f} million",
+            f"{row['pair_steps_per_s'] / 1e6:.0f} million",
+            number(row["cost_per_player_over_two"], 2),
+        )
+        for row in result["rows"]
+    ]
+    return table(head, rows)

@@ -1,12 +1,32 @@
 """Simulation of games of several unicycles in NumPy, without Numba."""
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
 from ...core.poses import Array, wrap_angles
 from .team_players import NEAREST, TeamRules
 
-State = tuple[Array, Array, Array, Array]  # x, y, theta, sight
+State = tuple[Array, Array, Array]  # x, y, theta
+
+
+class _Begin(NamedTuple):
+    """State of all games at the begin of a step. Shapes (players, games).
+
+    Attributes:
+        theta: Headings, in [rad].
+        dx: Line of sight to the target, in [m].
+        dy: Likewise.
+        error: Errors of the headings, in [rad].
+        targets: Numbers of the targets.
+    """
+
+    theta: Array
+    dx: Array
+    dy: Array
+    error: Array
+    targets: NDArray[np.int64]
 
 
 def play_chunk(
@@ -33,12 +53,9 @@ def play_chunk(
         sight = np.arctan2(dy, dx)
         psi = wrap_angles(sight - theta)
         side = np.where(psi > 0.0, -1.0, 1.0)
-        # The error is sight - theta + shift, continuous within the step.
         error = wrap_angles(psi + side * rules.angles[:, None])
-        shift = error - (sight - theta)
-        x, y, theta, _ = _rk4(
-            (x, y, theta, sight), shift, targets, rules, step
-        )
+        begin = _Begin(theta, dx, dy, error, targets)
+        x, y, theta = _rk4((x, y, theta), begin, rules, step)
         _note_pairs(least, x, y)
     closest = np.sqrt(least).transpose(2, 0, 1)
     return closest, np.stack([x.T, y.T, theta.T], axis=-1)
@@ -63,43 +80,37 @@ def _targets_of(x: Array, y: Array, rules: TeamRules) -> NDArray[np.int64]:
     return targets
 
 
-def _slope(
-    state: State,
-    shift: Array,
-    targets: NDArray[np.int64],
-    rules: TeamRules,
-) -> State:
+def _slope(state: State, begin: _Begin, rules: TeamRules) -> State:
     """Return the rates of all states."""
-    x, y, theta, sight = state
-    u = rules.velocities[:, None] * np.cos(theta)
-    v = rules.velocities[:, None] * np.sin(theta)
-    dx, dy = _at(x, targets) - x, _at(y, targets) - y
-    du, dv = _at(u, targets) - u, _at(v, targets) - v
-    turning = rules.gains[:, None] * (sight - theta + shift)
-    sight_rate = (dx * dv - dy * du) / (dx * dx + dy * dy)
-    return u, v, turning, sight_rate
+    x, y, theta = state
+    dx, dy = _at(x, begin.targets) - x, _at(y, begin.targets) - y
+    swept = np.arctan2(
+        begin.dx * dy - begin.dy * dx, begin.dx * dx + begin.dy * dy
+    )
+    # Continuous within the step, unlike a wrapped error.
+    error = begin.error + swept - (theta - begin.theta)
+    velocities = rules.velocities[:, None]
+    return (
+        velocities * np.cos(theta),
+        velocities * np.sin(theta),
+        rules.gains[:, None] * error,
+    )
 
 
-def _rk4(
-    state: State,
-    shift: Array,
-    targets: NDArray[np.int64],
-    rules: TeamRules,
-    step: float,
-) -> State:
+def _rk4(state: State, begin: _Begin, rules: TeamRules, step: float) -> State:
     """Return the states after one step."""
 
     def moved(slope: State, time: float) -> State:
-        x, y, theta, sight = (
+        x, y, theta = (
             value + time * rate
             for value, rate in zip(state, slope, strict=True)
         )
-        return x, y, theta, sight
+        return x, y, theta
 
-    first = _slope(state, shift, targets, rules)
-    second = _slope(moved(first, 0.5 * step), shift, targets, rules)
-    third = _slope(moved(second, 0.5 * step), shift, targets, rules)
-    fourth = _slope(moved(third, step), shift, targets, rules)
+    first = _slope(state, begin, rules)
+    second = _slope(moved(first, 0.5 * step), begin, rules)
+    third = _slope(moved(second, 0.5 * step), begin, rules)
+    fourth = _slope(moved(third, step), begin, rules)
     mean = tuple(
         (a + 2.0 * (b + c) + d) / 6.0
         for a, b, c, d in zip(first, second, third, fourth, strict=True)

@@ -58,10 +58,13 @@ def check_team(players: Sequence[TeamPlayer]) -> None:
                 f"{player.target}"
             )
     for number, player in enumerate(players):
-        others = [n for n in range(count) if n != number]
-        opposed = [n for n in others if players[n].evades != player.evades]
-        if player.target == NEAREST and not opposed:
+        if player.target == NEAREST and not _opponents(players, player):
             raise PlanError(f"player {number} must have an opponent, got none")
+
+
+def _opponents(players: Sequence[TeamPlayer], own: TeamPlayer) -> list[int]:
+    """Return the numbers of the players that evade if one pursues."""
+    return [n for n, p in enumerate(players) if p.evades != own.evades]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -72,7 +75,7 @@ class TeamRules:
         velocities: Driving velocities, negative for backward, in [m/s].
         gains: Steering gains, in [1/s].
         angles: Evasion angles, in [rad]; 0 of pursuers.
-        targets: Targets, or ``NEAREST``.
+        targets: Targets, or ``NEAREST`` with several opponents.
         evades: Whether each evades.
     """
 
@@ -85,10 +88,14 @@ class TeamRules:
 
 def team_rules(players: Sequence[TeamPlayer]) -> TeamRules:
     """Return the parameters of players as arrays."""
+    targets = [
+        opposed[0] if p.target == NEAREST and len(opposed) == 1 else p.target
+        for p, opposed in ((p, _opponents(players, p)) for p in players)
+    ]
     return TeamRules(
         np.array([-p.speed if p.evades else p.speed for p in players]),
         np.array([p.gain for p in players]),
         np.array([p.angle if p.evades else 0.0 for p in players]),
-        np.array([p.target for p in players], dtype=np.int64),
+        np.array(targets, dtype=np.int64),
         np.array([p.evades for p in players]),
     )
