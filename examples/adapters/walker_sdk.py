@@ -31,6 +31,29 @@ class WalkerState:
     person: tuple[float, float] | None
 
 
+@dataclass(frozen=True)
+class WalkerImage:
+    """Image of the camera in the head.
+
+    Attributes:
+        time: Time of the exposure on the robot's clock, in [s].
+        width: Columns, in [px].
+        height: Rows, in [px].
+        focal: Focal length, in [px].
+        up: Height of the camera, in [m].
+        head: Yaw to the left and pitch downward at the exposure, in [rad].
+        pixels: Red, green and blue, row by row.
+    """
+
+    time: float
+    width: int
+    height: int
+    focal: float
+    up: float
+    head: tuple[float, float]
+    pixels: bytes
+
+
 class WalkerClient:
     """Connection to the robot."""
 
@@ -38,6 +61,7 @@ class WalkerClient:
         """Make a client; it connects later."""
         self._address = address
         self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self._camera = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
 
     def Connect(self, timeout: float) -> None:
         """Subscribe to the state.
@@ -46,6 +70,7 @@ class WalkerClient:
             ConnectionError: If the robot does not answer.
         """
         self._socket.connect(self._address)
+        self._camera.connect(self._address)
         self._socket.settimeout(timeout)
         try:
             self._send(call="subscribe")
@@ -78,10 +103,25 @@ class WalkerClient:
         entries = json.loads(newest)
         return WalkerState(**entries)
 
+    def MoveHead(self, yaw: float, pitch: float) -> None:
+        """Turn the head, to the left and downward."""
+        self._send(call="head", angles=(yaw, pitch))
+
+    def ReadImage(self, timeout: float) -> WalkerImage | None:
+        """Return an image, or None; another thread may call the rest."""
+        self._camera.settimeout(timeout)
+        try:
+            self._camera.send(b'{"call": "image"}')
+            entries, _, pixels = self._camera.recv(1 << 16).partition(b"\n")
+        except (ConnectionError, TimeoutError):
+            return None
+        return WalkerImage(**json.loads(entries), pixels=pixels)
+
     def Close(self) -> None:
         """Disconnect."""
         self._send(call="unsubscribe")
         self._socket.close()
+        self._camera.close()
 
     def _send(self, **call: object) -> None:
         self._socket.send(json.dumps(call).encode())

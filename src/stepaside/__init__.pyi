@@ -3,6 +3,9 @@ from .control import ControlScheme as ControlScheme
 from .control.scheme_builder import build_scheme as build_scheme
 from .core.errors import StepAsideError as StepAsideError
 from .core.poses import Pose as Pose
+from .drivers.cameras.robot_camera import CameraImage as CameraImage
+from .drivers.cameras.robot_camera import CameraMount as CameraMount
+from .drivers.cameras.robot_camera import HeadLimits as HeadLimits
 from .drivers.joint.joint_robot import JointReport as JointReport
 from .drivers.joint.joint_robot import JointRobot as JointRobot
 from .drivers.joint.joint_robot import JointTarget as JointTarget
@@ -60,6 +63,8 @@ __all__ = [
     "BODIES",
     "Body",
     "BodySettings",
+    "CameraImage",
+    "CameraMount",
     "Configuration",
     "ControlScheme",
     "ControlSettings",
@@ -70,6 +75,7 @@ __all__ = [
     "Evasion",
     "Foot",
     "GaitSettings",
+    "HeadLimits",
     "Intent",
     "JointReport",
     "JointRobot",

@@ -8,11 +8,17 @@ from collections.abc import Iterator
 from pathlib import Path
 from time import monotonic, sleep
 
+import numpy as np
 import pytest
+
+from stepaside.drivers.row_file import read_rows
 
 ROBOT = '''
 import os
+from math import cos, sin
 from time import monotonic, sleep
+import numpy as np
+import simulated_walker as scene
 import stepaside as sa
 from stepaside.drivers.lola.nao_joints import NAO_MOTORS
 
@@ -46,23 +52,52 @@ class Echo(sa.JointRobot):
     def note(self, word):
         with open(os.environ["ECHO_LOG"], "a") as log:
             print(word, file=log)
+
+class Seeing(Echo):
+    """The same with a camera, which shows an opponent 1 m ahead."""
+
+    def listen(self):
+        return super().listen()._replace(sighting=None)
+
+    def image(self):
+        sleep(0.05)
+        now, camera = monotonic(), scene.SimulatedWalker(0, 1.0)
+        camera.socket.close()
+        scene.CAMERA = 0.46
+        camera.person = [1.0, 0.0]
+        yaw, pitch = self.angles["HeadYaw"], self.angles["HeadPitch"]
+        camera.head = [yaw, pitch + 0.021]
+        pixels = camera.image().partition(b"\\n")[2]
+        pixels = np.frombuffer(pixels, np.uint8).reshape(120, 160, 3)
+        return sa.CameraImage(now, pixels, scene.FOCAL, scene.FOCAL)
 '''
+ADAPTERS = Path(__file__).parents[2] / "examples" / "adapters"
 PLAY = "from stepaside.cli.main import main; main()"
 LONGEST = 60.0  # for what takes seconds on an idle machine, in [s]
+
+
+def started(folder: Path, kind: str, *options: str) -> "subprocess.Popen[str]":
+    """A play of a robot, which logs its calls."""
+    file = folder / "echo.py"
+    file.write_text(ROBOT, encoding="utf-8")
+    words = [sys.executable, "-c", PLAY, "play", "--robot", f"{file}:{kind}"]
+    path = [str(ADAPTERS), os.environ.get("PYTHONPATH", "")]
+    return subprocess.Popen(
+        [*words, *options],
+        env=os.environ
+        | {
+            "ECHO_LOG": str(folder / "log"),
+            "PYTHONPATH": os.pathsep.join(filter(None, path)),
+        },
+        stderr=subprocess.PIPE,
+        text=True,
+    )
 
 
 @pytest.fixture
 def play(tmp_path: Path) -> Iterator["subprocess.Popen[str]"]:
     """A play of the robot, which logs its calls."""
-    file = tmp_path / "echo.py"
-    file.write_text(ROBOT, encoding="utf-8")
-    words = [sys.executable, "-c", PLAY, "play", "--robot", f"{file}:Echo"]
-    process = subprocess.Popen(
-        words,
-        env=os.environ | {"ECHO_LOG": str(tmp_path / "log")},
-        stderr=subprocess.PIPE,
-        text=True,
-    )
+    process = started(tmp_path, "Echo")
     yield process
     process.kill()
     process.communicate()
@@ -103,3 +138,22 @@ def test_an_interrupt_rests_and_releases_the_joints(
     said = play.communicate(timeout=LONGEST)[1]
     assert "resting" in said
     assert calls(tmp_path)[-2] == f"release {play.pid}"
+
+
+def test_a_joint_robot_finds_its_opponent_by_its_camera(
+    tmp_path: Path,
+) -> None:
+    pytest.importorskip("cv2")
+    run = tmp_path / "run"
+    play = started(
+        tmp_path,
+        "Seeing",
+        *("--sensing", "cameras", "--duration", "3", "--record", str(run)),
+    )
+    said = play.communicate(timeout=LONGEST)[1]
+    assert "walking" in said, said
+    seen = read_rows(run)["sighting"]
+    seen = seen[np.isfinite(seen[:, 0])]
+    _, bearing, distance = np.median(seen[-20:], axis=0)
+    assert bearing == pytest.approx(0.0, abs=0.1)
+    assert distance == pytest.approx(1.0, abs=0.15)

@@ -15,6 +15,9 @@ import pytest
 
 from stepaside import load_run
 from stepaside.cli.main import main
+from stepaside.drivers.cameras.robot_camera import (
+    SILENCE as SILENCE_OF_CAMERA,
+)
 from stepaside.drivers.dead_man_switch import FIRST
 from stepaside.drivers.velocity.velocity_guardian import SILENCE
 from stepaside.drivers.velocity.watchdog import WatchSettings
@@ -27,6 +30,7 @@ PLAY = "from stepaside.cli.main import main; main()"
 TEMPLATE = "--role evader --speed 0.3 --gain 0.6 --safety-radius 5".split()
 LONGEST = 60.0  # for what takes seconds on an idle machine, in [s]
 SLACK = 1.0  # of a busy machine, in [s]
+SEEING = f"{ADAPTERS / 'seeing_robot.py'}:SeeingRobot"
 TIMEOUT = 0.6  # after which this robot stops by itself, in [s]
 
 
@@ -69,14 +73,17 @@ def start() -> Iterator[Callable[..., Any]]:
     plays: list[subprocess.Popen[str]] = []
 
     def start_one(
-        *options: str, of: Walker | None = None, keys: int | None = None
+        *options: str,
+        of: Walker | None = None,
+        keys: int | None = None,
+        robot: str = ROBOT,
     ) -> Any:
         if of is None:
             walkers.append(Walker(*options))
             return walkers[-1]
         plays.append(
             subprocess.Popen(
-                [sys.executable, "-c", PLAY, "play", "--robot", ROBOT]
+                [sys.executable, "-c", PLAY, "play", "--robot", robot]
                 + [*TEMPLATE, *options],
                 env=os.environ | {"WALKER_PORT": str(of.port)},
                 stdin=keys,
@@ -94,9 +101,10 @@ def start() -> Iterator[Callable[..., Any]]:
         walker.close()
 
 
-def test_the_page_prints_the_example() -> None:
+@pytest.mark.parametrize("example", ["walker_robot", "seeing_robot"])
+def test_the_page_prints_the_example(example: str) -> None:
     page = ADAPTERS.parents[1] / "docs" / "connect-your-robot.md"
-    code = (ADAPTERS / "walker_robot.py").read_text(encoding="utf-8")
+    code = (ADAPTERS / f"{example}.py").read_text(encoding="utf-8")
     assert f"```python\n{code}```" in page.read_text(encoding="utf-8")
 
 
@@ -189,6 +197,21 @@ def test_it_stops_when_its_network_fails_and_walks_on_afterwards(
     said = play.communicate(timeout=LONGEST)[1]
     assert play.returncode == 0 and "no odometry for" in said
     assert not walker.moves()
+
+
+def test_a_robot_with_a_camera_walks_while_it_sees_its_opponent(
+    start: Callable[..., Any],
+) -> None:
+    pytest.importorskip("cv2")
+    walker = start()
+    play = start("--sensing", "cameras", of=walker, robot=SEEING)
+    until(walker.moves)
+    walker.send(call="lose", **{"for": {"images": 2.0}})
+    assert until(lambda: not walker.moves()) < SILENCE_OF_CAMERA + SLACK
+    until(walker.moves)
+    play.send_signal(signal.SIGINT)
+    said = play.communicate(timeout=LONGEST)[1]
+    assert play.returncode == 0 and "image() returned no new image" in said
 
 
 def test_a_robot_that_is_not_there_is_reported(

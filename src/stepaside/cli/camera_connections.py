@@ -8,8 +8,12 @@ from .connection_settings import ConnectionSettings
 
 if TYPE_CHECKING:
     from ..drivers.cameras.image_source import ImageSource
+    from ..drivers.cameras.robot_camera import PosedCamera
+    from ..drivers.joint.adapter_link import AdapterLink
+    from ..drivers.joint.joint_robot import JointRobot
     from ..drivers.lola.lola_address import LolaAddress
     from ..drivers.velocity.velocity_body import VelocityBody
+    from ..drivers.velocity.velocity_robot import VelocityRobot
     from ..games.duel_settings import DuelSettings
 
 V4L2, NAOQI, ROS2 = "v4l2:", "naoqi:", "ros2:"
@@ -98,6 +102,111 @@ def open_camera_body(
         body.close()
         raise
     return CameraBody(body, camera, perception, turns_head=not dry_run)
+
+
+def open_seeing_robot(
+    settings: "DuelSettings",
+    make: "type[VelocityRobot]",
+    connection: ConnectionSettings,
+) -> "VelocityBody":
+    """Connect to a robot in Python that finds its opponent by its camera.
+
+    Args:
+        settings: Settings with optics and latency of the camera.
+        make: Class of the robot.
+        connection: Connection to the robot.
+
+    Raises:
+        StepAsideError: If the robot cannot be reached or has no camera.
+    """
+    from ..drivers.cameras.robot_camera import MountedCamera, RobotCamera
+    from ..drivers.scheme_factory import posed_perception_factory
+    from ..drivers.velocity.adapter_body import PERIOD, AdapterBody
+    from ..drivers.velocity.robot_camera_body import RobotCameraBody
+
+    _check_camera(make, connection)
+    perception = posed_perception_factory(connection.role)(make.head, PERIOD)
+    robot = make()
+    body = AdapterBody(robot, dry_run=connection.dry_run)
+    camera: PosedCamera
+    try:
+        if connection.images is None:
+            camera = RobotCamera(robot, needs_mount=True)
+        else:
+            assert make.camera is not None  # as checked
+            source = open_cameras(settings, None, connection)
+            camera = MountedCamera(source, make.camera)
+    except BaseException:
+        body.close()
+        raise
+    turns = make.head is not None and not connection.dry_run
+    return RobotCameraBody(body, camera, perception, turns_head=turns)
+
+
+def _check_camera(
+    make: "type[VelocityRobot]", connection: ConnectionSettings
+) -> None:
+    """Check that a class has what its source of images needs."""
+    from ..drivers.velocity.velocity_robot import VelocityRobot
+
+    name = make.__name__
+    if connection.images is None and make.image is VelocityRobot.image:
+        raise click.UsageError(
+            f"--sensing cameras requires the method image() of {name}, or "
+            "--images"
+        )
+    if connection.images is not None and make.camera is None:
+        raise click.UsageError(
+            f"--images requires camera of {name}: CameraMount(forward, left, "
+            "up, ...), the pose of the camera on the robot"
+        )
+
+
+def check_joint_camera(
+    kind: "type[JointRobot]", connection: ConnectionSettings
+) -> None:
+    """Check that a joint-driven robot in Python has a source of images.
+
+    Args:
+        kind: Class of the robot.
+        connection: Connection to the robot.
+
+    Raises:
+        UsageError: If it has none.
+    """
+    from ..drivers.joint.joint_robot import JointRobot
+
+    if connection.images is not None or kind.image is not JointRobot.image:
+        return
+    if not connection.in_python:
+        raise click.UsageError(
+            f"--sensing cameras requires --images, got {connection.robot!r}, "
+            "which tells its sightings and has no camera"
+        )
+    raise click.UsageError(
+        f"--sensing cameras requires the method image() of {kind.__name__}, "
+        "or --images"
+    )
+
+
+def open_joint_camera(
+    settings: "DuelSettings",
+    link: "AdapterLink",
+    connection: ConnectionSettings,
+) -> "ImageSource":
+    """Open the camera in the head of a joint-driven robot in Python.
+
+    Args:
+        settings: Settings with optics and latency of the camera.
+        link: Link to the robot.
+        connection: Connection to the robot.
+
+    Raises:
+        StepAsideError: If the camera does not exist.
+    """
+    if connection.images is None:
+        return link.open_camera()
+    return open_cameras(settings, None, connection)
 
 
 def _simulated_camera(robot: "LolaAddress | None") -> "ImageSource":

@@ -124,13 +124,12 @@ def _open_robot(
     from ..drivers.scheme_factory import policy_gains
     from ..locomotion.policy.legs_loader import load_policy
     from ..robots.tree_cache import load_tree
+    from .camera_connections import check_joint_camera, open_joint_camera
 
-    if settings.sensing == "cameras":
-        raise click.UsageError(
-            "--sensing cameras requires a robot on LoLA or NAOqi, got "
-            f"{connection.robot!r}; its reports bring sightings"
-        )
     robot, legs = make(), settings.legs
+    sees = settings.sensing == "cameras"
+    if sees:
+        check_joint_camera(type(robot), connection)
     motors = motors_of(description, tick=robot.tick, crouch={})
     servos = description.overlay.servos.items()
     own = own_gains(robot, motors, {name: servo[:2] for name, servo in servos})
@@ -153,10 +152,14 @@ def _open_robot(
             link = _link_to(
                 make, motors, own, connection, needs_forces=not legs.walks
             )
+            eyes = None
+            if sees:
+                eyes = open_joint_camera(settings, link, connection)
             return JointBody(
                 JointInterface(link, motors, link.codec, gains, stands=True),
                 dict(zip(names, scheme.joint_targets.tolist(), strict=True)),
-                sight=link,
+                sight=None if sees else link,
+                eyes=eyes,
                 guardian=guardian,
                 dry_run=connection.dry_run,
             )
@@ -209,9 +212,10 @@ def _scheme_factory(
     )
 
     gait = settings.gait
+    sees_as = connection.role if settings.sensing == "cameras" else None
     if settings.legs.walks:
         return policy_scheme_factory(
-            description, settings.legs, gait, tick=tick
+            description, settings.legs, gait, tick=tick, sees_as=sees_as
         )
     return control_scheme_factory(
         description,
@@ -219,6 +223,7 @@ def _scheme_factory(
         settings.control,
         tick=tick,
         delay_ticks=connection.delay_ticks,
+        sees_as=sees_as,
     )
 
 

@@ -135,15 +135,14 @@ def _velocity_connection(
     from ..drivers.velocity.velocity_limits import VelocityLimits
 
     robot, limits = connection.robot, VelocityLimits()
-    sees = settings.sensing == "cameras"
-    if sees and not robot.startswith(NAOQI):
+    if make is not None:
+        return _adapter_connection(settings, connection, make)
+    if settings.sensing == "cameras" and not robot.startswith(NAOQI):
         raise click.UsageError(
             "--sensing cameras requires a robot on LoLA or NAOqi, whose head "
-            f"follows the opponent, got {robot!r}; over ROS 2 the opponent's "
-            "position is received on a topic"
+            f"follows the opponent, or a class in Python, got {robot!r}; "
+            "over ROS 2 the opponent's position is received on a topic"
         )
-    if make is not None:
-        return _adapter_connection(connection, make)
     if robot.startswith(ROS2):
         return VelocityConnection(*_ros2_connection(connection), limits)
     if robot.startswith(NAOQI):
@@ -158,7 +157,9 @@ def _velocity_connection(
 
 
 def _adapter_connection(
-    connection: ConnectionSettings, make: "RobotClass"
+    settings: "DuelSettings",
+    connection: ConnectionSettings,
+    make: "RobotClass",
 ) -> VelocityConnection:
     """Return the ways to connect to a robot in a user's file."""
     from ..drivers.velocity.adapter_body import (
@@ -168,10 +169,16 @@ def _adapter_connection(
     from ..drivers.velocity.velocity_robot import VelocityRobot
 
     assert issubclass(make, VelocityRobot)  # joints are opened elsewhere
+
+    def open_adapter() -> "VelocityBody":
+        if settings.sensing == "cameras":
+            from .camera_connections import open_seeing_robot
+
+            return open_seeing_robot(settings, make, connection)
+        return AdapterBody(make(), dry_run=connection.dry_run)
+
     return VelocityConnection(
-        lambda: AdapterBody(make(), dry_run=connection.dry_run),
-        lambda: connect_adapter_stopper(make),
-        make.limits,
+        open_adapter, lambda: connect_adapter_stopper(make), make.limits
     )
 
 

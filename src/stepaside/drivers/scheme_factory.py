@@ -8,7 +8,11 @@ import numpy as np
 from ..control import ControlScheme
 from ..control.scheme import LocomotionScheme
 from ..control.scheme_builder import build_scheme
-from ..control.sight_sources import CameraSight, MeasuredSight
+from ..control.sight_sources import (
+    CameraSight,
+    MeasuredSight,
+    SightSource,
+)
 from ..control.strategy_runner import StrategyRunner
 from ..core.errors import ConfigurationError
 from ..locomotion.policy.contract import PolicyContract
@@ -19,12 +23,15 @@ from ..locomotion.zmp.control_settings import ControlSettings
 from ..planning import GaitSettings
 from ..robots.description import RobotDescription
 from ..strategies import Strategy
+from .cameras.robot_camera import HeadLimits
 from .joint.frames import MotorGains
 from .joint.joint_map import JointMap, MotorTable
 
 if TYPE_CHECKING:
-    from ..perception.perception import Perception
+    from ..perception.perception import Perception, PosedPerception
 
+# Of a camera that is fixed on the robot: its head is not commanded.
+FIXED_HEAD = HeadLimits(1.0, 1.0, 1.0, 1.0)
 REQUEST_TO_MOTION = 3  # ticks from command to motion, measured on NAO
 
 
@@ -76,6 +83,7 @@ def policy_scheme_factory(
     gait: GaitSettings,
     *,
     tick: float,
+    sees_as: str | None = None,
 ) -> Callable[[Strategy], LocomotionScheme]:
     """Return a factory of control schemes on learned legs.
 
@@ -87,10 +95,15 @@ def policy_scheme_factory(
         legs: Walking policy.
         gait: Speed, steering gain and decision interval of the template.
         tick: Control period, in [s]; it divides the period of the policy.
+        sees_as: Role of the player if it uses cameras; None if sightings
+            come with the measurements.
 
     Raises:
         PolicyError: If the network cannot run on the robot.
+        ConfigurationError: If cameras are used without OpenCV installed.
+        ModelError: If cameras are used and the robot has no head.
     """
+    perceive = None if sees_as is None else perception_factory(sees_as)
     load_legs(legs, description, tick=tick)  # refuses before the first walk
 
     def make(strategy: Strategy) -> LocomotionScheme:
@@ -98,7 +111,10 @@ def policy_scheme_factory(
         runner = StrategyRunner(
             strategy, gait, tick, velocities=walk.velocities
         )
-        return LocomotionScheme(runner, walk, MeasuredSight())
+        senses: SightSource = MeasuredSight()
+        if perceive is not None:
+            senses = CameraSight(perceive(description, tick), tick=tick)
+        return LocomotionScheme(runner, walk, senses)
 
     return make
 
@@ -143,6 +159,35 @@ def perception_factory(
     def make(description: RobotDescription, tick: float) -> "Perception":
         head, detector = load_head(description), ColourDetector(LOOKS[role])
         return build_perception(description, head, detector, tick=tick)
+
+    return make
+
+
+def posed_perception_factory(
+    role: str,
+) -> "Callable[[HeadLimits | None, float], PosedPerception]":
+    """Return a factory of perception from the range of a head and a period.
+
+    For robots that give the poses of their cameras.
+
+    Args:
+        role: Role of the player; its opponent's colours are looked for.
+
+    Raises:
+        ConfigurationError: If OpenCV is not installed.
+    """
+    _one_thread()
+    from ..perception.colour_detector import LOOKS, ColourDetector
+    from ..perception.perception_builder import build_posed_perception
+
+    def make(head: HeadLimits | None, tick: float) -> "PosedPerception":
+        yaw, up, down, height = head or FIXED_HEAD
+        return build_posed_perception(
+            ColourDetector(LOOKS[role]),
+            np.array([[-yaw, yaw], [-up, -up], [down, down]]),
+            camera_height=height,
+            tick=tick,
+        )
 
     return make
 

@@ -103,11 +103,51 @@ class _DeferredPose:
         return self._pose
 
 
-class BodyPoseHistory:
-    """Body poses of the last second, computed only where an image needs one.
+class PoseHistory:
+    """Body poses of the last second.
 
     Images arrive with latency; each is evaluated with the pose of the body
     at its exposure.
+    """
+
+    def __init__(self, tick: float) -> None:
+        """Begin empty.
+
+        Args:
+            tick: Time between two poses, in [s].
+        """
+        self._poses: deque[_DeferredPose] = deque(
+            maxlen=round(POSE_MEMORY / tick)
+        )
+
+    def add_pose(self, pose: BodyPose) -> None:
+        """Store a pose; its time may be earlier than the latest."""
+        self._insert(pose.time, lambda: pose)
+
+    @property
+    def latest(self) -> BodyPose | None:
+        """Latest pose; None before the first measurement."""
+        return self._poses[-1].pose if self._poses else None
+
+    def at(self, time: float) -> BodyPose:
+        """Return the pose at a time, in [s], or else the oldest one."""
+        for past in reversed(self._poses):
+            if past.time <= time + 1e-9:
+                return past.pose
+        return self._poses[0].pose
+
+    def _insert(self, time: float, compute: Callable[[], BodyPose]) -> None:
+        if len(self._poses) == self._poses.maxlen:
+            self._poses.popleft()
+        entry = _DeferredPose(time, compute)
+        if self._poses and time < self._poses[-1].time:
+            insort(self._poses, entry, key=lambda past: past.time)
+        else:
+            self._poses.append(entry)
+
+
+class BodyPoseHistory(PoseHistory):
+    """Body poses by kinematics, computed only where an image needs one.
 
     Attributes:
         kinematics: Kinematics of the body.
@@ -120,10 +160,8 @@ class BodyPoseHistory:
             kinematics: Kinematics of the body.
             tick: Time between two poses, in [s].
         """
+        super().__init__(tick)
         self.kinematics = kinematics
-        self._poses: deque[_DeferredPose] = deque(
-            maxlen=round(POSE_MEMORY / tick)
-        )
 
     def add(
         self,
@@ -169,24 +207,3 @@ class BodyPoseHistory:
             time,
             partial(self.kinematics.level, time, joints, pose_in_odometry),
         )
-
-    @property
-    def latest(self) -> BodyPose | None:
-        """Latest pose; None before the first measurement."""
-        return self._poses[-1].pose if self._poses else None
-
-    def at(self, time: float) -> BodyPose:
-        """Return the pose at a time, in [s], or else the oldest one."""
-        for past in reversed(self._poses):
-            if past.time <= time + 1e-9:
-                return past.pose
-        return self._poses[0].pose
-
-    def _insert(self, time: float, compute: Callable[[], BodyPose]) -> None:
-        if len(self._poses) == self._poses.maxlen:
-            self._poses.popleft()
-        entry = _DeferredPose(time, compute)
-        if self._poses and time < self._poses[-1].time:
-            insort(self._poses, entry, key=lambda past: past.time)
-        else:
-            self._poses.append(entry)

@@ -13,7 +13,7 @@ MAX_YAW = radians(115.0)  # of the head during a scan and a glance
 ROBOT_MIDDLE = 0.28  # height of a robot at which the head looks, in [m]
 ROBOT_TOP = 0.54  # height of the upper end of a robot's trim, in [m]
 HALF_VIEW = radians(20.0)  # from the image centre to its usable upper edge
-CAMERA_HEIGHT = 0.46  # in [m]
+CAMERA_HEIGHT = 0.46  # of a NAO, in [m]
 PERSON_TOP = 1.05  # height up to which a person is held in view, in [m]
 MAX_UPWARD = radians(13.0)  # pitch for a person: the floor stays in view
 OFTEN = 2.0  # between glances of a robot that walks backward, in [s]
@@ -33,14 +33,21 @@ class Gaze:
         scan_ends: Number of times that a scan has reached one of its ends.
     """
 
-    def __init__(self, coupling: Array, tick: float) -> None:
+    def __init__(
+        self,
+        coupling: Array,
+        tick: float,
+        camera_height: float = CAMERA_HEIGHT,
+    ) -> None:
         """Start straight ahead at the pitch of a scan.
 
         Args:
             coupling: Rows of yaw, minimum and maximum pitch, in [rad]. Shape
                 (3, n).
             tick: Control period, in [s].
+            camera_height: Height of the camera, in [m].
         """
+        self._camera_height = camera_height
         self._yaws, self._low, self._high = coupling.tolist()
         self._tick = tick
         self._side = 1.0
@@ -67,9 +74,10 @@ class Gaze:
         # Nearby not all fits in the image: the head matters most.
         tall = height > TALL
         top = PERSON_TOP if tall else ROBOT_TOP
-        elevation_top = atan2(top - CAMERA_HEIGHT, max(distance - 0.06, 0.1))
+        height_camera = self._camera_height
+        elevation_top = atan2(top - height_camera, max(distance - 0.06, 0.1))
         pitch = min(
-            atan2(CAMERA_HEIGHT - ROBOT_MIDDLE, distance),
+            atan2(height_camera - ROBOT_MIDDLE, distance),
             HALF_VIEW - elevation_top,
         )
         pitch = max(pitch, -MAX_UPWARD) if tall else pitch

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from ..core.poses import Array, Pose, wrap_angle
 from ..robots.body_pose import BodyPose
-from .camera_pose import BodyPoseHistory
+from .camera_pose import BodyPoseHistory, PoseHistory
 from .floor_map import FloorMap
 from .head_motion import GazeTarget, HeadControl
 from .images import (
@@ -64,7 +64,7 @@ class PerceptStages:
         return None
 
 
-class Perception:
+class PosedPerception:
     """Pipeline from images and echoes to sightings of the opponent and gaze.
 
     Each image updates tracks and map with the body pose at its exposure.
@@ -83,7 +83,7 @@ class Perception:
 
     def __init__(
         self,
-        poses: BodyPoseHistory,
+        poses: PoseHistory,
         stages: PerceptStages,
         tracker: Tracker,
         selection: TargetSelection,
@@ -92,7 +92,7 @@ class Perception:
         *,
         update_period: float,
     ) -> None:
-        """Combine the parts; :func:`build_perception` builds them.
+        """Combine the parts; see :mod:`.perception_builder`.
 
         Args:
             poses: Past poses of the body.
@@ -123,44 +123,21 @@ class Perception:
         """Whether the head searches for the opponent."""
         return self.gaze_target is None
 
-    def see(
-        self,
-        measurement: Measurement,
-        pose_support_in_odometry: Pose,
-        left_supports: bool,
-        tilt: tuple[float, float],
+    def see_from(
+        self, body: BodyPose, percepts: Sequence[AnyPercept]
     ) -> Sighting | None:
-        """Process the measurement of one tick.
+        """Process the images of a robot whose pose is known.
 
         Args:
-            measurement: Values of the sensors.
-            pose_support_in_odometry: Pose of the support foot.
-            left_supports: Whether that is the left foot.
-            tilt: Roll and pitch of the torso, in [rad].
+            body: Pose of the body now; those of the exposures have been
+                added to ``poses``.
+            percepts: Images and echoes that have arrived.
 
         Returns:
             Latest sighting of the opponent; None if it is lost.
         """
-        time, joints = measurement.time, measurement.joint_positions
-        support = pose_support_in_odometry
-        self.poses.add(time, joints, support, left_supports, tilt)
-        return self._process(time, measurement.percepts)
-
-    def see_level(
-        self, measurement: Measurement, pose_in_odometry: Pose
-    ) -> Sighting | None:
-        """Process a measurement of a level robot with its own walk.
-
-        Args:
-            measurement: Values of its sensors.
-            pose_in_odometry: Pose of the robot.
-
-        Returns:
-            Latest sighting of the opponent; None if it is lost.
-        """
-        time, joints = measurement.time, measurement.joint_positions
-        self.poses.add_level(time, joints, pose_in_odometry)
-        return self._process(time, measurement.percepts)
+        self.poses.add_pose(body)
+        return self._process(body.time, percepts)
 
     def looks_low(self) -> bool:
         """Return whether the next image should be from the bottom camera."""
@@ -213,6 +190,55 @@ class Perception:
                 self._selection.settled(main, now, x, y),
                 main.deviation_at(now),
             )
+
+
+class Perception(PosedPerception):
+    """Perception of a body whose pose follows from its joints.
+
+    Attributes:
+        poses: Past poses of the body, with its kinematics.
+    """
+
+    poses: BodyPoseHistory
+
+    def see(
+        self,
+        measurement: Measurement,
+        pose_support_in_odometry: Pose,
+        left_supports: bool,
+        tilt: tuple[float, float],
+    ) -> Sighting | None:
+        """Process the measurement of one tick.
+
+        Args:
+            measurement: Values of the sensors.
+            pose_support_in_odometry: Pose of the support foot.
+            left_supports: Whether that is the left foot.
+            tilt: Roll and pitch of the torso, in [rad].
+
+        Returns:
+            Latest sighting of the opponent; None if it is lost.
+        """
+        time, joints = measurement.time, measurement.joint_positions
+        support = pose_support_in_odometry
+        self.poses.add(time, joints, support, left_supports, tilt)
+        return self._process(time, measurement.percepts)
+
+    def see_level(
+        self, measurement: Measurement, pose_in_odometry: Pose
+    ) -> Sighting | None:
+        """Process a measurement of a level robot with its own walk.
+
+        Args:
+            measurement: Values of its sensors.
+            pose_in_odometry: Pose of the robot.
+
+        Returns:
+            Latest sighting of the opponent; None if it is lost.
+        """
+        time, joints = measurement.time, measurement.joint_positions
+        self.poses.add_level(time, joints, pose_in_odometry)
+        return self._process(time, measurement.percepts)
 
     def aim(self, joint_targets: Array) -> None:
         """Write the targets of the head joints, in [rad], in place."""

@@ -2,11 +2,14 @@
 
 from dataclasses import dataclass, field
 
+import numpy as np
+
+from ..core.poses import Array
 from ..robots.body_pose import BodyKinematics
 from ..robots.description import RobotDescription
-from ..robots.head import HeadDescription
+from ..robots.head import HeadDescription, Mount
 from .bottom_camera import BottomCameraUse, FootTracking, NearFloorMapping
-from .camera_pose import BodyPoseHistory
+from .camera_pose import BodyPoseHistory, PoseHistory
 from .colour_detector import ColourDetector
 from .floor_map import FloorMap
 from .foot_tracking import FootDetector
@@ -24,7 +27,7 @@ from .percept_stages import (
     SonarStage,
     TopCameraStage,
 )
-from .perception import Perception, PerceptStages
+from .perception import Perception, PerceptStages, PosedPerception
 from .room_scan import NoScan, RoomScan
 from .target_selection import RobotSelection, TargetSelection
 from .track import PERSON_MOTION, ROBOT_MOTION
@@ -110,4 +113,44 @@ def build_perception(
         None if mapping is None else mapping.floor,
         # A person at 1 m/s needs a decision before the next image arrives.
         update_period=0.0 if people else UPDATE_PERIOD,
+    )
+
+
+def build_posed_perception(
+    detector: ColourDetector,
+    coupling: Array,
+    *,
+    camera_height: float,
+    tick: float,
+) -> PosedPerception:
+    """Build the perception of a robot that gives the poses of its camera.
+
+    Args:
+        detector: Detector of the opponent in colour images.
+        coupling: Rows of yaw, minimum and maximum pitch of the head, in
+            [rad]. Shape (3, n).
+        camera_height: Height of the camera, in [m].
+        tick: Period of the updates, in [s].
+    """
+    tracker = Tracker(PERSON_MOTION)
+    selection = RobotSelection(tracker)
+    at_head = Mount(np.zeros(3), np.eye(3))
+    return PosedPerception(
+        PoseHistory(tick),
+        PerceptStages(
+            TopCameraStage(at_head, detector, tracker, [], near=False),
+            BottomCameraStage(at_head, [], tracker),
+            DepthCameraStage(
+                at_head, OpenFloorDepth(tracker, near_walls=False)
+            ),
+            SonarStage({}, tracker, selection),
+        ),
+        tracker,
+        selection,
+        HeadControl(
+            Gaze(coupling, tick, camera_height),
+            glances=NoGlances(),
+            scan=NoScan(),
+        ),
+        update_period=UPDATE_PERIOD,
     )

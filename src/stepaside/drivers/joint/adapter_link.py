@@ -14,6 +14,7 @@ from ...core.errors import ConfigurationError
 from ...core.poses import Array
 from ...core.user_file import FAILURES, shown_briefly
 from ...perception.measurement import Sighting
+from ..cameras.robot_camera import JointRobotCamera
 from ..dead_man_switch import DeadManSwitch
 from ..guardian_process import SessionLost
 from ..method_thread import CLOSE_TIMEOUT, MethodThread, open_robot
@@ -79,6 +80,16 @@ class AdapterLink:
         self._presses = False
         self._is_released = True
         self._is_refused = False  # the newest report
+        self._camera: JointRobotCamera | None = None
+
+    def open_camera(self) -> JointRobotCamera:
+        """Return the camera of the robot, which the caller closes.
+
+        Sightings then come from its images: those of the reports are not
+        needed, and the robot must stand without images.
+        """
+        self._camera = JointRobotCamera(self._robot)
+        return self._camera
 
     def wait(self, timeout: float) -> bool:
         """Wait up to ``timeout``, in [s]; return whether a report arrived.
@@ -208,7 +219,9 @@ class AdapterLink:
             forces = np.array(report.foot_forces)
             load = float(forces.sum()) / GRAVITY
         hindrance = report.hindrance
-        if self._seen is None:
+        if self._camera is not None:
+            hindrance = hindrance or self._camera.hindrance
+        elif self._seen is None:
             hindrance = hindrance or "no sighting of the opponent"
         if self._switch is not None:
             hindrance = self._switch.released() or hindrance
@@ -268,6 +281,8 @@ class AdapterLink:
                 )
             return
         self._number = number
+        if self._camera is not None:
+            self._camera.report_time = report.time
         self._seen = None
         if report.sighting is not None:
             self._age = report.time - report.sighting.time

@@ -7,6 +7,7 @@ from typing import ClassVar, NamedTuple
 from ...core.errors import ConfigurationError
 from ...core.user_file import shown_briefly
 from ...perception.measurement import Sighting
+from ..cameras.robot_camera import CameraImage
 
 
 class JointReport(NamedTuple):
@@ -66,7 +67,8 @@ class JointRobot:
     :meth:`release`.
 
     All methods are called from one thread, one after the other; only
-    :meth:`release` is also called while another method does not return. The
+    :meth:`release` is also called while another method does not return, and
+    :meth:`image` from a thread of its own. The
     guardian process makes its own object of the class and calls
     :meth:`open` and, if control has died, :meth:`release`.
 
@@ -119,11 +121,21 @@ class JointRobot:
         """
         raise NotImplementedError
 
+    def image(self) -> CameraImage | None:
+        """Return the newest image of the camera in the head, or None.
+
+        Called with ``--sensing cameras``, from a thread of its own; it may
+        wait for an image for about 0.1 s. The time is that of the exposure,
+        by the clock of :meth:`listen`. The head of the description says
+        where the camera is.
+        """
+        return None
+
     def close(self) -> None:
         """Disconnect; :meth:`release` has been called before."""
 
 
-METHODS = ("open", "listen", "command", "release", "close")
+METHODS = ("open", "listen", "command", "release", "image", "close")
 REQUIRED = ("listen", "command", "release")
 
 

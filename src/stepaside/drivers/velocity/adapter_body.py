@@ -69,6 +69,7 @@ class AdapterBody:
                 raise
         self._reading: Future[Any] | None = None
         self._commanding: Future[Any] | None = None
+        self._looking: Future[Any] | None = None
         self._stopping: Future[Any] | None = None
         self._stop_began = 0.0
         self._wanted = REST
@@ -123,6 +124,27 @@ class AdapterBody:
             self._stopping = None
         elif velocity == REST:
             self._stop_beside(*blocked)
+
+    def look(self, yaw: float, pitch: float) -> None:
+        """Turn the head, without waiting for the return.
+
+        Args:
+            yaw: Direction from the heading, in [rad], positive leftward.
+            pitch: Angle below the horizontal, in [rad].
+
+        Raises:
+            SessionLost: If the last call failed.
+        """
+        if self._dry_run:
+            return
+        if self._looking is not None:
+            if not self._looking.done():
+                return
+            self._looking.result()
+        robot = self._methods.robot
+        self._looking = self._methods.begin(
+            "look", lambda: robot.look(yaw, pitch)
+        )
 
     def close(self) -> None:
         """Stop the robot and disconnect.

@@ -5,6 +5,12 @@ from typing import ClassVar
 
 from ...core.errors import ConfigurationError
 from ...core.user_file import shown_briefly
+from ..cameras.robot_camera import (
+    CameraImage,
+    CameraMount,
+    HeadLimits,
+    check_head_limits,
+)
 from .velocity_body import VelocityReport
 from .velocity_limits import VelocityLimits
 
@@ -18,7 +24,8 @@ class VelocityRobot:
     and status line are those of every robot with velocity commands.
 
     All methods are called from one thread, one after the other; only
-    :meth:`stop` is also called while another method does not return. The
+    :meth:`stop` is also called while another method does not return, and
+    :meth:`image` from a thread of its own. The
     guardian process makes its own object of the class and calls
     :meth:`open` and, if control has died, :meth:`stop`.
 
@@ -27,10 +34,16 @@ class VelocityRobot:
         keeps_walking: Whether the robot keeps its last command for ever. A
             robot that stops by itself soon after its last command needs no
             second connection for the guardian.
+        head: Range of the head, with which :meth:`look` follows the
+            opponent with ``--sensing cameras``; None for a fixed camera.
+        camera: Pose of a fixed camera that ``--images`` reads; None if
+            :meth:`image` returns the images.
     """
 
     limits: ClassVar[VelocityLimits]
     keeps_walking: ClassVar[bool] = True
+    head: ClassVar[HeadLimits | None] = None
+    camera: ClassVar[CameraMount | None] = None
 
     def open(self) -> None:
         """Connect to the robot, without moving it.
@@ -65,11 +78,31 @@ class VelocityRobot:
         """Stop walking and stand; called in place of a zero command."""
         self.command(0.0, 0.0, 0.0)
 
+    def image(self) -> CameraImage | None:
+        """Return the newest image of the camera, or None.
+
+        Called with ``--sensing cameras``, from a thread of its own; it may
+        wait for an image for about 0.1 s. The time is that of the exposure,
+        by the clock of :meth:`listen`: an old or repeated image is not used.
+        """
+        return None
+
+    def look(self, yaw: float, pitch: float) -> None:
+        """Turn the head, within :attr:`head`.
+
+        Args:
+            yaw: Direction from the heading, in [rad], positive leftward.
+            pitch: Angle below the horizontal, in [rad].
+        """
+
     def close(self) -> None:
         """Disconnect; :meth:`stop` has been called before."""
 
 
-METHODS = ("open", "prepare", "listen", "command", "stop", "close")
+METHODS = (
+    *("open", "prepare", "listen", "command", "stop", "image", "look"),
+    "close",
+)
 REQUIRED = ("listen", "command")
 
 
@@ -100,4 +133,13 @@ def check_velocity_robot(kind: type[VelocityRobot], where: str) -> None:
         raise ConfigurationError(
             f"{where}: keeps_walking must be True or False, got "
             f"{shown_briefly(kind.keeps_walking)}"
+        )
+    if kind.head is not None:
+        check_head_limits(kind.head, where)
+        if kind.look is VelocityRobot.look:
+            raise ConfigurationError(f"{where}: head needs the method look()")
+    if kind.camera is not None and not isinstance(kind.camera, CameraMount):
+        raise ConfigurationError(
+            f"{where}: camera must be CameraMount(forward, left, up, ...), "
+            f"got {shown_briefly(kind.camera)}"
         )

@@ -1,0 +1,346 @@
+"""Test cameras of robots in Python: images, their faults, and sightings."""
+
+import json
+import logging
+import re
+from collections.abc import Iterator
+from math import atan2, degrees, hypot, inf, nan
+from threading import Event
+from time import monotonic, sleep
+from typing import Any
+
+import numpy as np
+import pytest
+from simulated_walker import SimulatedWalker
+
+from stepaside.cli.main import main
+from stepaside.core.errors import ConfigurationError
+from stepaside.core.poses import Pose, wrap_angle
+from stepaside.drivers.cameras.robot_camera import (
+    OLDEST,
+    SILENCE,
+    CameraImage,
+    CameraMount,
+    HeadLimits,
+    JointRobotCamera,
+    MountedCamera,
+    RobotCamera,
+)
+from stepaside.drivers.guardian_process import SessionLost
+from stepaside.drivers.velocity.adapter_body import PERIOD, AdapterBody
+from stepaside.drivers.velocity.velocity_body import (
+    VelocityCommand,
+    VelocityReport,
+)
+from stepaside.drivers.velocity.velocity_limits import VelocityLimits
+from stepaside.drivers.velocity.velocity_robot import (
+    VelocityRobot,
+    check_velocity_robot,
+)
+from stepaside.perception.camera_model import CameraModel
+from stepaside.perception.images import ColourImage, Percept
+
+MOUNT = CameraMount(0.1, 0.0, 1.2)
+PIXELS = np.zeros((120, 160, 3), np.uint8)
+SLACK = 20.0  # of a busy machine, in [s]
+
+
+def image(time: float = 5.0, **changes: Any) -> CameraImage:
+    """A valid image."""
+    return CameraImage(time, PIXELS, 140.0, 140.0, MOUNT)._replace(**changes)
+
+
+class Filming:
+    """Robot whose image() does what a test wants."""
+
+    def __init__(self, *images: Any) -> None:
+        self.images = iter(images)
+
+    def image(self) -> Any:
+        """The next image; none at the end."""
+        return next(self.images, None)
+
+
+def taken(camera: RobotCamera, now: float = 5.0) -> list[CameraImage]:
+    """The images that arrive within a moment."""
+    found = []
+    for _ in range(60):
+        got = camera.take(now)
+        if got is not None:
+            found.append(got)
+        sleep(0.002)
+    return found
+
+
+def test_an_image_is_passed_on_once() -> None:
+    robot = Filming(image(), image(), None, image(5.1))
+    camera = RobotCamera(robot, needs_mount=True)
+    assert [each.time for each in taken(camera)] == [5.0, 5.1]
+    assert not camera.hindrance
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"pixels": PIXELS[:, :, 0]}, "uint8, of shape .height, width, 3"),
+        ({"pixels": PIXELS / 255.0}, "got float64"),
+        ({"pixels": PIXELS[:4]}, "8 to 4096 a side"),
+        ({"focal_x": 1.2}, "focal_x must be in pixels of this image, 160"),
+        ({"focal_y": nan}, "focal_y must be in pixels"),
+        ({"time": nan}, "time must be finite"),
+        ({"time": 5.0 - OLDEST - 0.1}, "0.60 s old by the clock of listen"),
+        ({"time": 1.7e9}, "s old by the clock of listen"),
+        ({"mount": None}, "mount is missing"),
+        ({"mount": MOUNT._replace(up=1200.0)}, "in millimetres"),
+        ({"mount": MOUNT._replace(pitch=degrees(0.4))}, "are they degrees"),
+        ({"mount": MOUNT._replace(yaw=nan)}, "mount must be finite"),
+    ],
+)
+def test_an_invalid_image_is_refused_with_the_method(
+    changes: dict[str, Any],
+    said: str,
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    robot = Filming(*[image(**changes)] * 2)
+    camera = RobotCamera(robot, needs_mount=True)
+    with caplog.at_level(logging.WARNING):
+        assert taken(camera) == []
+    (record,) = caplog.records
+    assert record.getMessage().startswith("image() of Filming: ")
+    assert re.search(said, record.getMessage())
+    assert camera.hindrance.startswith("image(): ")
+
+
+@pytest.mark.parametrize("got", [3.0, PIXELS, (1.0, PIXELS)])
+def test_what_is_no_image_ends_the_session(got: Any) -> None:
+    camera = RobotCamera(Filming(got), needs_mount=True)
+    with pytest.raises(SessionLost, match=r"image\(\) .*CameraImage"):
+        taken(camera)
+
+
+def test_an_image_that_fails_ends_the_session() -> None:
+    robot = Filming()
+    robot.images = (1 / 0 for _ in "x")
+    camera = RobotCamera(robot, needs_mount=True)
+    with pytest.raises(SessionLost, match=r"image\(\) .*ZeroDivisionError"):
+        taken(camera)
+
+
+def test_an_image_that_blocks_hinders_the_robot() -> None:
+    stuck = Event()
+    robot = Filming(image())
+    robot.image = lambda: image() if stuck.wait(SLACK) else None  # type: ignore[method-assign]
+    camera = RobotCamera(robot, needs_mount=True)
+    camera.take(5.0)
+    sleep(0.3)
+    assert "image() has not returned for 0." in camera.hindrance
+    stuck.set()
+    assert taken(camera)
+    assert not camera.hindrance
+
+
+def test_silence_hinders_the_robot() -> None:
+    robot = Filming(image())
+    camera = RobotCamera(robot, needs_mount=True)
+    assert taken(camera)
+    deadline = monotonic() + SLACK
+    while not camera.hindrance:
+        camera.take(5.0)
+        assert monotonic() < deadline
+        sleep(0.01)
+    assert "image() returned no new image for 0.5 s" in camera.hindrance
+
+
+def test_a_joint_robot_times_its_images_by_control() -> None:
+    camera = JointRobotCamera(Filming(image(8.9, mount=None)))
+    camera.report_time = 9.0  # at 1.5 s of control
+    deadline = monotonic() + SLACK
+    found: list[Percept] = []
+    while not found:
+        found = camera.percepts(75, 1.5, 0.02)
+        assert monotonic() < deadline
+    (seen,) = found
+    assert isinstance(seen, ColourImage)
+    assert seen.time == pytest.approx(1.4)
+    assert seen.camera == CameraModel(160, 120, 140.0, 140.0)
+
+
+class Film:
+    """Source of one image."""
+
+    def __init__(self) -> None:
+        self.left: list[Percept] = [
+            ColourImage(4.9, CameraModel(160, 120, 140.0, 141.0), PIXELS)
+        ]
+
+    def percepts(self, frame: int, now: float, tick: float) -> list[Percept]:
+        """The image, once."""
+        left, self.left = self.left, []
+        return left
+
+    def close(self) -> None:
+        """Nothing to release."""
+
+
+def test_a_camera_apart_from_the_robot_is_mounted_on_it() -> None:
+    clock = [7.0]
+    camera = MountedCamera(Film(), MOUNT, clock=lambda: clock[0])
+    got = camera.take(5.0)
+    assert got is not None and got.mount == MOUNT and got.focal_y == 141.0
+    assert camera.take(5.1) is None
+    clock[0] += SILENCE + 0.1
+    assert camera.hindrance == "no image for 0.6 s"
+
+
+class SeeingWalker(VelocityRobot):
+    """Simulated walker in this process, with a head."""
+
+    limits = VelocityLimits(0.5, 0.4, 1.0, lateral=0.3)
+    head = HeadLimits(1.5, 0.3, 0.8, 0.8)
+
+    def __init__(self) -> None:
+        self.walker = SimulatedWalker(0, inf)
+        self.walker.time = monotonic()
+
+    def listen(self) -> VelocityReport:
+        """Move on, and report."""
+        now = monotonic()
+        self.walker.move(now - self.walker.time)
+        self.walker.time = now
+        x, y, heading = self.walker.pose
+        return VelocityReport(now, Pose(x, y, wrap_angle(heading)))
+
+    def image(self) -> CameraImage:
+        """The present image."""
+        sleep(0.03)
+        entries, _, pixels = self.walker.image().partition(b"\n")
+        values = json.loads(entries)
+        shape = values["height"], values["width"], 3
+        yaw, pitch = values["head"]
+        focal = values["focal"]
+        return CameraImage(
+            values["time"],
+            np.frombuffer(pixels, np.uint8).reshape(shape),
+            focal,
+            focal,
+            CameraMount(0.0, 0.0, values["up"], yaw, pitch),
+        )
+
+    def look(self, yaw: float, pitch: float) -> None:
+        """Turn the head at once."""
+        self.walker.head = [yaw, pitch]
+
+    def command(self, forward: float, lateral: float, turn: float) -> None:
+        """Walk."""
+        self.walker.velocity = [forward, lateral, turn]
+
+    def close(self) -> None:
+        """Free the port."""
+        self.walker.socket.close()
+
+
+@pytest.fixture
+def seeing() -> Iterator[tuple[SeeingWalker, Any]]:
+    """A robot that turns away from a person, and its body with a camera."""
+    pytest.importorskip("cv2")
+    from stepaside.drivers.scheme_factory import posed_perception_factory
+    from stepaside.drivers.velocity.robot_camera_body import RobotCameraBody
+
+    robot = SeeingWalker()
+    perception = posed_perception_factory("evader")(robot.head, PERIOD)
+    body = RobotCameraBody(
+        AdapterBody(robot),
+        RobotCamera(robot, needs_mount=True),
+        perception,
+        turns_head=True,
+    )
+    yield robot, body
+    body.close()
+
+
+def test_the_head_follows_the_opponent_and_sightings_are_true(
+    seeing: tuple[SeeingWalker, Any],
+) -> None:
+    robot, body = seeing
+    end = monotonic() + 4.0
+    report, hindered = None, set()
+    while monotonic() < end:
+        new = body.listen(0.05)
+        if new is not None:
+            report = new
+            hindered.add(new.hindrance.partition(" for ")[0])
+        body.command(VelocityCommand(-0.1, 0.3))
+    assert report is not None and report.sighting is not None
+    x, y, heading = robot.walker.pose
+    dx, dy = robot.walker.person[0] - x, robot.walker.person[1] - y
+    bearing = wrap_angle(atan2(dy, dx) - heading)
+    assert bearing < -0.6  # it has turned away, and looks back
+    assert robot.walker.head[0] == pytest.approx(bearing, abs=0.15)
+    assert report.sighting.bearing == pytest.approx(bearing, abs=0.1)
+    assert report.sighting.distance == pytest.approx(hypot(dx, dy), abs=0.15)
+    assert hindered <= {"", "image() returned no new image"}
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"head": HeadLimits(90.0, 0.3, 0.3, 1.0)}, "head must be HeadLimits"),
+        ({"head": HeadLimits(1.0, nan, 0.3, 1.0)}, "head must be HeadLimits"),
+        ({"head": 1.0}, "head must be HeadLimits"),
+        ({"look": VelocityRobot.look}, "head needs the method look()"),
+        ({"camera": (0.0, 0.0, 1.0)}, "camera must be CameraMount"),
+    ],
+)
+def test_an_invalid_class_is_refused(
+    changes: dict[str, Any], said: str
+) -> None:
+    kind = type("Changed", (SeeingWalker,), changes)
+    with pytest.raises(ConfigurationError) as caught:
+        check_velocity_robot(kind, "robot r.py:R")
+    assert said in str(caught.value)
+
+
+BLIND = """
+import stepaside as sa
+
+class Blind(sa.VelocityRobot):
+    limits = sa.VelocityLimits(forward=0.5, backward=0.4, turn=1.0)
+    def listen(self):
+        raise AssertionError
+    def command(self, forward, lateral, turn):
+        raise AssertionError
+
+class BlindJoints(sa.JointRobot):
+    tick = 0.012
+    def listen(self):
+        raise AssertionError
+    def command(self, targets):
+        raise AssertionError
+    def release(self):
+        raise AssertionError
+"""
+
+
+@pytest.mark.parametrize(
+    ("kind", "words", "said"),
+    [
+        ("Blind", [], "requires the method image() of Blind, or --images"),
+        ("Blind", ["--images", "v4l2:x"], "--images requires camera of Blind"),
+        ("BlindJoints", [], "requires the method image() of BlindJoints"),
+    ],
+)
+def test_a_robot_without_camera_is_refused(
+    kind: str,
+    words: list[str],
+    said: str,
+    tmp_path: Any,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    pytest.importorskip("cv2")
+    file = tmp_path / "blind.py"
+    file.write_text(BLIND, encoding="utf-8")
+    command = ["play", "--robot", f"{file}:{kind}", "--sensing", "cameras"]
+    with pytest.raises(SystemExit) as left:
+        main([*command, *words, "--wait", "0"])
+    assert left.value.code == 2
+    assert said in capsys.readouterr().err.strip().splitlines()[-1]
