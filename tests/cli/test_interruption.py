@@ -113,3 +113,27 @@ def test_every_command_is_interrupted_by_the_fuzzer_or_short() -> None:
     """``python -m tools.fuzz.stopping`` interrupts all long commands."""
     known = {*stopping.LONG, *stopping.SHORT, *stopping.APART}
     assert known == set(all_commands())
+
+
+@pytest.mark.parametrize("recorded", [False, True])
+def test_a_campaign_interrupted_anywhere_names_its_records(
+    recorded: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Before its cases are submitted, for example while workers start."""
+
+    def interrupt(*_: Any, **__: Any) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("stepaside.games.game_file.load_game", interrupt)
+    records = tmp_path / "records"
+    records.mkdir()
+    if recorded:
+        (records / "a.jsonl").write_text("{}\n")
+    (tmp_path / "game.toml").write_text("")
+    result = CliRunner().invoke(
+        main, ["games", f"{tmp_path}/game.toml", f"--output={tmp_path}"]
+    )
+    assert result.exit_code == 130
+    kept = f"finished cases are saved in {records}; run the same command"
+    assert (kept in result.stderr) == recorded
+    assert ("nothing is saved" in result.stderr) != recorded

@@ -14,6 +14,8 @@ from ..studies.result_store import ResultStore
 from ..studies.result_table import TABLES
 from .options.common_options import workers_option
 from .options.parameter_types import TextType
+from .output_files import note_records, saved_text
+from .terminal import exit_interrupted
 
 RECORDS = "records"  # folder of the records in an output folder
 C = TypeVar("C")
@@ -113,7 +115,9 @@ class CampaignOptions(NamedTuple):
         if self.output is not None:
             return self
         check_folder(output, new=False)
-        return self._replace(output=output)
+        made = self._replace(output=output)
+        note_records(made.records)
+        return made
 
     @property
     def is_whole(self) -> bool:
@@ -169,7 +173,12 @@ def campaign_options(
             campaign = CampaignOptions(
                 workers, executor, shard, verify, output, table
             )
-            return function(*args, campaign=campaign, **values)
+            if output is not None:
+                note_records(campaign.records)
+            try:
+                return function(*args, campaign=campaign, **values)
+            except KeyboardInterrupt:
+                exit_interrupted(saved_text(click.get_current_context()))
 
         output_option = click.option(
             "--output",

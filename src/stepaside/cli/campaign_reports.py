@@ -1,12 +1,12 @@
 """Execution of campaigns, with progress and messages about records."""
 
 from contextlib import nullcontext
-from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
 import click
 
 from .campaign_options import CampaignOptions
+from .output_files import has_records
 from .progress import show_progress
 from .terminal import echo, exit_interrupted, resume_message
 
@@ -97,11 +97,6 @@ def report_invalid_lines(store: "ResultStore") -> None:
             "records are computed again",
             err=True,
         )
-
-
-def has_records(folder: Path) -> bool:
-    """Return whether an output folder holds records."""
-    return any(folder.glob("*.jsonl"))
 
 
 def _verify(

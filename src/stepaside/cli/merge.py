@@ -7,7 +7,8 @@ import click
 from ..core.atomic_output import check_folder
 from ..core.errors import ConfigurationError
 from .campaign_options import RECORDS
-from .campaign_reports import has_records, report_invalid_lines
+from .campaign_reports import report_invalid_lines
+from .output_files import has_records
 from .terminal import echo
 
 

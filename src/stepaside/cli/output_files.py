@@ -12,7 +12,7 @@ import click
 from ..core.atomic_output import check_file
 from ..core.errors import ConfigurationError, OutputError
 from .options.parameter_types import OutputFile
-from .terminal import NOTHING_SAVED, exit_interrupted
+from .terminal import NOTHING_SAVED, exit_interrupted, resume_message
 
 overwrite_option = click.option(
     "--overwrite/--no-overwrite",
@@ -20,6 +20,7 @@ overwrite_option = click.option(
     help="Replace existing files.",
 )
 FAILED = "stepaside.core.atomic_output.failed"
+RECORDS = "stepaside.cli.output_files.records"
 
 
 def writes_files(function: Callable[..., Any]) -> Callable[..., Any]:
@@ -43,7 +44,7 @@ def writes_files(function: Callable[..., Any]) -> Callable[..., Any]:
         try:
             result = function(**values)
         except KeyboardInterrupt:
-            exit_interrupted(_saved_text(before, _files(context)))
+            exit_interrupted(saved_text(context, before))
         except SystemExit as status:
             exit_status = status
         for failed in context.meta.get(FAILED, ())[:1]:
@@ -67,11 +68,31 @@ def _files(context: click.Context) -> dict[str, tuple[int, ...]]:
     return existing
 
 
-def _saved_text(
-    before: dict[str, tuple[int, ...]], now: dict[str, tuple[int, ...]]
+def note_records(folder: Path) -> None:
+    """Note where the command records a campaign, for its interruption."""
+    click.get_current_context().meta[RECORDS] = folder
+
+
+def has_records(folder: Path) -> bool:
+    """Return whether a folder holds records of a campaign."""
+    return any(folder.glob("*.jsonl"))
+
+
+def saved_text(
+    context: click.Context, before: dict[str, tuple[int, ...]] | None = None
 ) -> str:
-    """Return a sentence that names the files written since ``before``."""
-    new = [file for file, stat in now.items() if before.get(file) != stat]
+    """Return a sentence that names what an interrupted command has saved.
+
+    Args:
+        context: Context of the command.
+        before: Its output files before it began.
+    """
+    now = _files(context)
+    old = now if before is None else before
+    new = [file for file, stat in now.items() if old.get(file) != stat]
+    records = context.meta.get(RECORDS)
+    if records is not None and has_records(records):
+        return resume_message(", ".join(["finished cases", *new]), records)
     return f"saved: {', '.join(new)}" if new else NOTHING_SAVED
 
 
@@ -114,4 +135,11 @@ def attempt(write: Callable[[], Any]) -> bool:
     return True
 
 
-__all__ = ["OutputFile", "attempt", "writes_files"]
+__all__ = [
+    "OutputFile",
+    "attempt",
+    "has_records",
+    "note_records",
+    "saved_text",
+    "writes_files",
+]
