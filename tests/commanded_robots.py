@@ -3,9 +3,10 @@
 from collections.abc import Callable, Mapping
 
 from stepaside.drivers.velocity.velocity_body import VelocityCommand
+from stepaside.games.duel_as_game import build_duel_world
 from stepaside.games.duel_settings import PLAYERS, DuelSettings
-from stepaside.games.duel_world import DuelWorld, RemoteControl
-from stepaside.games.initial_poses import initial_poses, with_initial_poses
+from stepaside.games.game_world import RemoteControl
+from stepaside.games.initial_poses import with_initial_poses
 from stepaside.games.match import Match
 from stepaside.games.outcome import Outcome
 from stepaside.games.velocity_walker import VelocityWalker
@@ -18,9 +19,8 @@ def commanded_robots(
     """Return a world with two robots that are commanded by velocities."""
     settings = with_initial_poses(settings)
     control = RemoteControl(balances=True, ideal_sight=ideal_sight)
-    stage = DuelWorld(
+    stage = build_duel_world(
         settings,
-        initial_poses(settings),
         rendered=False,
         remote=dict.fromkeys(PLAYERS, control),
     )

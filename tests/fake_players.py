@@ -11,6 +11,7 @@ from stepaside.core.poses import Array, Pose
 from stepaside.games import match as loop
 from stepaside.games.match import Match
 from stepaside.games.outcome import Outcome
+from stepaside.games.pair_match import PairMatch
 from stepaside.games.player import Snapshot
 from stepaside.locomotion.walk_snapshots import StepStarted
 from stepaside.planning import Foot
@@ -170,6 +171,16 @@ def game(
         for name, x in zip("abcdef", places, strict=False)
     ]
     match = Match(world, players, observers, **options)
+    return match, world, players
+
+
+def pair(
+    *places: float, observers: Any = (), **options: Any
+) -> tuple[PairMatch, FakeWorld, list[FakePlayer]]:
+    """Pursuer and evader on a line, named a and b."""
+    _, world, players = game(*places)
+    in_match: Any = world
+    match = PairMatch(in_match, players, observers, **options)
     return match, world, players
 
 

@@ -7,7 +7,7 @@ import pytest
 
 from stepaside.arena import Disc, Room
 from stepaside.games import DuelSettings
-from stepaside.games.duel_furnishing import furnishing_of
+from stepaside.games.duel_furnishing import scenery_of_duel
 from stepaside.sim.passerby_settings import Passer
 
 ALONE = DuelSettings()
@@ -38,9 +38,7 @@ def test_a_world_has_the_objects_of_its_duel(
 ) -> None:
     spec = mujoco.MjSpec()
 
-    furnish = furnishing_of(settings)
-    if furnish is not None:
-        furnish(spec)
+    scenery_of_duel(settings).furnish(spec)
     bodies = {body.name for body in spec.bodies} - {"world"}
     assert wanted <= bodies and bool(wanted) == bool(bodies)
     kinds = {name.partition("/")[0].rstrip(" 1234") for name in bodies}

@@ -95,7 +95,14 @@ def test_the_example_games_are_valid(name: Path) -> None:
         ([HUNTER, PREY | {"start": [1.0]}], "start must have 3 numbers"),
         ([HUNTER, PREY | {"start": [1.0, 1e3, 0.0]}], "start must lie in"),
         ([HUNTER, PREY | {"goal": [1.0]}], "goal must have 2 numbers"),
-        ([HUNTER, PREY | {"senses": "cameras"}], "senses must be ideal"),
+        (
+            [HUNTER | {"senses": "cameras"}, PREY | {"count": 2}],
+            "red: senses must be ideal with several opponents",
+        ),
+        (
+            [HUNTER, PREY | {"senses": "lidar"}],
+            "blue: senses must be ideal or cameras with a robot",
+        ),
         ([HUNTER, PREY | {"body": "run"}], "run must be a run folder"),
         ([HUNTER, PREY | {"wings": 2}], "unknown entry wings"),
         ([HUNTER, PREY | {"count": 0}], "count must be a whole number"),

@@ -126,6 +126,55 @@ def test_a_recorded_player_repeats_its_motion(tmp_path: Path) -> None:
         run_game(game(ghost | {"run_player": "nobody"}, THREE[2]))
 
 
+def test_a_robot_in_a_game_sees_its_opponent_with_cameras() -> None:
+    """Others, like a bystander, may be there; it turns towards the evader."""
+    pytest.importorskip("cv2")
+    run = run_game(
+        game(
+            robot("red", "pursuer", 0.0, 0.0, 0.4, senses="cameras"),
+            robot("blue", "evader", 1.5, 0.0, pi, strategy="stand"),
+            GUEST | {"start": [-3.0, 2.0, 0.0], "goal": [3.0, 2.0]},
+            duration=4.0,
+            cameras={"colour": {"renderer": "raycast"}},
+        )
+    )
+    assert run.outcome is Outcome.COMPLETED
+    heading = run.tracks["red"].torso[:, 2]
+    assert heading[0] == pytest.approx(0.4, abs=1e-3) and heading[-1] < 0.3
+
+
+def test_a_lidar_shows_people_to_a_robot_of_a_game() -> None:
+    person = {
+        "name": "guest",
+        "role": "pursuer",
+        "body": "person",
+        "start": [-2.0, 0.0, 0.0],
+        "person": {"speed": 0.5},
+    }
+    run = run_game(
+        game(
+            robot("blue", "evader", 0.0, 0.0, pi, senses="lidar"),
+            person,
+            duration=3.0,
+        )
+    )
+    assert run.summary.results[0].moved_at_s is not None  # seen the person
+
+
+def test_a_person_begins_on_its_path() -> None:
+    """Whatever the heading of its start, it does not turn in a tick."""
+    person = {
+        "name": "guest",
+        "body": "person",
+        "target": "blue",
+        "start": [-2.0, 0.0, 2.0],
+        "person": {"path": "straight", "speed": 0.5},
+    }
+    run = run_game(game(THREE[0], THREE[2], person, duration=0.5))
+    headings = run.tracks["guest"].torso[:, 2]
+    np.testing.assert_allclose(headings, 0.0, atol=1e-9)
+
+
 def test_equal_settings_give_equal_games() -> None:
     settings = game(*THREE, duration=0.5)
     first, second = run_game(settings), run_game(settings)

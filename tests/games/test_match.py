@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fake_players import TICK, FakeObserver, clock, game, raising
+from fake_players import TICK, FakeObserver, clock, game, pair, raising
 from stepaside.core.errors import ReachError, StrategyError
 from stepaside.games.match import Progress, play
 from stepaside.games.outcome import Outcome
@@ -25,10 +25,8 @@ def test_three_players_act_in_turn_before_physics_advances() -> None:
 @pytest.mark.parametrize("count", [1, 2, 3, 5])
 def test_any_number_may_play(count: int) -> None:
     match, world, players = game(*(2.0 * np.arange(count)))
-    assert match.distance == (None if count == 1 else 2.0)
     outcome, _ = play(match, 2 * TICK)
     assert outcome is Outcome.COMPLETED and world.ticks == 2
-    assert match.min_distance == match.distance
     assert match.player("a") is players[0]
     assert match.player(players[-1].name) is players[-1]
     with pytest.raises(KeyError, match="zoe"):
@@ -148,17 +146,16 @@ def test_contact_is_always_checked_with_obstacles() -> None:
 def test_closest_approach_and_first_motion_of_the_evader_are_recorded() -> (
     None
 ):
-    """Distances are of the first two players; the last one evades."""
-    match, _, players = game(0.0, 5.0, 50.0)
+    match, _, players = pair(0.0, 5.0)
     others = []
 
     def stand(x: float, *, moves: bool) -> None:
         players[1].truth.position_torso_in_world = (x, 0.0)
-        players[2].is_moving = moves
+        players[1].is_moving = moves
         assert match.tick() is None
         others.append(match.min_distance)
 
-    players[0].is_moving = players[1].is_moving = True
+    players[0].is_moving = True
     for x, moves in ((4.0, False), (2.0, True), (3.0, True), (1.5, True)):
         stand(x, moves=moves)
     assert others == [4.0, 2.0, 2.0, 1.5]
@@ -167,7 +164,7 @@ def test_closest_approach_and_first_motion_of_the_evader_are_recorded() -> (
 
 
 def test_a_player_that_never_moves_is_never_triggered() -> None:
-    match, _, _ = game(0.0, 5.0)
+    match, _, _ = pair(0.0, 5.0)
     play(match, 0.1)
     assert match.triggered_at is None and match.triggered_distance is None
 
@@ -178,7 +175,7 @@ def test_progress_is_told_at_most_five_times_a_second(
     """Looked at every 0.1 s of the game; every other time 0.22 s passed."""
     clock(monkeypatch, 0.11)
     told: list[Progress] = []
-    match, _, _ = game(0.0, 1.3)
+    match, _, _ = pair(0.0, 1.3)
     _, wall = play(match, 0.5, told.append)
     assert [p.time for p in told] == pytest.approx([0.2, 0.4])
     factors = [p.real_time_factor for p in told]
@@ -216,7 +213,7 @@ def test_a_progress_report_may_interrupt(
 
 def test_a_game_begins_when_all_players_are_ready() -> None:
     """Each is told once; earlier motion of the evader is no trigger."""
-    match, world, players = game(0.0, 5.0)
+    match, world, players = pair(0.0, 5.0)
     players[0].is_ready = False
     players[1].is_moving = True
 

@@ -14,10 +14,11 @@ from stepaside.arena import Room, RoomRecipe, generate_room
 from stepaside.control.clearance.map_settings import MapSettings
 from stepaside.control.sight_sources import CameraSight
 from stepaside.core.poses import Pose, wrap_angle
-from stepaside.games import camera_duel as seeing
-from stepaside.games.camera_duel import CameraSenses, SightObserver
+from stepaside.games import camera_senses as seeing
+from stepaside.games.camera_senses import CameraSenses, SightObserver
 from stepaside.games.duel import Duel
-from stepaside.games.duel_furnishing import furnishing_of
+from stepaside.games.duel_as_game import game_of_duel
+from stepaside.games.duel_furnishing import scenery_of_duel
 from stepaside.games.duel_settings import PLAYERS, DuelSettings, StartSettings
 from stepaside.games.floor_player import FloorPlayer
 from stepaside.games.initial_poses import (
@@ -71,7 +72,7 @@ def evaluated(colour: FrameCounts, depth: FrameCounts, lost: float) -> Any:
 def prepared(*names: str, **changes: Any) -> CameraSenses:
     settings = SETTINGS if not changes else DuelSettings(**changes)
     return CameraSenses(
-        with_initial_poses(settings),
+        game_of_duel(with_initial_poses(settings)),
         load_robot("nao"),
         dict.fromkeys(names or PLAYERS, Direction.FORWARD),
         tick=0.004,
@@ -167,7 +168,8 @@ def test_each_robot_is_evaluated_by_the_true_state_of_its_opponent(
     both = prepared()
     robot: Any = SimpleNamespace(name="pursuer")
     truth: Any = object()
-    both.evaluator_of(robot, truth, wears_trim=False)
+    objects = SETTINGS.room.things
+    both.evaluator_of(robot, truth, objects, wears_trim=False)
     ((own, other, mind, _, things, times, wears_trim),) = made
     assert wears_trim is False
     assert own is robot and other is truth
@@ -201,7 +203,7 @@ def test_each_robot_with_cameras_is_evaluated() -> None:
     assert duel.observers == (duel.recorder, observer)
     for own, other in (duel.players, duel.players[::-1]):
         assert isinstance(own, SimulatedPlayer)
-        assert own.robot.eyes is not None and own.robot.sight is None
+        assert own.robot.eyes is not None and not own.robot.sees_exactly
         assert isinstance(own.scheme.senses, CameraSight)
         check_truth(observer.evaluators[own.name], own.truth, other.truth)
     duel.close()
@@ -298,12 +300,10 @@ def test_no_wall_is_between_a_robot_and_a_fast_person() -> None:
             cameras=CameraSettings(colour=ColourSettings(renderer="raycast")),
         )
     )
-    furnish = furnishing_of(settings)
-    assert furnish is not None
     spec = mujoco.MjSpec()
     head = load_head(load_robot("nao")).body
     spec.worldbody.add_body(name=f"evader/{head}")
-    furnish(spec)
+    scenery_of_duel(settings).furnish(spec)
     evader = initial_poses(settings)[1]
     assert evader.x > 5.0
     assert spec.geom("wall 1 0").pos[0] - evader.x == pytest.approx(3.5)

@@ -19,7 +19,8 @@ from stepaside.drivers.velocity.velocity_limits import VelocityLimits
 from stepaside.drivers.velocity.velocity_loop import DrivingState, VelocityLoop
 from stepaside.drivers.velocity.watchdog import WatchSettings
 from stepaside.games.duel_settings import DuelSettings, StartSettings
-from stepaside.games.match import Match, play
+from stepaside.games.match import play
+from stepaside.games.pair_match import PairMatch
 from stepaside.games.robot_endpoints import RobotEndpoint
 from stepaside.games.served_duel import serve_duel
 from stepaside.games.velocity_walker import VelocityWalker
@@ -82,9 +83,8 @@ def distance_without_a_wire() -> float:
     """Return the final distance of a duel in one process, in [m]."""
     world, robots = commanded_robots(SETTINGS)
     sources = {robot: NoWire(robot, ROLES[robot.name]).act for robot in robots}
-    match = Match(world, robots, [VelocityCommands(sources)])
+    match = PairMatch(world, robots, [VelocityCommands(sources)])
     play(match, SETTINGS.duration)
-    assert match.min_distance is not None
     return match.min_distance
 
 

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 pytest.importorskip("cv2")
 
-from stepaside.games.camera_duel import SightObserver  # noqa: E402
+from stepaside.games.camera_senses import SightObserver  # noqa: E402
 from stepaside.games.sight_evaluation import FrameCounts  # noqa: E402
 
 COUNT = st.integers(0, 50)

@@ -11,7 +11,7 @@ import pytest
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array, Pose
 from stepaside.games.duel import Duel
-from stepaside.games.duel_furnishing import furnishing_of
+from stepaside.games.duel_furnishing import scenery_of_duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.floor_player import FloorPlayer, PathSteering
 from stepaside.games.walker import SimulatedPlayer
@@ -328,11 +328,8 @@ def test_only_robots_walk_by_control() -> None:
 
 
 def test_a_world_contains_all_bodies() -> None:
-    assert furnishing_of(DuelSettings()) is None
     spec = mujoco.MjSpec()
-    furnish = furnishing_of(WITH)
-    assert furnish is not None
-    furnish(spec)
+    scenery_of_duel(WITH).furnish(spec)
     assert spec.compile().body("pursuer/trunk").mocapid[0] >= 0
 
 

@@ -19,7 +19,7 @@ def furnished(
     spec.worldbody.add_body(name="me/head", pos=[1.0, 2.0, 0.5]).add_geom(
         type=mujoco.mjtGeom.mjGEOM_SPHERE, size=[0.05, 0, 0], mass=0.6
     )
-    furnisher(room, "me", HEAD, walls=room.walls, lower=lower)(spec)
+    furnisher(room, HEAD, walls=room.walls, housings=["me"], lower=lower)(spec)
     model = spec.compile()
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)

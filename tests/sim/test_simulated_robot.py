@@ -11,10 +11,15 @@ import pytest
 from fake_robot import walk_of
 from stepaside.control import ControlScheme
 from stepaside.control.sight_sources import CameraSight, MeasuredSight
+from stepaside.core.player_identity import PlayerIdentity, Role
 from stepaside.core.poses import Array, Pose
 from stepaside.core.random_streams import named_generator
 from stepaside.games.walker import SimulatedPlayer
-from stepaside.games.walker_factory import WalkerSetup, place_walker
+from stepaside.games.walker_factory import (
+    PlayerSensing,
+    WalkerSetup,
+    place_walker,
+)
 from stepaside.locomotion.walk_snapshots import Phase
 from stepaside.locomotion.zmp.control_settings import OPEN_LOOP, STABILISED
 from stepaside.locomotion.zmp.feedback_loop import ClosedLoop, OpenLoop
@@ -309,7 +314,7 @@ def test_a_scheme_starts_from_the_first_measurement() -> None:
     assert scheme.phase is Phase.STANDING
     assert isinstance(scheme.decisions.strategy, Pursuit)
     assert isinstance(scheme.senses, MeasuredSight) and robot.eyes is None
-    assert robot.sight is None
+    assert not robot.sees_exactly
     scheme.update(robot.read())
     assert scheme.sighting == Sighting(0.0, 0.2, 2.0)
 
@@ -346,12 +351,14 @@ def test_sight_and_eyes_are_read_at_the_time_of_the_world() -> None:
             told.append(-1.0)
 
     sense = Sense()
-    made = walker(sight=sense)
+    red = PlayerIdentity("red", Role.PURSUER, "red")
+    made = walker(sight=PlayerSensing(red, "", (sense,)))
     robot = made.robot
     robot.eyes = sense  # type: ignore[assignment]
     robot.world.ticks = 50
     measured = robot.read()
     assert measured.sighting == measured.percepts == ("seen",)  # type: ignore
+    assert measured.players == (("seen",),)  # type: ignore
     assert told == [pytest.approx(0.6)] * 2 and measured.time == told[0]
     made.close()
     assert told[2:] == [-1.0]

@@ -19,6 +19,7 @@ from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.floor_player import FloorPlayer, PathSteering
 from stepaside.games.match import Match, play
 from stepaside.games.outcome import Outcome
+from stepaside.games.pair_match import PairMatch
 from stepaside.locomotion.zmp.control_settings import STABILISED
 from stepaside.planning import PRESETS
 from stepaside.sim.body_settings import BODIES
@@ -86,7 +87,7 @@ class Counts:
     def ended(self, match: Match, outcome: Outcome) -> None:
         """Add the counts of a game to the total."""
         self.crossings += visits_of(match).number
-        assert match.min_distance is not None
+        assert isinstance(match, PairMatch)
         self.closest = min(self.closest, match.min_distance)
         self._before, self._moved = self._before + match.world.time, False
 

@@ -5,20 +5,21 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from ..locomotion.policy.network_pool import NetworkPool
+from .duel_as_game import build_duel_world
 from .duel_evaluation import summarise
 from .duel_settings import DuelSettings
-from .duel_world import DuelWorld
 from .initial_poses import initial_poses, with_initial_poses
-from .match import Match, MatchObserver, Progress, play, play_together
+from .match import MatchObserver, Progress, play, play_together
 from .outcome import Outcome
+from .pair_match import PairMatch
 from .recorder import Recorder
 from .run import DuelRun
 
 if TYPE_CHECKING:
-    from .camera_duel import SightObserver
+    from .camera_senses import SightObserver
 
 
-class Duel(Match):
+class Duel(PairMatch):
     """Match of one pursuer and one evader.
 
     Attributes:
@@ -53,16 +54,18 @@ class Duel(Match):
                 be met by the robots.
         """
         self.settings = settings = with_initial_poses(settings)
-        self.frames = frames = initial_poses(settings)
-        stage = DuelWorld(
-            settings, frames, rendered=rendered, networks=networks
+        self.frames = initial_poses(settings)
+        stage = build_duel_world(
+            settings, rendered=rendered, networks=networks
         )
         tick = stage.world.physics.tick
         self.recorder = Recorder(stage.players, tick=tick)
         self.sight_observer = None
         if recorded:
             every = self.recorder.every
-            self.sight_observer = stage.sight_observer(every=every)
+            self.sight_observer = stage.sight_observer(
+                settings.room.things, every=every
+            )
         recorders: list[MatchObserver] = [self.recorder]
         if self.sight_observer is not None:
             recorders.append(self.sight_observer)
@@ -70,7 +73,7 @@ class Duel(Match):
             stage.world,
             stage.players,
             (*(recorders if recorded else ()), *observers),
-            has_things=stage.has_things,
+            has_things=settings.has_things,
             networks=stage.networks,
         )
 
@@ -93,7 +96,7 @@ class Duel(Match):
 
 def make_duel_run(
     settings: DuelSettings,
-    match: Match,
+    match: PairMatch,
     outcome: Outcome,
     recorder: Recorder,
     sight_observer: "SightObserver | None",

@@ -28,7 +28,7 @@ from .duel_summary import (
     TheorySummary,
 )
 from .forecast import ExpectedEnd, forecast
-from .match import Match
+from .pair_match import PairMatch
 from .sight_summary import SightReport
 from .template_game import play_point, play_template
 from .trajectory import PlanningTimes, Trajectory
@@ -36,7 +36,7 @@ from .trajectory import PlanningTimes, Trajectory
 
 def summarise(
     settings: DuelSettings,
-    match: Match,
+    match: PairMatch,
     times: Array,
     tracks: Mapping[str, Trajectory],
     planning: Mapping[str, PlanningTimes],
@@ -60,7 +60,6 @@ def summarise(
     tail = times >= times[-1] * 2.0 / 3.0
     last = pursuer[tail], evader[tail]
     start, now = settings.start, match.world.time
-    assert match.min_distance is not None
     return DuelSummary(
         seed=settings.seed,
         start=StartSummary(

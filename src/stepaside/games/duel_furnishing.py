@@ -1,8 +1,6 @@
-"""Everything but robots in the world of a duel: obstacles, people, cameras."""
+"""Scenery of a duel: obstacles, people and the cameras of robots."""
 
-from collections.abc import Callable
-
-import mujoco
+from functools import partial
 
 from ..robots.description import load_robot
 from ..robots.head import load_head
@@ -12,77 +10,49 @@ from ..sim.pedestrian_appearance import FIGURES
 from ..sim.person_body import add_person
 from ..sim.room_furnishing import Furnish, furnisher
 from .duel_settings import EVADER, PLAYERS, PURSUER, DuelSettings
+from .game_furnishing import MakeMover, Scenery
 from .initial_poses import initial_poses, wall_distance
 
-Mover = Callable[[float], None]  # moves bodies to where they are at a time [s]
 
-
-def uses_lower_cameras(settings: DuelSettings) -> bool:
-    """Return whether robots use the lower cameras of their heads.
-
-    They serve to detect people and to map the floor.
-    """
-    maps = settings.room.plan is not None and settings.map.source == "seen"
-    return settings.pursuer == "person" or maps
-
-
-def furnishing_of(settings: DuelSettings) -> Furnish | None:
-    """Return the function that adds everything but robots to a model.
+def scenery_of_duel(settings: DuelSettings) -> Scenery:
+    """Return obstacles, walls, objects, people and cameras of a duel.
 
     Args:
         settings: Settings of the duel, with the initial poses filled in.
-
-    Returns:
-        Function that adds obstacles, walls, objects, people and the cameras
-        on robots; None if there is nothing to add.
     """
     furnishings: list[Furnish] = []
+    movers: list[MakeMover] = []
+    plan = settings.room.plan
     if settings.sensing == "cameras":
-        head = load_head(load_robot(settings.robot_of(EVADER).robot))
-        low = settings.robots if uses_lower_cameras(settings) else ()
-        walls = wall_distance(settings)
+        maps = plan is not None and settings.map.source == "seen"
+        looks_low = maps or settings.pursuer == "person"
         furnishings.append(
             furnisher(
                 settings.room,
-                EVADER,
-                head,
-                walls=walls,
+                load_head(load_robot(settings.robot_of(EVADER).robot)),
+                walls=wall_distance(settings),
+                housings=(EVADER,),
                 upper=settings.robots,
-                lower=low,
+                lower=settings.robots if looks_low else (),
             )
         )
-    plan = settings.room.plan
     if plan is not None:
         furnishings.append(lambda spec: add_solids(spec, plan))
+        if plan.moving:
+            movers.append(partial(obstacle_mover, room=plan))
     if settings.pursuer == "person":
-        figure = FIGURES[settings.person.figure]
+        figure, passers = FIGURES[settings.person.figure], settings.passers
         furnishings += [
             lambda spec: add_person(spec, PURSUER, figure),
-            lambda spec: add_passers(spec, settings.passers),
+            lambda spec: add_passers(spec, passers),
         ]
-
-    def furnish(spec: mujoco.MjSpec) -> None:
-        for add in furnishings:
-            add(spec)
-
-    return furnish if furnishings else None
-
-
-def movers_in(
-    settings: DuelSettings, model: mujoco.MjModel, data: mujoco.MjData
-) -> list[Mover]:
-    """Return the functions that move obstacles and passers of a duel.
-
-    Args:
-        settings: Settings of the duel, with the initial poses filled in.
-        model: Model furnished by :func:`furnishing_of`.
-        data: Its state.
-    """
-    movers: list[Mover] = []
-    plan = settings.room.plan
-    if plan is not None and plan.moving:
-        movers.append(obstacle_mover(model, data, plan))
-    if settings.passers:
-        evader = initial_poses(settings)[PLAYERS.index(EVADER)]
-        movers.append(passer_mover(model, data, settings.passers, evader))
-    return movers
+        if passers:
+            movers.append(
+                lambda model, data: passer_mover(
+                    model,
+                    data,
+                    passers,
+                    initial_poses(settings)[PLAYERS.index(EVADER)],
+                )
+            )
+    return Scenery(tuple(furnishings), tuple(movers))

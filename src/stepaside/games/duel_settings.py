@@ -382,6 +382,11 @@ class DuelSettings:
         return PLAYERS if self.pursuer == "robot" else (EVADER,)
 
     @property
+    def has_things(self) -> bool:
+        """Whether there are obstacles or people besides the players."""
+        return bool(self.room.things or self.room.plan or self.passers)
+
+    @property
     def both(self) -> str:
         """Both players, as text: "both robots" or "both players"."""
         return "both robots" if self.pursuer == "robot" else "both players"

@@ -1,16 +1,25 @@
-"""Everything but robots in the world of a game, and its colours."""
+"""Scenery of a match: everything but robots, and their colours."""
 
-from collections.abc import Collection
+from collections.abc import Callable, Collection, Mapping
+from functools import partial
+from typing import NamedTuple
 
 import mujoco
 
 from ..core.player_colours import Rgb, shades_of
 from ..core.player_identity import Role
-from ..sim.obstacle_geoms import add_solids
+from ..robots.description import load_robot
+from ..robots.head import load_head
+from ..sim.camera_settings import SceneSettings
+from ..sim.obstacle_geoms import add_solids, obstacle_mover
 from ..sim.pedestrian_appearance import FIGURES, Colour
 from ..sim.person_body import add_person
+from ..sim.room_furnishing import Furnish, furnisher
 from ..sim.template_body import add_template
-from .game_settings import GameSettings
+from .game_settings import GameSettings, PlayerSettings
+
+Mover = Callable[[float], None]  # moves bodies to where they are at a time [s]
+MakeMover = Callable[[mujoco.MjModel, mujoco.MjData], Mover]
 
 BASE: dict[Role, Rgb] = {
     Role.PURSUER: (0.80, 0.16, 0.14),
@@ -25,26 +34,85 @@ def colours_in_world(settings: GameSettings) -> dict[str, Colour]:
     return {name: (*colour, 1.0) for name, colour in shades.items()}
 
 
-def furnish_game(
-    spec: mujoco.MjSpec,
-    settings: GameSettings,
-    *,
-    templates: Collection[str] = (),
-) -> None:
-    """Add everything but robots to the world of a game.
+class Scenery(NamedTuple):
+    """Everything but robots in the world of a match.
+
+    Attributes:
+        furnishings: Functions that add it to a model.
+        make_movers: Functions of model and data that return the functions
+            which move obstacles and people.
+        colours: Colours of robots by name; by default those of their roles.
+    """
+
+    furnishings: tuple[Furnish, ...]
+    make_movers: tuple[MakeMover, ...] = ()
+    colours: Mapping[str, Colour] | None = None
+
+    def furnish(self, spec: mujoco.MjSpec) -> None:
+        """Add everything but robots to a model."""
+        for add in self.furnishings:
+            add(spec)
+
+    def movers_in(
+        self, model: mujoco.MjModel, data: mujoco.MjData
+    ) -> list[Mover]:
+        """Return the functions of the time [s] that move bodies of a world.
+
+        Args:
+            model: Model with the scenery.
+            data: Its state.
+        """
+        return [make(model, data) for make in self.make_movers]
+
+
+def scenery_of_game(
+    settings: GameSettings, *, templates: Collection[str] = ()
+) -> Scenery:
+    """Return obstacles, people, templates and cameras of a game.
 
     Args:
-        spec: Specification of the world.
         settings: Settings of the game.
         templates: Names of robots that are shown as templates.
     """
     colours = colours_in_world(settings)
-    if settings.room is not None:
-        add_solids(spec, settings.room)
-    for player in settings.players:
-        if player.body == "person":
-            figure = FIGURES[player.person.figure]
-            shirt = colours[player.name]
-            add_person(spec, player.name, figure, shirt=shirt)
-        elif player.body != "robot" or player.name in templates:
-            add_template(spec, player.name, colours[player.name])
+    room, furnishings, movers = settings.room, [], []
+    if room is not None:
+        furnishings.append(lambda spec: add_solids(spec, room))
+        if room.moving:
+            movers.append(partial(obstacle_mover, room=room))
+    seeing = [
+        p for p in settings.sensing_by("cameras") if p.name not in templates
+    ]
+    if seeing:
+        furnishings.append(
+            furnisher(
+                SceneSettings(),
+                load_head(load_robot(seeing[0].robot)),
+                walls=0.0,
+                housings=[p.name for p in seeing if p.role == "evader"],
+                upper=[p.name for p in seeing],
+                lower=[
+                    p.name for p in seeing if uses_lower_camera(settings, p)
+                ],
+            )
+        )
+
+    def furnish_players(spec: mujoco.MjSpec) -> None:
+        for player in settings.players:
+            if player.body == "person":
+                figure = FIGURES[player.person.figure]
+                shirt = colours[player.name]
+                add_person(spec, player.name, figure, shirt=shirt)
+            elif player.body != "robot" or player.name in templates:
+                add_template(spec, player.name, colours[player.name])
+
+    return Scenery((*furnishings, furnish_players), tuple(movers), colours)
+
+
+def uses_lower_camera(settings: GameSettings, own: PlayerSettings) -> bool:
+    """Return whether a robot uses the lower camera of its head.
+
+    It serves to detect people and to map the floor.
+    """
+    opponents = settings.sensed_opponents(own)
+    return settings.maps_room or any(p.body == "person" for p in opponents)

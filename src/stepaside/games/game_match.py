@@ -4,12 +4,10 @@ from collections.abc import Callable
 from math import hypot
 from time import perf_counter
 
-import mujoco
 import numpy as np
 
 from ..core.poses import Array
 from ..sim.ground_truth import torsos_apart
-from ..sim.push import pushes_by_robot
 from .game_evaluation import GameRecord, summarise_game
 from .game_settings import GameSettings
 from .game_starts import with_starts
@@ -56,13 +54,6 @@ class GameMatch(Match):
         """
         self.settings = settings = with_starts(settings)
         stage = GameWorld(settings, rendered=rendered)
-        mujoco.mj_forward(stage.world.model, stage.world.data)
-        by_name = {player.name: player for player in stage.players}
-        if settings.pushes:
-            pushed = pushes_by_robot(settings.pushes, settings.robots)
-            for name, pushes in pushed.items():
-                if pushes:
-                    by_name[name].push(*pushes)
         tick = stage.world.physics.tick
         self.recorder = Recorder(stage.players, tick=tick)
         self.goals_at: dict[str, float] = {}

@@ -18,6 +18,7 @@ from ..locomotion.zmp.control_settings import ControlSettings
 from ..planning import GaitSettings
 from ..robots.description import load_robot
 from ..sim.body_settings import BODIES, BodySettings
+from ..sim.camera_settings import CameraSettings, LidarSettings
 from ..sim.crowd_motion import RADIUS, CrowdSettings
 from ..sim.person_settings import PersonSettings
 from ..sim.physics_settings import PhysicsSettings, SightSettings
@@ -30,11 +31,12 @@ from .player_names import MOST_PLAYERS, PLAYER_NAME
 
 BODY_KINDS = ("robot", "unicycle", "person", "run")
 GAME_LEVELS = ("physics", "steps", "unicycle")
+SENSING = ("ideal", "cameras", "lidar")
 MOST_ROBOTS = 12  # in physics
 USUAL_STRATEGIES = {"pursuer": "pursuit", "evader": "evasion"}
 NAO_RADIUS = 0.14  # within which its body stands and sways, in [m]
 POSITION = Range(-100.0, 100.0, "m", "the farthest initial distance")
-TURN = Range(-pi, pi, "rad", "half a turn")
+TURN = Range(-2.0 * pi, 2.0 * pi, "rad", "a turn")
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,7 +98,11 @@ class PlayerSettings:
         "of the room away from the start",
     )
     senses: str = setting(
-        "ideal", "Sensing of other players", names=("ideal", "cameras")
+        "ideal",
+        "Sensing of other players by a robot: true poses (ideal), or "
+        "detection in simulated camera images, or of people in the scans of "
+        "a simulated lidar",
+        names=SENSING,
     )
     sight: SightSettings = setting(SightSettings(), "Errors of ideal sensing")
     person: PersonSettings = setting(
@@ -145,12 +151,6 @@ class PlayerSettings:
                 values, (POSITION, POSITION, TURN), strict=False
             ):
                 allowed.check(value, f"{prefix}{name}")
-        if self.senses == "cameras":
-            raise ConfigurationError(
-                f"{prefix}senses must be ideal in a game file, as cameras "
-                "tell one opponent by its colour, and not several; got "
-                "'cameras'"
-            )
         if (self.body == "run") != bool(self.run):
             raise ConfigurationError(
                 f"{prefix}run must be a run folder with body 'run' only, got "
@@ -240,6 +240,12 @@ class GameSettings:
     map: MapSettings = setting(
         MapSettings(), "Map of the room that robots have", needs=("room", "")
     )
+    cameras: CameraSettings = setting(
+        CameraSettings(), "Cameras and sonars of players that sense by them"
+    )
+    lidar: LidarSettings = setting(
+        LidarSettings(), "Lidar of players that sense by one"
+    )
     pushes: tuple[Push, ...] = setting((), "Pushes on the robots")
 
     def __post_init__(self) -> None:
@@ -254,10 +260,7 @@ class GameSettings:
         if self.pushes and not robots:
             raise ConfigurationError("pushes need a robot, got none")
         check_pushes(self.pushes, robots)
-        if self.room is not None and self.map.source == "seen":
-            raise ConfigurationError(
-                "map.source must be given or none in a game file, got 'seen'"
-            )
+        check_senses(self)
 
     @property
     def knows_room(self) -> bool:
@@ -320,6 +323,25 @@ class GameSettings:
         """Return the names of the players of the opposing role."""
         own = self.player(name).identity
         return tuple(p.name for p in self.players if own.opposes(p.identity))
+
+    def sensing_by(self, senses: str) -> tuple[PlayerSettings, ...]:
+        """Return the robots with a kind of sensing."""
+        return tuple(
+            p for p in self.players if p.body == "robot" and p.senses == senses
+        )
+
+    def sensed_opponents(self, own: PlayerSettings) -> list[PlayerSettings]:
+        """Return the players that the sensors of a robot look for.
+
+        They are its target, or all players of the opposing role.
+        """
+        names = [own.target] if own.target else [*self.opponents_of(own.name)]
+        return [self.player(name) for name in names]
+
+    @property
+    def maps_room(self) -> bool:
+        """Whether robots map the room with their cameras."""
+        return self.room is not None and self.map.source == "seen"
 
     def named(self) -> "GameSettings":
         """Return the settings with a text for each strategy object."""
@@ -391,3 +413,57 @@ def check_players(players: tuple[PlayerSettings, ...]) -> None:
 def _is_cyclic(players: list[PlayerSettings]) -> bool:
     """Return whether all of several players pursue the next of their team."""
     return len(players) > 1 and all(p.strategy == "cyclic" for p in players)
+
+
+def check_senses(settings: GameSettings) -> None:
+    """Check that each robot can sense its opponents.
+
+    Raises:
+        ConfigurationError: If cameras or lidars cannot tell the opponents,
+            or the room cannot be mapped.
+    """
+    seeing = settings.sensing_by("cameras")
+    other = next((p for p in settings.players if p.senses != "ideal"), None)
+    if settings.level != "physics" and other is not None:
+        raise ConfigurationError(
+            f"{other.name}: senses must be ideal at level {settings.level!r}, "
+            f"got {other.senses!r}"
+        )
+    for own in seeing:
+        kinds = {p.body for p in settings.sensed_opponents(own)}
+        several = len(settings.sensed_opponents(own)) > 1
+        if (
+            kinds - {"robot", "person"}
+            or len(kinds) > 1
+            or (several and kinds == {"robot"})
+        ):
+            raise ConfigurationError(
+                f"{own.name}: senses must be ideal with several opponents, "
+                "as cameras tell people from others, and one robot by its "
+                "colour; got 'cameras'"
+            )
+        if own.legs.walks and settings.room is not None:
+            raise ConfigurationError(
+                f"{own.name}: legs.network must be empty in rooms with camera "
+                f"sensing, got {own.legs.network!r}"
+            )
+    models = {own.robot for own in seeing}
+    if len(models) > 1:
+        raise ConfigurationError(
+            "senses must be ideal for different robots, got 'cameras' for "
+            f"{', '.join(sorted(models))}"
+        )
+    for own in settings.sensing_by("lidar"):
+        if any(p.body != "person" for p in settings.sensed_opponents(own)):
+            raise ConfigurationError(
+                f"{own.name}: senses must be ideal or cameras with a robot as "
+                "opponent, got 'lidar': a lidar detects people"
+            )
+    if settings.maps_room and (
+        len(seeing) < len(settings.robots)
+        or any(p.body == "person" for p in settings.players)
+    ):
+        raise ConfigurationError(
+            "map.source must be given or none unless all robots sense by "
+            "cameras and there are no people, got 'seen'"
+        )

@@ -1,18 +1,30 @@
 """World of a game of any number of players, with its players."""
 
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
+from typing import TYPE_CHECKING, NamedTuple
+
+import mujoco
+
 from ..arena import NO_OBSTACLES
+from ..core.errors import ConfigurationError
 from ..core.poses import Pose
 from ..core.random_streams import named_generator
 from ..locomotion.policy.network_pool import NetworkPool
+from ..locomotion.zmp.reference_table import standing_reference
 from ..robots.description import load_robot
+from ..robots.head import load_head
+from ..robots.leg_kinematics import LegKinematics
 from ..sim.body_settings import at_tick, with_control_period
+from ..sim.camera_settings import RoomObject
 from ..sim.crowd_motion import CrowdMotion
 from ..sim.ground_truth import GroundTruth
 from ..sim.ideal_sensors import IdealLineOfSight
-from ..sim.obstacle_geoms import obstacle_mover
 from ..sim.pedestrian_appearance import FIGURES
 from ..sim.person_body import PersonBody
 from ..sim.person_motion import PersonMotion
+from ..sim.physics_settings import PhysicsSettings
+from ..sim.push import pushes_by_robot
 from ..sim.world import World
 from .floor_player import (
     CrowdSteering,
@@ -23,22 +35,42 @@ from .floor_player import (
     RecordedSteering,
     StrategySteering,
 )
-from .game_furnishing import colours_in_world, furnish_game
+from .game_furnishing import Scenery, scenery_of_game
 from .game_settings import GameSettings, PlayerSettings
 from .game_strategies import strategy_of
 from .player import Player
 from .recorded_motion import RecordedMotion
+from .served_player import ServedPlayer
 from .template_level import agent_of, bodies_of, target_of_person
+from .walker import RobotPlayer
 from .walker_factory import (
+    CameraSensing,
     PlayerSensing,
     WalkerSetup,
     clearance_in,
+    place_robot,
     place_walker,
 )
 
+if TYPE_CHECKING:
+    from .camera_senses import CameraSenses, SightObserver
+
+
+class RemoteControl(NamedTuple):
+    """How another process controls a robot.
+
+    Attributes:
+        balances: Whether the robot balances itself and follows commanded
+            velocities; otherwise its joints are commanded.
+        ideal_sight: Whether the true line of sight is measured.
+    """
+
+    balances: bool
+    ideal_sight: bool
+
 
 class GameWorld:
-    """World of a game with its players.
+    """World of a game with its players, ready for the first tick.
 
     Attributes:
         world: World with robots, people and obstacles.
@@ -46,54 +78,61 @@ class GameWorld:
         networks: Networks of robots on learned legs.
     """
 
-    def __init__(self, settings: GameSettings, *, rendered: bool) -> None:
+    def __init__(
+        self,
+        settings: GameSettings,
+        scenery: Scenery | None = None,
+        *,
+        rendered: bool,
+        remote: Mapping[str, RemoteControl] = MappingProxyType({}),
+        networks: NetworkPool | None = None,
+    ) -> None:
         """Build the world and place the players in it.
 
         Args:
             settings: Settings with the initial poses filled in.
-            rendered: Whether the world is rendered.
+            scenery: Everything but robots; that of the settings by default.
+            rendered: Whether to render the world; cameras do so anyway.
+            remote: Control of the robots that other processes control, by
+                name of the player.
+            networks: Networks of robots on learned legs, shared with other
+                games.
 
         Raises:
             StepAsideError: If the settings contradict each other or cannot
                 be met by the robots.
         """
-        self._settings = settings
-        physics, body = settings.physics, settings.body
-        robots = [p for p in settings.players if p.body == "robot"]
-        if any(own.legs.walks for own in robots):
-            body = at_tick(body, physics.tick)
-        else:
-            physics = with_control_period(physics, body)
-        self._setups = {
-            own.name: WalkerSetup(
-                own.name,
-                load_robot(own.robot),
-                own.gait,
-                own.control,
-                body,
-                odometry_in_world=_start_of(own),
-                seed=settings.seed,
-            )
-            for own in robots
+        self._settings, self._remote = settings, remote
+        self.networks = networks or NetworkPool()
+        self._setups = _setups_of(settings)
+        physics = _physics_of(settings, self._setups, self.networks)
+        self._strategies = {
+            own.name: strategy_of(own, self._map_in_world(own))
+            for own in settings.players
+            if own.body == "robot" and own.name not in remote
         }
+        self._senses = self._camera_senses(physics.tick)
+        scenery = scenery or scenery_of_game(settings)
         self.world = World(
             {name: own.description for name, own in self._setups.items()},
             physics,
             settings.body,
             settings.seed,
-            lambda spec: furnish_game(spec, settings),
-            rendered=rendered,
-            colours=colours_in_world(settings),
+            scenery.furnish,
+            rendered=rendered or self._senses is not None,
+            colours=scenery.colours,
         )
-        room = settings.room
-        if room is not None and room.moving:
-            move = obstacle_mover(self.world.model, self.world.data, room)
+        for move in scenery.movers_in(self.world.model, self.world.data):
             move(0.0)
             self.world.before_step.append(move)
-        self.networks = NetworkPool()
         self._states = {
             name: setup.true_state_in(self.world)
             for name, setup in self._setups.items()
+        }
+        self._walks = {
+            own.name: self._path_of(own)
+            for own in settings.players
+            if own.body == "person" and not own.goal
         }
         self._bodies = {
             own.name: self._floor_body(own)
@@ -108,11 +147,52 @@ class GameWorld:
             for own in settings.players
         }
         self.players = tuple(self._player(own) for own in settings.players)
+        mujoco.mj_forward(self.world.model, self.world.data)
+        if settings.pushes:
+            pushes = pushes_by_robot(settings.pushes, settings.robots)
+            for player in self.players:
+                if pushes.get(player.name):
+                    player.push(*pushes[player.name])
+
+    def _camera_senses(self, tick: float) -> "CameraSenses | None":
+        """Return the camera sensing of the robots; None without cameras.
+
+        Args:
+            tick: Control period, in [s].
+        """
+        seeing = self._settings.sensing_by("cameras")
+        if not seeing:
+            return None
+        from .camera_senses import CameraSenses
+
+        return CameraSenses(
+            self._settings,
+            self._setups[seeing[0].name].description,
+            {
+                own.name: self._strategies[own.name].direction
+                for own in seeing
+                if own.name in self._strategies
+            },
+            tick=tick,
+        )
+
+    def _path_of(self, own: PlayerSettings) -> PersonMotion:
+        """Return the walk of a person relative to another player."""
+        settings, room = self._settings, self._settings.room
+        target = settings.player(target_of_person(settings, own))
+        return PersonMotion(
+            own.person,
+            _start_of(own),
+            _start_of(target)[:2],
+            NO_OBSTACLES if room is None else room.solid_set,
+        )
 
     def _floor_body(self, own: PlayerSettings) -> FloorBody:
         """Return the body of a player that moves without physics."""
         pose = _start_of(own)
         if own.body == "person":
+            if own.name in self._walks:
+                pose = self._walks[own.name].pose  # it looks along its path
             figure = FIGURES[own.person.figure]
             return PersonBody(self.world, own.name, pose, figure)
         return MarkerBody(self.world, own.name, pose)
@@ -147,24 +227,31 @@ class GameWorld:
                 body,
                 CrowdSteering(walk, others, bodies_of(settings, own), tick),
             )
+        path = self._walks[own.name]
         target = self._truths[target_of_person(settings, own)]
-        aim = target.position_torso_in_world
-        room = settings.room
-        path = PersonMotion(
-            *(own.person, pose, aim),
-            NO_OBSTACLES if room is None else room.solid_set,
-        )
         return FloorPlayer(body, PathSteering(path, target, tick))
 
+    def _map_in_world(self, own: PlayerSettings) -> Pose:
+        """Return the pose of the frame in which a robot knows places."""
+        if self._settings.knows_room:
+            return Pose(0.0, 0.0, 0.0)  # that of the known room
+        return _start_of(own)
+
     def _robot(self, own: PlayerSettings) -> Player:
-        """Place a robot in the world, with its controller."""
+        """Place a robot in the world, with sensors and controller."""
+        remote = self._remote.get(own.name)
+        if remote is not None:
+            return self._remote_robot(own, remote)
         settings, setup = self._settings, self._setups[own.name]
-        frame = setup.odometry_in_world
-        if settings.knows_room:
-            frame = Pose(0.0, 0.0, 0.0)  # that of the known room
-        strategy = strategy_of(own, frame)
-        room, sensing = settings.room, self._sensing(own)
-        truth = self._states[own.name]
+        strategy, truth = self._strategies[own.name], self._states[own.name]
+        sensing = self._sensing(own) if own.senses == "ideal" else None
+        sensors = self._sensors(own)
+        clearance = clearance_in(
+            settings.room,
+            settings.map,
+            setup,
+            self._senses.perceptions.get(own.name) if self._senses else None,
+        )
         if own.legs.walks:
             from .policy_player import place_policy_player
 
@@ -174,18 +261,97 @@ class GameWorld:
                 own.legs,
                 strategy,
                 sight=sensing,
+                cameras=sensors,
                 truth=truth,
                 networks=self.networks,
-                clearance=clearance_in(room, settings.map, setup),
+                clearance=clearance,
             )
         return place_walker(
             self.world,
             setup,
             strategy,
             sight=sensing,
+            cameras=sensors,
             truth=truth,
-            clearance=clearance_in(room, settings.map, setup),
+            clearance=clearance,
         )
+
+    def _sensors(self, own: PlayerSettings) -> CameraSensing | None:
+        """Return the cameras or the lidar of a robot; None without."""
+        if own.senses == "cameras":
+            assert self._senses is not None
+            return CameraSensing(
+                self._senses.eyes_of(self.world, own.name),
+                self._senses.perceptions[own.name],
+            )
+        if own.senses == "ideal":
+            return None
+        from ..perception.lidar_perception import LidarPerception
+        from ..sim.lidar import Lidar
+
+        settings = self._settings
+        description = self._setups[own.name].description
+        return CameraSensing(
+            Lidar(
+                self.world,
+                own.name,
+                description.torso,
+                settings.lidar,
+                settings.seed,
+            ),
+            LidarPerception(description, settings.lidar.far),
+        )
+
+    def _remote_robot(
+        self, own: PlayerSettings, remote: RemoteControl
+    ) -> Player:
+        """Place a robot that another process controls."""
+        settings, setup = self._settings, self._setups[own.name]
+        truth = self._states[own.name]
+        if own.senses == "lidar":
+            raise ConfigurationError(
+                "sensing must be ideal or cameras for a robot that another "
+                "process controls, got 'lidar'"
+            )
+        sight, eyes, clearance = None, None, None
+        if own.senses == "cameras":
+            assert self._senses is not None
+            eyes = self._senses.eyes_of(self.world, own.name)
+        elif remote.ideal_sight:
+            sight = self._sensing(own)
+        if settings.map.source == "given":  # it builds no map of its own
+            clearance = clearance_in(settings.room, settings.map, setup)
+        if remote.balances:
+            from .velocity_walker import place_velocity_walker
+
+            return place_velocity_walker(
+                self.world,
+                setup,
+                truth=truth,
+                sight=sight,
+                eyes=eyes,
+                clearance=clearance,
+            )
+        description, gait = setup.description, setup.gait
+        kinematics = LegKinematics(description, tick=self.world.physics.tick)
+        half = 0.5 * gait.foot_spacing
+        left, right = Pose(0.0, half, 0.0), Pose(0.0, -half, 0.0)
+        kinematics.stand(standing_reference(left, right, gait))
+        robot = place_robot(
+            self.world,
+            setup,
+            kinematics,
+            sight=sight,
+            eyes=eyes,
+            truth=truth,
+            clearance=clearance,
+        )
+        head: tuple[int, ...] = ()
+        if eyes is not None:
+            joints = load_head(description)
+            names = kinematics.joint_names
+            head = names.index(joints.yaw), names.index(joints.pitch)
+        return ServedPlayer(robot, head)
 
     def _sensing(self, own: PlayerSettings) -> PlayerSensing:
         """Return the ideal sensing of all other players by a robot."""
@@ -212,6 +378,74 @@ class GameWorld:
                 )
             )
         return PlayerSensing(own.identity, own.target, tuple(sights))
+
+    def sight_observer(
+        self, things: Sequence[RoomObject] = (), *, every: int
+    ) -> "SightObserver | None":
+        """Return the evaluation of perception, if robots sense by cameras.
+
+        Args:
+            things: Objects in view of the cameras.
+            every: Control ticks between samples of the sightings.
+        """
+        if self._senses is None:
+            return None
+        from .camera_senses import SightObserver
+
+        evaluators = {}
+        for own in self.players:
+            if own.name not in self._senses.perceptions:
+                continue
+            assert isinstance(own, RobotPlayer)
+            settings = self._settings.player(own.name)
+            others = self._settings.sensed_opponents(settings)
+            if len(others) != 1:
+                continue  # a sighting does not say whom it shows
+            evaluators[own.name] = self._senses.evaluator_of(
+                own.robot,
+                self._truths[others[0].name],
+                things,
+                wears_trim=others[0].body == "robot",
+            )
+        return SightObserver(evaluators, self._senses.renderer, every=every)
+
+
+def _setups_of(settings: GameSettings) -> dict[str, WalkerSetup]:
+    """Return the robots of a game before they stand in the world."""
+    robots = [p for p in settings.players if p.body == "robot"]
+    body = settings.body
+    if any(own.legs.walks for own in robots):
+        body = at_tick(body, settings.physics.tick)
+    return {
+        own.name: WalkerSetup(
+            own.name,
+            load_robot(own.robot),
+            own.gait,
+            own.control,
+            body,
+            odometry_in_world=_start_of(own),
+            seed=settings.seed,
+        )
+        for own in robots
+    }
+
+
+def _physics_of(
+    settings: GameSettings,
+    setups: Mapping[str, WalkerSetup],
+    networks: NetworkPool,
+) -> PhysicsSettings:
+    """Return the physics of a game, at the control period of its robots."""
+    legs = {name: settings.player(name).legs for name in setups}
+    walking = [each.walks for each in legs.values()]
+    if not any(walking):
+        return with_control_period(settings.physics, settings.body)
+    if settings.sensing_by("cameras") or not all(walking):
+        return settings.physics  # heads move between decisions of the policy
+    from .policy_player import policy_physics
+
+    walkers = [(legs[name], own.description) for name, own in setups.items()]
+    return policy_physics(settings.physics, settings.body, walkers, networks)
 
 
 def _start_of(own: PlayerSettings) -> Pose:

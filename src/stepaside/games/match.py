@@ -2,11 +2,10 @@
 
 from collections.abc import Callable, Sequence
 from itertools import combinations
-from math import ceil, hypot
+from math import ceil
 from time import perf_counter
 from typing import NamedTuple, Protocol
 
-from ..core.constants import CAPTURE_DISTANCE
 from ..core.errors import ReachError, StrategyError
 from ..core.signal_handling import DeferredInterrupt
 from ..locomotion.policy.network_pool import NetworkPool
@@ -23,8 +22,7 @@ class Progress(NamedTuple):
 
     Attributes:
         time: Simulated time, in [s].
-        distance: Distance between the reference points of the first two
-            players, in [m]; None with one player.
+        distance: Distance of the players, in [m]; None with one player.
         real_time_factor: Simulated time over time passed.
     """
 
@@ -57,16 +55,8 @@ class Match:
         message: Reason for the end, as text; empty during the game.
         touched: Names of the bodies in contact, if contact ended the game.
         fallen: Names of the players that have fallen.
-        min_distance: Smallest distance so far between the first two torsos,
-            in [m].
-        captured_at: Time at which that distance first was at most the
-            capture distance, in [s]; None if it never was. The game goes on.
         started_at: Time at which the game began, in [s]: all players were
             ready, for example had scanned the room; None before.
-        triggered_at: Time at which the last player first moved in the game,
-            in [s]; None before. Motion before ``started_at`` does not count.
-        triggered_distance: Distance between the reference points then, in
-            [m].
     """
 
     def __init__(
@@ -99,30 +89,12 @@ class Match:
             (one.truth, other.truth, one.truth.reach + other.truth.reach)
             for one, other in combinations(self.players, 2)
         ]
-        self.min_distance = self.torsos_apart
-        self.captured_at: float | None = None
         self.started_at: float | None = None
-        self.triggered_at: float | None = None
-        self.triggered_distance: float | None = None
 
     @property
     def distance(self) -> float | None:
-        """True distance between the first two reference points, in [m]."""
-        if len(self.players) < 2:
-            return None
-        (x, y), (u, v) = (
-            player.truth.position_reference_in_world
-            for player in self.players[:2]
-        )
-        return hypot(u - x, v - y)
-
-    @property
-    def torsos_apart(self) -> float | None:
-        """True distance between the first two torsos, in [m]."""
-        if not self._pairs:
-            return None
-        first, second, _ = self._pairs[0]
-        return torsos_apart(first, second)
+        """True distance of the players, in [m], as the rules define it."""
+        return None
 
     def player(self, name: str) -> Player:
         """Return the player with a name.
@@ -191,40 +163,24 @@ class Match:
 
     def _judge(self) -> Outcome | None:
         """Apply the rules: a fall or a contact ends the game."""
-        now, apart = self.world.time, self.torsos_apart
-        if self.started_at is not None and self.triggered_at is None:
-            if self.players[-1].is_moving:
-                self.triggered_at = now
-                self.triggered_distance = self.distance
-        if apart is not None:
-            assert self.min_distance is not None
-            if apart < self.min_distance:
-                self.min_distance = apart
-            if self.captured_at is None and apart <= CAPTURE_DISTANCE:
-                self.captured_at = now
+        now = self.world.time
         fallen = [p.name for p in self.players if p.has_fallen]
         if fallen:
             self.fallen = tuple(fallen)
             self.message = f"{' and '.join(fallen)} fell at {now:.2f} s"
             return Outcome.FALL
-        if self._can_touch(apart) and self.world.robots_touch():
+        if self._can_touch() and self.world.robots_touch():
             self.touched = self.world.touching()
             self.message = f"{' and '.join(self.touched)} touched at "
             self.message += f"{now:.2f} s"
             return Outcome.CONTACT
         return None
 
-    def _can_touch(self, apart: float | None) -> bool:
-        """Return whether a contact is possible.
-
-        Args:
-            apart: Distance between the first two torsos, in [m].
-        """
-        if self._has_things or apart is None:
-            return self._has_things
-        return apart < self._pairs[0][2] or any(
+    def _can_touch(self) -> bool:
+        """Return whether a contact is possible."""
+        return self._has_things or any(
             torsos_apart(one, other) < reach
-            for one, other, reach in self._pairs[1:]
+            for one, other, reach in self._pairs
         )
 
     def close(self) -> None:

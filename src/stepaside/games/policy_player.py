@@ -20,7 +20,6 @@ from ..locomotion.policy.policy_walk import PolicyWalk
 from ..robots.description import RobotDescription
 from ..sim.body_settings import BodySettings
 from ..sim.ground_truth import TrueRobotState
-from ..sim.ideal_sensors import IdealLineOfSight
 from ..sim.physics_settings import PhysicsSettings
 from ..sim.simulated_robot import SensorSetup, SimulatedRobot
 from ..sim.world import World
@@ -30,7 +29,6 @@ from .walker_factory import (
     CameraSensing,
     PlayerSensing,
     WalkerSetup,
-    sensors_of,
     sight_source,
     with_body_radius,
 )
@@ -139,7 +137,7 @@ def place_on_legs(
     setup: WalkerSetup,
     legs: PolicyLegs,
     *,
-    sight: IdealLineOfSight | PlayerSensing | None = None,
+    sight: PlayerSensing | None = None,
     eyes: "SensorSuite | Lidar | None" = None,
     truth: TrueRobotState | None = None,
     knows_pose: bool = False,
@@ -150,7 +148,7 @@ def place_on_legs(
         world: World that contains the robot.
         setup: Robot with its settings.
         legs: Learned legs of the robot.
-        sight: Ideal sensor of the opponent, or of all other players.
+        sight: Ideal sensing of all other players.
         eyes: Cameras and sonars, if any.
         truth: True state of the robot, if it exists already.
         knows_pose: Whether its pose in the room is measured.
@@ -168,8 +166,7 @@ def place_on_legs(
             generator=named_generator(setup.seed, f"sensors/{setup.name}"),
             averages_imu=True,
             integrates_imu=not setup.body.has_sensor_errors,
-            sight=sight if isinstance(sight, IdealLineOfSight) else None,
-            players=sensors_of(sight),
+            sights=() if sight is None else sight.sights,
             eyes=eyes,
             truth=truth,
             knows_pose=knows_pose,
@@ -184,7 +181,7 @@ def place_policy_player(
     legs: LegsSettings,
     strategy: Strategy,
     *,
-    sight: IdealLineOfSight | PlayerSensing | None = None,
+    sight: PlayerSensing | None = None,
     cameras: CameraSensing | None = None,
     truth: TrueRobotState,
     networks: NetworkPool,
@@ -198,8 +195,7 @@ def place_policy_player(
             decision interval of its template.
         legs: Walking policy.
         strategy: Strategy of the player.
-        sight: Ideal sensor of the opponent, or of all other players, with
-            ideal sensing.
+        sight: Ideal sensing of all other players, if it senses so.
         cameras: Cameras and perception, with camera sensing.
         truth: True state of the robot.
         networks: Networks of all players, flushed at each tick.

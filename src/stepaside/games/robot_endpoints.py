@@ -9,7 +9,7 @@ from ..drivers.lola.lola_server import LolaServer
 from ..drivers.lola.nao_joints import TICK
 from ..drivers.velocity.velocity_body import VelocityCommand
 from .client_synchroniser import RobotServer
-from .duel_world import RemoteControl
+from .game_world import RemoteControl
 from .player import Player
 from .served_player import ServedPlayer
 from .velocity_walker import VelocityWalker

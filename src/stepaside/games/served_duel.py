@@ -8,10 +8,11 @@ from ..core.errors import ConfigurationError
 from ..drivers.lola.nao_joints import TICK
 from .client_synchroniser import ClientSynchroniser, RobotServer
 from .duel import make_duel_run
+from .duel_as_game import build_duel_world
 from .duel_settings import DuelSettings
-from .duel_world import DuelWorld
-from .initial_poses import initial_poses, with_initial_poses
-from .match import Match, Progress, play
+from .initial_poses import with_initial_poses
+from .match import Progress, play
+from .pair_match import PairMatch
 from .recorder import Recorder
 from .robot_endpoints import RobotEndpoint
 from .run import DuelRun
@@ -75,9 +76,8 @@ def serve_duel(
                 f"got {name}"
             )
     settings = with_initial_poses(settings)
-    stage = DuelWorld(
+    stage = build_duel_world(
         settings,
-        initial_poses(settings),
         rendered=False,
         remote={name: each.control for name, each in endpoints.items()},
     )
@@ -101,8 +101,11 @@ def serve_duel(
         for player in players:
             if isinstance(player, ServedPlayer):
                 player.begin()
-        match = Match(
-            world, players, (exchange, recorder), has_things=stage.has_things
+        match = PairMatch(
+            world,
+            players,
+            (exchange, recorder),
+            has_things=settings.has_things,
         )
         outcome, wall = play(match, settings.duration, report)
     return ServedDuel(

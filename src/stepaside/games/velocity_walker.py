@@ -14,11 +14,10 @@ from ..perception.images import ColourImage, SonarEcho
 from ..perception.measurement import Measurement, Sighting
 from ..planning import Foot
 from ..sim.ground_truth import TrueRobotState
-from ..sim.ideal_sensors import IdealLineOfSight
 from ..sim.simulated_robot import SimulatedRobot
 from ..sim.world import World
 from .player import PhysicalPlayer, Snapshot, snapshot_of
-from .walker_factory import WalkerSetup, place_robot
+from .walker_factory import PlayerSensing, WalkerSetup, place_robot
 from .walker_log import WalkerLog
 
 if TYPE_CHECKING:
@@ -184,7 +183,7 @@ def place_velocity_walker(
     setup: WalkerSetup,
     *,
     truth: TrueRobotState,
-    sight: IdealLineOfSight | None = None,
+    sight: PlayerSensing | None = None,
     eyes: "SensorSuite | Lidar | None" = None,
     clearance: ClearanceSetup | None = None,
 ) -> VelocityWalker:
@@ -194,7 +193,7 @@ def place_velocity_walker(
         world: World that contains the robot.
         setup: The robot.
         truth: True state of the robot.
-        sight: Ideal sensor of the opponent, reported to the client.
+        sight: Ideal sensing of the opponent, reported to the client.
         eyes: Cameras and sonars, reported to the client.
         clearance: Knowledge of the room and required clearance.
 

@@ -107,7 +107,7 @@ def place_walker(
     strategy: Strategy,
     *,
     sighting: Sighting | None = None,
-    sight: IdealLineOfSight | PlayerSensing | None = None,
+    sight: PlayerSensing | None = None,
     cameras: CameraSensing | None = None,
     truth: TrueRobotState | None = None,
     clearance: ClearanceSetup | None = None,
@@ -119,8 +119,7 @@ def place_walker(
         setup: The robot.
         strategy: Strategy of the player.
         sighting: Sighting before the first measurement, if known.
-        sight: Ideal sensor of the opponent, or of all other players, with
-            ideal sensing.
+        sight: Ideal sensing of all other players, if it senses so.
         cameras: Cameras and perception, with camera sensing.
         truth: True state of the robot, if it exists already.
         clearance: Knowledge of the room and required clearance.
@@ -156,7 +155,7 @@ def place_robot(
     setup: WalkerSetup,
     kinematics: LegKinematics,
     *,
-    sight: IdealLineOfSight | PlayerSensing | None = None,
+    sight: PlayerSensing | None = None,
     eyes: "SensorSuite | Lidar | None" = None,
     truth: TrueRobotState | None = None,
     clearance: ClearanceSetup | None = None,
@@ -167,8 +166,7 @@ def place_robot(
         world: World that contains the robot.
         setup: The robot.
         kinematics: Kinematics in the standing posture.
-        sight: Ideal sensor of the opponent, or of all other players, with
-            ideal sensing.
+        sight: Ideal sensing of all other players, if it senses so.
         eyes: Cameras and sonars, with camera sensing.
         truth: True state of the robot, if it exists already.
         clearance: Knowledge of the room; a robot that knows the room also
@@ -184,8 +182,7 @@ def place_robot(
         SensorSetup(
             generator=named_generator(setup.seed, f"sensors/{setup.name}"),
             averages_imu=setup.control.feedback,
-            sight=sight if isinstance(sight, IdealLineOfSight) else None,
-            players=sensors_of(sight),
+            sights=() if sight is None else sight.sights,
             eyes=eyes,
             truth=truth or setup.true_state_in(world),
             knows_pose=clearance is not None
@@ -194,15 +191,8 @@ def place_robot(
     )
 
 
-def sensors_of(
-    sight: IdealLineOfSight | PlayerSensing | None,
-) -> tuple[IdealLineOfSight, ...]:
-    """Return the sensors of a sensing of several players; else none."""
-    return sight.sights if isinstance(sight, PlayerSensing) else ()
-
-
 def sight_source(
-    sight: IdealLineOfSight | PlayerSensing | None,
+    sight: PlayerSensing | None,
     cameras: CameraSensing | None,
     sighting: Sighting | None = None,
     *,
@@ -211,7 +201,7 @@ def sight_source(
     """Return the source of sightings for the sensors of a robot.
 
     Args:
-        sight: Ideal sensors, with ideal sensing.
+        sight: Ideal sensing of all other players, if it senses so.
         cameras: Cameras and perception, with camera sensing.
         sighting: Sighting before the first measurement, if known.
         tick: Control period, in [s].
@@ -221,7 +211,7 @@ def sight_source(
         if isinstance(perception, LidarPerception):
             return LidarSight(perception, tick=tick)
         return CameraSight(perception, tick=tick)
-    if isinstance(sight, PlayerSensing):
+    if sight is not None:
         return SightOfPlayers(sight.identity, sight.target)
     return MeasuredSight(sighting)
 

@@ -59,7 +59,8 @@ class Measurement(NamedTuple):
         foot_forces: Normal force at the corners of the soles, in [N]:
             left front-left, front-right, rear-left, rear-right, then right.
             NaN from a robot without such sensors. Shape (8,).
-        sighting: Latest sighting of the opponent, if any.
+        sighting: Latest sighting of the opponent, if there is one other
+            player and it is seen.
         percepts: Images and echoes that arrived since the last tick.
         pose_in_room: CoM and heading of the torso in the frame of a known
             room, from a localisation sensor; None without one.

@@ -1,21 +1,22 @@
 """MuJoCo scene of a recorded run, posed sample by sample."""
 
+from functools import partial
+
 import mujoco
 import numpy as np
 
 from ..core.errors import ConfigurationError
 from ..core.poses import Array, Pose
-from ..games.duel_furnishing import Mover, furnishing_of, movers_in
+from ..games.duel_furnishing import scenery_of_duel
 from ..games.experiment_settings import ExperimentSettings
-from ..games.game_furnishing import colours_in_world, furnish_game
+from ..games.game_furnishing import Scenery, scenery_of_game
 from ..games.play_settings import PlaySettings
 from ..games.run import Run, is_duel, is_match
 from ..robots.description import load_robot
-from ..sim.obstacle_geoms import obstacle_mover
 from ..sim.pedestrian_appearance import FIGURES
 from ..sim.person_body import mocap_indices, set_person_pose
 from ..sim.physics_settings import PhysicsSettings
-from ..sim.room_furnishing import Furnish, hide_walls
+from ..sim.room_furnishing import hide_walls
 from ..sim.template_body import add_template, pose_template
 from ..sim.world import build_model
 
@@ -46,30 +47,26 @@ class RunScene:
         physics, seed = PhysicsSettings(), 0
         if not isinstance(run.settings, PlaySettings | ExperimentSettings):
             physics, seed = run.settings.physics, run.settings.seed
+        scenery = self._scenery_of(run)
         self.model = build_model(
             {name: load_robot(robot) for name, robot in names.items()},
             physics,
             seed=seed,
-            furnish=self._furnishing_of(run),
-            colours=colours_in_world(run.settings) if is_match(run) else None,
+            furnish=scenery.furnish,
+            colours=scenery.colours,
         )
         hide_walls(self.model)
         self.data = mujoco.MjData(self.model)
-        self._movers: list[Mover] = []
+        self._movers = scenery.movers_in(self.model, self.data)
         self._figures = dict.fromkeys(persons, FIGURES["adult"])
         if is_duel(run):
             figure = FIGURES[run.settings.person.figure]
             self._figures = dict.fromkeys(persons, figure)
-            self._movers = movers_in(run.settings, self.model, self.data)
         if is_match(run):
             self._figures = {
                 name: FIGURES[run.settings.player(name).person.figure]
                 for name in persons
             }
-            room = run.settings.room
-            if room is not None and room.moving:
-                move = obstacle_mover(self.model, self.data, room)
-                self._movers.append(move)
         self._persons = {
             name: mocap_indices(self.model, name) for name in persons
         }
@@ -79,20 +76,15 @@ class RunScene:
         }
         self._qpos = self._joint_angles_of(run, names)
 
-    def _furnishing_of(self, run: Run) -> Furnish:
-        """Return the function that adds everything but robots."""
-        furnish_duel = furnishing_of(run.settings) if is_duel(run) else None
-
-        def furnish(spec: mujoco.MjSpec) -> None:
-            if is_match(run):
-                furnish_game(spec, run.settings, templates=self._templates)
-                return
-            if furnish_duel is not None:
-                furnish_duel(spec)
-            for name in self._templates:
-                add_template(spec, name)
-
-        return furnish
+    def _scenery_of(self, run: Run) -> Scenery:
+        """Return everything but robots."""
+        if is_match(run):
+            return scenery_of_game(run.settings, templates=self._templates)
+        if is_duel(run):
+            return scenery_of_duel(run.settings)
+        return Scenery(
+            tuple(partial(add_template, name=name) for name in self._templates)
+        )
 
     def _joint_angles_of(self, run: Run, names: dict[str, str]) -> Array:
         """Return qpos of all robots at all samples. Shape (n, nq)."""

@@ -33,10 +33,10 @@ Furnish = Callable[[mujoco.MjSpec], None]
 
 def furnisher(
     room: SceneSettings,
-    wearer: str,
     head: HeadDescription,
     *,
     walls: float,
+    housings: Sequence[str] = (),
     upper: Sequence[str] = (),
     lower: Sequence[str] = (),
 ) -> Furnish:
@@ -44,9 +44,9 @@ def furnisher(
 
     Args:
         room: Scene with the objects.
-        wearer: Name of the robot with the depth camera.
-        head: Description of its head.
+        head: Description of the heads of the robots.
         walls: Distance of the walls from the origin, in [m]; 0 for none.
+        housings: Names of robots that carry a depth camera.
         upper: Names of robots that use the top camera of their heads; it is
             added to models without one.
         lower: Names of robots that use the bottom camera.
@@ -60,7 +60,8 @@ def furnisher(
                 name=f"thing {index}", pos=[thing.x, thing.y, 0.0]
             )
             _add_thing(body, thing.kind)
-        _add_housing(spec, wearer, head)
+        for name in housings:
+            _add_housing(spec, name, head)
         for name in upper:
             if spec.camera(f"{name}/{head.camera}") is None:
                 _add_camera(spec, name, head, head.camera, head.top)

@@ -82,9 +82,7 @@ class SensorSetup:
         integrates_imu: Whether it gives the change of orientation and
             velocity between readings, as far as it is on the body with the
             free joint.
-        sight: Ideal line of sight to the opponent, if any.
-        players: Ideal lines of sight to all other players, in a game of any
-            number of players.
+        sights: Ideal lines of sight to all other players, if any.
         eyes: Cameras and sonars, if any.
         truth: True state of the robot, if it exists already.
         knows_pose: Whether it has an ideal sensor of its pose.
@@ -93,8 +91,7 @@ class SensorSetup:
     generator: np.random.Generator | None = None
     averages_imu: bool = False
     integrates_imu: bool = False
-    sight: IdealLineOfSight | None = None
-    players: tuple[IdealLineOfSight, ...] = ()
+    sights: tuple[IdealLineOfSight, ...] = ()
     eyes: SensorSuite | Lidar | None = None
     truth: TrueRobotState | None = None
     knows_pose: bool = False
@@ -107,7 +104,6 @@ class SimulatedRobot:
         name: Name of the robot in the world.
         tick: Control period, in [s].
         joint_names: Names of the actuated joints.
-        sight: Ideal line of sight to the opponent, if any.
         eyes: Cameras and sonars, if any.
         joint_names: Names of its actuated joints, in the order of targets.
         place: Ideal sensor of its pose in a room, if any.
@@ -143,8 +139,7 @@ class SimulatedRobot:
         body, setup = body or BodySettings(), sensors or SensorSetup()
         self.world, self.name = world, name
         self.tick = world.physics.tick
-        self.sight, self.eyes = setup.sight, setup.eyes
-        self._players = setup.players
+        self.eyes, self._sights = setup.eyes, setup.sights
         model, data = world.model, world.data
         self.joint_names = names = kinematics.joint_names
         joints = [model.joint(f"{name}/{n}") for n in names]
@@ -271,9 +266,7 @@ class SimulatedRobot:
         """
         now = self.world.time
         self.world.update_sensors()
-        sighting = None
-        if sees and self.sight is not None:
-            sighting = self.sight.read(now)
+        seen = self._sightings(now) if sees else ()
         angles = self._qpos_view.take(self._qpos)
         latest = None
         if self._strapdown is not None:
@@ -298,29 +291,28 @@ class SimulatedRobot:
             gyro,
             specific_force,
             forces,
-            sighting,
+            seen[0] if seen and len(self._sights) == 1 else None,
             percepts,
             place,
             None
             if self._dofs is None
             else self.world.data.qvel.take(self._dofs),
-            self._sightings(now) if sees else (),
+            seen,
             latest,
         )
 
     def _sightings(self, now: float) -> tuple[Sighting, ...]:
         """Return the latest sightings of all other players."""
-        read = (sight.read(now) for sight in self._players)
+        read = (sight.read(now) for sight in self._sights)
         return tuple(seen for seen in read if seen is not None)
 
     @property
     def sees_exactly(self) -> bool:
         """Whether all its sightings are ideal and without any error."""
-        sights = self._players if self.sight is None else (self.sight,)
         return (
             self.eyes is None
-            and bool(sights)
-            and all(sight.is_exact for sight in sights)
+            and bool(self._sights)
+            and all(sight.is_exact for sight in self._sights)
         )
 
     def write(self, joint_targets: Array) -> None:

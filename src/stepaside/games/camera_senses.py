@@ -1,6 +1,6 @@
-"""Cameras, perception and its evaluation in a duel with camera sensing."""
+"""Cameras, perception and its evaluation in a game with camera sensing."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from ..core.errors import ConfigurationError
 
@@ -20,6 +20,7 @@ from ..perception.room_scan import RoomScan
 from ..planning import Direction
 from ..robots.description import RobotDescription
 from ..robots.head import load_head
+from ..sim.camera_settings import RoomObject
 from ..sim.ground_truth import GroundTruth
 from ..sim.offscreen_rendering import (
     RAYCAST,
@@ -29,8 +30,8 @@ from ..sim.offscreen_rendering import (
 from ..sim.sensor_suite import SensorSuite
 from ..sim.simulated_robot import SimulatedRobot
 from ..sim.world import World
-from .duel_furnishing import uses_lower_cameras
-from .duel_settings import DuelSettings
+from .game_furnishing import uses_lower_camera
+from .game_settings import GameSettings
 from .match import Match
 from .outcome import Outcome
 from .sight_evaluation import EvaluatedImage, SightEvaluator
@@ -41,7 +42,7 @@ STILLS = 5  # images that a run stores per camera
 
 
 class CameraSenses:
-    """Camera sensing of a duel: renderer, scene, perception of each robot.
+    """Camera sensing of a game: renderer, perception of each robot.
 
     Attributes:
         renderer: Name of the renderer of the colour images.
@@ -50,16 +51,16 @@ class CameraSenses:
 
     def __init__(
         self,
-        settings: DuelSettings,
+        settings: GameSettings,
         description: RobotDescription,
         directions: Mapping[str, Direction],
         *,
         tick: float,
     ) -> None:
-        """Prepare the perception of the robots of a duel.
+        """Prepare the perception of the robots of a game.
 
         Args:
-            settings: Settings of the duel, with the initial poses filled in.
+            settings: Settings of the game, with the initial poses filled in.
             description: Description of the robots; all are of one model.
             directions: Driving direction of each robot that perceives in
                 this process; one that walks backward scans the room behind.
@@ -75,10 +76,6 @@ class CameraSenses:
         self._head = load_head(description)
         self.renderer = choose_renderer(settings.cameras.colour.renderer)
         self._screen: OffscreenRenderer | None = None
-        self._low = uses_lower_cameras(settings)
-        self._maps = (
-            settings.room.plan is not None and settings.map.source == "seen"
-        )
         self.perceptions = {
             name: self._perception(name, direction, tick)
             for name, direction in directions.items()
@@ -88,25 +85,27 @@ class CameraSenses:
         self, name: str, direction: Direction, tick: float
     ) -> Perception:
         """Build the perception of a robot."""
-        mapping = None
-        if self._maps:
+        own, mapping = self._settings.player(name), None
+        if self._settings.maps_room:
             mapping = FloorMapping(
                 scan=RoomScan(behind=direction is Direction.BACKWARD),
-                glances=Glances(tick, GLANCES[name]),
+                glances=Glances(tick, GLANCES[own.role]),
                 awaits_start=True,
             )
+        opponents = self._settings.sensed_opponents(own)
         return build_perception(
             self._description,
             self._head,
-            ColourDetector(LOOKS[name]),
+            ColourDetector(LOOKS[own.role]),
             tick=tick,
             mapping=mapping,
-            people=self._settings.pursuer == "person",
+            people=any(p.body == "person" for p in opponents),
         )
 
     def eyes_of(self, world: World, name: str) -> SensorSuite:
         """Return the cameras and sonars of a robot of a world."""
         perception = self.perceptions.get(name)
+        own = self._settings.player(name)
         return SensorSuite(
             world,
             name,
@@ -114,9 +113,10 @@ class CameraSenses:
             self._settings.cameras,
             self._shared_screen(world),
             self._settings.seed,
-            with_depth=self._maps or name == "evader",
+            with_depth=self._settings.maps_room or own.role == "evader",
             looks_low=perception.looks_low
-            if perception is not None and self._low
+            if perception is not None
+            and uses_lower_camera(self._settings, own)
             else None,
         )
 
@@ -130,13 +130,19 @@ class CameraSenses:
         return self._screen
 
     def evaluator_of(
-        self, robot: SimulatedRobot, other: GroundTruth, *, wears_trim: bool
+        self,
+        robot: SimulatedRobot,
+        other: GroundTruth,
+        things: Sequence[RoomObject] = (),
+        *,
+        wears_trim: bool,
     ) -> SightEvaluator:
         """Return the evaluation of a robot's sightings of its opponent.
 
         Args:
             robot: The robot that sees.
             other: True state of its opponent.
+            things: Objects in view of the cameras.
             wears_trim: Whether the opponent wears the known colour.
         """
         settings = self._settings
@@ -145,7 +151,7 @@ class CameraSenses:
             0.98 * settings.duration * ((i + 0.5) / (STILLS - 0.5)) ** 2
             for i in range(STILLS)
         )
-        places = [(thing.x, thing.y) for thing in settings.room.things]
+        places = [(thing.x, thing.y) for thing in things]
         perception = self.perceptions[robot.name]
         return SightEvaluator(
             robot,
