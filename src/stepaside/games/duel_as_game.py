@@ -1,6 +1,7 @@
 """A duel as a game of two players, from which its world is built."""
 
 from collections.abc import Mapping
+from math import pi
 from types import MappingProxyType
 
 from ..core.poses import Pose
@@ -39,6 +40,8 @@ def game_of_duel(settings: DuelSettings) -> GameSettings:
 def _player(settings: DuelSettings, name: str, pose: Pose) -> PlayerSettings:
     """Return the settings of one player."""
     own, evades = settings.robot_of(name), name == EVADER
+    if name not in settings.robots and settings.person.backward:
+        pose = Pose(pose.x, pose.y, pose.theta - pi)  # it looks away
     return PlayerSettings(
         name=name,
         role=name,

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import mujoco
 
-from ..arena import NO_OBSTACLES
 from ..core.errors import ConfigurationError
 from ..core.poses import Pose
 from ..core.random_streams import named_generator
@@ -22,7 +21,6 @@ from ..sim.ground_truth import GroundTruth
 from ..sim.ideal_sensors import IdealLineOfSight
 from ..sim.pedestrian_appearance import FIGURES
 from ..sim.person_body import PersonBody
-from ..sim.person_motion import PersonMotion
 from ..sim.physics_settings import PhysicsSettings
 from ..sim.push import pushes_by_robot
 from ..sim.world import World
@@ -41,7 +39,12 @@ from .game_strategies import strategy_of
 from .player import Player
 from .recorded_motion import RecordedMotion
 from .served_player import ServedPlayer
-from .template_level import agent_of, bodies_of, target_of_person
+from .template_level import (
+    agent_of,
+    bodies_of,
+    target_of_person,
+    walk_on_path,
+)
 from .walker import RobotPlayer
 from .walker_factory import (
     CameraSensing,
@@ -130,7 +133,7 @@ class GameWorld:
             for name, setup in self._setups.items()
         }
         self._walks = {
-            own.name: self._path_of(own)
+            own.name: walk_on_path(settings, own)
             for own in settings.players
             if own.body == "person" and not own.goal
         }
@@ -174,17 +177,6 @@ class GameWorld:
                 if own.name in self._strategies
             },
             tick=tick,
-        )
-
-    def _path_of(self, own: PlayerSettings) -> PersonMotion:
-        """Return the walk of a person relative to another player."""
-        settings, room = self._settings, self._settings.room
-        target = settings.player(target_of_person(settings, own))
-        return PersonMotion(
-            own.person,
-            _start_of(own),
-            _start_of(target)[:2],
-            NO_OBSTACLES if room is None else room.solid_set,
         )
 
     def _floor_body(self, own: PlayerSettings) -> FloorBody:
