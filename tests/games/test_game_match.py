@@ -336,3 +336,20 @@ def test_a_recorded_path_of_a_person_begins_at_its_first_point(
     first, *_ = run.tracks["guest"].place
     np.testing.assert_allclose(first, [1.5, 1.0, pi / 2])
     assert np.ptp(run.tracks["guest"].place[:, :2], axis=0).max() < 0.1
+
+
+@pytest.mark.parametrize("single_support", [0.425, 0.413, 0.40])
+def test_in_steps_a_robot_walks_a_stride_in_the_duration_of_a_step(
+    single_support: float,
+) -> None:
+    """Also if the duration is no multiple of the period of the samples."""
+    goal = {"goal": [9.0, 0.0], "gait": {"single_support": single_support}}
+    walk = game(
+        robot("blue", "bystander", 0.0, 0.0, 0.0, strategy="goal", **goal),
+        robot("ruby", "bystander", 0.0, 5.0, 0.0),
+        level="steps",
+        duration=40.0,
+    )
+    track = run_game(walk).tracks["blue"].place
+    speed = (track[-1, 0] - track[500, 0]) / (40.0 - 10.0)
+    assert speed == pytest.approx(0.04 / (single_support + 0.122), rel=1e-6)

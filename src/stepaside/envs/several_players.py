@@ -86,6 +86,7 @@ class SeveralPlayers:
         self.closest = dict.fromkeys(self._evaders, inf)
         self._judge()
         self._wait()
+        self._until = self.time  # where the next period begins, in [s]
 
     @property
     def _evaders(self) -> list[str]:
@@ -114,9 +115,9 @@ class SeveralPlayers:
         """
         for name, intent in intents.items():
             self._held[name].intent = intent
-        for _ in range(max(1, round(period / self._tick))):
-            if not self.ended:
-                self._advance()
+        self._until += period
+        while not self.ended and self.time + self._tick <= self._until + 1e-9:
+            self._advance()
         self._look()
 
     def distances(self, evader: str) -> list[float]:

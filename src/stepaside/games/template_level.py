@@ -85,16 +85,28 @@ class UnicycleMotion:
             for identity in identities.values()
             if identity.name != agent.identity.name
         }
-        self._scale = time_scale(gait)
-        self._period = gait.step_duration if steps else PERIOD
-        self._waits = round(gait.start_support / PERIOD) if steps else 0
-        self._ahead: list[Pose] = []
+        self._steps, self._scale = steps, time_scale(gait)
         self._moving = False
+        self._due = 0.0  # time of the next decision, in [s]
+        self._end = pose  # where it is then
+        self._ahead: list[Pose] = []  # at the samples until then
 
     def advance(self, time: float, players: World) -> None:
-        """Advance by one sample; decide if the last step is over."""
-        if not self._ahead:
-            self._ahead = self._plan(time, players)
+        """Advance by one sample, with the decisions that are due in it.
+
+        A step ends at its time, between two samples: what is known then of
+        the others is their last sample, carried on at constant velocity.
+        """
+        until = time + PERIOD
+        while self._due < until - 1e-9:
+            at = max(self._due, time)
+            present = {
+                name: _carried(state, at - time)
+                for name, state in players.items()
+            }
+            name = self._agent.identity.name
+            present[name] = present[name]._replace(pose=self._end)
+            self._begin_step(at, until, self.decide(at, present))
         self.pose = self._ahead.pop(0)
 
     def decide(self, time: float, players: World) -> Intent | None:
@@ -111,20 +123,27 @@ class UnicycleMotion:
             moving=self._moving,
         )
 
-    def _plan(self, time: float, players: World) -> list[Pose]:
-        """Decide, and return the poses until the next decision."""
-        intent = self.decide(time, players)
+    def _begin_step(
+        self, time: float, until: float, intent: Intent | None
+    ) -> None:
+        """Walk or stand until the next decision.
+
+        Args:
+            time: Time of the decision, in [s].
+            until: Time of the next sample, in [s].
+            intent: Intent; None to stand.
+        """
         if intent is None or not intent.walks:
             self._moving = False
-            return [self.pose]
-        starts = [] if self._moving else [self.pose] * self._waits
-        self._moving = True
-        return starts + self._path(intent)
-
-    def _path(self, intent: Intent) -> list[Pose]:
-        """Return the poses of a step, or of one sample."""
+            self._due, self._ahead = until, [self._end]
+            return
         gait, strategy = self._gait, self._agent.strategy
-        count = max(1, round(self._period / intent.pace / PERIOD))
+        begin, duration = time, PERIOD
+        if self._steps:
+            duration = gait.step_duration / intent.pace
+            if not self._moving:
+                begin += gait.start_support / intent.pace
+        self._moving, self._due = True, begin + duration
         turn = gait.gain * intent.heading * gait.path_interval
         share = min(intent.speed_factor, gait.stride_share(turn))
         path = UnicycleTrajectory(
@@ -134,12 +153,19 @@ class UnicycleMotion:
             strategy.direction,
             strategy.saturated,
         )
-        # All samples together take the path time of one decision.
-        span = intent.pace * self._scale * self._period / intent.pace
-        poses = path.poses(span * np.arange(1, count + 1) / count)
-        poses[:, :2] = self.pose.transform_points(poses[:, :2])
-        poses[:, 2] += self.pose.theta
-        return [Pose(*pose) for pose in poses.tolist()]
+        samples = int((self._due - until) / PERIOD + 1.0 + 1e-9)
+        times = np.append(until + PERIOD * np.arange(samples), self._due)
+        along = np.maximum(times - begin, 0.0) * intent.pace * self._scale
+        poses = path.poses(along)
+        poses[:, :2] = self._end.transform_points(poses[:, :2])
+        poses[:, 2] += self._end.theta
+        *self._ahead, self._end = (Pose(*pose) for pose in poses.tolist())
+
+
+def _carried(state: PlayerState, ahead: float) -> PlayerState:
+    """Return a state ahead in time, in [s], at constant velocity."""
+    (x, y, theta), (u, v) = state
+    return PlayerState(Pose(x + ahead * u, y + ahead * v, theta), (u, v))
 
 
 class FloorBulk(NamedTuple):
