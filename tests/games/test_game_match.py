@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from stepaside.core.errors import ConfigurationError
+from stepaside.core.poses import Array
 from stepaside.games.game_file import load_game, parse_game
 from stepaside.games.game_match import GameMatch, run_game
 from stepaside.games.game_settings import GameSettings
@@ -262,7 +263,14 @@ def test_in_steps_robots_end_on_the_polygon_of_cyclic_pursuit() -> None:
         assert pair.angle_deg == pytest.approx(120.0, abs=0.5)
 
 
-PATH_OF_PERSON = {
+def poses_of(run: MatchRun, name: str) -> Array:
+    """Return the poses of a player on the floor. Shape (n, 3)."""
+    poses = run.tracks[name].place
+    assert poses is not None
+    return poses
+
+
+PATH_OF_PERSON: dict[str, dict[str, Any]] = {
     "goal": {"goal": [2.0, 1.0]},
     "drawn goal": {"draws_goal": True},
     "steer": {"person": {"speed": 0.5}},
@@ -290,10 +298,11 @@ def test_people_begin_in_the_direction_of_their_walk(
             level=level,
         )
     )
-    headings = run.tracks["guest"].place[:, 2]
+    poses = poses_of(run, "guest")
+    headings = poses[:, 2]
     assert np.abs(np.diff(headings)).max() < 0.05  # not an arbitrary angle
     guest = run.settings.player("guest")
-    np.testing.assert_allclose(run.tracks["guest"].place[0], guest.start)
+    np.testing.assert_allclose(poses[0], guest.start)
 
 
 @pytest.mark.parametrize("path", ["steer", "straight"])
@@ -311,7 +320,7 @@ def test_a_person_walks_backward_from_its_start(path: str) -> None:
         level="steps",
     )
     run = run_game(settings)
-    x, y, theta = run.tracks["guest"].place.T
+    x, y, theta = poses_of(run, "guest").T
     np.testing.assert_allclose(theta, 0.0, atol=1e-6)  # it looks away
     np.testing.assert_allclose(x, 2.0 - 0.5 * run.times, atol=1e-6)
     np.testing.assert_allclose(y, 0.0, atol=1e-6)
@@ -333,9 +342,9 @@ def test_a_recorded_path_of_a_person_begins_at_its_first_point(
             duration=0.1,
         )
     )
-    first, *_ = run.tracks["guest"].place
-    np.testing.assert_allclose(first, [1.5, 1.0, pi / 2])
-    assert np.ptp(run.tracks["guest"].place[:, :2], axis=0).max() < 0.1
+    poses = poses_of(run, "guest")
+    np.testing.assert_allclose(poses[0], [1.5, 1.0, pi / 2])
+    assert np.ptp(poses[:, :2], axis=0).max() < 0.1
 
 
 @pytest.mark.parametrize("single_support", [0.425, 0.413, 0.40])
@@ -350,6 +359,6 @@ def test_in_steps_a_robot_walks_a_stride_in_the_duration_of_a_step(
         level="steps",
         duration=40.0,
     )
-    track = run_game(walk).tracks["blue"].place
+    track = poses_of(run_game(walk), "blue")
     speed = (track[-1, 0] - track[500, 0]) / (40.0 - 10.0)
     assert speed == pytest.approx(0.04 / (single_support + 0.122), rel=1e-6)
