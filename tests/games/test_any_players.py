@@ -25,6 +25,7 @@ from stepaside.games.walk_settings import WalkSettings
 from stepaside.report import film_layers, run_folder
 from stepaside.report.compare_figure import draw_comparison
 from stepaside.report.figure_style import COLOURS, PUSHED, THEORY, colours_of
+from stepaside.report.landed_footsteps import footsteps_in
 from stepaside.report.replay_page import write_page
 from stepaside.report.scene import RunScene
 from stepaside.report.viewer.replay_viewer import ReplayPage
@@ -160,7 +161,9 @@ def test_every_player_is_on_the_page(count: int, tmp_path: Path) -> None:
 def test_every_player_is_in_the_film(count: int) -> None:
     run = game(count)
     drawn = mujoco.MjvScene(RunScene(run).model, maxgeom=5000)
-    film_layers.add_layers(drawn, run=run, index=20, trail=0.8)
+    film_layers.add_layers(
+        drawn, run=run, footsteps=footsteps_in(run), index=20, trail=0.8
+    )
     colours = list(colours_of(run.players).values())
     for colour in colours:
         assert _of(drawn, colour)
@@ -168,7 +171,9 @@ def test_every_player_is_in_the_film(count: int) -> None:
     (arrow,) = _of(drawn, PUSHED)
     assert arrow.type == mujoco.mjtGeom.mjGEOM_ARROW
     early = mujoco.MjvScene(RunScene(run).model, maxgeom=5000)
-    film_layers.add_layers(early, run=run, index=3, trail=0.8)
+    film_layers.add_layers(
+        early, run=run, footsteps=footsteps_in(run), index=3, trail=0.8
+    )
     assert _of(early, PUSHED) == []
 
 
@@ -187,7 +192,9 @@ def test_every_player_is_in_the_layers_of_a_replay(count: int) -> None:
             {(layer, who): lines}
         )
     )
-    page: Any = SimpleNamespace(_run=run, _layers=layers)
+    page: Any = SimpleNamespace(
+        _run=run, _layers=layers, _footsteps=footsteps_in(run)
+    )
     ReplayPage._draw(page, 20)
     for layer in ("CoM trace", "footsteps", "pushes"):
         assert {who for what, who in drawn if what == layer} == set(

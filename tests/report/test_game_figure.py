@@ -19,6 +19,7 @@ from stepaside.games.run import MatchRun
 from stepaside.games.run_captions import describe_state
 from stepaside.report import film_layers
 from stepaside.report.figure_style import EVADER, PURSUER, colours_of
+from stepaside.report.landed_footsteps import footsteps_in
 from stepaside.report.palette import colours_in, contrast
 from stepaside.report.replay_page import write_page
 from stepaside.report.run_folder import draw_run
@@ -96,7 +97,9 @@ def test_the_page_and_the_film_show_every_player(tmp_path: Path) -> None:
     assert [player["name"] for player in players] == [*run().players]
     scene = RunScene(run())
     drawn = mujoco.MjvScene(scene.model, maxgeom=5000)
-    film_layers.add_layers(drawn, run=run(), index=100, trail=2.0)
+    film_layers.add_layers(
+        drawn, run=run(), footsteps=footsteps_in(run()), index=100, trail=2.0
+    )
     assert drawn.ngeom > 0
     scene.put(100)
     for name in run().players:

@@ -209,3 +209,30 @@ def test_settings_act_on_the_game(opened: Any) -> None:
     )
     assert page.evaluate("document.body.scrollWidth") <= 390
     assert wrong == []
+
+
+@pytest.mark.xdist_group("browser")
+@pytest.mark.timeout(900)
+def test_footsteps_are_drawn_where_the_soles_land(opened: Any) -> None:
+    page, _ = opened
+    away = page.evaluate(
+        """() => {
+          const { game } = stepaside, away = [];
+          game.reset({ ...game.defaults, start: [1.4, 1.4, 0] });
+          const [pursuer] = game.players;
+          let plan = null, drawn = null;
+          while (game.time < 12) {
+            game.tick();
+            if (pursuer.plan === plan) continue;
+            if (drawn) {
+              const [x, y] = pursuer.sole(plan.side);
+              away.push(Math.hypot(x - drawn[0], y - drawn[1]));
+            }
+            plan = pursuer.plan;
+            drawn = plan && pursuer.landing();
+          }
+          return away;
+        }"""
+    )
+    assert len(away) > 15
+    assert max(away) < 0.01

@@ -24,6 +24,7 @@ from stepaside.report import film, film_layers
 from stepaside.report.cycle_means import whole_cycles
 from stepaside.report.figure_style import COLOURS, THEORY
 from stepaside.report.film import FilmRenderer, FilmSettings
+from stepaside.report.landed_footsteps import footsteps_in
 from stepaside.report.replay_page import write_page
 from stepaside.report.scene import RunScene
 from stepaside.report.visual_geoms import visual_geoms_of
@@ -168,19 +169,13 @@ def test_a_page_tells_what_the_run_tells(tmp_path: Path) -> None:
             robot["trace"], run.tracks[name].com[chosen, :2], atol=6e-4
         )
         np.testing.assert_allclose(
-            robot["landings"], _landings(run, name), atol=6e-4
+            robot["landings"], footsteps_in(run)[name], atol=6e-4
         )
+        assert robot["landings"] or name == "evader"
     never = changed(run, converged_at_s=None)
     other = tmp_path / "never"
     other.mkdir()
     assert content(never, other)["circle"] is None
-
-
-def _landings(run: DuelRun, name: str) -> Array:
-    """Footsteps of a robot."""
-    landings = run.tracks[name].landings
-    assert landings is not None and len(landings)
-    return landings
 
 
 def test_a_page_of_a_person_has_its_way_but_no_footsteps(
@@ -278,7 +273,13 @@ def test_a_picture_is_of_the_time_asked_for(time: float, index: int) -> None:
     np.testing.assert_array_equal(places, stage.data.xpos)
     bare, full = scene(), scene()
     add(full)
-    film_layers.add_layers(bare, run=made(), index=index, trail=20.0)
+    film_layers.add_layers(
+        bare,
+        run=made(),
+        footsteps=footsteps_in(made()),
+        index=index,
+        trail=20.0,
+    )
     assert full.ngeom == bare.ngeom
     _, _, add = filmed(FilmSettings(layers=False), time)
     add(empty := scene())
@@ -308,7 +309,16 @@ def ends(geom: Any) -> Array:
 def test_lines_of_a_film_lie_where_the_run_was() -> None:
     run, index = made(), 60
     drawn = scene()
-    film_layers.add_layers(drawn, run=run, index=index, trail=0.8)
+    film_layers.add_layers(
+        drawn,
+        run=run,
+        footsteps={
+            name: np.zeros((0, 5)) if t.landings is None else t.landings
+            for name, t in run.tracks.items()
+        },
+        index=index,
+        trail=0.8,
+    )
     (sight, *circle) = lines_of(drawn, THEORY)
     places = [run.tracks[n].torso[index, :2] for n in COLOURS]
     np.testing.assert_allclose(
@@ -357,7 +367,13 @@ def test_footprints_come_half_a_second_early_and_go_with_the_trail(
     index: int, trail: float, shown: int
 ) -> None:
     drawn = scene()
-    film_layers.add_layers(drawn, run=made(), index=index, trail=trail)
+    film_layers.add_layers(
+        drawn,
+        run=made(),
+        footsteps=footsteps_in(made()),
+        index=index,
+        trail=trail,
+    )
     boxes = [
         geom
         for geom in lines_of(drawn, COLOURS["evader"])
@@ -368,7 +384,9 @@ def test_footprints_come_half_a_second_early_and_go_with_the_trail(
 
 def test_a_full_scene_takes_no_more() -> None:
     small = mujoco.MjvScene(RunScene(made()).model, maxgeom=10)
-    film_layers.add_layers(small, run=made(), index=60, trail=20.0)
+    film_layers.add_layers(
+        small, run=made(), footsteps=footsteps_in(made()), index=60, trail=20.0
+    )
     assert small.ngeom == 10
 
 

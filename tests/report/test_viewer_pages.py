@@ -39,6 +39,7 @@ from stepaside.report.viewer.live_session import LiveSession
 from stepaside.report.viewer.plot_history import PlotHistory
 from stepaside.report.viewer.plots import Plots
 from stepaside.report.viewer.replay_viewer import ReplayPage
+from stepaside.report.viewer.true_odometry import true_odometry
 from stepaside.sim.body_settings import BODIES
 from stepaside.strategies import (
     Evasion,
@@ -107,9 +108,10 @@ def test_a_zmp_in_flight_is_left_out(session: LiveSession) -> None:
     assert "pursuer/ZMP" not in session.trail.traces
 
 
-def test_what_grows_is_cut() -> None:
+def test_what_grows_is_cut(monkeypatch: pytest.MonkeyPatch) -> None:
     """Steps, plots and traces: the newest stay, of each player its own."""
-    trail = PlotHistory()
+    trail, origin = PlotHistory(), Pose(0.0, 0.0, 0.0)
+    monkeypatch.setattr(trails, "true_odometry", lambda player: origin)
     assert trail.history.maxlen == trails.MAX_SAMPLES
     model = mujoco.MjModel.from_xml_string("<mujoco/>")
     now = SimpleNamespace(
@@ -122,7 +124,10 @@ def test_what_grows_is_cut() -> None:
     for number in range(130):
         players = [
             SimpleNamespace(
-                name=name, begun=(name, number), reports=(), snapshot=seen
+                name=name,
+                begun=SimpleNamespace(foot=name, landing=Pose(number, 0, 0)),
+                reports=(),
+                snapshot=seen,
             )
             for name, seen in (("pursuer", _seen), ("evader", _seen))
         ]
@@ -131,7 +136,7 @@ def test_what_grows_is_cut() -> None:
         trail.before(match)
         trail.acted(match)
     for name in ("pursuer", "evader"):
-        kept: list[Any] = [(name, number) for number in range(30, 130)]
+        kept: list[Any] = [(name, Pose(n, 0, 0)) for n in range(30, 130)]
         assert list(trail.steps[name]) == kept
     assert len(trail.steps) == 2 and trails.MAX_STEPS == 100
     assert {t.maxlen for t in trail.traces.values()} == {trails.MAX_TRACE}
@@ -149,17 +154,21 @@ def _seen() -> Any:
 
 
 def test_a_step_is_kept_only_when_it_begins(session: LiveSession) -> None:
-    """With its maneuver and landing, as the scheme said at that tick."""
+    """With its foot, and its landing where the robot stood at that tick."""
     begun: list[Any] = []
-    observe_ticks(
-        session.duel, lambda duel: begun.append(duel.players[0].begun)
-    )
+
+    def note(duel: Duel) -> None:
+        step, odometry = duel.players[0].begun, true_odometry(duel.players[0])
+        if step is not None and odometry is not None:
+            begun.append((step.foot, odometry.compose(step.landing)))
+
+    observe_ticks(session.duel, note)
     played(session, 600)
-    told = [step for step in begun if step is not None]
-    assert list(session.trail.steps["pursuer"]) == told
-    assert 2 <= len(told) <= 5
-    last = told[-1]
-    assert last.plan is walker(session, 0).scheme.state.plan
+    kept = list(session.trail.steps["pursuer"])
+    assert [foot for foot, _ in kept] == [foot for foot, _ in begun]
+    for (_, pose), (_, wanted) in zip(kept, begun, strict=True):
+        np.testing.assert_allclose(pose, wanted, atol=1e-3)
+    assert 2 <= len(kept) <= 5
 
 
 def test_the_newest_image_of_each_camera_is_handed_out_once(

@@ -18,6 +18,7 @@ from .figure_style import (
     new_figure,
     save,
 )
+from .landed_footsteps import footsteps_in
 from .push_marks import draw_pushes, mark_pushes
 from .room_figure import draw_clearance, has_obstacles, room_patches
 from .sole_outlines import draw_heading, draw_soles
@@ -143,11 +144,12 @@ def draw_paths(axes: Any, run: Run) -> None:
     # As large as a robot, larger for long paths.
     size = min(max(0.2, 0.04 * extent), 0.1 * extent + 0.02)
     colours = colours_of(run.players, run.identities)
+    footsteps = footsteps_in(run)
     for name, colour in colours.items():
         track = run.tracks[name]
-        if track.landings is not None:
+        if len(footsteps[name]):
             sole = run.settings.robot_of(name).gait.sole
-            draw_soles(axes, track.landings, sole, colour, alpha=0.25, lw=0.4)
+            draw_soles(axes, footsteps[name], sole, colour, alpha=0.25, lw=0.4)
         com = track.com
         label = f"{name}, CoM" if name in run.robots else name
         axes.plot(*com[:, :2].T, color=colour, lw=1.2, label=label)

@@ -29,6 +29,7 @@ from .film_captions import caption, draw_title
 from .film_insets import FilmInsets, inset_width
 from .film_layers import add_layers, aim_light
 from .film_settings import FilmSettings
+from .landed_footsteps import footsteps_in
 from .scene import RunScene
 
 CHUNK = 15  # images that one worker renders at a time
@@ -48,6 +49,7 @@ class FilmRenderer:
         self._run = run
         self._settings = settings
         self._scene = RunScene(run)
+        self._footsteps = footsteps_in(run)
         model = self._scene.model
         _dim_lights(model)
         self._fovy = float(model.vis.global_.fovy)
@@ -79,7 +81,13 @@ class FilmRenderer:
         def add(scene: mujoco.MjvScene) -> None:
             aim_light(scene, view.target)
             if settings.layers:
-                add_layers(scene, run=run, index=index, trail=TRAIL)
+                add_layers(
+                    scene,
+                    run=run,
+                    footsteps=self._footsteps,
+                    index=index,
+                    trail=TRAIL,
+                )
 
         with hidden_walls(self._scene.model, view.eye):
             image = self._renderer.draw(self._scene.data, view.camera(), add)

@@ -1,5 +1,6 @@
 """Layers of a film: traces, footprints, pushes, rings and line of sight."""
 
+from collections.abc import Mapping
 from functools import cache
 from math import hypot
 
@@ -20,13 +21,20 @@ FOOTPRINT = (0.045, 0.025)  # half sizes, in [m]
 
 
 def add_layers(
-    scene: mujoco.MjvScene, *, run: Run, index: int, trail: float
+    scene: mujoco.MjvScene,
+    *,
+    run: Run,
+    footsteps: Mapping[str, Array],
+    index: int,
+    trail: float,
 ) -> None:
     """Add traces, footprints, pushes, line of sight and rings to a scene.
 
     Args:
         scene: Scene to add to.
         run: The run.
+        footsteps: Rows (time [s], side, x [m], y [m], heading [rad]) by
+            player; see :func:`.landed_footsteps.footsteps_in`.
         index: Sample that is drawn.
         trail: Duration of the traces, in [s].
     """
@@ -38,11 +46,9 @@ def add_layers(
         com = track.com[first : index + 1 : every, :2]
         _add_lines(scene, com, 0.004, colour)
         _add_pushes(scene, track.pushes, now)
-        landings = track.landings
-        if landings is None:
-            continue
-        shown = landings[
-            (landings[:, 0] <= now + 0.5) & (landings[:, 0] > now - trail)
+        landed = footsteps[name]
+        shown = landed[
+            (landed[:, 0] <= now + 0.5) & (landed[:, 0] > now - trail)
         ]
         for _, _, x, y, heading in shown.tolist():
             _add_footprint(scene, x, y, heading, colour)

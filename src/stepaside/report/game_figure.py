@@ -13,6 +13,7 @@ from ..games.run import MatchRun
 from .duel_figure import draw_top
 from .figure_sizes import sheet
 from .figure_style import colours_of, mark_level, new_figure, save
+from .landed_footsteps import footsteps_in
 from .push_marks import draw_pushes
 from .room_figure import room_patches
 from .sole_outlines import draw_heading, draw_soles
@@ -76,11 +77,12 @@ def _draw_paths(axes: Any, run: MatchRun) -> None:
     every = np.concatenate([track.com[:, :2] for track in run.tracks.values()])
     size = min(max(0.14, 0.04 * float(np.ptp(every, axis=0).max())), 0.35)
     spacing = max(1, len(run.times) // MARKED)
+    footsteps = footsteps_in(run)
     for name, colour in colours.items():
         track = run.tracks[name]
-        if track.landings is not None:
+        if len(footsteps[name]):
             sole = run.settings.robot_of(name).gait.sole
-            draw_soles(axes, track.landings, sole, colour, alpha=0.2, lw=0.3)
+            draw_soles(axes, footsteps[name], sole, colour, alpha=0.2, lw=0.3)
         axes.plot(
             *track.com[:, :2].T,
             color=colour,

@@ -273,6 +273,7 @@ def player_data(duel: Duel, player: Any) -> dict[str, Any]:
     model, robot = duel.world.model, player.robot
     description = player.scheme.kinematics.description
     torso = int(model.body(f"{player.name}/{description.torso}").id)
+    feet = description.left_foot, description.right_foot
     motors = [
         motor_of(model, model.joint(f"{player.name}/{name}").id)
         for name in robot.joint_names
@@ -282,6 +283,7 @@ def player_data(duel: Duel, player: Any) -> dict[str, Any]:
         "direction": player.scheme.decisions.strategy.direction.value,
         "torso": torso,
         "bodies": [torso, torso + int((model.body_rootid == torso).sum())],
+        "soles": [model.site(f"{player.name}/{foot}").id for foot in feet],
         "qpos": robot.qpos_slice.start,
         "ctrl": motors[0],
         "lead": robot.servos.lead.tolist(),

@@ -17,6 +17,7 @@ from ..games.run import Run
 from ..games.run_captions import describe_state
 from ..robots.description import load_robot
 from .cycle_means import whole_cycles
+from .landed_footsteps import footsteps_in
 from .palette import PALETTES, colours_in
 from .room_extent import wall_corners
 from .scene import RunScene
@@ -114,6 +115,7 @@ def page_data(run: Run) -> dict[str, Any]:
     heights = BodyHeights(geoms)
     sole = run.settings.gait.sole
     theory, circle = run.theory, run.circle
+    footsteps = footsteps_in(run)
     distance = run.distance if run.pair is not None else None
     angle = run.orientation if run.has_orientation else None
     return {
@@ -126,6 +128,7 @@ def page_data(run: Run) -> dict[str, Any]:
         "sole": [sole.back, sole.front, -sole.inner, sole.outer],
         "players": [
             _player_data(run, scene, name, samples, heights)
+            | {"landings": _rows(footsteps[name])}
             for name in run.players
         ],
         "pair": [run.players.index(name) for name in run.opponents[0]]
@@ -184,7 +187,6 @@ def _player_data(
         "torso": body,
         "label_height": round(above_torso + LABEL_GAP, 3),
         "trace": np.round(track.com[samples, :2], 3).tolist(),
-        "landings": _rows(track.landings),
         "pushes": _rows(track.pushes),
         "colours": {
             theme: colours_in(theme, run.players, run.identities)[name]

@@ -15,13 +15,13 @@ from ...games.replayed_signals import RobotSignals
 from ...perception.images import ColourImage
 from ...planning.gait_settings import SoleRectangle
 from ...robots.urdf_elements import IMU, OPTICAL
+from ..landed_footsteps import landed_footsteps
 from ..palette import colours_in
 from .bag_messages import BOX, MessageFactory, nanoseconds
 from .foxglove_layout import write_layout
 from .recorded_transforms import (
     base_poses,
     joint_poses,
-    landed_footsteps,
     quaternion_of,
 )
 from .recording import Recording, RobotModel, foot_wrenches
@@ -354,7 +354,7 @@ class PlayerTopics:
         if track.landings is None:
             return
         topic = self._topic("footsteps/landed")
-        rows = landed_footsteps(model, self._times, track.qpos, track.landings)
+        rows = landed_footsteps(model.description, self._times, track)
         for number, row in enumerate(rows):
             time = float(row[0])
             marks = self._soles(time, row[None, 1:], "landed", 0.8, number)

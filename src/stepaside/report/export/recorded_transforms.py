@@ -1,4 +1,4 @@
-"""Transforms of a recorded robot: joints, torso and soles at all samples."""
+"""Transforms of a recorded robot: joints and torso at all samples."""
 
 from typing import NamedTuple
 
@@ -8,8 +8,6 @@ import numpy as np
 from ...core.poses import Array
 from ...robots.urdf_elements import UrdfJoint
 from .recording import RobotModel
-
-LANDED = 0.02  # after its landing time a foot is on the floor, in [s]
 
 
 class JointPoses(NamedTuple):
@@ -122,65 +120,3 @@ def base_poses(qpos: Array, footprints: Array) -> BasePoses:
     offset = free[:, :3].copy()
     offset[:, :2] -= footprints[:, :2]
     return BasePoses(rotate(upright, offset), multiply(upright, free[:, 3:]))
-
-
-def sole_poses(
-    model: RobotModel, qpos: Array
-) -> dict[int, tuple[Array, Array]]:
-    """Return positions and quaternions of the soles in the world.
-
-    Args:
-        model: The robot.
-        qpos: Free joint and joint positions. Shape (n, 7 + joints).
-
-    Returns:
-        Positions (n, 3) and quaternions (n, 4) by side: 1 left, -1 right.
-    """
-    moved = {p.joint.name: p for p in joint_poses(model, qpos)}
-    above = {joint.child: joint for joint in model.tree.joints}
-    free = qpos[:, :7].astype(np.float64)
-    found = {}
-    for side, link in ((1, "l_sole"), (-1, "r_sole")):
-        chain: list[UrdfJoint] = []
-        while link in above:
-            chain.append(above[link])
-            link = above[link].parent
-        position, rotation = free[:, :3], free[:, 3:]
-        for joint in reversed(chain):
-            if joint.name in moved:
-                step, turn = moved[joint.name][1:]
-            else:
-                step = np.tile(joint.position, (len(free), 1))
-                turn = np.tile(quaternion_of(joint.axes), (len(free), 1))
-            position = position + rotate(rotation, step)
-            rotation = multiply(rotation, turn)
-        found[side] = position, rotation
-    return found
-
-
-def landed_footsteps(
-    model: RobotModel, times: Array, qpos: Array, landings: Array
-) -> Array:
-    """Return where feet stood after the planned landings.
-
-    Args:
-        model: The robot.
-        times: Times of the samples, in [s]. Shape (n,).
-        qpos: Free joint and joint positions. Shape (n, 7 + joints).
-        landings: Planned landings, rows as in ``Trajectory``. Shape (m, 5).
-
-    Returns:
-        Rows (time, side, x, y, heading) of the landings before the end of
-        the run: poses of the soles in the world. Shape (k, 5).
-    """
-    soles = sole_poses(model, qpos)
-    rows = []
-    for time, side, *_ in landings.tolist():
-        index = int(np.searchsorted(times, time + LANDED))
-        if index >= len(times):
-            continue
-        positions, rotations = soles[int(side)]
-        w, x, y, z = rotations[index].tolist()
-        heading = np.arctan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
-        rows.append((time, side, *positions[index, :2], heading))
-    return np.array(rows, dtype=np.float64).reshape(-1, 5)

@@ -14,14 +14,11 @@ from ...core.poses import Array
 from ...perception.images import ColourImage
 from ...planning.gait_settings import SoleRectangle
 from ...robots.urdf_elements import BASE, OPTICAL, UrdfLink
+from ..landed_footsteps import landed_footsteps
 from ..palette import colours_in
 from ..visual_geoms import MAX_VISIBLE_GROUP, colour_of
 from .bag_messages import JPEG_QUALITY
-from .recorded_transforms import (
-    joint_poses,
-    landed_footsteps,
-    quaternion_of,
-)
+from .recorded_transforms import joint_poses, quaternion_of
 from .recording import Recording, RobotModel
 from .room_markers import shapes_over_time
 from .signal_series import all_series
@@ -149,9 +146,7 @@ def _log_player(stream: Any, recording: Recording, name: str) -> None:
         _log_robot(stream, recording, name, model)
         if track.landings is not None:
             sole = run.settings.robot_of(name).gait.sole
-            rows = landed_footsteps(
-                model, run.times, track.qpos, track.landings
-            )
+            rows = landed_footsteps(model.description, run.times, track)
             _log_footsteps(stream, f"{root}/footsteps", rows, sole, colour)
     _log_images(stream, recording, name)
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from ...core.poses import Array
 from ...games.replayed_signals import RobotSignals
-from .recorded_transforms import landed_footsteps
+from ..landed_footsteps import landed_footsteps
 from .recording import Recording
 
 # Arrays of a trajectory that have one row per sample, with their columns.
@@ -174,7 +174,7 @@ def _events_of(recording: Recording, player: str) -> Iterator[EventTable]:
         model = recording.models.get(player)
         if model is not None and track.qpos is not None:
             landed = landed_footsteps(
-                model, recording.run.times, track.qpos, track.landings
+                model.description, recording.run.times, track
             )
             yield EventTable(f"{player}-footsteps-landed", step, landed)
     signals = recording.signals.get(player)

@@ -156,6 +156,13 @@ class Walker {
       torso: [xpos[3 * t] + this.spec.hips * xmat[9 * t], xpos[3 * t + 1] + this.spec.hips * xmat[9 * t + 3]],
       reference: [com[3 * t] - ahead * Math.cos(heading), com[3 * t + 1] - ahead * Math.sin(heading)] };
   }
+  /* Pose of a sole in the world: 1 left, -1 right. */
+  sole(side) {
+    const { site_xpos: at, site_xmat: axes } = this.game.state, i = this.spec.soles[side > 0 ? 0 : 1];
+    return [at[3 * i], at[3 * i + 1], Math.atan2(axes[9 * i + 3], axes[9 * i])];
+  }
+  /* Where the foot that swings will land: the planned step, from where the robot stands. */
+  landing() { return compose(this.sole(-this.plan.side), this.plan.placement(2)); }
   tick(now) {
     this.heading = wrapAngle(this.states[this.data.free + 4]);
     if (!this.plan) this.wait(now);
@@ -266,7 +273,8 @@ class Game {
   get state() {
     if (!this.views || !this.views.qpos.length) {
       this.views = {};
-      for (const name of ["qpos", "ctrl", "xpos", "xquat", "xmat", "subtree_com", "xfrc_applied"])
+      for (const name of ["qpos", "ctrl", "xpos", "xquat", "xmat", "subtree_com", "xfrc_applied",
+        "site_xpos", "site_xmat"])
         this.views[name] = this.physics[name];
     }
     return this.views;

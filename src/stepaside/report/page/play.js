@@ -78,8 +78,7 @@ function note() {
     if (scene) growing[i].move(player.truth().reference);
     if (!player.plan || began[i] === player.plan) return;
     began[i] = player.plan;
-    if (scene) growing[i].land([0, player.plan.side, ...compose(player.frame,
-      compose(player.plan.frame, player.plan.placement(2)))]);
+    if (scene) growing[i].land([0, player.plan.side, ...player.landing()]);
   });
 }
 /* Play as many ticks as the time since the last frame has, but for no longer than half of it. */

@@ -3,9 +3,10 @@
 import numpy as np
 
 from ...core.poses import Array, Pose
-from ...locomotion.walk_snapshots import StepStarted, WalkState
+from ...locomotion.walk_snapshots import WalkState
 from ..figure_style import COLOURS, EVADER, PUSHED, THEORY
 from .live_session import LiveSession
+from .plot_history import Footprint
 from .scene_layers import (
     HEIGHTS,
     MAX_FOOTPRINTS,
@@ -18,6 +19,7 @@ from .scene_layers import (
     safety_ring,
     support_outline,
 )
+from .true_odometry import true_odometry
 
 Lines = tuple[str, str, Array, str]  # layer, owner, segments, colour
 MAX_PUSHES = 20  # last pushes that may be drawn
@@ -41,7 +43,7 @@ def draw_session(layers: SceneLayers, session: LiveSession) -> None:
             snapshot = player.snapshot()
             name = player.name
             positions.append(np.array(snapshot.torso[:2]))
-            walk, frame = snapshot.walk, snapshot.frame
+            walk, frame = snapshot.walk, true_odometry(player)
             if walk is not None and frame is not None:
                 steps = list(session.trail.steps.get(name, ()))
                 lines += _walk_lines(
@@ -63,7 +65,7 @@ def draw_session(layers: SceneLayers, session: LiveSession) -> None:
 
 def _walk_lines(
     walk: WalkState,
-    steps: list[StepStarted],
+    steps: list[Footprint],
     frame: Pose,
     now: float,
     name: str,

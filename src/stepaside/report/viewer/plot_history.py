@@ -8,13 +8,15 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.poses import Array
+from ...core.poses import Array, Pose
 from ...games.approach_forecast import CourseApproach, estimate_approach
 from ...games.duel_circle import angle_between
 from ...games.match import Match
 from ...games.outcome import Outcome
-from ...games.player import Snapshot
+from ...games.player import Player, Snapshot
 from ...locomotion.walk_snapshots import StepStarted
+from ...planning import Foot
+from .true_odometry import true_odometry
 
 if TYPE_CHECKING:
     from ...perception.percept_stages import FrameReport
@@ -28,6 +30,7 @@ MAX_POSES = 1200  # of all bodies, to look back
 AXES = ("x [m]", "y [m]", "z [m]")
 HINGE = mujoco.mjtJoint.mjJNT_HINGE
 BodyPoses = tuple[float, Array, Array]
+Footprint = tuple[Foot, Pose]  # and its landing pose in the world
 
 
 class PlotHistory:
@@ -39,7 +42,8 @@ class PlotHistory:
             the world, of the last gait cycles.
         traces: Recent positions of CoM and ZMP in the world, in [m], by
             ``player/CoM`` and ``player/ZMP``.
-        steps: Last steps of each player, by name.
+        steps: Last footsteps of each player, by name; each where it was
+            going to land when it began.
         signals: Further quantities of every sample in ``history``, in the
             order of ``labels``. Each of shape (labels,).
         labels: Names of these quantities, with units; empty at first.
@@ -58,7 +62,7 @@ class PlotHistory:
             maxlen=MAX_OFFSETS
         )
         self.traces: dict[str, deque[tuple[float, float]]] = {}
-        self.steps: dict[str, deque[StepStarted]] = {}
+        self.steps: dict[str, deque[Footprint]] = {}
         self.signals: deque[NDArray[np.float32]] = deque(maxlen=MAX_SAMPLES)
         self.labels: tuple[str, ...] = ()
         self.poses: deque[BodyPoses] = deque(maxlen=MAX_POSES)
@@ -93,6 +97,13 @@ class PlotHistory:
             self.poses, key=lambda poses: abs(poses[0] - time), default=None
         )
 
+    def _note_step(self, player: Player, begun: StepStarted) -> None:
+        """Store where the footstep of a step will be."""
+        odometry = true_odometry(player)
+        if odometry is not None:
+            steps = self.steps.setdefault(player.name, deque(maxlen=MAX_STEPS))
+            steps.append((begun.foot, odometry.compose(begun.landing)))
+
     def _record_signals(self, match: Match, snapshots: list[Snapshot]) -> None:
         """Record poses, joint angles, CoM and ZMP of a sample."""
         data, model = match.world.data, match.world.model
@@ -117,10 +128,7 @@ class PlotHistory:
         """Store the steps that begin, and the images that arrived."""
         for player in match.players:
             if player.begun is not None:
-                steps = self.steps.setdefault(
-                    player.name, deque(maxlen=MAX_STEPS)
-                )
-                steps.append(player.begun)
+                self._note_step(player, player.begun)
             for report in player.reports:
                 camera = type(report.image).__name__.removesuffix("Image")
                 self.frames[f"{player.name}, {camera.lower()}"] = report

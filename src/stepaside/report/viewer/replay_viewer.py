@@ -12,6 +12,7 @@ from ...core.poses import Array
 from ...games.run import Run
 from ...games.run_captions import describe_state
 from ..figure_style import EVADER, PURSUER, PUSHED, THEORY, colours_of
+from ..landed_footsteps import footsteps_in
 from ..palette import THEMES
 from ..scene import RunScene
 from ..text_escaping import for_markdown
@@ -71,6 +72,7 @@ class ReplayPage:
         """
         self._run = run
         self._scene = RunScene(run)
+        self._footsteps = footsteps_in(run)
         self.server = open_server("127.0.0.1", port).server
         self._closing = threading.Event()
         self._playing = False
@@ -265,7 +267,9 @@ class ReplayPage:
             trace = track.com[first : index + 1 : 5, :2]
             lines = polyline(trace, HEIGHTS["CoM trace"])
             layers.draw("CoM trace", name, lines, colours[name])
-            prints = footprints_at(track.landings, run.settings.gait.sole, now)
+            prints = footprints_at(
+                self._footsteps[name], run.settings.gait.sole, now
+            )
             layers.draw("footsteps", name, prints, colours[name])
             layers.draw("pushes", name, push_arrows(track.pushes, now), PUSHED)
         if run.safety is not None:

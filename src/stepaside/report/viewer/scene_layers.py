@@ -8,7 +8,7 @@ import viser
 
 from ...core.convex import convex_hull
 from ...core.poses import Array, Pose
-from ...locomotion.walk_snapshots import StepStarted, WalkState
+from ...locomotion.walk_snapshots import WalkState
 from ...planning import Foot, SoleRectangle
 from ...planning.support_polygon import sole_corners
 from ..palette import on_both_floors
@@ -188,21 +188,20 @@ def path_of(walk: WalkState, frame: Pose) -> Array:
 
 
 def footprints_of(
-    walk: WalkState, steps: Iterable[StepStarted], frame: Pose
+    walk: WalkState, steps: Iterable[tuple[Foot, Pose]], frame: Pose
 ) -> Array:
     """Return outlines of past and planned footsteps. Shape (n, 2, 3).
 
     Args:
         walk: State of the walk.
-        steps: Past steps.
+        steps: Past footsteps and their poses in the world.
         frame: Pose of the odometry frame in the world.
     """
     sole = walk.gait.sole
     height = HEIGHTS["footsteps"]
     outlines = []
-    for step in steps:
-        pose = np.array(frame.compose(step.landing))
-        corners = sole_corners(pose, step.foot, sole)
+    for foot, landed in steps:
+        corners = sole_corners(np.array(landed), foot, sole)
         outlines.append(polyline(corners, height, closed=True))
     plan = walk.plan
     if plan is not None:
@@ -215,19 +214,15 @@ def footprints_of(
     return np.concatenate(outlines) if outlines else np.zeros((0, 2, 3))
 
 
-def footprints_at(
-    landings: Array | None, sole: SoleRectangle, now: float
-) -> Array:
-    """Return outlines of the footsteps of a trajectory. Shape (n, 2, 3).
+def footprints_at(landings: Array, sole: SoleRectangle, now: float) -> Array:
+    """Return outlines of the footsteps of a recorded robot. Shape (n, 2, 3).
 
     Args:
-        landings: Rows (time [s], side, x [m], y [m], theta [rad]); None for
-            none. Shape (m, 5).
+        landings: Rows (time [s], side, x [m], y [m], theta [rad]). Shape
+            (m, 5).
         sole: Shape of a left sole.
         now: Time, in [s]; the next footstep is included.
     """
-    if landings is None:
-        return np.zeros((0, 2, 3))
     begun = landings[landings[:, 0] <= now + FOOTPRINT_LEAD][-MAX_FOOTPRINTS:]
     outlines = [
         polyline(
