@@ -38,6 +38,8 @@ napoleon_use_ivar = True
 exclude_patterns = ["images/README.md", "tutorials/*.py"]
 
 html_theme = "furo"
+html_static_path = ["_static"]
+html_css_files = ["site.css"]
 html_title = f"stepaside {version}"
 html_theme_options = {
     "light_css_variables": {

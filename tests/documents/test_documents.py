@@ -13,6 +13,8 @@ from tools.documents.store import ROOT, Store
 # Tables that hold no measurements: words, sources, settings, symbols.
 NOT_MEASURED = {
     ("docs/interfaces.md", "part"),
+    ("docs/guides.md", "I want to"),
+    ("docs/reference.md", "page"),
     ("docs/shield.md", "what"),
     ("docs/games.md", "strategy"),
     ("docs/campaigns.md", "`--executor`"),

@@ -6,7 +6,9 @@ from pathlib import Path
 import pytest
 
 import stepaside
-from tools.documents import gallery, notebooks
+from stepaside.games.duel_settings import DuelSettings
+from stepaside.report import game_page
+from tools.documents import gallery, notebooks, play_page, site_links
 
 DOCS = Path(__file__).parents[2] / "docs"
 TREE = re.compile(r"```{toctree}\n(.*?)```", re.DOTALL)
@@ -77,3 +79,29 @@ def test_the_gallery_holds_the_pictures_of_its_commands() -> None:
     assert sorted(gallery.PICTURES.iterdir()) == sorted(files)
     for entry in gallery.ENTRIES:
         assert not entry.example or (gallery.ROOT / entry.example).exists()
+
+
+def test_broken_links_of_a_site_are_found(tmp_path: Path) -> None:
+    (tmp_path / "sub").mkdir()
+    (tmp_path / "index.html").write_text(
+        '<a href="sub/page.html#good">1</a><a href="sub/page.html#bad">2</a>'
+        '<a href="https://example.org/gone">3</a><img src="gone.png">'
+    )
+    (tmp_path / "sub/page.html").write_text(
+        '<p id="good"></p><a href="../index.html">4</a><a href="#good">5</a>'
+    )
+    assert site_links.broken_links(tmp_path) == [
+        "index.html: sub/page.html#bad: no such anchor",
+        "index.html: gone.png: no such file",
+    ]
+
+
+def test_without_npm_the_site_plays_a_recording(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    short = DuelSettings(seed=7, duration=0.4)
+    monkeypatch.setattr(play_page, "SETTINGS", short)
+    monkeypatch.setattr(game_page, "which", lambda name: None)
+    message = play_page.write(tmp_path / "play")
+    assert "recorded" in message and "npm" in message
+    assert (tmp_path / "play/index.html").stat().st_size > 100_000

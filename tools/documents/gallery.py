@@ -87,7 +87,7 @@ ENTRIES = (
     Entry(
         "Push a walking robot",
         "1.2 N s from the side while it walks; the plan begins anew from the "
-        "measured motion ([Stability](stability.md)).",
+        "measured motion ([Feedback](walking.md)).",
         (
             "python examples/change_gait.py 4",
             "stepaside walk --push 1.2@5:90deg --feedback --duration 9 "

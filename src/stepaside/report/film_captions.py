@@ -148,10 +148,15 @@ def draw_title(picture: Pixels, text: str) -> Pixels:
 def draw_label(
     pen: Any, text: str, at: tuple[float, float], colour: str, size: int
 ) -> None:
-    """Write a label in a rounded box above a point of an image."""
+    """Write a label in a rounded box above a point of an image.
+
+    A label that would be cut at the left or right edge is moved inwards.
+    """
     small = _font(round(0.85 * size))
     half = 0.5 * pen.textlength(text, small) + 0.45 * size
-    x, y = at
+    (x, y), (width, _) = at, pen.im.size
+    if 0.0 <= x <= width:
+        x = min(max(x, half), width - half)
     box = (x - half, y - 1.35 * size, x + half, y)
     pen.rounded_rectangle(box, 0.6 * size, (251, 251, 249, 225))
     pen.text((x, y - 0.68 * size), text, colour, small, "mm")
