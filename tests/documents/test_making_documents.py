@@ -284,15 +284,20 @@ def test_people_around_learned_legs_are_counted_by_body() -> None:
         assert counted(1, 12) in made[3]
     chases = [
         {
-            **{"turning_radius_m": 4.0, "outcome": outcome},
-            **{"closest_m": closest, "template_closest_m": 0.54},
+            **{"turning_radius_m": 4.0, "feints": False, "outcome": outcome},
+            **{"closest_m": closest, "template_closest_m": 0.5},
         }
-        for outcome, closest in (("contact", 0.45), ("completed", 0.69))
+        for outcome, closest in (("fall", 0.45), ("completed", 0.75))
     ]
-    found = {"closed_form_m": {"4": 0.51}, "chases": chases}
+    found = {
+        "settings": {"sensing": "ideal"},
+        **{"closed_form_m": {"4": 0.51}, "chases": chases},
+    }
     made = TABLES["legs-chasers"](found).splitlines()
-    assert made[2].startswith("| 4 | 0.51 | 0.54 | 0.45-0.69 |")
-    assert counted(1, 2) in made[2] and counted(0, 2) in made[2]
+    assert made[2].startswith(
+        "| ideal | steers | 4 | 0.51 | 0.50 (0.50) | 0.60 (0.45) | 1.20 (0.90)"
+    )
+    assert counted(1, 2) in made[2]
 
 
 @pytest.mark.parametrize("page", ["evading", "obstacles"])

@@ -163,6 +163,7 @@ def test_an_evader_by_time_has_no_circle() -> None:
         (PersonSettings(halt_after=3.0), False),
         (PersonSettings("straight"), False),
         (PersonSettings(backward=True), False),
+        (PersonSettings(feint_at=1.0), False),
         (PersonSettings(halt_after=inf), True),
     ],
 )

@@ -1,6 +1,7 @@
 """Test a person as pursuer."""
 
 import json
+from dataclasses import replace
 from math import pi
 from pathlib import Path
 
@@ -114,6 +115,14 @@ def test_touching_a_person_ends_the_duel() -> None:
     result = run_duel(duel_with(PersonSettings("straight", 0.6), 10.0))
     assert result.outcome.value == "contact"
     assert result.message.startswith("evader and pursuer touched at ")
+
+
+def test_a_person_without_a_solid_body_walks_through_a_robot() -> None:
+    person = PersonSettings("straight", 0.6, solid=False)
+    standing = replace(duel_with(person, 5.0), evader_strategy="stand")
+    result = run_duel(standing)
+    assert result.outcome.value == "completed"
+    assert result.summary.min_distance_m < 0.05
 
 
 def test_a_robots_duel_has_no_person_in_it() -> None:

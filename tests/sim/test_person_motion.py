@@ -79,6 +79,30 @@ def test_a_person_turns_no_tighter_than_its_radius(side: float) -> None:
         assert hypot(x, y - side * radius) == pytest.approx(radius, rel=0.02)
 
 
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_a_person_feints_each_time_it_comes_near(side: float) -> None:
+    """It turns by its limit for the duration, and then back."""
+    radius, speed, feint_at = 0.5, 1.0, 2.0
+    person = PersonSettings(
+        *("steer", speed, 50.0),
+        turning_radius=radius,
+        feint_at=feint_at,
+        feint=0.4 * side,
+    )
+    motion = PersonMotion(person, Pose(-4.0, 0.0, 0.0), (0.0, 0.0))
+    headings, away = [], []
+    for i in range(1, 400):
+        motion.advance(0.01 * i, 0.01, (0.0, 0.0))
+        headings.append(motion.pose.theta)
+        away.append(hypot(motion.pose.x, motion.pose.y))
+    begins = next(i for i, d in enumerate(away) if d < feint_at)
+    assert headings[begins] == pytest.approx(0.0, abs=1e-9)
+    turn = 0.4 * speed / radius * side
+    assert headings[begins + 41] == pytest.approx(turn, abs=0.05)
+    assert side * headings[begins + 60] < side * turn
+    assert min(away) < 0.2  # it steers at the evader in the end
+
+
 def recorded(folder: Path, lines: str) -> Path:
     file = folder / "walk.csv"
     file.write_text("time, x, y\n" + lines, encoding="utf-8")

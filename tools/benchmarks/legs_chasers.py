@@ -1,21 +1,30 @@
-r"""Let a person who steers at it chase a robot on learned legs.
+r"""Let people who steer at it, or feint, chase a robot on learned legs.
 
-The robot is a matador. Four directions for each turning radius, 40 s each::
+The robot is a matador. People come from twelve directions, with three turning
+radii, for 40 s each; bodies pass through each other. Whoever feints does so by
+the distance and duration with which a search in the template, the point that
+stands for the legs, came closest to it::
 
-    python tools/benchmarks/legs_chasers.py runs/g1 runs/g1.onnx
+    python tools/benchmarks/legs_chasers.py g1 fastsac_g1_29dof.onnx
+    python tools/benchmarks/legs_chasers.py g1 g1.onnx --sensing lidar
+
+An interrupted run continues.
 """
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from functools import cache
 from math import pi, tau
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from benchmark_options import ask
-from tqdm import tqdm
+from resumable_jobs import finished, gather
 
-from stepaside.core.worker_pool import worker_pool
+from stepaside.core.random_streams import named_generator
 from stepaside.games.duel import run_duel
-from stepaside.games.duel_settings import DuelSettings
+from stepaside.games.duel_evaluation import template_closest_approach
+from stepaside.games.duel_settings import SENSING, DuelSettings
 from stepaside.games.robot_settings import with_legs, with_robot
 from stepaside.locomotion.policy.legs_loader import load_legs
 from stepaside.locomotion.policy.legs_settings import LegsSettings
@@ -25,21 +34,111 @@ from stepaside.studies.code_version import PHYSICS
 from stepaside.studies.result_files import header, write_result
 from stepaside.theory.chauffeur.chauffeur_game import guaranteed_distance
 
-RADII = (2.5, 4.0, 8.0)  # of the turns of the person, in [m]
-DIRECTIONS = 4
-SPEED = 1.4  # of the person, in [m/s]
-STEERING = 10.0  # gain of the person, in [1/s]: it turns at its limit
+RADII = (2.5, 4.0, 8.0)  # of the turns of people, in [m]
+DIRECTIONS = 12
+SPEED = 1.4  # of people, in [m/s]
+STEERING = 10.0  # gain of people, in [1/s]: they turn at their limit
 DISTANCE = 8.0  # at first, in [m]
 DURATION = 40.0  # of a duel, in [s]
+NEAREST, FARTHEST = 1.0, 6.0  # distance at which people feint, in [m]
+SHORTEST, LONGEST = 0.2, 1.5  # duration of a feint, in [s]
+CANDIDATES = 12  # feints drawn for each person
+REFINED = 6  # variations of the best of them
+SPREAD = 0.15  # of a variation, relative to the ranges
 
 
-def chase(settings: DuelSettings) -> dict[str, Any]:
+@dataclass(frozen=True, slots=True)
+class Chase:
+    """One chase.
+
+    Attributes:
+        robot: Folder of the robot.
+        network: File of its policy.
+        sensing: Sensing of the robot.
+        radius: Smallest turning radius of the person, in [m].
+        direction: Number of the direction that the person comes from.
+        feints: Whether the person feints.
+        seed: Seed of the search for a feint.
+    """
+
+    robot: str
+    network: str
+    sensing: str
+    radius: float
+    direction: int
+    feints: bool
+    seed: int
+
+    def settings(self, feint_at: float = 0.0, feint: float = 0.6) -> Any:
+        """Return the duel with a feint at a distance [m] of a time [s]."""
+        base = _base(self.robot, self.network)
+        return replace(
+            base,
+            sensing=self.sensing,
+            person=PersonSettings(
+                "steer",
+                SPEED,
+                STEERING,
+                turning_radius=self.radius,
+                feint_at=feint_at,
+                feint=feint,
+                solid=False,
+            ),
+            start=replace(
+                base.start,
+                distance=DISTANCE,
+                pursuer_offset=0.0,
+                evader_offset=pi - tau * self.direction / DIRECTIONS,
+            ),
+        )
+
+    def hardest(self) -> Any:
+        """Return the duel whose feint brings the person closest."""
+        name = f"chaser {self.radius:g} m, direction {self.direction}"
+        generator = named_generator(self.seed, name)
+        best, least = generator.random(3), np.inf
+        for i in range(CANDIDATES + REFINED):
+            drawn = generator.random(3)
+            if i >= CANDIDATES:
+                drawn = best + SPREAD * generator.standard_normal(3)
+                drawn = np.clip(drawn, 0.0, 1.0)
+            closest = template_closest_approach(self._feinting(drawn))
+            if closest is not None and closest < least:
+                best, least = drawn, closest
+        return self._feinting(best)
+
+    def _feinting(self, shares: Any) -> Any:
+        """Return the duel at shares of the ranges. Shape (3,)."""
+        feint_at = NEAREST + shares[0] * (FARTHEST - NEAREST)
+        feint = SHORTEST + shares[1] * (LONGEST - SHORTEST)
+        side = 1.0 if shares[2] < 0.5 else -1.0
+        return self.settings(round(feint_at, 3), round(side * feint, 3))
+
+
+@cache
+def _base(robot: str, network: str) -> DuelSettings:
+    """Return what all chases of a robot have in common."""
+    return replace(
+        with_legs(with_robot(DuelSettings(), robot), network),
+        duration=DURATION,
+        pursuer="person",
+        evader_strategy="matador",
+    )
+
+
+def play(chase: Chase) -> dict[str, Any]:
     """Return how one chase ended."""
+    settings = chase.hardest() if chase.feints else chase.settings()
     run = run_duel(settings)
     return {
-        "turning_radius_m": settings.person.turning_radius,
+        "turning_radius_m": chase.radius,
+        "direction": chase.direction,
+        "feints": chase.feints,
+        "feint_at_m": settings.person.feint_at,
+        "feint_s": settings.person.feint if chase.feints else 0.0,
         "outcome": run.outcome.value,
         "duration_s": run.duration,
+        "triggered_at_s": run.summary.triggered_at_s,
         "closest_m": run.summary.min_distance_m,
         "template_closest_m": run.summary.theory.closest_approach_m,
     }
@@ -47,59 +146,59 @@ def chase(settings: DuelSettings) -> dict[str, Any]:
 
 def main() -> None:
     """Play and write the results."""
-    parser = ask(__doc__, "legs-chasers.json")
+    parser = ask(
+        __doc__,
+        lambda given: (
+            "legs-chasers.json"
+            if given.sensing == "ideal"
+            else f"legs-chasers-{given.sensing}.json"
+        ),
+    )
     parser.add_argument("robot", type=Path)
     parser.add_argument("network", type=Path)
+    parser.add_argument("--sensing", choices=SENSING, default="ideal")
+    parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--workers", type=int, default=1)
     asked = parser.parse_args()
     head = header(
         {
+            "robot": asked.robot.name,
+            "network": asked.network.name,
+            "sensing": asked.sensing,
             "speed_m_s": SPEED,
             "directions": DIRECTIONS,
             "duration_s": DURATION,
             "strategy": "matador",
+            "seed": asked.seed,
         },
         modules=PHYSICS,
     )
-    network = str(asked.network)
-    settings = replace(
-        with_legs(with_robot(DuelSettings(), str(asked.robot)), network),
-        duration=DURATION,
-        pursuer="person",
-        evader_strategy="matador",
-    )
-    games = [
-        replace(
-            settings,
-            person=PersonSettings(
-                "steer", SPEED, STEERING, turning_radius=radius
-            ),
-            start=replace(
-                settings.start,
-                distance=DISTANCE,
-                pursuer_offset=0.0,
-                evader_offset=pi - tau * i / DIRECTIONS,
-            ),
+    where = str(asked.robot), str(asked.network), asked.sensing
+    jobs = {
+        f"{radius:g} m from {i}{', feints' if feints else ''}": Chase(
+            *where, radius, i, feints, asked.seed
         )
+        for feints in (False, True)
         for radius in RADII
         for i in range(DIRECTIONS)
-    ]
-    legs = load_legs(LegsSettings(network), load_robot(asked.robot), tick=0.02)
-    walks = legs.velocities.forward[1]
-    with worker_pool(asked.workers) as pool:
-        rows = list(
-            tqdm(pool.map(chase, games), total=len(games), disable=None)
-        )
+    }
+    legs = load_legs(
+        LegsSettings(str(asked.network)), load_robot(asked.robot), tick=0.02
+    )
+    low, high = legs.velocities.forward
+    slower = min(-low, high)
+    chases = gather(asked.output, head, jobs, play, asked.workers)
     write_result(
         asked.output,
         head,
-        forward_m_s=walks,
+        slower_m_s=slower,
         closed_form_m={
-            f"{radius:g}": radius * guaranteed_distance(walks / SPEED)
+            f"{radius:g}": radius * guaranteed_distance(slower / SPEED)
             for radius in RADII
         },
-        chases=rows,
+        chases=list(chases.values()),
     )
+    finished(asked.output)
 
 
 if __name__ == "__main__":

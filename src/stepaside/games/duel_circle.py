@@ -58,6 +58,8 @@ def _differs(settings: DuelSettings) -> str | None:
     if settings.pursuer == "person":
         if person.path != "steer" or isfinite(person.halt_after):
             return "the person does not keep steering at the evader"
+        if person.feint_at > 0.0:
+            return "the person feints"
         if person.turning_radius > 0.0:
             return "the turning radius of the person is limited"
         if person.backward:

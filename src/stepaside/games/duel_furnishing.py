@@ -42,8 +42,9 @@ def scenery_of_duel(settings: DuelSettings) -> Scenery:
             movers.append(partial(obstacle_mover, room=plan))
     if settings.pursuer == "person":
         figure, passers = FIGURES[settings.person.figure], settings.passers
+        solid = settings.person.solid
         furnishings += [
-            lambda spec: add_person(spec, PURSUER, figure),
+            lambda spec: add_person(spec, PURSUER, figure, solid=solid),
             lambda spec: add_passers(spec, passers),
         ]
         if passers:

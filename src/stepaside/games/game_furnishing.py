@@ -100,9 +100,12 @@ def scenery_of_game(
     def furnish_players(spec: mujoco.MjSpec) -> None:
         for player in settings.players:
             if player.body == "person":
-                figure = FIGURES[player.person.figure]
-                shirt = colours[player.name]
-                add_person(spec, player.name, figure, shirt=shirt)
+                own = player.person
+                add_person(
+                    *(spec, player.name, FIGURES[own.figure]),
+                    shirt=colours[player.name],
+                    solid=own.solid,
+                )
             elif player.body != "robot" or player.name in templates:
                 add_template(spec, player.name, colours[player.name])
 

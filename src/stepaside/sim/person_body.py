@@ -23,6 +23,7 @@ def add_person(
     figure: PedestrianModel = ADULT,
     *,
     shirt: Colour | None = None,
+    solid: bool = True,
 ) -> None:
     """Add the bodies of a person to a world; physics does not move them.
 
@@ -31,6 +32,7 @@ def add_person(
         name: Prefix of the bodies.
         figure: Pedestrian model.
         shirt: Colour of the shirt; that of the model by default.
+        solid: Whether robots and obstacles can touch the bodies.
     """
 
     def capsule(
@@ -46,7 +48,7 @@ def add_person(
             size=[figure.size * radius, 0.0, 0.0],
             rgba=list(colour),
             group=2,
-            contype=FLOOR_BIT,
+            contype=FLOOR_BIT if solid else 0,
             conaffinity=0,
         )
 

@@ -1,7 +1,7 @@
 """Walks of a person: steering, straight, repeated or recorded."""
 
 from collections.abc import Callable
-from math import atan2, cos, hypot, inf, pi, sin
+from math import atan2, copysign, cos, hypot, inf, pi, sin
 from pathlib import Path
 
 import numpy as np
@@ -59,6 +59,7 @@ class PersonMotion:
         self._course = heading
         self.visits = RepeatedCrossings(settings.miss)
         self._walked, self._has_turned = 0.0, False
+        self._was_near, self._feints_until = False, -inf
         self._reacting: CrowdMotion | None = None
         if settings.reaction != "none":
             far = hypot(aim[0] - start.x, aim[1] - start.y) + BEYOND
@@ -104,8 +105,7 @@ class PersonMotion:
             self._course = self.visits.course((x, y), self._course, evader)
         if settings.path == "steer":
             # (1)-(2) of the paper, held over one tick.
-            sight = atan2(evader[1] - y, evader[0] - x)
-            aim = laws.pursuit_heading(wrap_angle(sight - self._course))
+            aim = laws.pursuit_heading(self._bearing(time, evader))
             turn = laws.proportional_rate(aim, settings.gain) * duration
             if settings.turning_radius > 0.0:
                 most = step_length / settings.turning_radius
@@ -116,6 +116,19 @@ class PersonMotion:
         step = step_length * cos(course), step_length * sin(course)
         dx, dy = self._along_walls((x, y), step)
         self.pose = self._pose_facing(x + dx, y + dy)
+
+    def _bearing(self, time: float, evader: Place) -> float:
+        """Return the bearing of the evader, or during a feint another."""
+        x, y, _ = self.pose
+        dx, dy = evader[0] - x, evader[1] - y
+        settings = self._settings
+        is_near = hypot(dx, dy) < settings.feint_at
+        if is_near and not self._was_near:
+            self._feints_until = time + abs(settings.feint)
+        self._was_near = is_near
+        if time < self._feints_until:
+            return copysign(0.5 * pi, settings.feint)
+        return wrap_angle(atan2(dy, dx) - self._course)
 
     def _along_walls(self, place: Place, step: Place) -> Place:
         """Return a step without its components into near obstacles, [m]."""

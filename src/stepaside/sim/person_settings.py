@@ -49,6 +49,19 @@ class PersonSettings:
         Range(0.0, 100.0, "m", "beyond, hardly a turn; 0 for no limit"),
         option="--person-turning-radius",
     )
+    feint_at: float = setting(
+        0.0,
+        "Distance to the evader at which a person who steers feints: turns "
+        "to one side for a while, each time it comes that close",
+        Range(0.0, 100.0, "m", "beyond, they never meet; 0 for never"),
+        option="--person-feint-at",
+    )
+    feint: float = setting(
+        0.6,
+        "Duration of a feint {unit}, positive leftward",
+        Range(-10.0, 10.0, "s", "beyond, the person walks away"),
+        option="--person-feint",
+    )
     halt_after: float = setting(
         inf,
         "Path length after which the person halts",
@@ -73,6 +86,12 @@ class PersonSettings:
         False,
         "Let the person walk backward",
         option="--person-backward/--no-person-backward",
+    )
+    solid: bool = setting(
+        True,
+        "Let the body of the person touch robots and obstacles in physics; "
+        "otherwise they pass through it",
+        option="--person-solid/--no-person-solid",
     )
     reaction: str = setting(
         "none",

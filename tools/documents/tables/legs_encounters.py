@@ -2,12 +2,13 @@
 
 import json
 from collections import defaultdict
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from statistics import median
 from typing import Any
 
 from stepaside.sim.body_settings import BODIES
 
-from .markdown import counted, interval, number, table
+from .markdown import counted, number, table
 
 MILLISECONDS = 1e3  # per second
 
@@ -72,28 +73,42 @@ def passers_by(*results: Mapping[str, Any]) -> str:
     )
 
 
-def chasers(result: Mapping[str, Any]) -> str:
-    """List chases by the turning radius of the person."""
-    groups: dict[float, list[Mapping[str, Any]]] = defaultdict(list)
-    for row in result["chases"]:
-        groups[row["turning_radius_m"]].append(row)
+def chasers(*results: Mapping[str, Any]) -> str:
+    """List chases by sensing, turning radius and feints of the person.
+
+    Each distance is the median over the directions, and the least.
+    """
     rows = []
-    for radius, found in groups.items():
-        closest = [row["closest_m"] for row in found]
-        template = [row["template_closest_m"] for row in found]
-        outcomes = [row["outcome"] for row in found]
-        rows.append(
-            (
-                f"{radius:g}",
-                number(result["closed_form_m"][f"{radius:g}"], 2),
-                interval(min(template), max(template), 2),
-                interval(min(closest), max(closest), 2),
-                counted(outcomes.count("contact"), len(found)),
-                counted(outcomes.count("fall"), len(found)),
+    for result in results:
+        groups: dict[tuple[bool, float], list[Mapping[str, Any]]]
+        groups = defaultdict(list)
+        for row in result["chases"]:
+            groups[row["feints"], row["turning_radius_m"]].append(row)
+        for (feints, radius), found in groups.items():
+            outcomes = [row["outcome"] for row in found]
+            shares = [
+                row["closest_m"] / row["template_closest_m"] for row in found
+            ]
+            rows.append(
+                (
+                    result["settings"]["sensing"],
+                    "feints" if feints else "steers",
+                    f"{radius:g}",
+                    number(result["closed_form_m"][f"{radius:g}"], 2),
+                    _middle([row["template_closest_m"] for row in found]),
+                    _middle([row["closest_m"] for row in found]),
+                    _middle(shares),
+                    str(len(found)),
+                    counted(outcomes.count("fall"), len(found)),
+                )
             )
-        )
     head = (
-        *("turning radius [m]", "closed form [m]", "template [m]"),
-        *("in physics [m]", "touched", "fell"),
+        *("seen by", "person", "turning radius [m]", "c* [m]", "point [m]"),
+        *("in physics [m]", "physics / point", "games", "fell"),
     )
     return table(head, rows)
+
+
+def _middle(values: Sequence[float]) -> str:
+    """Return the median and, in brackets, the least value."""
+    return f"{number(median(values), 2)} ({number(min(values), 2)})"
