@@ -367,7 +367,7 @@ def test_humanoids_play_by_the_same_words() -> None:
     settings = replace(SETTINGS, level="physics", game=StepGame(duration=1.0))
     found = play_record(settings, ("aside", "pure"), 3)
     in_steps = play_record(SETTINGS, ("aside", "pure"), 3)
-    assert set(in_steps) - set(found) == {"clearance_m"}
+    assert set(in_steps) - set(found) == {"clearance_m", "searched"}
     assert found["outcome"] == "survived" and found["touched"] == []
     assert found["survived_s"] == pytest.approx(1.0)
     assert found["bound_m"] == pytest.approx(in_steps["bound_m"], abs=0.02)

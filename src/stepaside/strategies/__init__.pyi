@@ -17,6 +17,7 @@ from .learned import LearnedStrategy as LearnedStrategy
 from .look_ahead import LookAhead as LookAhead
 from .optimal_evasion import OptimalEvasion as OptimalEvasion
 from .optimal_pursuit import OptimalPursuit as OptimalPursuit
+from .parametric_pursuit import ParametricPursuit as ParametricPursuit
 from .pursuit import Pursuit as Pursuit
 from .registry import STRATEGIES as STRATEGIES
 from .registry import load_strategy as load_strategy
@@ -54,6 +55,7 @@ __all__ = [
     "NoisyPursuit",
     "OptimalEvasion",
     "OptimalPursuit",
+    "ParametricPursuit",
     "Pincer",
     "Pursuit",
     "RobustEvasion",

@@ -28,7 +28,10 @@ def tournament_study(
         seeds: Seeds of the games of each pairing.
     """
     own = settings.fingerprint()
-    pursuit_bound(games.CELLS)  # solved once here, not in each worker
+    # Solved and searched once here, not in each worker.
+    pursuit_bound(games.CELLS)
+    for pairing in pairings:
+        games.search_of(settings, pairing)
 
     def key_of(game: Game) -> str:
         pairing, seed = game

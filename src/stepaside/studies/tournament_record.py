@@ -1,6 +1,5 @@
 """Games of a tournament, and the record of each."""
 
-from dataclasses import asdict
 from math import atan2, hypot, isfinite, pi
 from typing import TYPE_CHECKING
 
@@ -10,13 +9,16 @@ from ..arena import Room
 from ..core.convex import grown_hull_area
 from ..core.poses import Array, wrap_angle, wrap_angles
 from ..strategies.bound_cache import pursuit_bound
-from ..strategies.strategy_game import StepGame, StrategyTrack, play_strategies
+from ..strategies.strategy_game import StepGame, StrategyTrack
+from .pursuer_search import SearchedPursuer, searched_pursuer
 from .records import Record
+from .tournament_games import FEEDBACK, play_game
 from .tournament_settings import HUMANOIDS, TournamentSettings
 from .tournament_strategies import (
     SIGHT,
     evader_of,
     pursuer_of,
+    search_seed_of,
     speed_ratio_of,
 )
 
@@ -40,7 +42,6 @@ FIELDS = (  # of every record
     "longest_decision_s",
 )
 CELLS = 64  # of the value table of the bound
-FEEDBACK = 8  # decisions per step at level "unicycle"
 
 Pairing = tuple[str, str]
 """Names of an evader and of a pursuer."""
@@ -91,24 +92,26 @@ def play_track(
     settings: TournamentSettings, pairing: Pairing, seed: int
 ) -> tuple[Room, StrategyTrack]:
     """Play one game at level "steps" or "unicycle"; return its track."""
-    room, starts = settings.arena(seed)
-    unicycles = settings.level == "unicycle"
-    values = asdict(settings.game)
-    game = StepGame(
-        **values
-        | {
-            "decisions": FEEDBACK if unicycles else 1,
-            "pursuer_speed_ratio": speed_ratio_of(pairing[1]),
-        }
+    evader, pursuer = pairing
+    searched = search_of(settings, pairing)
+    return play_game(
+        settings,
+        evader_of(evader, settings.angle),
+        searched.pursuer if searched else pursuer_of(pursuer),
+        seed,
+        speed_ratio_of(pursuer),
     )
-    track = play_strategies(
-        pursuer_of(pairing[1]),
-        evader_of(pairing[0], settings.angle),
-        starts,
-        room=room,
-        game=game,
-    )
-    return room, track
+
+
+def search_of(
+    settings: TournamentSettings, pairing: Pairing
+) -> SearchedPursuer | None:
+    """Return the pursuer that was searched for a pairing, if it names one."""
+    evader, pursuer = pairing
+    seed = search_seed_of(pursuer)
+    if seed is None:
+        return None
+    return searched_pursuer(settings, evader, speed_ratio_of(pursuer), seed)
 
 
 def play_record(
@@ -140,6 +143,7 @@ def _step_values(
     seconds = (len(distances) - 1) * game.period
     seconds /= FEEDBACK if settings.level == "unicycle" else 1
     clear = float(track.clearances.min())
+    searched = search_of(settings, pairing)
     return {
         "outcome": str(track.outcome),
         "survived_s": seconds,
@@ -152,6 +156,7 @@ def _step_values(
         "unseen": float((np.abs(track.bearings) > SIGHT).mean()),
         "decision_s": track.decision,
         "longest_decision_s": track.longest_decision,
+        "searched": searched.text if searched else None,
     }
 
 

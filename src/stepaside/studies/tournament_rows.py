@@ -26,8 +26,9 @@ def tournament_rows(
 
     Returns:
         For each pairing: proportions with 95 % intervals after Wilson, means
-        with 95 % intervals, the seeds of the worst games, the capture
-        distance, and the distance on the paper's circle.
+        with 95 % intervals, the seeds of the worst games, the parameters of
+        a searched pursuer, the capture distance, and the distance on the
+        paper's circle.
     """
     game = game or StepGame()
     pairings = dict.fromkeys((r["evader"], r["pursuer"]) for r in records)
@@ -111,6 +112,7 @@ def _row(records: Sequence[Record]) -> Record:
         "longest_decision_ms": 1e3
         * float(max(r["longest_decision_s"] for r in records)),
         "worst_seeds": [r["seed"] for r in order[:5]],
+        "searched": records[0].get("searched"),
     }
 
 
