@@ -15,7 +15,7 @@ from stepaside.theory.shield import (
     solve_shield,
     sub_poses,
 )
-from stepaside.theory.shield.shield_solver import eroded_values
+from stepaside.theory.shield.shield_erosion import eroded_values
 
 SPEED = 0.6  # of the robot, by that of the person
 PERIOD = 0.25  # in turning radii per speed of the person
@@ -35,7 +35,7 @@ def solved(share: float, loss: float = 0.0) -> ShieldTable:
     """Return the table for a share of the closed form."""
     game = omnidirectional(loss)
     return solve_shield(
-        game, share * CLOSED, cells=6, headings=8, response=PERIOD
+        game, share * CLOSED, cells=6, headings=8, response=0.05
     )
 
 
@@ -91,7 +91,7 @@ def test_erosion_lowers_a_slope_by_the_loss() -> None:
     grid = PoseGrid(0.0, 0.1, (20, 20, 8))
     x, y, _ = grid.axes()
     slope = np.repeat((x[:, None] + 2.0 * y)[:, :, None], 8, axis=2)
-    eroded = eroded_values(slope, grid, 0.25, 0.0)
+    eroded = eroded_values(slope, grid, 0.25)
     lowered = (slope - eroded)[5:-5, 5:-5]
     least = 0.25 * np.hypot(1.0, 2.0)
     assert (lowered >= least - 1e-9).all()

@@ -220,15 +220,34 @@ class GaitSettings:
         Returns:
             Fraction in [0.1, 1].
         """
-        if self.outer_stride is None:
-            return 1.0
-        room = self.outer_stride - 0.5 * self.foot_spacing * abs(turn)
-        return min(1.0, max(0.1, room / self.stride))
+        return stride_share(
+            turn, self.stride, self.outer_stride, self.foot_spacing
+        )
 
     @property
     def path_interval(self) -> float:
         r"""Path time :math:`\Delta / \bar{v}` between footsteps, in [s]."""
         return self.stride / self.speed
+
+
+def stride_share(
+    turn: float,
+    stride: float,
+    outer_stride: float | None,
+    foot_spacing: float,
+) -> float:
+    """Return the fraction of the stride that a turn allows, in [0.1, 1].
+
+    Args:
+        turn: Turn of one step, in [rad].
+        stride: Stride without a turn, in [m].
+        outer_stride: Longest stride of the outer foot, in [m]; None for any.
+        foot_spacing: Coronal distance between the feet, in [m].
+    """
+    if outer_stride is None:
+        return 1.0
+    room = outer_stride - 0.5 * foot_spacing * abs(turn)
+    return min(1.0, max(0.1, room / stride))
 
 
 PRESETS: dict[str, GaitSettings] = {

@@ -16,6 +16,7 @@ from ..core.errors import (
 from ..core.player_identity import PlayerIdentity
 from ..core.poses import Pose
 from ..planning import GaitSettings
+from ..planning.gait_settings import stride_share
 from .velocity_set import STILL, BodyVelocity, VelocitySet
 
 FASTEST = 100.0  # desired velocity; more is an error, in [m/s] and [rad/s]
@@ -33,6 +34,9 @@ class Limits:
         stride: Length of one step at speed factor 1, in [m].
         step_duration: Time between decisions while walking, in [s].
         velocities: Velocities that the legs deliver; None for a unicycle.
+        outer_stride: Longest stride of the outer foot in a turn, in [m]; None
+            for any.
+        foot_spacing: Coronal distance between the feet, in [m].
     """
 
     speed: float
@@ -40,6 +44,18 @@ class Limits:
     stride: float
     step_duration: float
     velocities: VelocitySet | None = None
+    outer_stride: float | None = None
+    foot_spacing: float = 0.0
+
+    def stride_share(self, turn: float) -> float:
+        """Return the fraction of the stride that a turn allows.
+
+        Args:
+            turn: Turn of one step, in [rad].
+        """
+        return stride_share(
+            turn, self.stride, self.outer_stride, self.foot_spacing
+        )
 
 
 def limits_of(
@@ -52,7 +68,13 @@ def limits_of(
         velocities: Velocities that the legs deliver; None for a unicycle.
     """
     return Limits(
-        gait.speed, gait.gain, gait.stride, gait.step_duration, velocities
+        gait.speed,
+        gait.gain,
+        gait.stride,
+        gait.step_duration,
+        velocities,
+        gait.outer_stride,
+        gait.foot_spacing,
     )
 
 

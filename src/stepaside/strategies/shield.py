@@ -1,7 +1,7 @@
 """Shield: a least-restrictive filter around the strategy of a robot."""
 
 from dataclasses import dataclass
-from math import atan2, cos, hypot, pi, sin, tau
+from math import cos, inf, pi, sin, tau
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -10,6 +10,7 @@ from ..core.errors import StrategyError
 from ..core.poses import Array, Pose
 from ..planning import Direction
 from .knowledge import STAND, Intent, Knowledge
+from .shield_course import Course, Trace, observed_course
 from .shield_model import ShieldModel
 from .shield_settings import ShieldSettings
 from .shield_template import TemplatePoint
@@ -17,9 +18,8 @@ from .strategy import Strategy
 from .velocity_set import BodyVelocity
 
 TRACE = 4.0  # windows for which positions of the opponent are kept
-LEAST_MOTION = 0.02  # in a window that shows a heading, in [m]
-HEADINGS = 12  # of an opponent whose heading is not known
 KEEPING = 0.005  # value of the last choice before others, in [m]
+STARTING = 0.01  # value of a start before standing in danger, in [m]
 
 
 class HeldMotion(NamedTuple):
@@ -28,7 +28,8 @@ class HeldMotion(NamedTuple):
     Attributes:
         number: Its number in the choices of the model.
         heading: Heading in the map at which it began, in [rad].
-        until: Time until which it is held, in [s].
+        until: Time until which it is held, in [s]; infinite until the robot
+            has started.
     """
 
     number: int
@@ -42,6 +43,7 @@ class ShieldMemory(NamedTuple):
     Attributes:
         inner: Memory of the strategy.
         trace: Time [s] and position [m] of the opponent, the oldest first.
+        course: Heading of the opponent; None until a window has passed.
         held: Motion that replaces decisions; None for none.
         time: Time of the last decision, in [s].
         template: Template point of legs then; None before.
@@ -51,7 +53,8 @@ class ShieldMemory(NamedTuple):
     """
 
     inner: Any
-    trace: tuple[tuple[float, float, float], ...] = ()
+    trace: Trace = ()
+    course: Course | None = None
     held: HeldMotion | None = None
     time: float = 0.0
     template: TemplatePoint | None = None
@@ -109,7 +112,11 @@ class ShieldedStrategy:
         if model.velocities is not None:
             own = Pose(*template.position, begins.theta)
         memory = memory._replace(
-            inner=inner, trace=trace, template=template, time=knowledge.time
+            inner=inner,
+            trace=trace,
+            course=_course(model, memory.course, trace),
+            template=template,
+            time=knowledge.time,
         )
         if intent.walks and intent.velocity and not model.velocities:
             # The nearest intent of a unicycle is what it will walk.
@@ -139,31 +146,44 @@ class ShieldedStrategy:
     ) -> tuple[Intent, ShieldMemory]:
         """Return the intent, or that of a motion in its place."""
         table, required = model.table(), model.required
-        poses = relative_poses(own, memory.trace, model, knowledge.time)
-        if poses is None or table.outside < required:
+        if memory.course is None or table.outside < required:
             # Unknown as yet; or contact can be forced from everywhere.
             return intent, memory._replace(held=None, guarded=False)
-        if not intent.walks:
-            value = float(table.standing_value(poses).min())
-            if knowledge.moving:
-                value -= model.limits.stride
-        else:
+        poses = relative_poses(own, memory.trace[-1], memory.course, model)
+        moving = knowledge.moving
+        follow = table.outcomes if moving else table.start_outcomes
+        if intent.walks:
             motion, duration = model.motion_of(intent)
-            value = float(table.outcomes(poses, motion[None], duration)[0])
+            value = float(follow(poses, motion[None], duration)[0])
+        elif moving:
+            value = table.halting_value(poses, model.halting)
+            value -= model.limits.stride
+        else:
+            value = float(table.standing_value(poses).min())
         if value >= required:
             return intent, memory._replace(held=None, guarded=True)
         held, now = memory.held, knowledge.time
         guarded = memory.guarded
+        if held is not None and held.until == inf and moving:
+            # The first step has begun when it was decided, or later.
+            held = held._replace(until=now + model.period - model.first)
+        if held is not None and held.until == inf:
+            held = None  # it has not started
         if held is None or now > held.until - 1e-6:
-            found = table.outcomes(poses, table.game.motions, model.period)
+            found = follow(poses, table.game.motions, model.period)
             worth = np.minimum(found, table.outside)
-            if held is not None:
+            keeps = held is not None and found[held.number] >= required
+            if held is not None and (keeps or found.max() < required):
                 worth[held.number] += KEEPING
             best = int(np.argmax(worth))
             guarded = bool(found[best] >= required)
-            if found[best] <= value:
+            standing = not (moving or intent.walks)
+            if found[best] <= value - (STARTING if standing else 0.0):
                 return intent, memory._replace(held=None, guarded=False)
-            held = HeldMotion(best, own.theta, now + model.period)
+            until = now + model.period
+            if not moving and model.velocities is None:
+                until = inf
+            held = HeldMotion(best, own.theta, until)
         return _intent_of(held, model, own), memory._replace(
             held=held, replaced=memory.replaced + 1, guarded=guarded
         )
@@ -178,50 +198,34 @@ def shielded(strategy: Strategy, settings: ShieldSettings) -> Strategy:
 
 def relative_poses(
     own: Pose,
-    trace: tuple[tuple[float, float, float], ...],
+    seen: tuple[float, float, float],
+    course: Course,
     model: ShieldModel,
-    now: float,
-) -> Array | None:
+) -> Array:
     """Return the poses of the robot in the frame of the opponent.
-
-    The opponent is where it was in the middle of a window, and looks along
-    its chord.
 
     Args:
         own: Pose of the robot in the map.
-        trace: Time [s] and position [m] of the opponent, the oldest first.
+        seen: Time [s] and position [m] of the opponent when last seen.
+        course: Its heading.
         model: Model of the robot.
-        now: Present time, in [s].
 
     Returns:
         Poses, in [m] and [rad]. Shape (n, 3); one for each heading of an
-        opponent that hardly moves; None until a window has passed.
+        opponent whose heading is not known.
     """
-    last = trace[-1]
-    earlier = [row for row in trace if row[0] <= last[0] - model.window + 1e-6]
-    if not earlier:
-        return None
-    first = earlier[-1]
-    dx, dy = last[1] - first[1], last[2] - first[2]
-    x, y = 0.5 * (first[1] + last[1]), 0.5 * (first[2] + last[2])
-    headings = [atan2(dy, dx)]
-    least = LEAST_MOTION + 2.0 * model.settings.sighting_error
-    if hypot(dx, dy) < min(least, 0.5 * model.settings.speed * model.window):
-        headings = [tau * i / HEADINGS for i in range(HEADINGS)]
     rows = []
-    for heading in headings:
+    for heading in course.headings(model.heading_error):
         c, s = cos(heading), sin(heading)
-        u, v = own.x - x, own.y - y
+        u, v = own.x - seen[1], own.y - seen[2]
         turned = (own.theta - heading + pi) % tau - pi
         rows.append((c * u + s * v, c * v - s * u, turned))
     return np.array(rows)
 
 
 def _with_sighting(
-    trace: tuple[tuple[float, float, float], ...],
-    knowledge: Knowledge,
-    kept: float,
-) -> tuple[tuple[float, float, float], ...]:
+    trace: Trace, knowledge: Knowledge, kept: float
+) -> Trace:
     """Add the position of the opponent to a trace, and forget old ones."""
     time, pose = knowledge.time - knowledge.age, knowledge.pose_in_map
     sight = pose.theta + knowledge.bearing
@@ -231,6 +235,18 @@ def _with_sighting(
         pose.y + knowledge.distance * sin(sight),
     )
     return (*(row for row in trace if time - kept <= row[0] < time), seen)
+
+
+def _course(
+    model: ShieldModel, before: Course | None, trace: Trace
+) -> Course | None:
+    """Return the heading of the opponent that a trace shows."""
+    person = model.settings
+    turn = person.speed / person.turning_radius
+    bounds = turn, person.sighting_error
+    return observed_course(
+        before, trace, model.window, bounds, model.heading_error
+    )
 
 
 def _template(

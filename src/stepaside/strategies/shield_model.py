@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from functools import lru_cache
 from hashlib import sha256
-from math import cos, pi, sin, tau
+from math import asin, cos, pi, sin, tau
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -25,13 +25,13 @@ CELLS = 10  # of the grid of the table in the required distance
 
 LEGS_INTERVAL = 0.08  # between decisions on a body velocity, in [s]
 LEGS_DIRECTIONS = 16
-LEGS_RESPONSE = 0.1  # of legs that stand, beyond their lag, in [s]
 WALK_LOSS = 0.01  # of the paper's walk per step, in [m]; see docs/shield.md
+SETTLING = 1.0  # of the paper's walk after its last step, in [s]
 SWAY = 0.03  # of a body on the paper's legs, in [m]
 UNMEASURED = 0.2  # tube of legs beyond their lag, if not measured, in [m]
 CELLS_PER_PERIOD = 6  # passed by the opponent while a motion is held
 TURNS = (-1.0, -0.5, 0.0, 0.5, 1.0)  # of a unicycle's step, of the largest
-FORMAT = 1  # of the files
+FORMAT = 2  # of the files
 
 
 class Motion(NamedTuple):
@@ -81,9 +81,17 @@ class ShieldModel:
         return LEGS_INTERVAL if legs else self.limits.step_duration
 
     @property
-    def delay(self) -> float:
-        """Age of the state of the opponent at a decision, in [s]."""
-        return 0.5 * self.window + self.settings.sighting_delay
+    def heading_error(self) -> float:
+        """Greatest error of the opponent's heading, in [rad].
+
+        Within a window it turns, and both ends of a chord are displaced; a
+        chord of half the greatest length is reckoned with.
+        """
+        person = self.settings
+        turned = person.speed / person.turning_radius * self.window
+        shortest = 0.5 * person.speed * self.window
+        hidden = min(1.0, 2.0 * person.sighting_error / shortest)
+        return turned + asin(hidden)
 
     @property
     def loss(self) -> float:
@@ -93,6 +101,12 @@ class ShieldModel:
         if self.velocities is not None:
             return LEGS_LOSS
         return WALK_LOSS * round(self.period / self.limits.step_duration)
+
+    @property
+    def displacement(self) -> float:
+        """Departure of robot and observed person per period, in [m]."""
+        walked = self.settings.speed * self.period
+        return self.loss + walked * self.heading_error
 
     @property
     def tube(self) -> float:
@@ -109,7 +123,19 @@ class ShieldModel:
         if self.settings.response is not None:
             return self.settings.response
         legs = self.velocities is not None
-        return LEGS_RESPONSE if legs else 2.0 * self.limits.step_duration
+        return 0.0 if legs else 2.0 * self.limits.step_duration
+
+    @property
+    def halting(self) -> float:
+        """Time in which a robot that halts takes no decision, in [s]."""
+        legs = self.velocities is not None
+        return 0.0 if legs else self.limits.step_duration + SETTLING
+
+    @property
+    def first(self) -> float:
+        """Time from the begin of a start to the next decision, in [s]."""
+        legs = self.velocities is not None
+        return LEGS_INTERVAL if legs else self.limits.step_duration
 
     @property
     def required(self) -> float:
@@ -118,9 +144,9 @@ class ShieldModel:
         return (
             settings.contact
             + settings.sighting_error
-            + self.loss
+            + self.displacement
             + self.tube
-            + settings.speed * self.delay
+            + settings.speed * settings.sighting_delay
         )
 
     @property
@@ -132,17 +158,19 @@ class ShieldModel:
     def twist(self, intent: Intent) -> tuple[BodyVelocity, float]:
         """Return the velocity and the duration to which an intent commits."""
         limits, sign = self.limits, float(self.direction.value)
-        if intent.velocity is not None:
-            return intent.velocity, LEGS_INTERVAL
         if self.velocities is not None:
-            turn = limits.gain * intent.heading
-            ahead = sign * intent.speed_factor * limits.speed
-            return BodyVelocity(ahead, 0.0, turn), limits.step_duration
+            if intent.velocity is not None:
+                return self.velocities.nearest(intent.velocity), LEGS_INTERVAL
+            rate = intent.pace * limits.gain * intent.heading
+            ahead = sign * intent.speed_factor * intent.pace * limits.speed
+            twist = BodyVelocity(ahead, 0.0, rate)
+            return self.velocities.nearest(twist), limits.step_duration
         duration = limits.step_duration / intent.pace
         share = limits.gain * limits.stride / limits.speed
         turn = intent.heading * (1.0 if self.saturated else share)
         turn = min(max(turn, -self.turn), self.turn)
-        ahead = sign * intent.speed_factor * limits.stride
+        share = min(intent.speed_factor, limits.stride_share(turn))
+        ahead = sign * share * limits.stride
         return BodyVelocity(ahead / duration, 0.0, turn / duration), duration
 
     def motion_of(self, intent: Intent) -> Motion:
@@ -180,9 +208,10 @@ class ShieldModel:
             return (
                 np.array(
                     [
-                        (sign * share * self.limits.stride, 0.0, u * self.turn)
-                        for share in (1.0, ON_THE_SPOT)
-                        for u in TURNS
+                        (sign * share * self.limits.stride, 0.0, turn)
+                        for most in (1.0, ON_THE_SPOT)
+                        for turn in self.turn * np.array(TURNS)
+                        for share in (min(most, self.limits.stride_share(turn)),)
                     ]
                 )
                 / step
@@ -221,17 +250,12 @@ class ShieldModel:
         from ..theory.shield import PersonModel, ShieldGame
 
         settings = self.settings
-        person = PersonModel(settings.speed, settings.turning_radius)
-        error = settings.sighting_error
-        # The chord of a window is that far from the direction of walking.
-        aside = person.turn * self.window / 8.0
-        heading = 2.0 * error / (person.speed * self.window)
         return ShieldGame(
-            person,
+            PersonModel(settings.speed, settings.turning_radius),
             self.motions(),
             self.period,
-            loss=self.loss + 2.0 * error + person.speed * self.period * aside,
-            more_turn=2.0 * heading / self.period,
+            loss=self.displacement,
+            jump=2.0 * settings.sighting_error,
         )
 
     def table(self) -> "ShieldTable":
@@ -261,14 +285,15 @@ def _table(model: ShieldModel) -> "ShieldTable":
             return ShieldTable(
                 game, PoseGrid(left, spacing, (i, j, k)), saved["values"],
                 saved["eroded"], saved["standing"], outside,
-                model.response, seconds,
+                model.response, LEGS_INTERVAL, seconds,
             )  # fmt: skip
     except (OSError, ValueError, KeyError, EOFError):
         pass
     table = solve_shield(
         game,
         model.required,
-        response=model.response + LEGS_INTERVAL,
+        response=model.response,
+        wait=LEGS_INTERVAL,
         cells=CELLS,
     )
     numbers = [

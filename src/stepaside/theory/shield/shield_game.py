@@ -20,6 +20,7 @@ Array = NDArray[np.float64]
 PARTS = 4  # of a period, in which the distance is measured
 TURNS = 11  # of a person who walks at full speed
 CELLS = 10  # in the required distance
+SEGMENTS = 2  # of a response, between which the person changes its walk
 SLOW_TURNS = 3  # of one who walks at half speed, or turns on the spot
 
 
@@ -46,17 +47,16 @@ class PersonModel:
         """Greatest turning rate, in [rad/s]."""
         return self.speed / self.turning_radius
 
-    def walks(self, duration: float, more_turn: float = 0.0) -> Array:
+    def walks(self, duration: float) -> Array:
         """Return the walks that are tried against the robot.
 
         Args:
             duration: Duration, in [s].
-            more_turn: Turning rate beyond the greatest, in [rad/s].
 
         Returns:
             Poses in the initial frame. Shape (n, PARTS, 3).
         """
-        most = self.turn + more_turn
+        most = self.turn
         twists = [
             (share * self.speed, 0.0, rate)
             for share, count in ((1.0, TURNS), (0.5, SLOW_TURNS), (0.0, 3))
@@ -96,25 +96,21 @@ class ShieldGame:
         motions: Poses in the frame of the robot, see :func:`sub_poses`; with
             each its mirror image. Shape (n, PARTS, 3).
         period: Time between two decisions of the robot, in [s].
-        loss: Radius of the disturbance of the position per decision, in [m].
-        heading_loss: Disturbance of the robot's heading, in [rad].
-        more_turn: Turning rate by which an error of the person's heading is
-            accounted for, in [rad/s].
+        loss: Radius of the disturbance of the position per period, in [m].
+        jump: Radius of a further disturbance at each decision, in [m].
     """
 
     person: PersonModel
     motions: Array
     period: float
     loss: float = 0.0
-    heading_loss: float = 0.0
-    more_turn: float = 0.0
+    jump: float = 0.0
 
     def __post_init__(self) -> None:
         """Check the values."""
         check_positive(self.period, "period", "s")
         check_within(self.loss, 0.0, 1.0, "loss", "m")
-        check_within(self.heading_loss, 0.0, 1.0, "heading_loss", "rad")
-        check_within(self.more_turn, 0.0, 10.0, "more_turn", "rad/s")
+        check_within(self.jump, 0.0, 10.0, "jump", "m")
 
     @property
     def speed(self) -> float:
@@ -127,12 +123,24 @@ class ShieldGame:
         """Greatest turning rate of the robot, in [rad/s]."""
         return float(np.abs(self.motions[:, -1, 2]).max()) / self.period
 
-    @property
-    def sag(self) -> float:
-        """Greatest deviation from the chord of a part of a period, in [m]."""
-        part = self.period / PARTS
-        person = self.person.speed * (self.person.turn + self.more_turn)
+    def sag(self, duration: float) -> float:
+        """Return the greatest deviation from the chord of a part, in [m].
+
+        Args:
+            duration: Duration that is divided into parts, in [s].
+        """
+        part = duration / PARTS
+        person = self.person.speed * self.person.turn
         return (person + self.speed * self.turn) * part**2 / 8.0
+
+    @property
+    def disturbance(self) -> float:
+        """Radius of the disturbance from one decision to the next, in [m]."""
+        return self.loss + self.jump
+
+    def loss_in(self, duration: float) -> float:
+        """Return the disturbance within a duration, in [m]."""
+        return self.loss * duration / self.period
 
 
 class PoseGrid(NamedTuple):

@@ -112,7 +112,7 @@ def worst_walk(
 @compiled
 def evaluate_motions(
     v: Any,
-    pose: Any,
+    poses: Any,
     motions: Any,
     walks: Any,
     sag: float,
@@ -120,12 +120,14 @@ def evaluate_motions(
     outside: float,
     out: Any,
 ) -> None:
-    """Compute the worst outcome of each motion; see :func:`outcome_of`."""
-    state = (pose[0], pose[1], pose[2])
-    for k in range(len(motions)):
-        out[k], _ = worst_walk(
-            v, state, motions[k], walks, 0, -1.0, sag, grid, outside
-        )
+    """Lower ``out`` to the worst outcome of each motion from all poses."""
+    for n in range(len(poses)):
+        pose = (poses[n, 0], poses[n, 1], poses[n, 2])
+        for k in range(len(motions)):
+            found, _ = worst_walk(
+                v, pose, motions[k], walks, 0, -1.0, sag, grid, outside
+            )
+            out[k] = min(out[k], found)
 
 
 @compiled

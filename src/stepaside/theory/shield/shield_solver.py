@@ -12,7 +12,7 @@ just lowered. Outside the grid the value is just above the required one, if
 it is in a layer along the edges that no single motion can jump over.
 """
 
-from math import ceil, cos, inf, pi, sqrt, tau
+from math import ceil, inf, pi, sqrt, tau
 from time import perf_counter
 from typing import Any
 
@@ -21,7 +21,15 @@ import numpy as np
 from ...core.compilation import compiled
 from ...core.errors import check_within
 from ..chauffeur.chauffeur_game import guaranteed_distance
-from .shield_game import CELLS, Array, PoseGrid, ShieldGame, sub_poses
+from .shield_erosion import eroded_values
+from .shield_game import (
+    CELLS,
+    SEGMENTS,
+    Array,
+    PoseGrid,
+    ShieldGame,
+    sub_poses,
+)
 from .shield_outcomes import worst_walk
 from .shield_table import ShieldTable
 
@@ -94,58 +102,12 @@ def relax_shield(
     return change
 
 
-def eroded_values(
-    v: Array, grid: PoseGrid, loss: float, heading_loss: float
-) -> Array:
-    """Return the least values within a disturbance.
-
-    Values are interpolated linearly between nodes; eight directions of the
-    displacement are tried, and both of the heading.
-
-    Args:
-        v: Values of the nodes.
-        grid: Their grid.
-        loss: Radius of the displacement, in [m].
-        heading_loss: Greatest turn, in [rad].
-    """
-    found = v
-    times = max(1, ceil(loss / grid.spacing))
-    share = loss / times / grid.spacing / cos(pi / 8)
-    for _ in range(times if loss > 0.0 else 0):
-        # One more node on every side: mirrored at y = 0, else kept.
-        around = np.pad(found, ((1, 1), (1, 1), (0, 0)), mode="edge")
-        mirrored = -np.arange(grid.shape[2]) % grid.shape[2]
-        around[1:-1, 0] = found[:, 1, mirrored]
-        around[0, 0], around[-1, 0] = around[1, 0], around[-2, 0]
-        least = found
-        for di in (-1, 0, 1):
-            for dj in (-1, 0, 1):
-                if di or dj:
-                    part = share / sqrt(di * di + dj * dj)
-                    there = around[
-                        1 + di : 1 + di + len(found),
-                        1 + dj : 1 + dj + found.shape[1],
-                    ]
-                    least = np.minimum(
-                        least, (1.0 - part) * found + part * there
-                    )
-        found = least
-    part = heading_loss / tau * grid.shape[2]
-    if part > 0.0:
-        found = np.minimum.reduce(
-            [
-                (1.0 - part) * found + part * np.roll(found, shift, axis=2)
-                for shift in (-1, 0, 1)
-            ]
-        )
-    return found
-
-
 def solve_shield(
     game: ShieldGame,
     least: float,
     *,
     response: float = 0.0,
+    wait: float = 0.0,
     cells: int = CELLS,
     headings: int = HEADINGS,
 ) -> ShieldTable:
@@ -155,7 +117,9 @@ def solve_shield(
         game: Person, motions and disturbance.
         least: Distance that is required, in [m]; values above 1.5 times it
             are cut off.
-        response: Time for which a standing robot still stands, in [s].
+        response: Longest time from the decision of a standing robot until its
+            motion begins, in [s].
+        wait: Time until a standing robot decides again, in [s].
         cells: Number of cells in the required distance.
         headings: Number of headings.
 
@@ -169,32 +133,38 @@ def solve_shield(
     check_within(cells, 4, 100, "cells", "1")
     check_within(headings, 8, 180, "headings", "1")
     check_within(response, 0.0, 10.0, "response", "s")
+    check_within(wait, 0.0, 10.0, "wait", "s")
     begin = perf_counter()
     scale = GROWTH
     hopeless = least >= _keepable(game)
     for _ in range(TRIALS):
-        grid = _cover(game, least, scale * response, scale, cells, headings)
-        v = eroded = np.zeros(grid.shape)
+        stands = response + wait
+        grid = _cover(game, least, scale * stands, scale, cells, headings)
+        v = eroded = standing = np.zeros(grid.shape)
         outside = 0.0
         if hopeless:
             break
-        found, lowest, outside = _converge_shield(game, grid, least)
+        layer = _layer(game, stands, grid)
+        found, lowest, outside = _converge_shield(game, grid, least, layer)
         if outside >= least:
-            v, eroded = found, lowest
-            break
+            starts = _standing(
+                game, grid, found, lowest, outside, response, wait
+            )
+            most = game.person.speed * wait
+            if _edge(starts, most, grid) >= least:
+                v, eroded, standing = found, lowest, starts
+                break
+            outside = 0.0
         scale *= GROWTH
-    standing = v
-    if outside >= least:
-        standing = _standing(game, grid, v, outside, response)
     return ShieldTable(
-        game, grid, v, eroded, standing, outside, response,
+        game, grid, v, eroded, standing, outside, response, wait,
         perf_counter() - begin,
     )  # fmt: skip
 
 
 def _keepable(game: ShieldGame) -> float:
     """Return the distance that a point without turns could keep, in [m]."""
-    ratio = (game.speed - game.loss / game.period) / game.person.speed
+    ratio = (game.speed - game.disturbance / game.period) / game.person.speed
     if ratio <= 1e-6:
         return 0.0
     if ratio >= 1.0:
@@ -202,10 +172,17 @@ def _keepable(game: ShieldGame) -> float:
     return game.person.turning_radius * guaranteed_distance(ratio)
 
 
-def _layer(game: ShieldGame) -> float:
-    """Return the width of the layer that no motion jumps over, in [m]."""
-    speed = game.speed + game.person.speed
-    return speed * game.period + game.loss
+def _layer(game: ShieldGame, stands: float, grid: PoseGrid) -> float:
+    """Return the width of the layer that no motion jumps over, in [m].
+
+    A turn of the person moves far states by more than near ones. Before a
+    motion the robot may stand for a time, in [s].
+    """
+    person, (x, y, _) = game.person, grid.axes()
+    far = sqrt(max(abs(x[0]), abs(x[-1])) ** 2 + y[-1] ** 2)
+    approach = (person.speed + person.turn * far) * (game.period + stands)
+    loss = game.disturbance + game.loss_in(stands)
+    return float(approach + game.speed * game.period + loss)
 
 
 def _cover(
@@ -223,17 +200,21 @@ def _cover(
     clear the distance; turning and standing come before.
     """
     person = game.person
-    speed = max(game.speed - game.loss / game.period, 1e-3)
+    speed = max(game.speed - game.disturbance / game.period, 1e-3)
     waits = response + 2.0 * game.period
     if game.turn > 0.0:
         waits += 0.5 * pi / game.turn
     clears = 1.5 * CUT * least / speed
     reach = min(clears, 1.0 / person.turn + 0.5 * waits) + waits
-    top, layer = CUT * least, _layer(game)
+    top = CUT * least
+    layer = game.speed * game.period + game.disturbance
+    layer += person.speed * (game.period + response)
     swerves = 0.5 * person.turn * person.speed * waits**2
     ahead = top + scale * person.speed * reach + layer
     aside = top + min(scale * swerves, ahead) + layer
-    behind = scale * top + layer
+    turned = person.turn * (game.period + response) * (ahead + aside)
+    ahead, aside = ahead + turned, aside + turned
+    behind = scale * top + layer + turned
     spacing = least / cells
     left = -spacing * ceil(behind / spacing)
     shape = (
@@ -244,14 +225,14 @@ def _cover(
     return PoseGrid(left, spacing, shape)
 
 
-def _edge(v: Array, game: ShieldGame, grid: PoseGrid) -> float:
-    """Return the least value of the layer along the edges, in [m]."""
-    width = ceil(_layer(game) / grid.spacing) + 1
+def _edge(v: Array, layer: float, grid: PoseGrid) -> float:
+    """Return the least value of a layer along the edges, in [m]."""
+    width = ceil(layer / grid.spacing) + 1
     return float(min(v[:width].min(), v[-width:].min(), v[:, -width:].min()))
 
 
 def _converge_shield(
-    game: ShieldGame, grid: PoseGrid, least: float
+    game: ShieldGame, grid: PoseGrid, least: float, layer: float
 ) -> tuple[Array, Array, float]:
     """Relax until nothing changes; return values, eroded and outside.
 
@@ -262,22 +243,22 @@ def _converge_shield(
     most = CUT * least
     distance = np.minimum(np.hypot(x[:, None], y), most)
     v = np.repeat(distance[:, :, None], grid.shape[2], axis=2)
-    walks = game.person.walks(game.period, game.more_turn)
+    walks, sag = game.person.walks(game.period), game.sag(game.period)
     guesses = np.zeros((*grid.shape, 2), dtype=np.int64)
     changed, outside = (v < most).any(axis=2), SAFE * least
     for _ in range(MOST):
-        eroded = eroded_values(v, grid, game.loss, game.heading_loss)
-        active = _near(changed, ceil(_layer(game) / grid.spacing) + 2)
+        eroded = eroded_values(v, grid, game.disturbance)
+        active = _near(changed, ceil(layer / grid.spacing) + 2)
         change = relax_shield(
-            v, eroded, guesses, active, game.motions, walks, game.sag, grid,
+            v, eroded, guesses, active, game.motions, walks, sag, grid,
             outside,
         )  # fmt: skip
         changed = active
-        if _edge(v, game, grid) < least:
+        if _edge(v, layer, grid) < least:
             return v, eroded, 0.0
         if change < STILL * most:
             break
-    return v, eroded_values(v, grid, game.loss, game.heading_loss), outside
+    return v, eroded_values(v, grid, game.disturbance), outside
 
 
 def _near(marked: Any, width: int) -> Any:
@@ -292,23 +273,48 @@ def _near(marked: Any, width: int) -> Any:
 
 
 def _standing(
-    game: ShieldGame, grid: PoseGrid, v: Array, outside: float, response: float
+    game: ShieldGame,
+    grid: PoseGrid,
+    v: Array,
+    eroded: Array,
+    outside: float,
+    response: float,
+    wait: float,
 ) -> Array:
-    """Return the value of a robot that stands for a time first."""
-    count = ceil(response / game.period - 1e-9)
-    if count == 0:
-        return v.copy()
-    held = response / count
-    stands = sub_poses([(0.0, 0.0, 0.0)], held)
-    walks = game.person.walks(held, game.more_turn)
-    found = v
-    for _ in range(count):
-        before = eroded_values(found, grid, game.loss, 0.0)
-        found = found.copy()
+    """Return the value of a robot that stands for a wait, and then starts.
+
+    It commits to its first motion when it starts; the motion begins after
+    any part of the response, of which none, half and all are tried.
+    """
+    still = sub_poses([(0.0, 0.0, 0.0)], 1.0)
+    most, best = float(v.max()), np.zeros(grid.shape)
+    near = _near(
+        (v < most).any(axis=2),
+        ceil(_layer(game, response + wait, grid) / grid.spacing) + 2,
+    )
+
+    def back(values: Array, motions: Array, duration: float) -> Array:
+        """Return values of the begin of a motion from those of its end."""
+        found = np.full(grid.shape, most)
         guesses = np.zeros((*grid.shape, 2), dtype=np.int64)
-        active = np.ones(grid.shape[:2], dtype=np.bool_)
         relax_shield(
-            found, before, guesses, active, stands, walks, game.sag, grid,
-            outside,
+            found, values, guesses, near.copy(), motions,
+            game.person.walks(duration), game.sag(duration), grid, outside,
         )  # fmt: skip
-    return found
+        return found
+
+    def stand(values: Array, duration: float, jump: float = 0.0) -> Array:
+        """Return values of a robot that stands for a while."""
+        if duration == 0.0:
+            return values
+        loss = game.loss_in(duration) + jump
+        return back(eroded_values(values, grid, loss), still, duration)
+
+    for motion in game.motions:
+        after = back(eroded, motion[None], game.period)
+        least = after
+        for _ in range(SEGMENTS):
+            after = stand(after, response / SEGMENTS)
+            least = np.minimum(least, after)
+        best = np.maximum(best, least)
+    return stand(best, wait, game.jump)

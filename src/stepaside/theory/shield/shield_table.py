@@ -1,14 +1,15 @@
 """Table of a solved shield game."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ...core.brief_repr import brief_repr
-from .shield_game import Array, PoseGrid, ShieldGame
+from .shield_erosion import eroded_values
+from .shield_game import SEGMENTS, Array, PoseGrid, ShieldGame
 from .shield_outcomes import evaluate_motions, look_up_all
-
 
 @dataclass(frozen=True)
 class ShieldTable:
@@ -20,10 +21,12 @@ class ShieldTable:
         values: Guaranteed distance at each node, cut off, in [m]. Shape
             ``grid.shape``.
         eroded: Least value within the disturbance, likewise.
-        standing: Guaranteed distance of a robot that stands for the response
-            time first, likewise.
+        standing: Guaranteed distance of a robot that stands for the wait, and
+            then starts, likewise.
         outside: Guaranteed distance of every state outside the grid, in [m].
-        response: The response time, in [s].
+        response: Longest time from the decision of a standing robot until its
+            motion begins, in [s].
+        wait: Time until a standing robot decides again, in [s].
         seconds: Computing time, in [s].
     """
 
@@ -34,6 +37,7 @@ class ShieldTable:
     standing: Array
     outside: float
     response: float
+    wait: float
     seconds: float
 
     __repr__ = brief_repr
@@ -51,7 +55,7 @@ class ShieldTable:
         return self._look_up(self.values, poses)
 
     def standing_value(self, poses: ArrayLike) -> Array:
-        """Return the guaranteed distance of a robot that stands at first.
+        """Return the guaranteed distance of a robot that stands on.
 
         Where it falls below what is required, the robot must start now.
 
@@ -59,6 +63,73 @@ class ShieldTable:
             poses: As in :meth:`value`.
         """
         return self._look_up(self.standing, poses)
+
+    def halting_value(self, poses: ArrayLike, duration: float) -> float:
+        """Return the guaranteed distance of a robot that halts.
+
+        Args:
+            poses: Poses of the robot in the frame of the person, of which the
+                worst counts. Shape (m, 3).
+            duration: Time until it stands and decides again, in [s].
+        """
+        later, least = self._stood(poses, duration)
+        return min(least, float(self.standing_value(later).min()))
+
+    def start_outcomes(
+        self, poses: ArrayLike, motions: Array, duration: float
+    ) -> Array:
+        """Return the distance that remains guaranteed after a start.
+
+        The motion begins after any part of the response, of which none, half
+        and all are tried.
+
+        Args:
+            poses: As in :meth:`outcomes`.
+            motions: As in :meth:`outcomes`.
+            duration: As in :meth:`outcomes`.
+        """
+        found = self.outcomes(poses, motions, duration)
+        if self.response == 0.0:
+            return found
+        later, least = np.atleast_2d(poses), np.inf
+        loss = self.game.loss_in(self.response)
+        for _ in range(SEGMENTS):
+            later, closest = self._stood(later, self.response / SEGMENTS)
+            least = min(least, closest)
+            after = self._outcomes(
+                self._eroded_at_start, later, motions, duration, loss
+            )
+            found = np.minimum(found, np.minimum(after, least - loss))
+        return found
+
+    @cached_property
+    def _eroded_at_start(self) -> Array:
+        """Least values within the disturbance of response and period."""
+        loss = self.game.loss_in(self.response)
+        return eroded_values(self.eroded, self.grid, loss)
+
+    def _stood(
+        self, poses: ArrayLike, duration: float
+    ) -> tuple[Array, float]:
+        """Return all poses after standing, and the least distance till then.
+
+        Args:
+            poses: Poses of the robot in the frame of the person. Shape
+                (m, 3).
+            duration: Time for which the robot stands, in [s].
+        """
+        states = np.atleast_2d(np.asarray(poses, dtype=np.float64))
+        if duration == 0.0:
+            return states, np.inf
+        walks = self.game.person.walks(duration)
+        x = states[:, None, None, 0] - walks[:, :, 0]
+        y = states[:, None, None, 1] - walks[:, :, 1]
+        least = np.hypot(x, y).min() - self.game.sag(duration)
+        x, y, turned = x[:, :, -1], y[:, :, -1], walks[:, -1, 2]
+        c, s = np.cos(turned), np.sin(turned)
+        theta = states[:, None, 2] - turned
+        later = np.stack([c * x + s * y, c * y - s * x, theta], axis=2)
+        return later.reshape(-1, 3), float(least)
 
     def outcomes(
         self, poses: ArrayLike, motions: Array, duration: float
@@ -76,21 +147,31 @@ class ShieldTable:
             Least distance on the way and value after it, at worst, in [m].
             Shape (n,).
         """
-        walks = self.game.person.walks(duration, self.game.more_turn)
+        return self._outcomes(self.eroded, poses, motions, duration)
+
+    def _outcomes(
+        self,
+        values: Array,
+        poses: ArrayLike,
+        motions: Array,
+        duration: float,
+        loss: float = 0.0,
+    ) -> Array:
+        """Return outcomes for values at the end; see :meth:`outcomes`.
+
+        A loss before the begin reduces distances on the way.
+        """
         found = np.full(len(motions), np.inf)
-        out = np.empty(len(motions))
-        for pose in np.atleast_2d(np.asarray(poses, dtype=np.float64)):
-            evaluate_motions(
-                self.eroded,
-                pose,
-                motions,
-                walks,
-                self.game.sag,
-                self.grid,
-                self.outside,
-                out,
-            )
-            found = np.minimum(found, out)
+        evaluate_motions(
+            values,
+            np.atleast_2d(np.asarray(poses, dtype=np.float64)),
+            motions,
+            self.game.person.walks(duration),
+            self.game.sag(duration) + loss,
+            self.grid,
+            self.outside,
+            found,
+        )
         return found
 
     def _look_up(self, table: Array, poses: ArrayLike) -> Array:

@@ -1,0 +1,81 @@
+"""Heading of the opponent of a shield, from where it was seen."""
+
+from math import asin, atan2, ceil, hypot, pi, tau
+from typing import NamedTuple
+
+LEAST_MOTION = 0.002  # between two sightings that show a heading, in [m]
+SPACING = 0.25  # of the headings of an opponent who stands, in [rad]
+
+Trace = tuple[tuple[float, float, float], ...]
+"""Time [s] and position [m] of an opponent, the oldest first."""
+
+
+class Course(NamedTuple):
+    """Heading of an opponent, and how far it may be off.
+
+    Attributes:
+        time: Time of the last sighting, in [s].
+        heading: Heading in the map, in [rad].
+        error: Greatest error of the heading, in [rad].
+    """
+
+    time: float
+    heading: float
+    error: float
+
+    def headings(self, known: float) -> list[float]:
+        """Return the heading, or several if its error is above a bound."""
+        if self.error <= known + 1e-9:
+            return [self.heading]
+        count = ceil(2.0 * self.error / SPACING) + 1
+        first, width = self.heading - self.error, 2.0 * self.error
+        return [first + width * i / (count - 1) for i in range(count)]
+
+
+def observed_course(
+    before: Course | None,
+    trace: Trace,
+    window: float,
+    person: tuple[float, float],
+    known: float,
+) -> Course | None:
+    """Return the heading of an opponent after its last sighting.
+
+    The direction of the chord between two positions is off by at most the
+    turn between them, and by the errors of both. The heading follows it no
+    faster than the opponent turns: then it turns as the opponent may, and
+    stays within the error of the chord.
+
+    Args:
+        before: Heading at an earlier sighting; None for none.
+        trace: Positions, the last one at the present sighting.
+        window: Least time between the ends of a chord, in [s].
+        person: Greatest turning rate of the opponent, in [rad/s], and error
+            of a position, in [m].
+        known: Error of a heading that counts as known, in [rad].
+
+    Returns:
+        The heading; None until a window has passed.
+    """
+    turn, sighting_error = person
+    last = trace[-1]
+    earlier = [row for row in trace if row[0] <= last[0] - window + 1e-6]
+    if not earlier:
+        return None
+    time, x, y = earlier[-1]
+    chord = hypot(last[1] - x, last[2] - y)
+    error, hidden = pi, 2.0 * sighting_error
+    if chord > max(LEAST_MOTION, hidden):
+        error = min(pi, turn * (last[0] - time) + asin(hidden / chord))
+    error = max(error, known)
+    direction = atan2(last[2] - y, last[1] - x)
+    if before is None:
+        return Course(last[0], direction, error)
+    turned = turn * max(0.0, last[0] - before.time)
+    if error > before.error + turned:  # the chord shows less than is known
+        return Course(last[0], before.heading, before.error + turned)
+    off = (direction - before.heading + pi) % tau - pi
+    if error < before.error:
+        return Course(last[0], direction, error)
+    heading = before.heading + min(max(off, -turned), turned)
+    return Course(last[0], heading, error)
