@@ -8,20 +8,23 @@ measured by ``legs measure``, add a robot on learned legs::
 
     python tools/benchmarks/shield_map.py --robot runs/g1 --network g1.onnx
 
+A robot without a certified start is reported as such. After Ctrl-C the same
+command continues.
+
 Writes ``docs/results/shield-map.json`` for docs/shield.md.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from math import atan2, cos, hypot, pi, sin
+from math import atan2, ceil, cos, pi, sin
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from benchmark_options import ask, machine
-from tqdm import tqdm
+from resumable_jobs import Row, finished, gather
 
 from stepaside.core.poses import Pose, wrap_angle
+from stepaside.core.random_streams import named_generator
 from stepaside.games.template_game import play_point, play_template
 from stepaside.locomotion.policy.legs_loader import load_legs
 from stepaside.locomotion.policy.legs_settings import LegsSettings
@@ -39,7 +42,8 @@ MODULES = ("theory/shield", "strategies/shield", "games/template_game")
 STEP = 0.04  # of the integration, in [s]
 LEGS_GAIT = GaitSettings(speed=0.5, gain=0.4, stride=0.2)
 PEOPLE = ("steers", "feints", "weaves")
-FARTHEST = 4.0  # of a start, in required distances
+BATCH = 50  # games of a job
+DRAWN = 10_000  # starts, of which suitable ones are taken
 
 
 @dataclass(frozen=True)
@@ -49,10 +53,12 @@ class RandomWalk:
     Attributes:
         legs: Whether it decides on body velocities.
         seed: Seed of its decisions.
+        begins: Time before which it stands, in [s].
     """
 
     legs: bool
     seed: int
+    begins: float
     direction: Direction = Direction.BACKWARD
     saturated: bool = False
 
@@ -63,7 +69,8 @@ class RandomWalk:
     def decide(self, knowledge: Knowledge, memory: int) -> tuple[Intent, int]:
         """Decide at random; hold a decision for about a second."""
         drawn = np.random.default_rng((self.seed, int(knowledge.time)))
-        if drawn.random() < 0.3:
+        stands = self.seed % 4 == 0 or knowledge.time < self.begins - 1e-9
+        if stands or drawn.random() < 0.3:
             return Intent(moving=False), memory + 1
         if self.legs:
             velocity = BodyVelocity(*drawn.uniform(-0.5, 0.5, 3).tolist())
@@ -79,10 +86,16 @@ class Chaser:
     """
 
     def __init__(
-        self, kind: str, settings: ShieldSettings, start: Pose, seed: int
+        self,
+        kind: str,
+        settings: ShieldSettings,
+        start: Pose,
+        seed: int,
+        straight: float,
     ) -> None:
-        """Begin at a pose."""
+        """Begin at a pose, and walk straight for a time [s]."""
         self.pose, self._kind, self._settings = start, kind, settings
+        self._straight = straight
         self._random = np.random.default_rng(seed)
         self._until, self._rate, self._pace = 0.0, 0.0, 1.0
 
@@ -96,15 +109,17 @@ class Chaser:
         aim = wrap_angle(atan2(evader[1] - y, evader[0] - x) - theta)
         rate = min(max(aim / duration, -most), most)
         if self._kind != "steers":
-            if time >= self._until:
+            if time >= max(self._until, self._straight):
                 self._until = time + self._random.uniform(0.2, 1.5)
                 feints = self._random.random() < 0.4
                 self._rate = np.sign(self._random.normal()) * most
                 self._feints = feints
                 slow = self._kind == "weaves" and self._random.random() < 0.2
                 self._pace = self._random.random() if slow else 1.0
-            if self._feints:
+            if time > self._straight + 1e-9 and self._feints:
                 rate = float(self._rate)
+        if time <= self._straight + 1e-9:
+            rate = 0.0
         way, half = self._pace * speed * duration, 0.5 * rate * duration
         way *= float(np.sinc(half / pi))
         self.pose = Pose(
@@ -139,8 +154,8 @@ class MappedRobot:
 
 def paper_robots() -> dict[str, MappedRobot]:
     """Return NAO on the paper's legs, and with the fast gait."""
-    slow = ShieldSettings(True, 0.12, 6.0, 0.35)
-    fast = ShieldSettings(True, 0.4, 8.0, 0.35)
+    slow = ShieldSettings(True, 0.09, 6.0, 0.35)
+    fast = ShieldSettings(True, 0.35, 8.0, 0.35)
     return {
         "NAO, the paper's gait": MappedRobot(GaitSettings(), None, slow, 60.0),
         "NAO, fast gait": MappedRobot(PRESETS["fast"], None, fast, 30.0),
@@ -148,87 +163,141 @@ def paper_robots() -> dict[str, MappedRobot]:
 
 
 def draw_starts(
-    robot: MappedRobot, count: int, *, certified: bool, seed: int
-) -> list[tuple[Pose, Pose]]:
-    """Draw poses of person and robot, with the robot at rest.
+    robot: MappedRobot, count: int, *, certified: bool
+) -> list[Pose]:
+    """Draw poses of a robot at rest in the frame of the person.
 
-    The person has walked straight for a window before the robot decides.
+    Returns:
+        The poses; fewer than asked for where there are few.
     """
     model, table = robot.model, robot.model.table()
-    random = np.random.default_rng(seed)
+    if certified and table.outside < model.required:
+        return []
+    random = named_generator(count, f"starts {certified}")
     x, y, _ = table.grid.axes()
-    starts: list[tuple[Pose, Pose]] = []
-    while len(starts) < count:
-        row = random.uniform([x[0], -y[-1], -pi], [x[-1], y[-1], pi])
-        value = float(table.standing_value(row[None])[0])
-        near = hypot(row[0], row[1]) < robot.shield.contact + 0.05
-        if near or (value >= model.required) != certified:
-            continue
-        before = robot.shield.speed * (model.delay + 0.5 * model.window)
-        starts.append((Pose(-before * 0.5, 0.0, 0.0), Pose(*row.tolist())))
-    return starts
+    low, high = [x[0], -y[-1], -pi], [x[-1], y[-1], pi]
+    found: list[Any] = []
+    for _ in range(count):
+        rows = random.uniform(low, high, (DRAWN, 3))
+        safe = table.standing_value(rows) >= model.required
+        far = np.hypot(rows[:, 0], rows[:, 1]) > robot.shield.contact + 0.05
+        found += rows[far & (safe == certified)].tolist()
+        if len(found) >= count:
+            break
+    return [Pose(*row) for row in found[:count]]
 
 
-def play(
-    robot: MappedRobot, start: tuple[Pose, Pose], seed: int
-) -> tuple[str, float, float]:
-    """Return kind of the person, closest approach [m] and share replaced."""
-    kind = PEOPLE[seed % len(PEOPLE)]
-    inner = RandomWalk(robot.legs is not None, seed)
+@dataclass(frozen=True)
+class GameBatch:
+    """Games of one robot.
+
+    Attributes:
+        robot: Robot and person.
+        starts: Poses of the robot in the frame of the person.
+        first: Seed of the first game.
+    """
+
+    robot: MappedRobot
+    starts: tuple[Pose, ...]
+    first: int
+
+    def play(self) -> Row:
+        """Return closest approaches [m] by kind of the person."""
+        found: Row = {kind: [] for kind in PEOPLE}
+        for seed, start in enumerate(self.starts, self.first):
+            kind = PEOPLE[seed % len(PEOPLE)]
+            found[kind].append(play(self.robot, kind, start, seed))
+        return found
+
+
+def play(robot: MappedRobot, kind: str, start: Pose, seed: int) -> float:
+    """Return the closest approach in a game, in [m].
+
+    The person walks straight to the origin before the shield decides.
+    """
+    straight = STEP * ceil(robot.model.window / STEP - 1e-9)
+    inner = RandomWalk(robot.legs is not None, seed, straight)
     strategy = ShieldedStrategy(inner, robot.shield)
 
     def motion(pose: Pose, evader: tuple[float, float]) -> Any:
-        return Chaser(kind, robot.shield, pose, seed)
+        return Chaser(kind, robot.shield, pose, seed, straight)
 
+    person = Pose(-robot.shield.speed * straight, 0.0, 0.0)
     if robot.legs is None:
         game = play_template(
-            motion, *start, strategy, robot.gait,
+            motion, person, start, strategy, robot.gait,
             duration=robot.duration, step=STEP,
         )  # fmt: skip
     else:
         game = play_point(
-            motion, *start, strategy, robot.gait, robot.legs,
+            motion, person, start, strategy, robot.gait, robot.legs,
             duration=robot.duration, step=STEP,
         )  # fmt: skip
-    return kind, game.closest_m, game.times[-1]
+    return game.closest_m
 
 
-def map_of(
-    robot: MappedRobot, count: int, report: Callable[[], object]
-) -> dict[str, Any]:
-    """Return the table of a robot and its games."""
+def describe(robot: MappedRobot) -> Row:
+    """Return the numbers of a robot's table."""
     model, table = robot.model, robot.model.table()
     x, y, _ = table.grid.axes()
     unsafe = table.standing < model.required
-    found: dict[str, Any] = {
+    winnable = bool(table.outside >= model.required)
+    ahead = float(x[unsafe.any(axis=(1, 2))].max())
+    aside = float(y[unsafe.any(axis=(0, 2))].max())
+    return {
         "person_speed_m_s": robot.shield.speed,
         "turning_radius_m": robot.shield.turning_radius,
         "contact_m": robot.shield.contact,
         "required_m": model.required,
-        "loss_m": model.loss,
+        "loss_m": model.displacement,
         "period_s": model.period,
-        "solved_s": table.seconds,
-        "winnable": bool(table.outside >= model.required),
-        "start_ahead_m": float(x[unsafe.any(axis=(1, 2))].max()),
-        "start_aside_m": float(y[unsafe.any(axis=(0, 2))].max()),
+        "winnable": winnable,
+        "start_ahead_m": ahead if winnable else None,
+        "start_aside_m": aside if winnable else None,
     }
-    for name, certified in (("certified", True), ("outside", False)):
-        starts = draw_starts(robot, count, certified=certified, seed=count)
-        closest: dict[str, list[float]] = {kind: [] for kind in PEOPLE}
-        for seed, start in enumerate(starts):
-            kind, least, _ = play(robot, start, seed)
-            closest[kind].append(least)
-            report()
-        found[name] = {
-            kind: {
-                "games": len(values),
-                "contacts": sum(v < robot.shield.contact for v in values),
-                "closest_m": min(values),
-                "median_m": float(np.median(values)),
-            }
-            for kind, values in closest.items()
+
+
+def batches_of(
+    name: str, robot: MappedRobot, count: int
+) -> dict[str, GameBatch]:
+    """Return the games of a robot by the name of the job."""
+    found = {}
+    for starts, certified in (("certified", True), ("outside", False)):
+        poses = draw_starts(robot, count, certified=certified)
+        if len(poses) < count:
+            print(f"{name}: {len(poses)} starts {starts} of {count}")
+        for i in range(0, len(poses), BATCH):
+            some = tuple(poses[i : i + BATCH])
+            found[f"{name} {starts} {i}"] = GameBatch(robot, some, i)
+    return found
+
+
+def summary_of(rows: list[Row], contact: float) -> Row:
+    """Count games and contacts by kind of the person."""
+    found = {}
+    for kind in PEOPLE if rows else ():
+        values = [value for row in rows for value in row[kind]]
+        found[kind] = {
+            "games": len(values),
+            "contacts": sum(value < contact for value in values),
+            "closest_m": min(values),
+            "median_m": float(np.median(values)),
         }
     return found
+
+
+def learned_legs(arguments: Any) -> dict[str, MappedRobot]:
+    """Return the robot on learned legs that the command names."""
+    if not arguments.network:
+        return {}
+    network = LegsSettings(arguments.network)
+    robot = load_robot(arguments.robot)
+    legs = load_legs(network, robot, tick=0.02).velocities
+    person = ShieldSettings(
+        True, arguments.legs_speed, arguments.legs_radius, 0.45
+    )
+    name = f"{arguments.robot.name.upper()}, learned legs"
+    return {name: MappedRobot(LEGS_GAIT, legs, person, 25.0)}
 
 
 def main() -> None:
@@ -236,32 +305,35 @@ def main() -> None:
     asked = ask(__doc__, "shield-map.json")
     asked.add_argument("--robot", type=Path)
     asked.add_argument("--network", default="")
+    asked.add_argument("--legs-speed", type=float, default=1.0)
+    asked.add_argument("--legs-radius", type=float, default=8.0)
     asked.add_argument("--games", type=int, default=1000)
-    asked.add_argument("--only", default="")
+    asked.add_argument("--workers", type=int, default=0)
     arguments = asked.parse_args()
-    robots = paper_robots()
-    if arguments.network:
-        policy = load_legs(
-            LegsSettings(arguments.network),
-            load_robot(arguments.robot),
-            tick=0.02,
-        )
-        person = ShieldSettings(True, 1.0, 8.0, 0.45)
-        robots["learned legs"] = MappedRobot(
-            LEGS_GAIT, policy.velocities, person, 25.0
-        )
-    robots = {n: r for n, r in robots.items() if arguments.only in n}
-    maps = {}
-    for name, robot in robots.items():
-        with tqdm(total=2 * arguments.games, desc=name, disable=None) as bar:
-            maps[name] = map_of(robot, arguments.games, bar.update)
-        print(name, maps[name], flush=True)
+    robots = paper_robots() | learned_legs(arguments)
     head = header(
         {"games": arguments.games},
         modules=MODULES,
         libraries=("numpy", "numba"),
     )
+    batches: dict[str, GameBatch] = {}
+    for name, robot in robots.items():
+        batches |= batches_of(name, robot, arguments.games)
+    rows = gather(
+        arguments.output, head, batches, GameBatch.play, arguments.workers
+    )
+    maps = {}
+    for name, robot in robots.items():
+        maps[name] = describe(robot)
+        for starts in ("certified", "outside"):
+            played = [
+                row
+                for job, row in rows.items()
+                if job.startswith(f"{name} {starts} ")
+            ]
+            maps[name][starts] = summary_of(played, robot.shield.contact)
     write_result(arguments.output, head, machine=machine(), maps=maps)
+    finished(arguments.output)
 
 
 if __name__ == "__main__":

@@ -223,9 +223,7 @@ def relative_poses(
     return np.array(rows)
 
 
-def _with_sighting(
-    trace: Trace, knowledge: Knowledge, kept: float
-) -> Trace:
+def _with_sighting(trace: Trace, knowledge: Knowledge, kept: float) -> Trace:
     """Add the position of the opponent to a trace, and forget old ones."""
     time, pose = knowledge.time - knowledge.age, knowledge.pose_in_map
     sight = pose.theta + knowledge.bearing

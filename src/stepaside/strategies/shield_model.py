@@ -204,18 +204,16 @@ class ShieldModel:
         """
         legs = self.velocities
         if legs is None:
-            step, sign = self.limits.step_duration, self.direction.value
-            return (
-                np.array(
-                    [
-                        (sign * share * self.limits.stride, 0.0, turn)
-                        for most in (1.0, ON_THE_SPOT)
-                        for turn in self.turn * np.array(TURNS)
-                        for share in (min(most, self.limits.stride_share(turn)),)
-                    ]
-                )
-                / step
-            )
+            limits, sign = self.limits, self.direction.value
+            steps = [
+                (min(most, limits.stride_share(turn)), turn)
+                for most in (1.0, ON_THE_SPOT)
+                for turn in self.turn * np.array(TURNS)
+            ]
+            found = np.zeros((len(steps), 3))
+            found[:, 0] = [s * sign * limits.stride for s, _ in steps]
+            found[:, 2] = [turn for _, turn in steps]
+            return found / limits.step_duration
         rate = min(-legs.turn[0], legs.turn[1])
         angles = tau / LEGS_DIRECTIONS * np.arange(LEGS_DIRECTIONS)
         found = [(0.0, 0.0, sign * rate) for sign in (0.0, -1.0, 1.0)]

@@ -150,6 +150,8 @@ def shield_maps(result: Result) -> str:
         for starts in ("certified", "outside"):
             kinds = found[starts].values()
             games = sum(kind["games"] for kind in kinds)
+            if not games:
+                continue
             contacts = sum(kind["contacts"] for kind in kinds)
             rows.append(
                 (
@@ -159,7 +161,9 @@ def shield_maps(result: Result) -> str:
                     number(found["contact_m"], 2),
                     number(found["required_m"], 2),
                     f"{number(found['start_ahead_m'], 2)}, "
-                    f"{number(found['start_aside_m'], 2)}",
+                    f"{number(found['start_aside_m'], 2)}"
+                    if found["winnable"]
+                    else "no start certified",
                     starts,
                     str(games),
                     counted(contacts, games),

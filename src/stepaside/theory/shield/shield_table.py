@@ -11,6 +11,7 @@ from .shield_erosion import eroded_values
 from .shield_game import SEGMENTS, Array, PoseGrid, ShieldGame
 from .shield_outcomes import evaluate_motions, look_up_all
 
+
 @dataclass(frozen=True)
 class ShieldTable:
     """Distance that the robot can keep for ever, by its state.
@@ -108,9 +109,7 @@ class ShieldTable:
         loss = self.game.loss_in(self.response)
         return eroded_values(self.eroded, self.grid, loss)
 
-    def _stood(
-        self, poses: ArrayLike, duration: float
-    ) -> tuple[Array, float]:
+    def _stood(self, poses: ArrayLike, duration: float) -> tuple[Array, float]:
         """Return all poses after standing, and the least distance till then.
 
         Args:
