@@ -73,6 +73,7 @@ SAMPLES: dict[str, Any] = {
     ),
     "builtin_interfaces/msg/Time": STAMP,
     "std_msgs/msg/Bool": m.Bool(True),
+    "std_msgs/msg/String": m.String("<robot/>"),
     "std_msgs/msg/Header": HEADER,
     "geometry_msgs/msg/Twist": TWIST,
     "geometry_msgs/msg/TwistStamped": m.TwistStamped(HEADER, TWIST),

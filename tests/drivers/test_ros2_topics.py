@@ -9,6 +9,7 @@ from threading import Event, Thread
 from time import sleep
 from typing import Any
 
+import numpy as np
 import pytest
 
 pytest.importorskip("cyclonedds")
@@ -31,6 +32,7 @@ from stepaside.drivers.ros2.messages import (  # noqa: E402
     PointStamped,
     PoseStamped,
     PoseWithCovariance,
+    String,
     TFMessage,
     Time,
     Twist,
@@ -38,6 +40,9 @@ from stepaside.drivers.ros2.messages import (  # noqa: E402
     Vector3,
 )
 from stepaside.drivers.ros2.namespaces import parse_namespace  # noqa: E402
+from stepaside.drivers.ros2.odometry_covariance import (  # noqa: E402
+    OdometryCovariance,
+)
 from stepaside.drivers.ros2.ros2_body import (
     Ros2Body,
     command_standstill,
@@ -49,10 +54,13 @@ from stepaside.drivers.ros2.topics import (  # noqa: E402
     parse_remapping,
     pose_message,
     pose_of,
+    rotation_message,
     yaw_rotation,
 )
 from stepaside.drivers.velocity.velocity_body import REST, VelocityCommand  # noqa: E402
 from stepaside.perception.measurement import Sighting  # noqa: E402
+from stepaside.report.export.recorded_transforms import rotate  # noqa: E402
+from stepaside.robots.head import rotation  # noqa: E402
 
 from velocity_fakes import SimulatedUnicycle, until  # isort: skip  # noqa: E402
 
@@ -323,6 +331,63 @@ def test_time_frames_and_joints_are_published(scene: Scene) -> None:
     assert clock % (EVERY * TICK) == pytest.approx(0.0, abs=1e-9)
     readers.clear()
     dds.close()
+
+
+def test_a_late_reader_receives_the_description() -> None:
+    dds = DdsParticipant(0, tag=TAG)
+    server = Ros2Server(
+        dds,
+        "/nao",
+        SimulatedUnicycle(),
+        ["LKneePitch", "RKneePitch"],
+        WorldClock(dds),
+        tick=TICK,
+        urdf="<robot/>",
+    )
+    server.speak()
+    late = DdsParticipant(0, tag=TAG)
+    topic = dds_topic("/nao", "robot_description")
+    readers = [late.reader(topic, String, latched=True)]
+    try:
+        (message,) = until(lambda: take_messages(readers[0]))
+        assert message.data == "<robot/>"
+    finally:
+        server.close()
+        dds.close()
+        readers.clear()
+        late.close()
+
+
+@pytest.mark.parametrize("roll", [-0.3, 0.0])
+@pytest.mark.parametrize("pitch", [0.2, -1.0])
+@pytest.mark.parametrize("heading", [0.0, 3.0])
+def test_a_rotation_is_that_of_its_angles(
+    roll: float, pitch: float, heading: float
+) -> None:
+    got = rotation_message(roll, pitch, heading)
+    quaternion = np.array([got.w, got.x, got.y, got.z])
+    assert np.linalg.norm(quaternion) == pytest.approx(1.0)
+    for vector in np.eye(3):
+        expected = rotation(roll, pitch, heading) @ vector
+        (turned,) = rotate(quaternion[None], vector[None])
+        np.testing.assert_allclose(turned, expected, atol=1e-12)
+
+
+def test_the_covariance_of_odometry_grows_with_the_path() -> None:
+    covariance = OdometryCovariance()
+
+    def deviations(pose: Pose) -> Any:
+        matrix = np.array(covariance.note(pose)).reshape(6, 6)
+        np.linalg.cholesky(matrix)  # it is positive definite
+        return np.sqrt(matrix.diagonal()[[0, 1, 5]])
+
+    begin = deviations(Pose(0.0, 0.0, 3.1))
+    turned = deviations(Pose(0.0, 0.0, -3.1))  # by 0.08 rad
+    assert (begin[:2] == turned[:2]).all() and turned[2] > begin[2]
+    assert turned[2] < 0.011
+    walked = deviations(Pose(2.0, 0.0, -3.1))
+    assert walked[0] == pytest.approx(0.075, abs=0.002)
+    assert (deviations(Pose(0.0, 0.0, -3.1)) > walked).all()
 
 
 def test_a_commander_that_falls_silent_leaves_a_robot_at_rest(

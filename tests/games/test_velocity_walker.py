@@ -12,6 +12,7 @@ from stepaside.drivers.velocity.velocity_body import REST, VelocityCommand
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.velocity_walker import VelocityWalker
 from stepaside.locomotion.zmp.control_settings import STABILISED
+from stepaside.robots.head import rotation
 from stepaside.sim.body_settings import BODIES
 
 SETTINGS = DuelSettings(
@@ -64,6 +65,25 @@ def test_odometry_is_where_the_robot_is(
         u, v = robot.truth.position_reference_in_world
         assert hypot(x - u, y - v) < 0.02
         assert abs(wrap_angle(heading - robot.truth.heading_in_world)) < 0.05
+
+
+def test_the_torso_is_served_from_encoders_and_tilt(
+    walked: tuple[VelocityWalker, VelocityWalker, list[VelocityCommand]],
+) -> None:
+    """To some millimetres: the floor gives way under the feet."""
+    for robot in walked[:2]:
+        state = robot.state()
+        assert state.torso is not None
+        (x, y, z), (roll, pitch, yaw) = state.torso
+        base = robot.frame.compose(state.pose).compose(Pose(x, y, yaw))
+        body = f"{robot.name}/{robot.description.torso}"
+        data = robot.robot.world.data.body(body)
+        np.testing.assert_allclose(data.xpos[:2], base[:2], atol=0.02)
+        assert z == pytest.approx(data.xpos[2], abs=0.005)
+        axes = data.xmat.reshape(3, 3)
+        np.testing.assert_allclose(
+            rotation(roll, pitch, base.theta), axes, atol=0.06
+        )
 
 
 def test_the_served_sighting_is_in_odometry(

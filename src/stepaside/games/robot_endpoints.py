@@ -157,6 +157,7 @@ class Ros2Endpoint(NamedTuple):
     def serve(self, player: Player, *, lock_step: bool) -> RobotServer:
         """Serve a robot that balances itself."""
         from ..drivers.ros2.ros2_server import Ros2Server
+        from ..robots.urdf_writer import urdf_of
 
         assert isinstance(player, VelocityWalker)
         return Ros2Server(
@@ -167,4 +168,5 @@ class Ros2Endpoint(NamedTuple):
             self.clock,
             tick=TICK,
             lock_step=lock_step,
+            urdf=urdf_of(player.description),
         )

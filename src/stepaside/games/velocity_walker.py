@@ -8,11 +8,14 @@ from ..control.velocity_scheme import VelocityScheme
 from ..core.poses import Array, Pose, wrap_angle
 from ..drivers.velocity.footstep_commands import FootCommand
 from ..drivers.velocity.velocity_body import VelocityCommand
-from ..drivers.velocity.walking_robot import WalkerState
+from ..drivers.velocity.walking_robot import TorsoInFootprint, WalkerState
 from ..locomotion.walk_snapshots import Phase, StepStarted
 from ..perception.images import ColourImage, SonarEcho
 from ..perception.measurement import Measurement, Sighting
 from ..planning import Foot
+from ..robots.body_pose import torso_pose_on_foot
+from ..robots.description import RobotDescription
+from ..robots.forward_kinematics import ForwardKinematics
 from ..sim.ground_truth import TrueRobotState
 from ..sim.simulated_robot import SimulatedRobot
 from ..sim.world import World
@@ -33,10 +36,15 @@ class VelocityWalker(PhysicalPlayer):
     Attributes:
         scheme: Controller.
         frame: Pose of its odometry in the world.
+        description: Description of the robot.
     """
 
     def __init__(
-        self, robot: SimulatedRobot, scheme: VelocityScheme, frame: Pose
+        self,
+        robot: SimulatedRobot,
+        scheme: VelocityScheme,
+        frame: Pose,
+        description: RobotDescription,
     ) -> None:
         """Combine a robot and its controller.
 
@@ -44,8 +52,11 @@ class VelocityWalker(PhysicalPlayer):
             robot: The robot.
             scheme: Controller.
             frame: Pose of its odometry in the world.
+            description: Description of the robot.
         """
         super().__init__(robot)
+        self.description = description
+        self._forward = ForwardKinematics(description)
         self.scheme, self.frame = scheme, frame
         self._measurement: Measurement | None = None
         self._head: dict[int, float] = {}
@@ -112,11 +123,32 @@ class VelocityWalker(PhysicalPlayer):
             self._present_step(now),
             self._steps,
             self._echoes.copy(),
+            self._torso(measurement),
         )
 
     def lead_with(self, foot: Foot) -> None:
         """Make the first step with a foot, if the robot stands."""
         self.scheme.locomotion.lead_with(foot)
+
+    def _torso(self, measurement: Measurement) -> TorsoInFootprint:
+        """Return the pose of the torso by the stance foot and the tilt."""
+        scheme, now = self.scheme, measurement.time
+        step = scheme.locomotion.step(now)
+        tilt = scheme.locomotion.tilt or (0.0, 0.0)
+        torso = torso_pose_on_foot(
+            self._forward.posture(measurement.joint_positions),
+            0 if step.swing is Foot.RIGHT else 1,
+            step.support,
+            tilt,
+        )
+        x, y, z = torso.position_in_odometry.tolist()
+        template = scheme.templates.at(now)
+        planar = template.inverse().compose(
+            Pose(x, y, torso.heading_in_odometry)
+        )
+        return TorsoInFootprint(
+            (planar.x, planar.y, z), (*tilt, wrap_angle(planar.theta))
+        )
 
     def _present_step(self, now: float) -> FootCommand | None:
         """Return the step in progress, with its remaining time."""
@@ -219,4 +251,6 @@ def place_velocity_walker(
         clearance=clearance,
     )
     scheme = VelocityScheme(walk, tick)
-    return VelocityWalker(robot, scheme, setup.odometry_in_world)
+    return VelocityWalker(
+        robot, scheme, setup.odometry_in_world, setup.description
+    )

@@ -124,15 +124,28 @@ class DdsParticipant:
         with CREATION:
             self._topic(topic, kind)
 
-    def writer(self, topic: str, kind: type[Any], depth: int = 1) -> Any:
+    def writer(
+        self,
+        topic: str,
+        kind: type[Any],
+        depth: int = 1,
+        *,
+        latched: bool = False,
+    ) -> Any:
         """Create a reliable writer of a topic.
 
         Args:
             topic: Name of the topic on DDS.
             kind: Type of its messages.
             depth: Messages queued for slow readers.
+            latched: Whether later readers receive the last message, too
+                (durability "transient local").
         """
+        durability = Policy.Durability.Volatile
+        if latched:
+            durability = Policy.Durability.TransientLocal
         qos = Qos(
+            durability,
             Policy.Reliability.Reliable(0),
             Policy.History.KeepLast(depth),
             Policy.DataRepresentation(use_cdrv0_representation=True),
@@ -142,16 +155,31 @@ class DdsParticipant:
                 self.participant, self._topic(topic, kind), qos=qos
             )
 
-    def reader(self, topic: str, kind: type[Any], depth: int = 10) -> Any:
+    def reader(
+        self,
+        topic: str,
+        kind: type[Any],
+        depth: int = 10,
+        *,
+        latched: bool = False,
+    ) -> Any:
         """Create a best-effort reader, which matches writers of any QoS.
 
         Args:
             topic: Name of the topic on DDS.
             kind: Type of its messages.
             depth: Messages queued until they are taken.
+            latched: Whether to receive the last message of a latched writer
+                that wrote before; only such writers match.
         """
+        quality = [Policy.Reliability.BestEffort]
+        if latched:
+            quality = [
+                Policy.Reliability.Reliable(0),
+                Policy.Durability.TransientLocal,
+            ]
         qos = Qos(
-            Policy.Reliability.BestEffort,
+            *quality,
             Policy.History.KeepLast(depth),
             Policy.DataRepresentation(use_cdrv0_representation=True),
         )

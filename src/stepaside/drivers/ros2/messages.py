@@ -61,6 +61,13 @@ class Bool(IdlStruct, typename="std_msgs.msg.dds_.Bool_"):
 
 
 @dataclass
+class String(IdlStruct, typename="std_msgs.msg.dds_.String_"):
+    """Text."""
+
+    data: str
+
+
+@dataclass
 class Vector3(IdlStruct, typename="geometry_msgs.msg.dds_.Vector3_"):
     """Vector in three dimensions."""
 

@@ -21,6 +21,7 @@ from .messages import (
     Point,
     PointStamped,
     PoseWithCovariance,
+    String,
     TFMessage,
     Time,
     Transform,
@@ -28,9 +29,11 @@ from .messages import (
     Twist,
     TwistWithCovariance,
 )
+from .odometry_covariance import OdometryCovariance
 from .topics import (
     CALIBRATION,
     COMPRESSED,
+    DESCRIPTION,
     IDEAL,
     IMAGE,
     JOINTS,
@@ -38,6 +41,7 @@ from .topics import (
     dds_topic,
     frame,
     pose_message,
+    rotation_message,
     vector,
     yaw_rotation,
 )
@@ -46,7 +50,6 @@ from .velocity_commands import CommandReader
 EVERY = 4  # ticks from one report to the next: 48 ms
 SILENCE = 0.5  # without a command before the robot stops, in [s]
 REPEAT = 400  # polls for an answer in lock step before a report is repeated
-UNKNOWN = (0.0,) * 36  # covariance that is not estimated
 log = logging.getLogger(__name__)
 
 
@@ -132,6 +135,7 @@ class Ros2Server:
         *,
         tick: float,
         lock_step: bool = False,
+        urdf: str = "",
     ) -> None:
         """Create the topics.
 
@@ -143,6 +147,7 @@ class Ros2Server:
             clock: Publisher of simulated time.
             tick: Time between two calls of :meth:`speak`, in [s].
             lock_step: Whether the simulation waits for answers.
+            urdf: URDF of the robot; empty for none.
         """
         self._robot, self._namespace = robot, namespace
         self._clock = clock
@@ -156,6 +161,13 @@ class Ros2Server:
         self._joints = writer(JOINTS, JointState)
         self._sight = writer(IDEAL, PointStamped)
         self._transforms = dds.writer(dds_topic("", "tf"), TFMessage, 100)
+        self._covariance = OdometryCovariance()
+        self._description: Any = None
+        if urdf:
+            self._description = dds.writer(
+                dds_topic(namespace, DESCRIPTION), String, latched=True
+            )
+            self._description.write(String(urdf))
         self._commands = CommandReader(dds, namespace)
         self._cameras = CameraTopics(dds, namespace)
         self._commander: int | None = None
@@ -251,6 +263,7 @@ class Ros2Server:
         self._closed = True
         del self._odometry, self._joints, self._sight
         del self._transforms, self._commands, self._cameras
+        del self._description
 
     def _take(self, twist: Twist) -> None:
         forward, turn = twist.linear.x, twist.angular.z
@@ -286,15 +299,23 @@ class Ros2Server:
         )
         rotation = yaw_rotation(pose.theta)
         transform = Transform(vector(pose.x, pose.y), rotation)
-        self._transforms.write(
-            TFMessage([TransformStamped(fixed, own, transform)])
-        )
+        transforms = [TransformStamped(fixed, own, transform)]
+        if state.torso is not None:
+            position, angles = state.torso
+            torso = Transform(vector(*position), rotation_message(*angles))
+            base = frame(self._namespace, "base_link")
+            transforms.append(
+                TransformStamped(Header(stamp, own), base, torso)
+            )
+        self._transforms.write(TFMessage(transforms))
         twist = Twist(vector(velocity.forward), vector(z=velocity.turn))
+        covariance: Any = self._covariance.note(pose)
+        speeds: Any = OdometryCovariance.twist
         self._odometry.write(
             Odometry(
                 fixed,
                 own,
-                PoseWithCovariance(pose_message(pose), UNKNOWN),
-                TwistWithCovariance(twist, UNKNOWN),
+                PoseWithCovariance(pose_message(pose), covariance),
+                TwistWithCovariance(twist, speeds),
             )
         )

@@ -26,6 +26,7 @@ JOINTS = "joint_states"
 IMAGE = "camera/image_raw"
 COMPRESSED = f"{IMAGE}/compressed"
 CALIBRATION = "camera/camera_info"
+DESCRIPTION = "robot_description"  # URDF
 
 
 REMAPPED = (ODOMETRY, COMMAND, POINT, POSE, DETECTIONS)
@@ -115,6 +116,19 @@ def yaw(rotation: Quaternion) -> float:
 def yaw_rotation(heading: float) -> Quaternion:
     """Return the rotation about the vertical by a heading, in [rad]."""
     return Quaternion(0.0, 0.0, sin(0.5 * heading), cos(0.5 * heading))
+
+
+def rotation_message(roll: float, pitch: float, yaw: float) -> Quaternion:
+    """Return the rotation Rz(yaw) Ry(pitch) Rx(roll), angles in [rad]."""
+    cr, sr = cos(0.5 * roll), sin(0.5 * roll)
+    cp, sp = cos(0.5 * pitch), sin(0.5 * pitch)
+    cy, sy = cos(0.5 * yaw), sin(0.5 * yaw)
+    return Quaternion(
+        sr * cp * cy - cr * sp * sy,
+        cr * sp * cy + sr * cp * sy,
+        cr * cp * sy - sr * sp * cy,
+        cr * cp * cy + sr * sp * sy,
+    )
 
 
 def pose_message(pose: Pose) -> PoseMessage:

@@ -14,6 +14,18 @@ from .velocity_body import VelocityCommand
 STANDING = (Pose(0.0, 0.0, 0.0), Pose(0.0, 0.0, 0.0))
 
 
+class TorsoInFootprint(NamedTuple):
+    """Pose of the torso from the point on the floor that stands for a robot.
+
+    Attributes:
+        position: Position of the frame of the torso, in [m].
+        angles: Roll, pitch and yaw, in [rad].
+    """
+
+    position: tuple[float, float, float]
+    angles: tuple[float, float, float]
+
+
 class WalkerState(NamedTuple):
     """State of a simulated robot at one instant.
 
@@ -29,6 +41,7 @@ class WalkerState(NamedTuple):
             standing.
         steps: Number of steps begun, without those that end a walk.
         echoes: Newest distances of the sonars, in [m], by name.
+        torso: Pose of the torso by encoders and tilt; None if unknown.
     """
 
     time: float
@@ -41,6 +54,7 @@ class WalkerState(NamedTuple):
     step: FootCommand | None = None
     steps: int = 0
     echoes: Mapping[str, float | None] = MappingProxyType({})
+    torso: TorsoInFootprint | None = None
 
 
 class WalkingRobot(Protocol):
