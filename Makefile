@@ -93,18 +93,26 @@ release: setup
 	.venv-release/bin/python -m twine check --strict dist/*
 
 # Real ROS 2 nodes against our topics, on the loopback interface; their wheels
-# are for Python 3.12, and where there is none nothing is checked.
-ROS2 ?= jazzy kilted
+# are for Python 3.12. Humble has none: its middleware runs without ROS, with a
+# wheel for Python 3.10. What lacks its Python is not checked.
 PYTHON312 ?= $(call works,3.12)
+PYTHON310 ?= $(call works,3.10)
+ROS2 ?= $(if $(PYTHON312),jazzy kilted) $(if $(PYTHON310),humble)
 ROS2_PACKAGES := rclpy rmw-fastrtps-cpp geometry-msgs nav-msgs sensor-msgs
-ros2-peers: $(if $(PYTHON312),setup $(ROS2:%=.venv-ros2-%/.installed))
-ifeq ($(PYTHON312),)
+ros2-peers: $(if $(strip $(ROS2)),setup $(ROS2:%=.venv-ros2-%/.installed))
+ifeq ($(strip $(ROS2)),)
 	@echo "skipped: real ROS 2 needs Python 3.12, as python3.12 on the path;" \
 		"or make ros2-peers PYTHON312=/path/to/python3.12"
 else
-	$(BIN)/python tools/checks/ros2_peers.py \
-		$(foreach name,$(ROS2),$(name)=.venv-ros2-$(name)/bin/python)
+	$(BIN)/python tools/checks/ros2_peers.py $(foreach name,$(ROS2),\
+		$(name)=$(if $(filter humble,$(name)),dds:).venv-ros2-$(name)/bin/python)
 endif
+
+.venv-ros2-humble/.installed:
+	$(PYTHON310) -m venv .venv-ros2-humble
+	.venv-ros2-humble/bin/python -m pip install --disable-pip-version-check \
+		--quiet --only-binary :all: cyclonedds==0.10.2 numpy
+	touch $@
 
 .venv-ros2-%/.installed:
 	$(PYTHON312) -m venv .venv-ros2-$*

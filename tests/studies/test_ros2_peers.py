@@ -22,7 +22,7 @@ def test_ros_and_we_hear_each_other(name: str, tmp_path: Path) -> None:
     if not (python.parents[1] / ".installed").exists():
         pytest.skip("no ROS 2 there; make ros2-peers installs it")
     file = tmp_path / "peers.json"
-    check = ROOT / "checks" / "ros2_peers.py"
+    check = ROOT / "tools" / "checks" / "ros2_peers.py"
     words = [str(check), f"{name}={python}", "--output", str(file)]
     done = subprocess.run(
         [sys.executable, *words], capture_output=True, text=True
@@ -48,8 +48,8 @@ def test_what_was_not_heard_is_in_the_table() -> None:
     ]
     good = [{**row, "heard": 9, "passed": True} for row in rows]
     found = [
-        {"name": "Jazzy", "fast_dds": "2.14.5", "rows": good},
-        {"name": "Kilted", "fast_dds": "3.2.3", "rows": rows},
+        {"name": "Jazzy", "middleware": "Fast DDS 2.14.5", "rows": good},
+        {"name": "Kilted", "middleware": "Fast DDS 3.2.3", "rows": rows},
     ]
     lines = peers({"distributions": found}).splitlines()
     assert "Jazzy (Fast DDS 2.14.5) | Kilted (Fast DDS 3.2.3)" in lines[0]

@@ -24,12 +24,20 @@ OTHER = (2.0, 0.5)  # position of the opponent in the robot's frame, in [m]
 ASKED = (0.05, -0.25)  # velocity, in [m/s] and [rad/s]
 PERIOD = 0.05  # between two messages, in [s]
 ENOUGH = 5  # messages of each kind
+ONCE = ("robot_description",)  # what is published once, before readers come
+URDF = '<robot name="ours"/>'
+FOCAL = 100.0  # of the camera, in [px]
 FRAME = "theirs/base_link"
 
 
 def exact(found: Any, wanted: Any) -> bool:
     """Return whether numbers are equal to the last bit."""
     return list(found) == list(wanted)
+
+
+def enough(name: str) -> int:
+    """Return how many messages of a topic are expected."""
+    return 1 if name in ONCE else ENOUGH
 
 
 class Heard:
@@ -48,7 +56,7 @@ class Heard:
     @property
     def complete(self) -> bool:
         """Return whether enough messages of each kind have arrived."""
-        return min(self.count.values(), default=ENOUGH) >= ENOUGH
+        return all(n >= enough(name) for name, n in self.count.items())
 
 
 def say(heard: Heard, **more: Any) -> None:
@@ -151,8 +159,15 @@ class Commander:
         """Take part in the topics of a namespace."""
         from geometry_msgs.msg import PointStamped, Twist, TwistStamped
         from nav_msgs.msg import Odometry
+        from rclpy.qos import DurabilityPolicy, QoSProfile
         from rosgraph_msgs.msg import Clock
-        from sensor_msgs.msg import CompressedImage, Image, JointState
+        from sensor_msgs.msg import (
+            CameraInfo,
+            CompressedImage,
+            Image,
+            JointState,
+        )
+        from std_msgs.msg import String
 
         self.node, self.kind = node, kind
         kinds = {"Twist": Twist, "TwistStamped": TwistStamped}
@@ -165,11 +180,17 @@ class Commander:
             "ideal_sight": (PointStamped, self.sight),
             "camera/image_raw": (Image, self.image),
             "camera/image_raw/compressed": (CompressedImage, self.squeezed),
+            "camera/camera_info": (CameraInfo, self.calibration),
+            "robot_description": (String, self.description),
             "/clock": (Clock, self.clock),
         }
         self.heard = Heard(*sensors)
         for name, (message, take) in sensors.items():
-            node.create_subscription(message, name, take, 10)
+            quality: Any = 10
+            if name in ONCE:
+                latched = DurabilityPolicy.TRANSIENT_LOCAL
+                quality = QoSProfile(depth=1, durability=latched)
+            node.create_subscription(message, name, take, quality)
         node.create_timer(PERIOD, self.command)
 
     def command(self) -> None:
@@ -190,7 +211,10 @@ class Commander:
         frames = message.header.frame_id, message.child_frame_id
         ours = frames == ("ours/odom", "ours/base_footprint")
         ours = ours and (place.x, place.y) == START
-        self.heard.note("odom", ours and moves in ((0.0, 0.0), ASKED))
+        spread = message.pose.covariance, message.twist.covariance
+        known = all(each[7 * i] > 0.0 for each in spread for i in range(6))
+        right = ours and known and moves in ((0.0, 0.0), ASKED)
+        self.heard.note("odom", right)
 
     def joints(self, message: Any) -> None:
         """Check joint states."""
@@ -217,6 +241,19 @@ class Commander:
             "camera/image_raw/compressed", message.format == "jpeg" and begins
         )
 
+    def calibration(self, message: Any) -> None:
+        """Check the calibration of the camera."""
+        k, frame = message.k, message.header.frame_id
+        right = (message.width, message.height) == (WIDTH, HEIGHT)
+        right = right and (k[0], k[4]) == (FOCAL, FOCAL)
+        right = right and frame == "ours/camera_optical_frame"
+        self.heard.note("camera/camera_info", right)
+
+    def description(self, message: Any) -> None:
+        """Check the URDF."""
+        known = message.data == URDF or "base_link" in message.data
+        self.heard.note("robot_description", known)
+
     def clock(self, message: Any) -> None:
         """Check the simulation time."""
         self.heard.note("/clock", message.clock.sec < 1000)
@@ -231,10 +268,14 @@ class Commander:
 
 
 def versions() -> dict[str, str]:
-    """Return the versions of the ROS 2 libraries."""
+    """Return the versions of the middleware and of rclpy."""
     found = {each.metadata["Name"]: each.version for each in distributions()}
     fast = found.get("ros-fastdds") or found.get("ros-fastrtps", "none")
-    return {"fast_dds": fast, "rclpy": found.get("ros-rclpy", "none")}
+    if fast == "none":
+        version = found.get("cyclonedds", "none")
+        return {"middleware": f"CycloneDDS {version}, no rclpy"}
+    rclpy = found.get("ros-rclpy", "none")
+    return {"middleware": f"Fast DDS {fast}", "rclpy": rclpy}
 
 
 def main() -> None:
@@ -244,10 +285,15 @@ def main() -> None:
     parser.add_argument("--namespace", default="/theirs")
     kinds = ("Twist", "TwistStamped", "none")
     parser.add_argument("--command", choices=kinds, default="Twist")
+    parser.add_argument("--without-ros", action="store_true")
     arguments = parser.parse_args()
     if arguments.part == "versions":
         print(json.dumps(versions()))
         return
+    if arguments.without_ros:
+        from cyclone_node import install
+
+        install()
     import rclpy
 
     rclpy.init()

@@ -8,7 +8,12 @@ the standard messages), or
 
     python tools/checks/ros2_peers.py jazzy=/path/to/python
 
-uses a Python that has them. All nodes are in a separate domain on the
+uses a Python that has them. For Humble, which has no wheels,
+
+    python tools/checks/ros2_peers.py humble=dds:/path/to/python
+
+runs the same nodes on CycloneDDS 0.10, its middleware (``cyclone_node.py``).
+All nodes are in a separate domain on the
 loopback interface (``ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST``). The result is
 written to ``docs/results/ros2-peers.json``, whose table is in
 ``docs/robots-real.md``; the exit status is 1 if a message was not received.
@@ -53,12 +58,13 @@ from stepaside.perception.measurement import Sighting
 from stepaside.studies.result_files import header, write_result
 
 RESULT = Path("docs/results/ros2-peers.json")
-MODULES = ("core", "perception", "control", "drivers")
+MODULES = ("core/errors", "core/poses", "perception", "control", "drivers")
 LIBRARIES = ("cyclonedds", "numpy")
 DOMAIN = 60 + os.getpid() % 40  # separate ROS 2 domain
 LONGEST = 60.0  # timeout for messages, in [s]
 WALKED = 2.0  # duration of a walk of play, or of a served duel, in [s]
 TICK = 0.012
+WITHOUT_ROS = "dds:"  # before a Python that has CycloneDDS and no rclpy
 KINDS = ("Twist", "TwistStamped")
 ASKED = VelocityCommand(*peer.ASKED)
 TYPES = {
@@ -68,6 +74,8 @@ TYPES = {
     "other": "geometry_msgs/PointStamped",
     "camera/image_raw": "sensor_msgs/Image",
     "camera/image_raw/compressed": "sensor_msgs/CompressedImage",
+    "camera/camera_info": "sensor_msgs/CameraInfo",
+    "robot_description": "std_msgs/String",
     "/clock": "rosgraph_msgs/Clock",
 }
 
@@ -77,6 +85,9 @@ class Peer:
 
     def __init__(self, python: str, part: str, *words: str) -> None:
         """Start it."""
+        if python.startswith(WITHOUT_ROS):
+            python = python.removeprefix(WITHOUT_ROS)
+            words = (*words, "--without-ros")
         self._process = subprocess.Popen(
             [python, str(Path(peer.__file__)), part, *words],
             stdin=subprocess.PIPE,
@@ -147,7 +158,7 @@ def row(
         heard: Number of messages; None if none is expected.
         right: Whether all messages are as sent.
     """
-    enough = heard is None or heard >= peer.ENOUGH
+    enough = heard is None or heard >= peer.enough(what)
     return {
         "topic": what,
         "type": kind,
@@ -267,7 +278,7 @@ class Walker:
         shape = peer.HEIGHT, peer.WIDTH, 3
         pixels = np.frombuffer(peer.PIXELS, np.uint8).reshape(shape)
         x, y = peer.OTHER
-        model = CameraModel(peer.WIDTH, peer.HEIGHT, 100.0, 100.0)
+        model = CameraModel(peer.WIDTH, peer.HEIGHT, peer.FOCAL, peer.FOCAL)
         return WalkerState(
             self.time,
             Pose(*peer.START, 0.0),
@@ -283,7 +294,9 @@ def our_robot(python: str, kind: str) -> Iterator[dict[str, Any]]:
     dds = DdsParticipant(DOMAIN)
     walker: Any = Walker()
     server = Ros2Server(
-        dds, "/ours", walker, peer.NAMES, WorldClock(dds), tick=TICK
+        *(dds, "/ours", walker, peer.NAMES, WorldClock(dds)),
+        tick=TICK,
+        urdf=peer.URDF,
     )
     obeyed = 0
     words = ("--namespace", "/ours", "--command", kind)
@@ -392,7 +405,8 @@ def main() -> int:
         "pythons",
         nargs="+",
         metavar="NAME=PYTHON",
-        help="a distribution and a Python that has its rclpy",
+        help="a distribution and a Python that has its rclpy, or dds: and "
+        "one that has CycloneDDS",
     )
     parser.add_argument("--output", type=Path, default=RESULT)
     arguments = parser.parse_args()
@@ -402,7 +416,8 @@ def main() -> int:
     found = []
     for entry in arguments.pythons:
         name, _, python = entry.partition("=")
-        asks = [python, str(Path(peer.__file__)), "versions"]
+        bare = python.removeprefix(WITHOUT_ROS)
+        asks = [bare, str(Path(peer.__file__)), "versions"]
         own = json.loads(subprocess.check_output(asks, text=True))
         rows = []
         for each in checked(python):

@@ -11,7 +11,7 @@ def peers(result: Mapping[str, Any]) -> str:
     found = result["distributions"]
     head = (
         *("from", "to", "what", "type"),
-        *(f"{each['name']} (Fast DDS {each['fast_dds']})" for each in found),
+        *(f"{each['name']} ({each['middleware']})" for each in found),
     )
     rows = []
     for same in zip(*(each["rows"] for each in found), strict=True):

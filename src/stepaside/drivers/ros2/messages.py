@@ -1,7 +1,9 @@
 """Standard ROS 2 messages as DDS types.
 
 Names and order of the fields are those of ROS 2's interface definitions,
-which determine the wire format: do not reorder fields.
+which determine the wire format: do not reorder fields. Its ``uint8`` is
+``byte`` here, as in the IDL that ROS 2 generates: CycloneDDS 0.10, of ROS 2
+Humble, fails on the description of ``uint8``.
 """
 
 from dataclasses import dataclass
@@ -12,10 +14,10 @@ try:
     from cyclonedds.idl import IdlStruct
     from cyclonedds.idl.types import (
         array,
+        byte,
         float64,
         int32,
         sequence,
-        uint8,
         uint32,
     )
 except ImportError as error:
@@ -265,9 +267,9 @@ class Image(IdlStruct, typename="sensor_msgs.msg.dds_.Image_"):
     height: uint32
     width: uint32
     encoding: str
-    is_bigendian: uint8
+    is_bigendian: byte
     step: uint32
-    data: sequence[uint8]
+    data: sequence[byte]
 
 
 @dataclass
@@ -278,7 +280,7 @@ class CompressedImage(
 
     header: Header
     format: str
-    data: sequence[uint8]
+    data: sequence[byte]
 
 
 @dataclass
