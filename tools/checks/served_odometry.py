@@ -13,13 +13,14 @@ import numpy as np
 
 from stepaside.core.poses import Array, Pose
 from stepaside.drivers.velocity.velocity_body import VelocityCommand
+from stepaside.games.duel_as_game import build_duel_world
 from stepaside.games.duel_settings import (
     PLAYERS,
     DuelSettings,
     StartSettings,
 )
-from stepaside.games.duel_world import DuelWorld, RemoteControl
-from stepaside.games.initial_poses import initial_poses, with_initial_poses
+from stepaside.games.game_world import RemoteControl
+from stepaside.games.initial_poses import with_initial_poses
 from stepaside.games.velocity_walker import VelocityWalker
 from stepaside.locomotion.zmp.control_settings import STABILISED
 from stepaside.sim.body_settings import BODIES
@@ -47,9 +48,8 @@ def walked(seed: int, first: int) -> list[Array]:
         )
     )
     remote = RemoteControl(balances=True, ideal_sight=True)
-    stage = DuelWorld(
+    stage = build_duel_world(
         settings,
-        initial_poses(settings),
         rendered=False,
         remote=dict.fromkeys(PLAYERS, remote),
     )
