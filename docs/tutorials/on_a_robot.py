@@ -40,6 +40,10 @@ from IPython.display import Image
 Image("plays.png", width=720)
 
 # %% [markdown]
+# Their outcome is `failed` because the simulated world ended before them, and
+# with it the connection; on a robot, `--duration` or its chest button ends a
+# game.
+#
 # For a real robot replace `lola:E.sock` by its address; read
 # [real robots](../robots-real.md) first: states, buttons, what stops the
 # robot, and what was tested.

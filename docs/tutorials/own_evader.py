@@ -86,3 +86,9 @@ axes.legend()
 # `stepaside duel --strategy evader.py:BackAndAside`, also in `tournament`,
 # `view`, and `play` on a robot. A strategy must be pure: what it remembers
 # goes through `memory` ([strategies](../strategies.md)).
+#
+# Many games say more than one: `stepaside rate evader.py:BackAndAside aside
+# deflected --role evader` rates it beside built-in evaders against a fixed
+# suite of opponents, and `stepaside duels --strategy
+# evader.py:BackAndAside --seeds 0:100` plays humanoids from a hundred random
+# starts ([campaigns](../campaigns.md)).

@@ -10,7 +10,7 @@
 # %%
 from pathlib import Path
 
-Path("angle.toml").write_text("""\
+_ = Path("angle.toml").write_text("""\
 game = "unicycles"
 
 [settings]

@@ -16,6 +16,7 @@ from browsing import CHROMIUM, launched, open_page
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Pose
 from stepaside.games.duel import run_duel
+from stepaside.games.duel_circle import circle_of_theory
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.planning import (
     CenterState,
@@ -236,3 +237,26 @@ def test_footsteps_are_drawn_where_the_soles_land(opened: Any) -> None:
     )
     assert len(away) > 15
     assert max(away) < 0.01
+
+
+@pytest.mark.xdist_group("browser")
+@pytest.mark.timeout(900)
+def test_the_theoretical_circle_passes_through_both_players(
+    opened: Any,
+) -> None:
+    page, wrong = opened
+    drawn = """() => {
+      placeTheory();
+      const { x, y } = scene.theory.position, { game } = stepaside;
+      return [scene.theory.visible, ...game.players.map((player) => {
+        const [u, v] = player.truth().reference;
+        return Math.hypot(u - x, v - y);
+      })];
+    }"""
+    page.evaluate("stepaside.simulate(4)")
+    visible, *away = page.evaluate(drawn)
+    radius = circle_of_theory(NEAR).radius_evader_m
+    assert visible and away == pytest.approx([radius, radius], abs=1e-9)
+    page.evaluate("stepaside.game.settings.gain = 0.3")
+    assert not page.evaluate(drawn)[0]
+    assert wrong == []

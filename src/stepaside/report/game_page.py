@@ -11,6 +11,7 @@ from tempfile import TemporaryDirectory
 from ..core.atomic_output import atomic_draft, check_folder
 from ..core.errors import ConfigurationError
 from ..games.duel import Duel, run_duel
+from ..games.duel_circle import circle_of_theory
 from ..games.duel_settings import DuelSettings
 from .game_script import check_playable, game_data, game_script
 from .replay_page import SHARED, page_data, template
@@ -54,7 +55,12 @@ def write_game_page(
     script, data = game_script(duel), game_data(duel)
     page = page.replace('"use strict";\n', f'"use strict";\n{script}\n', 1)
     run = run_duel(replace(settings, duration=RECORDED))
-    recorded = page_data(run) | {"footprints": FOOTPRINTS}
+    circle = circle_of_theory(settings)
+    radius = circle.radius_evader_m if circle.exists else None
+    recorded = page_data(run) | {
+        "footprints": FOOTPRINTS,
+        "circle": radius and [0.0, 0.0, radius],
+    }
     contents = {
         "index.html": fill_page(page, {"NAME": "play"}, recorded).encode(),
         "game.json": json.dumps(data, allow_nan=False).encode(),

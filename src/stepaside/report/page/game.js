@@ -31,7 +31,7 @@ class Plan {
     const numbers = game.formulas[`plan_${kind}`](intent.heading || 1e-12, intent.velocity, intent.gain,
       side, ...swing, 0, 0, 0, ...state);
     const inputs = plan.landing[0].length;
-    Object.assign(this, { data, plan, kind, side, frame, started });
+    Object.assign(this, { data, plan, kind, side, frame, started, heading: intent.heading });
     this.placements = numbers.slice(0, numbers.length - 2 * inputs);
     this.inputs = numbers.slice(numbers.length - 2 * inputs);
     this.first = Math.ceil((started - 1e-9) / data.tick);

@@ -24,15 +24,27 @@ const inputs = CONTROLS.map(([text, unit, least, most, step, read, set, restarts
   input.oninput = () => {
     set(game.settings, Math.round(input.value / step) * step);
     tell();
-    theoryHolds(false);
     if (restarts) restart();
   };
   label.append(text, shown, input);
   byId("controls").append(label);
   return { show: () => { input.disabled = false; input.value = read(game.settings); tell(); } };
 });
-/* The circle of theory is drawn while the game has the settings of the recorded one. */
-function theoryHolds(holds) { for (const mesh of (scene && scene.layers["theoretical circle"]) || []) mesh.parent.visible = holds; }
+/* The theoretical circle passes through both players, on the side to which the pursuer turns. It is
+   drawn while the evader evades, with the speeds, gain and angle of which the circle is known. */
+function placeTheory() {
+  const { settings, defaults, players: [pursuer, evader] } = game;
+  const values = ({ speeds, gain, angle }) => [...speeds, gain, angle];
+  const changed = values(settings).some((value, i) => Math.abs(value - values(defaults)[i]) > 1e-6);
+  const [a, b] = [pursuer, evader].map((player) => player.truth().reference);
+  const half = 0.5 * Math.hypot(b[0] - a[0], b[1] - a[1]), radius = run.circle ? run.circle[2] : 0;
+  scene.theory.visible = !changed && evader.memory !== 0 && half < radius;
+  if (!scene.theory.visible) return;
+  const side = pursuer.plan && pursuer.plan.heading < 0 ? -1 : 1;
+  const aside = side * Math.sqrt(radius ** 2 - half ** 2) / (2 * half);
+  scene.theory.position.set(0.5 * (a[0] + b[0]) - aside * (b[1] - a[1]),
+    0.5 * (a[1] + b[1]) + aside * (b[0] - a[0]), 0);
+}
 
 function restart() {
   game.reset(game.settings);
@@ -49,7 +61,6 @@ byId("again").onclick = restart;
 byId("draw").onclick = () => {
   game.settings.start = [0.6 + 0.9 * Math.random(), radians(180 * Math.random() - 90), radians(60 * Math.random() - 30)];
   inputs.forEach((input) => input.show());
-  theoryHolds(false);
   restart();
 };
 
@@ -141,7 +152,12 @@ function frame(now) {
   if (!game) clock += passed;
   const torsos = game ? scene && scene.place(game.state.xpos, game.state.xquat) : tellRecorded();
   if (game) tell();
-  if (scene) { fitScene(); drawScene(torsos); }
+  if (scene) {
+    scene.theory.visible = false;
+    if (game) placeTheory();
+    fitScene();
+    drawScene(torsos);
+  }
   measure(now);
   requestAnimationFrame(frame);
 }

@@ -162,9 +162,14 @@ function makeScene(run, canvas, context) {
     world.add(dashes);
     safety = layer("safety radius", dashes);
   }
-  if (run.circle)
-    layer("theoretical circle", line(
-      ribbon(circle(...run.circle, 128), 0.012, 0.010, true), "theory", 1));
+  const theory = new THREE.Group();
+  if (run.circle) {
+    const [x, y, radius] = run.circle;
+    theory.add(layer("theoretical circle", line(
+      ribbon(circle(0, 0, radius, 128), 0.012, 0.010, true), "theory", 1)));
+    theory.position.set(x, y, 0);
+    world.add(theory);
+  }
   let sight = null;
   if (run.pair)
     sight = layer("line of sight", line(
@@ -277,5 +282,5 @@ function makeScene(run, canvas, context) {
     renderer.render(world, camera);
   }
 
-  return { renderer, camera, world, layers, applyTheme, show, place, growing, simplify, draw, bodies };
+  return { renderer, camera, world, layers, applyTheme, show, place, growing, simplify, draw, bodies, theory };
 }

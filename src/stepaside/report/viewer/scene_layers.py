@@ -36,7 +36,7 @@ MEANINGS = {
     "pushes": "magenta arrow, for 1 s after each push",
 }
 # Layers whose rings have a label, and the segment that carries it.
-RINGS = {"safety radius": 52, "theoretical circle": 44}
+RINGS = {"safety radius": 63, "theoretical circle": 27}
 RING_LABEL_SCALE = 0.85  # relative to the players' labels
 HEIGHTS = {name: 0.002 + 0.001 * i for i, name in enumerate(LAYERS)}
 MAX_FOOTPRINTS = 60  # past footsteps that are drawn
