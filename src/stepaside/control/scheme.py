@@ -146,6 +146,17 @@ class ControlScheme(LocomotionScheme):
     ) -> None:
         """Begin standing; see :class:`LocomotionScheme`."""
         super().__init__(decisions, locomotion, senses)
+        self._delayed = locomotion.heading_delay > 0.0
+        self._coasted: float | None = None  # since the last update, until [s]
+
+    def update(self, measurement: Measurement) -> Array:
+        """Run one control tick; see :class:`LocomotionScheme`."""
+        if self._coasted is not None:
+            # Only the last of the poses in between can be asked for.
+            walk, time = self.locomotion, self._coasted
+            self.decisions.templates.note(time + walk.pose_delay, walk.pose)
+            self._coasted = None
+        return super().update(measurement)
 
     @property
     def kinematics(self) -> LegKinematics:
@@ -177,9 +188,13 @@ class ControlScheme(LocomotionScheme):
             ReachError: If the legs cannot follow the reference.
         """
         walk, decisions = self.locomotion, self.decisions
-        heading = walk.torso_heading
-        targets = None if decisions.turns is not None else walk.coast(now)
-        if targets is not None:
+        if decisions.turns is not None:
+            return None
+        heading = walk.torso_heading if self._delayed else 0.0
+        targets = walk.coast(now)
+        if targets is not None and self._delayed:
             decisions.headings.note(now + walk.heading_delay, heading)
             decisions.templates.note(now + walk.pose_delay, walk.pose)
+        elif targets is not None:
+            self._coasted = now
         return targets

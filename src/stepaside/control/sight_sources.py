@@ -131,7 +131,13 @@ class SightOfPlayers:
         tilt: tuple[float, float] | None,
     ) -> Sighting | None:
         """Return the newest sighting of the opponent."""
-        for sighting in measurement.players:
+        if measurement.players:
+            self._note(measurement.players)
+        return self._latest.get(self._chosen)
+
+    def _note(self, sightings: tuple[Sighting, ...]) -> None:
+        """Take the sightings of a tick, and choose the opponent again."""
+        for sighting in sightings:
             assert sighting.identity is not None
             name = sighting.identity.name
             number = self._numbers.setdefault(name, len(self._numbers) + 1)
@@ -146,7 +152,6 @@ class SightOfPlayers:
             target=self._target,
             present=self._chosen,
         )
-        return self._latest.get(self._chosen)
 
     def aim(self, targets: Array) -> None:
         """Leave the head as it is."""

@@ -51,7 +51,9 @@ class PairMatch(Match):
             networks=networks,
         )
         self.pursuer, self.evader = self.players
+        self._reach = self.pursuer.truth.reach + self.evader.truth.reach
         self.min_distance = self.torsos_apart
+        self._near = self.min_distance < self._reach
         self.captured_at: float | None = None
         self.triggered_at: float | None = None
         self.triggered_distance: float | None = None
@@ -75,7 +77,13 @@ class PairMatch(Match):
             if self.evader.is_moving:
                 self.triggered_at = now
                 self.triggered_distance = self.distance
-        self.min_distance = min(self.min_distance, apart)
+        if apart < self.min_distance:
+            self.min_distance = apart
         if self.captured_at is None and apart <= CAPTURE_DISTANCE:
             self.captured_at = now
+        self._near = apart < self._reach
         return super()._judge()
+
+    def _can_touch(self) -> bool:
+        """Return whether a contact is possible."""
+        return self._has_things or self._near

@@ -173,8 +173,10 @@ class World:
         )
         self.data = mujoco.MjData(self.model)
         self.before_step: list[Callable[[float], None]] = []
-        # State before the last physics step, while its sensors are missing.
+        # State, and that before the last step while its sensors are missing.
+        self._state = self.data.qpos, self.data.qvel
         self._stepped = (self.data.qpos.copy(), self.data.qvel.copy())
+        self._option = self.model.opt
         self._lacks_sensors = False
         self._kernels: dict[Callable[[float], None], BoundKernel] = {}
         self._control: Any = None  # runs the kernels within MuJoCo
@@ -211,12 +213,12 @@ class World:
         if self.before_step:
             self._step_singly(steps)
         else:
-            model, data, option = self.model, self.data, self.model.opt
+            model, data, option = self.model, self.data, self._option
             option.disableflags = NO_SENSORS
             if steps > 1:
                 mujoco.mj_step(model, data, nstep=steps - 1)
-            qpos, qvel = self._stepped
-            qpos[:], qvel[:] = data.qpos, data.qvel
+            (qpos, qvel), (old_qpos, old_qvel) = self._state, self._stepped
+            old_qpos[:], old_qvel[:] = qpos, qvel
             mujoco.mj_step(model, data)
             option.disableflags = 0
             self._lacks_sensors = True
@@ -232,12 +234,13 @@ class World:
             return
         self._lacks_sensors = False
         model, data = self.model, self.data
-        now = data.qpos.copy(), data.qvel.copy()
-        data.qpos[:], data.qvel[:] = self._stepped
+        qpos, qvel = self._state
+        now = qpos.copy(), qvel.copy()
+        qpos[:], qvel[:] = self._stepped
         mujoco.mj_sensorPos(model, data)
         mujoco.mj_sensorVel(model, data)
         mujoco.mj_sensorAcc(model, data)
-        data.qpos[:], data.qvel[:] = now
+        qpos[:], qvel[:] = now
 
     def call_before_step(
         self,
