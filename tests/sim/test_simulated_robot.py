@@ -11,12 +11,11 @@ import pytest
 from fake_robot import walk_of
 from stepaside.control import ControlScheme
 from stepaside.control.sight_sources import CameraSight, MeasuredSight
-from stepaside.core.player_identity import PlayerIdentity, Role
 from stepaside.core.poses import Array, Pose
 from stepaside.core.random_streams import named_generator
 from stepaside.games.walker import SimulatedPlayer
 from stepaside.games.walker_factory import (
-    PlayerSensing,
+    RobotSensing,
     WalkerSetup,
     place_walker,
 )
@@ -48,7 +47,7 @@ def walker(
     frame: Pose = FRAME,
     *,
     feedback: bool = False,
-    sight: Any = None,
+    sights: Any = (),
     **effects: Any,
 ) -> SimulatedPlayer:
     """The second of two robots in a world."""
@@ -68,8 +67,7 @@ def walker(
             seed=5,
         ),
         Pursuit(),
-        sighting=Sighting(0.0, 0.2, 2.0),
-        sight=sight,
+        sensing=RobotSensing(MeasuredSight(Sighting(0.0, 0.2, 2.0)), sights),
     )
     mujoco.mj_forward(world.model, world.data)
     return made
@@ -351,8 +349,7 @@ def test_sight_and_eyes_are_read_at_the_time_of_the_world() -> None:
             told.append(-1.0)
 
     sense = Sense()
-    red = PlayerIdentity("red", Role.PURSUER, "red")
-    made = walker(sight=PlayerSensing(red, "", (sense,)))
+    made = walker(sights=(sense,))
     robot = made.robot
     robot.eyes = sense  # type: ignore[assignment]
     robot.world.ticks = 50

@@ -31,11 +31,16 @@ from stepaside.studies.people_statistics import (
     people_rows,
     theory_room,
 )
-from stepaside.studies.person_encounters import Encounter, encounters
+from stepaside.studies.person_encounters import (
+    Encounter,
+    base_settings,
+    encounters,
+)
 from stepaside.studies.result_files import read_result
 from stepaside.studies.result_store import ResultStore
 
 WALK = WalkSettings(seed=3, gait=PRESETS["fast"])
+BASE = base_settings(WALK)
 FEW: dict[str, Any] = {"speeds": (0.5, 1.0), "bearings": (0, -90)}
 
 
@@ -43,7 +48,13 @@ def grid(walk: WalkSettings = WALK, seeds: int = 2) -> list[Encounter]:
     """People at two speeds from two directions, aimed at and passing."""
     offsets = (0.0, 1.2)
     return list(
-        encounters(walk, ("ideal",), seeds=seeds, offsets=offsets, **FEW)
+        encounters(
+            base_settings(walk),
+            ("ideal",),
+            range(walk.seed, walk.seed + seeds),
+            offsets=offsets,
+            **FEW,
+        )
     )
 
 
@@ -66,7 +77,7 @@ def test_people_of_any_speed_leave_the_same_time_before_evasion(
 ) -> None:
     """The robot stands for 1.5 s before the time to contact is reached."""
     (each,) = encounters(
-        WALK, ("ideal",), seeds=1, speeds=(speed,), bearings=(0,),
+        BASE, ("ideal",), (WALK.seed,), speeds=(speed,), bearings=(0,),
         offsets=(0.0,),
     )  # fmt: skip
     start, strategy = each.settings.start, each.settings.strategy
@@ -78,9 +89,9 @@ def test_people_of_any_speed_leave_the_same_time_before_evasion(
 @pytest.mark.parametrize("bearing", [0, 45, -90, 180])
 def test_people_approach_from_their_bearing(bearing: int) -> None:
     (each,) = encounters(
-        WALK,
+        BASE,
         ("ideal",),
-        seeds=1,
+        (WALK.seed,),
         speeds=(0.8,),
         bearings=(bearing,),
         offsets=(0.3,),
@@ -202,7 +213,7 @@ def test_people_who_turn_head_for_the_robot_at_the_given_distance() -> None:
     for speed in (0.5, 1.4):
         for bearing in (0, 180):
             (each,) = encounters(
-                WALK, ("ideal",), seeds=1, speeds=(speed,),
+                BASE, ("ideal",), (WALK.seed,), speeds=(speed,),
                 bearings=(bearing,), reactions=("turning",),
             )  # fmt: skip
             settings = each.settings
@@ -226,7 +237,7 @@ def test_people_who_turn_head_for_the_robot_at_the_given_distance() -> None:
 
 
 def test_half_of_the_drawn_people_are_found_hard_by_a_search() -> None:
-    base = study.base_settings(WALK)
+    base = base_settings(WALK)
     short = drawn_study(base, "ideal", 4).cases
     longer = drawn_study(base, "ideal", 40).cases
     assert [each.key for each in short] == [e.key for e in longer[:4]]
@@ -243,7 +254,7 @@ def test_half_of_the_drawn_people_are_found_hard_by_a_search() -> None:
 def test_a_robot_that_sees_stands_far_from_walls() -> None:
     """A wall beside it would be the nearest thing to look at."""
     for sensing in ("ideal", "cameras"):
-        for each in encounters(WALK, (sensing,), seeds=1):
+        for each in encounters(BASE, (sensing,), (1,)):
             room, distance = each.settings.room, each.settings.start.distance
             assert distance is not None
             if sensing == "ideal":
@@ -259,7 +270,8 @@ def test_robots_on_learned_legs_step_aside_of_people_all_around(
     folder = nao_on_legs(tmp_path / "nao")
     legs = LegsSettings(str(folder / "policy.onnx"))
     walk = WalkSettings(robot=str(folder))
-    each = list(encounters(walk, ("ideal",), seeds=1, legs=legs))
+    base = base_settings(walk, legs)
+    each = list(encounters(base, ("ideal",), (1,)))
     assert {e.speed for e in each} == {0.5, 1.0, 1.4, 1.8}
     assert len({e.bearing for e in each if not e.passes}) == 12
     settings = each[0].settings
@@ -267,9 +279,7 @@ def test_robots_on_learned_legs_step_aside_of_people_all_around(
     assert settings.legs == legs
     assert settings.gait.speed == 0.5
     (seen,) = encounters(
-        *(walk, ("cameras",)),
-        seeds=1,
-        legs=legs,
+        *(base, ("cameras",), (1,)),
         speeds=(1.0,),
         bearings=(0,),
         offsets=(0.0,),

@@ -15,14 +15,22 @@ from stepaside.studies.people_statistics import (
     people_rows,
     theory_room,
 )
-from stepaside.studies.person_encounters import Encounter, encounters
+from stepaside.studies.person_encounters import (
+    Encounter,
+    base_settings,
+    encounters,
+)
 
 WAY: dict[str, Any] = {
     "bearings": (0, 90),
     "offsets": (0.0, 1.2),
     "speeds": (0.5, 1.0),
 }
-GRID = tuple(encounters(WalkSettings(), ("ideal", "cameras"), seeds=1, **WAY))
+GRID = tuple(
+    encounters(
+        base_settings(WalkSettings()), ("ideal", "cameras"), (1,), **WAY
+    )
+)
 OUTCOMES = ("completed", "contact", "fall")
 
 

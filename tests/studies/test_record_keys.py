@@ -24,7 +24,7 @@ from stepaside.sim.person_settings import PersonSettings
 from stepaside.sim.push import Push
 from stepaside.studies.duel_campaign import duel_study
 from stepaside.studies.duel_record import settings_hash
-from stepaside.studies.person_encounters import encounters
+from stepaside.studies.person_encounters import base_settings, encounters
 from stepaside.studies.push_results import pushes_result
 from stepaside.studies.result_store import ResultStore
 from stepaside.studies.robustness_trial import RobustnessTrial
@@ -124,7 +124,7 @@ def test_all_of_what_meets_a_duel_counts_in_its_key(one: Any) -> None:
 
 
 def test_every_setting_of_an_encounter_changes_its_key() -> None:
-    base = next(encounters(WALK, ("ideal",), seeds=1))
+    base = next(encounters(base_settings(WALK), ("ideal",), (1,)))
     others = {f"base.{name}": values for name, values in OTHERS.items()}
     others |= {
         "sensing": ["cameras"],

@@ -24,6 +24,7 @@ from stepaside.sim.camera_settings import CameraSettings, ColourSettings
 from stepaside.studies.people_statistics import passing_rows, people_rows
 from stepaside.studies.person_encounters import (
     Encounter,
+    base_settings,
     encounters,
     play_encounter,
 )
@@ -54,9 +55,9 @@ def grid(
     return [
         replace(each, base=replace(each.base, cameras=CAMERAS))
         for each in encounters(
-            walk,
+            base_settings(walk),
             (sensing,),
-            seeds=len(seeds),
+            seeds,
             speeds=(speed,),
             bearings=bearings,
             offsets=offsets,

@@ -84,12 +84,9 @@ def meet_people(
             "reactions": reaction_rows(drawn.items()),
         }, drawn
     grid = encounters(
-        settings,
+        base,
         request.sensings,
-        seeds=request.seeds,
-        legs=request.legs,
-        strategy=request.strategy,
-        shield=request.shield,
+        range(settings.seed, settings.seed + request.seeds),
         reactions=request.reactions or LADDER,
     )
     run = run_campaign(people_study(list(grid)), campaign, "games")

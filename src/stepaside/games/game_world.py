@@ -6,6 +6,12 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import mujoco
 
+from ..control.sight_sources import (
+    CameraSight,
+    LidarSight,
+    MeasuredSight,
+    SightOfPlayers,
+)
 from ..core.errors import ConfigurationError
 from ..core.poses import Pose
 from ..core.random_streams import named_generator
@@ -47,8 +53,7 @@ from .template_level import (
 )
 from .walker import RobotPlayer
 from .walker_factory import (
-    CameraSensing,
-    PlayerSensing,
+    RobotSensing,
     WalkerSetup,
     clearance_in,
     place_robot,
@@ -236,8 +241,6 @@ class GameWorld:
             return self._remote_robot(own, remote)
         settings, setup = self._settings, self._setups[own.name]
         strategy, truth = self._strategies[own.name], self._states[own.name]
-        sensing = self._sensing(own) if own.senses == "ideal" else None
-        sensors = self._sensors(own)
         clearance = clearance_in(
             settings.room,
             settings.map,
@@ -252,8 +255,7 @@ class GameWorld:
                 setup,
                 own.legs,
                 strategy,
-                sight=sensing,
-                cameras=sensors,
+                sensing=self._sensing(own),
                 truth=truth,
                 networks=self.networks,
                 clearance=clearance,
@@ -262,36 +264,9 @@ class GameWorld:
             self.world,
             setup,
             strategy,
-            sight=sensing,
-            cameras=sensors,
+            sensing=self._sensing(own),
             truth=truth,
             clearance=clearance,
-        )
-
-    def _sensors(self, own: PlayerSettings) -> CameraSensing | None:
-        """Return the cameras or the lidar of a robot; None without."""
-        if own.senses == "cameras":
-            assert self._senses is not None
-            return CameraSensing(
-                self._senses.eyes_of(self.world, own.name),
-                self._senses.perceptions[own.name],
-            )
-        if own.senses == "ideal":
-            return None
-        from ..perception.lidar_perception import LidarPerception
-        from ..sim.lidar import Lidar
-
-        settings = self._settings
-        description = self._setups[own.name].description
-        return CameraSensing(
-            Lidar(
-                self.world,
-                own.name,
-                description.torso,
-                settings.lidar,
-                settings.seed,
-            ),
-            LidarPerception(description, settings.lidar.far),
         )
 
     def _remote_robot(
@@ -305,12 +280,9 @@ class GameWorld:
                 "sensing must be ideal or cameras for a robot that another "
                 "process controls, got 'lidar'"
             )
-        sight, eyes, clearance = None, None, None
-        if own.senses == "cameras":
-            assert self._senses is not None
-            eyes = self._senses.eyes_of(self.world, own.name)
-        elif remote.ideal_sight:
-            sight = self._sensing(own)
+        sensing, clearance = None, None
+        if own.senses == "cameras" or remote.ideal_sight:
+            sensing = self._sensing(own)
         if settings.map.source == "given":  # it builds no map of its own
             clearance = clearance_in(settings.room, settings.map, setup)
         if remote.balances:
@@ -320,8 +292,7 @@ class GameWorld:
                 self.world,
                 setup,
                 truth=truth,
-                sight=sight,
-                eyes=eyes,
+                sensing=sensing,
                 clearance=clearance,
             )
         description, gait = setup.description, setup.gait
@@ -333,20 +304,52 @@ class GameWorld:
             self.world,
             setup,
             kinematics,
-            sight=sight,
-            eyes=eyes,
+            sensing=sensing,
             truth=truth,
             clearance=clearance,
         )
         head: tuple[int, ...] = ()
-        if eyes is not None:
+        if own.senses == "cameras":
             joints = load_head(description)
             names = kinematics.joint_names
             head = names.index(joints.yaw), names.index(joints.pitch)
         return ServedPlayer(robot, head)
 
-    def _sensing(self, own: PlayerSettings) -> PlayerSensing:
-        """Return the ideal sensing of all other players by a robot."""
+    def _sensing(self, own: PlayerSettings) -> RobotSensing:
+        """Return the senses of a robot."""
+        tick = self.world.physics.tick
+        if own.senses == "cameras":
+            assert self._senses is not None
+            seen = self._senses.perceptions.get(own.name)
+            return RobotSensing(
+                MeasuredSight()
+                if seen is None
+                else CameraSight(seen, tick=tick),
+                eyes=self._senses.eyes_of(self.world, own.name),
+            )
+        if own.senses == "ideal":
+            return RobotSensing(
+                SightOfPlayers(own.identity, own.target), self._sights(own)
+            )
+        from ..perception.lidar_perception import LidarPerception
+        from ..sim.lidar import Lidar
+
+        description = self._setups[own.name].description
+        settings = self._settings
+        perception = LidarPerception(description, settings.lidar.far)
+        return RobotSensing(
+            LidarSight(perception, tick=tick),
+            eyes=Lidar(
+                self.world,
+                own.name,
+                description.torso,
+                settings.lidar,
+                settings.seed,
+            ),
+        )
+
+    def _sights(self, own: PlayerSettings) -> tuple[IdealLineOfSight, ...]:
+        """Return the ideal sensors of all other players on a robot."""
         settings = self._settings
         sights = []
         for other in settings.players:
@@ -369,7 +372,7 @@ class GameWorld:
                     between=between,
                 )
             )
-        return PlayerSensing(own.identity, own.target, tuple(sights))
+        return tuple(sights)
 
     def sight_observer(
         self, things: Sequence[RoomObject] = (), *, every: int

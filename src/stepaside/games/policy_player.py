@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 from ..control.clearance.surroundings import OpenFloor, Surroundings
 from ..control.clearance.velocity_guard import VelocityGuard
@@ -26,16 +25,10 @@ from ..sim.world import World
 from ..strategies import Strategy
 from .walker import RobotPlayer
 from .walker_factory import (
-    CameraSensing,
-    PlayerSensing,
+    RobotSensing,
     WalkerSetup,
-    sight_source,
     with_body_radius,
 )
-
-if TYPE_CHECKING:
-    from ..sim.lidar import Lidar
-    from ..sim.sensor_suite import SensorSuite
 
 AT_ONCE = 1.0  # a fall until then is one of the policy, in [s]
 
@@ -137,8 +130,7 @@ def place_on_legs(
     setup: WalkerSetup,
     legs: PolicyLegs,
     *,
-    sight: PlayerSensing | None = None,
-    eyes: "SensorSuite | Lidar | None" = None,
+    sensing: RobotSensing | None = None,
     truth: TrueRobotState | None = None,
     knows_pose: bool = False,
 ) -> SimulatedRobot:
@@ -148,8 +140,7 @@ def place_on_legs(
         world: World that contains the robot.
         setup: Robot with its settings.
         legs: Learned legs of the robot.
-        sight: Ideal sensing of all other players.
-        eyes: Cameras and sonars, if any.
+        sensing: Its senses; by default it senses no other player.
         truth: True state of the robot, if it exists already.
         knows_pose: Whether its pose in the room is measured.
     """
@@ -166,8 +157,8 @@ def place_on_legs(
             generator=named_generator(setup.seed, f"sensors/{setup.name}"),
             averages_imu=True,
             integrates_imu=not setup.body.has_sensor_errors,
-            sights=() if sight is None else sight.sights,
-            eyes=eyes,
+            sights=() if sensing is None else sensing.sights,
+            eyes=None if sensing is None else sensing.eyes,
             truth=truth,
             knows_pose=knows_pose,
         ),
@@ -181,8 +172,7 @@ def place_policy_player(
     legs: LegsSettings,
     strategy: Strategy,
     *,
-    sight: PlayerSensing | None = None,
-    cameras: CameraSensing | None = None,
+    sensing: RobotSensing,
     truth: TrueRobotState,
     networks: NetworkPool,
     clearance: ClearanceSetup | None = None,
@@ -195,8 +185,7 @@ def place_policy_player(
             decision interval of its template.
         legs: Walking policy.
         strategy: Strategy of the player.
-        sight: Ideal sensing of all other players, if it senses so.
-        cameras: Cameras and perception, with camera sensing.
+        sensing: Its senses.
         truth: True state of the robot.
         networks: Networks of all players, flushed at each tick.
         clearance: Knowledge of the room and required clearance.
@@ -210,8 +199,7 @@ def place_policy_player(
         world,
         setup,
         policy,
-        sight=sight,
-        eyes=None if cameras is None else cameras.eyes,
+        sensing=sensing,
         truth=truth,
         knows_pose=clearance is not None,
     )
@@ -231,6 +219,6 @@ def place_policy_player(
             velocities=policy.velocities,
         ),
         PolicyWalk(policy, setup.gait, guard),
-        sight_source(sight, cameras, tick=tick),
+        sensing.source,
     )
     return PolicyPlayer(robot, scheme, frame, networks, around)

@@ -1,7 +1,6 @@
 """Simulated robots with their own walk, commanded by velocities."""
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
 
 from ..control.scheme_builder import ClearanceSetup, build_walk
 from ..control.velocity_scheme import VelocityScheme
@@ -20,12 +19,8 @@ from ..sim.ground_truth import TrueRobotState
 from ..sim.simulated_robot import SimulatedRobot
 from ..sim.world import World
 from .player import PhysicalPlayer, Snapshot, snapshot_of
-from .walker_factory import PlayerSensing, WalkerSetup, place_robot
+from .walker_factory import RobotSensing, WalkerSetup, place_robot
 from .walker_log import WalkerLog
-
-if TYPE_CHECKING:
-    from ..sim.lidar import Lidar
-    from ..sim.sensor_suite import SensorSuite
 
 HEAD_SPEED = 3.0  # of a head commanded by a client, in [rad/s]
 
@@ -215,8 +210,7 @@ def place_velocity_walker(
     setup: WalkerSetup,
     *,
     truth: TrueRobotState,
-    sight: PlayerSensing | None = None,
-    eyes: "SensorSuite | Lidar | None" = None,
+    sensing: RobotSensing | None = None,
     clearance: ClearanceSetup | None = None,
 ) -> VelocityWalker:
     """Place a robot that walks at commanded velocities in a world.
@@ -225,8 +219,7 @@ def place_velocity_walker(
         world: World that contains the robot.
         setup: The robot.
         truth: True state of the robot.
-        sight: Ideal sensing of the opponent, reported to the client.
-        eyes: Cameras and sonars, reported to the client.
+        sensing: Senses that are reported to the client.
         clearance: Knowledge of the room and required clearance.
 
     Raises:
@@ -245,8 +238,7 @@ def place_velocity_walker(
         world,
         setup,
         walk.kinematics,
-        sight=sight,
-        eyes=eyes,
+        sensing=sensing,
         truth=truth,
         clearance=clearance,
     )

@@ -5,6 +5,7 @@ from math import inf
 
 import mujoco
 
+from ..control.sight_sources import MeasuredSight
 from ..core.poses import Pose
 from ..locomotion.zmp.mpc import MpcResult
 from ..perception.measurement import Sighting
@@ -20,7 +21,7 @@ from .run import WalkRun
 from .walk_evaluation import StepCounts, summarise_walk
 from .walk_settings import WALKER, WalkSettings
 from .walker import SimulatedPlayer
-from .walker_factory import WalkerSetup, place_walker
+from .walker_factory import RobotSensing, WalkerSetup, place_walker
 
 
 class WalkCounts:
@@ -107,7 +108,7 @@ class WalkGame(Match):
                 seed=settings.seed,
             ),
             Walk(settings.bearing, back if settings.backward else ahead),
-            sighting=Sighting(0.0, 0.0, inf),
+            sensing=RobotSensing(MeasuredSight(Sighting(0.0, 0.0, inf))),
         )
         mujoco.mj_forward(world.model, world.data)
         if settings.pushes:

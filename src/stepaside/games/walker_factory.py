@@ -12,19 +12,10 @@ from ..control.clearance.surroundings import (
 )
 from ..control.clearance.swept_outline import lateral_sway
 from ..control.scheme_builder import ClearanceSetup, build_scheme
-from ..control.sight_sources import (
-    CameraSight,
-    LidarSight,
-    MeasuredSight,
-    SightOfPlayers,
-    SightSource,
-)
-from ..core.player_identity import PlayerIdentity
+from ..control.sight_sources import SightSource
 from ..core.poses import Pose
 from ..core.random_streams import named_generator
 from ..locomotion.zmp.control_settings import ControlSettings
-from ..perception.lidar_perception import LidarPerception
-from ..perception.measurement import Sighting
 from ..planning import GaitSettings
 from ..robots.description import RobotDescription
 from ..robots.leg_kinematics import LegKinematics
@@ -75,30 +66,18 @@ class WalkerSetup(NamedTuple):
         )
 
 
-class PlayerSensing(NamedTuple):
-    """Ideal sensing of all other players by one robot.
+class RobotSensing(NamedTuple):
+    """Senses of one robot for other players.
 
     Attributes:
-        identity: Identity of the robot.
-        target: Name of its target; empty for the nearest opponent.
+        source: Source of sightings for its controller.
         sights: Ideal sensors, one for each other player.
-    """
-
-    identity: PlayerIdentity
-    target: str
-    sights: tuple[IdealLineOfSight, ...]
-
-
-class CameraSensing(NamedTuple):
-    """Sensing of one robot by cameras or a lidar.
-
-    Attributes:
         eyes: Cameras and sonars, or the lidar.
-        perception: Perception of their images, or of its scans.
     """
 
-    eyes: "SensorSuite | Lidar"
-    perception: "Perception | LidarPerception"
+    source: SightSource
+    sights: tuple[IdealLineOfSight, ...] = ()
+    eyes: "SensorSuite | Lidar | None" = None
 
 
 def place_walker(
@@ -106,9 +85,7 @@ def place_walker(
     setup: WalkerSetup,
     strategy: Strategy,
     *,
-    sighting: Sighting | None = None,
-    sight: PlayerSensing | None = None,
-    cameras: CameraSensing | None = None,
+    sensing: RobotSensing | None = None,
     truth: TrueRobotState | None = None,
     clearance: ClearanceSetup | None = None,
 ) -> SimulatedPlayer:
@@ -118,9 +95,7 @@ def place_walker(
         world: World that contains the robot.
         setup: The robot.
         strategy: Strategy of the player.
-        sighting: Sighting before the first measurement, if known.
-        sight: Ideal sensing of all other players, if it senses so.
-        cameras: Cameras and perception, with camera sensing.
+        sensing: Its senses; by default it senses no other player.
         truth: True state of the robot, if it exists already.
         clearance: Knowledge of the room and required clearance.
 
@@ -135,15 +110,14 @@ def place_walker(
         setup.control,
         tick=tick,
         delay=setup.body.delay_cycles * tick,
-        senses=sight_source(sight, cameras, sighting, tick=tick),
+        senses=None if sensing is None else sensing.source,
         clearance=clearance,
     )
     robot = place_robot(
         world,
         setup,
         scheme.kinematics,
-        sight=sight,
-        eyes=None if cameras is None else cameras.eyes,
+        sensing=sensing,
         truth=truth,
         clearance=clearance,
     )
@@ -155,8 +129,7 @@ def place_robot(
     setup: WalkerSetup,
     kinematics: LegKinematics,
     *,
-    sight: PlayerSensing | None = None,
-    eyes: "SensorSuite | Lidar | None" = None,
+    sensing: RobotSensing | None = None,
     truth: TrueRobotState | None = None,
     clearance: ClearanceSetup | None = None,
 ) -> SimulatedRobot:
@@ -166,8 +139,7 @@ def place_robot(
         world: World that contains the robot.
         setup: The robot.
         kinematics: Kinematics in the standing posture.
-        sight: Ideal sensing of all other players, if it senses so.
-        eyes: Cameras and sonars, with camera sensing.
+        sensing: Its senses; by default it senses no other player.
         truth: True state of the robot, if it exists already.
         clearance: Knowledge of the room; a robot that knows the room also
             knows its pose in it.
@@ -182,38 +154,13 @@ def place_robot(
         SensorSetup(
             generator=named_generator(setup.seed, f"sensors/{setup.name}"),
             averages_imu=setup.control.feedback,
-            sights=() if sight is None else sight.sights,
-            eyes=eyes,
+            sights=() if sensing is None else sensing.sights,
+            eyes=None if sensing is None else sensing.eyes,
             truth=truth or setup.true_state_in(world),
             knows_pose=clearance is not None
             and isinstance(clearance.surroundings, KnownRoom),
         ),
     )
-
-
-def sight_source(
-    sight: PlayerSensing | None,
-    cameras: CameraSensing | None,
-    sighting: Sighting | None = None,
-    *,
-    tick: float,
-) -> SightSource:
-    """Return the source of sightings for the sensors of a robot.
-
-    Args:
-        sight: Ideal sensing of all other players, if it senses so.
-        cameras: Cameras and perception, with camera sensing.
-        sighting: Sighting before the first measurement, if known.
-        tick: Control period, in [s].
-    """
-    if cameras is not None:
-        perception = cameras.perception
-        if isinstance(perception, LidarPerception):
-            return LidarSight(perception, tick=tick)
-        return CameraSight(perception, tick=tick)
-    if sight is not None:
-        return SightOfPlayers(sight.identity, sight.target)
-    return MeasuredSight(sighting)
 
 
 def clearance_in(

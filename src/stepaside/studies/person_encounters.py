@@ -179,13 +179,10 @@ def base_settings(
 
 
 def encounters(
-    walk: WalkSettings,
+    base: DuelSettings,
     sensings: Sequence[str],
+    seeds: Sequence[int],
     *,
-    seeds: int,
-    legs: LegsSettings = NO_LEGS,
-    strategy: str = "",
-    shield: ShieldSettings = NO_SHIELD,
     speeds: Sequence[float] | None = None,
     bearings: Sequence[int] | None = None,
     offsets: Sequence[float] | None = None,
@@ -196,12 +193,9 @@ def encounters(
     People who react are aimed at the robot, and those who turn beside it.
 
     Args:
-        walk: Settings of the robot; its seed is the first one.
+        base: Settings of the robot; see :func:`base_settings`.
         sensings: Kinds of sensing, as in :class:`DuelSettings`.
-        seeds: Number of seeds for each combination.
-        legs: Walking policy of the robot; none by default.
-        strategy: Strategy of the robot; by default that for its legs.
-        shield: Shield of the robot.
+        seeds: Seeds of each combination.
         speeds: Speeds of people, in [m/s]; by default those for the legs.
         bearings: Initial bearings of people, in [deg]; likewise.
         offsets: Lateral offsets of straight paths, in [m]; likewise.
@@ -210,10 +204,10 @@ def encounters(
     Raises:
         ConfigurationError: If the robot cannot sense like that.
     """
-    base = base_settings(walk, legs, strategy, shield)
-    speeds = speeds or (SPEEDS_ON_LEGS if legs.walks else SPEEDS)
-    bearings = bearings or (BEARINGS_ON_LEGS if legs.walks else BEARINGS)
-    offsets = offsets or (OFFSETS_ON_LEGS if legs.walks else OFFSETS)
+    walks = base.legs.walks
+    speeds = speeds or (SPEEDS_ON_LEGS if walks else SPEEDS)
+    bearings = bearings or (BEARINGS_ON_LEGS if walks else BEARINGS)
+    offsets = offsets or (OFFSETS_ON_LEGS if walks else OFFSETS)
     kinds: list[tuple[str, float, float]] = []
     for reaction in reactions:
         if reaction == "straight":
@@ -227,7 +221,7 @@ def encounters(
         for speed in speeds:
             for bearing in bearings:
                 for reaction, offset, change in kinds:
-                    for seed in range(walk.seed, walk.seed + seeds):
+                    for seed in seeds:
                         yield Encounter(
                             *(speed, bearing, offset, sensing, seed, base),
                             reaction=reaction,
