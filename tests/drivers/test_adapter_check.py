@@ -11,10 +11,8 @@ import pytest
 
 from stepaside.cli.main import main
 from stepaside.core.poses import Pose, wrap_angle
-from stepaside.drivers.velocity.adapter_check import (
-    AdapterCheck,
-    AdapterFinding,
-)
+from stepaside.drivers.method_check import AdapterFinding
+from stepaside.drivers.velocity.adapter_check import AdapterCheck
 from stepaside.drivers.velocity.velocity_body import VelocityReport
 from stepaside.drivers.velocity.velocity_limits import VelocityLimits
 from stepaside.drivers.velocity.velocity_robot import VelocityRobot

@@ -157,8 +157,8 @@ class ConnectionSettings:
     check: bool = setting(
         False,
         "Check a robot in Python instead of playing: rates, latency, units, "
-        "signs and stopping. The robot moves; the exit status is 1 if a "
-        "check fails",
+        "signs and stopping. The robot moves, and must hang in the air if it "
+        "is driven by its joints; the exit status is 1 if a check fails",
         option="--check/--no-check",
     )
 

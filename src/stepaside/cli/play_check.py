@@ -4,17 +4,28 @@ from typing import TYPE_CHECKING
 
 import click
 
+from .options.setting_options import refuse_options
 from .terminal import echo, print_json
 
 if TYPE_CHECKING:
-    from ..drivers.velocity.adapter_check import AdapterFinding
+    from collections.abc import Callable
+
+    from ..drivers.guardian_process import Guardian
+    from ..drivers.joint.joint_robot import JointRobot
+    from ..drivers.method_check import AdapterFinding, MethodCheck
+    from ..drivers.velocity.velocity_robot import VelocityRobot
     from .connection_settings import ConnectionSettings
 
 SILENCE = 3.0  # of the check before its guardian stops the robot, in [s]
-WARNING = (
+WALKS = (
     "the robot will turn and walk for about 20 s, at most at half of its "
     "limits: let it hang, or give it room; Ctrl-C stops it"
 )
+MOVES = (
+    "each joint of the robot will move by 0.1 rad and back, for about {} s: "
+    "let it hang in the air; Ctrl-C releases it"
+)
+PER_JOINT = 1.2  # duration of the check of a joint, in [s]
 
 
 def check_adapter(connection: "ConnectionSettings", *, as_json: bool) -> None:
@@ -31,41 +42,95 @@ def check_adapter(connection: "ConnectionSettings", *, as_json: bool) -> None:
         raise click.UsageError(
             f"--check requires --robot FILE.py:CLASS, got {connection.robot!r}"
         )
+    from ..drivers.joint.joint_robot import JointRobot
     from ..drivers.robot_loader import load_robot_class
-    from ..drivers.velocity.adapter_body import connect_adapter_stopper
-    from ..drivers.velocity.adapter_check import AdapterCheck
-    from ..drivers.velocity.velocity_guardian import fork_velocity_guardian
-    from ..drivers.velocity.velocity_robot import VelocityRobot
 
     make = load_robot_class(connection.robot)
-    if not issubclass(make, VelocityRobot):
-        raise click.UsageError(
-            "--check requires a VelocityRobot; of a JointRobot, --dry-run "
-            f"reads and judges the reports, got {connection.robot!r}"
-        )
-    guardian = None
-    if not connection.dry_run:
-        echo(f"stepaside: {WARNING}", err=True)
-        guardian = fork_velocity_guardian(
-            lambda: connect_adapter_stopper(make), SILENCE
-        )
 
     def note(finding: "AdapterFinding") -> None:
         if not as_json:
             text = finding.text
             echo(f"{finding.verdict:<8} {finding.name:<17} {text}")
 
-    check = AdapterCheck(
-        make(), note, dry_run=connection.dry_run, guardian=guardian
-    )
-    try:
-        check.run()
-    finally:
-        if guardian is not None:
-            guardian.dismiss()
+    if issubclass(make, JointRobot):
+        check = _joint_check(make, connection, note)
+    else:
+        refuse_options({"description"}, "a robot that is driven by its joints")
+        check = _velocity_check(make, connection, note)
     if as_json:
         found = [each._asdict() for each in check.findings]
         robot = {"robot": connection.robot, "passes": check.passes}
         print_json(robot | {"findings": found})
     if not check.passes:
         raise SystemExit(1)
+
+
+def _velocity_check(
+    make: "type[VelocityRobot]",
+    connection: "ConnectionSettings",
+    note: "Callable[[AdapterFinding], None]",
+) -> "MethodCheck":
+    """Run the check of a robot that is driven by velocities."""
+    from ..drivers.velocity.adapter_body import connect_adapter_stopper
+    from ..drivers.velocity.adapter_check import AdapterCheck
+
+    guardian = _guardian(
+        connection, WALKS, lambda: connect_adapter_stopper(make)
+    )
+    check = AdapterCheck(
+        make(), note, dry_run=connection.dry_run, guardian=guardian
+    )
+    return _checked(check, guardian)
+
+
+def _joint_check(
+    make: "type[JointRobot]",
+    connection: "ConnectionSettings",
+    note: "Callable[[AdapterFinding], None]",
+) -> "MethodCheck":
+    """Run the check of a robot that is driven by its joints."""
+    from ..drivers.joint.adapter_link import connect_releaser, own_gains
+    from ..drivers.joint.joint_check import JointCheck
+    from ..drivers.joint.joint_map import motors_of
+    from ..robots.description import load_robot
+
+    description, robot = load_robot(connection.description), make()
+    motors = motors_of(description, tick=robot.tick, crouch={})
+    servos = description.overlay.servos.items()
+    gains = own_gains(
+        robot, motors, {name: servo[:2] for name, servo in servos}
+    )
+    warning = MOVES.format(round(PER_JOINT * motors.count))
+    guardian = _guardian(connection, warning, lambda: connect_releaser(make))
+    check = JointCheck(
+        *(robot, motors, gains, note),
+        dry_run=connection.dry_run,
+        guardian=guardian,
+    )
+    return _checked(check, guardian)
+
+
+def _guardian(
+    connection: "ConnectionSettings",
+    warning: str,
+    join: "Callable[[], Callable[[], None]]",
+) -> "Guardian | None":
+    """Print a warning, and fork a guardian if the robot will move."""
+    if connection.dry_run:
+        return None
+    from ..drivers.velocity.velocity_guardian import fork_velocity_guardian
+
+    echo(f"stepaside: {warning}", err=True)
+    return fork_velocity_guardian(join, SILENCE)
+
+
+def _checked(
+    check: "MethodCheck", guardian: "Guardian | None"
+) -> "MethodCheck":
+    """Run a check, and dismiss its guardian."""
+    try:
+        check.run()
+    finally:
+        if guardian is not None:
+            guardian.dismiss()
+    return check

@@ -3,7 +3,7 @@
 import logging
 from collections.abc import Callable, Mapping
 from concurrent.futures import Future
-from math import inf, isfinite, pi
+from math import inf, isfinite
 from time import sleep
 from typing import Any
 
@@ -11,26 +11,26 @@ import numpy as np
 
 from ...core.constants import GRAVITY
 from ...core.errors import ConfigurationError
-from ...core.poses import Array
-from ...core.user_file import FAILURES, shown_briefly
 from ...perception.measurement import Sighting
 from ..cameras.robot_camera import JointRobotCamera
 from ..dead_man_switch import DeadManSwitch
 from ..guardian_process import SessionLost
 from ..method_thread import CLOSE_TIMEOUT, MethodThread, open_robot
-from ..sighting_checks import sighting_fault
 from .frame_clock import COUNTER_RANGE
 from .frames import Codec, FrameError, JointCommand, JointFrame, MotorGains
 from .joint_map import MotorTable
 from .joint_robot import JointReport, JointRobot, JointTarget
+from .report_checks import (
+    FOOT_SENSORS,
+    converted_joint_report,
+    joint_report_fault,
+    values_of,
+)
 from .safety_state_machine import RobotState
 
 POLL = 0.001  # between two calls of listen() without a new report, in [s]
 UNRELEASED = 0.5  # for release() while another method is blocked, in [s]
 OLDEST = 0.5  # age of a sighting that counts as none, in [s]
-BEYOND = 0.35  # a joint's angle may be outside its range by, in [rad]
-FASTEST = 35.0  # plausible angular velocity of a torso, in [rad/s]
-FOOT_SENSORS = 8
 log = logging.getLogger(__name__)
 
 
@@ -228,7 +228,7 @@ class AdapterLink:
         # There is no button: walking begins when the robot is ready.
         self._presses = self._state is RobotState.READY and not self._presses
         return JointFrame(
-            position=_values(report.positions, names),
+            position=values_of(report.positions, names),
             stiffness=np.ones(count),
             current=np.zeros(count),
             temperature=np.zeros(count),
@@ -245,7 +245,7 @@ class AdapterLink:
             number=float(number % COUNTER_RANGE),
             counted=True,
             lock_step=not self._robot.paced,
-            velocity=_values(report.velocities, names),
+            velocity=values_of(report.velocities, names),
             hindrance=hindrance,
         )
 
@@ -266,7 +266,7 @@ class AdapterLink:
         Raises:
             SessionLost: If it is no report, or lacks joints.
         """
-        report = _converted(got, self._name, self._motors.names)
+        report = converted_joint_report(got, self._name, self._motors.names)
         if not isfinite(report.time):
             raise SessionLost(
                 f"{self._name}: the time must be finite, got {report.time}"
@@ -291,38 +291,10 @@ class AdapterLink:
         self._reports.append((number, report))
 
     def _fault(self, report: JointReport) -> str:
-        """Return why a report is implausible; empty if it is plausible."""
-        motors = self._motors
-        position = _values(report.positions, motors.names)
-        off = np.maximum(motors.low - position, position - motors.high)
-        vectors: dict[str, Any] = {
-            "positions": position,
-            "velocities": _values(report.velocities, motors.names),
-            "gyro": report.gyro,
-            "accelerometer": report.accelerometer,
-            "tilt": report.tilt,
-        }
-        if report.foot_forces is not None:
-            vectors["foot_forces"] = report.foot_forces
-        elif self._needs_forces:
+        """Return why a report cannot be used; empty if it can."""
+        if self._needs_forces and report.foot_forces is None:
             return "foot_forces are needed by the paper's walk; use --legs"
-        for name, vector in vectors.items():
-            if not np.all(np.isfinite(vector)):
-                return f"{name} must be finite, got {shown_briefly(vector)}"
-        if off.max() > BEYOND:
-            at = int(off.argmax())
-            return (
-                f"{motors.names[at]} is at {position[at]:.2f} rad, outside "
-                f"its range [{motors.low[at]:.2f}, {motors.high[at]:.2f}] "
-                "rad: is it in degrees?"
-            )
-        if max(map(abs, report.tilt)) > pi:
-            return f"tilt is {report.tilt} rad: is it in degrees?"
-        if max(map(abs, report.gyro)) > FASTEST:
-            return f"gyro reads {list(report.gyro)} rad/s: is it in deg/s?"
-        if report.sighting is not None:
-            return sighting_fault(*report.sighting[1:3])
-        return ""
+        return joint_report_fault(report, self._motors)
 
 
 def own_gains(
@@ -365,40 +337,3 @@ def connect_releaser(make: Callable[[], JointRobot]) -> Callable[[], None]:
     methods = MethodThread(robot)
     open_robot(methods)
     return lambda: methods.run("release", CLOSE_TIMEOUT)
-
-
-def _values(by_joint: Mapping[str, float], names: tuple[str, ...]) -> Array:
-    return np.array([by_joint[name] for name in names], dtype=np.float64)
-
-
-def _converted(got: Any, name: str, joints: tuple[str, ...]) -> JointReport:
-    """Return a report of plain numbers; raise SessionLost for another."""
-    try:
-        time, positions, velocities, gyro, force, tilt, feet, seen, why = got
-        vectors = [_floats(gyro, 3), _floats(force, 3)]
-        roll, pitch = (float(value) for value in tilt)
-        if seen is not None:
-            seen = Sighting(*seen)
-        feet = None if feet is None else _floats(feet, FOOT_SENSORS)
-        report = JointReport(
-            *(float(time), dict(positions), dict(velocities)),
-            *(*vectors, (roll, pitch), feet, seen, str(why)),
-        )
-    except FAILURES as error:
-        raise SessionLost(
-            f"{name} must return a JointReport(time, positions, velocities, "
-            f"gyro, accelerometer, tilt) or None, got {shown_briefly(got)}"
-        ) from error
-    for entry in ("positions", "velocities"):
-        values = getattr(report, entry)
-        missing = [joint for joint in joints if joint not in values]
-        if missing:
-            raise SessionLost(f"{name}: {entry} lack {', '.join(missing)}")
-    return report
-
-
-def _floats(values: Any, count: int) -> tuple[float, ...]:
-    found = tuple(float(value) for value in values)
-    if len(found) != count:
-        raise ValueError(f"{count} values, got {len(found)}")
-    return found

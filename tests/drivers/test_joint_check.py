@@ -1,0 +1,285 @@
+"""Test that the check of a joint-driven robot finds each mistake."""
+
+import json
+from collections.abc import Callable, Mapping
+from math import degrees, inf, nan
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from stepaside.cli.main import main
+from stepaside.drivers.joint.frames import MotorGains
+from stepaside.drivers.joint.joint_check import JointCheck
+from stepaside.drivers.joint.joint_map import MotorTable
+from stepaside.drivers.joint.joint_robot import (
+    JointReport,
+    JointRobot,
+    JointTarget,
+)
+from stepaside.drivers.method_check import AdapterFinding
+from stepaside.perception.measurement import Sighting
+
+TICK = 0.02
+NAMES = ("hip", "knee", "ankle")
+MOTORS = MotorTable(
+    NAMES,
+    low=np.array([-1.0, 0.0, -0.5]),
+    high=np.array([1.0, 2.0, 0.5]),
+    speed=np.full(3, 5.0),
+    stall_current=np.full(3, inf),
+    legs=np.arange(3),
+    crouch={},
+    tick=TICK,
+)
+GAINS = MotorGains(np.full(3, 100.0), np.full(3, 3.0))
+LAG = 0.06  # from a target to the angle, in [s]
+Change = Callable[[JointReport], JointReport | None]
+
+
+class SteppedClock:
+    """Clock that advances where the check pauses."""
+
+    now = 100.0
+
+    def __call__(self) -> float:
+        """Time, in [s]."""
+        return self.now
+
+    def pause(self, duration: float) -> None:
+        """Wait for a time, in [s]."""
+        self.now += duration
+
+
+class HangingRobot(JointRobot):
+    """Robot in the air that follows its targets with a lag, and swings."""
+
+    tick = TICK
+
+    def __init__(self) -> None:
+        self.change: Change = lambda report: report
+        self.order: tuple[str, ...] = NAMES  # of the joints that obey
+        self.clock = SteppedClock()
+        self.time = self.commanded = self.clock()
+        self.angles = dict(zip(NAMES, (0.1, 0.4, -0.2), strict=True))
+        self.start = dict(self.angles)
+        self.targets: dict[str, float] = {}
+        self.timeout = inf
+        self.calls: list[str] = []
+
+    def listen(self) -> JointReport | None:
+        """Move on, and report."""
+        now = self.clock()
+        passed, self.time = now - self.time, now
+        if now - self.commanded > self.timeout:
+            self.targets = self.start
+        before = dict(self.angles)
+        share = passed / (LAG + passed)
+        for name, target in self.targets.items():
+            self.angles[name] += share * (target - self.angles[name])
+        rates = {
+            name: (self.angles[name] - before[name]) / max(passed, 1e-9)
+            for name in NAMES
+        }
+        lean = 0.05 * np.sin(2.0 * now), 0.05 * np.cos(2.0 * now)
+        rolling = 0.1 * np.cos(2.0 * now), -0.1 * np.sin(2.0 * now)
+        return self.change(
+            JointReport(
+                now,
+                dict(self.angles),
+                rates,
+                (*rolling, 0.0),
+                (-9.8 * lean[1], 9.8 * lean[0], 9.8),
+                lean,
+            )
+        )
+
+    def command(self, targets: Mapping[str, JointTarget]) -> None:
+        """Take the targets."""
+        self.commanded = self.clock()
+        self.calls.append("command")
+        self.targets = {
+            mine: targets[name].angle
+            for mine, name in zip(self.order, NAMES, strict=True)
+        }
+
+    def release(self) -> None:
+        """Note the call."""
+        self.calls.append("release")
+
+
+class ReleasesItself(HangingRobot):
+    """Robot that holds its targets, and denies it."""
+
+    keeps_targets = False
+
+
+def checked(
+    robot: HangingRobot, *, dry_run: bool = False
+) -> dict[str, AdapterFinding]:
+    """Check a robot, and return the findings by name."""
+    check = JointCheck(
+        *(robot, MOTORS, GAINS, lambda finding: None),
+        dry_run=dry_run,
+        clock=robot.clock,
+        pause=robot.clock.pause,
+    )
+    check.run()
+    assert check.passes == all(f.verdict != "fail" for f in check.findings)
+    return {finding.name: finding for finding in check.findings}
+
+
+def failed(found: dict[str, AdapterFinding]) -> dict[str, str]:
+    return {n: f.text for n, f in found.items() if f.verdict == "fail"}
+
+
+def test_a_correct_robot_passes_each_check() -> None:
+    robot = HangingRobot()
+    found = checked(robot)
+    assert failed(found) == {}
+    assert found["joints"].text.startswith("3 of 3 joints follow")
+    assert found["joints"].value == pytest.approx(LAG, abs=0.04)
+    assert found["gyro x"].verdict == found["gyro y"].verdict == "pass"
+    assert "holds its targets" in found["without commands"].text
+    assert robot.calls[-1] == "release"
+
+
+def test_a_dry_run_only_listens() -> None:
+    robot = HangingRobot()
+    found = checked(robot, dry_run=True)
+    assert robot.calls == []
+    assert "tilt" in found and "joints" not in found
+
+
+def negated(*fields: str) -> Change:
+    """Change of the sign of some vectors."""
+
+    def change(report: JointReport) -> JointReport:
+        for field in fields:
+            values: Any = tuple(-v for v in getattr(report, field))
+            report = report._replace(**{field: values})
+        return report
+
+    return change
+
+
+def scaled(field: str, factor: float) -> Change:
+    """Change of the unit of values by joint."""
+
+    def change(report: JointReport) -> JointReport:
+        values = getattr(report, field).items()
+        changed: Any = {name: factor * v for name, v in values}
+        return report._replace(**{field: changed})
+
+    return change
+
+
+@pytest.mark.parametrize(
+    ("change", "name", "said"),
+    [
+        (scaled("positions", degrees(1.0)), "values", "is it in degrees"),
+        (scaled("positions", nan), "values", "positions must be finite"),
+        (scaled("velocities", degrees(1.0)), "hip", "a sign or a unit"),
+        (scaled("velocities", -1.0), "knee", "a sign or a unit"),
+        (negated("accelerometer"), "accelerometer", "must read +9.8 along z"),
+        (
+            lambda r: r._replace(accelerometer=(0.0, 0.0, 1.0)),
+            "accelerometer",
+            "is it in [m/s^2]?",
+        ),
+        (lambda r: r._replace(tilt=(0.5, 0.0)), "tilt", "sign, order or unit"),
+        (negated("gyro"), "gyro x", "-1.00 times the rate of the tilt"),
+        (lambda r: None, "rate", "0 reports"),
+        (lambda r: r._replace(time=7.0), "rate", "1 reports with a new time"),
+        (lambda r: r._replace(time=1e3 * r.time), "times", "1e+03 times"),
+        (
+            lambda r: r._replace(time=r.time // 0.05),
+            "tick",
+            "one in each tick is needed",
+        ),
+        (
+            lambda r: r._replace(sighting=Sighting(r.time, 90.0, 1.0)),
+            "values",
+            "bearing of the sighting",
+        ),
+    ],
+)
+def test_a_mistake_in_reports_is_found(
+    change: Change, name: str, said: str
+) -> None:
+    robot = HangingRobot()
+    robot.change = change
+    assert said in failed(checked(robot))[name]
+
+
+def test_joints_in_the_wrong_order_are_found() -> None:
+    robot = HangingRobot()
+    robot.order = ("hip", "ankle", "knee")
+    found = failed(checked(robot))
+    assert list(found) == ["hold"]
+    assert "when it was to stay: are joints in another order" in found["hold"]
+    off = max(abs(robot.angles[name] - robot.start[name]) for name in NAMES)
+    assert off < 0.3  # it was released at once
+    assert robot.calls[-1] == "release"
+
+
+def test_joints_of_the_same_angle_in_the_wrong_order_are_found() -> None:
+    robot = HangingRobot()
+    robot.angles |= {"ankle": 0.4}
+    robot.order = ("hip", "ankle", "knee")
+    found = failed(checked(robot))
+    assert "ankle moved instead" in found["knee"]
+    assert "1 of 3 joints follow" in found["joints"]
+
+
+def test_joints_that_do_not_obey_are_found() -> None:
+    robot = HangingRobot()
+    robot.order = ()
+    robot.command = lambda targets: None  # type: ignore[method-assign]
+    assert "joints not taken" in failed(checked(robot))["hip"]
+
+
+def test_whether_the_robot_keeps_its_targets_is_compared() -> None:
+    """The safe way round is only a hint."""
+    found = failed(checked(ReleasesItself()))
+    assert "must be True" in found["without commands"]
+    cautious = HangingRobot()
+    cautious.timeout = 0.5
+    finding = checked(cautious)["without commands"]
+    assert finding.verdict == "pass" and "may be False" in finding.text
+
+
+FILE = """
+import stepaside as sa
+from stepaside.drivers.lola.nao_joints import NAO_MOTORS
+
+class Robot(sa.JointRobot):
+    tick = 0.012
+    gains = dict.fromkeys(NAO_MOTORS.names, (100.0, 5.0))
+
+    def listen(self):
+        return 3.0
+
+    def command(self, targets):
+        raise AssertionError
+
+    def release(self):
+        raise AssertionError
+"""
+
+
+def test_the_command_prints_verdicts_and_exits_with_1(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "robot.py"
+    file.write_text(FILE, encoding="utf-8")
+    words = ["play", "--robot", f"{file}:Robot", "--check", "--json"]
+    with pytest.raises(SystemExit) as left:
+        main(words)
+    assert left.value.code == 1
+    out, err = capsys.readouterr()
+    found: Any = json.loads(out)
+    assert [f["verdict"] for f in found["findings"]] == ["pass", "fail"]
+    assert "listen() of Robot must return" in found["findings"][1]["text"]
+    assert "each joint of the robot will move" in err
