@@ -110,14 +110,19 @@ def test_sensors_have_resolution_bias_noise_and_delay() -> None:
     angles = sensors.encoders(np.array([0.0149, -0.0151]))
     np.testing.assert_allclose(angles, [0.01, -0.02])
     zero = np.zeros(3)
-    readings = [sensors.imu(zero, zero)[0] for _ in range(2000)]
+    readings = [
+        sensors.readings(zero, zero, np.zeros(8))[0] for _ in range(2000)
+    ]
     bias, noise = np.mean(readings, axis=0), np.std(readings[10:], axis=0)
     assert 0.0 < np.abs(bias).max() < 0.1
     np.testing.assert_allclose(noise, 0.01, rtol=0.1)
     kick = np.array([5.0, 0.0, 0.0])
-    seen = [sensors.imu(kick * (i == 0), zero)[0][0] for i in range(3)]
+    seen = [
+        sensors.readings(kick * (i == 0), zero, np.zeros(8))[0][0]
+        for i in range(3)
+    ]
     assert seen[2] > 4.0 > max(seen[:2])
-    forces = sensors.foot_forces(np.full(8, 10.0))
+    forces = sensors.readings(zero, zero, np.full(8, 10.0))[2]
     assert np.abs(forces / 10.0 - 1.0).max() <= 0.2
     assert np.ptp(forces) > 0.1
 

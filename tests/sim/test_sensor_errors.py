@@ -7,6 +7,7 @@ import mujoco
 import numpy as np
 import pytest
 
+from stepaside.core.poses import Array
 from stepaside.core.random_streams import named_generator
 from stepaside.sim.body_settings import BodySettings
 from stepaside.sim.sensor_errors import (
@@ -23,12 +24,39 @@ def errors_of(seed: int = 1, **effects: Any) -> SensorErrors:
     return SensorErrors(BodySettings(**effects), named_generator(seed, "s"))
 
 
+def imu(
+    sensors: SensorErrors, gyro: Array, force: Array
+) -> tuple[Array, Array]:
+    """Return the readings of gyro and accelerometer."""
+    turn, specific_force, _ = sensors.readings(gyro, force, np.zeros(8))
+    return turn, specific_force
+
+
+def feet(sensors: SensorErrors, forces: Array) -> Array:
+    """Return the readings of the foot sensors."""
+    return sensors.readings(np.zeros(3), np.zeros(3), forces)[2]
+
+
+def test_noise_is_drawn_reading_by_reading() -> None:
+    """IMU first, then feet, over many blocks of draws."""
+    sensors = errors_of(gyro_noise=0.1, accelerometer_noise=0.2, force_noise=3)
+    generator = named_generator(1, "s")
+    generator.uniform(size=6)
+    generator.uniform(size=8)
+    for _ in range(300):
+        turn, force, loads = sensors.readings(TURN, FORCE, np.full(8, 50.0))
+        drawn = generator.standard_normal(14)
+        np.testing.assert_array_equal(turn, TURN + 0.1 * drawn[:3])
+        np.testing.assert_array_equal(force, FORCE + 0.2 * drawn[3:6])
+        np.testing.assert_array_equal(loads, 50.0 + 3.0 * drawn[6:])
+
+
 def test_without_errors_sensors_are_exact() -> None:
     sensors = errors_of()
     angles, forces = np.array([0.1234, -2.0]), np.arange(8.0)
     np.testing.assert_array_equal(sensors.encoders(angles), angles)
-    np.testing.assert_array_equal(sensors.foot_forces(forces), forces)
-    turn, force = sensors.imu(TURN, FORCE)
+    np.testing.assert_array_equal(feet(sensors, forces), forces)
+    turn, force = imu(sensors, TURN, FORCE)
     np.testing.assert_array_equal(turn, TURN)
     np.testing.assert_array_equal(force, FORCE)
 
@@ -46,7 +74,7 @@ def test_a_bias_is_constant_and_within_its_bound(
     for seed in range(300):
         effects: dict[str, Any] = {name: size}
         sensors = errors_of(seed, **effects)
-        first, second = sensors.imu(*truth), sensors.imu(*truth)
+        first, second = imu(sensors, *truth), imu(sensors, *truth)
         np.testing.assert_array_equal(first[which], second[which])
         np.testing.assert_array_equal(first[1 - which], truth[1 - which])
         drawn.append(first[which] - truth[which])
@@ -67,7 +95,7 @@ def test_imu_noise_has_zero_mean_and_the_set_deviation(
     effects: dict[str, Any] = {name: size}
     sensors = errors_of(**effects)
     truth = (TURN, FORCE)
-    readings = [sensors.imu(*truth) for _ in range(4000)]
+    readings = [imu(sensors, *truth) for _ in range(4000)]
     off = np.array([r[which] for r in readings]) - truth[which]
     np.testing.assert_allclose(off.std(axis=0), size, rtol=0.05)
     np.testing.assert_allclose(off.mean(axis=0), 0.0, atol=0.06 * size)
@@ -79,7 +107,7 @@ def test_imu_noise_has_zero_mean_and_the_set_deviation(
 def test_the_imu_is_delayed_by_whole_cycles(delay: int) -> None:
     sensors = errors_of(imu_delay_cycles=delay)
     for number in range(8):
-        turn, force = sensors.imu(TURN * number, FORCE * number)
+        turn, force = imu(sensors, TURN * number, FORCE * number)
         then = max(number - delay, 0)
         np.testing.assert_array_equal(turn, TURN * then)
         np.testing.assert_array_equal(force, FORCE * then)
@@ -99,15 +127,15 @@ def test_the_greatest_draws_give_the_greatest_errors() -> None:
         standard_normal=np.ones,
     )
     sensors = SensorErrors(body, generator)
-    turn, force = sensors.imu(TURN, FORCE)
+    turn, force = imu(sensors, TURN, FORCE)
     np.testing.assert_allclose(turn, TURN + 0.12)
     np.testing.assert_allclose(force, FORCE + 0.8)
-    np.testing.assert_allclose(sensors.foot_forces(np.full(8, 5.0)), 6.4)
+    np.testing.assert_allclose(feet(sensors, np.full(8, 5.0)), 6.4)
 
 
 def test_inputs_are_not_modified() -> None:
     turn, force = TURN.copy(), FORCE.copy()
-    errors_of(gyro_bias=1.0, accelerometer_bias=1.0).imu(turn, force)
+    imu(errors_of(gyro_bias=1.0, accelerometer_bias=1.0), turn, force)
     np.testing.assert_array_equal(turn, TURN)
     np.testing.assert_array_equal(force, FORCE)
 
@@ -123,10 +151,8 @@ def test_foot_sensors_have_a_constant_gain_each() -> None:
     drawn = []
     for seed in range(100):
         sensors = errors_of(seed, force_gain_error=0.2)
-        gains = sensors.foot_forces(np.ones(8))
-        np.testing.assert_allclose(
-            sensors.foot_forces(np.full(8, 7.0)), 7.0 * gains
-        )
+        gains = feet(sensors, np.ones(8))
+        np.testing.assert_allclose(feet(sensors, np.full(8, 7.0)), 7.0 * gains)
         drawn.append(gains)
     gains = np.array(drawn)
     assert 0.8 <= gains.min() < 0.81 and 1.19 < gains.max() <= 1.2
@@ -137,10 +163,10 @@ def test_foot_sensors_have_a_constant_gain_each() -> None:
 def test_foot_noise_has_the_set_deviation_and_stays_positive() -> None:
     sensors = errors_of(force_noise=0.4)
     nine = np.full(8, 9.0)
-    pressed = np.array([sensors.foot_forces(nine) for _ in range(999)])
+    pressed = np.array([feet(sensors, nine) for _ in range(999)])
     np.testing.assert_allclose(pressed.std(), 0.4, rtol=0.05)
     np.testing.assert_allclose(pressed.mean(), 9.0, atol=0.03)
-    free = np.array([sensors.foot_forces(np.zeros(8)) for _ in range(999)])
+    free = np.array([feet(sensors, np.zeros(8)) for _ in range(999)])
     assert free.min() == 0.0
     np.testing.assert_allclose((free == 0.0).mean(), 0.5, atol=0.03)
 
@@ -239,7 +265,7 @@ def test_errors_scale_with_the_robot() -> None:
     for unit in (1.0, 6.0):
         generator = named_generator(1, "s")
         sensors = SensorErrors(body, generator, force_unit=unit)
-        noises.append(sensors.foot_forces(np.full(8, 50.0)) - 50.0)
+        noises.append(feet(sensors, np.full(8, 50.0)) - 50.0)
         parts = [part("torso")]
         generator = named_generator(1, "m")
         perturb_masses(parts, body, "torso", generator, length_unit=unit)

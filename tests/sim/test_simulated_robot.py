@@ -253,13 +253,13 @@ def test_sensor_errors_use_the_generator_of_the_robot() -> None:
     body = BodySettings(**effects)
     other = SensorErrors(body, named_generator(5, "sensors/second"))
     truth, seen = plain.read(), robot.read()
-    turn, force = other.imu(truth.gyro, truth.accelerometer)
+    turn, force, loads = other.readings(
+        truth.gyro, truth.accelerometer, truth.foot_forces
+    )
     np.testing.assert_allclose(seen.gyro, turn)
     np.testing.assert_allclose(seen.accelerometer, force)
     assert np.abs(seen.accelerometer - truth.accelerometer).max() > 0.01
-    np.testing.assert_allclose(
-        seen.foot_forces, other.foot_forces(truth.foot_forces)
-    )
+    np.testing.assert_allclose(seen.foot_forces, loads)
     np.testing.assert_allclose(
         seen.joint_positions, np.round(truth.joint_positions / 0.01) * 0.01
     )

@@ -1,6 +1,7 @@
 """Errors of encoders, IMU, foot sensors and of the mass model."""
 
 from collections import deque
+from collections.abc import Iterator
 
 import mujoco
 import numpy as np
@@ -182,6 +183,9 @@ def axes_of(quaternion: list[float]) -> Array:
     )
 
 
+BLOCK = 64  # readings whose noise is drawn together
+
+
 class SensorErrors:
     """Noise, bias, resolution and delay of the sensors of one robot."""
 
@@ -200,15 +204,21 @@ class SensorErrors:
             force_unit: Weight of the robot relative to NAO's.
         """
         self._body = body
-        self._force_noise = body.force_noise * force_unit  # in [N]
         self._generator = generator
         # Of gyro, then accelerometer.
         self._imu_bias = np.repeat(
             (body.gyro_bias, body.accelerometer_bias), 3
         ) * generator.uniform(-1, 1, 6)
-        self._imu_noise = np.repeat(
-            (body.gyro_noise, body.accelerometer_noise), 3
+        self._deviations = np.repeat(
+            (
+                body.gyro_noise,
+                body.accelerometer_noise,
+                body.force_noise * force_unit,
+            ),
+            (3, 3, 8),
         )
+        # Noise of coming readings; drawn together as if one by one.
+        self._noise: Iterator[Array] = iter(())
         self._gains = 1.0 + body.force_gain_error * generator.uniform(-1, 1, 8)
         self._imu: deque[tuple[Array, Array]] = deque(
             maxlen=body.imu_delay_cycles + 1
@@ -224,19 +234,32 @@ class SensorErrors:
         steps *= step
         return steps
 
-    def imu(self, gyro: Array, force: Array) -> tuple[Array, Array]:
-        """Return noisy, delayed gyro [rad/s] and accelerometer [m/s^2]."""
+    def readings(
+        self, gyro: Array, force: Array, foot_forces: Array
+    ) -> tuple[Array, Array, Array]:
+        """Return readings of IMU and feet with their errors.
+
+        Args:
+            gyro: True angular velocity, in [rad/s]. Shape (3,).
+            force: True specific force, in [m/s^2]. Shape (3,).
+            foot_forces: True normal forces, in [N]. Shape (8,).
+
+        Returns:
+            Noisy and delayed angular velocity and specific force, and noisy
+            normal forces, at least zero.
+        """
+        noise = next(self._noise, None)
+        if noise is None:
+            drawn = self._generator.standard_normal((BLOCK, 14))
+            self._noise = iter(drawn * self._deviations)
+            noise = next(self._noise)
         readings = np.concatenate((gyro, force))
         readings += self._imu_bias
-        readings += self._imu_noise * self._generator.standard_normal(6)
+        readings += noise[:6]
         self._imu.append((readings[:3], readings[3:]))
-        return self._imu[0]
-
-    def foot_forces(self, forces: Array) -> Array:
-        """Return noisy normal forces, in [N], at least zero. Shape (8,)."""
-        noisy = forces * self._gains
-        noisy += self._force_noise * self._generator.standard_normal(8)
-        return np.maximum(noisy, 0.0, out=noisy)
+        noisy = foot_forces * self._gains
+        noisy += noise[6:]
+        return *self._imu[0], np.maximum(noisy, 0.0, out=noisy)
 
 
 def perturb_masses(

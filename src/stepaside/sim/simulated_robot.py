@@ -281,8 +281,9 @@ class SimulatedRobot:
         forces = self._sensordata.take(self._force_addresses)
         if self._errors is not None:
             angles = self._errors.encoders(angles)
-            gyro, specific_force = self._errors.imu(gyro, specific_force)
-            forces = self._errors.foot_forces(forces)
+            gyro, specific_force, forces = self._errors.readings(
+                gyro, specific_force, forces
+            )
         percepts = () if self.eyes is None else self.eyes.read(now)
         place = None if self.place is None else self.place.read()
         return Measurement(
