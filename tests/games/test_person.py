@@ -123,6 +123,8 @@ def test_a_person_without_a_solid_body_walks_through_a_robot() -> None:
     result = run_duel(standing)
     assert result.outcome.value == "completed"
     assert result.summary.min_distance_m < 0.05
+    model = Duel(standing).world.model
+    assert model.body("pursuer/trunk").geomnum[0] > 0  # sensors see it
 
 
 def test_a_robots_duel_has_no_person_in_it() -> None:

@@ -6,11 +6,14 @@ the distance and duration with which a search in the template, the point that
 stands for the legs, came closest to it::
 
     python tools/benchmarks/legs_chasers.py g1 fastsac_g1_29dof.onnx
-    python tools/benchmarks/legs_chasers.py g1 g1.onnx --sensing lidar
+    python tools/benchmarks/legs_chasers.py g1 g1.onnx --sensing lidar \
+        --like docs/results/legs-chasers.json
 
-An interrupted run continues.
+With ``--like`` the feints of an earlier result are played again. An
+interrupted run continues.
 """
 
+import json
 from dataclasses import dataclass, replace
 from functools import cache
 from math import pi, tau
@@ -59,6 +62,8 @@ class Chase:
         direction: Number of the direction that the person comes from.
         feints: Whether the person feints.
         seed: Seed of the search for a feint.
+        known: Distance [m] and duration [s] of a feint that was found
+            before; without one it is searched.
     """
 
     robot: str
@@ -68,6 +73,7 @@ class Chase:
     direction: int
     feints: bool
     seed: int
+    known: tuple[float, float] | None = None
 
     def settings(self, feint_at: float = 0.0, feint: float = 0.6) -> Any:
         """Return the duel with a feint at a distance [m] of a time [s]."""
@@ -128,7 +134,10 @@ def _base(robot: str, network: str) -> DuelSettings:
 
 def play(chase: Chase) -> dict[str, Any]:
     """Return how one chase ended."""
-    settings = chase.hardest() if chase.feints else chase.settings()
+    if chase.known is not None:
+        settings = chase.settings(*chase.known)
+    else:
+        settings = chase.hardest() if chase.feints else chase.settings()
     run = run_duel(settings)
     return {
         "turning_radius_m": chase.radius,
@@ -158,6 +167,7 @@ def main() -> None:
     parser.add_argument("network", type=Path)
     parser.add_argument("--sensing", choices=SENSING, default="ideal")
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--like", type=Path, help="earlier results")
     parser.add_argument("--workers", type=int, default=1)
     asked = parser.parse_args()
     head = header(
@@ -174,9 +184,21 @@ def main() -> None:
         modules=PHYSICS,
     )
     where = str(asked.robot), str(asked.network), asked.sensing
+    known = {}
+    if asked.like is not None:
+        earlier = json.loads(asked.like.read_text(encoding="utf-8"))
+        known = {
+            (row["turning_radius_m"], row["direction"]): (
+                row["feint_at_m"],
+                row["feint_s"],
+            )
+            for row in earlier["chases"]
+            if row["feints"]
+        }
     jobs = {
         f"{radius:g} m from {i}{', feints' if feints else ''}": Chase(
-            *where, radius, i, feints, asked.seed
+            *(*where, radius, i, feints, asked.seed),
+            known=known.get((radius, i)) if feints else None,
         )
         for feints in (False, True)
         for radius in RADII

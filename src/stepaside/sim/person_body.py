@@ -7,13 +7,16 @@ import mujoco
 from ..core.poses import Pose
 from .ground_truth import FloorTruth
 from .pedestrian_appearance import FIGURES, HIP, Colour, PedestrianModel
-from .world import FLOOR_BIT, World
+from .world import CONTACT_BITS, FLOOR_BIT, World
 
 SKIN = (0.85, 0.68, 0.56, 1.0)
 ADULT = FIGURES["adult"]
 PARTS = ("trunk", "left leg", "right leg", "left arm", "right arm")
 SHOULDER = 1.42  # height of an adult's shoulders, in [m]
 TRUNK = 0.15  # half depth of an adult's trunk, in [m]
+# The only contact type that the contact masks of robots lack. With no type at
+# all the compiler would discard the geoms as visual ones.
+UNTOUCHABLE_BIT = ~CONTACT_BITS
 REACH = 0.4  # of an adult around the trunk with arms hanging, in [m]
 
 
@@ -48,7 +51,7 @@ def add_person(
             size=[figure.size * radius, 0.0, 0.0],
             rgba=list(colour),
             group=2,
-            contype=FLOOR_BIT if solid else 0,
+            contype=FLOOR_BIT if solid else UNTOUCHABLE_BIT,
             conaffinity=0,
         )
 
