@@ -171,7 +171,7 @@ def draw_starts(
         The poses; fewer than asked for where there are few.
     """
     model, table = robot.model, robot.model.table()
-    if certified and table.outside < model.required:
+    if certified and not model.certifies(table):
         return []
     random = named_generator(count, f"starts {certified}")
     x, y, _ = table.grid.axes()
@@ -241,7 +241,7 @@ def describe(robot: MappedRobot) -> Row:
     model, table = robot.model, robot.model.table()
     x, y, _ = table.grid.axes()
     unsafe = table.standing < model.required
-    winnable = bool(table.outside >= model.required)
+    winnable = model.certifies(table)
     ahead = float(x[unsafe.any(axis=(1, 2))].max())
     aside = float(y[unsafe.any(axis=(0, 2))].max())
     return {

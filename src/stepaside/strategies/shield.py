@@ -146,7 +146,7 @@ class ShieldedStrategy:
     ) -> tuple[Intent, ShieldMemory]:
         """Return the intent, or that of a motion in its place."""
         table, required = model.table(), model.required
-        if memory.course is None or table.outside < required:
+        if memory.course is None or not model.certifies(table):
             # Unknown as yet; or contact can be forced from everywhere.
             return intent, memory._replace(held=None, guarded=False)
         poses = relative_poses(own, memory.trace[-1], memory.course, model)

@@ -1,5 +1,6 @@
 """Robot of the shield: its motions, margins and table, from its limits."""
 
+import logging
 from dataclasses import dataclass
 from functools import lru_cache
 from hashlib import sha256
@@ -20,6 +21,8 @@ from .velocity_set import STILL, BodyVelocity, VelocitySet
 
 if TYPE_CHECKING:  # the solver imports Numba
     from ..theory.shield import ShieldGame, ShieldTable
+
+LOG = logging.getLogger(__name__)
 
 CELLS = 10  # of the grid of the table in the required distance
 
@@ -210,10 +213,10 @@ class ShieldModel:
                 for most in (1.0, ON_THE_SPOT)
                 for turn in self.turn * np.array(TURNS)
             ]
-            found = np.zeros((len(steps), 3))
-            found[:, 0] = [s * sign * limits.stride for s, _ in steps]
-            found[:, 2] = [turn for _, turn in steps]
-            return found / limits.step_duration
+            driven = np.zeros((len(steps), 3))
+            driven[:, 0] = [s * sign * limits.stride for s, _ in steps]
+            driven[:, 2] = [turn for _, turn in steps]
+            return driven / limits.step_duration
         rate = min(-legs.turn[0], legs.turn[1])
         angles = tau / LEGS_DIRECTIONS * np.arange(LEGS_DIRECTIONS)
         found = [(0.0, 0.0, sign * rate) for sign in (0.0, -1.0, 1.0)]
@@ -260,6 +263,10 @@ class ShieldModel:
         """Return the table of the game, solved once and kept."""
         return _table(self)
 
+    def certifies(self, table: "ShieldTable") -> bool:
+        """Return whether any state is certified by a table of the model."""
+        return table.outside >= self.required
+
 
 def _symmetric(legs: VelocitySet) -> VelocitySet:
     """Return the velocities that both sides deliver."""
@@ -269,6 +276,20 @@ def _symmetric(legs: VelocitySet) -> VelocitySet:
 
 @lru_cache(maxsize=8)
 def _table(model: ShieldModel) -> "ShieldTable":
+    """Return the table of a model; warn if it certifies nothing."""
+    table = _load_table(model)
+    if not model.certifies(table):
+        person = model.settings
+        LOG.warning(
+            "shield: no state is certified against a person at %g m/s with a "
+            "turning radius of %g m, contact at %g m; the shield changes "
+            "nothing",
+            person.speed, person.turning_radius, person.contact,
+        )  # fmt: skip
+    return table
+
+
+def _load_table(model: ShieldModel) -> "ShieldTable":
     """Load a table from the cache of compiled code, or solve the game."""
     from ..theory.shield import PoseGrid, ShieldTable, solve_shield
 
