@@ -151,8 +151,8 @@ class ShieldedStrategy:
             return intent, memory._replace(held=None, guarded=False)
         poses = relative_poses(own, memory.trace[-1], memory.course, model)
         moving = knowledge.moving
-        follow = table.outcomes if moving else table.start_outcomes
         if intent.walks:
+            follow = table.outcomes if moving else table.start_outcomes
             motion, duration = model.motion_of(intent)
             value = float(follow(poses, motion[None], duration)[0])
         elif moving:
@@ -170,7 +170,9 @@ class ShieldedStrategy:
         if held is not None and held.until == inf:
             held = None  # it has not started
         if held is None or now > held.until - 1e-6:
-            found = follow(poses, table.game.motions, model.period)
+            found = table.best_starts(poses)
+            if moving:
+                found = table.outcomes(poses, table.game.motions, model.period)
             worth = np.minimum(found, table.outside)
             keeps = held is not None and found[held.number] >= required
             if held is not None and (keeps or found.max() < required):

@@ -34,7 +34,7 @@ SWAY = 0.03  # of a body on the paper's legs, in [m]
 UNMEASURED = 0.2  # tube of legs beyond their lag, if not measured, in [m]
 CELLS_PER_PERIOD = 6  # passed by the opponent while a motion is held
 TURNS = (-1.0, -0.5, 0.0, 0.5, 1.0)  # of a unicycle's step, of the largest
-FORMAT = 2  # of the files
+FORMAT = 3  # of the files
 
 
 class Motion(NamedTuple):
@@ -303,8 +303,9 @@ def _load_table(model: ShieldModel) -> "ShieldTable":
             i, j, k = saved["values"].shape
             return ShieldTable(
                 game, PoseGrid(left, spacing, (i, j, k)), saved["values"],
-                saved["eroded"], saved["standing"], outside,
-                model.response, LEGS_INTERVAL, seconds,
+                saved["eroded"], saved["standing"],
+                saved["starts"].astype(float), outside, model.response,
+                seconds,
             )  # fmt: skip
     except (OSError, ValueError, KeyError, EOFError):
         pass
@@ -323,6 +324,7 @@ def _load_table(model: ShieldModel) -> "ShieldTable":
             np.savez_compressed(
                 out, numbers=numbers, values=table.values,
                 eroded=table.eroded, standing=table.standing,
+                starts=table.starts.astype(np.float32),
             )  # fmt: skip
     except OSError:  # the cache only saves time
         pass

@@ -141,23 +141,23 @@ def solve_shield(
         stands = response + wait
         grid = _cover(game, least, scale * stands, scale, cells, headings)
         v = eroded = standing = np.zeros(grid.shape)
-        outside = 0.0
+        starts, outside = np.zeros((0, *grid.shape)), 0.0
         if hopeless:
             break
         layer = _layer(game, stands, grid)
         found, lowest, outside = _converge_shield(game, grid, least, layer)
         if outside >= least:
-            starts = _standing(
+            stood, starts = _standing(
                 game, grid, found, lowest, outside, response, wait
             )
             most = game.person.speed * wait
-            if _edge(starts, most, grid) >= least:
-                v, eroded, standing = found, lowest, starts
+            if _edge(stood, most, grid) >= least:
+                v, eroded, standing = found, lowest, stood
                 break
             outside = 0.0
         scale *= GROWTH
     return ShieldTable(
-        game, grid, v, eroded, standing, outside, response, wait,
+        game, grid, v, eroded, standing, starts, outside, response,
         perf_counter() - begin,
     )  # fmt: skip
 
@@ -280,14 +280,15 @@ def _standing(
     outside: float,
     response: float,
     wait: float,
-) -> Array:
-    """Return the value of a robot that stands for a wait, and then starts.
+) -> tuple[Array, Array]:
+    """Return the value of a robot that stands for a wait, and of its starts.
 
     It commits to its first motion when it starts; the motion begins after
-    any part of the response, of which none, half and all are tried.
+    any part of the response, of which none, half and all are tried. Starts
+    without a response are motions, and are left out.
     """
     still = sub_poses([(0.0, 0.0, 0.0)], 1.0)
-    most, best = float(v.max()), np.zeros(grid.shape)
+    most, best, starts = float(v.max()), np.zeros(grid.shape), []
     near = _near(
         (v < most).any(axis=2),
         ceil(_layer(game, response + wait, grid) / grid.spacing) + 2,
@@ -317,4 +318,7 @@ def _standing(
             after = stand(after, response / SEGMENTS)
             least = np.minimum(least, after)
         best = np.maximum(best, least)
-    return stand(best, wait, game.jump)
+        if response > 0.0:
+            starts.append(least)
+    kept = np.array(starts).reshape(-1, *grid.shape)
+    return stand(best, wait, game.jump), kept

@@ -24,10 +24,12 @@ class ShieldTable:
         eroded: Least value within the disturbance, likewise.
         standing: Guaranteed distance of a robot that stands for the wait, and
             then starts, likewise.
+        starts: Guaranteed distance of a robot that starts with each motion of
+            the game, likewise; empty without a response. Shape
+            ``(n, *grid.shape)``.
         outside: Guaranteed distance of every state outside the grid, in [m].
         response: Longest time from the decision of a standing robot until its
             motion begins, in [s].
-        wait: Time until a standing robot decides again, in [s].
         seconds: Computing time, in [s].
     """
 
@@ -36,9 +38,9 @@ class ShieldTable:
     values: Array
     eroded: Array
     standing: Array
+    starts: Array
     outside: float
     response: float
-    wait: float
     seconds: float
 
     __repr__ = brief_repr
@@ -76,13 +78,28 @@ class ShieldTable:
         later, least = self._stood(poses, duration)
         return min(least, float(self.standing_value(later).min()))
 
+    def best_starts(self, poses: ArrayLike) -> Array:
+        """Return the guaranteed distance of starts with each motion.
+
+        Args:
+            poses: As in :meth:`halting_value`.
+
+        Returns:
+            Distances, in [m]. Shape (n,) for n motions of the game.
+        """
+        if not len(self.starts):
+            return self.outcomes(poses, self.game.motions, self.game.period)
+        found = [self._look_up(start, poses).min() for start in self.starts]
+        return np.array(found)
+
     def start_outcomes(
         self, poses: ArrayLike, motions: Array, duration: float
     ) -> Array:
         """Return the distance that remains guaranteed after a start.
 
         The motion begins after any part of the response, of which none, half
-        and all are tried.
+        and all are tried. The loss meanwhile is taken from distances on the
+        way.
 
         Args:
             poses: As in :meth:`outcomes`.
