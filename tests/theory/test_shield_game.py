@@ -67,6 +67,31 @@ def test_value_is_at_most_the_distance_and_mirrored() -> None:
     )
 
 
+def test_mirrored_starts_are_worth_the_same() -> None:
+    """A start to the left, past a person on the right, is not one to it."""
+    table, random = solved(0.75), np.random.default_rng(4)
+    motions = table.game.motions
+    mirror = [
+        int(np.abs(motions - motion * [1.0, -1.0, -1.0]).sum((1, 2)).argmin())
+        for motion in motions
+    ]
+    for pose in random.uniform([0.1, -0.3, -pi], [0.4, 0.3, pi], (50, 3)):
+        found = table.best_starts(pose)
+        other = table.best_starts(pose * [1.0, -1.0, -1.0])
+        np.testing.assert_allclose(found, other[mirror], atol=1e-9)
+        # The motion alone is at least as good, up to interpolation.
+        cell = table.grid.spacing
+        assert (found <= table.outcomes(pose, motions, PERIOD) + cell).all()
+
+
+def test_standing_robot_can_start_as_well_as_its_value_says() -> None:
+    table, random = solved(0.75), np.random.default_rng(6)
+    poses = random.uniform([-0.3, -0.4, -pi], [0.9, 0.4, pi], (200, 3))
+    best = [table.best_starts(pose).max() for pose in poses]
+    short = table.standing_value(poses) - best
+    assert short.max() < 0.5 * table.grid.spacing
+
+
 def test_standing_first_is_never_better() -> None:
     table = solved(0.75)
     assert (table.standing <= table.values + 1e-12).all()

@@ -4,7 +4,7 @@ from math import ceil, cos, pi, sqrt
 
 import numpy as np
 
-from .shield_game import Array, PoseGrid
+from .shield_game import Array, PoseGrid, mirrored
 
 
 def eroded_values(v: Array, grid: PoseGrid, loss: float) -> Array:
@@ -24,9 +24,9 @@ def eroded_values(v: Array, grid: PoseGrid, loss: float) -> Array:
     for _ in range(times if loss > 0.0 else 0):
         # One more node on every side: mirrored at y = 0, else kept.
         around = np.pad(found, ((1, 1), (1, 1), (0, 0)), mode="edge")
-        mirrored = -np.arange(grid.shape[2]) % grid.shape[2]
-        around[1:-1, 0] = found[:, 1, mirrored]
-        around[0, 0], around[-1, 0] = around[1, 0], around[-2, 0]
+        if grid.right == 0.0:
+            around[1:-1, 0] = mirrored(found[:, 1:2])[:, 0]
+            around[0, 0], around[-1, 0] = around[1, 0], around[-2, 0]
         least = found
         for di in (-1, 0, 1):
             for dj in (-1, 0, 1):

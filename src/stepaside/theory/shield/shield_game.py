@@ -144,22 +144,42 @@ class ShieldGame:
 
 
 class PoseGrid(NamedTuple):
-    """Grid over half the poses of a robot in the frame of a person.
+    """Grid over the poses of a robot in the frame of a person.
 
     Attributes:
-        left: x of the first node, in [m]; y begins at 0.
+        left: x of the first node, in [m].
         spacing: Spacing of positions, in [m].
-        shape: Nodes along x, y >= 0 and the heading.
+        shape: Nodes along x, y and the heading.
+        right: y of the first node, in [m]; from 0 on the values of the other
+            half are those of the mirror image.
     """
 
     left: float
     spacing: float
     shape: tuple[int, int, int]
+    right: float = 0.0
+
+    def whole(self) -> "PoseGrid":
+        """Return the grid of both halves."""
+        i, j, k = self.shape
+        right = -self.spacing * (j - 1)
+        return PoseGrid(self.left, self.spacing, (i, 2 * j - 1, k), right)
 
     def axes(self) -> tuple[Array, Array, Array]:
         """Return the coordinates of the nodes, in [m], [m] and [rad]."""
         i, j, k = (np.arange(n, dtype=np.float64) for n in self.shape)
         x: Array = self.left + self.spacing * i
-        y: Array = self.spacing * j
+        y: Array = self.right + self.spacing * j
         theta: Array = tau / self.shape[2] * k
         return x, y, theta
+
+
+def mirrored(values: Array) -> Array:
+    """Return the values of mirrored poses, at nodes of a whole grid."""
+    headings = -np.arange(values.shape[2]) % values.shape[2]
+    return values[:, ::-1, headings]
+
+
+def whole_values(values: Array) -> Array:
+    """Return the values at the nodes of both halves of a grid."""
+    return np.concatenate([mirrored(values)[:, :-1], values], axis=1)

@@ -12,13 +12,15 @@ def look_up(
     v: Any, x: float, y: float, theta: float, grid: PoseGrid, outside: float
 ) -> float:
     """Interpolate linearly between the nodes of a cell."""
-    if y < 0.0:
+    if y < 0.0 and grid.right == 0.0:
         y, theta = -y, -theta
     u = (x - grid.left) / grid.spacing
-    w = y / grid.spacing
+    w = (y - grid.right) / grid.spacing
     count = grid.shape[2]
     a = (theta / tau * count) % count
-    if u < 0.0 or u >= grid.shape[0] - 1 or w >= grid.shape[1] - 1:
+    if u < 0.0 or u >= grid.shape[0] - 1:
+        return outside
+    if w < 0.0 or w >= grid.shape[1] - 1:
         return outside
     i, j, k = int(u), int(w), int(a) % count
     s, t, r = u - i, w - j, a - int(a)

@@ -12,6 +12,7 @@ just lowered. Outside the grid the value is just above the required one, if
 it is in a layer along the edges that no single motion can jump over.
 """
 
+from dataclasses import dataclass
 from math import ceil, inf, pi, sqrt, tau
 from time import perf_counter
 from typing import Any
@@ -28,7 +29,9 @@ from .shield_game import (
     Array,
     PoseGrid,
     ShieldGame,
+    mirrored,
     sub_poses,
+    whole_values,
 )
 from .shield_outcomes import worst_walk
 from .shield_table import ShieldTable
@@ -73,7 +76,7 @@ def relax_shield(
     for i in range(grid.shape[0]):
         x = grid.left + grid.spacing * i
         for j in range(grid.shape[1]):
-            y = grid.spacing * j
+            y = grid.right + grid.spacing * j
             if not active[i, j]:
                 continue
             active[i, j] = False
@@ -141,14 +144,14 @@ def solve_shield(
         stands = response + wait
         grid = _cover(game, least, scale * stands, scale, cells, headings)
         v = eroded = standing = np.zeros(grid.shape)
-        starts, outside = np.zeros((0, *grid.shape)), 0.0
+        starts, outside = np.zeros((0, *grid.whole().shape)), 0.0
         if hopeless:
             break
         layer = _layer(game, stands, grid)
         found, lowest, outside = _converge_shield(game, grid, least, layer)
         if outside >= least:
             stood, starts = _standing(
-                game, grid, found, lowest, outside, response, wait
+                game, grid, lowest, outside, response, wait
             )
             most = game.person.speed * wait
             if _edge(stood, most, grid) >= least:
@@ -272,10 +275,76 @@ def _near(marked: Any, width: int) -> Any:
     return np.ascontiguousarray(marked)
 
 
+@dataclass(frozen=True, slots=True)
+class _Backup:
+    """Values of the begin of motions from those of their end.
+
+    Attributes:
+        game: Person, motions and disturbance.
+        outside: Value outside the grid.
+        most: Cut-off of the values, in [m].
+        reach: Nodes beyond those below it that can come to be below it.
+    """
+
+    game: ShieldGame
+    outside: float
+    most: float
+    reach: int
+
+    def before(
+        self, values: Array, motions: Array, duration: float, grid: PoseGrid
+    ) -> Array:
+        """Return the values of the begin of the best motion."""
+        found = np.full(grid.shape, self.most)
+        guesses = np.zeros((*grid.shape, 2), dtype=np.int64)
+        near = _near((values < self.most).any(axis=2), self.reach)
+        walks, sag = self.game.person.walks(duration), self.game.sag(duration)
+        relax_shield(
+            found, values, guesses, near, motions, walks, sag, grid,
+            self.outside,
+        )  # fmt: skip
+        return found
+
+    def stand(
+        self,
+        values: Array,
+        duration: float,
+        grid: PoseGrid,
+        jump: float = 0.0,
+    ) -> Array:
+        """Return the values of a robot that stands for a while."""
+        if duration == 0.0:
+            return values
+        loss = self.game.loss_in(duration) + jump
+        still = sub_poses([(0.0, 0.0, 0.0)], 1.0)
+        eroded = eroded_values(values, grid, loss)
+        return self.before(eroded, still, duration, grid)
+
+    def starts(self, eroded: Array, response: float, whole: PoseGrid) -> Array:
+        """Return the values of starts with each motion, on a whole grid.
+
+        A motion begins after any part of the response, of which none, half
+        and all are tried.
+        """
+        game, found = self.game, list[Array]()
+        ends = whole_values(eroded)
+        for number, motion in enumerate(game.motions):
+            mirror = motion * [1.0, -1.0, -1.0]
+            twins = np.abs(game.motions[:number] - mirror).max(axis=(1, 2))
+            if (twins < 1e-9).any():
+                found.append(mirrored(found[int(np.argmin(twins))]))
+                continue
+            least = after = self.before(ends, motion[None], game.period, whole)
+            for _ in range(SEGMENTS):
+                after = self.stand(after, response / SEGMENTS, whole)
+                least = np.minimum(least, after)
+            found.append(least)
+        return np.array(found)
+
+
 def _standing(
     game: ShieldGame,
     grid: PoseGrid,
-    v: Array,
     eroded: Array,
     outside: float,
     response: float,
@@ -283,42 +352,17 @@ def _standing(
 ) -> tuple[Array, Array]:
     """Return the value of a robot that stands for a wait, and of its starts.
 
-    It commits to its first motion when it starts; the motion begins after
-    any part of the response, of which none, half and all are tried. Starts
-    without a response are motions, and are left out.
+    It commits to its first motion when it starts. Starts without a response
+    are motions, and are left out.
     """
-    still = sub_poses([(0.0, 0.0, 0.0)], 1.0)
-    most, best, starts = float(v.max()), np.zeros(grid.shape), []
-    near = _near(
-        (v < most).any(axis=2),
-        ceil(_layer(game, response + wait, grid) / grid.spacing) + 2,
-    )
-
-    def back(values: Array, motions: Array, duration: float) -> Array:
-        """Return values of the begin of a motion from those of its end."""
-        found = np.full(grid.shape, most)
-        guesses = np.zeros((*grid.shape, 2), dtype=np.int64)
-        relax_shield(
-            found, values, guesses, near.copy(), motions,
-            game.person.walks(duration), game.sag(duration), grid, outside,
-        )  # fmt: skip
-        return found
-
-    def stand(values: Array, duration: float, jump: float = 0.0) -> Array:
-        """Return values of a robot that stands for a while."""
-        if duration == 0.0:
-            return values
-        loss = game.loss_in(duration) + jump
-        return back(eroded_values(values, grid, loss), still, duration)
-
-    for motion in game.motions:
-        after = back(eroded, motion[None], game.period)
-        least = after
-        for _ in range(SEGMENTS):
-            after = stand(after, response / SEGMENTS)
-            least = np.minimum(least, after)
-        best = np.maximum(best, least)
-        if response > 0.0:
-            starts.append(least)
-    kept = np.array(starts).reshape(-1, *grid.shape)
-    return stand(best, wait, game.jump), kept
+    reach = ceil(_layer(game, response + wait, grid) / grid.spacing) + 2
+    backup = _Backup(game, outside, float(eroded.max()), reach)
+    whole = grid.whole()
+    starts = np.zeros((0, *whole.shape))
+    if response == 0.0:
+        best = backup.before(eroded, game.motions, game.period, grid)
+    else:
+        starts = backup.starts(eroded, response, whole)
+        best = starts.max(axis=0)[:, grid.shape[1] - 1 :]
+    best = np.ascontiguousarray(best)
+    return backup.stand(best, wait, grid, game.jump), starts

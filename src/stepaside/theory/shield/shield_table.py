@@ -25,8 +25,8 @@ class ShieldTable:
         standing: Guaranteed distance of a robot that stands for the wait, and
             then starts, likewise.
         starts: Guaranteed distance of a robot that starts with each motion of
-            the game, likewise; empty without a response. Shape
-            ``(n, *grid.shape)``.
+            the game, at the nodes of the whole grid; empty without a
+            response. Shape ``(n, *grid.whole().shape)``.
         outside: Guaranteed distance of every state outside the grid, in [m].
         response: Longest time from the decision of a standing robot until its
             motion begins, in [s].
@@ -89,8 +89,10 @@ class ShieldTable:
         """
         if not len(self.starts):
             return self.outcomes(poses, self.game.motions, self.game.period)
-        found = [self._look_up(start, poses).min() for start in self.starts]
-        return np.array(found)
+        grid = self.grid.whole()
+        return np.array(
+            [self._look_up(each, poses, grid).min() for each in self.starts]
+        )
 
     def start_outcomes(
         self, poses: ArrayLike, motions: Array, duration: float
@@ -190,8 +192,10 @@ class ShieldTable:
         )
         return found
 
-    def _look_up(self, table: Array, poses: ArrayLike) -> Array:
+    def _look_up(
+        self, table: Array, poses: ArrayLike, grid: PoseGrid | None = None
+    ) -> Array:
         states = np.atleast_2d(np.asarray(poses, dtype=np.float64))
         out = np.empty(len(states))
-        look_up_all(table, states, self.grid, self.outside, out)
+        look_up_all(table, states, grid or self.grid, self.outside, out)
         return out

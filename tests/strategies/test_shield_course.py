@@ -1,0 +1,70 @@
+"""Test the heading that a shield reckons with."""
+
+from math import cos, pi, sin
+
+import numpy as np
+import pytest
+
+from stepaside.core.poses import wrap_angle
+from stepaside.strategies.shield_course import (
+    Course,
+    Trace,
+    observed_course,
+)
+
+WINDOW, TURN, SPEED = 0.5, 0.2, 1.0  # [s], [rad/s] and [m/s]
+KNOWN = TURN * WINDOW
+
+
+def observe(before: Course | None, trace: Trace) -> Course | None:
+    """Return the heading after the last of exact sightings."""
+    return observed_course(before, trace, WINDOW, (TURN, 0.0), KNOWN)
+
+
+def test_heading_is_unknown_until_a_window_has_passed() -> None:
+    assert observe(None, ((0.0, 0.0, 0.0), (0.4, 0.4, 0.0))) is None
+    course = observe(None, ((0.0, 0.0, 0.0), (0.5, 0.0, 0.5)))
+    assert course is not None
+    assert course.heading == pytest.approx(0.5 * pi)
+    assert course.headings(KNOWN) == [course.heading]
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_observed_heading_turns_as_a_person_and_stays_near_it(
+    seed: int,
+) -> None:
+    """The lemma of docs/shield.md, for people who change pace and turn."""
+    random, parts = np.random.default_rng(seed), 50
+    x = y = theta = time = 0.0
+    course: Course | None = None
+    trace: Trace = ((0.0, 0.0, 0.0),)
+    for _ in range(60):
+        pace, rate = random.choice([0.05, 0.3, 1.0]), random.choice([-1, 0, 1])
+        for _ in range(parts):
+            tick = WINDOW / parts
+            theta += TURN * rate * tick
+            x += SPEED * pace * cos(theta) * tick
+            y += SPEED * pace * sin(theta) * tick
+            if random.random() < 0.02:
+                pace, rate = random.random(), random.choice([-1, 1])
+        time += WINDOW
+        trace = (*trace[-3:], (time, x, y))
+        before, course = course, observe(course, trace)
+        assert course is not None and course.error == pytest.approx(KNOWN)
+        assert abs(wrap_angle(course.heading - theta)) <= KNOWN + 1e-9
+        if before is not None:
+            moved = abs(wrap_angle(course.heading - before.heading))
+            assert moved <= TURN * WINDOW + 1e-9
+
+
+def test_heading_of_a_person_who_stands_is_less_and_less_known() -> None:
+    trace: Trace = ((0.0, 0.0, 0.0), (0.5, 0.5, 0.0))
+    course = observe(None, trace)
+    for i in range(2, 20):
+        trace = (*trace[-3:], (0.5 * i, 0.5, 0.0))
+        course = observe(course, trace)
+    assert course is not None and course.error > 10.0 * KNOWN
+    headings = course.headings(KNOWN)
+    assert len(headings) > 3
+    assert headings[0] == pytest.approx(course.heading - course.error)
+    assert headings[-1] == pytest.approx(course.heading + course.error)
