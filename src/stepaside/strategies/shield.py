@@ -173,9 +173,8 @@ class ShieldedStrategy:
             found = table.best_starts(poses)
             if moving:
                 found = table.outcomes(poses, table.game.motions, model.period)
-            worth = np.minimum(found, table.outside)
-            keeps = held is not None and found[held.number] >= required
-            if held is not None and (keeps or found.max() < required):
+            worth, hopeless = found.copy(), found.max() < required
+            if held and (hopeless or found[held.number] >= required):
                 worth[held.number] += KEEPING
             best = int(np.argmax(worth))
             guarded = bool(found[best] >= required)
