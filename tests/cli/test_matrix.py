@@ -326,14 +326,14 @@ def test_live_duel_is_stepped_pushed_and_drawn(
             if walk is not None and walk.solved is not None:
                 solved.add(player.name)
 
-    observe_ticks(session.duel, look)
+    observe_ticks(session.match, look)
     stepped(session, PUSHED)
     assert session.outcome is None
     passed = case.duration + PUSHED
-    assert session.duel.world.time == pytest.approx(passed, abs=0.012)
+    assert session.match.world.time == pytest.approx(passed, abs=0.012)
     # The plan itself is the answer until a push throws a robot off it.
     assert solved == (set(case.walkers) if case.method == "mpc" else set())
-    for player in session.duel.players:
+    for player in session.match.players:
         seen = player.snapshot()
         if not isinstance(player, SimulatedPlayer):
             assert seen.walk is None
@@ -365,4 +365,4 @@ def test_live_duel_is_stepped_pushed_and_drawn(
     for label, report in frames.items():
         size = (120, 160, 3) if "colour" in label else (180, 240, 3)
         assert picture(report).shape == size
-    assert len(session.duel.recorder.times) > 20
+    assert len(session.match.recorder.times) > 20

@@ -201,7 +201,8 @@ def test_every_player_is_in_the_layers_of_a_replay(count: int) -> None:
             NAMES[:count]
         )
     assert len(drawn["pushes", NAMES[count - 1]]) == 3
-    assert (("line of sight", "both") in drawn) is (count > 1)
+    sight = "line of sight", "-".join(NAMES[:2])
+    assert (sight in drawn) is (count > 1)
 
 
 def test_an_arrow_ends_where_the_push_was_applied() -> None:

@@ -128,7 +128,7 @@ def test_a_live_duel_ends_and_can_be_restarted() -> None:
         session.change(lambda duel: done.set())
         assert done.wait(LONG) and session.error is None
         assert session.outcome is Outcome.UNREACHABLE
-        ended = session.duel.world.time
+        ended = session.match.world.time
         assert ended < 2.0
         session.reset(replace(settings_of("robot"), gait=GaitSettings()))
         assert session.outcome is None

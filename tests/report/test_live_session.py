@@ -66,7 +66,7 @@ def loop_thread(session: LiveSession) -> Thread:
 
 def run_until(session: LiveSession, time: float) -> None:
     """Let time pass up to a tick, and stop there."""
-    reached, duel = Event(), session.duel
+    reached, duel = Event(), session.match
     tick = duel.world.physics.tick
 
     def look(duel: Duel) -> None:
@@ -83,36 +83,36 @@ def run_until(session: LiveSession, time: float) -> None:
 
 def walker(session: LiveSession, number: int = 0) -> SimulatedPlayer:
     """Player who is a robot."""
-    player = session.duel.players[number]
+    player = session.match.players[number]
     assert isinstance(player, SimulatedPlayer)
     return player
 
 
 def test_time_passes_only_while_it_runs(session: LiveSession) -> None:
     settle(session, rounds=5)
-    assert session.duel.world.time == 0.0
+    assert session.match.world.time == 0.0
     run_until(session, 1.0)
-    assert session.duel.world.time == pytest.approx(1.0)
+    assert session.match.world.time == pytest.approx(1.0)
     settle(session, rounds=5)
-    assert session.duel.world.time == pytest.approx(1.0)
+    assert session.match.world.time == pytest.approx(1.0)
 
 
 def test_a_pause_from_outside_holds_at_once(session: LiveSession) -> None:
     ticked = Event()
-    observe_ticks(session.duel, lambda duel: ticked.set())
+    observe_ticks(session.match, lambda duel: ticked.set())
     session.running = True
     assert ticked.wait(LONG)
     session.running = False
     settle(session)
-    stopped = session.duel.world.time
+    stopped = session.match.world.time
     settle(session, rounds=5)
-    assert session.duel.world.time == stopped > 0.0
+    assert session.match.world.time == stopped > 0.0
 
 
 def test_a_step_is_as_long_as_asked(session: LiveSession) -> None:
     session.step(0.1)
     settle(session, rounds=3)
-    assert session.duel.world.time == pytest.approx(0.1)
+    assert session.match.world.time == pytest.approx(0.1)
 
 
 class Clock:
@@ -156,10 +156,10 @@ def time_for(
         times.append(clock.now)
         clock.now += cost(duel.world.time)
 
-    observe_ticks(made.duel, pay)
+    observe_ticks(made.match, pay)
     run_until(made, 1.5)
     made.close()
-    assert made.duel.world.time == pytest.approx(1.5)
+    assert made.match.world.time == pytest.approx(1.5)
     return times[-1] - times[0], made
 
 
@@ -197,8 +197,8 @@ def test_a_push_changes_the_run() -> None:
         def record_command(duel: Duel, way: list[float] = way) -> None:
             way.append(float(duel.players[0].truth.position_com_in_world[1]))
 
-        observe_ticks(made.duel, record_command)
-        made.push(0, impulse, pi / 2)
+        observe_ticks(made.match, record_command)
+        made.push("pursuer", impulse, pi / 2)
         run_until(made, 1.0)
         made.close()
         ways.append(way[:200])
@@ -211,17 +211,17 @@ def test_nonsense_is_refused_and_the_duel_goes_on(
     session: LiveSession,
 ) -> None:
     with pytest.raises(ConfigurationError, match="push impulse"):
-        session.push(0, -1.0, 0.0)
-    before = session.duel
+        session.push("pursuer", -1.0, 0.0)
+    before = session.match
     with pytest.raises(ConfigurationError, match="distance"):
         session.reset(DuelSettings(start=StartSettings(distance=0.1)))
-    assert session.duel is before
+    assert session.match is before
 
 
 def test_a_reset_begins_again(session: LiveSession) -> None:
     run_until(session, 0.5)
     session.reset()
-    assert session.duel.world.time == 0.0
+    assert session.match.world.time == 0.0
     assert not session.trail.history and not session.trail.steps
 
 
@@ -232,7 +232,7 @@ def test_a_duel_is_let_go_by_the_thread_that_drew_for_it() -> None:
     closed: list[tuple[Duel, Thread]] = []
 
     def watch() -> Duel:
-        duel = made.duel
+        duel = made.match
         duel.close = lambda: closed.append(  # type: ignore[method-assign]
             (duel, current_thread())
         )
@@ -320,7 +320,7 @@ def test_of_a_live_duel_the_first_minutes_are_kept(
     """Histories are bounded."""
     monkeypatch.setattr(saving, "MAX_RECORDED", 1.0)
     run_until(session, 2.0)
-    duel = session.duel
+    duel = session.match
     assert duel.world.time >= 2.0
     np.testing.assert_allclose(duel.recorder.times, 0.02 * np.arange(51))
     assert all(len(t.com) == 51 for t in duel.recorder.tracks().values())
@@ -334,7 +334,7 @@ def test_what_was_played_is_saved_with_pushes_and_commands(
     with pytest.raises(StepAsideError, match="nothing has been recorded"):
         session.save(kept)
     run_until(session, 0.6)
-    session.push(1, 0.2, 0.0)
+    session.push("evader", 0.2, 0.0)
     session.record_command(turn=1.0, going=True)
     run_until(session, 1.2)
     folder = session.save(kept)

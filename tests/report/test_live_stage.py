@@ -37,7 +37,7 @@ def play(page: Page, seconds: float) -> None:
 
 def position(page: Page, body: str) -> Any:
     """Return where the scene shows a body."""
-    number = page.session.duel.world.model.body(body).id
+    number = page.session.match.world.model.body(body).id
     items: Any = page.server.scene
     return np.array(items.items[f"/bodies/{number}"].position)
 

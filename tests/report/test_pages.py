@@ -92,14 +92,14 @@ def test_a_live_duel_can_be_watched_pushed_and_driven(browser: Any) -> None:
         if duel.world.time > 1.0:
             session.speed = SLOW
 
-    slowing = observe_ticks(session.duel, slow_down)
-    pursuer = session.duel.players[0]
+    slowing = observe_ticks(session.match, slow_down)
+    pursuer = session.match.players[0]
     assert isinstance(pursuer, SimulatedPlayer)
     try:
         page = open_page(browser)
         page.goto(f"http://127.0.0.1:{live.server.get_port()}")
         page.get_by_text("standing").first.wait_for()
-        assert session.duel.world.time == 0.0
+        assert session.match.world.time == 0.0
 
         press(page, "Start")
         page.get_by_text("the pursuer approaches").first.wait_for()
@@ -109,15 +109,15 @@ def test_a_live_duel_can_be_watched_pushed_and_driven(browser: Any) -> None:
         press(page, "Pause")
         until(page, lambda: not session.running)
         settle(page, session)
-        stopped = session.duel.world.time
+        stopped = session.match.world.time
         assert 1.0 < stopped < 5.0
         settle(page, session)
-        assert session.duel.world.time == stopped
+        assert session.match.world.time == stopped
 
         press(page, "Push")
         page.get_by_text("pushed the pursuer left").wait_for()
         until(page, lambda: pursuer.robot.pusher is not None)
-        stop_observing(session.duel, slowing)
+        stop_observing(session.match, slowing)
         session.speed = 1.0
         press(page, "Start")
         pusher = pursuer.robot.pusher
@@ -167,7 +167,7 @@ def test_a_robot_is_pulled_with_the_pointer_and_driven_by_hand(
     live = Page(DuelSettings(), host="127.0.0.1", port=8771)
     live.start()
     session = live.session
-    pursuer = session.duel.players[0]
+    pursuer = session.match.players[0]
     assert isinstance(pursuer, SimulatedPlayer)
     try:
         page = open_page(browser, width=900, has_touch=True)
@@ -186,7 +186,7 @@ def test_a_robot_is_pulled_with_the_pointer_and_driven_by_hand(
             pointer meets is where it was drawn last.
             """
             with looking(page):
-                for camera in ("top", "evader's view"):
+                for camera in ("top", "player's view"):
                     press(page, camera)
                     page.wait_for_timeout(50)
                 page.evaluate(FRAMES)

@@ -40,18 +40,18 @@ def stepped(session: LiveSession, duration: float) -> None:
 
 
 def test_a_person_walks_on_in_a_step(session: LiveSession) -> None:
-    person, evader = session.duel.players
+    person, evader = session.match.players
     assert isinstance(person, FloorPlayer) and isinstance(
         evader, SimulatedPlayer
     )
     began = np.array(person.truth.position_torso_in_world)
     stepped(session, 1.0)
-    assert session.duel.world.time == pytest.approx(1.0)
+    assert session.match.world.time == pytest.approx(1.0)
     way = float(
         np.hypot(*(np.array(person.truth.position_torso_in_world) - began))
     )
     assert way == pytest.approx(0.15, rel=0.01)  # a second at its pace
-    assert phases_of(session.duel) == (Phase.WALKING, Phase.STANDING)
+    assert phases_of(session.match) == (Phase.WALKING, Phase.STANDING)
     assert len(session.trail.history) == 9
     assert set(session.trail.traces) == {
         *("pursuer/CoM", "evader/CoM", "evader/ZMP")
@@ -62,17 +62,17 @@ def test_the_robot_is_pushed_and_the_person_is_not(
     session: LiveSession,
 ) -> None:
     """After the refusal the duel continues, and accepts other pushes."""
-    before = session.duel
+    before = session.match
     with pytest.raises(
         ConfigurationError, match="only a robot can be pushed, got pursuer"
     ):
-        session.push(0, 0.4, pi / 2)
-    assert session.error is None and session.duel is before
+        session.push("pursuer", 0.4, pi / 2)
+    assert session.error is None and session.match is before
     stepped(session, 0.1)
-    assert session.duel.world.time == pytest.approx(0.1)
-    session.push(1, 0.4, pi / 2)
+    assert session.match.world.time == pytest.approx(0.1)
+    session.push("evader", 0.4, pi / 2)
     stepped(session, 0.2)
-    evader = session.duel.players[1]
+    evader = session.match.players[1]
     assert (
         isinstance(evader, SimulatedPlayer) and evader.robot.pusher is not None
     )
@@ -107,9 +107,9 @@ def test_a_person_cannot_be_driven(session: LiveSession) -> None:
             gui["Walk"].press("halt")
             gui["Drive left"].press()
         stepped(session, 0.5)
-        panel.show(session.duel.world.time, 1.0)
+        panel.show(session.match.world.time, 1.0)
         assert score.content == "" and session.error is None
-        ways.append(session.duel.players[0].truth.position_torso_in_world)
+        ways.append(session.match.players[0].truth.position_torso_in_world)
         gui["Stop driving"].press()
         stepped(session, 0.01)
     assert ways[0] == ways[1]
@@ -137,8 +137,9 @@ def test_of_a_person_only_its_way_is_drawn(session: LiveSession) -> None:
         *("planned path", "footsteps", "support polygon"),
     }
     places = [
-        player.truth.position_torso_in_world for player in session.duel.players
+        player.truth.position_torso_in_world
+        for player in session.match.players
     ]
-    (sight,) = drawn["line of sight", "both"]
+    (sight,) = drawn["line of sight", "pursuer-evader"]
     np.testing.assert_allclose(sight[:, :2], places)
     assert len(drawn["theoretical circle", "both"]) == 0

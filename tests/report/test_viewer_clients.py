@@ -54,7 +54,7 @@ def test_cameras_follow_until_a_client_moves_them(
     viewers.aim(PLACES, HEIGHTS)
     np.testing.assert_allclose(one.camera.look_at, [0.5, 1.0, 0.2])
     np.testing.assert_array_equal(other.camera.position, 0.0)
-    viewers.choose(one, "evader's view")
+    viewers.choose(one, "player's view")
     viewers.aim(PLACES, HEIGHTS)
     np.testing.assert_allclose(one.camera.look_at, [0.0, 0.0, 0.27])
     eye = np.array(one.camera.position)

@@ -63,7 +63,7 @@ def session() -> Iterator[LiveSession]:
 def played(session: LiveSession, ticks: int) -> None:
     """Let the loop play, and wait until it has."""
     if ticks:
-        session.step(ticks * session.duel.world.physics.tick)
+        session.step(ticks * session.match.world.physics.tick)
     done = Event()
     session.change(lambda duel: done.set())
     assert done.wait(60.0), session.error
@@ -71,14 +71,14 @@ def played(session: LiveSession, ticks: int) -> None:
 
 def walker(session: LiveSession, number: int) -> SimulatedPlayer:
     """Player who is a robot."""
-    player = session.duel.players[number]
+    player = session.match.players[number]
     assert isinstance(player, SimulatedPlayer)
     return player
 
 
 def test_a_session_notes_every_tenth_of_a_second(session: LiveSession) -> None:
     """Of each, what is true then; the tick that begins then notes it."""
-    duel, trail = session.duel, session.trail
+    duel, trail = session.match, session.trail
     played(session, 125)
     times = [row[0] for row in trail.history]
     np.testing.assert_allclose(times, [0.1, 0.2, 0.3, 0.4])
@@ -162,7 +162,7 @@ def test_a_step_is_kept_only_when_it_begins(session: LiveSession) -> None:
         if step is not None and odometry is not None:
             begun.append((step.foot, odometry.compose(step.landing)))
 
-    observe_ticks(session.duel, note)
+    observe_ticks(session.match, note)
     played(session, 600)
     kept = list(session.trail.steps["pursuer"])
     assert [foot for foot, _ in kept] == [foot for foot, _ in begun]
@@ -223,14 +223,14 @@ def test_a_session_knows_its_theory(session: LiveSession) -> None:
 
 def test_a_step_has_whole_ticks_and_at_least_one(session: LiveSession) -> None:
     for duration, ticks in ((0.1, 25), (0.001, 1), (0.0099, 2)):
-        before = session.duel.world.ticks
+        before = session.match.world.ticks
         session.step(duration)
         played(session, 0)
-        assert session.duel.world.ticks == before + ticks
+        assert session.match.world.ticks == before + ticks
 
 
 def test_a_duel_that_is_over_stays_over(session: LiveSession) -> None:
-    duel = session.duel
+    duel = session.match
     ticked: list[Duel] = []
 
     def tick() -> Outcome:
@@ -250,7 +250,7 @@ def test_a_push_acts_now_on_the_robot_that_is_meant(
     session: LiveSession,
 ) -> None:
     played(session, 30)
-    session.push(1, 0.4, pi / 2)
+    session.push("evader", 0.4, pi / 2)
     played(session, 40)
     pursuer, evader = (walker(session, number).robot for number in (0, 1))
     assert pursuer.pusher is None and evader.pusher is not None
@@ -266,9 +266,9 @@ def test_a_change_and_a_moment_are_of_the_duel(session: LiveSession) -> None:
     changed: list[Duel] = []
     session.change(changed.append)
     played(session, 10)
-    assert changed == [session.duel]
+    assert changed == [session.match]
     moment = session.snapshot()
-    data = session.duel.world.data
+    data = session.match.world.data
     assert moment.time == pytest.approx(0.04)
     np.testing.assert_array_equal(moment.positions, data.xpos)
     np.testing.assert_array_equal(moment.quaternions, data.xquat)
@@ -292,27 +292,29 @@ class FakeSession:
         self.scheme: Any = SimpleNamespace(decisions=decisions)
         pursuer: Any = SimulatedPlayer.__new__(SimulatedPlayer)
         pursuer.scheme = self.scheme
-        self.duel: Any = SimpleNamespace(
-            world=SimpleNamespace(time=5.0), players=(pursuer, None)
+        self.match: Any = SimpleNamespace(
+            world=SimpleNamespace(time=5.0),
+            player={"pursuer": pursuer, "evader": None}.__getitem__,
         )
-        self.pushes: list[tuple[int, float, float]] = []
+        self.names = ("pursuer", "evader")
+        self.pushes: list[tuple[str, float, float]] = []
         self.commands: list[dict[str, Any]] = []
         self.trail: Any = SimpleNamespace(history=[])
         self.theory: tuple[float, float] | None = (0.9, 90.0)
-        self.driven = False
+        self.driven = ""
         self.settings = DuelSettings()
         self.outcome: Outcome | None = None
         self.slow_motion = 1.0
 
     def change(self, request: Any) -> None:
         """Change at once."""
-        request(self.duel)
+        request(self.match)
 
     def record_command(self, **asked: Any) -> None:
         """Keep what a hand asks."""
         self.commands.append(asked)
 
-    def push(self, robot: int, impulse: float, direction: float) -> None:
+    def push(self, robot: str, impulse: float, direction: float) -> None:
         """Note a push, or refuse it."""
         if impulse < 0.0:
             raise ConfigurationError("push impulse must be >= 0")
@@ -327,9 +329,9 @@ def panels() -> tuple[Any, Any]:
     ("where", "angle"),
     [("left", 90), ("right", -90), ("forward", 0), ("backward", 180)],
 )
-@pytest.mark.parametrize(("who", "number"), [("pursuer", 0), ("evader", 1)])
+@pytest.mark.parametrize("who", ["pursuer", "evader"])
 def test_the_push_button_pushes_who_and_where_it_says(
-    where: str, angle: float, who: str, number: int
+    where: str, angle: float, who: str
 ) -> None:
     gui, session = panels()
     said: list[str] = []
@@ -337,7 +339,7 @@ def test_the_push_button_pushes_who_and_where_it_says(
     gui["Robot"].value, gui["Direction"].value = who, where
     gui["Impulse [N s]"].value = 0.7
     gui["Push"].press()
-    assert session.pushes == [(number, 0.7, pytest.approx(radians(angle)))]
+    assert session.pushes == [(who, 0.7, pytest.approx(radians(angle)))]
     assert said == [f"pushed the {who} {where} by 0.7 N s"]
     gui["Impulse [N s]"].value = -1.0
     gui["Push"].press()
@@ -386,7 +388,7 @@ def test_a_hand_takes_the_pursuer_over_and_gives_it_back() -> None:
     assert session.slow_motion == 1.0
     gui["Stop driving"].press()
     assert hand() == Pursuit()
-    session.duel.world.time = 20.0
+    session.match.world.time = 20.0
     gui["Drive straight"].press()
     panel.show(21.0, 0.7)
     assert "survived 1.0 s; closest approach 0.70 m" in score.content
@@ -479,7 +481,7 @@ def test_the_page_shows_the_duel_as_it_is(live: tuple[Page, Any]) -> None:
     session, gui = page.session, server.gui
     played(session, 250)
     page.refresh()
-    data = session.duel.world.data
+    data = session.match.world.data
     moved = [
         (int(name.split("/")[-1]), item)
         for name, item in server.scene.items.items()
@@ -489,21 +491,21 @@ def test_the_page_shows_the_duel_as_it_is(live: tuple[Page, Any]) -> None:
     for body, frame in moved:
         np.testing.assert_array_equal(frame.position, data.xpos[body])
         np.testing.assert_array_equal(frame.wxyz, data.xquat[body])
-    assert "/layers/line of sight/both" in server.scene.items
+    assert "/layers/line of sight/pursuer-evader" in server.scene.items
     ring = server.scene.items["/rings/safety radius"]
     assert ring.text == "safety radius 0.80 m"
     status = gui.texts[0].content
     assert "the pursuer walks" in status and "x real time" not in status
     assert "1.0 s simulated" in status
-    assert f"distance {session.duel.distance:.2f} m" in status
-    assert f"closest approach {session.duel.min_distance:.2f} m" in status
+    assert f"distance {session.match.distance:.2f} m" in status
+    assert f"closest approach {session.match.min_distance:.2f} m" in status
     assert "over" not in status and "stopped" not in status
     assert gui["Start"].label == "Start"
     session.outcome, session.error = Outcome.CONTACT, "a bolt"
-    session.duel.message = "evader and pursuer touched at 1.00 s"
+    session.match.message = "evader and pursuer touched at 1.00 s"
     page.refresh()
     status = gui.texts[0].content
-    assert session.duel.message in status
+    assert session.match.message in status
     assert "**over: contact**" in status and "**stopped: a bolt**" in status
 
 
@@ -551,12 +553,15 @@ def test_the_page_reads_the_physics_only_under_the_lock(
 def test_the_page_draws_a_new_duel_anew(live: tuple[Page, Any]) -> None:
     page, server = live
     page.refresh()
-    before = server.scene.items["/layers/line of sight/both"]
+    before = server.scene.items["/layers/line of sight/pursuer-evader"]
     page.refresh()
-    assert server.scene.items["/layers/line of sight/both"] is before
+    assert server.scene.items["/layers/line of sight/pursuer-evader"] is before
     page.session.reset()
     page.refresh()
-    assert server.scene.items["/layers/line of sight/both"] is not before
+    assert (
+        server.scene.items["/layers/line of sight/pursuer-evader"]
+        is not before
+    )
 
 
 def test_buttons_start_step_and_set_the_speed(
@@ -566,8 +571,8 @@ def test_buttons_start_step_and_set_the_speed(
     session, gui = page.session, server.gui
     gui["Duel"].press("step")
     played(session, 0)
-    assert session.duel.world.ticks == 25
-    monkeypatch.setattr(session.duel, "tick", lambda: None)
+    assert session.match.world.ticks == 25
+    monkeypatch.setattr(session.match, "tick", lambda: None)
     gui["Start"].press()
     assert session.running
     page.refresh()
@@ -701,7 +706,7 @@ def test_the_pace_is_shown_only_while_time_passes(
     page.session.real_time_factor = 1.04
     page.refresh()
     assert "real time" not in server.gui.texts[0].content
-    monkeypatch.setattr(page.session.duel, "tick", lambda: None)
+    monkeypatch.setattr(page.session.match, "tick", lambda: None)
     page.session.running = True
     page.refresh()
     page.session.running = False
@@ -793,7 +798,7 @@ def test_a_replay_shows_the_sample_of_its_time(
     items = server.scene.items
     torsos = [run.tracks[name].torso for name in ("pursuer", "evader")]
     places = [torso[index, :2] for torso in torsos]
-    sight = items["/layers/line of sight/both"].points[0]
+    sight = items["/layers/line of sight/pursuer-evader"].points[0]
     np.testing.assert_allclose(sight[:, :2], places, atol=1e-6)
     np.testing.assert_allclose(sight[:, 2], 0.25)
     safety = items["/layers/safety radius/evader"].points[..., :2]
@@ -834,7 +839,7 @@ def test_a_replay_has_its_slider_plots_and_layers(
         np.testing.assert_allclose(plot.data[0], run.times)
         np.testing.assert_allclose(plot.data[1], values)
         np.testing.assert_allclose(plot.data[2], level)
-    place = run.evader.torso[0]
+    place = 0.5 * (run.pursuer.torso[0] + run.evader.torso[0])
     camera = server.initial_camera
     np.testing.assert_allclose(
         camera.position, [place[0] - 1.5, place[1] - 1.6, 1.3]
@@ -843,7 +848,7 @@ def test_a_replay_has_its_slider_plots_and_layers(
     server.gui["Safety radius"].press(False)
     page.show(1.0)
     assert "/layers/safety radius/evader" not in server.scene.items
-    assert "/layers/line of sight/both" in server.scene.items
+    assert "/layers/line of sight/pursuer-evader" in server.scene.items
     server.gui["Play"].press()
     page.show(1.0)
     assert server.gui["Play"].label == "Pause"

@@ -340,7 +340,9 @@ def told(duel: Duel, trail: PlotHistory, **changes: Any) -> Any:
     }
     values = {
         "lock": nullcontext(),
-        "duel": duel,
+        "match": duel,
+        "colours": COLOURS,
+        "opponents": (("pursuer", "evader"),),
         "trail": SimpleNamespace(traces=traces, steps=trail.steps),
         "settings": duel.settings,
         "theory_radius": 0.6,
@@ -393,7 +395,7 @@ def test_every_layer_of_the_present_moment_is_drawn(
         assert trace.shape == (3, 2, 3) and shade == COLOURS[name]
         np.testing.assert_allclose(trace[:, 0, 0], [0.0, 0.1, 0.2])
         trace, shade = found["ZMP trace", name]
-        assert trace.shape == (3, 2, 3) and shade == ZMP_COLOURS[name]
+        assert trace.shape == (3, 2, 3) and shade == ZMP_COLOURS[COLOURS[name]]
     safety, shade = found["safety radius", "evader"]
     away = np.hypot(*(safety[:, 0, :2] - places[1]).T)
     np.testing.assert_allclose(away, 0.8)
@@ -401,7 +403,7 @@ def test_every_layer_of_the_present_moment_is_drawn(
     circle, shade = found["theoretical circle", "both"]
     assert circle.shape == (72, 2, 3) and shade == THEORY
     assert duel.triggered_at is not None and len(found) == 15
-    sight, shade = found["line of sight", "both"]
+    sight, shade = found["line of sight", "pursuer-evader"]
     np.testing.assert_allclose(sight[0, :, :2], places)
     np.testing.assert_allclose(sight[0, :, 2], 0.25)
     assert shade == THEORY
@@ -418,12 +420,9 @@ def test_the_circle_passes_both_robots_on_the_pursuers_side(
     bearing: float | None,
 ) -> None:
     plan = None if bearing is None else SimpleNamespace(bearing=bearing)
-    session: Any = SimpleNamespace(
-        theory_radius=0.6,
-        duel=SimpleNamespace(triggered_at=1.0, players=[walking(plan)]),
-    )
+    duel: Any = SimpleNamespace(triggered_at=1.0, pursuer=walking(plan))
     places = [np.array([1.0, 1.0]), np.array([1.6, 1.6])]
-    lines = drawing.circle_lines(session, places)
+    lines = drawing.circle_lines(duel, 0.6, places)
     middle = lines[:, 0, :2].mean(axis=0)
     for place in places:
         assert np.hypot(*(place - middle)) == pytest.approx(0.6)
@@ -438,12 +437,9 @@ def test_the_circle_passes_both_robots_on_the_pursuers_side(
 
 def test_a_circle_that_cannot_be_is_not_drawn() -> None:
     def lines(radius: float | None, apart: float, at: float | None) -> int:
-        session: Any = SimpleNamespace(
-            theory_radius=radius,
-            duel=SimpleNamespace(triggered_at=at, players=[walking(None)]),
-        )
+        duel: Any = SimpleNamespace(triggered_at=at, pursuer=walking(None))
         places = [np.zeros(2), np.array([apart, 0.0])]
-        return len(drawing.circle_lines(session, places))
+        return len(drawing.circle_lines(duel, radius, places))
 
     assert lines(0.6, 1.1, 1.0) == 72
     assert lines(None, 1.1, 1.0) == 0 == lines(0.6, 1.1, None)

@@ -52,14 +52,14 @@ def watch(page: CountedPage, duration: float) -> dict[str, float]:
     """Return real-time factor and updates per second over a time in [s]."""
     session = page.session
     began, updates = perf_counter(), page.updates
-    time = session.duel.world.time
+    time = session.match.world.time
     while perf_counter() - began < duration:
         sleep(0.1)
         if session.outcome is not None:
             raise SystemExit(f"the duel ended: {session.outcome.value}")
     passed = perf_counter() - began
     return {
-        "real_time_factor": (session.duel.world.time - time) / passed,
+        "real_time_factor": (session.match.world.time - time) / passed,
         "updates_per_s": (page.updates - updates) / passed,
     }
 

@@ -70,7 +70,7 @@ def opened(browser: Any, link: str) -> Any:
 
 def show(served: Page, page: Any, time: float) -> None:
     """Advance the duel to a time in [s], and wait until the page shows it."""
-    passed = time - served.session.duel.world.time
+    passed = time - served.session.match.world.time
     if passed > 0.0:
         served.session.step(passed)
     page.get_by_text(f"{time:.1f} s simulated").first.wait_for()
@@ -95,7 +95,7 @@ def film(browser: Any) -> None:
         for time in tqdm(times, "page.gif", disable=None):
             show(served, page, time)
             if abs(time - PUSHED) < 0.5 * EACH:
-                served.session.push(0, 0.6, 0.5 * pi)
+                served.session.push("pursuer", 0.6, 0.5 * pi)
             shot = Image.open(BytesIO(page.screenshot()))
             small = shot.convert("RGB").resize(SMALL, LANCZOS)
             frames.append(small)

@@ -1,10 +1,12 @@
-"""``stepaside view``: an interactive duel in the browser."""
+"""``stepaside view``: an interactive game in the browser."""
 
 import webbrowser
+from pathlib import Path
 from time import sleep
 from typing import TYPE_CHECKING
 
 import click
+from click.core import ParameterSource
 
 from .options.common_options import (
     browser_option,
@@ -17,9 +19,18 @@ from .terminal import echo
 
 if TYPE_CHECKING:
     from ..games.duel_settings import DuelSettings
+    from ..games.game_settings import GameSettings
+
+
+OWN = {"file", "host", "port", "opens", "run", "demo", "serve_for", "seed"}
 
 
 @click.command("view", cls=SettingsCommand)
+@click.argument(
+    "file",
+    required=False,
+    type=click.Path(exists=True, dir_okay=False, path_type=Path),
+)
 @click.option(
     "--host",
     default="127.0.0.1",
@@ -37,13 +48,14 @@ if TYPE_CHECKING:
 )
 @click.option(
     "--demo/--no-demo",
-    help="Show large text and no controls, and play one duel after the other "
+    help="Show large text and no controls, and play one game after the other "
     "with the next seeds, for an audience.",
 )
 @serve_for_option("--duration")
 @duel_options("duration")
 def view(
     settings: "DuelSettings",
+    file: Path | None,
     host: str,
     port: int,
     opens: bool,
@@ -51,10 +63,18 @@ def view(
     demo: bool,
     serve_for: float | None,
 ) -> None:
-    """Serve a page on which to watch a duel, push and drive the robots."""
+    """Serve a page on which to watch a game, push and drive the robots.
+
+    With FILE it is the game in physics of any number of players that FILE
+    lists (docs/games.md), of which --seed is the only option; otherwise a
+    duel.
+    """
     from ..report.viewer.live_page import Page
 
-    page = Page(settings, host=host, port=port, demo=demo)
+    played: DuelSettings | GameSettings = settings
+    if file is not None:
+        played = _game_of(file)
+    page = Page(played, host=host, port=port, demo=demo)
     if page.gate.secret:
         echo(
             f"stepaside: other machines can reach {host}; anyone with the "
@@ -76,3 +96,28 @@ def view(
         echo("stepaside: stopped; saved runs remain", err=True)
     finally:
         page.close()
+
+
+def _game_of(file: Path) -> "GameSettings":
+    """Return the game of a file, with the seed of the command line.
+
+    Raises:
+        UsageError: If there are options of a duel.
+    """
+    from ..games.game_file import load_game
+
+    context = click.get_current_context()
+    given = {
+        param.name: param.opts[0]
+        for param in context.command.params
+        if context.get_parameter_source(param.name or "")
+        is ParameterSource.COMMANDLINE
+    }
+    foreign = [flag for name, flag in given.items() if name not in OWN]
+    if foreign:
+        raise click.UsageError(
+            f"{', '.join(foreign)} must not be given with a game file, which "
+            "has the settings of its players"
+        )
+    seed = context.params["seed"]
+    return load_game(file, **({"seed": seed} if "seed" in given else {}))

@@ -229,6 +229,17 @@ class GameRun(Generic[SettingsT, SummaryT]):
         return self.tracks[one], self.tracks[other]
 
     @property
+    def lines_of_sight(self) -> tuple[tuple[str, str], ...]:
+        """Names of each pursuer and evader; of the first two without such."""
+        ids = self.identities
+        facing = tuple(
+            (one, other)
+            for one, other in self.opponents
+            if one in ids and other in ids and ids[one].opposes(ids[other])
+        )
+        return facing or self.opponents[:1]
+
+    @property
     def distance(self) -> Array:
         """Smallest distance between opponents' reference points, in [m].
 

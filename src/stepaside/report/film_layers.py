@@ -52,11 +52,11 @@ def add_layers(
         ]
         for _, _, x, y, heading in shown.tolist():
             _add_footprint(scene, x, y, heading, colour)
-    if run.pair is not None:
-        pursuer, evader = (
-            np.array([*track.torso[index, :2], 0.25]) for track in run.pair
+    for pair in run.lines_of_sight:
+        one, other = (
+            np.array([*run.tracks[n].torso[index, :2], 0.25]) for n in pair
         )
-        _add_line(scene, pursuer, evader, 0.5 * LINE_WIDTH, THEORY)
+        _add_line(scene, one, other, 0.5 * LINE_WIDTH, THEORY)
     if run.safety is not None:
         player, radius = run.safety
         center = run.tracks[player].torso[index, :2]

@@ -134,6 +134,10 @@ def page_data(run: Run) -> dict[str, Any]:
         "pair": [run.players.index(name) for name in run.opponents[0]]
         if run.opponents
         else None,
+        "sights": [
+            [run.players.index(name) for name in pair]
+            for pair in run.lines_of_sight
+        ],
         "distance": _series(distance, samples, 3),
         "angle": _series(angle, samples, 1),
         "means": {

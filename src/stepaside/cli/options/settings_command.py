@@ -76,7 +76,7 @@ class SettingsCommand(click.Command):
         sections: dict[str, list[tuple[str, str]]] = {OWN: []}
         for param in self.get_params(ctx):
             record = param.get_help_record(ctx)
-            if record is not None:
+            if record is not None and isinstance(param, click.Option):
                 title = getattr(param, "group", OWN)
                 sections.setdefault(title, []).append(record)
         for title, records in sections.items():

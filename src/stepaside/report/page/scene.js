@@ -170,10 +170,14 @@ function makeScene(run, canvas, context) {
     theory.position.set(x, y, 0);
     world.add(theory);
   }
-  let sight = null;
-  if (run.pair)
-    sight = layer("line of sight", line(
-      new THREE.CylinderGeometry(0.004, 0.004, 1, 8).rotateX(Math.PI / 2), "theory", 0.8));
+  const rods = (run.sights || []).map(() => line(
+    new THREE.CylinderGeometry(0.004, 0.004, 1, 8).rotateX(Math.PI / 2), "theory", 0.8));
+  if (rods.length) {
+    const sights = new THREE.Group();
+    sights.add(...rods);
+    world.add(sights);
+    layer("line of sight", sights);
+  }
 
   function applyTheme(theme) {
     const palette = run.palettes[theme];
@@ -227,12 +231,12 @@ function makeScene(run, canvas, context) {
   function attach() {
     const torsos = players.map((player) => bodies[player.body].position);
     if (safety) safety.position.copy(bodies[guarded.body].position).setZ(0);
-    if (sight) {
-      const [first, second] = run.pair.map((i) => torsos[i]);
-      sight.position.addVectors(first, second).multiplyScalar(0.5);
-      sight.scale.z = first.distanceTo(second);
-      sight.lookAt(second);
-    }
+    rods.forEach((rod, number) => {
+      const [first, second] = run.sights[number].map((i) => torsos[i]);
+      rod.position.addVectors(first, second).multiplyScalar(0.5);
+      rod.scale.z = first.distanceTo(second);
+      rod.lookAt(second);
+    });
     return torsos;
   }
   /* Path and footprints of a player that grow while a game is played; both forget their oldest part. */

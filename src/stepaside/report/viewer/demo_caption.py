@@ -1,6 +1,8 @@
 """Large caption of a page that is shown to an audience."""
 
+from collections.abc import Mapping
 from html import escape
+from math import isfinite
 
 import viser
 
@@ -16,12 +18,14 @@ class DemoCaption:
     All other panels are minimised.
     """
 
-    def __init__(self, gui: viser.GuiApi) -> None:
+    def __init__(self, gui: viser.GuiApi, colours: Mapping[str, str]) -> None:
         """Add the panel to a page.
 
         Args:
             gui: Controls of the page.
+            colours: Colour of each player, by name.
         """
+        self._colours = colours
         panel = gui.add_panel()
         panel.float(x=GAP, y=GAP, width=WIDTH, height=HEIGHT)
         with panel.add_tab("stepaside"):
@@ -29,20 +33,27 @@ class DemoCaption:
         gui.main_panel.minimize()
 
     def show(self, snapshot: LiveSnapshot, outlook: str) -> None:
-        """Show the state of a duel.
+        """Show the state of a game.
 
         Args:
             snapshot: The state.
             outlook: What is expected next, in one line.
         """
-        pursuer, evader = snapshot.phases
         line = escape(outlook.replace("**", ""))
+        angle = ""
+        if isfinite(snapshot.angle):
+            angle = f"angle <b>{snapshot.angle:.0f}&deg;</b>, "
+        players = ", ".join(
+            f'<b style="color:{self._colours[player.name]}">'
+            f"{escape(player.name)}</b> {phase.value}"
+            for player, phase in zip(
+                snapshot.players, snapshot.phases, strict=True
+            )
+        )
         self._text.content = (
             '<div style="font-size:26px;line-height:1.35;padding:8px">'
-            f'<b style="color:#c8321f">pursuer</b> {pursuer.value}, '
-            f'<b style="color:#1f5fbf">evader</b> {evader.value}<br>'
-            f"distance <b>{snapshot.distance:.2f} m</b>, "
-            f"angle <b>{snapshot.angle:.0f}&deg;</b>, "
+            f"{players}<br>"
+            f"distance <b>{snapshot.distance:.2f} m</b>, {angle}"
             f"{snapshot.time:.0f} s<br>"
             f'<span style="font-size:20px">{line}</span></div>'
         )

@@ -9,7 +9,7 @@ import viser
 
 from ...core.errors import StepAsideError
 from ...core.poses import Array
-from ...games.duel import Duel
+from ...games.match import Match
 from ...sim.push import Push
 from ..figure_style import PUSHED
 from ..palette import on_both_floors
@@ -64,22 +64,22 @@ class PushDragging:
         self._session = session
         self._notify = notify
 
-    def add(self, number: int, meshes: Iterable[Any]) -> None:
+    def add(self, player: str, meshes: Iterable[Any]) -> None:
         """Let a robot be dragged.
 
         Args:
-            number: 0 for the pursuer, 1 for the evader.
+            player: Name of the player.
             meshes: Meshes of the robot.
         """
 
         # viser keeps the order only of callbacks that are coroutines.
         async def drag(event: Any) -> None:
-            self._drag(number, event)
+            self._drag(player, event)
 
         for mesh in meshes:
             mesh.on_drag(drag)
 
-    def _drag(self, number: int, event: Any) -> None:
+    def _drag(self, name: str, event: Any) -> None:
         """Draw an arrow during a drag, and push at its end."""
         grabbed = np.array(event.start_position)
         impulse = impulse_of_drag(
@@ -87,14 +87,14 @@ class PushDragging:
             grabbed,
             np.array(event.end_position),
         )
-        name = f"/hand/{event.client_id}"
+        arrow = f"/hand/{event.client_id}"
         if event.phase != "end":
-            self._show(name, grabbed, impulse)
+            self._show(arrow, grabbed, impulse)
             return
-        self._scene.remove_by_name(name)
+        self._scene.remove_by_name(arrow)
         if hypot(*impulse.tolist()) >= MIN_IMPULSE:
             self._session.change(
-                lambda duel: self._push(duel, number, impulse)
+                lambda match: self._push(match, name, impulse)
             )
 
     def _show(self, name: str, grabbed: Array, impulse: Array) -> None:
@@ -117,15 +117,15 @@ class PushDragging:
             depth_test=False,
         )
 
-    def _push(self, duel: Duel, number: int, impulse: Array) -> None:
+    def _push(self, match: Match, name: str, impulse: Array) -> None:
         """Push a player between two ticks, relative to its heading then."""
-        player = duel.players[number]
+        player = match.player(name)
         heading = player.snapshot().torso[2]
         direction = atan2(impulse[1], impulse[0]) - heading
         direction = (direction + pi) % (2.0 * pi) - pi
         strength = hypot(*impulse.tolist())
         try:
-            player.push(Push(strength, duel.world.time, direction))
+            player.push(Push(strength, match.world.time, direction))
         except StepAsideError as error:
             self._notify(str(error))
         else:

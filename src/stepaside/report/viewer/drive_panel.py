@@ -1,20 +1,20 @@
-"""Panels for pushes and for teleoperation of the pursuer."""
+"""Panels for pushes and for teleoperation of a robot."""
 
 from collections.abc import Callable
 from dataclasses import replace
-from math import radians
+from math import inf, radians
 
 import viser
 
 from ...core.errors import StepAsideError
-from ...games.duel import Duel
-from ...games.walker import SimulatedPlayer
-from ...strategies import Pursuit, Strategy, TeleoperatedPursuit
-from .live_session import LiveSession
+from ...games.duel_settings import PLAYERS, PURSUER, DuelSettings
+from ...games.match import Match
+from ...games.walker import RobotPlayer
+from ...strategies import Strategy, TeleoperatedPursuit
+from .live_session import LiveSession, LiveSettings, safety_radii
 from .scoreboard import Scoreboard
 
 DIRECTIONS = {"left": 90, "right": -90, "forward": 0, "backward": 180}  # [deg]
-ROBOTS = ("pursuer", "evader")
 TURNS = {"left": 1.0, "straight": 0.0, "right": -1.0}
 SLOW_MOTION = 0.25  # factor of the speed at a closest approach
 
@@ -30,7 +30,7 @@ def add_push(
         notify: Function that shows a message.
     """
     with gui.add_folder("Push"):
-        robot = gui.add_dropdown("Robot", ROBOTS)
+        robot = gui.add_dropdown("Robot", session.names)
         impulse = gui.add_number("Impulse [N s]", 0.5, step=0.1)
         direction = gui.add_dropdown("Direction", tuple(DIRECTIONS))
         push = gui.add_button("Push")
@@ -38,31 +38,60 @@ def add_push(
     @push.on_click
     def _(_: object) -> None:
         angle = radians(DIRECTIONS[direction.value])
-        number = ROBOTS.index(robot.value)
         try:
-            session.push(number, float(impulse.value), angle)
+            session.push(robot.value, float(impulse.value), angle)
         except StepAsideError as error:
             notify(str(error))
         else:
             notify(
-                f"pushed the {robot.value} {direction.value} by "
+                f"pushed {named(robot.value)} {direction.value} by "
                 f"{impulse.value:g} N s"
             )
 
 
+def named(player: str) -> str:
+    """Return the name of a player in a sentence."""
+    return f"the {player}" if player in PLAYERS else player
+
+
+def drivable(settings: LiveSettings) -> tuple[str, ...]:
+    """Return the players that can be driven.
+
+    They are the pursuer of a duel, the robots of a game that pursue, or all
+    its robots if none does.
+    """
+    if isinstance(settings, DuelSettings):
+        return (PURSUER,)
+    robots = [p for p in settings.players if p.body == "robot"]
+    pursuers = [p for p in robots if p.role == PURSUER]
+    return tuple(p.name for p in pursuers or robots)
+
+
 class DrivePanel:
-    """Teleoperation of the pursuer, with a scoreboard."""
+    """Teleoperation of one robot, with a scoreboard."""
 
     def __init__(self, gui: viser.GuiApi, session: LiveSession) -> None:
-        """Add the controls to a page."""
+        """Add the controls to a page, which needs a robot to drive.
+
+        Args:
+            gui: Controls of the page.
+            session: Session whose robot is driven.
+        """
         self._session = session
         self._hand: TeleoperatedPursuit | None = None
-        self._score = Scoreboard()
-        with gui.add_folder("Drive the pursuer"):
+        self._own: Strategy | None = None  # of the driven robot
+        names = drivable(session.settings)
+        duel = names == (PURSUER,)
+        self._score = Scoreboard(*(() if duel else ("the others",)))
+        with gui.add_folder("Drive the pursuer" if duel else "Drive a robot"):
             gui.add_markdown(
-                "Catch the evader with the buttons, a gamepad, the joystick "
+                f"{'Catch the evader' if duel else 'Walk'} with the buttons, "
+                "a gamepad, the joystick "
                 "on a touch screen or the keys: arrows left, right and up "
                 "(straight), g (go), h (halt)."
+            )
+            self._choice = gui.add_dropdown(
+                "Driven robot", names, visible=len(names) > 1
             )
             turn = gui.add_button_group("Turn", tuple(TURNS))
             walk = gui.add_button_group("Walk", ("go", "halt"))
@@ -74,6 +103,12 @@ class DrivePanel:
                 "Slow motion at the closest approach", True
             )
             self._score_text = gui.add_markdown("")
+
+        @self._choice.on_update
+        def _(_: object) -> None:
+            if self._hand is not None:
+                self._release()
+            self._state.content = self._state_text()
 
         @turn.on_click
         def _(_: object) -> None:
@@ -99,7 +134,8 @@ class DrivePanel:
         halt.on_trigger(lambda _: self._drive(going=False))
 
     def reset(self) -> None:
-        """End teleoperation, since another duel has begun."""
+        """End teleoperation, since another game has begun."""
+        self._own = None
         self._set_hand(None)
         self._score.end("reset")
 
@@ -115,7 +151,8 @@ class DrivePanel:
         if session.outcome is not None and self._hand is not None:
             self._set_hand(None)
             self._score.end(session.outcome.value)
-        radius = session.settings.strategy.area
+        radii = safety_radii(session.settings)
+        radius = min(radii.values(), default=inf)
         close = self._slow_motion.value and self._score.is_close(radius)
         session.slow_motion = SLOW_MOTION if close else 1.0
         text = self._score.text()
@@ -123,7 +160,7 @@ class DrivePanel:
             self._score_text.content = text
 
     def steer(self, turn: float, going: bool) -> None:
-        """Drive the pursuer by a joystick.
+        """Drive the robot by a joystick.
 
         Args:
             turn: From -1 (right) to 1 (left).
@@ -134,54 +171,70 @@ class DrivePanel:
     def _drive(
         self, *, turn: float | None = None, going: bool | None = None
     ) -> None:
-        """Change the command, taking over the pursuer if it is a robot."""
-        if not isinstance(self._session.duel.players[0], SimulatedPlayer):
+        """Change the command, taking over the robot if it is one."""
+        name = self._choice.value
+        if not self._is_robot(name):
             return
         hand = self._hand
         if hand is None:
             hand = TeleoperatedPursuit(going=True)
-            self._score.begin(self._session.duel.world.time)
+            self._score.begin(self._session.match.world.time)
         if turn is not None:
             hand = replace(hand, turn=turn)
         if going is not None:
             hand = replace(hand, going=going)
         self._set_hand(hand)
         self._session.record_command(turn=hand.turn, going=hand.going)
-        self._adopt(hand)
+        self._adopt(name, hand)
 
     def _release(self) -> None:
-        """Return the pursuer to its own strategy."""
+        """Return the robot to its own strategy."""
+        name = self._session.driven
         self._set_hand(None)
         self._score.end("released")
         self._session.record_command(released=True)
-        self._adopt(Pursuit())
+        if name:
+            self._adopt(name, None)
 
     def _set_hand(self, hand: TeleoperatedPursuit | None) -> None:
         """Set and show the command of teleoperation; None for none."""
         self._hand = hand
-        self._session.driven = hand is not None
+        self._session.driven = "" if hand is None else self._choice.value
         self._state.content = self._state_text()
         self._release_button.disabled = hand is None
 
+    def _is_robot(self, name: str) -> bool:
+        """Return whether a player is a robot with its own strategy."""
+        return isinstance(self._session.match.player(name), RobotPlayer)
+
     def _state_text(self) -> str:
         """Return the state of teleoperation as text."""
-        hand = self._hand
-        if not isinstance(self._session.duel.players[0], SimulatedPlayer):
-            return "The pursuer is a person and cannot be driven."
+        hand, who = self._hand, named(self._choice.value)
+        if not self._is_robot(self._choice.value):
+            who = who[0].upper() + who[1:]
+            return f"{who} is a person and cannot be driven."
         if hand is None:
-            return "Not driven: the pursuer follows its own strategy."
+            return f"Not driven: {who} follows its own strategy."
         direction = "straight ahead"
         if hand.turn:
             direction = f"to the {'left' if hand.turn > 0.0 else 'right'}"
         motion = f"walks {direction}" if hand.going else "halts"
-        return f"**Driven by hand**: the pursuer {motion}."
+        return f"**Driven by hand**: {who} {motion}."
 
-    def _adopt(self, strategy: Strategy) -> None:
-        """Set the strategy of the pursuer if it is a robot."""
+    def _adopt(self, name: str, strategy: Strategy | None) -> None:
+        """Set the strategy of a robot; None for its own again."""
 
-        def change(duel: Duel) -> None:
-            pursuer = duel.players[0]
-            if isinstance(pursuer, SimulatedPlayer):
-                pursuer.scheme.decisions.adopt(strategy)
+        def change(match: Match) -> None:
+            robot = match.player(name)
+            if not isinstance(robot, RobotPlayer):
+                return
+            decisions = robot.scheme.decisions
+            if self._own is None:
+                self._own = decisions.strategy
+            if strategy is not None:
+                decisions.adopt(strategy)
+            else:
+                decisions.adopt(self._own)
+                self._own = None
 
         self._session.change(change)

@@ -9,9 +9,10 @@ import viser
 
 from ...core.errors import StepAsideError
 from ...games.duel import Duel
-from ...games.duel_settings import SENSING, DuelSettings
+from ...games.duel_settings import EVADER, SENSING, DuelSettings
+from ...games.match import Match
 from ...games.strategy_resolution import EVASION
-from ...games.walker import SimulatedPlayer
+from ...games.walker import RobotPlayer
 from ...locomotion.zmp.control_settings import (
     OPEN_LOOP,
     STABILISED,
@@ -82,11 +83,11 @@ class DuelPanel:
         """
         self._session = session
         self._notify = notify
-        settings = session.settings
+        settings = self._settings
         self._bodies_by_name, self._body_name = body_choices(settings)
         self._presets = duel_presets(settings)
         self.preset = gui.add_dropdown("Preset", tuple(self._presets))
-        start = self._session.duel.settings.start
+        start = self._duel.settings.start
         with gui.add_folder("Evader (from its next step)"):
             self._angle = gui.add_number(
                 "Evasion angle [deg]",
@@ -135,11 +136,25 @@ class DuelPanel:
         def _(_: object) -> None:
             self._update_strategy()
 
+    @property
+    def _settings(self) -> DuelSettings:
+        """Settings of the duel."""
+        settings = self._session.settings
+        assert isinstance(settings, DuelSettings)
+        return settings
+
+    @property
+    def _duel(self) -> Duel:
+        """The duel that is played."""
+        duel = self._session.match
+        assert isinstance(duel, Duel)
+        return duel
+
     def _update_strategy(self) -> None:
         """Change the evader's strategy from its next plan on."""
         try:
             strategy = replace(
-                self._session.settings.strategy,
+                self._settings.strategy,
                 angle=radians(float(self._angle.value)),
                 saturated=self._law.value.startswith("saturated"),
             )
@@ -147,18 +162,16 @@ class DuelPanel:
             self._notify(str(error))
             return
         self._notify("")
-        session = self._session
-        if strategy == session.settings.strategy:
+        session, settings = self._session, self._settings
+        if strategy == settings.strategy:
             return
         session.adopt_settings(
-            replace(
-                session.settings, strategy=strategy, evader_strategy=EVASION
-            )
+            replace(settings, strategy=strategy, evader_strategy=EVASION)
         )
 
-        def change(duel: Duel) -> None:
-            evader = duel.players[1]
-            if isinstance(evader, SimulatedPlayer):
+        def change(match: Match) -> None:
+            evader = match.player(EVADER)
+            if isinstance(evader, RobotPlayer):
                 evader.scheme.decisions.adopt(strategy)
 
         session.change(change)
@@ -200,20 +213,20 @@ class DuelPanel:
         Returns:
             Whether the settings were valid.
         """
-        session = self._session
+        session, started = self._session, self._settings
         body, control = self._bodies_by_name[self._body.value]
         try:
             settings = replace(
-                session.settings,
+                started,
                 seed=int(self._seed.value),
                 start=replace(
-                    session.settings.start,
+                    started.start,
                     distance=float(self._distance.value),
                     pursuer_offset=radians(float(self._pursuer_off.value)),
                     evader_offset=radians(float(self._evader_off.value)),
                 ),
                 gait=replace(
-                    session.settings.gait,
+                    started.gait,
                     speed=float(self._speed_m_s.value),
                     gain=float(self._gain.value),
                 ),

@@ -1,9 +1,9 @@
-"""Live page: a running duel with controls, in a browser."""
+"""Live page: a running game with controls, in a browser."""
 
 import logging
 import threading
 from dataclasses import replace
-from math import inf
+from math import inf, isfinite
 from pathlib import Path
 from time import perf_counter, sleep
 from typing import Any
@@ -11,17 +11,19 @@ from typing import Any
 import numpy as np
 
 from ...core.errors import StepAsideError
-from ...games.duel_settings import PLAYERS, DuelSettings
+from ...games.duel_settings import EVADER, PLAYERS, DuelSettings
+from ...games.game_settings import GameSettings
 from ...games.strategy_resolution import EVASION
 from ..palette import THEMES
 from ..text_escaping import for_markdown
 from .camera_panel import CameraPanel
 from .demo_caption import DemoCaption, is_over
 from .dragging import PushDragging
-from .drive_panel import DrivePanel, add_push
+from .drive_panel import DrivePanel, add_push, named
 from .duel_panel import DuelPanel
+from .game_panel import GamePanel
 from .live_drawing import draw_session
-from .live_session import LiveSession, LiveSnapshot
+from .live_session import LiveSession, LiveSettings, LiveSnapshot, room_of
 from .page_layout import arrange_panels
 from .page_server import open_server
 from .plot_history import MAX_POSES, PERIOD, BodyPoses
@@ -29,8 +31,13 @@ from .plots import Plots
 from .run_saving import RunSaver
 from .scene_bodies import SceneBodies
 from .scene_layers import LAYERS, SceneLayers, legend
-from .status_text import outlook, status_text
-from .viewer_clients import CAMERAS, ViewerClients
+from .status_text import outlook, players_text, status_text
+from .viewer_clients import (
+    CAMERAS,
+    EVERYBODY,
+    ViewerClients,
+    order_in_view,
+)
 
 LOG = logging.getLogger(__name__)
 RATE = 30.0  # updates of the scene per second
@@ -39,32 +46,32 @@ SPEEDS = ("0.25", "0.5", "1", "2", "4", "as fast as possible")
 
 
 class Page:
-    """Live duel on a server.
+    """Live game on a server.
 
     Attributes:
         server: viser's server.
         gate: Access control.
-        session: The duel.
+        session: The game.
         layers: Layers drawn over the scene.
         plots: Plots of the history.
     """
 
     def __init__(
         self,
-        settings: DuelSettings,
+        settings: LiveSettings,
         *,
         host: str,
         port: int,
         demo: bool = False,
     ) -> None:
-        """Serve a duel, which is paused at first.
+        """Serve a game, which is paused at first.
 
         Args:
-            settings: Settings of the duel.
+            settings: Settings of the game.
             host: Address to serve at.
             port: First port to try.
             demo: Whether the page is for an audience: large text, panels
-                minimised, one duel after the other with the next seeds.
+                minimised, one game after the other with the next seeds.
 
         Raises:
             StepAsideError: If the address cannot be used or the settings are
@@ -86,23 +93,36 @@ class Page:
         self._status = gui.add_markdown("starting")
         self._add_buttons()
         self._add_keys()
-        self.plots = Plots(gui)
+        is_duel = isinstance(settings, DuelSettings)
+        self.plots = Plots(gui, with_angle=is_duel)
+        self._drive: DrivePanel | None = None
         with layout.play:
             self._cameras = CameraPanel(gui)
-            add_push(gui, self.session, self._notify)
-            self._drive = DrivePanel(gui, self.session)
-        served.joystick.connect(self._drive.steer)
+            if self.session.settings.robots:
+                add_push(gui, self.session, self._notify)
+                self._drive = DrivePanel(gui, self.session)
+                served.joystick.connect(self._drive.steer)
+        self._panel: DuelPanel | GamePanel
         with layout.settings:
-            self._duel = DuelPanel(gui, self.session, self._notify)
-        self._duel.preset.on_update(lambda _: self._play_preset())
+            if is_duel:
+                self._panel = self._add_duel_panel()
+            else:
+                self._panel = GamePanel(gui, self.session, self._notify)
         with layout.layers:
             self._add_layers()
         self._reset_cameras()
-        self._caption = DemoCaption(gui) if demo else None
+        colours = self.session.colours
+        self._caption = DemoCaption(gui, colours) if demo else None
         if demo:
             layout.controls.minimize()
         self._saving = RunSaver(Path("runs"))
         self._publisher = threading.Thread(target=self._publish, daemon=True)
+
+    def _add_duel_panel(self) -> DuelPanel:
+        """Add the panel of a duel, whose presets start at once."""
+        panel = DuelPanel(self.server.gui, self.session, self._notify)
+        panel.preset.on_update(lambda _: self._play_preset(panel))
+        return panel
 
     def _set_scene(self) -> tuple[SceneLayers, ViewerClients]:
         """Add lights, players and labels to the scene."""
@@ -114,16 +134,16 @@ class Page:
         self._dragging = PushDragging(scene, self.session, self._notify)
         self._bodies = self._add_bodies()
         return SceneLayers(scene), ViewerClients(
-            self.server, self.session.settings.room.plan
+            self.server, room_of(self.session.settings)
         )
 
     def _add_bodies(self) -> SceneBodies:
-        """Add the bodies of the duel, whose robots can be dragged."""
-        model = self.session.duel.world.model
+        """Add the bodies of the game, whose robots can be dragged."""
+        model = self.session.match.world.model
         bodies = SceneBodies(self.server.scene, model)
-        bodies.add_labels(model, PLAYERS)
-        for number, player in enumerate(PLAYERS):
-            self._dragging.add(number, bodies.meshes_of(model, player))
+        bodies.add_labels(model, self.session.names)
+        for player in self.session.names:
+            self._dragging.add(player, bodies.meshes_of(model, player))
         self._shown = stage_of(self.session.settings)
         return bodies
 
@@ -132,17 +152,20 @@ class Page:
         self._publisher.start()
 
     def close(self) -> None:
-        """Stop the duel, the updates and the server."""
+        """Stop the game, the updates and the server."""
         self._closing.set()
         self.session.close()
         self._publisher.join(timeout=5.0)
         self.server.stop()
 
     def _add_buttons(self) -> None:
-        """Add the buttons of duel, speed, camera and theme."""
+        """Add the buttons of game, speed, camera and theme."""
         gui, session = self.server.gui, self.session
         self._play = gui.add_button("Start", hint="Key: space.")
-        action = gui.add_button_group("Duel", ("step", "reset", "save"))
+        action = gui.add_button_group(
+            "Duel" if isinstance(session.settings, DuelSettings) else "Game",
+            ("step", "reset", "save"),
+        )
         speed = gui.add_dropdown("Speed", SPEEDS, initial_value="1")
         self._back: Any = gui.add_slider(
             "Look back [s]",
@@ -152,6 +175,11 @@ class Page:
             initial_value=0.0,
         )
         camera = gui.add_button_group("Camera", CAMERAS)
+        self._follow = gui.add_dropdown(
+            "Follow",
+            (EVERYBODY, *session.names),
+            visible=len(session.names) > 2,
+        )
         theme = gui.add_button_group("Light", THEMES)
         actions = {
             "step": self._step,
@@ -186,12 +214,12 @@ class Page:
         play = gui.add_command("Play or pause", hotkey="space")
         step = gui.add_command("Step 0.1 s", hotkey="N")
         reset = gui.add_command("Reset", hotkey="R")
-        save = gui.add_command("Save this duel", hotkey="S")
+        save = gui.add_command("Save this run", hotkey="S")
         theme = gui.add_command("Light or dark", hotkey="L")
         free = gui.add_command("Camera: free", hotkey="1")
         follow = gui.add_command("Camera: follow", hotkey="2")
         top = gui.add_command("Camera: top", hotkey="3")
-        eyes = gui.add_command("Camera: evader's view", hotkey="4")
+        eyes = gui.add_command("Camera: player's view", hotkey="4")
 
         @play.on_trigger
         def _(_: object) -> None:
@@ -207,18 +235,18 @@ class Page:
         eyes.on_trigger(lambda e: viewers.choose(e.client, CAMERAS[3]))
 
     def _step(self) -> None:
-        """Advance a paused duel by 0.1 s."""
+        """Advance a paused game by 0.1 s."""
         if not self.session.running:
             self.session.step(0.1)
 
     def _reset(self) -> None:
-        """Start a new duel with the settings of the page."""
-        if self._duel.restart():
+        """Start a new game with the settings of the page."""
+        if self._panel.restart() and self._drive is not None:
             self._drive.reset()
 
-    def _play_preset(self) -> None:
+    def _play_preset(self, panel: DuelPanel) -> None:
         """Start the duel of the chosen preset."""
-        if self._duel.play_preset():
+        if panel.play_preset() and self._drive is not None:
             self._drive.reset()
 
     def _save(self) -> None:
@@ -243,9 +271,8 @@ class Page:
             self.layers.shown[layer] = box.value
 
     def _reset_cameras(self) -> None:
-        """Show the camera panel if the duel has cameras."""
-        with_cameras = self.session.settings.sensing == "cameras"
-        self._cameras.reset(visible=with_cameras)
+        """Show the camera panel if the game has cameras."""
+        self._cameras.reset(visible=has_cameras(self.session.settings))
 
     def _publish(self) -> None:
         plotted = 0.0
@@ -280,35 +307,9 @@ class Page:
             else:
                 self._bodies.move(snapshot.positions, snapshot.quaternions)
                 draw_session(self.layers, session)
-        self._viewers.aim(
-            [np.array(player.torso[:2]) for player in snapshot.players],
-            [float(player.com[2]) for player in snapshot.players],
-        )
+        self._aim(snapshot)
         self._play.label = "Pause" if session.running else "Start"
-        status = status_text(
-            snapshot.phases,
-            snapshot.distance,
-            snapshot.angle,
-            self._trigger_distance,
-            session.theory,
-            approach=snapshot.approach,
-        )
-        speed = text = ""
-        if session.running and session.real_time_factor > 0.0:
-            speed = f", {session.real_time_factor:.1f} x real time"
-        if past is not None:
-            text = f"**looking back**: the bodies at {past[0]:.1f} s\n\n"
-        text += (
-            f"{status}\n\n{self._outlook(snapshot)}\n\n"
-            f"{snapshot.time:.1f} s simulated{speed}\n\n"
-            f"distance {snapshot.distance:.2f} m, "
-            f"closest approach {snapshot.closest:.2f} m"
-        )
-        if session.outcome is not None:
-            text += f"\n\n**over: {session.outcome.value}**; reset to restart"
-            text += f"\n\n{snapshot.message}"
-        if session.error is not None:
-            text += f"\n\n**stopped: {for_markdown(session.error)}**"
+        text = self._text(snapshot, None if past is None else past[0])
         if self._status.content != text:
             self._status.content = text
         if self._caption is not None:
@@ -316,7 +317,64 @@ class Page:
             if is_over(snapshot, ended=session.outcome is not None):
                 seed = session.settings.seed + 1
                 session.reset(replace(session.settings, seed=seed))
-        self._drive.show(snapshot.time, snapshot.distance)
+        if self._drive is not None:
+            self._drive.show(snapshot.time, snapshot.distance)
+
+    def _aim(self, snapshot: LiveSnapshot) -> None:
+        """Move the cameras that are not free."""
+        seen = {player.name: player for player in snapshot.players}
+        places = {n: np.array(p.torso[:2]) for n, p in seen.items()}
+        order = order_in_view(
+            places, self.session.opponents, self._follow.value
+        )
+        self._viewers.aim(
+            [places[name] for name in order],
+            [float(seen[name].com[2]) for name in order],
+        )
+
+    def _text(self, snapshot: LiveSnapshot, past: float | None) -> str:
+        """Return the status text.
+
+        Args:
+            snapshot: State of the game.
+            past: Time of the bodies that are shown instead, in [s].
+        """
+        session, speed, text = self.session, "", ""
+        if session.running and session.real_time_factor > 0.0:
+            speed = f", {session.real_time_factor:.1f} x real time"
+        if past is not None:
+            text = f"**looking back**: the bodies at {past:.1f} s\n\n"
+        text += (
+            f"{self._state(snapshot)}\n\n{self._outlook(snapshot)}\n\n"
+            f"{snapshot.time:.1f} s simulated{speed}"
+        )
+        if isfinite(snapshot.distance):
+            least = "least " if len(snapshot.players) > 2 else ""
+            text += (
+                f"\n\n{least}distance {snapshot.distance:.2f} m, "
+                f"closest approach {snapshot.closest:.2f} m"
+            )
+        if session.outcome is not None:
+            text += f"\n\n**over: {session.outcome.value}**; reset to restart"
+            text += f"\n\n{snapshot.message}"
+        if session.error is not None:
+            text += f"\n\n**stopped: {for_markdown(session.error)}**"
+        return text
+
+    def _state(self, snapshot: LiveSnapshot) -> str:
+        """Return the state of the players as text."""
+        settings = self.session.settings
+        if isinstance(settings, GameSettings):
+            return players_text(self.session.names, snapshot.phases)
+        pursuer, evader = snapshot.phases
+        return status_text(
+            (pursuer, evader),
+            snapshot.distance,
+            snapshot.angle,
+            trigger_distance(settings),
+            self.session.theory,
+            approach=snapshot.approach,
+        )
 
     def _renew_stage(self) -> None:
         """Replace the bodies if those of the duel are others."""
@@ -324,7 +382,7 @@ class Page:
         if self._shown != stage_of(settings):
             self._bodies.remove()
             self._bodies = self._add_bodies()
-            self._viewers.show_room(settings.room.plan)
+            self._viewers.show_room(room_of(settings))
 
     def _past(self, now: float) -> BodyPoses | None:
         """Return the poses to show instead of the present ones, if any."""
@@ -334,37 +392,49 @@ class Page:
         with self.session.lock:
             return self.session.trail.poses_at(now - back)
 
-    @property
-    def _trigger_distance(self) -> float:
-        """Distance at which the evader begins to move, in [m].
-
-        Infinite for strategies that do not wait for a distance.
-        """
-        settings = self.session.settings
-        if settings.evader_strategy != EVASION:
-            return inf
-        if settings.pursuer == "person":
-            return settings.strategy.begins_at(settings.person.speed)
-        speed = settings.gait.stride / settings.gait.step_duration
-        return settings.strategy.begins_at(speed)
-
     def _outlook(self, snapshot: LiveSnapshot) -> str:
         """Return what is expected next, as text."""
-        session = self.session
+        session, settings = self.session, self.session.settings
         if session.driven:
-            return "The pursuer is **driven by hand**: no theory applies."
+            who = named(session.driven)
+            who = who[0].upper() + who[1:]
+            return f"{who} is **driven by hand**: no theory applies."
+        if isinstance(settings, GameSettings):
+            return ""
         return outlook(
             snapshot.distance,
-            snapshot.phases[1],
-            safety=self._trigger_distance,
+            snapshot.phases[PLAYERS.index(EVADER)],
+            safety=trigger_distance(settings),
             approach=snapshot.approach,
             theory=session.theory,
             settling=session.settling,
         )
 
 
-def stage_of(settings: DuelSettings) -> tuple[Any, ...]:
-    """Return what decides which bodies a duel has."""
+def trigger_distance(settings: DuelSettings) -> float:
+    """Return the distance at which the evader begins to move, in [m].
+
+    Infinite for strategies that do not wait for a distance.
+    """
+    if settings.evader_strategy != EVASION:
+        return inf
+    if settings.pursuer == "person":
+        return settings.strategy.begins_at(settings.person.speed)
+    speed = settings.gait.stride / settings.gait.step_duration
+    return settings.strategy.begins_at(speed)
+
+
+def has_cameras(settings: LiveSettings) -> bool:
+    """Return whether players of a game see by cameras."""
+    if isinstance(settings, GameSettings):
+        return bool(settings.sensing_by("cameras"))
+    return settings.sensing == "cameras"
+
+
+def stage_of(settings: LiveSettings) -> tuple[Any, ...]:
+    """Return what decides which bodies a game has."""
+    if isinstance(settings, GameSettings):
+        return ()  # those of its file, whatever the seed
     return (
         settings.room,
         settings.pursuer,

@@ -1,25 +1,31 @@
-"""Live duel in its own thread, paced by the wall clock."""
+"""Live game in its own thread, paced by the wall clock."""
 
 import logging
 import threading
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from math import degrees
+from math import degrees, nan
 from pathlib import Path
 from time import perf_counter, sleep
 from typing import TYPE_CHECKING, NamedTuple
 
-from ...core.errors import StepAsideError
+from ...arena import Room
+from ...core.errors import ConfigurationError, StepAsideError
+from ...core.player_identity import PlayerIdentity, Role
 from ...core.poses import Array
 from ...games.approach_forecast import CourseApproach
 from ...games.duel import Duel
 from ...games.duel_circle import circle_of_theory
-from ...games.duel_settings import DuelSettings
+from ...games.duel_settings import EVADER, PLAYERS, DuelSettings
+from ...games.game_match import GameMatch
+from ...games.game_settings import GameSettings
 from ...games.outcome import Outcome
 from ...games.player import Snapshot
 from ...locomotion.walk_snapshots import Phase
 from ...sim.push import Push
+from ...strategies.registry import OF_EVASION
+from ..figure_style import colours_of
 from ..settling_report import settling_time
 from .plot_history import PlotHistory
 from .run_saving import LiveRecording, RunSaver
@@ -31,10 +37,12 @@ if TYPE_CHECKING:
 LOG = logging.getLogger(__name__)
 MAX_COMMANDS = 10_000  # of teleoperation that are recorded
 MAX_DELAY = 0.25  # beyond which lost time is not caught up, in [s]
+LiveSettings = DuelSettings | GameSettings
+LiveMatch = Duel | GameMatch
 
 
 class LiveTheory(NamedTuple):
-    """Predictions of the theory for a duel; each None if it has none.
+    """Predictions of the theory for a game; each None if it has none.
 
     Attributes:
         circle: Distance [m] and angle between headings [deg] on the circle.
@@ -47,12 +55,14 @@ class LiveTheory(NamedTuple):
     settling: float | None
 
 
-def predict(settings: DuelSettings) -> LiveTheory:
+def predict(settings: LiveSettings) -> LiveTheory:
     """Return the predictions of the theory for some settings.
 
     Args:
-        settings: Settings of the duel.
+        settings: Settings; only a duel has a theory here.
     """
+    if isinstance(settings, GameSettings):
+        return LiveTheory(None, None, None)
     circle, settling = circle_of_theory(settings), settling_time(settings)
     if not circle.exists:
         return LiveTheory(None, None, settling)
@@ -62,26 +72,28 @@ def predict(settings: DuelSettings) -> LiveTheory:
 
 @dataclass(frozen=True, slots=True)
 class LiveSnapshot:
-    """State of a duel at one instant, as the page shows it.
+    """State of a game at one instant, as the page shows it.
 
     Attributes:
         time: Simulated time, in [s].
         positions: Of all bodies in the world, in [m]. Shape (bodies, 3).
         quaternions: (w, x, y, z) of all bodies. Shape (bodies, 4).
         players: Snapshot of each player.
-        phases: Phases of pursuer and evader.
-        distance: Between the two, in [m].
+        phases: Phase of each player.
+        distance: Of the players, as the rules define it, in [m]; NaN if
+            they do not.
         closest: Closest approach so far, in [m].
-        angle: Between their headings at the last sample, in [deg].
-        approach: Of the pursuer to the evader; None before it is known.
-        message: Message of the duel.
+        angle: Between the headings of a duel at the last sample, in [deg].
+        approach: Of the pursuer of a duel to the evader; None before it is
+            known.
+        message: Message of the game.
     """
 
     time: float
     positions: Array
     quaternions: Array
     players: tuple[Snapshot, ...]
-    phases: tuple[Phase, Phase]
+    phases: tuple[Phase, ...]
     distance: float
     closest: float
     angle: float
@@ -89,32 +101,84 @@ class LiveSnapshot:
     message: str
 
 
+def room_of(settings: LiveSettings) -> Room | None:
+    """Return the room of a game; None for an open floor."""
+    if isinstance(settings, GameSettings):
+        return settings.room
+    return settings.room.plan
+
+
+def safety_radii(settings: LiveSettings) -> dict[str, float]:
+    """Return the safety radius of each player that has one, in [m].
+
+    They belong to the paper's evasion strategy and its variants.
+    """
+    if isinstance(settings, DuelSettings):
+        return {EVADER: settings.strategy.area}
+    return {
+        own.name: own.evasion.area
+        for own in settings.players
+        if own.decides and own.played_strategy in OF_EVASION
+    }
+
+
+def identities_of(settings: LiveSettings) -> Mapping[str, PlayerIdentity]:
+    """Return the identities of the players, by name."""
+    if isinstance(settings, GameSettings):
+        return settings.identities
+    return {name: PlayerIdentity(name, Role(name), name) for name in PLAYERS}
+
+
+def open_match(settings: LiveSettings, trail: PlotHistory) -> LiveMatch:
+    """Return a game for a page, whose record is bounded.
+
+    Args:
+        settings: Settings of the game.
+        trail: Its recent history.
+
+    Raises:
+        ConfigurationError: If it is no game in physics.
+        StepAsideError: If the settings are invalid.
+    """
+    observers = trail, LiveRecording()
+    if isinstance(settings, DuelSettings):
+        return Duel(settings, observers, recorded=False, rendered=True)
+    if settings.level != "physics":
+        raise ConfigurationError(
+            "level must be physics for a live page, got "
+            f"{settings.level!r}; `stepaside game` plays it, and `stepaside "
+            "replay` shows the run"
+        )
+    return GameMatch(settings, observers, recorded=False, rendered=True)
+
+
 class LiveSession:
-    """Runs a duel against the wall clock.
+    """Runs a game against the wall clock.
 
     The page never blocks it: requests go into a queue that the loop empties
     between two ticks, and snapshots are copied under a lock that is held for
     microseconds.
 
     Attributes:
-        settings: Settings of the duel, which a reset uses again.
-        duel: The duel.
+        settings: Settings of the game, which a reset uses again.
+        match: The game that is played.
         running: Whether simulated time passes.
         speed: Simulated time per wall-clock time; inf for no limit.
         slow_motion: Factor of that speed, 1 except near a closest approach.
-        outcome: Outcome of the duel; None while it is played.
+        outcome: Outcome of the game; None while it is played.
         error: Message of an error in the loop; None if there was none.
-        trail: Recent history of the duel.
-        lock: Held while the duel changes.
+        trail: Recent history of the game.
+        colours: Colour of each player, by name.
+        lock: Held while the game changes.
         commands: Recorded commands of teleoperation.
-        driven: Whether the pursuer is teleoperated; theory does not apply
-            then.
+        driven: Name of the player that is teleoperated, or empty; theory
+            does not apply then.
         real_time_factor: Measured simulated time per wall-clock time; 0
             before the first measurement.
     """
 
-    def __init__(self, settings: DuelSettings) -> None:
-        """Start the loop with a duel that is paused.
+    def __init__(self, settings: LiveSettings) -> None:
+        """Start the loop with a game that is paused.
 
         Raises:
             StepAsideError: If the settings are invalid.
@@ -129,7 +193,7 @@ class LiveSession:
         self._closing = threading.Event()
         self._thread = threading.Thread(target=self._loop, daemon=True)
         self.generation = 0
-        self._open: Duel | None = None
+        self._open: LiveMatch | None = None
         self._thread.start()
         try:
             self._in_loop(lambda: self._begin(settings))
@@ -155,30 +219,42 @@ class LiveSession:
         if failed:
             raise failed[0]
 
-    def _begin(self, settings: DuelSettings) -> None:
-        # A live duel has no end, so that its history is bounded.
+    def _begin(self, settings: LiveSettings) -> None:
+        # A live game has no end, so that its history is bounded.
         trail = PlotHistory()
-        duel = Duel(
-            settings,
-            (trail, LiveRecording()),
-            recorded=False,
-            rendered=True,
-        )
-        self._close_duel()
-        self._open = duel
-        self.duel = duel
+        match = open_match(settings, trail)
+        self._close_match()
+        self._open = match
+        self.match = match
         self.outcome: Outcome | None = None
         self.trail = trail
-        self.driven = False
+        self.driven = ""
         self.adopt_settings(settings)
         self.commands: list[dict[str, float | str | bool]] = []
         self.generation += 1
 
-    def adopt_settings(self, settings: DuelSettings) -> None:
-        """Take settings that changed during the duel, with their theory."""
+    @property
+    def opponents(self) -> tuple[tuple[str, str], ...]:
+        """Names of all pairs of a pursuer and an evader."""
+        identities = identities_of(self.settings).items()
+        return tuple(
+            (one, other)
+            for one, own in identities
+            for other, theirs in identities
+            if own.role is Role.PURSUER and own.opposes(theirs)
+        )
+
+    def adopt_settings(self, settings: LiveSettings) -> None:
+        """Take settings that changed during the game, with their theory."""
         self.settings = settings
+        self.colours = colours_of(self.names, identities_of(settings))
         self._predicted = predict(settings)
         self.settling = self._predicted.settling
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the players, in the order in which they act."""
+        return tuple(player.name for player in self.match.players)
 
     @property
     def theory(self) -> tuple[float, float] | None:
@@ -196,14 +272,14 @@ class LiveSession:
         if self._thread.is_alive():
             self._thread.join(timeout=5.0)
 
-    def reset(self, settings: DuelSettings | None = None) -> None:
-        """Start a new duel.
+    def reset(self, settings: LiveSettings | None = None) -> None:
+        """Start a new game.
 
         Args:
-            settings: Its settings; None for those of the last duel.
+            settings: Its settings; None for those of the last game.
 
         Raises:
-            StepAsideError: If the settings are invalid; the current duel
+            StepAsideError: If the settings are invalid; the current game
                 continues then.
         """
         new_settings = self.settings if settings is None else settings
@@ -211,19 +287,19 @@ class LiveSession:
         self.error = None
 
     def step(self, duration: float) -> None:
-        """Advance a paused duel.
+        """Advance a paused game.
 
         Args:
             duration: Simulated time, in [s].
         """
-        ticks = max(1, round(duration / self.duel.world.physics.tick))
+        ticks = max(1, round(duration / self.match.world.physics.tick))
         self._requests.append(lambda: self._advance(ticks))
 
-    def push(self, robot: int, impulse: float, direction: float) -> None:
+    def push(self, player: str, impulse: float, direction: float) -> None:
         """Push a robot now.
 
         Args:
-            robot: 0 for the pursuer, 1 for the evader.
+            player: Name of the player.
             impulse: In [N s].
             direction: Relative to its heading, in [rad].
 
@@ -231,21 +307,21 @@ class LiveSession:
             ConfigurationError: If the push is invalid or the player is not a
                 robot.
         """
-        duel = self.duel
-        push = Push(impulse, duel.world.time, direction)
-        self._in_loop(lambda: duel.players[robot].push(push))
+        match = self.match
+        push = Push(impulse, match.world.time, direction)
+        self._in_loop(lambda: match.player(player).push(push))
 
-    def change(self, request: Callable[[Duel], None]) -> None:
-        """Request a change of the duel between two ticks.
+    def change(self, request: Callable[[LiveMatch], None]) -> None:
+        """Request a change of the game between two ticks.
 
         Args:
-            request: Called with the duel in the loop's thread.
+            request: Called with the game in the loop's thread.
         """
-        duel = self.duel
-        self._requests.append(lambda: request(duel))
+        match = self.match
+        self._requests.append(lambda: request(match))
 
     def save(self, saving: RunSaver) -> Path:
-        """Write the duel so far, which pauses meanwhile.
+        """Write the game so far, which pauses meanwhile.
 
         Args:
             saving: Writer of run folders.
@@ -257,7 +333,7 @@ class LiveSession:
             StepAsideError: If it cannot be written.
         """
         with self.lock:
-            return saving.save(self.duel, self.outcome, self.commands)
+            return saving.save(self.match, self.outcome, self.commands)
 
     def record_command(self, **command: float | str | bool) -> None:
         """Record a command of teleoperation with the simulated time.
@@ -266,7 +342,7 @@ class LiveSession:
             command: Its values.
         """
         if len(self.commands) < MAX_COMMANDS:
-            time = self.duel.world.time
+            time = self.match.world.time
             self.commands.append({"time_s": time, **command})
 
     def new_frames(self) -> "dict[str, FrameReport]":
@@ -279,19 +355,21 @@ class LiveSession:
     def snapshot(self) -> LiveSnapshot:
         """Return a copy of the present state."""
         with self.lock:  # no tick may change the state meanwhile
-            duel, history = self.duel, self.trail.history
-            data = duel.world.data
+            match, history = self.match, self.trail.history
+            data, distance = match.world.data, match.distance
             return LiveSnapshot(
-                duel.world.time,
+                match.world.time,
                 data.xpos.copy(),
                 data.xquat.copy(),
-                tuple(player.snapshot() for player in duel.players),
-                phases_of(duel),
-                duel.distance or 0.0,
-                duel.min_distance or 0.0,
+                tuple(player.snapshot() for player in match.players),
+                phases_of(match),
+                nan if distance is None else distance,
+                match.min_distance
+                if isinstance(match, Duel)
+                else self.trail.closest,
                 history[-1][2] if history else 0.0,
                 self.trail.approach(self.settings.cycle),
-                duel.message,
+                match.message,
             )
 
     def _loop(self) -> None:
@@ -305,7 +383,7 @@ class LiveSession:
                     due = measured = perf_counter()
                     simulated = 0.0
                     continue
-                tick = self.duel.world.physics.tick
+                tick = self.match.world.physics.tick
                 self._advance(1)
                 simulated += tick
                 now = perf_counter()
@@ -320,12 +398,12 @@ class LiveSession:
             except StepAsideError as error:
                 self._fail(str(error))
             except Exception as error:
-                LOG.exception("the duel stopped")
+                LOG.exception("the game stopped")
                 self._fail(f"{type(error).__name__}: {error}")
-        self._close_duel()
+        self._close_match()
 
-    def _close_duel(self) -> None:
-        """Close the duel in the thread that owns its graphics."""
+    def _close_match(self) -> None:
+        """Close the game in the thread that owns its graphics."""
         if self._open is not None:
             self._open.close()
             self._open = None
@@ -347,4 +425,4 @@ class LiveSession:
                 self._tick()
 
     def _tick(self) -> None:
-        self.outcome = self.duel.tick()
+        self.outcome = self.match.tick()

@@ -1,7 +1,7 @@
-"""Recent history of a live duel, for plots, traces and footsteps."""
+"""Recent history of a live game, for plots, traces and footsteps."""
 
 from collections import deque
-from math import degrees, nan
+from math import degrees, inf, nan
 from typing import TYPE_CHECKING
 
 import mujoco
@@ -13,6 +13,7 @@ from ...games.approach_forecast import CourseApproach, estimate_approach
 from ...games.duel_circle import angle_between
 from ...games.match import Match
 from ...games.outcome import Outcome
+from ...games.pair_match import PairMatch
 from ...games.player import Player, Snapshot
 from ...locomotion.walk_snapshots import StepStarted
 from ...planning import Foot
@@ -37,9 +38,12 @@ class PlotHistory:
     """Observer of a game that keeps its recent history.
 
     Attributes:
-        history: (time [s], distance [m], angle [deg]) of the last minutes.
-        offsets: (time [s], x [m], y [m]) from the evader to the pursuer, in
-            the world, of the last gait cycles.
+        history: (time [s], distance [m], angle [deg]) of the last minutes,
+            as the rules define the distance, with the angle between the
+            headings of a duel; NaN where there is none.
+        closest: Smallest distance at the samples so far, in [m].
+        offsets: (time [s], x [m], y [m]) from the evader to the pursuer of a
+            duel, in the world, of the last gait cycles.
         traces: Recent positions of CoM and ZMP in the world, in [m], by
             ``player/CoM`` and ``player/ZMP``.
         steps: Last footsteps of each player, by name; each where it was
@@ -58,6 +62,7 @@ class PlotHistory:
         self.history: deque[tuple[float, float, float]] = deque(
             maxlen=MAX_SAMPLES
         )
+        self.closest = inf
         self.offsets: deque[tuple[float, float, float]] = deque(
             maxlen=MAX_OFFSETS
         )
@@ -74,13 +79,17 @@ class PlotHistory:
         if match.world.ticks == 0 or match.world.ticks % every:
             return
         snapshots = [player.snapshot() for player in match.players]
-        if match.distance is not None:
-            pursuer, evader = (np.array([s.place]) for s in snapshots[:2])
+        distance, angle = match.distance, nan
+        if isinstance(match, PairMatch):
+            pursuer, evader = (np.array([s.place]) for s in snapshots)
             angle = degrees(float(angle_between(pursuer, evader)[0]))
-            self.history.append((match.world.time, match.distance, angle))
             x, y = (pursuer - evader)[0, :2].tolist()
             self.offsets.append((match.world.time, x, y))
-            self._record_signals(match, snapshots)
+        if distance is not None:
+            self.closest = min(self.closest, distance)
+        apart = nan if distance is None else distance
+        self.history.append((match.world.time, apart, angle))
+        self._record_signals(match, snapshots)
         for snapshot in snapshots:
             self._trace(f"{snapshot.name}/CoM", snapshot.com[:2])
             # The ZMP is NaN while no foot is in contact.

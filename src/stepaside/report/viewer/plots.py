@@ -134,13 +134,19 @@ class SignalPlot:
 
 
 class Plots:
-    """Plots of a live duel: distance, angle, and a signal."""
+    """Plots of a live game: distance, angle of a duel, and a signal."""
 
-    def __init__(self, gui: viser.GuiApi) -> None:
-        """Add empty plots to a page."""
+    def __init__(self, gui: viser.GuiApi, *, with_angle: bool = True) -> None:
+        """Add empty plots to a page.
+
+        Args:
+            gui: Controls of the page.
+            with_angle: Whether to plot the angle between the headings.
+        """
         self._gui = gui
         empty = plot_data(np.zeros(1), np.zeros(1), None)
-        self._plots = [self._add(number, empty) for number in (0, 1)]
+        numbers = range(2 if with_angle else 1)
+        self._plots = [self._add(number, empty) for number in numbers]
         self._signal = SignalPlot(gui, ())
 
     def _add(self, number: int, data: Data) -> viser.GuiUplotHandle:
@@ -158,8 +164,8 @@ class Plots:
         if len(rows) < 2:
             return
         theory = session.theory or (None, None)
-        for number, level in enumerate(theory):
-            plot = self._plots[number]
+        for number, plot in enumerate(self._plots):
+            level = theory[number]
             data = plot_data(rows[:, 0], rows[:, number + 1], level)
             if len(data) == len(plot.data):
                 plot.data = data

@@ -30,11 +30,15 @@ from .scene_layers import (
     ring,
     safety_ring,
 )
-from .viewer_clients import CAMERAS, ViewerClients
+from .viewer_clients import (
+    CAMERAS,
+    EVERYBODY,
+    ViewerClients,
+    order_in_view,
+)
 
 LOG = logging.getLogger(__name__)
 RATE = 30.0  # updates of the scene per second
-EVERYBODY = "All players"  # choice of the camera's target
 PLOT_SAMPLES = 1500  # of a curve, approximately
 COLUMNS = {  # of the arrays of a trajectory, by the end of their names
     "com": ("x [m]", "y [m]", "z [m]"),
@@ -87,8 +91,8 @@ class ReplayPage:
         scene, camera = self.server.scene, self.server.initial_camera
         scene.set_up_direction("+z")
         scene.configure_default_lights(cast_shadow=True)
-        last = self._run.tracks[self._run.players[-1]].torso[0]
-        x, y = float(last[0]), float(last[1])
+        starts = [track.torso[0, :2] for track in self._run.tracks.values()]
+        x, y = np.mean(starts, axis=0).tolist()
         camera.position = (x - 1.5, y - 1.6, 1.3)
         camera.look_at = (x, y, 0.2)
         self._bodies = SceneBodies(scene, self._scene.model)
@@ -241,23 +245,10 @@ class ReplayPage:
             self._status.content = text
 
     def _in_view(self, index: int) -> list[str]:
-        """Return the players that cameras show, the first opponents first.
-
-        If one player is followed, it is the second, after the nearest other
-        one, as the evader of a duel is.
-        """
-        run, followed = self._run, self._follow.value
-        if followed not in run.tracks:
-            first = [*run.opponents[0]] if run.opponents else []
-            return first + [n for n in run.players if n not in first]
-        here = run.tracks[followed].torso[index, :2]
-        nearest = min(
-            (name for name in run.players if name != followed),
-            key=lambda name: float(
-                np.hypot(*(run.tracks[name].torso[index, :2] - here))
-            ),
-        )
-        return [nearest, followed]
+        """Return the players that cameras show; see order_in_view()."""
+        run = self._run
+        places = {n: t.torso[index, :2] for n, t in run.tracks.items()}
+        return order_in_view(places, run.opponents, self._follow.value)
 
     def _draw(self, index: int) -> None:
         run, layers = self._run, self._layers
@@ -276,9 +267,10 @@ class ReplayPage:
             player, radius = run.safety
             area = safety_ring(run.tracks[player].torso[index, :2], radius)
             layers.draw("safety radius", player, area, colours[player])
-        if run.pair is not None:
-            sight = [[*t.torso[index, :2], 0.25] for t in run.pair]
-            layers.draw("line of sight", "both", np.array([sight]), THEORY)
+        for pair in run.lines_of_sight:
+            sight = [[*run.tracks[n].torso[index, :2], 0.25] for n in pair]
+            owner = "-".join(pair)
+            layers.draw("line of sight", owner, np.array([sight]), THEORY)
         theoretical = run.circle
         if theoretical is not None:
             circle = ring(*theoretical, HEIGHTS["theoretical circle"])

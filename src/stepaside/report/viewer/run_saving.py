@@ -1,4 +1,4 @@
-"""Run folders of live duels."""
+"""Run folders of live games."""
 
 import json
 from pathlib import Path
@@ -8,6 +8,7 @@ from typing import Any
 from ...core.atomic_output import atomic_draft
 from ...core.errors import ConfigurationError
 from ...games.duel import Duel
+from ...games.game_match import GameMatch
 from ...games.match import Match
 from ...games.outcome import Outcome
 from ..run_folder import free_folder, write_run
@@ -18,21 +19,30 @@ COMMAND_FILE = "hand.json"
 
 
 class LiveRecording:
-    """Observer that records the first ``MAX_RECORDED`` seconds of a duel."""
+    """Observer that records the first ``MAX_RECORDED`` seconds of a game."""
 
     def before(self, match: Match) -> None:
         """Record a sample."""
-        if isinstance(match, Duel) and match.world.time <= MAX_RECORDED:
+        if (
+            isinstance(match, (Duel, GameMatch))
+            and match.world.time <= MAX_RECORDED
+        ):
             match.recorder.before(match)
 
     def acted(self, match: Match) -> None:
         """Record the steps that begin."""
-        if isinstance(match, Duel) and match.world.time <= MAX_RECORDED:
+        if (
+            isinstance(match, (Duel, GameMatch))
+            and match.world.time <= MAX_RECORDED
+        ):
             match.recorder.acted(match)
 
     def ended(self, match: Match, outcome: Outcome) -> None:
         """Record the last sample."""
-        if isinstance(match, Duel) and match.world.time <= MAX_RECORDED:
+        if (
+            isinstance(match, (Duel, GameMatch))
+            and match.world.time <= MAX_RECORDED
+        ):
             match.recorder.ended(match, outcome)
 
 
@@ -49,12 +59,17 @@ class RunSaver:
         self._written = 0
         self._lock = Lock()
 
-    def save(self, duel: Duel, outcome: Outcome | None, commands: Any) -> Path:
-        """Write a duel so far.
+    def save(
+        self,
+        match: Duel | GameMatch,
+        outcome: Outcome | None,
+        commands: Any,
+    ) -> Path:
+        """Write a game so far.
 
         Args:
-            duel: The duel; it must not change meanwhile.
-            outcome: Outcome of the duel; None while it is played.
+            match: The game; it must not change meanwhile.
+            outcome: Outcome of the game; None while it is played.
             commands: Commands of teleoperation, as plain values.
 
         Returns:
@@ -71,11 +86,11 @@ class RunSaver:
                     f"saved runs must be at most {MAX_FOLDERS}; restart "
                     "stepaside view to save more"
                 )
-            if len(duel.recorder.times) < 3:
+            if len(match.recorder.times) < 3:
                 raise ConfigurationError(
-                    "nothing has been recorded yet: start the duel first"
+                    "nothing has been recorded yet: start the game first"
                 )
-            run = duel.run(outcome or Outcome.INTERRUPTED, duel.world.time)
+            run = match.run(outcome or Outcome.INTERRUPTED, match.world.time)
             name = f"live-seed{run.settings.seed}"
             folder = write_run(free_folder(self._parent, name), run).parent
             if commands:

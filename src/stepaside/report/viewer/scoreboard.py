@@ -30,8 +30,13 @@ class ScoreRound(NamedTuple):
 class Scoreboard:
     """Rounds of teleoperation since the page was started."""
 
-    def __init__(self) -> None:
-        """Start without a round."""
+    def __init__(self, survivor: str = "the evader") -> None:
+        """Start without a round.
+
+        Args:
+            survivor: Who survives, in the texts.
+        """
+        self._survivor = survivor
         self._lock = Lock()
         self._rounds: list[ScoreRound] = []
         self._number = 0
@@ -97,7 +102,7 @@ class Scoreboard:
             current = ""
             if self._began is not None and self._closest < inf:
                 current = (
-                    f"round {self._number}: the evader survived "
+                    f"round {self._number}: {self._survivor} survived "
                     f"{self._now - self._began:.1f} s; closest approach "
                     f"{self._closest:.2f} m\n\n"
                 )

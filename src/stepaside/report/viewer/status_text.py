@@ -1,9 +1,10 @@
-"""Status texts of a live duel: current state and outlook."""
+"""Status texts of a live game: current state and outlook."""
 
+from collections.abc import Sequence
 from math import inf, isfinite, log
 
 from ...games.approach_forecast import CourseApproach, describe_motion
-from ...games.duel import Duel
+from ...games.match import Match
 from ...games.player import Player
 from ...locomotion.walk_snapshots import Phase
 
@@ -110,10 +111,24 @@ def outlook(
     return f"{text}, in about {settling * log(error / NEAR_DISTANCE):.0f} s."
 
 
-def phases_of(duel: Duel) -> tuple[Phase, Phase]:
-    """Return the phases of pursuer and evader."""
-    pursuer, evader = (phase_of(player) for player in duel.players)
-    return pursuer, evader
+def players_text(names: Sequence[str], phases: Sequence[Phase]) -> str:
+    """Return the players of a game by their phases, as text.
+
+    Args:
+        names: Names of the players.
+        phases: Phase of each.
+    """
+    each = list(zip(names, phases, strict=True))
+    lines = []
+    for phase in dict.fromkeys(phases):
+        inside = ", ".join(name for name, now in each if now is phase)
+        lines.append(f"**{phase.value}**: {inside}")
+    return "\n\n".join(lines)
+
+
+def phases_of(match: Match) -> tuple[Phase, ...]:
+    """Return the phase of each player."""
+    return tuple(phase_of(player) for player in match.players)
 
 
 def phase_of(player: Player) -> Phase:

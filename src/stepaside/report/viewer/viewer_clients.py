@@ -1,6 +1,6 @@
 """Theme and camera of each viewer of a page."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from math import hypot, tan
 from typing import Any
 
@@ -14,7 +14,8 @@ from ..room_extent import wall_corners
 from .page_layout import set_theme
 from .scene_layers import rgb
 
-CAMERAS = ("free", "follow", "top", "evader's view")
+CAMERAS = ("free", "follow", "top", "player's view")
+EVERYBODY = "All players"  # choice of the cameras' target
 FOLLOW_DIRECTION = np.array([-0.55, -0.85, 0.62])  # of the following camera
 MAX_PHONE_ASPECT = 0.8  # width over height of a phone held upright
 PHONE_DISTANCE = 1.5  # factor of the following camera's distance on a phone
@@ -102,7 +103,7 @@ class ViewerClients:
 
         Args:
             positions: Of the players in the world, in [m]. Shape (2,) each;
-                the evader's view is from the second one to the first.
+                a player's view is from the second one to the first.
             heights: Of their centers of mass, in [m].
         """
         for number, client in self._server.get_clients().items():
@@ -111,7 +112,7 @@ class ViewerClients:
                 continue
             camera = client.camera
             if name == CAMERAS[3]:
-                eye, target = _evader_view(positions, heights)
+                eye, target = _player_view(positions, heights)
             else:
                 eye, target = self._overview(camera, name == "top", positions)
             if np.abs(np.array(camera.position) - eye).max() > MIN_MOVE:
@@ -154,16 +155,40 @@ class ViewerClients:
         return target - distance * ahead, target
 
 
-def _evader_view(
+def order_in_view(
+    positions: Mapping[str, Array],
+    opponents: Sequence[tuple[str, str]],
+    followed: str,
+) -> list[str]:
+    """Return the players that cameras show, in the order for them.
+
+    The first pair of opponents comes first. If one player is followed, it is
+    the second, after the nearest other one, as the evader of a duel is.
+
+    Args:
+        positions: Of all players in the world, in [m], by name.
+        opponents: Pairs of opponents.
+        followed: Player that is followed; another text for all.
+    """
+    others = [name for name in positions if name != followed]
+    if followed not in positions or not others:
+        first = [*opponents[0]] if opponents else []
+        return first + [n for n in positions if n not in first]
+    here = positions[followed]
+    nearest = min(others, key=lambda n: hypot(*(positions[n] - here)))
+    return [nearest, followed]
+
+
+def _player_view(
     positions: Sequence[Array], heights: Sequence[float]
 ) -> tuple[Array, Array]:
-    """Return the evader's head and the pursuer, in [m]. Shape (3,) each."""
-    pursuer, evader = positions[0], positions[min(1, len(positions) - 1)]
-    sight = pursuer - evader
+    """Return a player's head and its opponent, in [m]. Shape (3,) each."""
+    opponent, own = positions[0], positions[min(1, len(positions) - 1)]
+    sight = opponent - own
     ahead = sight / max(float(hypot(*sight)), 1e-6)
     height = heights[min(1, len(heights) - 1)]
-    eye = np.array([*(evader + 0.09 * ahead), height + 0.2])
-    return eye, np.array([*pursuer, heights[0]])
+    eye = np.array([*(own + 0.09 * ahead), height + 0.2])
+    return eye, np.array([*opponent, heights[0]])
 
 
 def _add_floor(client: Any, theme: str) -> None:
