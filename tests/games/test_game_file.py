@@ -96,8 +96,24 @@ def test_the_example_games_are_valid(name: Path) -> None:
         ([HUNTER, PREY | {"start": [1.0, 1e3, 0.0]}], "start must lie in"),
         ([HUNTER, PREY | {"goal": [1.0]}], "goal must have 2 numbers"),
         (
-            [HUNTER | {"senses": "cameras"}, PREY | {"count": 2}],
-            "red: senses must be ideal with several opponents",
+            [HUNTER | {"senses": "cameras"}, PREY | {"body": "unicycle"}],
+            r"red: senses must be ideal unless .*, got 'cameras' and "
+            r"opponents blue \(unicycle\)",
+        ),
+        (
+            [
+                HUNTER | {"senses": "cameras", "target": "blue-2"},
+                PREY | {"count": 2},
+            ],
+            "red: target must be empty with senses 'cameras', as they do not "
+            "tell blue-1, blue-2 apart",
+        ),
+        (
+            [
+                HUNTER | {"senses": "cameras", "strategy": "cyclic"},
+                HUNTER | {"name": "ruby", "strategy": "cyclic"},
+            ],
+            "opponents none",
         ),
         (
             [HUNTER, PREY | {"senses": "lidar"}],

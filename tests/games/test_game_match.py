@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 from functools import cache
-from math import pi, sin
+from math import cos, pi, sin
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from stepaside.core.errors import ConfigurationError
+from stepaside.core.player_identity import Role
 from stepaside.core.poses import Array
 from stepaside.games.game_file import load_game, parse_game
 from stepaside.games.game_match import GameMatch, run_game
@@ -18,6 +19,7 @@ from stepaside.games.match import play
 from stepaside.games.outcome import Outcome
 from stepaside.games.run import MatchRun
 from stepaside.games.run_archive import load_run
+from stepaside.games.walker import SimulatedPlayer
 from stepaside.report.run_folder import write_run
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -142,6 +144,44 @@ def test_a_robot_in_a_game_sees_its_opponent_with_cameras() -> None:
     assert run.outcome is Outcome.COMPLETED
     heading = run.tracks["red"].torso[:, 2]
     assert heading[0] == pytest.approx(0.4, abs=1e-3) and heading[-1] < 0.3
+
+
+@pytest.mark.parametrize(
+    ("places", "seen"),
+    [
+        (((1.3, 0.35), (1.5, -0.35)), 2),
+        (((1.0, 0.0), (1.9, 0.0)), 1),  # one hides the other
+    ],
+)
+def test_cameras_see_several_pursuers_but_do_not_name_them(
+    places: tuple[tuple[float, float], ...], seen: int
+) -> None:
+    pytest.importorskip("cv2")
+    standing = {"strategy": "stand"}
+    match = GameMatch(
+        game(
+            robot("red", "pursuer", *places[0], pi, **standing),
+            robot("ruby", "pursuer", *places[1], pi, **standing),
+            robot("blue", "evader", 0.0, 0.0, 0.0, senses="cameras"),
+            cameras={"colour": {"renderer": "raycast"}},
+        )
+    )
+    play(match, 1.6)
+    blue = match.player("blue")
+    assert isinstance(blue, SimulatedPlayer)
+    known = blue.scheme.senses.in_sight
+    assert known is not None and known.identity.name == "blue"
+    assert len(known.sightings) == seen
+    for sighting in known.sightings:
+        identity = sighting.identity
+        assert identity is not None and identity.role is Role.PURSUER
+        assert identity.name not in ("red", "ruby")
+        x, y = (
+            sighting.distance * cos(sighting.bearing),
+            sighting.distance * sin(sighting.bearing),
+        )
+        away = min(np.hypot(x - u, y - v) for u, v in places)
+        assert away < 0.15
 
 
 def test_a_lidar_shows_people_to_a_robot_of_a_game() -> None:

@@ -73,6 +73,19 @@ def test_a_robot_is_detected_at_its_axis(
     assert look_for(LOOKS[colour], pixels) == pytest.approx(at, abs=2.0)
 
 
+@pytest.mark.parametrize("colour", PAINT)
+def test_several_robots_are_detected_the_tallest_first(colour: str) -> None:
+    pixels = empty()
+    for at, tall in ((70, 80), (160, 110), (250, 90)):
+        draw_robot(pixels, colour, at, tall)
+    image = ColourImage(0.0, CAMERA, pixels)
+    detector = ColourDetector(LOOKS[colour])
+    found = detector.detect_all(image, most=2)
+    assert [d.column for d in found] == pytest.approx([160, 250], abs=2.0)
+    assert len(detector.detect_all(image, most=8)) == 3
+    assert detector.detect(image) == found[0]
+
+
 def test_a_mirrored_image_mirrors_the_detection() -> None:
     pixels = empty()
     draw_robot(pixels, "red", 97, 110)

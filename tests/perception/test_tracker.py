@@ -54,6 +54,14 @@ def test_each_track_takes_its_nearest_observation() -> None:
     assert tracker.tracks == [far, near]
 
 
+def test_of_several_alike_the_nearest_pair_associates_first() -> None:
+    """An opponent out of view does not take the observation of another."""
+    one, other = known(0.2, 1.0), known(0.0, 1.12)
+    tracker = Tracker(several=True)
+    tracker.tracks = [one, other]
+    assert tracker.observe([look(0.2, 1.11)]) == [other]
+
+
 def test_the_most_recent_track_associates_first() -> None:
     """Otherwise a lost track would take the observation of another."""
     for order in (1, -1):

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Generic, NamedTuple, Protocol, TypeVar
 
-from ..core.player_identity import PlayerIdentity
+from ..core.player_identity import PlayerIdentity, Role
 from ..core.poses import Array
 from ..locomotion.zmp.current_step import CurrentStep
 from ..perception.attitude import AttitudeFilter
@@ -200,6 +200,42 @@ class _PerceivedSight(Generic[P]):
 
 class CameraSight(_PerceivedSight["Perception"]):
     """Sightings from images, with a head that looks at the opponent."""
+
+    def __init__(
+        self,
+        perception: "Perception",
+        *,
+        tick: float,
+        unnamed: tuple[PlayerIdentity, Role] | None = None,
+    ) -> None:
+        """Wrap a perception.
+
+        Args:
+            perception: The perception.
+            tick: Control period, in [s].
+            unnamed: Own identity, and role of the opponents, where several
+                wear one trim, so that images do not tell them apart.
+        """
+        super().__init__(perception, tick=tick)
+        self._unnamed = unnamed
+
+    @property
+    def in_sight(self) -> PlayersInSight | None:  # type: ignore[override]
+        """Recognised robots, named by the number of their track, if any."""
+        if self._unnamed is None:
+            return None
+        own, role = self._unnamed
+        return PlayersInSight(
+            own,
+            tuple(
+                seen._replace(
+                    identity=PlayerIdentity(
+                        f"unnamed-{seen.target_id}", role, role.value
+                    )
+                )
+                for seen in self.perception.unnamed
+            ),
+        )
 
     @property
     def turning(self) -> float:

@@ -100,6 +100,7 @@ class CameraSenses:
             tick=tick,
             mapping=mapping,
             people=any(p.body == "person" for p in opponents),
+            unnamed=len(self._settings.unnamed_opponents(own)),
         )
 
     def eyes_of(self, world: World, name: str) -> SensorSuite:

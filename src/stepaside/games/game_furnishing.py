@@ -29,8 +29,15 @@ BASE: dict[Role, Rgb] = {
 
 
 def colours_in_world(settings: GameSettings) -> dict[str, Colour]:
-    """Return the colour of each player in images, red to opacity."""
+    """Return the colour of each player in images, red to opacity.
+
+    In a game with cameras, which know one colour of each role, robots have
+    the colour of their role; otherwise players of one role have shades.
+    """
     shades = shades_of(settings.identities, BASE)
+    if settings.sensing_by("cameras"):
+        roles = {n: own.role for n, own in settings.identities.items()}
+        shades |= {name: BASE[roles[name]] for name in settings.robots}
     return {name: (*colour, 1.0) for name, colour in shades.items()}
 
 

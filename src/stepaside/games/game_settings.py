@@ -338,6 +338,15 @@ class GameSettings:
         names = [own.target] if own.target else [*self.opponents_of(own.name)]
         return [self.player(name) for name in names]
 
+    def unnamed_opponents(self, own: PlayerSettings) -> list[PlayerSettings]:
+        """Return the opponents that cameras of a robot do not tell apart.
+
+        They are all robots of the opposing role, which wear one trim, in a
+        game of more than two robots; of two, the other one is the opponent.
+        """
+        robots = [p for p in self.sensed_opponents(own) if p.body == "robot"]
+        return robots if len(self.robots) > 2 else []
+
     @property
     def maps_room(self) -> bool:
         """Whether robots map the room with their cameras."""
@@ -430,17 +439,24 @@ def check_senses(settings: GameSettings) -> None:
             f"got {other.senses!r}"
         )
     for own in seeing:
-        kinds = {p.body for p in settings.sensed_opponents(own)}
-        several = len(settings.sensed_opponents(own)) > 1
-        if (
-            kinds - {"robot", "person"}
-            or len(kinds) > 1
-            or (several and kinds == {"robot"})
-        ):
+        sensed = settings.sensed_opponents(own)
+        if {p.body for p in sensed} not in ({"robot"}, {"person"}):
+            listed = ", ".join(f"{p.name} ({p.body})" for p in sensed)
             raise ConfigurationError(
-                f"{own.name}: senses must be ideal with several opponents, "
-                "as cameras tell people from others, and one robot by its "
-                "colour; got 'cameras'"
+                f"{own.name}: senses must be ideal unless all its opponents "
+                "are robots, or all are people, got 'cameras' and opponents "
+                f"{listed or 'none'}"
+            )
+        alike = [
+            p.name
+            for p in settings.players
+            if p.body == "robot" and p.role == sensed[0].role
+        ]
+        if own.target and len(alike) > 1 and sensed[0].body == "robot":
+            raise ConfigurationError(
+                f"{own.name}: target must be empty with senses 'cameras', as "
+                f"they do not tell {', '.join(alike)} apart, got "
+                f"{own.target!r}"
             )
         if own.legs.walks and settings.room is not None:
             raise ConfigurationError(

@@ -13,6 +13,7 @@ from ..control.sight_sources import (
     SightOfPlayers,
 )
 from ..core.errors import ConfigurationError
+from ..core.player_identity import Role
 from ..core.poses import Pose
 from ..core.random_streams import named_generator
 from ..locomotion.policy.network_pool import NetworkPool
@@ -321,10 +322,12 @@ class GameWorld:
         if own.senses == "cameras":
             assert self._senses is not None
             seen = self._senses.perceptions.get(own.name)
+            alike = self._settings.unnamed_opponents(own)
+            unnamed = (own.identity, Role(alike[0].role)) if alike else None
             return RobotSensing(
                 MeasuredSight()
                 if seen is None
-                else CameraSight(seen, tick=tick),
+                else CameraSight(seen, tick=tick, unnamed=unnamed),
                 eyes=self._senses.eyes_of(self.world, own.name),
             )
         if own.senses == "ideal":

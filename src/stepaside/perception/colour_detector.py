@@ -98,6 +98,21 @@ class ColourDetector:
 
     def detect(self, image: ColourImage) -> ColourDetection | None:
         """Detect the robot; the tallest group if there are several."""
+        found = self.detect_all(image, most=1)
+        return found[0] if found else None
+
+    def detect_all(
+        self, image: ColourImage, *, most: int
+    ) -> list[ColourDetection]:
+        """Detect robots; groups of patches that fit one.
+
+        Args:
+            image: The image.
+            most: Greatest number of robots.
+
+        Returns:
+            The tallest groups, the tallest first.
+        """
         hsv = smoothed_hsv(image.pixels)
         stats = _patches(self.mask(hsv))
         least = max(3.0, MIN_AREA * (image.camera.width / 160.0) ** 2)
@@ -111,17 +126,13 @@ class ColourDetector:
             ]
         )
         boxes = boxes[boxes[:, 4] >= least]
-        best: ColourDetection | None = None
-        for group in _groups(boxes):
-            found = check_group(group, image.camera)
-            if found is not None and (
-                best is None
-                or found.bottom - found.top > best.bottom - best.top
-            ):
-                best = found
-        if best is None:
-            return None
-        return self._with_ears(best, hsv, least)
+        fitting = [
+            found
+            for group in _groups(boxes)
+            if (found := check_group(group, image.camera)) is not None
+        ]
+        fitting.sort(key=lambda found: found.top - found.bottom)
+        return [self._with_ears(own, hsv, least) for own in fitting[:most]]
 
     def mask(self, hsv: Pixels, saturation_factor: float = 1.0) -> Mask:
         """Return a mask of the pixels with the trim's colour: 255, else 0.

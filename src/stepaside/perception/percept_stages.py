@@ -39,7 +39,7 @@ class FrameReport:
         image: The image.
         azimuths: Directions of the detections from the camera axis, in
             [rad], positive leftward.
-        colour: Detection in a colour image, if any.
+        colour: Detection in a colour image, if any; that of the tallest.
         depth: Obstacles and shadows in a depth image.
         sought: Whether the opponent was searched for in it.
     """
@@ -95,6 +95,7 @@ class TopCameraStage:
         learners: Sequence[BottomCameraUse],
         *,
         near: bool,
+        most: int = 1,
     ) -> None:
         """Combine the parts.
 
@@ -103,11 +104,13 @@ class TopCameraStage:
             detector: Detector of the opponent.
             tracker: Tracker.
             learners: Parts that learn the colours of the floor.
+            most: Greatest number of opponents in an image.
             near: Whether an image edge may hide a part of the opponent
                 without cutting a patch, see :func:`observe_trim`.
         """
         self._mount, self._detector, self._tracker = mount, detector, tracker
         self._learners, self._near = learners, near
+        self._most = most
 
     def process(self, image: ColourImage, body: BodyPose) -> FrameReport:
         """Update the tracks with an image.
@@ -119,26 +122,25 @@ class TopCameraStage:
         camera, tracker = camera_pose(body, self._mount), self._tracker
         for learner in self._learners:
             learner.learn(image, camera)
-        found = self._detector.detect(image)
-        azimuths: tuple[float, ...] = ()
-        observations: list[Observation] = []
-        if found is not None:
-            azimuths = (-angle_of(image, found.column),)
-            observations.append(
-                observe_trim(
-                    image,
-                    found,
-                    camera,
-                    self._detector.appearance,
-                    tracker.tracks,
-                    near=self._near,
-                )
+        detected = self._detector.detect_all(image, most=self._most)
+        azimuths = tuple(-angle_of(image, found.column) for found in detected)
+        observations = [
+            observe_trim(
+                image,
+                found,
+                camera,
+                self._detector.appearance,
+                tracker.tracks,
+                near=self._near,
             )
+            for found in detected
+        ]
         updated = tracker.observe(observations)
         record_misses(
             tracker, updated, image, camera, max_identity_age=MAX_GAZE_AGE
         )
-        return FrameReport(image, azimuths, colour=found)
+        tallest = detected[0] if detected else None
+        return FrameReport(image, azimuths, colour=tallest)
 
 
 class BottomCameraStage:

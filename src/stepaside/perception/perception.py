@@ -24,7 +24,7 @@ from .percept_stages import (
     SonarStage,
     TopCameraStage,
 )
-from .target_selection import TargetSelection
+from .target_selection import TargetSelection, UnnamedSelection
 from .track import TargetTrack
 from .tracker import Tracker
 
@@ -76,6 +76,8 @@ class PosedPerception:
         tracker: Tracks of all objects.
         head: Motion of the head.
         sighting: Estimate of the opponent at the last update; None if lost.
+        unnamed: Sightings of all recognised robots by their numbers, where
+            several wear one trim; else empty.
         gaze_target: Target of the gaze; None while the head searches.
         reports: Detections in the images that arrived at the last tick.
         floor: Map of the floor, if there is one.
@@ -110,6 +112,7 @@ class PosedPerception:
         self._update_period, self._next_update = update_period, 0.0
         self._heading = 0.0
         self.sighting: Sighting | None = None
+        self.unnamed: tuple[Sighting, ...] = ()
         self.gaze_target: GazeTarget | None = None
         self.reports: list[FrameReport] = []
 
@@ -174,6 +177,7 @@ class PosedPerception:
         self._heading = heading
         main = self._selection.main(now, x, y)
         self.sighting = self.gaze_target = None
+        self.unnamed = ()
         if self.head.scans:
             return
         chosen = self._selection.look(main, now, x, y)
@@ -181,15 +185,27 @@ class PosedPerception:
             bearing, distance = _bearing_and_distance(chosen, body, now)
             self.gaze_target = GazeTarget(bearing, distance, chosen.height)
         if main is not None:
-            bearing, distance = _bearing_and_distance(main, body, now)
-            self.sighting = Sighting(
-                now,
-                bearing,
-                distance,
-                self._selection.target_id(main),
-                self._selection.settled(main, now, x, y),
-                main.deviation_at(now),
+            self.sighting = self._sighting_of(main, body, now)
+        if isinstance(self._selection, UnnamedSelection):
+            self.unnamed = tuple(
+                self._sighting_of(track, body, now)
+                for track in self._selection.recognised(now)
             )
+
+    def _sighting_of(
+        self, track: TargetTrack, body: BodyPose, now: float
+    ) -> Sighting:
+        """Return the sighting of a track at a time, in [s]."""
+        x, y, _ = body.pose_torso_in_odometry
+        bearing, distance = _bearing_and_distance(track, body, now)
+        return Sighting(
+            now,
+            bearing,
+            distance,
+            self._selection.target_id(track),
+            self._selection.settled(track, now, x, y),
+            track.deviation_at(now),
+        )
 
 
 class Perception(PosedPerception):

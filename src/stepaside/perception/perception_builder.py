@@ -29,7 +29,11 @@ from .percept_stages import (
 )
 from .perception import Perception, PerceptStages, PosedPerception
 from .room_scan import NoScan, RoomScan
-from .target_selection import RobotSelection, TargetSelection
+from .target_selection import (
+    RobotSelection,
+    TargetSelection,
+    UnnamedSelection,
+)
 from .track import PERSON_MOTION, ROBOT_MOTION
 from .tracker import Tracker
 
@@ -64,6 +68,7 @@ def build_perception(
     tick: float,
     mapping: FloorMapping | None = None,
     people: bool = False,
+    unnamed: int = 0,
 ) -> Perception:
     """Build the perception of a robot.
 
@@ -74,13 +79,20 @@ def build_perception(
         tick: Control period, in [s].
         mapping: Parts of a robot that maps the floor; None on an open floor.
         people: Whether people, who wear no trim, may approach.
+        unnamed: Number of opponents if there are more robots than one
+            opponent, which all wear the trim and are not told apart; else 0.
     """
     # Walls and obstacles of a map rest, so a robot's motion may be smooth.
     calm = mapping is not None and not people
-    tracker = Tracker(ROBOT_MOTION if calm else PERSON_MOTION)
-    selection: TargetSelection = (
-        PeopleSelection(tracker) if people else RobotSelection(tracker)
+    tracker = Tracker(
+        ROBOT_MOTION if calm or unnamed else PERSON_MOTION,
+        several=unnamed > 0,
     )
+    selection: TargetSelection = RobotSelection(tracker)
+    if people:
+        selection = PeopleSelection(tracker)
+    elif unnamed:
+        selection = UnnamedSelection(tracker)
     uses: list[BottomCameraUse] = []
     depth: DepthUse = OpenFloorDepth(tracker, near_walls=people)
     sonar = SonarStage(head.sonars, tracker, selection)
@@ -97,7 +109,11 @@ def build_perception(
     return Perception(
         BodyPoseHistory(BodyKinematics(description, head), tick),
         PerceptStages(
-            TopCameraStage(head.top, detector, tracker, uses, near=calm),
+            TopCameraStage(
+                *(head.top, detector, tracker, uses),
+                near=calm,
+                most=max(1, unnamed),
+            ),
             BottomCameraStage(head.bottom or head.top, uses, tracker),
             DepthCameraStage(head.depth, depth),
             sonar,

@@ -27,13 +27,18 @@ class Tracker:
         tracks: All tracks.
     """
 
-    def __init__(self, motion: MotionModel = PERSON_MOTION) -> None:
+    def __init__(
+        self, motion: MotionModel = PERSON_MOTION, *, several: bool = False
+    ) -> None:
         """Start without tracks.
 
         Args:
             motion: Process noise of the tracks.
+            several: Whether several objects of one kind may be near each
+                other: then the nearest pairs of track and observation are
+                associated first, else the tracks that were observed last.
         """
-        self._motion = motion
+        self._motion, self._several = motion, several
         self.tracks: list[TargetTrack] = []
         self._numbers = count(1)
 
@@ -56,7 +61,7 @@ class Tracker:
         """
         remaining = list(observations)
         updated = []
-        for track in sorted(self.tracks, key=lambda t: -t.observed_at):
+        for track in self._ordered(remaining):
             if not remaining:
                 break
             if walked_only and not track.has_walked:
@@ -75,6 +80,17 @@ class Tracker:
             self.tracks += started
             updated += started
         return updated
+
+    def _ordered(
+        self, observations: Sequence[Observation]
+    ) -> list[TargetTrack]:
+        """Return the tracks in the order in which they take observations."""
+        if not self._several or not observations:
+            return sorted(self.tracks, key=lambda t: -t.observed_at)
+        return sorted(
+            self.tracks,
+            key=lambda t: min(map(t.mahalanobis_squared, observations)),
+        )
 
     def main(self, now: float, x: float, y: float) -> TargetTrack | None:
         """Return the main track for a robot at a position in odometry."""
