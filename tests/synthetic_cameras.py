@@ -56,9 +56,11 @@ class FakeDetector:
     def __init__(self) -> None:
         self.found: ColourDetection | None = None
 
-    def detect(self, image: ColourImage) -> ColourDetection | None:
+    def detect_all(
+        self, image: ColourImage, *, most: int
+    ) -> list[ColourDetection]:
         """Find what was told."""
-        return self.found
+        return [] if self.found is None else [self.found]
 
 
 class Eyes:

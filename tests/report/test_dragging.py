@@ -79,10 +79,11 @@ class Player:
 def table(player: Player) -> tuple[Any, Any, Handle, list[str]]:
     """Players, scene, drawn arrows and messages."""
     world = SimpleNamespace(time=7.0)
-    duel = SimpleNamespace(world=world, players=(None, player))
+    players = {player.name: player}
+    duel = SimpleNamespace(world=world, player=players.__getitem__)
     session: Any = SimpleNamespace(change=lambda request: request(duel))
     scene, mesh, said = Scene(), Handle("mesh"), list[str]()
-    PushDragging(scene, session, said.append).add(1, [mesh])  # type: ignore[arg-type]
+    PushDragging(scene, session, said.append).add(player.name, [mesh])  # type: ignore[arg-type]
     return session, scene, mesh, said
 
 

@@ -17,6 +17,7 @@ from stepaside.games.walker import SimulatedPlayer
 from stepaside.report.viewer import live_page as pages
 from stepaside.report.viewer.live_page import Page
 from stepaside.report.viewer.run_saving import RunSaver
+from stepaside.report.viewer.viewer_clients import ViewerClients
 from stepaside.strategies import TeleoperatedPursuit
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -94,7 +95,7 @@ def test_cameras_follow_any_player(
     assert follow.options == ("All players", "red", "ruby", "blue", "guest")
     aimed: list[Any] = []
     monkeypatch.setattr(
-        pages.ViewerClients,
+        ViewerClients,
         "aim",
         lambda _, places, heights: aimed.append(np.array(places)),
     )

@@ -20,6 +20,7 @@ from stepaside.core.errors import ConfigurationError, StepAsideError
 from stepaside.core.poses import Array, Pose, wrap_angle
 from stepaside.games.duel import Duel, run_duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.games.match import Match
 from stepaside.games.outcome import Outcome
 from stepaside.games.run import DuelRun
 from stepaside.games.run_captions import describe_state
@@ -58,6 +59,12 @@ def session() -> Iterator[LiveSession]:
     made = LiveSession(SETTINGS)
     yield made
     made.close()
+
+
+def settings_of(session: LiveSession) -> DuelSettings:
+    """Settings of a session with a duel."""
+    assert isinstance(session.settings, DuelSettings)
+    return session.settings
 
 
 def played(session: LiveSession, ticks: int) -> None:
@@ -231,7 +238,7 @@ def test_a_step_has_whole_ticks_and_at_least_one(session: LiveSession) -> None:
 
 def test_a_duel_that_is_over_stays_over(session: LiveSession) -> None:
     duel = session.match
-    ticked: list[Duel] = []
+    ticked: list[Match] = []
 
     def tick() -> Outcome:
         ticked.append(duel)
@@ -263,7 +270,7 @@ def test_a_push_acts_now_on_the_robot_that_is_meant(
 
 
 def test_a_change_and_a_moment_are_of_the_duel(session: LiveSession) -> None:
-    changed: list[Duel] = []
+    changed: list[Match] = []
     session.change(changed.append)
     played(session, 10)
     assert changed == [session.match]
@@ -498,7 +505,9 @@ def test_the_page_shows_the_duel_as_it_is(live: tuple[Page, Any]) -> None:
     assert "the pursuer walks" in status and "x real time" not in status
     assert "1.0 s simulated" in status
     assert f"distance {session.match.distance:.2f} m" in status
-    assert f"closest approach {session.match.min_distance:.2f} m" in status
+    duel = session.match
+    assert isinstance(duel, Duel)
+    assert f"closest approach {duel.min_distance:.2f} m" in status
     assert "over" not in status and "stopped" not in status
     assert gui["Start"].label == "Start"
     session.outcome, session.error = Outcome.CONTACT, "a bolt"
@@ -631,7 +640,7 @@ def test_a_strategy_reaches_the_evader_while_it_evades(
     assert strategy.angle == pytest.approx(radians(60.0))
     assert strategy.saturated
     assert decisions.memory == EvasionMemory(True, -1)
-    assert session.settings.strategy.angle == pytest.approx(radians(60.0))
+    assert settings_of(session).strategy.angle == pytest.approx(radians(60.0))
     viewer = Client(1)
     server.welcome(viewer)
     before = len(gui.texts)
@@ -728,7 +737,7 @@ def test_a_reset_takes_what_the_controls_say(live: tuple[Page, Any]) -> None:
         gui[label].value = value
     gui["Drive straight"].press()
     gui["Duel"].press("reset")
-    settings = session.settings
+    settings = settings_of(session)
     assert settings.seed == 9
     start = settings.start
     assert start.distance == 1.4
@@ -742,13 +751,13 @@ def test_a_reset_takes_what_the_controls_say(live: tuple[Page, Any]) -> None:
     assert not session.driven
     gui["Body"].value = "ideal"
     gui["Duel"].press("reset")
-    assert session.settings.control == OPEN_LOOP
+    assert settings_of(session).control == OPEN_LOOP
     viewer = Client(1)
     server.welcome(viewer)
     gui["Distance [m]"].value = 0.1
     gui["Duel"].press("reset")
     assert "distance must lie in" in viewer.notices[-1].body
-    assert session.settings.start.distance == 1.4
+    assert settings_of(session).start.distance == 1.4
 
 
 @pytest.fixture(scope="module")

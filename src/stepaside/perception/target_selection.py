@@ -5,12 +5,13 @@ from math import hypot
 from typing import Protocol
 
 from .track import TargetTrack
-from .tracker import IDENTITY, Tracker
+from .tracker import Tracker
 
 MAX_GAZE_AGE = 1.0  # of a track at which the head looks, in [s]
 GAZE_RADIUS = 1.2  # within which the head looks at any track, in [m]
 MOVING = 0.08  # speed of a moving track, in [m/s]
 NEARER = 0.9  # relative distance from which another opponent is taken
+RECOGNISED = 2.5  # how long an unnamed track stays without trim, in [s]
 GLANCE = 0.6  # duration of a glance at an unseen opponent, in [s]
 GLANCE_PAUSE = 1.2  # between two glances, in [s]
 UNSEEN = 0.5  # age of the last image from which an opponent is unseen, in [s]
@@ -103,7 +104,7 @@ class UnnamedSelection:
         return [
             track
             for track in self._tracker.tracks
-            if track.confirmed and now - track.identified_at < IDENTITY
+            if track.confirmed and now - track.identified_at < RECOGNISED
         ]
 
     def main(self, now: float, x: float, y: float) -> TargetTrack | None:
