@@ -154,7 +154,9 @@ def test_every_player_is_on_the_page(count: int, tmp_path: Path) -> None:
     assert (shown["distance"] is None) is (count == 1)
     assert (shown["angle"] is None) is (count != 2)
     assert shown["pair"] == (None if count == 1 else [0, 1])
-    assert shown["safety"] is None and shown["safety_player"] is None
+    assert shown["safety"] is None and shown["safeties"] == []
+    first = [[0, 1]] if count > 1 else []
+    assert shown["sights"] == first
 
 
 @by_count

@@ -64,7 +64,7 @@ class StrainGauge:
         self._saturated += bool((loads > 0.999).any())
         if now < STANDING_UNTIL:
             self._standing = np.maximum(self._standing, loads)
-            walker = match.players[0]
+            (walker,) = match.players
             assert isinstance(walker, SimulatedPlayer)
             height = walker.scheme.state.reference.com[2]
             self._sags.append(

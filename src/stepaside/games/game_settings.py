@@ -24,7 +24,11 @@ from ..sim.person_settings import PersonSettings
 from ..sim.physics_settings import PhysicsSettings, SightSettings
 from ..sim.push import MOST_PUSHES, Push, check_pushes
 from ..strategies import Evasion, Strategy
-from ..strategies.registry import check_strategy_name, describe_strategy
+from ..strategies.registry import (
+    OF_EVASION,
+    check_strategy_name,
+    describe_strategy,
+)
 from ..strategies.shield_settings import ShieldSettings
 from .duel_settings import BODY_HELP, RobotSettings
 from .player_names import MOST_PLAYERS, PLAYER_NAME
@@ -346,6 +350,18 @@ class GameSettings:
         """
         robots = [p for p in self.sensed_opponents(own) if p.body == "robot"]
         return robots if len(self.robots) > 2 else []
+
+    @property
+    def safety_radii(self) -> dict[str, float]:
+        """Safety radius of each player that has one, in [m], by name.
+
+        They belong to the paper's evasion strategy and its variants.
+        """
+        return {
+            p.name: p.evasion.area
+            for p in self.players
+            if p.decides and p.played_strategy in OF_EVASION
+        }
 
     @property
     def maps_room(self) -> bool:

@@ -18,13 +18,15 @@ class RecordedMotion:
 
         Args:
             folder: The run folder.
-            player: Name of the player; the first one if empty.
+            player: Name of the player; empty if there is only one.
 
         Raises:
             ConfigurationError: If there is no such run or player.
         """
         run = load_run(folder)
-        name = player or run.players[0]
+        name = player
+        if not player and len(run.players) == 1:
+            (name,) = run.players
         if name not in run.tracks:
             raise ConfigurationError(
                 f"run_player must be one of {', '.join(run.players)}, got "

@@ -331,6 +331,14 @@ class GameRun(Generic[SettingsT, SummaryT]):
         return SafetyArea(EVADER, radius) if isfinite(radius) else None
 
     @property
+    def safety_areas(self) -> tuple[SafetyArea, ...]:
+        """Safety area of each player that has one."""
+        if not isinstance(self.settings, GameSettings):
+            return () if self.safety is None else (self.safety,)
+        radii = self.settings.safety_radii.items()
+        return tuple(SafetyArea(n, r) for n, r in radii if isfinite(r))
+
+    @property
     def plan(self) -> Room | None:
         """Room of the game; None on an open floor."""
         if isinstance(self.settings, GameSettings):

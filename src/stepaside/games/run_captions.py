@@ -48,7 +48,7 @@ def describe_state(run: Run, index: int) -> str:
 def _describe_match(run: MatchRun, index: int) -> str:
     """Describe the nearest pair of opponents, or of any players."""
     if not run.opponents:
-        return f"{run.players[0]} in motion"
+        return f"{' and '.join(run.players)} in motion"
     apart = {
         pair: hypot(
             *(

@@ -104,8 +104,7 @@ def ring_labels(run: Run, index: int) -> list[tuple[str, Array, str]]:
     """
     labels = []
     dx, dy = LABEL_DIRECTION
-    if run.safety is not None:
-        player, radius = run.safety
+    for player, radius in run.safety_areas:
         x, y = run.tracks[player].torso[index, :2].tolist()
         colour = colours_in("light", run.players, run.identities)[player]
         position = np.array([x + radius * dx, y + radius * dy, 0.0])

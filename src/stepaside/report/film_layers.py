@@ -57,8 +57,7 @@ def add_layers(
             np.array([*run.tracks[n].torso[index, :2], 0.25]) for n in pair
         )
         _add_line(scene, one, other, 0.5 * LINE_WIDTH, THEORY)
-    if run.safety is not None:
-        player, radius = run.safety
+    for player, radius in run.safety_areas:
         center = run.tracks[player].torso[index, :2]
         colour = colours_of(run.players, run.identities)[player]
         _add_lines(scene, _ring(center, radius), 0.003, colour)

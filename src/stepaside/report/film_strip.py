@@ -93,9 +93,8 @@ def legend_entries(
     colours = colours_of(run.players, run.identities)
     the = "" if is_match(run) else "the "  # players of a match have names
     entries = [(f"path of {the}{n}", c, 1.5) for n, c in colours.items()]
-    if settings.layers and run.safety is not None:
-        player, radius = run.safety
-        label = f"ring: safety radius of the {player}, {radius:.3g} m"
+    for player, radius in run.safety_areas if settings.layers else ():
+        label = f"ring: safety radius of {the}{player}, {radius:.3g} m"
         entries.append((label, colours[player], 3.0))
     if settings.layers and run.circle is not None:
         label = f"ring: theoretical circle, radius {run.circle[2]:.2f} m"

@@ -126,7 +126,7 @@ def game_script(duel: Duel) -> str:
     Args:
         duel: Duel whose robots are of one kind.
     """
-    parts = WalkingParts.of(duel.players[0])
+    parts = WalkingParts.of(duel.pursuer)
     legs = parts.kinematics.legs
     step = trace_step(legs, parts.kinematics.description.standing)
     loads = parts.feedforward.loads.formulas

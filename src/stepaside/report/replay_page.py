@@ -147,7 +147,10 @@ def page_data(run: Run) -> dict[str, Any]:
         "theory": theory and list(theory),
         "circle": circle and [round(v, 3) for v in circle],
         "safety": run.safety and run.safety.radius,
-        "safety_player": run.safety and run.players.index(run.safety.player),
+        "safeties": [
+            [run.players.index(own.player), own.radius]
+            for own in run.safety_areas
+        ],
         "messages": distinct,
         "message_index": [distinct.index(text) for text in messages],
         "center": np.round(0.5 * (low + high), 3).tolist(),

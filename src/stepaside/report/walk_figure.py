@@ -27,7 +27,7 @@ def draw_walk(run: Run, path: Path) -> None:
         run: The walk.
         path: File to write; its suffix gives the format.
     """
-    track = run.tracks[run.players[0]]
+    (track,) = run.tracks.values()
     figure = new_figure(11.0, 8.2)
     grid = figure.add_gridspec(4, 2, height_ratios=[1.5, 0.9, 0.9, 1.1])
     draw_paths(figure.add_subplot(grid[0, :]), run)

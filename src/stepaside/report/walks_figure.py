@@ -26,7 +26,7 @@ def draw_walks(runs: Sequence[Run], file: Path) -> None:
     figure = new_figure(9.5, 5.8)
     axes = figure.subplot_mosaic([["path", "path"], ["tilt", "speed"]])
     for number, run in enumerate(runs):
-        track = run.tracks[run.players[0]]
+        (track,) = run.tracks.values()
         look: dict[str, Any] = {
             "color": OTHERS[number % len(OTHERS)],
             "linestyle": LINES[number // len(OTHERS) % len(LINES)],

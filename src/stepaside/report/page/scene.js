@@ -150,18 +150,16 @@ function makeScene(run, canvas, context) {
     drawn.pushes = player.pushes.map(pushArrow);
     return drawn;
   });
-  const guarded = run.safety ? players[run.safety_player] : null;
-  let safety = null;
-  if (guarded) {
+  const guarded = run.safeties.map(([number, radius]) => {
     const dashes = new THREE.Group();
-    const points = circle(0, 0, run.safety, 96);
+    const points = circle(0, 0, radius, 96);
     for (let i = 0; i < 96; i += 3) {
       const dash = [points[i], points[i + 1], points[(i + 2) % 96]];
-      dashes.add(line(ribbon(dash, 0.012, 0.008, false), run.safety_player, 1));
+      dashes.add(line(ribbon(dash, 0.012, 0.008, false), number, 1));
     }
     world.add(dashes);
-    safety = layer("safety radius", dashes);
-  }
+    return [players[number], layer("safety radius", dashes)];
+  });
   const theory = new THREE.Group();
   if (run.circle) {
     const [x, y, radius] = run.circle;
@@ -170,7 +168,7 @@ function makeScene(run, canvas, context) {
     theory.position.set(x, y, 0);
     world.add(theory);
   }
-  const rods = (run.sights || []).map(() => line(
+  const rods = run.sights.map(() => line(
     new THREE.CylinderGeometry(0.004, 0.004, 1, 8).rotateX(Math.PI / 2), "theory", 0.8));
   if (rods.length) {
     const sights = new THREE.Group();
@@ -230,7 +228,7 @@ function makeScene(run, canvas, context) {
   /* Lines that move with the players; return the torsos' positions. */
   function attach() {
     const torsos = players.map((player) => bodies[player.body].position);
-    if (safety) safety.position.copy(bodies[guarded.body].position).setZ(0);
+    for (const [player, area] of guarded) area.position.copy(bodies[player.body].position).setZ(0);
     rods.forEach((rod, number) => {
       const [first, second] = run.sights[number].map((i) => torsos[i]);
       rod.position.addVectors(first, second).multiplyScalar(0.5);

@@ -152,12 +152,12 @@ canvas.onwheel = (event) => { event.preventDefault(); zoomBy(Math.exp(event.delt
 
 /* Legend of each layer: text, style of its line, colour. */
 const metres = (value) => value === null || value === undefined ? "" : `, ${value.toFixed(2)} m`;
-const guarded = run.safety === null ? "" : run.players[run.safety_player].name;
+const guarded = (run.safety === null ? "" : "the ") + run.safeties.map(([i]) => run.players[i].name).join(", ");
 const LINES = {
   traces: ["path of the center of mass", "solid", "players"],
   footsteps: ["footsteps", "broad", "players"],
   pushes: ["pushes", "solid", "pushed"],
-  "safety radius": [`safety radius of the ${guarded}${metres(run.safety)}`, "dashed", run.safety_player],
+  "safety radius": [`safety radius of ${guarded}${metres(run.safety)}`, "dashed", (run.safeties[0] || [0])[0]],
   "theoretical circle": [`theoretical circle, radius${metres(run.circle && run.circle[2]).slice(1)}`, "solid", "theory"],
   "line of sight": ["line of sight", "solid", "theory"],
 };

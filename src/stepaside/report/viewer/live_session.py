@@ -24,7 +24,6 @@ from ...games.outcome import Outcome
 from ...games.player import Snapshot
 from ...locomotion.walk_snapshots import Phase
 from ...sim.push import Push
-from ...strategies.registry import OF_EVASION
 from ..figure_style import colours_of
 from ..settling_report import settling_time
 from .plot_history import PlotHistory
@@ -109,17 +108,10 @@ def room_of(settings: LiveSettings) -> Room | None:
 
 
 def safety_radii(settings: LiveSettings) -> dict[str, float]:
-    """Return the safety radius of each player that has one, in [m].
-
-    They belong to the paper's evasion strategy and its variants.
-    """
+    """Return the safety radius of each player that has one, in [m]."""
     if isinstance(settings, DuelSettings):
         return {EVADER: settings.strategy.area}
-    return {
-        own.name: own.evasion.area
-        for own in settings.players
-        if own.decides and own.played_strategy in OF_EVASION
-    }
+    return settings.safety_radii
 
 
 def identities_of(settings: LiveSettings) -> Mapping[str, PlayerIdentity]:

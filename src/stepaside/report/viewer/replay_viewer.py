@@ -263,8 +263,7 @@ class ReplayPage:
             )
             layers.draw("footsteps", name, prints, colours[name])
             layers.draw("pushes", name, push_arrows(track.pushes, now), PUSHED)
-        if run.safety is not None:
-            player, radius = run.safety
+        for player, radius in run.safety_areas:
             area = safety_ring(run.tracks[player].torso[index, :2], radius)
             layers.draw("safety radius", player, area, colours[player])
         for pair in run.lines_of_sight:
