@@ -103,6 +103,7 @@ class SightOfPlayers:
 
     Attributes:
         turning: 0: it never scans.
+        in_sight: Own identity, and the latest sighting of each player.
     """
 
     turning = 0.0
@@ -118,11 +119,7 @@ class SightOfPlayers:
         self._latest: dict[str, Sighting] = {}
         self._numbers: dict[str, int] = {}
         self._chosen = ""
-
-    @property
-    def in_sight(self) -> PlayersInSight:
-        """Own identity, and the latest sighting of each player."""
-        return PlayersInSight(self._identity, tuple(self._latest.values()))
+        self.in_sight: PlayersInSight | None = PlayersInSight(identity, ())
 
     def see(
         self,
@@ -151,6 +148,9 @@ class SightOfPlayers:
             },
             target=self._target,
             present=self._chosen,
+        )
+        self.in_sight = PlayersInSight(
+            self._identity, tuple(self._latest.values())
         )
 
     def aim(self, targets: Array) -> None:

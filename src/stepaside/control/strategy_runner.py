@@ -207,7 +207,10 @@ class StrategyRunner(DecisionMaker):
         if self._in_sight is None:
             return known
         identity, sightings = self._in_sight
-        others = tuple(self._other(now, template, s) for s in sightings)
+        if len(sightings) == 1:
+            others: tuple[OtherPlayer, ...] = (_opponent(known, sighting),)
+        else:
+            others = tuple(self._other(now, template, s) for s in sightings)
         return replace(known, identity=identity, others=others)
 
     def _other(
@@ -255,3 +258,21 @@ class StrategyRunner(DecisionMaker):
             y = taken.y + sighting.distance * sin(sight)
             known = self._positions[name] = sighting.time, x, y
         return known[1:]
+
+
+def _opponent(known: Knowledge, sighting: Sighting) -> OtherPlayer:
+    """Return the opponent as another player.
+
+    Args:
+        known: Knowledge of the opponent.
+        sighting: Its sighting.
+    """
+    assert sighting.identity is not None
+    return OtherPlayer(
+        sighting.identity,
+        known.bearing,
+        known.distance,
+        known.velocity,
+        known.age,
+        known.spread,
+    )
