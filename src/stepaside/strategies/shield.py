@@ -19,7 +19,6 @@ from .velocity_set import BodyVelocity
 
 TRACE = 4.0  # windows for which positions of the opponent are kept
 KEEPING = 0.005  # value of the last choice before others, in [m]
-STARTING = 0.01  # value of a start before standing in danger, in [m]
 
 
 class HeldMotion(NamedTuple):
@@ -178,8 +177,8 @@ class ShieldedStrategy:
                 worth[held.number] += KEEPING
             best = int(np.argmax(worth))
             guarded = bool(found[best] >= required)
-            standing = not (moving or intent.walks)
-            if found[best] <= value - (STARTING if standing else 0.0):
+            waits = not (moving or intent.walks)  # and can no longer
+            if found[best] <= value and not waits:
                 return intent, memory._replace(held=None, guarded=False)
             until = now + model.period
             if not moving and model.velocities is None:

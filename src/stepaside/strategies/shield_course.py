@@ -24,12 +24,14 @@ class Course(NamedTuple):
     error: float
 
     def headings(self, known: float) -> list[float]:
-        """Return the heading, or several if its error is above a bound."""
+        """Return the heading, and others if its error is above a bound."""
         if self.error <= known + 1e-9:
             return [self.heading]
-        count = ceil(2.0 * self.error / SPACING) + 1
-        first, width = self.heading - self.error, 2.0 * self.error
-        return [first + width * i / (count - 1) for i in range(count)]
+        count = ceil(self.error / SPACING)
+        return [
+            self.heading + self.error * i / count
+            for i in range(-count, count + 1)
+        ]
 
 
 def observed_course(

@@ -28,6 +28,7 @@ CELLS = 10  # of the grid of the table in the required distance
 
 LEGS_INTERVAL = 0.08  # between decisions on a body velocity, in [s]
 LEGS_DIRECTIONS = 16
+SIGHTING_INTERVAL = 0.02  # by which a chord may be longer than a window, [s]
 WALK_LOSS = 0.01  # of the paper's walk per step, in [m]; see docs/shield.md
 SETTLING = 1.0  # of the paper's walk after its last step, in [s]
 SWAY = 0.03  # of a body on the paper's legs, in [m]
@@ -91,10 +92,11 @@ class ShieldModel:
         chord of half the greatest length is reckoned with.
         """
         person = self.settings
-        turned = person.speed / person.turning_radius * self.window
+        longest = self.window + SIGHTING_INTERVAL
+        turned = person.speed / person.turning_radius * longest
         shortest = 0.5 * person.speed * self.window
         hidden = min(1.0, 2.0 * person.sighting_error / shortest)
-        return turned + asin(hidden)
+        return min(turned + asin(hidden), pi)
 
     @property
     def loss(self) -> float:
@@ -294,7 +296,11 @@ def _load_table(model: ShieldModel) -> "ShieldTable":
     from ..theory.shield import PoseGrid, ShieldTable, solve_shield
 
     game = model.game()
-    digest = sha256(repr((FORMAT, CELLS, model)).encode())
+    solved = (
+        FORMAT, CELLS, game.person, game.period, game.loss, game.jump,
+        model.required, model.response,
+    )  # fmt: skip
+    digest = sha256(repr(solved).encode())
     digest.update(game.motions.tobytes())
     file = cache_folder() / f"shield-{digest.hexdigest()[:16]}.npz"
     try:

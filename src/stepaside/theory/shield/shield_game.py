@@ -109,7 +109,7 @@ class ShieldGame:
     def __post_init__(self) -> None:
         """Check the values."""
         check_positive(self.period, "period", "s")
-        check_within(self.loss, 0.0, 1.0, "loss", "m")
+        check_within(self.loss, 0.0, 100.0, "loss", "m")
         check_within(self.jump, 0.0, 10.0, "jump", "m")
 
     @property

@@ -138,26 +138,24 @@ def solve_shield(
     check_within(response, 0.0, 10.0, "response", "s")
     check_within(wait, 0.0, 10.0, "wait", "s")
     begin = perf_counter()
-    scale = GROWTH
+    grid = PoseGrid(-least, least / cells, (2, 2, headings))
+    v = eroded = standing = np.zeros(grid.shape)
+    starts, outside = np.zeros((0, *grid.whole().shape)), 0.0
+    stands, scale = response + wait, GROWTH
     hopeless = least >= _keepable(game)
-    for _ in range(TRIALS):
-        stands = response + wait
-        grid = _cover(game, least, scale * stands, scale, cells, headings)
-        v = eroded = standing = np.zeros(grid.shape)
-        starts, outside = np.zeros((0, *grid.whole().shape)), 0.0
-        if hopeless:
-            break
-        layer = _layer(game, stands, grid)
-        found, lowest, outside = _converge_shield(game, grid, least, layer)
-        if outside >= least:
-            stood, starts = _standing(
-                game, grid, lowest, outside, response, wait
+    for _ in range(0 if hopeless else TRIALS):
+        cover = _cover(game, least, scale * stands, scale, cells, headings)
+        layer = _layer(game, stands, cover)
+        found, lowest, beyond = _converge_shield(game, cover, least, layer)
+        if beyond >= least:
+            stood, began = _standing(
+                game, cover, lowest, beyond, response, wait
             )
             most = game.person.speed * wait
-            if _edge(stood, most, grid) >= least:
-                v, eroded, standing = found, lowest, stood
+            if _edge(stood, most, cover) >= least:
+                grid, v, eroded, standing = cover, found, lowest, stood
+                starts, outside = began, beyond
                 break
-            outside = 0.0
         scale *= GROWTH
     return ShieldTable(
         game, grid, v, eroded, standing, starts, outside, response,
