@@ -224,18 +224,26 @@ class CameraSight(_PerceivedSight["Perception"]):
         """Recognised robots, named by the number of their track, if any."""
         if self._unnamed is None:
             return None
-        own, role = self._unnamed
-        return PlayersInSight(
-            own,
-            tuple(
-                seen._replace(
-                    identity=PlayerIdentity(
-                        f"unnamed-{seen.target_id}", role, role.value
-                    )
-                )
-                for seen in self.perception.unnamed
-            ),
-        )
+        sightings = tuple(map(self._numbered, self.perception.unnamed))
+        return PlayersInSight(self._unnamed[0], sightings)
+
+    def see(
+        self,
+        measurement: Measurement,
+        step: StepAt,
+        tilt: tuple[float, float] | None,
+    ) -> Sighting | None:
+        """Return the sighting by the images so far."""
+        seen = super().see(measurement, step, tilt)
+        return None if seen is None else self._numbered(seen)
+
+    def _numbered(self, seen: Sighting) -> Sighting:
+        """Return a sighting with the role of the robot, but no name."""
+        if self._unnamed is None:
+            return seen
+        _, role = self._unnamed
+        name = f"unnamed-{seen.target_id}"
+        return seen._replace(identity=PlayerIdentity(name, role, role.value))
 
     @property
     def turning(self) -> float:
