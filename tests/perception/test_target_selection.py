@@ -22,7 +22,7 @@ def track(
 def among(*tracks: TargetTrack) -> UnnamedSelection:
     tracker = Tracker(several=True)
     tracker.tracks = list(tracks)
-    return UnnamedSelection(tracker)
+    return UnnamedSelection(tracker, 2)
 
 
 def test_the_nearest_recognised_robot_is_the_main_one() -> None:
@@ -33,6 +33,17 @@ def test_the_nearest_recognised_robot_is_the_main_one() -> None:
     assert selection.main(0.1, 0.0, 0.0) is near
     assert selection.target_id(near) == 2
     assert among(other).main(0.1, 0.0, 0.0) is None
+
+
+def test_of_more_tracks_than_robots_the_most_certain_count() -> None:
+    """Robots that overlap in an image give tracks of uncertain distance."""
+    one, two = track(1, 1.0, 0.0), track(2, 0.0, 1.0)
+    seen = Observation(0.0, 0.4, 0.0, 0.0, 0.3, 0.03, True, False)
+    ghost = TargetTrack(seen, 3, ROBOT_MOTION)
+    ghost.confirmed = True
+    selection = among(ghost, one, two)
+    assert set(selection.recognised(0.1)) == {one, two}
+    assert selection.main(0.1, 0.0, 0.0) is not ghost
 
 
 def test_another_is_taken_only_when_it_is_nearer_by_a_tenth() -> None:

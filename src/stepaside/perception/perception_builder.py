@@ -92,7 +92,7 @@ def build_perception(
     if people:
         selection = PeopleSelection(tracker)
     elif unnamed:
-        selection = UnnamedSelection(tracker)
+        selection = UnnamedSelection(tracker, unnamed)
     uses: list[BottomCameraUse] = []
     depth: DepthUse = OpenFloorDepth(tracker, near_walls=people)
     sonar = SonarStage(head.sonars, tracker, selection)

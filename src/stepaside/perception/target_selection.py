@@ -83,15 +83,21 @@ def recent_tracks(
 class UnnamedSelection:
     """Target selection among robots of one trim, which have no names.
 
-    All recognised tracks are opponents. The nearest is the main one, and
-    another one than at present only when that is nearer by a tenth. The head
-    looks at the main track, and now and then where another was last seen.
-    Unrecognised objects are no targets: they may be teammates.
+    Recognised tracks are opponents, as many as there are; of more, where
+    robots overlap in images, the most certain ones. The nearest is the main
+    one, and another one than at present only when that is nearer by a tenth.
+    The head looks at the main track, and now and then where another was last
+    seen. Unrecognised objects are no targets: they may be teammates.
     """
 
-    def __init__(self, tracker: Tracker) -> None:
-        """Select among the tracks of a tracker."""
-        self._tracker = tracker
+    def __init__(self, tracker: Tracker, most: int) -> None:
+        """Select among the tracks of a tracker.
+
+        Args:
+            tracker: The tracker.
+            most: Number of opponents.
+        """
+        self._tracker, self._most = tracker, most
         self._present = 0  # number of the main track
 
     def recognised(self, now: float) -> list[TargetTrack]:
@@ -101,11 +107,13 @@ class UnnamedSelection:
             now: Time, in [s].
         """
         self._tracker.prune(now)
-        return [
+        recognised = [
             track
             for track in self._tracker.tracks
             if track.confirmed and now - track.identified_at < RECOGNISED
         ]
+        recognised.sort(key=lambda track: track.deviation_at(now))
+        return recognised[: self._most]
 
     def main(self, now: float, x: float, y: float) -> TargetTrack | None:
         """Return the nearest recognised track, with hysteresis.
