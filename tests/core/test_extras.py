@@ -16,6 +16,8 @@ from tools.documents.store import ROOT
 PACKAGES = {  # where the name of the package differs
     "cv2": "opencv-python-headless",
     "rerun": "rerun-sdk",
+    "rerun_cli": "rerun-sdk",
+    "foxglove": "foxglove-sdk",
     "dask_jobqueue": "dask-jobqueue",
     "yaml": "pyyaml",
 }
@@ -37,6 +39,8 @@ NEEDS = {
     f"duel {SHORT} --sensing cameras": "vision",
     f"duel {SHORT} --method mpc": "mpc",
     "view --no-open --serve-for 0.1": "viewer",
+    "view --no-open --rerun": "rerun",
+    "view --no-open --foxglove": "foxglove",
     "replay run --no-open --serve-for 0.1": "viewer",
     "replay run --html page.html": "viewer",
     "page folder": "viewer",

@@ -1,9 +1,10 @@
 """``stepaside view``: an interactive game in the browser."""
 
 import webbrowser
+from contextlib import ExitStack
 from pathlib import Path
 from time import sleep
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 from click.core import ParameterSource
@@ -20,9 +21,37 @@ from .terminal import echo
 if TYPE_CHECKING:
     from ..games.duel_settings import DuelSettings
     from ..games.game_settings import GameSettings
+    from ..report.export.live_recording import LiveSink
+    from ..report.viewer.live_page import Page
 
 
-OWN = {"file", "host", "port", "opens", "run", "demo", "serve_for", "seed"}
+class ViewOptions(NamedTuple):
+    """Options of the command besides the settings of a duel.
+
+    Attributes:
+        file: Game file; None for a duel.
+        host: Address of the server.
+        port: First port to try.
+        opens: Whether to open a browser.
+        run: Whether the simulation starts at once.
+        demo: Whether the page is for an audience.
+        rerun_port: Port for the Rerun viewer; None not to serve it.
+        foxglove_port: Port for Foxglove; None not to serve it.
+        serve_for: Time after which to stop, in [s]; None for no limit.
+    """
+
+    file: Path | None
+    host: str
+    port: int
+    opens: bool
+    run: bool
+    demo: bool
+    rerun_port: int | None
+    foxglove_port: int | None
+    serve_for: float | None
+
+
+OWN = {*ViewOptions._fields, "seed"}
 
 
 @click.command("view", cls=SettingsCommand)
@@ -51,51 +80,102 @@ OWN = {"file", "host", "port", "opens", "run", "demo", "serve_for", "seed"}
     help="Show large text and no controls, and play one game after the other "
     "with the next seeds, for an audience.",
 )
+@click.option(
+    "--rerun",
+    "rerun_port",
+    type=click.IntRange(1, 65535),
+    is_flag=False,
+    flag_value=9876,
+    help="Also serve the game to the Rerun viewer, on a port of this machine; "
+    "9876 if none is given.",
+)
+@click.option(
+    "--foxglove",
+    "foxglove_port",
+    type=click.IntRange(1, 65535),
+    is_flag=False,
+    flag_value=8765,
+    help="Also serve the game to Foxglove, on a WebSocket of this machine; at "
+    "port 8765 if none is given.",
+)
 @serve_for_option("--duration")
 @duel_options("duration")
-def view(
-    settings: "DuelSettings",
-    file: Path | None,
-    host: str,
-    port: int,
-    opens: bool,
-    run: bool,
-    demo: bool,
-    serve_for: float | None,
-) -> None:
+def view(settings: "DuelSettings", **options: Any) -> None:
     """Serve a page on which to watch a game, push and drive the robots.
 
     With FILE it is the game in physics of any number of players that FILE
     lists (docs/games.md), of which --seed is the only option; otherwise a
     duel.
     """
-    from ..report.viewer.live_page import Page
-
+    given = ViewOptions(**options)
     played: DuelSettings | GameSettings = settings
-    if file is not None:
-        played = _game_of(file)
-    page = Page(played, host=host, port=port, demo=demo)
+    if given.file is not None:
+        played = _game_of(given.file)
+    with ExitStack() as stack:
+        sinks = _open_sinks(given, stack)
+        from ..report.export.live_recording import LiveRecorder, LiveStreams
+        from ..report.viewer.live_page import Page
+
+        recorder = LiveRecorder()
+        page = Page(
+            played,
+            host=given.host,
+            port=given.port,
+            demo=given.demo,
+            observers=(recorder,) if sinks else (),
+        )
+        stack.callback(page.close)
+        streams = LiveStreams(recorder, page.session.lock, sinks)
+        stack.callback(streams.close)
+        page.session.running = given.run
+        _serve(page, given)
+
+
+def _serve(page: "Page", options: ViewOptions) -> None:
+    """Serve a page until it is interrupted."""
     if page.gate.secret:
         echo(
-            f"stepaside: other machines can reach {host}; anyone with the "
-            "link can drive the robots",
+            f"stepaside: other machines can reach {options.host}; anyone with "
+            "the link can drive the robots",
             err=True,
         )
-    page.session.running = run
     page.start()
     address = page.gate.link
     echo(f"serving at {address}; press Ctrl-C to stop")
-    if opens:
+    if options.opens:
         webbrowser.open(address)
     try:
-        if serve_for is None:
+        if options.serve_for is None:
             while True:
                 sleep(1.0)
-        sleep(serve_for)
+        sleep(options.serve_for)
     except KeyboardInterrupt:
         echo("stepaside: stopped; saved runs remain", err=True)
-    finally:
-        page.close()
+
+
+def _open_sinks(options: ViewOptions, stack: ExitStack) -> "list[LiveSink]":
+    """Serve other programs, and print how they connect.
+
+    Args:
+        options: Options with their ports.
+        stack: Closes what was opened.
+    """
+    sinks: list[LiveSink] = []
+    if options.rerun_port is not None:
+        from ..report.export.live_rerun import LiveRerun
+
+        rerun = LiveRerun(options.rerun_port)
+        echo(f"Rerun: rerun {rerun.address}")
+        stack.callback(rerun.close)
+        sinks.append(rerun)
+    if options.foxglove_port is not None:
+        from ..report.export.live_foxglove import LiveFoxglove
+
+        foxglove = LiveFoxglove(options.foxglove_port)
+        echo(f"Foxglove: Open connection, {foxglove.address}")
+        stack.callback(foxglove.close)
+        sinks.append(foxglove)
+    return sinks
 
 
 def _game_of(file: Path) -> "GameSettings":

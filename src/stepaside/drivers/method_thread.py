@@ -12,6 +12,7 @@ from ..core.user_file import FAILURES
 from .guardian_process import SessionLost
 
 OPEN_TIMEOUT = 15.0  # for open(), in [s]
+SIMULATOR_TIMEOUT = 60.0  # for open() of a simulator that may be busy, in [s]
 CLOSE_TIMEOUT = 2.0  # for the last methods of a session, in [s]
 BLOCKED = 0.25  # time after which a method counts as blocked, in [s]
 
@@ -110,15 +111,19 @@ class MethodThread:
             result.set_exception(lost)
 
 
-def open_robot(methods: MethodThread) -> None:
+def open_robot(methods: MethodThread, timeout: float = OPEN_TIMEOUT) -> None:
     """Call open() of a robot.
+
+    Args:
+        methods: Thread that calls its methods.
+        timeout: Longest time that it may take, in [s].
 
     Raises:
         SessionLost: If it raised an OSError or does not return.
         ConfigurationError: If it fails otherwise, which is not retried.
     """
     try:
-        methods.run("open", OPEN_TIMEOUT)
+        methods.run("open", timeout)
     except SessionLost as error:
         if isinstance(error.__cause__, OSError):
             raise

@@ -15,7 +15,13 @@ from ...perception.measurement import Sighting
 from ..cameras.robot_camera import JointRobotCamera
 from ..dead_man_switch import DeadManSwitch
 from ..guardian_process import SessionLost
-from ..method_thread import CLOSE_TIMEOUT, MethodThread, open_robot
+from ..method_thread import (
+    CLOSE_TIMEOUT,
+    OPEN_TIMEOUT,
+    SIMULATOR_TIMEOUT,
+    MethodThread,
+    open_robot,
+)
 from .frame_clock import COUNTER_RANGE
 from .frames import Codec, FrameError, JointCommand, JointFrame, MotorGains
 from .joint_map import MotorTable
@@ -68,7 +74,10 @@ class AdapterLink:
         self._robot, self._motors, self._own = robot, motors, own
         self._needs_forces, self._switch = needs_forces, switch
         self._name = self._methods.name_of("listen")
-        open_robot(self._methods)
+        open_robot(
+            self._methods,
+            OPEN_TIMEOUT if robot.paced else SIMULATOR_TIMEOUT,
+        )
         self._reading: Future[Any] | None = None
         self._commanding: Future[Any] | None = None
         self._reports: list[Any] = []

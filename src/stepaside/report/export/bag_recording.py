@@ -121,6 +121,8 @@ def messages_of(
     recording: Recording,
     factory: MessageFactory,
     report: Callable[[int, int], None] | None = None,
+    *,
+    room: bool = True,
 ) -> Iterator[TopicMessage]:
     """Yield all messages of a recording, in the order of their times.
 
@@ -128,6 +130,7 @@ def messages_of(
         recording: The recording.
         factory: Maker of messages.
         report: Called with the samples done and their number.
+        room: Whether to include obstacles, persons and templates.
     """
     run = recording.run
     players = [PlayerTopics(recording, name, factory) for name in run.players]
@@ -141,7 +144,7 @@ def messages_of(
     events = [m for player in players for m in player.events()]
     events += [
         TopicMessage(time, "/room", f"{MARKERS}", message, stays=True)
-        for time, message in room_markers(run, factory)
+        for time, message in (room_markers(run, factory) if room else ())
     ]
     events.sort(key=lambda event: event.time)
     pending = iter(events)
@@ -355,8 +358,9 @@ class PlayerTopics:
             return
         topic = self._topic("footsteps/landed")
         rows = landed_footsteps(model.description, self._times, track)
-        for number, row in enumerate(rows):
+        for row in rows:
             time = float(row[0])
+            number = round(1e3 * time)  # also in pieces of a live game
             marks = self._soles(time, row[None, 1:], "landed", 0.8, number)
             yield TopicMessage(time, topic, MARKERS, marks)
 

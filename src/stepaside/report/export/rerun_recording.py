@@ -23,6 +23,7 @@ from .recording import Recording, RobotModel
 from .room_markers import shapes_over_time
 from .signal_series import all_series
 
+APPLICATION = "stepaside"
 TIMELINE = "time"
 WORLD = "world"
 LIFT = 0.002  # of lines and soles over the floor, in [m]
@@ -48,19 +49,76 @@ def write_rerun(file: Path, recording: Recording) -> None:
     """
     import rerun
 
-    stream = rerun.RecordingStream("stepaside", recording_id=None)
-    stream.save(file, default_blueprint=_blueprint(recording))
-    stream.send_recording_name(recording.run.title)
-    stream.log(WORLD, rerun.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
-    for name in recording.run.players:
-        _log_player(stream, recording, name)
-    _log_room(stream, recording)
-    _log_series(stream, recording)
+    stream = rerun.RecordingStream(APPLICATION, recording_id=None)
+    stream.save(file, default_blueprint=rerun_blueprint(recording))
+    log_models(stream, recording)
+    _log_paths(stream, recording)
+    log_samples(stream, recording)
+    log_room(stream, recording)
     stream.flush()
     stream.disconnect()
 
 
-def _blueprint(recording: Recording) -> Any:
+def log_models(stream: Any, recording: Recording) -> None:
+    """Log what does not change: robots, looks of points and of lines.
+
+    Args:
+        stream: Rerun's recording stream.
+        recording: The recording.
+    """
+    import rerun
+
+    stream.send_recording_name(recording.run.title)
+    stream.log(WORLD, rerun.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
+    for name in recording.run.players:
+        for key in (*POINTS, "dcm"):
+            look = rerun.Points3D.from_fields(
+                radii=[POINT_RADIUS],
+                colors=[rgb(POINTS.get(key, DCM_COLOUR))],
+            )
+            stream.log(f"{WORLD}/{name}/{key}", look, static=True)
+        if name in recording.models:
+            _log_links(stream, name, recording.models[name])
+    for series in all_series(recording):
+        names = list(series.columns)
+        if len(names) == 1:  # of a unit only
+            names = [f"{series.name} [{names[0]}]"]
+        lines = rerun.SeriesLines(names=names)
+        stream.log(f"signals/{series.name}", lines, static=True)
+
+
+def log_samples(stream: Any, recording: Recording) -> None:
+    """Log the samples of a recording: poses, points, images and numbers.
+
+    Args:
+        stream: Rerun's recording stream.
+        recording: The recording.
+    """
+    for name in recording.run.players:
+        _log_player(stream, recording, name)
+    _log_series(stream, recording)
+
+
+def _log_paths(stream: Any, recording: Recording) -> None:
+    """Log the whole path of each player."""
+    import rerun
+
+    run = recording.run
+    for name, track in run.tracks.items():
+        colour = rgb(colours_in("light", run.players)[name])
+        path = np.column_stack(
+            [track.unicycle[:, :2], np.full(len(run.times), LIFT)]
+        )
+        line = rerun.LineStrips3D([path], colors=[colour], radii=[LIFT])
+        stream.log(f"{WORLD}/{name}/path", line, static=True)
+
+
+def rerun_blueprint(recording: Recording) -> Any:
+    """Return the arrangement of the views.
+
+    Args:
+        recording: The recording.
+    """
     import rerun.blueprint as views
 
     columns: list[Any] = []
@@ -90,6 +148,7 @@ def _blueprint(recording: Recording) -> Any:
                 views.TimeSeriesView(
                     origin=f"signals/{name}/foot_forces",
                     name=f"{name}: foot forces [N]",
+                    plot_legend=views.PlotLegend(visible=False),
                 )
             )
     scene = views.Spatial3DView(origin=WORLD, name=run.title)
@@ -110,17 +169,12 @@ def _times(times: Array) -> Any:
 
 
 def _log_player(stream: Any, recording: Recording, name: str) -> None:
-    """Log path, points, body and footsteps of a player."""
+    """Log points, body, footsteps and images of a player."""
     import rerun
 
     run = recording.run
     track, root = run.tracks[name], f"{WORLD}/{name}"
     colour = rgb(colours_in("light", run.players)[name])
-    path = np.column_stack(
-        [track.unicycle[:, :2], np.full(len(run.times), LIFT)]
-    )
-    line = rerun.LineStrips3D([path], colors=[colour], radii=[LIFT])
-    stream.log(f"{root}/path", line, static=True)
     signals = recording.signals.get(name)
     points = {key: getattr(track, key) for key in POINTS}
     points["dcm"] = None if signals is None else signals.dcm
@@ -130,13 +184,8 @@ def _log_player(stream: Any, recording: Recording, name: str) -> None:
         known = np.isfinite(rows).all(axis=1)
         spots = np.full((int(known.sum()), 3), LIFT)
         spots[:, : rows.shape[1]] = rows[known]
-        entity = f"{root}/{key}"
-        look = rerun.Points3D.from_fields(
-            radii=[POINT_RADIUS], colors=[rgb(POINTS.get(key, DCM_COLOUR))]
-        )
-        stream.log(entity, look, static=True)
         stream.send_columns(
-            entity,
+            f"{root}/{key}",
             _times(run.times[known]),
             rerun.Points3D.columns(positions=spots),
         )
@@ -163,13 +212,13 @@ def _log_footsteps(
 
     half = 0.5 * (sole.front - sole.back), 0.5 * (sole.outer + sole.inner)
     ahead = 0.5 * (sole.front + sole.back)
-    for number, (time, side, x, y, heading) in enumerate(rows.tolist()):
+    for time, side, x, y, heading in rows.tolist():
         left = 0.5 * side * (sole.outer - sole.inner)
         cos, sin = np.cos(heading), np.sin(heading)
         stream.set_time(TIMELINE, duration=time)
         turn = (0.0, 0.0, np.sin(0.5 * heading), np.cos(0.5 * heading))
         stream.log(
-            f"{entity}/{number}",
+            f"{entity}/{round(1e3 * time)}",
             rerun.Boxes3D(
                 centers=[
                     (
@@ -186,10 +235,29 @@ def _log_footsteps(
     stream.reset_time()
 
 
+def _log_links(stream: Any, name: str, model: RobotModel) -> None:
+    """Log the fixed poses and the shapes of the links of a robot."""
+    import rerun
+
+    entities = entities_of(name, model)
+    for joint in model.tree.joints:
+        if joint.number is None:
+            turn = quaternion_of(joint.axes)[[1, 2, 3, 0]]
+            pose = rerun.Transform3D(
+                translation=joint.position,
+                quaternion=rerun.Quaternion(xyzw=turn),
+            )
+            stream.log(entities[joint.child], pose, static=True)
+    compiled = model.description.compile()
+    for link in model.tree.links:
+        if link.body is not None and link.body >= 0:
+            _log_shapes(stream, entities[link.name], compiled, link)
+
+
 def _log_robot(
     stream: Any, recording: Recording, name: str, model: RobotModel
 ) -> None:
-    """Log the links of a robot with their shapes and poses."""
+    """Log the poses of the moving links of a robot."""
     import rerun
 
     run = recording.run
@@ -204,30 +272,15 @@ def _log_robot(
             translation=free[:, :3], quaternion=free[:, [4, 5, 6, 3]]
         ),
     )
-    moved = {pose.joint.name: pose for pose in joint_poses(model, qpos)}
-    for joint in model.tree.joints:
-        entity = entities[joint.child]
-        if joint.name in moved:
-            _, positions, quaternions = moved[joint.name]
-            stream.send_columns(
-                entity,
-                _times(run.times),
-                rerun.Transform3D.columns(
-                    translation=positions,
-                    quaternion=quaternions[:, [1, 2, 3, 0]],
-                ),
-            )
-        else:
-            turn = quaternion_of(joint.axes)[[1, 2, 3, 0]]
-            pose = rerun.Transform3D(
-                translation=joint.position,
-                quaternion=rerun.Quaternion(xyzw=turn),
-            )
-            stream.log(entity, pose, static=True)
-    compiled = model.description.compile()
-    for link in model.tree.links:
-        if link.body is not None and link.body >= 0:
-            _log_shapes(stream, entities[link.name], compiled, link)
+    for joint, positions, quaternions in joint_poses(model, qpos):
+        stream.send_columns(
+            entities[joint.child],
+            _times(run.times),
+            rerun.Transform3D.columns(
+                translation=positions,
+                quaternion=quaternions[:, [1, 2, 3, 0]],
+            ),
+        )
 
 
 def entities_of(name: str, model: RobotModel) -> dict[str, str]:
@@ -330,8 +383,13 @@ def _camera_entity(recording: Recording, name: str) -> str:
     return entities_of(name, recording.models[name])[f"camera{OPTICAL}"]
 
 
-def _log_room(stream: Any, recording: Recording) -> None:
-    """Log obstacles, persons and templates."""
+def log_room(stream: Any, recording: Recording) -> None:
+    """Log obstacles, persons and templates.
+
+    Args:
+        stream: Rerun's recording stream.
+        recording: The recording.
+    """
     import rerun
 
     archetypes = {
@@ -371,8 +429,6 @@ def _log_series(stream: Any, recording: Recording) -> None:
     times = _times(recording.run.times)
     for series in all_series(recording):
         entity = f"signals/{series.name}"
-        lines = rerun.SeriesLines(names=list(series.columns))
-        stream.log(entity, lines, static=True)
         width = len(series.columns)
         values = series.values.astype(np.float64).ravel()
         columns = rerun.Scalars.columns(scalars=values).partition(

@@ -20,6 +20,7 @@ from ...games.duel_circle import circle_of_theory
 from ...games.duel_settings import EVADER, PLAYERS, DuelSettings
 from ...games.game_match import GameMatch
 from ...games.game_settings import GameSettings
+from ...games.match import MatchObserver
 from ...games.outcome import Outcome
 from ...games.player import Snapshot
 from ...locomotion.walk_snapshots import Phase
@@ -121,18 +122,23 @@ def identities_of(settings: LiveSettings) -> Mapping[str, PlayerIdentity]:
     return {name: PlayerIdentity(name, Role(name), name) for name in PLAYERS}
 
 
-def open_match(settings: LiveSettings, trail: PlotHistory) -> LiveMatch:
+def open_match(
+    settings: LiveSettings,
+    trail: PlotHistory,
+    others: tuple[MatchObserver, ...] = (),
+) -> LiveMatch:
     """Return a game for a page, whose record is bounded.
 
     Args:
         settings: Settings of the game.
         trail: Its recent history.
+        others: Further observers of the game.
 
     Raises:
         ConfigurationError: If it is no game in physics.
         StepAsideError: If the settings are invalid.
     """
-    observers = trail, LiveRecording()
+    observers: tuple[MatchObserver, ...] = (trail, LiveRecording(), *others)
     if isinstance(settings, DuelSettings):
         return Duel(settings, observers, recorded=False, rendered=True)
     if settings.level != "physics":
@@ -169,8 +175,16 @@ class LiveSession:
             before the first measurement.
     """
 
-    def __init__(self, settings: LiveSettings) -> None:
+    def __init__(
+        self,
+        settings: LiveSettings,
+        observers: tuple[MatchObserver, ...] = (),
+    ) -> None:
         """Start the loop with a game that is paused.
+
+        Args:
+            settings: Settings of the game.
+            observers: Further observers of each game.
 
         Raises:
             StepAsideError: If the settings are invalid.
@@ -181,6 +195,7 @@ class LiveSession:
         self.slow_motion = 1.0
         self.real_time_factor = 0.0
         self.error: str | None = None
+        self._observers = observers
         self._requests: deque[Callable[[], None]] = deque()
         self._closing = threading.Event()
         self._thread = threading.Thread(target=self._loop, daemon=True)
@@ -214,7 +229,7 @@ class LiveSession:
     def _begin(self, settings: LiveSettings) -> None:
         # A live game has no end, so that its history is bounded.
         trail = PlotHistory()
-        match = open_match(settings, trail)
+        match = open_match(settings, trail, self._observers)
         self._close_match()
         self._open = match
         self.match = match
