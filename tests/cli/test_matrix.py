@@ -310,14 +310,14 @@ def test_live_duel_is_stepped_pushed_and_drawn(
 ) -> None:
     case = played.case
     stepped(session, case.duration)
-    for number, name in enumerate(PLAYERS):
+    for name in PLAYERS:
         if name in case.walkers:
-            session.push(number, 2.5, pi / 2)
+            session.push(name, 2.5, pi / 2)
             continue
         with pytest.raises(
             ConfigurationError, match="only a robot can be pushed"
         ):
-            session.push(number, 2.5, pi / 2)
+            session.push(name, 2.5, pi / 2)
     solved: set[str] = set()
 
     def look(duel: Duel) -> None:

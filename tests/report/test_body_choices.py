@@ -60,6 +60,7 @@ def test_controls_show_a_start_that_is_not_the_usual_one(
         assert gui["Body"].value == "delayed"
         gui["Duel"].press("reset")
         begun = page.session.settings
+        assert isinstance(begun, DuelSettings)
         assert (begun.body, begun.control) == (BODIES["delayed"], control)
         assert begun.strategy.saturated
     finally:

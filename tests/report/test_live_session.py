@@ -21,7 +21,7 @@ from stepaside.locomotion.walk_snapshots import Phase
 from stepaside.report.viewer import live_session as live
 from stepaside.report.viewer import plot_history as trails
 from stepaside.report.viewer import run_saving as saving
-from stepaside.report.viewer.live_session import LiveSession
+from stepaside.report.viewer.live_session import LiveMatch, LiveSession
 from stepaside.report.viewer.status_text import outlook, status_text
 from stepaside.strategies.teleoperation import TURN, TeleoperatedPursuit
 
@@ -46,7 +46,7 @@ def settle(session: LiveSession, rounds: int = 1) -> None:
         assert served.wait(LONG), session.error
 
 
-def _setter(event: Event) -> Callable[[Duel], None]:
+def _setter(event: Event) -> Callable[[LiveMatch], None]:
     return lambda duel: event.set()
 
 
@@ -55,7 +55,7 @@ def loop_thread(session: LiveSession) -> Thread:
     found: list[Thread] = []
     done = Event()
 
-    def note(duel: Duel) -> None:
+    def note(duel: LiveMatch) -> None:
         found.append(current_thread())
         done.set()
 
@@ -229,9 +229,9 @@ def test_a_duel_is_let_go_by_the_thread_that_drew_for_it() -> None:
     """When another one has begun, and at the end; each of them once."""
     made = LiveSession(SETTINGS)
     loop = loop_thread(made)
-    closed: list[tuple[Duel, Thread]] = []
+    closed: list[tuple[LiveMatch, Thread]] = []
 
-    def watch() -> Duel:
+    def watch() -> LiveMatch:
         duel = made.match
         duel.close = lambda: closed.append(  # type: ignore[method-assign]
             (duel, current_thread())
@@ -324,7 +324,8 @@ def test_of_a_live_duel_the_first_minutes_are_kept(
     assert duel.world.time >= 2.0
     np.testing.assert_allclose(duel.recorder.times, 0.02 * np.arange(51))
     assert all(len(t.com) == 51 for t in duel.recorder.tracks().values())
-    assert duel.observers[0] is session.trail and duel.sight_observer is None
+    assert isinstance(duel, Duel) and duel.sight_observer is None
+    assert duel.observers[0] is session.trail
 
 
 def test_what_was_played_is_saved_with_pushes_and_commands(

@@ -57,13 +57,15 @@ def test_a_preset_replaces_duel_and_bodies(page: Page) -> None:
     gui["Preset"].press("room")
     page.refresh()
     settings = page.session.settings
+    assert isinstance(settings, DuelSettings)
     assert settings.evader_strategy == "look-ahead"
     assert settings.room.plan is not None
     frames = [h for h in before if not hasattr(h, "faces")]
     assert frames and all(handle.removed for handle in frames)
     gui["Preset"].press("person")
     page.refresh()
-    assert page.session.settings.pursuer == "person"
+    settings = page.session.settings
+    assert isinstance(settings, DuelSettings) and settings.pursuer == "person"
     assert gui["Template speed [m/s]"].value == pytest.approx(0.26)
     gui["Preset"].press(AS_STARTED)
     assert page.session.settings == SETTINGS

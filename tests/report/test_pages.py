@@ -35,7 +35,7 @@ from stepaside.games.walker import SimulatedPlayer
 from stepaside.report.replay_page import write_page
 from stepaside.report.scene import RunScene
 from stepaside.report.text_escaping import visible
-from stepaside.report.viewer.live_session import LiveSession
+from stepaside.report.viewer.live_session import LiveMatch, LiveSession
 
 SLOW = 0.02  # speed at which a sight of some seconds lasts for minutes
 
@@ -240,7 +240,7 @@ def settle(page: Any, session: LiveSession) -> None:
         until(page, served.is_set)
 
 
-def _setter(event: threading.Event) -> Callable[[Duel], None]:
+def _setter(event: threading.Event) -> Callable[[LiveMatch], None]:
     return lambda duel: event.set()
 
 

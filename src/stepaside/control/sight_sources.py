@@ -119,7 +119,7 @@ class SightOfPlayers:
         self._latest: dict[str, Sighting] = {}
         self._numbers: dict[str, int] = {}
         self._chosen = ""
-        self.in_sight: PlayersInSight | None = PlayersInSight(identity, ())
+        self.in_sight = PlayersInSight(identity, ())
 
     def see(
         self,
