@@ -12,6 +12,7 @@ from fake_page import open_fake
 from stepaside.core.errors import ConfigurationError
 from stepaside.games.game_file import load_game, parse_game
 from stepaside.games.game_settings import GameSettings
+from stepaside.games.outcome import Outcome
 from stepaside.games.run_archive import load_run
 from stepaside.games.walker import SimulatedPlayer
 from stepaside.report.viewer import live_page as pages
@@ -161,6 +162,25 @@ def test_a_reset_plays_the_next_seed_and_a_game_is_saved(
     played(page, 0.5)
     folder = page.session.save(RunSaver(tmp_path))
     assert load_run(folder).players == ("red", "ruby", "blue", "guest")
+
+
+def test_an_audience_sees_every_player_and_the_next_seed(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(pages, "open_server", open_fake)
+    page = Page(game(seed=7), host="there", port=1234, demo=True)
+    try:
+        page.refresh()
+        gui: Any = page.server.gui
+        caption = gui.html[-1].content
+        for name in ("red", "ruby", "blue", "guest"):
+            assert f">{name}</b>" in caption
+        assert "angle" not in caption
+        page.session.outcome = Outcome.CONTACT
+        page.refresh()
+        assert page.session.settings.seed == 8
+    finally:
+        page.session.close()
 
 
 def test_templates_have_no_live_page(monkeypatch: pytest.MonkeyPatch) -> None:

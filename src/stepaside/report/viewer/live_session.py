@@ -364,6 +364,7 @@ class LiveSession:
         with self.lock:  # no tick may change the state meanwhile
             match, history = self.match, self.trail.history
             data, distance = match.world.data, match.distance
+            no_angle = 0.0 if isinstance(match, Duel) else nan
             return LiveSnapshot(
                 match.world.time,
                 data.xpos.copy(),
@@ -374,7 +375,7 @@ class LiveSession:
                 match.min_distance
                 if isinstance(match, Duel)
                 else self.trail.closest,
-                history[-1][2] if history else 0.0,
+                history[-1][2] if history else no_angle,
                 self.trail.approach(self.settings.cycle),
                 match.message,
             )
