@@ -11,7 +11,7 @@ INSTALL := -m pip install --disable-pip-version-check --no-warn-script-location 
 
 .PHONY: setup duel test-tools test types suite python other other-setup other-test mutate \
 	fuzz bench figures docs docs-run docs-setup wheel release clean constraints \
-	ros2-peers test-export test-rcss
+	ros2-peers test-ament test-export test-rcss
 
 setup: $(STAMP)
 
@@ -120,6 +120,17 @@ endif
 		--quiet $(ROS2_PACKAGES:%=ros-$*-%)
 	touch $@
 
+# The ament package of examples/ros2, built by colcon.
+test-ament: setup .venv-colcon/.installed
+	PATH="$(CURDIR)/.venv-colcon/bin:$$PATH" $(BIN)/python -m pytest \
+		tests/documents/test_ros2_package.py
+
+.venv-colcon/.installed:
+	$(PYTHON) -m venv .venv-colcon
+	.venv-colcon/bin/python -m pip install --disable-pip-version-check \
+		--quiet colcon-ros colcon-bash "setuptools<80"
+	touch $@
+
 # The RoboCup simulator, which pins an older MuJoCo and runs with ours.
 test-rcss: setup
 	$(BIN)/python $(INSTALL) --quiet --no-deps --upgrade \
@@ -180,4 +191,4 @@ constraints:
 		pyproject.toml
 
 clean:
-	rm -rf $(VENV) .venv-other .venv-wheel .venv-export .venv-ros2-* dist runs
+	rm -rf $(VENV) .venv-other .venv-wheel .venv-colcon .venv-export .venv-ros2-* dist runs

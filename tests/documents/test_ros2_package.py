@@ -1,6 +1,8 @@
 """Test the ament package: its files, and the command that it launches."""
 
 import runpy
+import shutil
+import subprocess
 import sys
 from pathlib import Path
 from types import ModuleType
@@ -93,3 +95,22 @@ def test_every_file_that_setup_installs_exists(
     assert manifest.findtext("name") == given["name"] == PACKAGE.name
     assert manifest.findtext("version") == given["version"]
     assert (PACKAGE / Path(given["packages"][0])).is_dir()
+
+
+def test_colcon_builds_it(tmp_path: Path) -> None:
+    """``make test-ament`` has colcon."""
+    colcon = shutil.which("colcon")
+    if colcon is None:
+        pytest.skip("colcon is not installed")
+    shutil.copytree(PACKAGE, tmp_path / "src" / PACKAGE.name)
+    done = subprocess.run(
+        [colcon, "build"], cwd=tmp_path, capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    share = tmp_path / "install" / PACKAGE.name / "share"
+    index = share / "ament_index" / "resource_index" / "packages"
+    assert (index / PACKAGE.name).is_file()
+    for file in ("launch/player.launch.py", "config/player.yaml"):
+        installed = share / PACKAGE.name / file
+        assert installed.read_bytes() == (PACKAGE / file).read_bytes()
+    assert (tmp_path / "install" / "setup.bash").is_file()
