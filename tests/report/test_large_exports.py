@@ -7,18 +7,23 @@ from typing import Any
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from scipy.spatial.transform import Rotation
 
 from stepaside.cli.main import main
 from stepaside.games.duel import run_duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.run import Run
 from stepaside.games.run_archive import load_run, write_run_files
+from stepaside.games.walk_game import run_walk
+from stepaside.games.walk_settings import WalkSettings
 from stepaside.robots.urdf_elements import BASE
 
 
 def export(run: Path, name: str) -> Path:
-    """Export a run by the command line; return the folder."""
+    """Export a run by the command line, once; return the folder."""
     folder = run.with_name(f"{run.name}-{name}")
+    if folder.exists():
+        return folder
     words = ["export", str(run), "--to", name]
     result = CliRunner().invoke(main, words)
     assert result.exit_code == 0, result.output
@@ -48,6 +53,105 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="module")
 def run(folder: Path) -> Run:
     return load_run(folder)
+
+
+@pytest.fixture(scope="module")
+def walk(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Run folder of a walk of 3 s."""
+    folder = tmp_path_factory.mktemp("large") / "walk"
+    folder.mkdir()
+    write_run_files(folder, run_walk(WalkSettings(duration=3.0)))
+    return folder
+
+
+def bag_of(folder: Path) -> dict[str, list[Any]]:
+    """Messages of an exported bag, by topic, read by mcap-ros2-support."""
+    decoder = pytest.importorskip(
+        "mcap_ros2.decoder", reason="mcap-ros2-support is not installed"
+    )
+    from mcap.reader import make_reader
+
+    file = export(folder, "mcap") / f"{folder.name}.mcap"
+    found: dict[str, list[Any]] = {}
+    with file.open("rb") as stream:
+        factory = decoder.DecoderFactory()
+        reader = make_reader(stream, decoder_factories=[factory])
+        for _, channel, _, message in reader.iter_decoded_messages():
+            found.setdefault(channel.topic, []).append(message)
+    return found
+
+
+def pose_in(tree: dict[str, Any], frame: str, root: str) -> Any:
+    """Pose of a frame in a root, by walking the tree. Shape (4, 4)."""
+    if frame == root:
+        return np.eye(4)
+    stamped = tree[frame]
+    t, q = stamped.transform.translation, stamped.transform.rotation
+    step = np.eye(4)
+    turn = Rotation.from_quat([q.x, q.y, q.z, q.w])
+    step[:3, :3] = turn.as_matrix()
+    step[:3, 3] = t.x, t.y, t.z
+    return pose_in(tree, stamped.header.frame_id, root) @ step
+
+
+@pytest.mark.parametrize("kind", ["folder", "walk"])
+def test_transforms_and_urdf_agree_in_programs_of_others(
+    kind: str, request: pytest.FixtureRequest, tmp_path: Path
+) -> None:
+    """A duel with cameras and a walk, at their last samples."""
+    yourdfpy = pytest.importorskip(
+        "yourdfpy", reason="yourdfpy is not installed"
+    )
+    folder: Path = request.getfixturevalue(kind)
+    bag = bag_of(folder)
+    run = load_run(folder)
+    name = run.robots[0]
+    urdf = tmp_path / "robot.urdf"
+    urdf.write_text(bag[f"/{name}/robot_description"][0].data)
+    robot = yourdfpy.URDF.load(str(urdf), load_meshes=False)
+    state = bag[f"/{name}/joint_states"][-1]
+    angles = dict(zip(state.name, state.position, strict=True))
+    robot.update_cfg({n: angles[n] for n in robot.actuated_joint_names})
+    messages = [bag["/tf_static"][0], bag["/tf"][-1]]
+    tree = {
+        each.child_frame_id: each
+        for message in messages
+        for each in message.transforms
+    }
+    for link in ("l_sole", "r_sole", "camera_optical_frame", "imu_link"):
+        ours = pose_in(tree, f"{name}/{link}", f"{name}/{BASE}")
+        theirs = robot.get_transform(link, BASE)
+        # In physics a shared motor couples two joints to 0.03 mrad only.
+        np.testing.assert_allclose(ours, theirs, atol=1e-4)
+
+
+def test_images_travel_with_their_calibration(folder: Path) -> None:
+    cv2 = pytest.importorskip("cv2", reason="OpenCV is not installed")
+    bag = bag_of(folder)
+    images = bag["/evader/camera/image_raw/compressed"]
+    infos = bag["/evader/camera/camera_info"]
+    assert len(images) == len(infos) > 20
+    data = np.frombuffer(images[-1].data, np.uint8)
+    height, width = cv2.imdecode(data, cv2.IMREAD_COLOR).shape[:2]
+    assert (infos[-1].height, infos[-1].width) == (height, width)
+    assert images[-1].header.frame_id == "evader/camera_optical_frame"
+
+
+def test_rerun_reads_a_walk_back(walk: Path) -> None:
+    rerun = pytest.importorskip("rerun", reason="Rerun is not installed")
+    run = load_run(walk)
+    (name,) = run.robots
+    file = export(walk, "rerun") / "walk.rrd"
+    with rerun.server.Server(datasets={"runs": [str(file)]}) as server:
+        dataset = server.client().get_dataset("runs")
+        base = f"/world/{name}/{BASE}"
+        view = dataset.filter_contents([base])
+        table = view.reader(index="time").to_pandas().sort_values("time")
+    column = table[f"{base}:Transform3D:translation"].dropna()
+    qpos = run.tracks[name].qpos
+    assert qpos is not None
+    found = np.stack([row[0] for row in column])
+    np.testing.assert_allclose(found, qpos[:, :3], atol=1e-6)
 
 
 def test_a_dataset_has_an_episode_for_each_robot(
