@@ -1,6 +1,6 @@
 """Test the evader that does not know its opponent."""
 
-from math import inf, pi
+from math import atan2, hypot, inf, pi
 
 import numpy as np
 import pytest
@@ -8,9 +8,11 @@ import pytest
 from stepaside.arena import RoomRecipe
 from stepaside.core.compilation import load_numba
 from stepaside.core.errors import ConfigurationError
-from stepaside.core.poses import Pose
+from stepaside.core.poses import Pose, wrap_angle
 from stepaside.strategies import (
     HerdingPursuit,
+    Knowledge,
+    Limits,
     Pursuit,
     RobustEvasion,
     StepGame,
@@ -33,6 +35,7 @@ pytestmark = pytest.mark.skipif(
     load_numba() is None, reason='needs the extra "fast"'
 )
 RULES = BeamRules(0.04, 0.08, 0.08 * pi, 0.35, 0.2, 1, 1)
+LIMITS = Limits(0.1, 0.2, 0.04, 0.4)
 ROOMS = TournamentSettings(room=RoomRecipe())
 
 
@@ -58,6 +61,26 @@ def test_faster_pursuer_is_seen_to_be_faster() -> None:
         turn = model_turn(own, pursuer, model, RULES)
         pursuer = arc_end(pursuer, 1.3 * 0.04, turn)
     assert fit.speed == pytest.approx(1.3, abs=0.01)
+
+
+def test_it_looks_further_ahead_the_fewer_opponents_are_plausible() -> None:
+    evader = RobustEvasion(width=20, horizon=20)
+    pursuer, own, memory = (-1.0, 0.1, 1.2), Pose(0.4, -0.2, 2.0), None
+    planned = {}
+    for n in range(40):
+        x, y = pursuer[0] - own.x, pursuer[1] - own.y
+        bearing = wrap_angle(atan2(y, x) - own.theta)
+        known = Knowledge(
+            0.4 * n, bearing, hypot(x, y), LIMITS, pose_in_map=own
+        )
+        intent, memory = evader.decide(known, memory or evader.begin())
+        assert not memory.doomed
+        planned[len(memory.assumed)] = memory.planned
+        turn = model_turn(tuple(own), pursuer, MODELS[0], RULES)
+        pursuer = arc_end(pursuer, 0.04, turn)
+        turn = RULES.share * intent.heading
+        own = Pose(*arc_end(tuple(own), -0.04 * intent.speed_factor, turn))
+    assert planned == {3: 20, 2: 30, 1: 60}
 
 
 def survival(

@@ -3,26 +3,26 @@
 Beside them stands an offline search that knows the pursuer's law: a beam of
 4,000 states over the whole game. Results are written::
 
-    python tools/benchmarks/opponent_ladder.py --seeds 1000:1010
+    python tools/benchmarks/opponent_ladder.py --records runs/ladder
+    python tools/benchmarks/opponent_ladder.py --in-room sharp,noisy:20
 
-Games recorded in a folder (``--records``) are not repeated. The rank of the
-beam was chosen on seeds 1000 to 1006.
+NAME:N plays the first N of the seeds only. Games and searches recorded in a
+folder (``--records``) are not repeated, and an interrupted run continues. The
+rank of the beam was chosen on seeds 1000 to 1006.
 """
 
-from collections.abc import Sequence
 from math import pi
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from benchmark_options import ask, machine, seeds_of
+from resumable_jobs import complete, gather
 
 from stepaside.arena import RoomRecipe
 from stepaside.strategies.robust_evasion import actions_of
 from stepaside.strategies.search.beam_search import beam_search
 from stepaside.strategies.search.pursuer_model import BeamRules, PursuerModel
-from stepaside.studies.campaign import run_study
-from stepaside.studies.executors import open_engine
 from stepaside.studies.result_files import header, write_result
 from stepaside.studies.result_store import ResultStore
 from stepaside.studies.tournament_campaign import tournament_study
@@ -33,8 +33,9 @@ ROOM, OPEN = RoomRecipe(), RoomRecipe(None, None)
 WIDTH = 4000  # states of the offline search
 EVADERS = ("look-ahead", "robust")
 IN_ROOM = (
-    *("pure-x0.7", "pure", "pure-x2", "pure-x3", "pure-x4", "pure-v1.1"),
-    *("sharp", "herding", "lead", "optimal", "noisy", "stop-and-wait"),
+    *("pure-x0.7", "pure", "pure-x2", "pure-x3", "pure-x4"),
+    *("pure-v0.8", "pure-v1.1", "pure-v1.3", "sharp", "herding", "lead"),
+    *("optimal", "noisy", "stop-and-wait", "searched-1"),
 )
 IN_OPEN = ("pure", "pure-v1.1", "pure-v1.3", "sharp", "optimal")
 MODELS = {
@@ -43,84 +44,122 @@ MODELS = {
     "pure-x2": PursuerModel(2.0),
     "pure-x3": PursuerModel(3.0),
     "pure-x4": PursuerModel(4.0),
+    "pure-v0.8": PursuerModel(speed=0.8),
     "pure-v1.1": PursuerModel(speed=1.1),
+    "pure-v1.3": PursuerModel(speed=1.3),
     "sharp": PursuerModel(1.0 / 0.08),
     "herding": PursuerModel(inward=1.0),
 }
 
 
-def offline_times(
-    settings: TournamentSettings, pursuer: str, seeds: Sequence[int]
-) -> list[float] | None:
-    """Return the survival time of the offline search for each seed, [s].
+class OfflineSearch(NamedTuple):
+    """One offline search.
 
-    None if the pursuer has no model.
+    Attributes:
+        pursuer: Name of the pursuer, of ``MODELS``.
+        seed: Seed of the room.
+        width: States of the beam.
+        duration: Duration of the game, in [s].
     """
-    model = MODELS.get(pursuer)
-    if model is None:
-        return None
-    game, times = settings.game, []
-    for seed in seeds:
-        room, (chaser, evader) = settings.arena(seed)
-        rules = BeamRules(
-            game.stride, game.share, pi * game.share, game.capture,
-            game.body_radius, WIDTH, round(game.duration / game.period),
-        )  # fmt: skip
-        path = beam_search(
-            np.array([*evader, *chaser]),
-            actions_of(pi * game.share),
-            model,
-            room.solid_set.packed,
-            rules,
-        )
-        times.append(len(path) * game.period)
-    return times
+
+    pursuer: str
+    seed: int
+    width: int
+    duration: float
+
+
+def survive(search: OfflineSearch) -> dict[str, Any]:
+    """Return the survival time of an offline search, in [s]."""
+    settings = TournamentSettings(room=ROOM)
+    game = settings.game
+    room, (chaser, evader) = settings.arena(search.seed)
+    rules = BeamRules(
+        game.stride, game.share, pi * game.share, game.capture,
+        game.body_radius, search.width, round(search.duration / game.period),
+    )  # fmt: skip
+    path = beam_search(
+        np.array([*evader, *chaser]),
+        actions_of(pi * game.share),
+        MODELS[search.pursuer],
+        room.solid_set.packed,
+        rules,
+    )
+    return {"survived_s": len(path) * game.period}
+
+
+def pursuers_of(text: str, seeds: range) -> dict[str, range]:
+    """Return the pursuers of NAME,NAME:N,... with the seeds of each."""
+    found = {}
+    for each in filter(None, text.split(",")):
+        name, _, number = each.partition(":")
+        found[name] = seeds[: int(number)] if number else seeds
+    return found
 
 
 def main() -> None:
     """Play, search, and write the results."""
     asked = ask(__doc__, "opponent-ladder.json")
-    asked.add_argument("--seeds", type=seeds_of, default=range(1000, 1200))
+    asked.add_argument("--seeds", type=seeds_of, default=range(2000, 2200))
     asked.add_argument("--in-room", default=",".join(IN_ROOM))
     asked.add_argument("--in-open", default=",".join(IN_OPEN))
     asked.add_argument("--offline", type=int, default=20)
     asked.add_argument("--workers", type=int)
-    asked.add_argument("--records", type=Path)
+    asked.add_argument("--records", type=Path, default=Path("runs/ladder"))
     arguments = asked.parse_args()
-    seeds = arguments.seeds
-    store = arguments.records and ResultStore(arguments.records)
-    worlds: dict[str, Any] = {}
-    with open_engine(workers=arguments.workers) as engine:
-        for world, recipe, pursuers in (
-            ("3 x 3 m", ROOM, arguments.in_room.split(",")),
-            ("open floor", OPEN, arguments.in_open.split(",")),
-        ):
-            settings = TournamentSettings(room=recipe)
-            pairings = [(e, p) for p in pursuers for e in EVADERS]
-            study = tournament_study(settings, pairings, seeds)
-            run = run_study(study, store, engine)
-            if not run.completed:
-                raise run.failure or KeyboardInterrupt
-            rows = tournament_rows(list(run.records()), settings.game)
-            offline = {
-                pursuer: offline_times(
-                    settings, pursuer, seeds[: arguments.offline]
-                )
-                for pursuer in pursuers
-                if world != "open floor"
-            }
-            worlds[world] = {"rows": rows, "offline_s": offline}
-            for row in rows:
-                print(
-                    world, row["evader"], row["pursuer"], row["survived"],
-                    round(row["mean_survival_s"], 1),
-                    np.mean(offline.get(row["pursuer"]) or np.nan),
-                )  # fmt: skip
+    store = ResultStore(arguments.records)
     head = header(
-        {"seeds": f"{seeds.start}:{seeds.stop}", "width": WIDTH},
+        {
+            "seeds": f"{arguments.seeds.start}:{arguments.seeds.stop}",
+            "width": WIDTH,
+        },
         modules=MODULES,
         libraries=("numba", "numpy"),
     )
+    worlds: dict[str, Any] = {"3 x 3 m": {}, "open floor": {}}
+    for world, recipe, text in (
+        ("3 x 3 m", ROOM, arguments.in_room),
+        ("open floor", OPEN, arguments.in_open),
+    ):
+        settings = TournamentSettings(room=recipe)
+        rows: list[dict[str, Any]] = []
+        offline: dict[str, list[float]] = {}
+        for pursuer, seeds in pursuers_of(text, arguments.seeds).items():
+            pairings = [(evader, pursuer) for evader in EVADERS]
+            study = tournament_study(settings, pairings, seeds)
+            run = complete(study, store, arguments.workers)
+            records = list(run.records())
+            made = tournament_rows(records, settings.game)
+            if pursuer in MODELS and world != "open floor":
+                duration = settings.game.duration
+                jobs = {
+                    f"{pursuer}-{seed}": OfflineSearch(
+                        pursuer, seed, WIDTH, duration
+                    )
+                    for seed in seeds[: arguments.offline]
+                }
+                found = gather(
+                    arguments.records / "offline", head, jobs, survive,
+                    arguments.workers,
+                )  # fmt: skip
+                offline[pursuer] = [
+                    row["survived_s"] for row in found.values()
+                ]
+            searched = seeds[: len(offline.get(pursuer, []))]
+            for row in made:
+                row["survival_in_searched_rooms_s"] = [
+                    record["survived_s"]
+                    for record in records
+                    if record["evader"] == row["evader"]
+                    and record["seed"] in searched
+                ]
+            rows += made
+            for row in made:
+                print(
+                    world, row["evader"], pursuer, row["survived"],
+                    round(row["mean_survival_s"], 1), offline.get(pursuer),
+                    flush=True,
+                )  # fmt: skip
+        worlds[world] = {"rows": rows, "offline_s": offline}
     write_result(arguments.output, head, machine=machine(), worlds=worlds)
 
 

@@ -11,7 +11,7 @@ from ..core.constants import CAPTURE_DISTANCE
 from ..core.errors import ConfigurationError, check_positive, check_within
 from ..core.poses import Array
 from .knowledge import ON_THE_SPOT, Intent, Knowledge
-from .opponent_models import MODELS, ModelFit
+from .opponent_models import ASSUMED, MODELS, ModelFit
 from .search.pursuer_model import BeamRules
 from .strategy import BackwardStrategy
 
@@ -30,12 +30,14 @@ class RobustMemory(NamedTuple):
         moves: Turn [rad] and speed factor of the planned steps to come.
         assumed: Models that the plan was made for.
         planned: Number of steps of the plan when it was made.
+        doomed: Whether no state of the search survived its horizon.
     """
 
     fit: ModelFit = ModelFit()
     moves: tuple[tuple[float, float], ...] = ()
     assumed: tuple[int, ...] = ()
     planned: int = 0
+    doomed: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,7 +51,9 @@ class RobustEvasion(BackwardStrategy):
 
     Attributes:
         width: Number of states that the search follows.
-        horizon: Number of steps that it looks ahead.
+        horizon: Number of steps that it looks ahead against the greatest
+            number of models; against fewer it looks further, by the same
+            number of steps in all.
         capture: Distance at which the evader counts as captured, in [m].
         body_radius: Least distance of the own centre to obstacles, in [m].
     """
@@ -93,16 +97,17 @@ class RobustEvasion(BackwardStrategy):
             limits.step_duration,
         )
         assumed = tuple(fit.plausible())
-        moves = memory.moves[1:]
-        doomed = memory.planned < self.horizon
-        spent = len(moves) < KEPT * memory.planned
-        if assumed != memory.assumed or spent or doomed:
-            moves = self._plan(knowledge, fit, assumed, moves, rules)
-            memory = memory._replace(planned=len(moves))
-        turn, speed = moves[0] if moves else (rules.largest, ON_THE_SPOT)
-        return Intent(turn / share, speed), RobustMemory(
-            fit, moves, assumed, memory.planned
-        )
+        memory = memory._replace(fit=fit, moves=memory.moves[1:])
+        spent = len(memory.moves) < KEPT * memory.planned
+        if assumed != memory.assumed or spent or memory.doomed:
+            horizon = self.horizon * ASSUMED // len(assumed)
+            rules = rules._replace(horizon=horizon)
+            moves = self._plan(knowledge, fit, assumed, memory.moves, rules)
+            memory = RobustMemory(
+                fit, moves, assumed, len(moves), len(moves) < horizon
+            )
+        turn, speed = (memory.moves or ((rules.largest, ON_THE_SPOT),))[0]
+        return Intent(turn / share, speed), memory
 
     def _plan(
         self,

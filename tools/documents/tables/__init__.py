@@ -52,6 +52,7 @@ TABLES: dict[str, Callable[..., str]] = {
     "served-naoqi": served.naoqi,
     "each": person_approaches.each,
     "evading-opponents": room_evaders.opponents,
+    "open-floor": room_evaders.open_floor,
     "opponent-ladder": room_evaders.ladder,
     "evading-sizes": room_evaders.sizes,
     "evading-worlds": room_evaders.worlds,

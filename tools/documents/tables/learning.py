@@ -54,7 +54,10 @@ def _of_the_bound(row: Mapping[str, Any] | None) -> tuple[str, str]:
 
 def scores(result: Result) -> str:
     """List the score of each strategy."""
-    head = "strategy", "role", "score [m]", "mean regret [m]", "survived"
+    head = (
+        *("strategy", "role", "score [m]", "mean regret [m]"),
+        "survived against the suite",
+    )
     rows = [
         (
             f"`{row['strategy']}`",

@@ -113,6 +113,7 @@ def ladder(result: Result) -> str:
         for row in found["rows"]:
             times = found["offline_s"].get(row["pursuer"])
             best = sum(times) / len(times) if times else None
+            same = row["survival_in_searched_rooms_s"]
             low, high = row["survived_low"], row["survived_high"]
             share = f"{100 * row['survived']:.0f} %"
             rows.append(
@@ -126,7 +127,32 @@ def ladder(result: Result) -> str:
                     NONE if best is None else number(best, 1),
                     NONE
                     if best is None
-                    else number(row["mean_survival_s"] / best, 2),
+                    else number(sum(same) / len(same) / best, 2),
                 )
             )
     return table(head, rows)
+
+
+def open_floor(result: Result) -> str:
+    """List survival on an open floor by the value of two cars."""
+    head = (
+        *("pursuer", "evader", "starts that must be survived", "survived"),
+        *("other starts", "survived of these"),
+    )
+    rows = [
+        (
+            row["pursuer"],
+            row["evader"],
+            str(row["sure"]),
+            _of(row["sure_survived"], row["sure"]),
+            str(row["open"]),
+            _of(row["open_survived"], row["open"]),
+        )
+        for row in result["rows"]
+    ]
+    return table(head, rows)
+
+
+def _of(number_of: int, total: int) -> str:
+    """Return a number of starts, or a dash where there are none."""
+    return str(number_of) if total else NONE

@@ -1,0 +1,151 @@
+"""Compare survival on an open floor with the value of the game of two cars.
+
+Where the value exceeds the capture distance an evader can survive any pursuer
+of the given speed and turns, for the duration of the games. The starts have
+any heading. An interrupted run continues::
+
+    python tools/benchmarks/open_floor.py --seeds 0:40
+"""
+
+from dataclasses import dataclass
+from functools import cache
+from math import atan2, hypot, pi
+
+from benchmark_options import ask, machine, seeds_of
+from resumable_jobs import Row, finished, gather
+
+from stepaside.arena import draw_any_start
+from stepaside.core.poses import wrap_angle
+from stepaside.strategies.strategy_game import StepGame, play_strategies
+from stepaside.studies.result_files import header, write_result
+from stepaside.studies.tournament_strategies import (
+    evader_of,
+    pursuer_of,
+    speed_ratio_of,
+)
+from stepaside.theory.bound import Bound, Grid, solve_bound, two_car_game
+
+EVADERS = ("look-ahead", "robust")
+PURSUERS = (
+    *("pure", "pure-x3", "sharp", "lead", "optimal"),
+    *("pure-v1.1", "sharp-v1.1"),
+)
+NEAR, FAR = 0.5, 9.5  # of the grid, in turning radii
+CELLS = 32
+GAME = StepGame()
+RATE = GAME.turn / GAME.period  # largest turning rate, in [rad/s]
+
+
+@dataclass(frozen=True, slots=True)
+class OpenGame:
+    """One game on an open floor.
+
+    Attributes:
+        evader: Name of the evader.
+        pursuer: Name of the pursuer.
+        seed: Seed of the start.
+    """
+
+    evader: str
+    pursuer: str
+    seed: int
+
+
+@cache
+def bound_of(speed_ratio: float) -> Bound:
+    """Return the value of two cars, in turning radii of the evader."""
+    return solve_bound(
+        two_car_game(speed_ratio, 1.0, 1.0),
+        Grid.cube(NEAR, FAR, CELLS),
+        horizon=RATE * GAME.duration,
+    )
+
+
+def value_of(seed: int, speed_ratio: float) -> float:
+    """Return the closest approach that a start guarantees, in [m]."""
+    pursuer, evader = draw_any_start(seed)
+    x, y = evader.x - pursuer.x, evader.y - pursuer.y
+    sight, unit = atan2(y, x), GAME.stride / GAME.turn
+    found = bound_of(speed_ratio).value(
+        hypot(x, y) / unit,
+        wrap_angle(sight - pursuer.theta),
+        wrap_angle(sight + pi - evader.theta),
+    )
+    return unit * float(found)
+
+
+def play(game: OpenGame) -> Row:
+    """Play a game and return whether the evader survived."""
+    ratio = speed_ratio_of(game.pursuer)
+    track = play_strategies(
+        pursuer_of(game.pursuer),
+        evader_of(game.evader),
+        draw_any_start(game.seed),
+        game=StepGame(pursuer_speed_ratio=ratio),
+    )
+    return {
+        "evader": game.evader,
+        "pursuer": game.pursuer,
+        "seed": game.seed,
+        "survived": not track.captured,
+        "survived_s": float(track.times[-1]),
+        "closest_m": track.closest_distance,
+    }
+
+
+def main() -> None:
+    """Play, and write the results."""
+    asked = ask(__doc__, "open-floor.json")
+    asked.add_argument("--seeds", type=seeds_of, default=range(40))
+    asked.add_argument("--workers", type=int)
+    arguments = asked.parse_args()
+    seeds = arguments.seeds
+    head = header(
+        {
+            "seeds": f"{seeds.start}:{seeds.stop}",
+            "capture_m": GAME.capture,
+            "duration_s": GAME.duration,
+            "cells": CELLS,
+        },
+        modules=("strategies/strategy_game", "strategies/robust_evasion"),
+        libraries=("numba", "numpy"),
+    )
+    jobs = {
+        f"{pursuer}-{evader}-{seed}": OpenGame(evader, pursuer, seed)
+        for pursuer in PURSUERS
+        for evader in EVADERS
+        for seed in seeds
+    }
+    games = gather(arguments.output, head, jobs, play, arguments.workers)
+    rows = []
+    for pursuer in PURSUERS:
+        ratio = speed_ratio_of(pursuer)
+        values = {seed: value_of(seed, ratio) for seed in seeds}
+        for evader in EVADERS:
+            own = [
+                row
+                for row in games.values()
+                if (row["evader"], row["pursuer"]) == (evader, pursuer)
+            ]
+            sure = [r for r in own if values[r["seed"]] > GAME.capture]
+            rest = [r for r in own if values[r["seed"]] <= GAME.capture]
+            rows.append(
+                {
+                    "pursuer": pursuer,
+                    "evader": evader,
+                    "sure": len(sure),
+                    "sure_survived": sum(r["survived"] for r in sure),
+                    "open": len(rest),
+                    "open_survived": sum(r["survived"] for r in rest),
+                    "lost_m": [
+                        values[r["seed"]] for r in sure if not r["survived"]
+                    ],
+                    "falling_worst": bound_of(ratio).falling_worst,
+                }
+            )
+    write_result(arguments.output, head, machine=machine(), rows=rows)
+    finished(arguments.output)
+
+
+if __name__ == "__main__":
+    main()
