@@ -65,21 +65,21 @@ def test_faster_pursuer_is_seen_to_be_faster() -> None:
 
 def test_it_looks_further_ahead_the_fewer_opponents_are_plausible() -> None:
     evader = RobustEvasion(width=20, horizon=20)
-    pursuer, own, memory = (-1.0, 0.1, 1.2), Pose(0.4, -0.2, 2.0), None
-    planned = {}
+    pursuer, own = (-1.0, 0.1, 1.2), (0.4, -0.2, 2.0)
+    memory, planned = evader.begin(), {}
     for n in range(40):
-        x, y = pursuer[0] - own.x, pursuer[1] - own.y
-        bearing = wrap_angle(atan2(y, x) - own.theta)
+        x, y = pursuer[0] - own[0], pursuer[1] - own[1]
+        bearing = wrap_angle(atan2(y, x) - own[2])
         known = Knowledge(
-            0.4 * n, bearing, hypot(x, y), LIMITS, pose_in_map=own
+            0.4 * n, bearing, hypot(x, y), LIMITS, pose_in_map=Pose(*own)
         )
-        intent, memory = evader.decide(known, memory or evader.begin())
+        intent, memory = evader.decide(known, memory)
         assert not memory.doomed
         planned[len(memory.assumed)] = memory.planned
-        turn = model_turn(tuple(own), pursuer, MODELS[0], RULES)
+        turn = model_turn(own, pursuer, MODELS[0], RULES)
         pursuer = arc_end(pursuer, 0.04, turn)
         turn = RULES.share * intent.heading
-        own = Pose(*arc_end(tuple(own), -0.04 * intent.speed_factor, turn))
+        own = arc_end(own, -0.04 * intent.speed_factor, turn)
     assert planned == {3: 20, 2: 30, 1: 60}
 
 

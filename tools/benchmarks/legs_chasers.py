@@ -39,6 +39,7 @@ from stepaside.theory.chauffeur.chauffeur_game import guaranteed_distance
 
 RADII = (2.5, 4.0, 8.0)  # of the turns of people, in [m]
 DIRECTIONS = 12
+PEOPLE = ("steer", "feint")
 SPEED = 1.4  # of people, in [m/s]
 STEERING = 10.0  # gain of people, in [1/s]: they turn at their limit
 DISTANCE = 8.0  # at first, in [m]
@@ -168,6 +169,7 @@ def main() -> None:
     parser.add_argument("--sensing", choices=SENSING, default="ideal")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--like", type=Path, help="earlier results")
+    parser.add_argument("--people", choices=PEOPLE, nargs="+", default=PEOPLE)
     parser.add_argument("--workers", type=int, default=1)
     asked = parser.parse_args()
     head = header(
@@ -201,6 +203,7 @@ def main() -> None:
             known=known.get((radius, i)) if feints else None,
         )
         for feints in (False, True)
+        if PEOPLE[feints] in asked.people
         for radius in RADII
         for i in range(DIRECTIONS)
     }

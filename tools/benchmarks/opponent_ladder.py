@@ -38,13 +38,9 @@ IN_ROOM = (
     *("optimal", "noisy", "stop-and-wait", "searched-1"),
 )
 IN_OPEN = ("pure", "pure-v1.1", "pure-v1.3", "sharp", "optimal")
-MODELS = {
-    "pure-x0.7": PursuerModel(0.7),
-    "pure": PursuerModel(),
-    "pure-x2": PursuerModel(2.0),
+MODELS = {  # of pursuers that capture somebody
     "pure-x3": PursuerModel(3.0),
     "pure-x4": PursuerModel(4.0),
-    "pure-v0.8": PursuerModel(speed=0.8),
     "pure-v1.1": PursuerModel(speed=1.1),
     "pure-v1.3": PursuerModel(speed=1.3),
     "sharp": PursuerModel(1.0 / 0.08),
