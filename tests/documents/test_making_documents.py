@@ -290,12 +290,13 @@ def test_people_around_learned_legs_are_counted_by_body() -> None:
         for outcome, closest in (("fall", 0.45), ("completed", 0.75))
     ]
     found = {
-        "settings": {"sensing": "ideal"},
+        "settings": {"robot": "g1", "sensing": "ideal"},
         **{"closed_form_m": {"4": 0.51}, "chases": chases},
     }
     made = TABLES["legs-chasers"](found).splitlines()
     assert made[2].startswith(
-        "| ideal | steers | 4 | 0.51 | 0.50 (0.50) | 0.60 (0.45) | 1.20 (0.90)"
+        "| G1 | ideal | steers | 4 | 0.51 | 0.50 (0.50) | 0.60 (0.45) "
+        "| 1.20 (0.90) |"
     )
     assert counted(1, 2) in made[2]
 

@@ -150,6 +150,7 @@ def test_the_matador_assumes_a_chaser() -> None:
     assert isinstance(matador, DashEvasion)
     assert matador.turning_radius == 2.5
     assert matador.enough == inf
+    assert matador.effort == 0.0
     assert aside == STEP_ASIDE
 
 

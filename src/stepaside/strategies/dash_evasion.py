@@ -6,9 +6,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.errors import ConfigurationError, check_positive, check_within
+from ..core.errors import (
+    ConfigurationError,
+    check_not_negative,
+    check_positive,
+    check_within,
+)
 from ..core.poses import Array, Pose, wrap_angle
 from .dash_rollouts import (
+    Dashes,
     Opponent,
     closest_approaches,
     greatest_velocities,
@@ -26,7 +32,7 @@ STILL_OPPONENT = 0.1  # speed below which it is expected to stand, in [m/s]
 HEADING_GAIN = 3.0  # of turning the body along the dash, in [1/s]
 LATER = 0.6  # after which the second set of dashes begins, in [s]
 FEINT = 0.6  # time for which a chaser may turn away first, in [s]
-EFFORT = 0.05  # gain for which a robot begins to walk, in [m]
+EFFORT = 0.05  # gain for which a robot begins to walk, or waits, in [m]
 SURPLUS = 0.02  # value of clearance beyond what is enough, per metre
 CHANGE = 0.3  # half the gain for which the opposite dash is better, in [m]
 CHASER_RADIUS = 2.5  # turning radius of a person who chases, in [m]
@@ -91,6 +97,7 @@ class DashEvasion(BackwardStrategy):
             than the clearance within this time, in [s].
         horizon: Duration of a rollout, in [s].
         directions: Number of directions of dashes.
+        effort: Gain for which a robot walks instead of standing, in [m].
     """
 
     turning_radius: float = inf
@@ -99,6 +106,7 @@ class DashEvasion(BackwardStrategy):
     contact_time: float = 3.5
     horizon: float = 6.0
     directions: int = 24
+    effort: float = EFFORT
 
     def __post_init__(self) -> None:
         """Validate the settings."""
@@ -111,6 +119,7 @@ class DashEvasion(BackwardStrategy):
         check_positive(self.contact_time, "contact_time", "s", error)
         check_within(self.horizon, 0.5, 20.0, "horizon", "s", error)
         check_within(self.directions, 4, 360, "directions", "1", error)
+        check_not_negative(self.effort, "effort", "m", error)
 
     def begin(self) -> DashMemory:
         """Return the memory before the first sighting."""
@@ -195,7 +204,7 @@ class DashEvasion(BackwardStrategy):
         dashes = make_dashes(self.directions, pose, velocities, LATER)
         paths = roll_out(pose, velocity, dashes, velocities, self.horizon)
         value = self._values(paths, opponent)
-        value = value + _bonus(dashes.angles, dashes.begins, present)
+        value = value + _bonus(dashes, present, self.effort)
         best = int(np.argmax(value))
         if dashes.begins[best] > 0.0:
             return None, pose.theta
@@ -237,20 +246,21 @@ class DashEvasion(BackwardStrategy):
         )
 
 
-def _bonus(angles: Array, begins: Array, present: float | None) -> Array:
+def _bonus(dashes: Dashes, present: float | None, effort: float) -> Array:
     """Return the value in [m] that prevents changes of little use.
 
     Args:
-        angles: Angles of the dashes, in [rad]. Shape (n,).
-        begins: Times at which they begin, in [s]. Shape (n,).
+        dashes: Dashes, and standing.
         present: Angle of the present dash; None while the robot stands.
+        effort: Gain for which it walks instead of standing, in [m].
     """
-    bonus: Array = np.where(np.isinf(begins), EFFORT, 0.0)
+    begins = dashes.begins
+    bonus: Array = np.where(np.isinf(begins), effort, 0.0)
     if present is None:
         return np.where(
-            np.isinf(begins) | (begins == 0.0), bonus, 0.5 * EFFORT
+            np.isinf(begins) | (begins == 0.0), bonus, 0.5 * effort
         )
-    changes = CHANGE * (np.cos(angles - present) - 1.0)
+    changes = CHANGE * (np.cos(dashes.angles - present) - 1.0)
     waits = np.where(begins > 0.0, EFFORT, 0.0)
     return np.where(np.isinf(begins), bonus, changes - waits)
 

@@ -29,7 +29,8 @@ def _matador() -> Strategy:
     """Return the dash evader against a person who chases the robot."""
     from .dash_evasion import CHASER_RADIUS, DashEvasion
 
-    return DashEvasion(CHASER_RADIUS, enough=inf, contact_time=6.0)
+    # Whoever chases comes back: there is nothing to gain by standing.
+    return DashEvasion(CHASER_RADIUS, enough=inf, contact_time=6.0, effort=0.0)
 
 
 STRATEGIES: Mapping[str, Callable[[Evasion], Strategy]] = {

@@ -74,7 +74,7 @@ def passers_by(*results: Mapping[str, Any]) -> str:
 
 
 def chasers(*results: Mapping[str, Any]) -> str:
-    """List chases by sensing, turning radius and feints of the person.
+    """List chases by robot, sensing, and person.
 
     Each distance is the median over the directions, and the least.
     """
@@ -91,6 +91,7 @@ def chasers(*results: Mapping[str, Any]) -> str:
             ]
             rows.append(
                 (
+                    result["settings"]["robot"].upper(),
                     result["settings"]["sensing"],
                     "feints" if feints else "steers",
                     f"{radius:g}",
@@ -103,8 +104,8 @@ def chasers(*results: Mapping[str, Any]) -> str:
                 )
             )
     head = (
-        *("seen by", "person", "turning radius [m]", "c* [m]", "point [m]"),
-        *("in physics [m]", "physics / point", "games", "fell"),
+        *("robot", "seen by", "person", "turning radius [m]", "c* [m]"),
+        *("point [m]", "in physics [m]", "physics / point", "games", "fell"),
     )
     return table(head, rows)
 
