@@ -206,9 +206,10 @@ class GameRun(Generic[SettingsT, SummaryT]):
 
     @property
     def opponents(self) -> tuple[tuple[str, str], ...]:
-        """Names of each pursuer and evader; of every pair without such.
+        """Names of each pursuer and evader.
 
-        Empty with one player.
+        Without such, of every pair of a player with a strategy and another,
+        or of all. Empty with one player.
         """
         roles = {n: identity.role for n, identity in self.identities.items()}
         found = tuple(
@@ -218,7 +219,11 @@ class GameRun(Generic[SettingsT, SummaryT]):
             if roles.get(one) is Role.PURSUER
             and roles.get(other) is Role.EVADER
         )
-        return found or tuple(combinations(self.players, 2))
+        pairs = tuple(combinations(self.players, 2))
+        if found or not isinstance(self.settings, GameSettings):
+            return found or pairs
+        deciding = {p.name for p in self.settings.players if p.decides}
+        return tuple(p for p in pairs if deciding.intersection(p)) or pairs
 
     @property
     def pair(self) -> tuple[Trajectory, Trajectory] | None:
@@ -230,14 +235,14 @@ class GameRun(Generic[SettingsT, SummaryT]):
 
     @property
     def lines_of_sight(self) -> tuple[tuple[str, str], ...]:
-        """Names of each pursuer and evader; of the first two without such."""
+        """Names of each pursuer and evader, or of any two players alone."""
         ids = self.identities
         facing = tuple(
             (one, other)
             for one, other in self.opponents
             if one in ids and other in ids and ids[one].opposes(ids[other])
         )
-        return facing or self.opponents[:1]
+        return facing or (self.opponents if len(self.players) == 2 else ())
 
     @property
     def distance(self) -> Array:

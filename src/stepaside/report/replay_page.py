@@ -101,7 +101,8 @@ def page_data(run: Run) -> dict[str, Any]:
     scene = RunScene(run)
     geoms = visual_geoms_of(scene.model)
     # Poses are stored only for bodies that move and are visible.
-    bodies = sorted({geom.body for geom in geoms} - {0})
+    torsos = {_torso_of(run, scene, name) for name in run.players}
+    bodies = sorted({geom.body for geom in geoms} - {0} | torsos)
     samples = _samples_shown(run.times)
     positions = np.empty((len(samples), len(bodies), 3), "<f4")
     quaternions = np.empty((len(samples), len(bodies), 4), "<i2")
@@ -177,10 +178,7 @@ def _player_data(
     heights: BodyHeights,
 ) -> dict[str, Any]:
     """Return what the page shows of one player."""
-    torso = "trunk"
-    if name in run.robots:
-        torso = load_robot(run.settings.robot_of(name).robot).torso
-    track, body = run.tracks[name], scene.model.body(f"{name}/{torso}").id
+    track, body = run.tracks[name], _torso_of(run, scene, name)
     scene.put(0)
     own = [
         i
@@ -200,6 +198,17 @@ def _player_data(
             for theme in PALETTES
         },
     }
+
+
+def _torso_of(run: Run, scene: RunScene, name: str) -> int:
+    """Return the number of the body of a player's torso.
+
+    It may have no visible part of its own.
+    """
+    torso = "trunk"
+    if name in run.robots:
+        torso = load_robot(run.settings.robot_of(name).robot).torso
+    return int(scene.model.body(f"{name}/{torso}").id)
 
 
 def _extent(run: Run) -> tuple[Array, Array]:

@@ -17,7 +17,7 @@ const plots = run.distance ? [
 ] : [];
 byId("plots").hidden = !run.distance;
 byId("angle").hidden = byId("angle-title").hidden = !run.angle;
-if (run.players.length > 2) byId("distance-title").textContent = "Least distance of opponents [m] over time [s]";
+if (run.players.length > 2) byId("distance-title").textContent = "Least distance [m] over time [s]";
 byId("legend").textContent = !run.distance ? "" : ["thin: every sample", "thick: mean over a gait cycle", run.theory ? "dashed: theory" : "",
   run.safety ? "dotted: safety radius" : ""].filter(Boolean).join("; ");
 
