@@ -1,5 +1,6 @@
 """Conversion of raw and compressed ROS 2 images, and a camera by topic."""
 
+import logging
 from typing import Any
 
 import numpy as np
@@ -17,6 +18,7 @@ from .messages import (
 )
 from .topics import dds_topic
 
+log = logging.getLogger(__name__)
 RGB, BGR, MONO = "rgb8", "bgr8", "mono8"
 MAX_SIZE = 4096  # columns or rows, in [px]
 DEPTH = 2  # images queued until they are taken
@@ -120,11 +122,19 @@ def unpacked(message: CompressedImage) -> Pixels | None:
     return np.asarray(cv2.cvtColor(image, cv2.COLOR_BGR2RGB), dtype=np.uint8)
 
 
+def calibration_topic(topic: str) -> str:
+    """Return the topic of the calibration of an image topic, as ROS has it."""
+    name = topic.removesuffix("/compressed")
+    return f"{name.rpartition('/')[0]}/camera_info"
+
+
 class TopicCamera:
     """Camera whose images come by topic; only the newest one is used.
 
-    The stamps may be of another clock than the robot's frames, so an image
-    is assumed to be taken a constant latency before its arrival.
+    Its focal lengths are those of ``camera_info`` beside the images, once
+    that has arrived. The stamps may be of another clock than the robot's
+    frames, so an image is assumed to be taken a constant latency before its
+    arrival.
     """
 
     def __init__(
@@ -141,16 +151,22 @@ class TopicCamera:
             dds: DDS participant; closed with the camera.
             topic: Topic like ``/camera/image_raw``; one that ends in
                 ``/compressed`` has compressed images.
-            model: Optics, which are resize_model to the size of each image.
+            model: Optics without ``camera_info``, for the whole image.
             latency: Time from exposure to arrival, in [s].
         """
         self._dds, self._model, self._latency = dds, model, latency
+        self._topic = topic
+        self._calibrations = dds.reader(
+            dds_topic("", calibration_topic(topic).strip("/")), CameraInfo
+        )
         self._is_compressed = topic.endswith("/compressed")
         kind: Any = CompressedImage if self._is_compressed else Image
         self._reader = dds.reader(dds_topic("", topic.strip("/")), kind, DEPTH)
 
     def percepts(self, frame: int, now: float, tick: float) -> list[Percept]:
         """Return the newest image, if there is a new one."""
+        for info in take_messages(self._calibrations)[-1:]:
+            self._calibrate(info)
         arrived = take_messages(self._reader)
         if not arrived:
             return []
@@ -162,7 +178,27 @@ class TopicCamera:
         model = resize_model(self._model, width, height)
         return [ColourImage(now - self._latency, model, pixels)]
 
+    def _calibrate(self, info: CameraInfo) -> None:
+        """Take the focal lengths of a calibration, if it has any."""
+        focal_x, focal_y = float(info.k[0]), float(info.k[4])
+        if not (info.width and info.height and focal_x > 0.0 < focal_y):
+            return
+        model = CameraModel(info.width, info.height, focal_x, focal_y)
+        if model == self._model:
+            return
+        self._model = model
+        log.info(
+            "%s: focal lengths %.1f and %.1f px, by camera_info",
+            *(self._topic, focal_x, focal_y),
+        )
+        if any(info.d):
+            log.warning(
+                "%s has distortion, which is not corrected: choose the "
+                "rectified images",
+                self._topic,
+            )
+
     def close(self) -> None:
         """Unsubscribe and leave DDS."""
-        del self._reader
+        del self._reader, self._calibrations
         self._dds.close()
