@@ -13,11 +13,14 @@ import numpy as np
 import pytest
 
 from browsing import CHROMIUM, launched, open_page
+from legs_robot import nao_on_legs
+from small_policies import constant_policy, write_policy
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Pose
 from stepaside.games.duel import run_duel
 from stepaside.games.duel_circle import circle_of_theory
 from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.locomotion.policy.legs_settings import LegsSettings
 from stepaside.planning import (
     CenterState,
     Direction,
@@ -27,7 +30,7 @@ from stepaside.planning import (
     TemplateDrive,
 )
 from stepaside.report import game_page
-from stepaside.report.game_page import engine_files, write_game_page
+from stepaside.report.game_page import packed_files, write_game_page
 from stepaside.report.game_script import schedules_of, trace_plan
 from stepaside.sim.body_settings import BODIES
 from stepaside.sim.push import Push
@@ -113,7 +116,7 @@ def test_other_duels_are_refused(
 def test_a_missing_npm_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(game_page, "which", lambda name: None)
     with pytest.raises(ConfigurationError, match="needs npm.*Node.js"):
-        game_page.fetch_engine(Path())
+        game_page.fetch_package(Path(), "mujoco")
 
 
 def test_an_unreachable_registry_is_named(
@@ -123,7 +126,7 @@ def test_an_unreachable_registry_is_named(
     monkeypatch.setattr(game_page, "which", lambda name: "npm")
     monkeypatch.setattr(subprocess, "run", lambda *a, **k: failed)
     with pytest.raises(ConfigurationError, match="registry must be reach"):
-        game_page.fetch_engine(tmp_path)
+        game_page.fetch_package(tmp_path, "mujoco")
 
 
 def test_a_package_of_something_else_is_refused(tmp_path: Path) -> None:
@@ -131,14 +134,23 @@ def test_a_package_of_something_else_is_refused(tmp_path: Path) -> None:
     with tarfile.open(package, "w:gz"):
         pass
     with pytest.raises(ConfigurationError, match=r"other\.tgz is no package"):
-        engine_files(package)
+        packed_files(package, "mujoco", ["mujoco.js"])
 
 
 @pytest.fixture(scope="module")
-def opened(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Any]:
-    """The page in a browser, loaded, and what went wrong on it."""
+def browser() -> Iterator[Any]:
+    """Chromium."""
     if CHROMIUM is None:
         pytest.skip("there is no Chromium here")
+    with launched() as chromium:
+        yield chromium
+
+
+@pytest.fixture(scope="module")
+def opened(
+    browser: Any, tmp_path_factory: pytest.TempPathFactory
+) -> Iterator[Any]:
+    """The page in a browser, loaded, and what went wrong on it."""
     folder = tmp_path_factory.mktemp("page")
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(game_page, "RECORDED", 1.0)
@@ -148,7 +160,7 @@ def opened(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Any]:
             if "npm" not in str(error):
                 raise
             pytest.skip(str(error))
-    with served_folder(folder) as address, launched() as browser:
+    with served_folder(folder) as address:
         page, wrong = open_page(browser, width=390, height=844), []
         page.on("pageerror", lambda error: wrong.append(str(error)))
         page.goto(address)
@@ -259,4 +271,49 @@ def test_the_theoretical_circle_passes_through_both_players(
     assert visible and away == pytest.approx([radius, radius], abs=1e-9)
     page.evaluate("stepaside.game.settings.gain = 0.3")
     assert not page.evaluate(drawn)[0]
+    assert wrong == []
+
+
+def on_legs(folder: Path) -> DuelSettings:
+    """Duel of two robots on a small policy that observes everything."""
+    terms = ["base_lin_vel", "base_ang_vel", "projected_gravity", "command"]
+    terms += ["joint_pos", "joint_vel", "actions"]
+    robot = nao_on_legs(folder, terms=str(terms), history="2")
+    draw = np.random.default_rng(0).standard_normal
+    weights = np.clip(0.01 * draw((4, 48)), -0.02, 0.02)
+    network = write_policy(robot / "policy.onnx", weights, np.zeros(4))
+    legs = LegsSettings(network=str(network))
+    return DuelSettings(robot=str(robot), seed=5, duration=SECONDS, legs=legs)
+
+
+@pytest.mark.xdist_group("browser")
+@pytest.mark.timeout(900)
+def test_robots_on_learned_legs_play_as_in_python(
+    browser: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("onnxruntime")
+    settings, folder = on_legs(tmp_path / "robot"), tmp_path / "page"
+    monkeypatch.setattr(game_page, "RECORDED", 0.2)
+    try:
+        write_game_page(settings, folder)
+    except ConfigurationError as error:
+        if "npm" not in str(error):
+            raise
+        pytest.skip(str(error))
+    other = constant_policy(tmp_path / "other.onnx")
+    with served_folder(folder) as address:
+        page, wrong = open_page(browser, width=390, height=844), []
+        page.on("pageerror", lambda error: wrong.append(str(error)))
+        page.goto(address)
+        page.wait_for_selector("#policy:not([hidden])")
+        page.set_input_files("#network", other)
+        page.get_by_text("other.onnx is not policy.onnx").wait_for()
+        assert page.evaluate("stepaside.game") is None
+        page.set_input_files("#network", tmp_path / "robot/policy.onnx")
+        page.evaluate("stepaside.loaded")
+        rows = np.array(page.evaluate(f"stepaside.simulate({SECONDS})"))
+    assert rows[-1, 0] == pytest.approx(SECONDS)
+    expected = torsos(settings, rows[:, 0])
+    assert np.ptp(expected, axis=0).max() > 1e-3  # the joints have moved
+    np.testing.assert_allclose(rows[:, 1:], expected, rtol=0, atol=1e-5)
     assert wrong == []

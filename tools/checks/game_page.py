@@ -1,8 +1,10 @@
 """Compare the page that plays with Python, and measure it, in Chromium.
 
     python -m tools.checks.game_page --seeds 7 11 --pictures artefacts
+    python -m tools.checks.game_page --robot g1 --legs fastsac_g1_29dof.onnx
 
-npm fetches MuJoCo's WebAssembly build; ``--engine`` takes its package.
+npm fetches MuJoCo's WebAssembly build and, for learned legs, ONNX Runtime;
+``--engine`` and ``--runtime`` take their packages.
 Chromium renders in software unless the machine has a graphics card.
 """
 
@@ -18,6 +20,7 @@ from playwright.sync_api import sync_playwright
 
 from stepaside.games.duel import run_duel
 from stepaside.games.duel_settings import DuelSettings
+from stepaside.games.robot_settings import with_legs, with_robot
 from stepaside.report.game_page import write_game_page
 from tools.static_server import served_folder
 
@@ -39,6 +42,14 @@ def greatest_distance(rows: np.ndarray, settings: DuelSettings) -> float:
     return float(max(apart))
 
 
+def settings_of(robot: str, legs: str, seed: int) -> DuelSettings:
+    """Return the settings of a duel of a robot, also on learned legs."""
+    settings = DuelSettings(seed=seed, duration=SECONDS)
+    if robot != settings.robot:
+        settings = with_robot(settings, robot)
+    return with_legs(settings, legs) if legs else settings
+
+
 def picture(page: Any, size: tuple[int, int], folder: Path) -> None:
     """Let a page play for some seconds, and keep what is seen."""
     page.set_viewport_size({"width": size[0], "height": size[1]})
@@ -52,6 +63,9 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--seeds", type=int, nargs="+", default=[7, 11])
     parser.add_argument("--engine", type=Path)
+    parser.add_argument("--runtime", type=Path)
+    parser.add_argument("--robot", default="nao")
+    parser.add_argument("--legs", default="")
     parser.add_argument("--pictures", type=Path)
     options = parser.parse_args()
     chromium = shutil.which("chromium") or shutil.which("chromium-browser")
@@ -60,17 +74,20 @@ def main() -> None:
         browser = driver.chromium.launch(executable_path=chromium, args=flags)
         for seed in options.seeds:
             folder = Path(root) / str(seed)
-            settings = DuelSettings(seed=seed, duration=SECONDS)
-            write_game_page(settings, folder, options.engine)
+            settings = settings_of(options.robot, options.legs, seed)
+            write_game_page(settings, folder, options.engine, options.runtime)
             size = sum(file.stat().st_size for file in folder.iterdir())
             with served_folder(folder) as address:
                 page = browser.new_page(viewport={"width": 390, "height": 844})
                 page.set_default_timeout(WAIT)
                 page.goto(address)
+                if options.legs:
+                    page.wait_for_selector("#policy:not([hidden])")
+                    page.set_input_files("#network", options.legs)
                 loaded = page.evaluate("stepaside.loaded")
                 took = page.evaluate(
-                    f"""() => {{ const began = performance.now();
-                      globalThis.rows = stepaside.simulate({SECONDS});
+                    f"""async () => {{ const began = performance.now();
+                      globalThis.rows = await stepaside.simulate({SECONDS});
                       return (performance.now() - began) / 1000; }}"""
                 )
                 rows = np.array(

@@ -21,16 +21,28 @@ if TYPE_CHECKING:
     help="Package of MuJoCo's WebAssembly build, as npm pack leaves it; by "
     "default npm fetches it.",
 )
+@click.option(
+    "--runtime",
+    type=click.Path(exists=True, dir_okay=False, path_type=Path),
+    help="Package of ONNX Runtime for the web, which robots on learned legs "
+    "need; by default npm fetches it.",
+)
 @page_options()
-def page(settings: "DuelSettings", output: Path, engine: Path | None) -> None:
+def page(
+    settings: "DuelSettings",
+    output: Path,
+    engine: Path | None,
+    runtime: Path | None,
+) -> None:
     """Write a folder OUTPUT with a page that plays the duel in a browser.
 
     MuJoCo runs in the browser, with control and strategies of this package
-    as JavaScript. Any web server can serve the folder.
+    as JavaScript. Any web server can serve the folder. The visitor chooses
+    the network of robots on learned legs; it is not written.
     """
     from ..report.game_page import write_game_page
 
-    write_game_page(settings, output, engine)
+    write_game_page(settings, output, engine, runtime)
     files = [file for file in output.iterdir() if file.is_file()]
     size = sum(file.stat().st_size for file in files) / 1e6
     echo(

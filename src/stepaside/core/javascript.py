@@ -2,17 +2,18 @@
 
 The subset is that of :mod:`.llvm_assembly`: floats, integers, booleans, and
 arrays of one or two dimensions by element; ``for`` over ``range``, ``if``,
-``return``; arithmetic, comparisons, ``abs``, ``min``, ``max``, ``sin`` and
-``cos``; calls of functions that are translated, too. An array becomes a
-typed array, row by row, with the property ``shape``. Operations keep their
-order.
+``return``; arithmetic, comparisons, ``abs``, ``min``, ``max``, ``sin``,
+``cos``, ``sqrt`` and ``atan2``; calls of functions that are translated, too.
+An array becomes a typed array, row by row, with the property ``shape``.
+Operations keep their order.
 """
 
 import ast
 from collections.abc import Mapping
 
 LIBRARY = {
-    name: f"Math.{name}" for name in ("abs", "min", "max", "sin", "cos")
+    name: f"Math.{name}"
+    for name in ("abs", "min", "max", "sin", "cos", "sqrt", "atan2")
 }
 OPERATORS: dict[type[ast.AST], str] = {
     ast.Add: "+",

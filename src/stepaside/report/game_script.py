@@ -8,9 +8,10 @@ and loops are translated from their Python source.
 import inspect
 import re
 from base64 import b64encode
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from math import ceil, pi, tau
 from typing import Any, NamedTuple
+from xml.etree import ElementTree
 
 import mujoco
 import numpy as np
@@ -21,11 +22,12 @@ from ..core.javascript import javascript_of
 from ..core.poses import Array
 from ..games.duel import Duel
 from ..games.duel_settings import EVADER, DuelSettings
+from ..games.policy_player import PolicyPlayer
 from ..games.walker import SimulatedPlayer
 from ..locomotion.zmp.feedback_loop import OpenLoop
 from ..locomotion.zmp.feedforward import BOUND, LoadFeedforward
 from ..locomotion.zmp.feedforward import LOOP as OFFSET_LOOP
-from ..planning import CenterState, ManeuverPlanner
+from ..planning import CenterState, GaitSettings, ManeuverPlanner
 from ..planning.footsteps import beside_path
 from ..planning.maneuver import plan_inputs
 from ..planning.path import arc_then_line
@@ -44,13 +46,17 @@ from ..sim.simulated_robot import motor_of
 from ..sim.world import build_model
 from ..strategies import Evasion
 from ..theory import laws
+from .legs_script import CONSTANTS, legs_data, legs_sources
 
 LAWS = (
     *(laws.wrap_once, laws.evasion_heading, laws.side_behind),
     *(laws.update_side, laws.is_evading),
 )
 MAX_OFFSETS = 16  # of the starts of plans from ticks
-MODEL_PARTS = ("actuator_", "body_", "dof_", "eq_", "geom_", "jnt_")
+MODEL_PARTS = (
+    *("actuator_", "body_", "dof_", "eq_"),
+    *("geom_", "jnt_", "site_"),
+)
 
 
 class WalkingParts(NamedTuple):
@@ -126,19 +132,31 @@ def game_script(duel: Duel) -> str:
     Args:
         duel: Duel whose robots are of one kind.
     """
+    if isinstance(duel.pursuer, PolicyPlayer):
+        robot = duel.settings.robot_of("pursuer").robot
+        return functions_of(legs_sources(load_robot(robot)))
     parts = WalkingParts.of(duel.pursuer)
     legs = parts.kinematics.legs
     step = trace_step(legs, parts.kinematics.description.standing)
     loads = parts.feedforward.loads.formulas
     plans = schedules_of(ManeuverPlanner(parts.walk.gait))
     sources = [
-        *(inspect.getsource(law) for law in LAWS),
         *(step.text, step_loop(legs)),
         *(loads.tick_formula.text, loads.loop),
         *(OFFSET_LOOP, WRITE_LOOP),
         *(trace_plan(f"plan_{n}", s).text for n, s in plans.items()),
     ]
-    constants = {"pi": pi, "tau": tau}
+    return functions_of(sources)
+
+
+def functions_of(sources: Sequence[str]) -> str:
+    """Return ``makeFormulas`` of the laws and of further functions.
+
+    Args:
+        sources: Functions in Python.
+    """
+    constants = {"pi": pi, "tau": tau, **CONSTANTS}
+    sources = [*(inspect.getsource(law) for law in LAWS), *sources]
     functions = [javascript_of(text, constants) for text in sources]
     names = re.findall(r"^function (\w+)", "\n".join(functions), re.MULTILINE)
     lines = [*functions, f"return {{ {', '.join(names)} }};"]
@@ -205,16 +223,16 @@ def game_data(duel: Duel) -> dict[str, Any]:
     Args:
         duel: Duel whose robots are of one kind, before its first tick.
     """
-    settings, physics = duel.settings, duel.world.physics
+    physics = duel.world.physics
+    if isinstance(duel.pursuer, PolicyPlayer):
+        return common_data(duel) | {"learned": legs_data(duel)}
     parts = [WalkingParts.of(player) for player in duel.players]
     own, gait = parts[0], parts[0].walk.gait
     legs, tree = own.kinematics.legs, own.kinematics.legs.tree
     columns = dict(zip(tree.joints, legs.columns[1:], strict=True))
     fixed = dict(zip(tree.joints, legs.fixed, strict=True))
     planner = ManeuverPlanner(gait)
-    return {
-        "tick": physics.tick,
-        "steps": physics.steps_per_tick,
+    return common_data(duel) | {
         "free": len(legs.free),
         "state": own.kinematics.state,
         "posture": own.kinematics.posture.tolist(),
@@ -230,22 +248,38 @@ def game_data(duel: Duel) -> dict[str, Any]:
         "memory": own.feedforward.memory.tolist(),
         "bound": BOUND,
         "lifted": LIFTED,
-        "fallen": FALLEN,
         "still": STILL,
         "short": SHORT * gait.foot_spacing,
         "spacing": gait.foot_spacing,
-        "ahead": gait.zmp_forward,
         "height": gait.com_height,
         "support": gait.single_support,
-        "step": gait.step_duration,
         "eta": gait.eta,
-        "speed": gait.speed,
-        "gain": gait.gain,
         "most_gain": 1.0 / (gait.horizon * gait.path_interval),
         "plans": {
             name: schedule_data(schedule, name, physics.tick)
             for name, schedule in schedules_of(planner).items()
         },
+        "servos": [servo_data(player) for player in duel.players],
+    }
+
+
+def common_data(duel: Duel) -> dict[str, Any]:
+    """Return the values that games on any legs have.
+
+    Args:
+        duel: Duel whose robots are of one kind, before its first tick.
+    """
+    settings, physics = duel.settings, duel.world.physics
+    first: Any = duel.pursuer
+    gait: GaitSettings = first.scheme.gait
+    return {
+        "tick": physics.tick,
+        "steps": physics.steps_per_tick,
+        "fallen": FALLEN,
+        "ahead": gait.zmp_forward,
+        "step": gait.step_duration,
+        "speed": gait.speed,
+        "gain": gait.gain,
         "players": [player_data(duel, player) for player in duel.players],
         "start": [
             settings.start.distance,
@@ -268,10 +302,16 @@ def evasion_data(law: Evasion) -> dict[str, float | None]:
     }
 
 
+def servo_data(player: Any) -> list[list[float]]:
+    """Return lead and reach of a robot's servos."""
+    servos = player.robot.servos
+    return [servos.lead.tolist(), servos.reach.tolist()]
+
+
 def player_data(duel: Duel, player: Any) -> dict[str, Any]:
     """Return the addresses of a robot in the model, and its servos."""
     model, robot = duel.world.model, player.robot
-    description = player.scheme.kinematics.description
+    description = load_robot(duel.settings.robot_of(player.name).robot)
     torso = int(model.body(f"{player.name}/{description.torso}").id)
     feet = description.left_foot, description.right_foot
     motors = [
@@ -285,9 +325,8 @@ def player_data(duel: Duel, player: Any) -> dict[str, Any]:
         "bodies": [torso, torso + int((model.body_rootid == torso).sum())],
         "soles": [model.site(f"{player.name}/{foot}").id for foot in feet],
         "qpos": robot.qpos_slice.start,
+        "joints": len(motors),
         "ctrl": motors[0],
-        "lead": robot.servos.lead.tolist(),
-        "reach": robot.servos.reach.tolist(),
         "hips": description.place.forward,
         "radius": player.truth.reach,
     }
@@ -348,8 +387,7 @@ def map_data(
 def model_data(duel: Duel) -> dict[str, Any]:
     """Return the model as XML, and its numbers in full precision.
 
-    XML has six digits. An attribute that older versions of MuJoCo refuse is
-    left out; its default is the same.
+    XML has six digits.
     """
     settings, world = duel.settings, duel.world
     specs: list[mujoco.MjSpec] = []
@@ -357,24 +395,57 @@ def model_data(duel: Duel) -> dict[str, Any]:
         name: load_robot(settings.robot_of(name).robot)
         for name in settings.robots
     }
-    build_model(
+    model = build_model(
         *(robots, world.physics, settings.body, settings.seed),
         furnish=specs.append,
         rendered=False,
     )
+    # Older versions of MuJoCo refuse this attribute; it is the default.
+    xml = specs[0].to_xml().replace(' input="pos"', "")
+    xml, hulls = inline_meshes(xml, model)
     arrays: Mapping[str, Array] = {
         name: getattr(world.model, name)
         for name in dir(world.model)
         if name.startswith(MODEL_PARTS)
-    }
+    } | {"mesh_vert": hulls}
     return {
-        "xml": specs[0].to_xml().replace(' input="pos"', ""),
+        "xml": xml,
         "arrays": {
             name: packed(array)
             for name, array in arrays.items()
             if isinstance(array, np.ndarray) and array.dtype == np.float64
         },
     }
+
+
+def inline_meshes(xml: str, model: mujoco.MjModel) -> tuple[str, Array]:
+    """Write the convex hulls of meshes into a model instead of their files.
+
+    MuJoCo collides hulls only.
+
+    Args:
+        xml: Model.
+        model: The same model, compiled.
+
+    Returns:
+        The model, and the vertices of all hulls in the frames of the
+        compiled meshes, in [m]. Shape (n, 3).
+    """
+    root, hulls = ElementTree.fromstring(xml), [np.zeros((0, 3))]
+    for element in root.iterfind("asset/mesh"):
+        name = element.attrib["name"]
+        number = model.mesh(name).id
+        first = int(model.mesh_vertadr[number])
+        graph = int(model.mesh_graphadr[number])
+        count = int(model.mesh_graph[graph])
+        corners = model.mesh_graph[graph + 2 + count : graph + 2 + 2 * count]
+        hulls.append(model.mesh_vert[first + corners].astype(np.float64))
+        vertices = " ".join(f"{x:.7g}" for x in hulls[-1].ravel().tolist())
+        element.attrib.clear()
+        element.attrib.update(name=name, vertex=vertices, inertia="convex")
+    return ElementTree.tostring(root, encoding="unicode"), np.concatenate(
+        hulls
+    )
 
 
 def packed(array: Array) -> str:

@@ -157,6 +157,25 @@ class ForwardKinematics:
         return np.array(corners)
 
 
+def posture_source(description: RobotDescription) -> str:
+    """Return the formulas of CoM and feet as Python source.
+
+    Its function ``posture_row(angles, numbers)`` takes the angles of the
+    actuated joints and writes the 27 results of
+    :attr:`ForwardKinematics.numbers`.
+    """
+    tree = load_tree(description)
+    feet = (description.left_foot, description.right_foot)
+    standing = tuple(sorted(description.standing.items()))
+    formula, _ = _trace_posture(tree, feet, None, standing, is_enabled())
+    return "\n".join([formula.text, _row_loop(len(tree.motors))])
+
+
+def _row_loop(count: int) -> str:
+    """Return the loop that evaluates the formulas at some angles."""
+    return LOOP.format(", ".join(f"angles[{i}]" for i in range(count)))
+
+
 @lru_cache(maxsize=16)
 def _trace_posture(
     tree: RobotTree,
@@ -195,6 +214,6 @@ def _trace_posture(
         results += links.position_of(frames[2])
         results += [x for row in axes[2] for x in row]
     formula = trace.formula("posture", results)
-    angles_of = ", ".join(f"angles[{i}]" for i in range(len(tree.motors)))
-    kernel = formula.kernel("posture_row", LOOP.format(angles_of), "11")
+    loop = _row_loop(len(tree.motors))
+    kernel = formula.kernel("posture_row", loop, "11")
     return formula, kernel

@@ -122,7 +122,10 @@ def _set_colour(
         if accent is not None:
             accent.rgba = colour
         return
-    for geom in part.body(description.torso).geoms:
+    torso = part.body(description.torso)
+    # A torso that is only a joint of others is coloured by their shapes.
+    shapes = torso.geoms or [g for child in torso.bodies for g in child.geoms]
+    for geom in shapes:
         geom.material, geom.rgba = "", colour
 
 

@@ -47,6 +47,7 @@ PAGE = (
     START,
     OptionGroup("Evasion", ("strategy",)),
     GAIT,
+    OptionGroup("Learned legs (docs/legs.md)", ("legs",)),
 )
 WALK = (
     RUN,

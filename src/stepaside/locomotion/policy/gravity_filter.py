@@ -14,6 +14,40 @@ CORRECTION = 0.5  # gain of the accelerometer, in [1/s]: a few gait cycles
 BIAS_CORRECTION = 0.05  # of the gyro bias, in [1/s^2]: damped beyond critical
 
 
+def follow_gravity(
+    up: list[float],
+    rate: list[float],
+    bias: list[float],
+    gyro: Sequence[float],
+    force: Sequence[float],
+    acceleration: Sequence[float] | Array,
+    duration: float,
+) -> None:
+    """Update upward direction, turning rate and gyro bias by one reading.
+
+    Floats one by one, since arrays of three take five times as long; in the
+    subset of Python that :mod:`stepaside.core.javascript` translates.
+    """
+    x, y, z = up[0], up[1], up[2]
+    fx = (force[0] - acceleration[0]) / GRAVITY
+    fy = (force[1] - acceleration[1]) / GRAVITY
+    fz = (force[2] - acceleration[2]) / GRAVITY
+    ex, ey, ez = fy * z - fz * y, fz * x - fx * z, fx * y - fy * x
+    r = gyro[2] if gyro[2] == gyro[2] else 0.0  # NaN: a gyro with two axes
+    p, q, r = gyro[0] - bias[0], gyro[1] - bias[1], r - bias[2]
+    rate[0], rate[1], rate[2] = p, q, r
+    share = duration * BIAS_CORRECTION
+    bias[0] -= share * ex
+    bias[1] -= share * ey
+    bias[2] -= share * ez
+    p, q, r = p + CORRECTION * ex, q + CORRECTION * ey, r + CORRECTION * ez
+    u = x + duration * (y * r - z * q)
+    v = y + duration * (z * p - x * r)
+    w = z + duration * (x * q - y * p)
+    length = sqrt(u * u + v * v + w * w)
+    up[0], up[1], up[2] = u / length, v / length, w / length
+
+
 class GravityFilter:
     r"""Complementary filter of the upward direction in the torso frame.
 
@@ -69,25 +103,8 @@ class GravityFilter:
         if not self.ready:
             self._calibrate(specific_force, duration)
             return
-        # Floats one by one: arrays of three take five times as long.
-        (p, q, r), (fx, fy, fz) = gyro.tolist(), specific_force.tolist()
-        (ax, ay, az), (x, y, z) = acceleration, self._up
-        bx, by, bz = self._bias
-        if r != r:
-            r = 0.0  # a gyro with two axes
-        fx, fy = (fx - ax) / GRAVITY, (fy - ay) / GRAVITY
-        fz = (fz - az) / GRAVITY
-        ex, ey, ez = fy * z - fz * y, fz * x - fx * z, fx * y - fy * x
-        p, q, r = p - bx, q - by, r - bz
-        self.rate = [p, q, r]
-        share = duration * BIAS_CORRECTION
-        self._bias = [bx - share * ex, by - share * ey, bz - share * ez]
-        p, q, r = p + CORRECTION * ex, q + CORRECTION * ey, r + CORRECTION * ez
-        u = x + duration * (y * r - z * q)
-        v = y + duration * (z * p - x * r)
-        w = z + duration * (x * q - y * p)
-        length = sqrt(u * u + v * v + w * w)
-        self._up = [u / length, v / length, w / length]
+        readings = gyro.tolist(), specific_force.tolist(), acceleration
+        follow_gravity(self._up, self.rate, self._bias, *readings, duration)
 
     def adopt(self, tilt: tuple[float, float]) -> None:
         """Replace the direction by the estimate of the robot itself.

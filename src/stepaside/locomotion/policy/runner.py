@@ -54,28 +54,16 @@ class PolicyRunner:
         clock = contract.clock
         self._phases = list(() if clock is None else clock.offsets)
         self._stands = True
-        self._values, places = _places(len(contract.joints), len(self._phases))
+        layout = ObservationLayout.of(contract)
+        self._values = np.zeros(layout.size)
         self._parts = {
-            name: self._values[place] for name, place in places.items()
+            name: self._values[place] for name, place in layout.places.items()
         }
-        terms = [
-            np.arange(self._values.size)[places[term.name]]
-            for term in contract.terms
-        ]
-        self._order = np.concatenate(terms)
-        self._scales = np.concatenate(
-            [
-                np.broadcast_to(term.scale, contract.width_of(term))
-                for term in contract.terms
-            ]
-        )
-        widths = [len(term) for term in terms]
-        clips = np.repeat([term.clip for term in contract.terms], widths)
-        self._clips = clips if np.isfinite(clips).any() else None
+        self._order, self._scales = layout.order, layout.scales
+        finite = np.isfinite(layout.clips).any()
+        self._clips = layout.clips if finite else None
         self._history: Array | None = None
-        self._flat = _history_order(
-            widths, contract.history, by_term=contract.history_order == "term"
-        )
+        self._flat = layout.flat
 
     def observe(
         self, body: BodyMotion, command: Sequence[float] | Array
@@ -163,8 +151,50 @@ class PolicyRunner:
         self._parts["cos_phase"][:] = [seen * cos(x) for x in self._phases]
 
 
-def _places(joints: int, phases: int) -> tuple[Array, dict[str, slice]]:
-    """Return room for all quantities, and the place of each by its name.
+class ObservationLayout(NamedTuple):
+    """Places of the observed quantities in the input of a network.
+
+    Attributes:
+        size: Number of all quantities at one instant.
+        places: Place of each quantity among them, by name.
+        order: Quantities of one observation, in order. Shape (n,).
+        scales: Factor on each. Shape (n,).
+        clips: Greatest magnitude of each before scaling. Shape (n,).
+        flat: Order of past observations in the input. Shape (history n,).
+    """
+
+    size: int
+    places: dict[str, slice]
+    order: NDArray[np.int_]
+    scales: Array
+    clips: Array
+    flat: NDArray[np.int_]
+
+    @classmethod
+    def of(cls, contract: PolicyContract) -> "ObservationLayout":
+        """Return the layout of a contract."""
+        clock = contract.clock
+        phases = 0 if clock is None else len(clock.offsets)
+        size, places = _places(len(contract.joints), phases)
+        terms = [np.arange(size)[places[x.name]] for x in contract.terms]
+        widths = [len(term) for term in terms]
+        scales = [
+            np.broadcast_to(term.scale, contract.width_of(term))
+            for term in contract.terms
+        ]
+        by_term = contract.history_order == "term"
+        return cls(
+            size,
+            places,
+            np.concatenate(terms),
+            np.concatenate(scales),
+            np.repeat([term.clip for term in contract.terms], widths),
+            _history_order(widths, contract.history, by_term=by_term),
+        )
+
+
+def _places(joints: int, phases: int) -> tuple[int, dict[str, slice]]:
+    """Return the number of all quantities, and the place of each by name.
 
     Args:
         joints: Number of joints.
@@ -184,7 +214,7 @@ def _places(joints: int, phases: int) -> tuple[Array, dict[str, slice]]:
     first = places["command"].start
     places["command_lin_vel"] = slice(first, first + 2)
     places["command_ang_vel"] = slice(first + 2, first + 3)
-    return np.zeros(ends[-1]), places
+    return ends[-1], places
 
 
 def _history_order(

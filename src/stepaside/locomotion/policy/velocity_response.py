@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...core.errors import PolicyError
 from ...core.machine_code import bound_loop
@@ -159,19 +160,27 @@ class VelocityResponse:
         invert()
         return BodyVelocity(*command.tolist())
 
-    @cached_property
-    def _inverse(self) -> tuple[Array, Callable[[], int], Array]:
-        """Velocity, the loop that inverts it, and its command."""
+    @property
+    def tables(self) -> tuple[NDArray[np.int_], Array, Array]:
+        """Number of commands of each axis, the commands, and their effects.
+
+        Shapes (3,), (3, n) and (3 n, 3); arguments of :data:`INVERT`.
+        """
         sizes = np.array([len(axis.commands) for axis in self.axes])
         commands = np.zeros((3, sizes.max()))
         effects = np.zeros((3, sizes.max(), 3))
         for i, axis in enumerate(self.axes):
             commands[i, : sizes[i]] = axis.commands
             effects[i, : sizes[i]] = self._effects[i]
+        return sizes, commands, effects.reshape(-1, 3)
+
+    @cached_property
+    def _inverse(self) -> tuple[Array, Callable[[], int], Array]:
+        """Velocity, the loop that inverts it, and its command."""
         wanted, command = np.zeros(3), np.zeros(3)
         invert = bound_loop(
             *("invert", INVERT, "1i22121"),
-            *(wanted, sizes, commands, effects.reshape(-1, 3)),
+            *(wanted, *self.tables),
             *(np.zeros(3), np.zeros((3, 3)), command),
         )
         return wanted, invert, command

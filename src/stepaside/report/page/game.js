@@ -105,49 +105,20 @@ class Rest {
   template() { return this.pose; }
 }
 
-/* One robot: strategy, maneuvers, joint motion and servos. */
-class Walker {
+/* One robot: where it is, and what it decides. */
+class Robot {
   constructor(game, spec, frame) {
-    const { data } = game, n = data.free, joints = data.fixed.length;
-    Object.assign(this, { game, spec, data, frame, name: spec.name });
-    this.states = table(2, n + 7, [...data.state, ...data.state]);
-    this.limits = table(n, 3, data.limits.flat());
-    this.references = table(1, 16);
-    this.contacts = table(1, 7);
-    this.points = table(3, data.masses);
-    this.torques = table(1, data.legs.length);
-    this.soon = table(1, joints);
-    this.offsets = table(2, joints);
-    this.weight = table(joints, 1, data.weight);
-    this.memoryOfOffsets = table(joints, 1, data.memory);
-    this.slowest = Math.min(...data.limits.map(([reach]) => reach));
-    [this.lead, this.reach] = [spec.lead, spec.reach].map((values) => table(joints, 1, values));
-    this.calls = 0;
-    this.deflections = null;
-    this.left = [0, 0.5 * data.spacing, 0];
-    this.right = [0, -0.5 * data.spacing, 0];
-    this.side = 1;
-    this.memory = 0;
-    this.rest();
-    this.pose = this.motion.template(0);
-    this.place();
+    Object.assign(this, { game, spec, data: game.data, frame, name: spec.name, memory: 0 });
   }
-  /* Put the robot in its standing posture into the world. */
-  place() {
-    const { qpos } = this.game.state, at = this.spec.qpos, posture = this.data.posture;
-    const [x, y, theta] = compose(this.frame, [posture[0], posture[1], 0]);
+  /* Put the robot in a posture, with these joint targets, into the world. */
+  stand(posture, targets) {
+    const { qpos } = this.game.state, [x, y, theta] = compose(this.frame, [posture[0], posture[1], 0]);
     const c = Math.cos(0.5 * theta), s = Math.sin(0.5 * theta), [w, a, b, d] = posture.slice(3, 7);
-    qpos.set([x, y, posture[2], c * w - s * d, c * a - s * b, c * b + s * a, c * d + s * w, ...posture.slice(7)], at);
-    this.target = table(this.data.fixed.length, 1, this.angles());
-    this.sent.set(this.target);
+    qpos.set([x, y, posture[2], c * w - s * d, c * a - s * b, c * b + s * a, c * d + s * w, ...posture.slice(7)],
+      this.spec.qpos);
+    this.sent.set(targets);
   }
-  rest() {
-    this.plan = null;
-    this.motion = new Rest(this.data, this.left, this.right);
-  }
-  support(swing) { return swing > 0 ? this.right : this.left; }
-  get sent() { return this.game.state.ctrl.subarray(this.spec.ctrl, this.spec.ctrl + this.data.fixed.length); }
-  angles() { return this.data.columns.map((column, j) => column === null ? this.data.fixed[j] : this.states[column]); }
+  get sent() { return this.game.state.ctrl.subarray(this.spec.ctrl, this.spec.ctrl + this.spec.joints); }
   /* Torso and reference point in the world, as sim/ground_truth.py. */
   truth() {
     const { xpos, xmat, subtree_com: com } = this.game.state, t = this.spec.torso;
@@ -161,6 +132,58 @@ class Walker {
     const { site_xpos: at, site_xmat: axes } = this.game.state, i = this.spec.soles[side > 0 ? 0 : 1];
     return [at[3 * i], at[3 * i + 1], Math.atan2(axes[9 * i + 3], axes[9 * i])];
   }
+  /* Decision of the paper's laws, where the template is turned by an angle from the torso's estimated heading;
+     null to stand. */
+  decide(turned) {
+    const own = this.truth(), other = this.opponent.truth(), { settings, formulas } = this.game;
+    const dx = other.reference[0] - own.reference[0], dy = other.reference[1] - own.reference[1];
+    const bearing = wrapAngle(wrapAngle(Math.atan2(dy, dx) - own.heading) - turned), distance = Math.hypot(dx, dy);
+    const velocity = this.spec.direction * settings.speeds[this.number];
+    if (this.spec.direction > 0) return { heading: bearing, velocity, gain: settings.gain };
+    const { radius, release, hysteresis } = this.data.evasion;
+    const evading = formulas.is_evading(this.memory !== 0, distance, radius, release === null ? Infinity : release);
+    this.memory = evading ? formulas.update_side(this.memory, bearing, hysteresis) : 0;
+    const heading = formulas.evasion_heading(bearing, this.memory, settings.angle);
+    return evading ? { heading, velocity, gain: settings.gain } : null;
+  }
+}
+
+/* One robot: strategy, maneuvers, joint motion and servos. */
+class Walker extends Robot {
+  constructor(game, spec, frame) {
+    super(game, spec, frame);
+    const { data } = this, n = data.free, joints = data.fixed.length;
+    this.states = table(2, n + 7, [...data.state, ...data.state]);
+    this.limits = table(n, 3, data.limits.flat());
+    this.references = table(1, 16);
+    this.contacts = table(1, 7);
+    this.points = table(3, data.masses);
+    this.torques = table(1, data.legs.length);
+    this.soon = table(1, joints);
+    this.offsets = table(2, joints);
+    this.weight = table(joints, 1, data.weight);
+    this.memoryOfOffsets = table(joints, 1, data.memory);
+    this.slowest = Math.min(...data.limits.map(([reach]) => reach));
+    [this.lead, this.reach] = data.servos[game.data.players.indexOf(spec)].map((values) => table(joints, 1, values));
+    this.calls = 0;
+    this.deflections = null;
+    this.left = [0, 0.5 * data.spacing, 0];
+    this.right = [0, -0.5 * data.spacing, 0];
+    this.side = 1;
+    this.rest();
+    this.pose = this.motion.template(0);
+    this.target = table(joints, 1, this.angles());
+    this.stand(data.posture, this.target);
+  }
+  /* Its phase, and the heading that it steers to. */
+  get state() { return this.plan ? this.plan.kind : "stand"; }
+  get turning() { return this.plan ? this.plan.heading : 0; }
+  rest() {
+    this.plan = null;
+    this.motion = new Rest(this.data, this.left, this.right);
+  }
+  support(swing) { return swing > 0 ? this.right : this.left; }
+  angles() { return this.data.columns.map((column, j) => column === null ? this.data.fixed[j] : this.states[column]); }
   /* Where the foot that swings will land: the planned step, from where the robot stands. */
   landing() { return compose(this.sole(-this.plan.side), this.plan.placement(2)); }
   tick(now) {
@@ -170,22 +193,8 @@ class Walker {
     this.write(this.motion.reference(now));
     this.pose = this.motion.template(now);
   }
-  /* Decision of the paper's laws, in the frame of the template; null to stand. */
-  decide() {
-    const own = this.truth(), other = this.opponent.truth(), { settings, formulas } = this.game;
-    const dx = other.reference[0] - own.reference[0], dy = other.reference[1] - own.reference[1];
-    const sight = this.heading + wrapAngle(Math.atan2(dy, dx) - own.heading);
-    const bearing = wrapAngle(sight - this.pose[2]), distance = Math.hypot(dx, dy);
-    const velocity = this.spec.direction * settings.speeds[this.number];
-    if (this.spec.direction > 0) return { heading: bearing, velocity, gain: settings.gain };
-    const { radius, release, hysteresis } = this.data.evasion;
-    const evading = formulas.is_evading(this.memory !== 0, distance, radius, release === null ? Infinity : release);
-    this.memory = evading ? formulas.update_side(this.memory, bearing, hysteresis) : 0;
-    const heading = formulas.evasion_heading(bearing, this.memory, settings.angle);
-    return evading ? { heading, velocity, gain: settings.gain } : null;
-  }
   wait(now) {
-    const intent = this.decide();
+    const intent = this.decide(this.pose[2] - this.heading);
     if (!intent) return;
     const support = this.support(this.side);
     const [x, y] = compose(inverse(support), [...this.motion.reference(now).body.slice(0, 2), 0]);
@@ -196,7 +205,7 @@ class Walker {
     if (plan.side > 0) this.left = landed; else this.right = landed;
     if (plan.kind === "halt") return this.rest();
     this.side = -plan.side;
-    const intent = this.decide();
+    const intent = this.decide(this.pose[2] - this.heading);
     return this.walk(intent ? "step" : "halt", intent || { heading: 0, velocity: 0, gain: 0 },
       plan.landing(), plan.started + plan.plan.first);
   }
@@ -262,7 +271,7 @@ class Game {
       const values = doubles(text), own = this.model[name];
       if (own && own.length === values.length) own.set(values);
     }
-    for (const { maps } of Object.values(data.plans))
+    for (const { maps } of Object.values(data.plans || {}))
       for (const map of maps) for (const name of ["pendulum", "feet", "heights"]) map[name] = doubles(map[name]);
     this.physics = new mujoco.MjData(this.model);
     this.defaults = { start: data.start, speeds: data.players.map(() => data.speed), gain: data.gain,
@@ -274,7 +283,7 @@ class Game {
     if (!this.views || !this.views.qpos.length) {
       this.views = {};
       for (const name of ["qpos", "ctrl", "xpos", "xquat", "xmat", "subtree_com", "xfrc_applied",
-        "site_xpos", "site_xmat"])
+        "site_xpos", "site_xmat", "qvel", "sensordata"])
         this.views[name] = this.physics[name];
     }
     return this.views;
@@ -287,10 +296,11 @@ class Game {
     this.outcome = "";
     this.mujoco.mj_resetData(this.model, this.physics);
     const frames = [[0, 0, pursuer], [distance, 0, Math.PI + evader]];
-    this.players = this.data.players.map((spec, i) => new Walker(this, spec, frames[i]));
+    this.players = this.data.players.map((spec, i) => this.walker(spec, i, frames[i]));
     this.players.forEach((player, i) => { player.number = i; player.opponent = this.players[1 - i]; });
     this.mujoco.mj_forward(this.model, this.physics);
   }
+  walker(spec, number, frame) { return new Walker(this, spec, frame); }
   get time() { return this.ticks * this.data.tick; }
   get distance() {
     const [a, b] = this.players.map((player) => player.truth().reference);
@@ -304,6 +314,10 @@ class Game {
   tick() {
     if (this.outcome) return;
     for (const player of this.players) player.tick(this.time);
+    this.step();
+  }
+  /* Advance physics by one control tick. */
+  step() {
     const forces = this.state.xfrc_applied;
     for (const { at } of this.pushes) forces[at] = forces[at + 1] = 0;
     this.pushes = this.pushes.filter(({ until }) => until > this.time + 1e-9);
@@ -335,12 +349,11 @@ class Game {
   /* Play some seconds at full speed; return rows of time and both torsos, ten a second. */
   simulate(seconds) {
     const rows = [], every = Math.round(0.1 / this.data.tick);
-    const note = () => { rows.push([this.time, ...this.players.flatMap((player) => player.truth().torso)]); };
     for (const end = this.ticks + Math.round(seconds / this.data.tick); this.ticks < end && !this.outcome;) {
-      if (this.ticks % every === 0) note();
+      if (this.ticks % every === 0) rows.push(this.row());
       this.tick();
     }
-    note();
-    return rows;
+    return [...rows, this.row()];
   }
+  row() { return [this.time, ...this.players.flatMap((player) => player.truth().torso)]; }
 }

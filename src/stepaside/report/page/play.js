@@ -1,16 +1,17 @@
 /* The page that plays: the recorded duel until MuJoCo has loaded, then the game itself. */
 
 const opened = performance.now();
-let game = null, playing = true, clock = 0, growing = [], began = [];
+let game = null, playing = true, waiting = "the game is loading", clock = 0, growing = [], began = [];
 const degrees = (angle) => angle * 180 / Math.PI, radians = (angle) => angle * Math.PI / 180;
 
 /* Settings of the game: label, unit, range, and where the value stands. Those of the start restart it. */
+const { speed: usual, gain: steering, near, far } = run.template;
 const CONTROLS = [
-  ["speed of the pursuer", "m/s", 0.02, 0.12, 0.005, (s) => s.speeds[0], (s, v) => { s.speeds[0] = v; }],
-  ["speed of the evader", "m/s", 0.02, 0.12, 0.005, (s) => s.speeds[1], (s, v) => { s.speeds[1] = v; }],
-  ["steering gain k", "1/s", 0.05, 0.4, 0.01, (s) => s.gain, (s, v) => { s.gain = v; }],
+  ["speed of the pursuer", "m/s", 0.2 * usual, 1.2 * usual, 0.05 * usual, (s) => s.speeds[0], (s, v) => { s.speeds[0] = v; }],
+  ["speed of the evader", "m/s", 0.2 * usual, 1.2 * usual, 0.05 * usual, (s) => s.speeds[1], (s, v) => { s.speeds[1] = v; }],
+  ["steering gain k", "1/s", 0.25 * steering, 2 * steering, 0.05 * steering, (s) => s.gain, (s, v) => { s.gain = v; }],
   ["angle of evasion \u03b1", "\u00b0", 0, 180, 5, (s) => degrees(s.angle), (s, v) => { s.angle = radians(v); }],
-  ["start: distance", "m", 0.6, 2, 0.01, (s) => s.start[0], (s, v) => { s.start[0] = v; }, true],
+  ["start: distance", "m", near, 4 / 3 * far, 0.01, (s) => s.start[0], (s, v) => { s.start[0] = v; }, true],
   ["start: pursuer looks aside by", "\u00b0", -90, 90, 1, (s) => degrees(s.start[1]), (s, v) => { s.start[1] = radians(v); }, true],
   ["start: evader looks aside by", "\u00b0", -90, 90, 1, (s) => degrees(s.start[2]), (s, v) => { s.start[2] = radians(v); }, true],
 ];
@@ -40,7 +41,7 @@ function placeTheory() {
   const half = 0.5 * Math.hypot(b[0] - a[0], b[1] - a[1]), radius = run.circle ? run.circle[2] : 0;
   scene.theory.visible = !changed && evader.memory !== 0 && half < radius;
   if (!scene.theory.visible) return;
-  const side = pursuer.plan && pursuer.plan.heading < 0 ? -1 : 1;
+  const side = pursuer.turning < 0 ? -1 : 1;
   const aside = side * Math.sqrt(radius ** 2 - half ** 2) / (2 * half);
   scene.theory.position.set(0.5 * (a[0] + b[0]) - aside * (b[1] - a[1]),
     0.5 * (a[1] + b[1]) + aside * (b[0] - a[0]), 0);
@@ -59,7 +60,7 @@ function toggle(on) {
 byId("play").onclick = () => toggle(!playing);
 byId("again").onclick = restart;
 byId("draw").onclick = () => {
-  game.settings.start = [0.6 + 0.9 * Math.random(), radians(180 * Math.random() - 90), radians(60 * Math.random() - 30)];
+  game.settings.start = [near + (far - near) * Math.random(), radians(180 * Math.random() - 90), radians(60 * Math.random() - 30)];
   inputs.forEach((input) => input.show());
   restart();
 };
@@ -68,13 +69,34 @@ byId("draw").onclick = () => {
 async function load() {
   const [module, data] = await Promise.all([import("./mujoco.js"),
     fetch("game.json").then((answer) => answer.json())]);
-  const mujoco = await module.default();
-  game = new Game(mujoco, data, makeFormulas());
+  const mujoco = await module.default(), formulas = makeFormulas();
+  game = data.learned ? new LegsGame(mujoco, data, formulas, ...await choosePolicy(data.learned.network))
+    : new Game(mujoco, data, formulas);
   if (scene) growing = run.players.map((_, number) => scene.growing(number));
   inputs.forEach((input) => input.show());
   for (const id of ["play", "again", "draw"]) byId(id).disabled = false;
   restart();
   return (performance.now() - opened) / 1000;
+}
+/* The runtime of networks, and the network that the visitor chooses; the file stays in the browser. */
+async function choosePolicy({ file, sha256 }) {
+  const runtime = await import("./ort.wasm.min.mjs"), input = byId("network"), hint = byId("hint");
+  runtime.env.wasm.numThreads = 1;
+  runtime.env.wasm.wasmPaths = new URL("./", location.href).href;
+  hint.textContent = `To play, choose the walking policy ${file}; it stays on this device.`;
+  byId("policy").hidden = false;
+  waiting = "choose the policy to play";
+  for (;;) {
+    await new Promise((chosen) => { input.onchange = chosen; });
+    const bytes = await input.files[0].arrayBuffer();
+    const digest = crypto.subtle && Array.from(new Uint8Array(await crypto.subtle.digest("SHA-256", bytes)),
+      (byte) => byte.toString(16).padStart(2, "0")).join("");
+    if (digest && digest !== sha256) hint.textContent = `${input.files[0].name} is not ${file}, for which this page was made.`;
+    else {
+      byId("policy").hidden = true;
+      return [runtime, await runtime.InferenceSession.create(bytes, { executionProviders: ["wasm"] })];
+    }
+  }
 }
 const loaded = load();
 loaded.catch((error) => {
@@ -93,24 +115,28 @@ function note() {
   });
 }
 /* Play as many ticks as the time since the last frame has, but for no longer than half of it. */
-let owed = 0;
-function advance(passed) {
+let owed = 0, busy = false;
+async function advance(passed) {
   owed = Math.min(owed + passed * +byId("speed").value, 0.5);
+  if (busy) return;
+  busy = true;
   const until = performance.now() + Math.max(25, 500 * passed);
-  while (owed >= game.data.tick && performance.now() < until && !game.outcome) {
-    game.tick();
+  while (owed >= game.data.tick && performance.now() < until && !game.outcome && playing) {
+    const waits = game.tick();
+    if (waits) await waits;
     owed -= game.data.tick;
   }
+  busy = false;
   note();
 }
 
-const spoken = { null: "stands", start: "starts to walk", step: "walks", halt: "halts" };
+const spoken = { stand: "stands", start: "starts to walk", step: "walks", halt: "halts" };
 function tell() {
   const [a, b] = game.players.map((player) => player.truth());
   const between = Math.abs(degrees(wrapAngle(a.heading - b.heading)));
   byId("clock").textContent = `${game.time.toFixed(1)} s`;
   byId("message").textContent = game.players.map((player) =>
-    `${player.name} ${spoken[player.plan ? player.plan.kind : null]}`).join(", ");
+    `${player.name} ${spoken[player.state] || player.state}`).join(", ");
   byId("values").textContent = `distance ${game.distance.toFixed(2)} m, angle between the headings ${between.toFixed(0)}\u00b0`;
   byId("outcome").textContent = game.outcome ? `${game.outcome} at ${game.time.toFixed(1)} s: start again` : "";
 }
@@ -118,7 +144,7 @@ function tellRecorded() {
   clock = Math.min(clock, run.times[run.times.length - 1]);
   const index = Math.max(0, run.times.findLastIndex((time) => time <= clock));
   byId("clock").textContent = `${clock.toFixed(1)} s`;
-  byId("message").textContent = `${run.messages[run.message_index[index]]} (recorded; the game is loading)`;
+  byId("message").textContent = `${run.messages[run.message_index[index]]} (recorded; ${waiting})`;
   byId("values").textContent = `distance ${run.distance[index].toFixed(2)} m`;
   const next = Math.min(index + 1, run.times.length - 1), gap = run.times[next] - run.times[index];
   return scene && scene.show(index, gap > 0 ? (clock - run.times[index]) / gap : 0);
@@ -162,8 +188,9 @@ function frame(now) {
   requestAnimationFrame(frame);
 }
 
-/* Pushes: a tap pushes away from the camera, a drag along itself, 2 N s for each metre on the floor. */
-const TAP = 0.6, PER_METRE = 2, MOST = 3;  // [N s], [N s/m], [N s]
+/* Pushes: a tap pushes away from the camera, a drag along itself, 2 N s for each metre on the floor; on a
+   robot heavier than NAO in proportion. */
+const [TAP, PER_METRE, MOST] = [0.6, 2, 3].map((value) => value * run.template.weight);  // [N s], [N s/m], [N s]
 let pushing = null;
 const ray = new THREE.Raycaster();
 function onFloor(event, height) {
@@ -191,7 +218,7 @@ function impulse(event) {
   else along.multiplyScalar(PER_METRE).clampLength(0, MOST);
   arrow.position.copy(torso);
   arrow.setDirection(along.clone().normalize());
-  arrow.setLength(0.1 + 0.3 * along.length(), 0.1, 0.07);
+  arrow.setLength(0.1 + 0.3 * along.length() / run.template.weight, 0.1, 0.07);
   arrow.visible = true;
   return along;
 }

@@ -146,7 +146,7 @@ function makeScene(run, canvas, context) {
     prints.count = 0;
     prints.frustumCulled = false;
     world.add(prints);
-    drawn.prints = layer("footsteps", prints);
+    drawn.prints = run.footprints || player.landings.length ? layer("footsteps", prints) : prints;
     drawn.pushes = player.pushes.map(pushArrow);
     return drawn;
   });

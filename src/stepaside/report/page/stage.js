@@ -97,8 +97,8 @@ function aim(torsos) {
   let distance = run.camera_distance;
   if (chosen === "follow") {
     const box = new THREE.Box3().setFromPoints(followed === null ? torsos : [torsos[followed]]);
-    box.getCenter(target).setZ(0.2);
-    distance = 1.5 + 1.1 * box.min.distanceTo(box.max);
+    box.getCenter(target).setZ(0.6 * box.max.z);
+    distance = Math.max(1.5, 4 * box.max.z) + 1.1 * box.min.distanceTo(box.max);
   }
   /* The top view shows the whole room at any aspect ratio. */
   const slope = Math.tan(20 * Math.PI / 180);
