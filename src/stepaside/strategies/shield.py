@@ -1,6 +1,6 @@
 """Shield: a least-restrictive filter around the strategy of a robot."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import cos, inf, pi, sin, tau
 from typing import Any, NamedTuple
 
@@ -103,6 +103,7 @@ class ShieldedStrategy:
         if not (isinstance(decided, tuple) and isinstance(decided[0], Intent)):
             raise StrategyError(f"decide must return an Intent, got {decided}")
         intent, inner = decided
+        intent = replace(intent, pace=1.0)  # walkers change theirs slowly
         model = self.model_for(knowledge)
         trace = _with_sighting(memory.trace, knowledge, TRACE * model.window)
         begins = knowledge.step_start_in_map or knowledge.pose_in_map

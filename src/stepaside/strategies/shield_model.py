@@ -311,7 +311,7 @@ def _load_table(model: ShieldModel) -> "ShieldTable":
                 game, PoseGrid(left, spacing, (i, j, k)), saved["values"],
                 saved["eroded"], saved["standing"],
                 saved["starts"].astype(float), outside, model.response,
-                seconds,
+                LEGS_INTERVAL, seconds,
             )  # fmt: skip
     except (OSError, ValueError, KeyError, EOFError):
         pass

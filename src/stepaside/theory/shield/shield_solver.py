@@ -158,7 +158,7 @@ def solve_shield(
                 break
         scale *= GROWTH
     return ShieldTable(
-        game, grid, v, eroded, standing, starts, outside, response,
+        game, grid, v, eroded, standing, starts, outside, response, wait,
         perf_counter() - begin,
     )  # fmt: skip
 

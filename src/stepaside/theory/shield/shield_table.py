@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from functools import cached_property
+from math import pi, tau
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -10,6 +11,8 @@ from ...core.brief_repr import brief_repr
 from .shield_erosion import eroded_values
 from .shield_game import SEGMENTS, Array, PoseGrid, ShieldGame
 from .shield_outcomes import evaluate_motions, look_up_all
+
+DISPLACED = 8  # directions of a displacement
 
 
 @dataclass(frozen=True)
@@ -30,6 +33,7 @@ class ShieldTable:
         outside: Guaranteed distance of every state outside the grid, in [m].
         response: Longest time from the decision of a standing robot until its
             motion begins, in [s].
+        wait: Time until a standing robot decides again, in [s].
         seconds: Computing time, in [s].
     """
 
@@ -41,6 +45,7 @@ class ShieldTable:
     starts: Array
     outside: float
     response: float
+    wait: float
     seconds: float
 
     __repr__ = brief_repr
@@ -65,7 +70,22 @@ class ShieldTable:
         Args:
             poses: As in :meth:`value`.
         """
-        return self._look_up(self.standing, poses)
+        found = self._look_up(self.standing, poses)
+        if not len(self.starts):
+            return found
+        # Starts that are best at different nodes do not add up between them.
+        later, _ = self._stood(poses, self.wait)
+        angles = tau / DISPLACED * np.arange(DISPLACED)
+        radius = self.game.loss_in(self.wait) + self.game.jump
+        ring = (
+            radius
+            / np.cos(pi / DISPLACED)
+            * np.array([np.cos(angles), np.sin(angles), 0.0 * angles])
+        )
+        states = (later[:, None] + ring.T).reshape(-1, 3)
+        best = self._starts(states).max(axis=0).reshape(len(found), -1)
+        value: Array = np.minimum(found, best.min(axis=1))
+        return value
 
     def halting_value(self, poses: ArrayLike, duration: float) -> float:
         """Return the guaranteed distance of a robot that halts.
@@ -89,9 +109,14 @@ class ShieldTable:
         """
         if not len(self.starts):
             return self.outcomes(poses, self.game.motions, self.game.period)
+        found: Array = self._starts(poses).min(axis=1)
+        return found
+
+    def _starts(self, poses: ArrayLike) -> Array:
+        """Return the value of each start from each pose. Shape (n, m)."""
         grid = self.grid.whole()
         return np.array(
-            [self._look_up(each, poses, grid).min() for each in self.starts]
+            [self._look_up(each, poses, grid) for each in self.starts]
         )
 
     def start_outcomes(
