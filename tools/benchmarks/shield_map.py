@@ -39,7 +39,8 @@ from stepaside.strategies.velocity_set import BodyVelocity, VelocitySet
 from stepaside.studies.result_files import header, write_result
 
 MODULES = ("theory/shield", "strategies/shield", "games/template_game")
-STEP = 0.04  # of the integration, in [s]
+STEP = 0.04  # of the integration, in [s]; a part of a step
+SLOW_STEP = 0.547 / 7  # likewise, for the paper's gait
 LEGS_GAIT = GaitSettings(speed=0.5, gain=0.4, stride=0.2)
 PEOPLE = ("steers", "feints", "weaves")
 BATCH = 25  # games of a job
@@ -139,12 +140,14 @@ class MappedRobot:
         legs: Velocities of the legs; None for the paper's walk.
         shield: Person that is expected.
         duration: Duration of a game, in [s].
+        step: Step of the integration, in [s].
     """
 
     gait: GaitSettings
     legs: VelocitySet | None
     shield: ShieldSettings
     duration: float
+    step: float = STEP
 
     @property
     def model(self) -> ShieldModel:
@@ -158,8 +161,10 @@ def paper_robots() -> dict[str, MappedRobot]:
     slow = ShieldSettings(True, 0.09, 6.0, 0.35)
     fast = ShieldSettings(True, 0.35, 8.0, 0.35)
     return {
-        "NAO, the paper's gait": MappedRobot(GaitSettings(), None, slow, 60.0),
-        "NAO, fast gait": MappedRobot(PRESETS["fast"], None, fast, 30.0),
+        "NAO, the paper's gait": MappedRobot(
+            GaitSettings(), None, slow, 60.0, SLOW_STEP
+        ),
+        "NAO, fast gait": MappedRobot(PRESETS["fast"], None, fast, 20.0),
     }
 
 
@@ -221,7 +226,7 @@ def play(robot: MappedRobot, kind: str, start: Pose, seed: int) -> float:
 
     The person walks straight to the origin before the shield decides.
     """
-    straight = STEP * ceil(robot.model.window / STEP - 1e-9)
+    straight = robot.step * ceil(robot.model.window / robot.step - 1e-9)
     inner = RandomWalk(robot.legs is not None, seed, straight)
     strategy = ShieldedStrategy(inner, robot.shield)
 
@@ -232,12 +237,12 @@ def play(robot: MappedRobot, kind: str, start: Pose, seed: int) -> float:
     if robot.legs is None:
         game = play_template(
             motion, person, start, strategy, robot.gait,
-            duration=robot.duration, step=STEP,
+            duration=robot.duration, step=robot.step,
         )  # fmt: skip
     else:
         game = play_point(
             motion, person, start, strategy, robot.gait, robot.legs,
-            duration=robot.duration, step=STEP,
+            duration=robot.duration, step=robot.step,
         )  # fmt: skip
     return game.closest_m
 
@@ -303,7 +308,7 @@ def learned_legs(arguments: Any) -> dict[str, MappedRobot]:
         True, arguments.legs_speed, arguments.legs_radius, 0.45
     )
     name = f"{arguments.robot.name.upper()}, learned legs"
-    return {name: MappedRobot(LEGS_GAIT, legs, person, 25.0)}
+    return {name: MappedRobot(LEGS_GAIT, legs, person, 20.0)}
 
 
 def main() -> None:

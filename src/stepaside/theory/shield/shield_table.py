@@ -12,6 +12,7 @@ from .shield_erosion import eroded_values
 from .shield_game import SEGMENTS, Array, PoseGrid, ShieldGame
 from .shield_outcomes import evaluate_motions, look_up_all
 
+NEAR = 1.1  # value over that outside, from which starts are not looked at
 DISPLACED = 8  # directions of a displacement
 
 
@@ -70,10 +71,19 @@ class ShieldTable:
         Args:
             poses: As in :meth:`value`.
         """
-        found = self._look_up(self.standing, poses)
-        if not len(self.starts):
-            return found
-        # Starts that are best at different nodes do not add up between them.
+        states = np.atleast_2d(np.asarray(poses, dtype=np.float64))
+        found = self._look_up(self.standing, states)
+        near = found < NEAR * self.outside
+        if len(self.starts) and near.any():
+            found[near] = np.minimum(found[near], self._waits(states[near]))
+        return found
+
+    def _waits(self, poses: Array) -> Array:
+        """Return the value of the best start after the wait, at worst.
+
+        The best starts at nodes are too good between nodes where different
+        ones are best.
+        """
         later, _ = self._stood(poses, self.wait)
         angles = tau / DISPLACED * np.arange(DISPLACED)
         radius = self.game.loss_in(self.wait) + self.game.jump
@@ -83,9 +93,9 @@ class ShieldTable:
             * np.array([np.cos(angles), np.sin(angles), 0.0 * angles])
         )
         states = (later[:, None] + ring.T).reshape(-1, 3)
-        best = self._starts(states).max(axis=0).reshape(len(found), -1)
-        value: Array = np.minimum(found, best.min(axis=1))
-        return value
+        best = self._starts(states).max(axis=0).reshape(len(poses), -1)
+        worst: Array = best.min(axis=1)
+        return worst
 
     def halting_value(self, poses: ArrayLike, duration: float) -> float:
         """Return the guaranteed distance of a robot that halts.
