@@ -21,7 +21,8 @@ from stepaside.locomotion.walk_snapshots import Phase
 from stepaside.report.viewer import live_session as live
 from stepaside.report.viewer import plot_history as trails
 from stepaside.report.viewer import run_saving as saving
-from stepaside.report.viewer.live_session import LiveMatch, LiveSession
+from stepaside.report.viewer.live_match import LiveMatch
+from stepaside.report.viewer.live_session import LiveSession
 from stepaside.report.viewer.status_text import outlook, status_text
 from stepaside.strategies.teleoperation import TURN, TeleoperatedPursuit
 

@@ -35,7 +35,8 @@ from stepaside.games.walker import SimulatedPlayer
 from stepaside.report.replay_page import write_page
 from stepaside.report.scene import RunScene
 from stepaside.report.text_escaping import visible
-from stepaside.report.viewer.live_session import LiveMatch, LiveSession
+from stepaside.report.viewer.live_match import LiveMatch
+from stepaside.report.viewer.live_session import LiveSession
 
 SLOW = 0.02  # speed at which a sight of some seconds lasts for minutes
 

@@ -11,7 +11,8 @@ from ...games.duel_settings import PLAYERS, PURSUER, DuelSettings
 from ...games.match import Match
 from ...games.walker import RobotPlayer
 from ...strategies import Strategy, TeleoperatedPursuit
-from .live_session import LiveSession, LiveSettings, safety_radii
+from .live_match import LiveSettings, safety_radii
+from .live_session import LiveSession
 from .scoreboard import Scoreboard
 
 DIRECTIONS = {"left": 90, "right": -90, "forward": 0, "backward": 180}  # [deg]

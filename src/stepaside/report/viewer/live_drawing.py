@@ -6,7 +6,8 @@ from ...core.poses import Array, Pose
 from ...games.pair_match import PairMatch
 from ...locomotion.walk_snapshots import WalkState
 from ..figure_style import EVADER, PURSUER, PUSHED, THEORY
-from .live_session import LiveSession, safety_radii
+from .live_match import safety_radii
+from .live_session import LiveSession
 from .plot_history import Footprint
 from .scene_layers import (
     HEIGHTS,

@@ -14,7 +14,6 @@ from ...core.errors import StepAsideError
 from ...games.duel_settings import EVADER, PLAYERS, DuelSettings
 from ...games.game_settings import GameSettings
 from ...games.match import MatchObserver
-from ...games.strategy_resolution import EVASION
 from ..palette import THEMES
 from ..text_escaping import for_markdown
 from .camera_panel import CameraPanel
@@ -24,7 +23,14 @@ from .drive_panel import DrivePanel, add_push, named
 from .duel_panel import DuelPanel
 from .game_panel import GamePanel
 from .live_drawing import draw_session
-from .live_session import LiveSession, LiveSettings, LiveSnapshot, room_of
+from .live_match import (
+    LiveSettings,
+    has_cameras,
+    room_of,
+    stage_of,
+    trigger_distance,
+)
+from .live_session import LiveSession, LiveSnapshot
 from .page_layout import arrange_panels
 from .page_server import open_server
 from .plot_history import MAX_POSES, PERIOD, BodyPoses
@@ -412,36 +418,3 @@ class Page:
             theory=session.theory,
             settling=session.settling,
         )
-
-
-def trigger_distance(settings: DuelSettings) -> float:
-    """Return the distance at which the evader begins to move, in [m].
-
-    Infinite for strategies that do not wait for a distance.
-    """
-    if settings.evader_strategy != EVASION:
-        return inf
-    if settings.pursuer == "person":
-        return settings.strategy.begins_at(settings.person.speed)
-    speed = settings.gait.stride / settings.gait.step_duration
-    return settings.strategy.begins_at(speed)
-
-
-def has_cameras(settings: LiveSettings) -> bool:
-    """Return whether players of a game see by cameras."""
-    if isinstance(settings, GameSettings):
-        return bool(settings.sensing_by("cameras"))
-    return settings.sensing == "cameras"
-
-
-def stage_of(settings: LiveSettings) -> tuple[Any, ...]:
-    """Return what decides which bodies a game has."""
-    if isinstance(settings, GameSettings):
-        return ()  # those of its file, whatever the seed
-    return (
-        settings.room,
-        settings.pursuer,
-        settings.person.figure,
-        settings.passers,
-        *(settings.robot_of(player).robot for player in PLAYERS),
-    )

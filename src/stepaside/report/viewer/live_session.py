@@ -3,30 +3,31 @@
 import logging
 import threading
 from collections import deque
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
-from math import degrees, nan
+from math import nan
 from pathlib import Path
 from time import perf_counter, sleep
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
-from ...arena import Room
-from ...core.errors import ConfigurationError, StepAsideError
-from ...core.player_identity import PlayerIdentity, Role
+from ...core.errors import StepAsideError
+from ...core.player_identity import Role
 from ...core.poses import Array
 from ...games.approach_forecast import CourseApproach
 from ...games.duel import Duel
-from ...games.duel_circle import circle_of_theory
-from ...games.duel_settings import EVADER, PLAYERS, DuelSettings
-from ...games.game_match import GameMatch
-from ...games.game_settings import GameSettings
 from ...games.match import MatchObserver
 from ...games.outcome import Outcome
 from ...games.player import Snapshot
 from ...locomotion.walk_snapshots import Phase
 from ...sim.push import Push
 from ..figure_style import colours_of
-from ..settling_report import settling_time
+from .live_match import (
+    LiveMatch,
+    LiveSettings,
+    identities_of,
+    open_match,
+    predict,
+)
 from .plot_history import PlotHistory
 from .run_saving import LiveRecording, RunSaver
 from .status_text import phases_of
@@ -37,37 +38,6 @@ if TYPE_CHECKING:
 LOG = logging.getLogger(__name__)
 MAX_COMMANDS = 10_000  # of teleoperation that are recorded
 MAX_DELAY = 0.25  # beyond which lost time is not caught up, in [s]
-LiveSettings = DuelSettings | GameSettings
-LiveMatch = Duel | GameMatch
-
-
-class LiveTheory(NamedTuple):
-    """Predictions of the theory for a game; each None if it has none.
-
-    Attributes:
-        circle: Distance [m] and angle between headings [deg] on the circle.
-        radius: Radius of the evader's circle, in [m].
-        settling: Time constant of the approach to the circle, in [s].
-    """
-
-    circle: tuple[float, float] | None
-    radius: float | None
-    settling: float | None
-
-
-def predict(settings: LiveSettings) -> LiveTheory:
-    """Return the predictions of the theory for some settings.
-
-    Args:
-        settings: Settings; only a duel has a theory here.
-    """
-    if isinstance(settings, GameSettings):
-        return LiveTheory(None, None, None)
-    circle, settling = circle_of_theory(settings), settling_time(settings)
-    if not circle.exists:
-        return LiveTheory(None, None, settling)
-    values = circle.distance_m, degrees(circle.headings_apart_rad)
-    return LiveTheory(values, circle.radius_evader_m, settling)
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,55 +69,6 @@ class LiveSnapshot:
     angle: float
     approach: CourseApproach | None
     message: str
-
-
-def room_of(settings: LiveSettings) -> Room | None:
-    """Return the room of a game; None for an open floor."""
-    if isinstance(settings, GameSettings):
-        return settings.room
-    return settings.room.plan
-
-
-def safety_radii(settings: LiveSettings) -> dict[str, float]:
-    """Return the safety radius of each player that has one, in [m]."""
-    if isinstance(settings, DuelSettings):
-        return {EVADER: settings.strategy.area}
-    return settings.safety_radii
-
-
-def identities_of(settings: LiveSettings) -> Mapping[str, PlayerIdentity]:
-    """Return the identities of the players, by name."""
-    if isinstance(settings, GameSettings):
-        return settings.identities
-    return {name: PlayerIdentity(name, Role(name), name) for name in PLAYERS}
-
-
-def open_match(
-    settings: LiveSettings,
-    trail: PlotHistory,
-    others: tuple[MatchObserver, ...] = (),
-) -> LiveMatch:
-    """Return a game for a page, whose record is bounded.
-
-    Args:
-        settings: Settings of the game.
-        trail: Its recent history.
-        others: Further observers of the game.
-
-    Raises:
-        ConfigurationError: If it is no game in physics.
-        StepAsideError: If the settings are invalid.
-    """
-    observers: tuple[MatchObserver, ...] = (trail, LiveRecording(), *others)
-    if isinstance(settings, DuelSettings):
-        return Duel(settings, observers, recorded=False, rendered=True)
-    if settings.level != "physics":
-        raise ConfigurationError(
-            "level must be physics for a live page, got "
-            f"{settings.level!r}; `stepaside game` plays it, and `stepaside "
-            "replay` shows the run"
-        )
-    return GameMatch(settings, observers, recorded=False, rendered=True)
 
 
 class LiveSession:
@@ -229,7 +150,8 @@ class LiveSession:
     def _begin(self, settings: LiveSettings) -> None:
         # A live game has no end, so that its history is bounded.
         trail = PlotHistory()
-        match = open_match(settings, trail, self._observers)
+        recorders: tuple[MatchObserver, ...] = trail, LiveRecording()
+        match = open_match(settings, recorders + self._observers)
         self._close_match()
         self._open = match
         self.match = match
