@@ -2,12 +2,14 @@
 
 The stubs have the published names and arguments: Booster's of
 ``booster-robotics-sdk-python`` 1.6, Unitree's of ``unitree_sdk2_python``.
-Where Booster's package is installed, its real types are compared.
+Where Booster's package or ``unitree-sdk2py-dimos``, which packs Unitree's, is
+installed, its real types are compared.
 """
 
 import sys
 from collections.abc import Callable
-from inspect import getmembers, isfunction
+from importlib import import_module
+from inspect import getmembers, isfunction, signature
 from pathlib import Path
 from time import monotonic, sleep
 from types import ModuleType, SimpleNamespace
@@ -258,6 +260,27 @@ def test_a_unitree_walks_by_velocities_that_time_out(
     ) in CALLS
     assert CALLS[-2:] == [("SetVelocity", 0.0, 0.0, 0.0, 0.6), ("Close",)]
     assert not adapter("Unitree").keeps_walking
+
+
+@pytest.mark.parametrize("model", ["g1", "h1"])
+def test_calls_and_state_of_unitrees_own_sdk_fit(model: str) -> None:
+    pytest.importorskip("unitree_sdk2py")
+    client = import_module(f"unitree_sdk2py.{model}.loco.{model}_loco_client")
+    ours = signature(LocoClient.SetVelocity)
+    theirs = signature(client.LocoClient.SetVelocity)
+    assert list(theirs.parameters) == list(ours.parameters)
+    for name in ("Init", "SetTimeout", "Start"):
+        assert callable(getattr(client.LocoClient, name))
+    from unitree_sdk2py.idl.default import (
+        unitree_go_msg_dds__SportModeState_ as make_state,
+    )
+
+    state = make_state()
+    state.stamp.sec, state.stamp.nanosec = 7, 250_000_000
+    state.position[:2], state.imu_state.rpy[2] = [1.0, 2.0], 0.3
+    robot: Any = adapter("Unitree")()
+    robot.note(state)
+    assert robot.listen() == (7.25, Pose(1.0, 2.0, 0.3), None, "")
 
 
 def test_an_error_code_of_a_unitree_ends_the_session(
