@@ -195,7 +195,7 @@ def test_it_stops_when_its_network_fails_and_walks_on_afterwards(
     until(walker.moves)
     play.send_signal(signal.SIGINT)
     said = play.communicate(timeout=LONGEST)[1]
-    assert play.returncode == 0 and "no odometry for" in said
+    assert play.returncode == 0 and "no reports of listen() for" in said
     assert not walker.moves()
 
 
@@ -212,6 +212,70 @@ def test_a_robot_with_a_camera_walks_while_it_sees_its_opponent(
     play.send_signal(signal.SIGINT)
     said = play.communicate(timeout=LONGEST)[1]
     assert play.returncode == 0 and "image() returned no new image" in said
+
+
+FAULTY = """
+import os
+from math import degrees, nan
+from time import monotonic, sleep
+
+from walker_robot import WalkerRobot
+
+class FaultyRobot(WalkerRobot):
+    began = None
+
+    def listen(self):
+        report = super().listen()
+        self.began = self.began or monotonic()
+        if report is None or monotonic() < self.began + 3.0:
+            return report
+        self.kept = getattr(self, "kept", report)
+        x, y, heading = report.pose
+        fault = os.environ["FAULT"]
+        if fault == "degrees":
+            return report._replace(pose=report.pose._replace(theta=200.0))
+        if fault == "nan":
+            return report._replace(pose=report.pose._replace(x=nan))
+        if fault == "stale":
+            return self.kept
+        if fault == "ahead":
+            return report._replace(time=1.5 * report.time)
+        sleep(3.0)
+"""
+
+
+@pytest.mark.parametrize(
+    ("fault", "reason"),
+    [
+        (
+            "degrees",
+            "listen(): the heading must lie in [-pi, pi] rad, got 200",
+        ),
+        ("nan", "listen(): time and pose must be finite"),
+        ("stale", "no reports of listen() for 0."),
+        ("ahead", "reports of listen(): "),
+        ("blocks", "listen() of FaultyRobot has not returned for 0."),
+    ],
+)
+def test_a_fault_of_listen_stops_the_robot_and_is_named(
+    fault: str,
+    reason: str,
+    start: Callable[..., Any],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    file = tmp_path / "faulty.py"
+    file.write_text(FAULTY, encoding="utf-8")
+    monkeypatch.setenv("FAULT", fault)
+    path = [str(ADAPTERS), os.environ.get("PYTHONPATH", "")]
+    monkeypatch.setenv("PYTHONPATH", os.pathsep.join(filter(None, path)))
+    walker = start()
+    play = start(of=walker, robot=f"{file}:FaultyRobot")
+    until(walker.moves)
+    until(lambda: not walker.moves())
+    play.send_signal(signal.SIGINT)
+    said = play.communicate(timeout=LONGEST)[1]
+    assert reason in said
 
 
 def test_a_robot_that_is_not_there_is_reported(

@@ -65,7 +65,10 @@ def open_velocity(
         _held(_guarded(ways, connection), connection),
         lambda: TemplateController(strategy, settings.gait, limits.velocities),
         limits,
-        WatchSettings(paced=not connection.sim_time),
+        WatchSettings(
+            paced=not connection.sim_time,
+            source="odometry" if make is None else "reports of listen()",
+        ),
         dry_run=connection.dry_run,
     )
 

@@ -9,7 +9,6 @@ from ..sighting_checks import sighting_fault
 from .velocity_body import VelocityReport
 
 DRIFT = 0.02  # relative difference of two clocks' rates at most
-NO_REPORT = "no odometry received yet"
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,6 +25,7 @@ class WatchSettings:
             simulator may pause or run faster.
         forsaken: Time without odometry after which the session ends, in
             [s].
+        source: What the reports are, for messages.
     """
 
     silence: float = 0.25
@@ -34,6 +34,7 @@ class WatchSettings:
     warm_up: int = 3
     paced: bool = True
     forsaken: float = 10.0
+    source: str = "odometry"
 
     def __post_init__(self) -> None:
         """Validate the thresholds."""
@@ -62,7 +63,8 @@ class Watchdog:
         self._arrived = 0.0
         self._lead = 0.0
         self._good = 0
-        self._verdict = NO_REPORT
+        self._none = f"no {settings.source} received yet"
+        self._verdict = self._none
         self._began: float | None = None
         self.silent = 0.0
 
@@ -84,12 +86,12 @@ class Watchdog:
         self._arrived, self.silent = now, 0.0
         if fault:
             self._good, self._stamp, self._lead = 0, None, 0.0
-            self._verdict = fault
-            return fault
+            self._verdict = report.hindrance or fault
+            return self._verdict
         self._stamp = report.time
         self._good += 1
         if self._good < self._settings.warm_up:
-            self._verdict = "waiting for more odometry"
+            self._verdict = f"waiting for more {self._settings.source}"
         else:
             self._verdict = report.hindrance or self._sighting_fault(
                 report.sighting, report.time
@@ -100,25 +102,29 @@ class Watchdog:
         self.silent = now - self._arrived
         if self._settings.paced and self.silent > self._settings.silence:
             self._good, self._stamp = 0, None
-            if self._verdict != NO_REPORT:
-                self._verdict = f"no odometry for {self.silent:.2f} s"
+            if self._verdict != self._none:
+                self._verdict = (
+                    f"no {self._settings.source} for {self.silent:.2f} s"
+                )
         return self._verdict
 
     def _fault(self, report: VelocityReport, now: float) -> str:
         """Return why the odometry is invalid; empty if it is valid."""
         if not all(isfinite(v) for v in (report.time, *report.pose)):
-            return "odometry contains NaN or inf"
+            return f"{self._settings.source}: NaN or inf"
         if self._stamp is None:
             return ""
         passed = report.time - self._stamp
         if passed < 0.0:
-            return f"odometry went back in time by {-passed:.3f} s"
+            source = self._settings.source
+            return f"{source}: went back in time by {-passed:.3f} s"
         if not self._settings.paced:
             return ""
         gone = (now - self._arrived) * (1.0 + DRIFT)
         self._lead = max(0.0, self._lead + passed - gone)
         if self._lead > self._settings.lead:
-            return f"odometry is {self._lead:.3f} s ahead of the clock"
+            source = self._settings.source
+            return f"{source}: {self._lead:.3f} s ahead of the clock"
         return ""
 
     def _sighting_fault(self, sighting: Sighting | None, now: float) -> str:
