@@ -99,6 +99,7 @@ def main() -> None:
     """Play, and write the results."""
     asked = ask(__doc__, "open-floor.json")
     asked.add_argument("--seeds", type=seeds_of, default=range(20))
+    asked.add_argument("--pursuers", nargs="+", default=PURSUERS)
     asked.add_argument("--workers", type=int)
     arguments = asked.parse_args()
     seeds = arguments.seeds
@@ -114,13 +115,13 @@ def main() -> None:
     )
     jobs = {
         f"{pursuer}-{evader}-{seed}": OpenGame(evader, pursuer, seed)
-        for pursuer in PURSUERS
+        for pursuer in arguments.pursuers
         for evader in EVADERS
         for seed in seeds
     }
     games = gather(arguments.output, head, jobs, play, arguments.workers)
     rows = []
-    for pursuer in PURSUERS:
+    for pursuer in arguments.pursuers:
         ratio = speed_ratio_of(pursuer)
         values = {seed: value_of(seed, ratio) for seed in seeds}
         for evader in EVADERS:

@@ -133,7 +133,7 @@ def ladder(result: Result) -> str:
     return table(head, rows)
 
 
-def open_floor(result: Result) -> str:
+def open_floor(*results: Result) -> str:
     """List survival on an open floor by the value of two cars."""
     head = (
         *("pursuer", "evader", "starts that must be survived", "survived"),
@@ -148,6 +148,7 @@ def open_floor(result: Result) -> str:
             str(row["open"]),
             _of(row["open_survived"], row["open"]),
         )
+        for result in results
         for row in result["rows"]
     ]
     return table(head, rows)
