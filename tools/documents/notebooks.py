@@ -25,6 +25,7 @@ TUTORIALS = ROOT / "docs" / "tutorials"
 MODULES = "# modules: "  # line of a script: where the code it runs begins
 TIMEOUT = 900  # of a cell, in [s]
 PNG = "image/png"
+OBJECT = "<matplotlib."  # beginning of what such an object shows
 KEY = "stepaside"  # of our entry in a notebook's metadata
 
 
@@ -140,10 +141,15 @@ def _tidy(cells: Iterable[Any]) -> None:
 
 
 def _joined(outputs: Iterable[Any]) -> list[Any]:
-    """Join what was printed in pieces, and leave out standard error."""
+    """Join what was printed in pieces.
+
+    Standard error and objects of Matplotlib, which only have an address, are
+    left out.
+    """
     joined: list[Any] = []
     for output in outputs:
-        if output.get("name") == "stderr":
+        shown = output.get("data", {}).get("text/plain", "")
+        if output.get("name") == "stderr" or shown.startswith(OBJECT):
             continue
         if joined and output.get("name") == joined[-1].get("name", "none"):
             joined[-1]["text"] += output["text"]
