@@ -316,6 +316,13 @@ def test_every_figure_of_survival_names_the_pursuer(page: str) -> None:
     assert seen
 
 
+def test_starts_that_must_be_survived_stand_beside_the_others() -> None:
+    row = {"pursuer": "sharp", "evader": "robust", "sure": 7, "open": 0}
+    row |= {"sure_survived": 6, "open_survived": 0}
+    made = TABLES["open-floor"]({"rows": [row]}, {"rows": [row]}).splitlines()
+    assert made[2] == made[3] == "| sharp | robust | 7 | 6 | 0 | - |"
+
+
 def test_opponents_stand_beside_circle_capture_and_interval() -> None:
     row = {
         **{"pursuer": "pure-x2.8", "games": 50, "survived": 0.5},
