@@ -80,11 +80,14 @@ def test_obligation_depends_on_the_course_of_the_person() -> None:
     assert memory.guarded and not intent.walks
 
 
-def test_person_beyond_every_robot_changes_nothing() -> None:
+def test_person_beyond_every_robot_changes_nothing(
+    caplog: pytest.LogCaptureFixture,
+) -> None:
     """Where contact can be forced from everywhere, the strategy decides."""
     faster = replace(PERSON, speed=1.4, turning_radius=0.5)
     strategy = ShieldedStrategy(StandStill(), faster)
     assert not any(intent.walks for intent in approach(strategy, 1.2))
+    assert "no state is certified" in caplog.text
 
 
 @dataclass(frozen=True)
