@@ -98,6 +98,7 @@ class DashEvasion(BackwardStrategy):
         horizon: Duration of a rollout, in [s].
         directions: Number of directions of dashes.
         effort: Gain for which a robot walks instead of standing, in [m].
+        change: Half the gain for which the opposite dash is better, in [m].
     """
 
     turning_radius: float = inf
@@ -107,6 +108,7 @@ class DashEvasion(BackwardStrategy):
     horizon: float = 6.0
     directions: int = 24
     effort: float = EFFORT
+    change: float = CHANGE
 
     def __post_init__(self) -> None:
         """Validate the settings."""
@@ -120,6 +122,7 @@ class DashEvasion(BackwardStrategy):
         check_within(self.horizon, 0.5, 20.0, "horizon", "s", error)
         check_within(self.directions, 4, 360, "directions", "1", error)
         check_not_negative(self.effort, "effort", "m", error)
+        check_not_negative(self.change, "change", "m", error)
 
     def begin(self) -> DashMemory:
         """Return the memory before the first sighting."""
@@ -204,11 +207,28 @@ class DashEvasion(BackwardStrategy):
         dashes = make_dashes(self.directions, pose, velocities, LATER)
         paths = roll_out(pose, velocity, dashes, velocities, self.horizon)
         value = self._values(paths, opponent)
-        value = value + _bonus(dashes, present, self.effort)
+        value = value + self._bonus(dashes, present)
         best = int(np.argmax(value))
         if dashes.begins[best] > 0.0:
             return None, pose.theta
         return float(dashes.angles[best]), float(dashes.headings[best])
+
+    def _bonus(self, dashes: Dashes, present: float | None) -> Array:
+        """Return the value in [m] that prevents changes of little use.
+
+        Args:
+            dashes: Dashes, and standing.
+            present: Angle of the present dash; None while the robot stands.
+        """
+        begins = dashes.begins
+        bonus: Array = np.where(np.isinf(begins), self.effort, 0.0)
+        if present is None:
+            return np.where(
+                np.isinf(begins) | (begins == 0.0), bonus, 0.5 * self.effort
+            )
+        changes = self.change * (np.cos(dashes.angles - present) - 1.0)
+        waits = np.where(begins > 0.0, EFFORT, 0.0)
+        return np.where(np.isinf(begins), bonus, changes - waits)
 
     def _values(self, paths: Array, opponent: Opponent) -> Array:
         """Return the value of each dash, in [m]. Shape (n,).
@@ -244,25 +264,6 @@ class DashEvasion(BackwardStrategy):
             speed if speed > STILL_OPPONENT else 0.0,
             self.turning_radius,
         )
-
-
-def _bonus(dashes: Dashes, present: float | None, effort: float) -> Array:
-    """Return the value in [m] that prevents changes of little use.
-
-    Args:
-        dashes: Dashes, and standing.
-        present: Angle of the present dash; None while the robot stands.
-        effort: Gain for which it walks instead of standing, in [m].
-    """
-    begins = dashes.begins
-    bonus: Array = np.where(np.isinf(begins), effort, 0.0)
-    if present is None:
-        return np.where(
-            np.isinf(begins) | (begins == 0.0), bonus, 0.5 * effort
-        )
-    changes = CHANGE * (np.cos(dashes.angles - present) - 1.0)
-    waits = np.where(begins > 0.0, EFFORT, 0.0)
-    return np.where(np.isinf(begins), bonus, changes - waits)
 
 
 def _note(

@@ -26,11 +26,16 @@ from .strategy_validation import validate_strategy
 
 
 def _matador() -> Strategy:
-    """Return the dash evader against a person who chases the robot."""
+    """Return the dash evader against a person who chases the robot.
+
+    A chaser comes back: there is nothing to gain by standing, and after a
+    feint the opposite direction is the better one.
+    """
     from .dash_evasion import CHASER_RADIUS, DashEvasion
 
-    # Whoever chases comes back: there is nothing to gain by standing.
-    return DashEvasion(CHASER_RADIUS, enough=inf, contact_time=6.0, effort=0.0)
+    return DashEvasion(
+        CHASER_RADIUS, enough=inf, contact_time=6.0, effort=0.0, change=0.1
+    )
 
 
 STRATEGIES: Mapping[str, Callable[[Evasion], Strategy]] = {
