@@ -174,6 +174,20 @@ class PoseGrid(NamedTuple):
         return x, y, theta
 
 
+class OutcomeRules(NamedTuple):
+    """How the outcome of a motion is read from the values after it.
+
+    Attributes:
+        grid: Grid of the values.
+        outside: Value outside the grid, in [m].
+        sag: Deviation of the distance from that of chords, in [m].
+    """
+
+    grid: PoseGrid
+    outside: float
+    sag: float
+
+
 def mirrored(values: Array) -> Array:
     """Return the values of mirrored poses, at nodes of a whole grid."""
     headings = -np.arange(values.shape[2]) % values.shape[2]

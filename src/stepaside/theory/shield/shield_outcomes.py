@@ -4,7 +4,7 @@ from math import cos, sin, sqrt, tau
 from typing import Any
 
 from ...core.compilation import compiled, inlined
-from .shield_game import PoseGrid
+from .shield_game import OutcomeRules, PoseGrid
 
 
 @inlined
@@ -42,9 +42,7 @@ def outcome_of(
     pose: tuple[float, float, float],
     motion: Any,
     walk: Any,
-    sag: float,
-    grid: PoseGrid,
-    outside: float,
+    rules: OutcomeRules,
 ) -> float:
     """Return least distance on the way and value after it.
 
@@ -53,9 +51,7 @@ def outcome_of(
         pose: Pose of the robot in the frame of the person.
         motion: Poses in the initial frame of the robot. Shape (parts, 3).
         walk: Poses of the person in its initial frame. Shape (parts, 3).
-        sag: Deviation of the distance from that of chords, in [m].
-        grid: Grid of the values.
-        outside: Value outside the grid.
+        rules: Grid of the values, and how the distance is reckoned.
     """
     x, y, theta = pose
     c, s = cos(theta), sin(theta)
@@ -77,10 +73,10 @@ def outcome_of(
         c * px + s * py,
         c * py - s * px,
         theta + motion[len(motion) - 1, 2] - turned,
-        grid,
-        outside,
+        rules.grid,
+        rules.outside,
     )
-    return min(after, sqrt(least) - sag)
+    return min(after, sqrt(least) - rules.sag)
 
 
 @inlined
@@ -91,21 +87,19 @@ def worst_walk(
     walks: Any,
     first: int,
     floor: float,
-    sag: float,
-    grid: PoseGrid,
-    outside: float,
+    rules: OutcomeRules,
 ) -> tuple[float, int]:
     """Return the worst outcome over the person's walks, and its number.
 
     The search ends where the outcome is at most ``floor``; the walk
     ``first`` is tried first.
     """
-    worst = outcome_of(v, pose, motion, walks[first], sag, grid, outside)
+    worst = outcome_of(v, pose, motion, walks[first], rules)
     at = first
     for m in range(len(walks)):
         if worst <= floor:
             break
-        found = outcome_of(v, pose, motion, walks[m], sag, grid, outside)
+        found = outcome_of(v, pose, motion, walks[m], rules)
         if found < worst:
             worst, at = found, m
     return worst, at
@@ -117,18 +111,14 @@ def evaluate_motions(
     poses: Any,
     motions: Any,
     walks: Any,
-    sag: float,
-    grid: PoseGrid,
-    outside: float,
+    rules: OutcomeRules,
     out: Any,
 ) -> None:
     """Lower ``out`` to the worst outcome of each motion from all poses."""
     for n in range(len(poses)):
         pose = (poses[n, 0], poses[n, 1], poses[n, 2])
         for k in range(len(motions)):
-            found, _ = worst_walk(
-                v, pose, motions[k], walks, 0, -1.0, sag, grid, outside
-            )
+            found, _ = worst_walk(v, pose, motions[k], walks, 0, -1.0, rules)
             out[k] = min(out[k], found)
 
 

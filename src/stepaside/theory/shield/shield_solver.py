@@ -27,6 +27,7 @@ from .shield_game import (
     CELLS,
     SEGMENTS,
     Array,
+    OutcomeRules,
     PoseGrid,
     ShieldGame,
     mirrored,
@@ -53,9 +54,7 @@ def relax_shield(
     active: Any,
     motions: Any,
     walks: Any,
-    sag: float,
-    grid: PoseGrid,
-    outside: float,
+    rules: OutcomeRules,
 ) -> float:
     """Lower the values by one period; return the greatest change.
 
@@ -68,11 +67,9 @@ def relax_shield(
             change. Output: whether they did. Shape ``grid.shape[:2]``.
         motions: Motions of the robot. Shape (n, parts, 3).
         walks: Walks of the person. Shape (m, parts, 3).
-        sag: Deviation of the distance from that of chords, in [m].
-        grid: Grid of the values.
-        outside: Value outside the grid.
+        rules: Grid of the values, and how the distance is reckoned.
     """
-    change = 0.0
+    grid, change = rules.grid, 0.0
     for i in range(grid.shape[0]):
         x = grid.left + grid.spacing * i
         for j in range(grid.shape[1]):
@@ -88,7 +85,7 @@ def relax_shield(
                     number = kept if n < 0 else n
                     found, at = worst_walk(
                         eroded, pose, motions[number], walks, answer, best,
-                        sag, grid, outside,
+                        rules,
                     )  # fmt: skip
                     if found > best:
                         best = found
@@ -247,13 +244,13 @@ def _converge_shield(
     walks, sag = game.person.walks(game.period), game.sag(game.period)
     guesses = np.zeros((*grid.shape, 2), dtype=np.int64)
     changed, outside = (v < most).any(axis=2), SAFE * least
+    rules = OutcomeRules(grid, outside, sag)
     for _ in range(MOST):
         eroded = eroded_values(v, grid, game.disturbance)
         active = _near(changed, ceil(layer / grid.spacing) + 2)
         change = relax_shield(
-            v, eroded, guesses, active, game.motions, walks, sag, grid,
-            outside,
-        )  # fmt: skip
+            v, eroded, guesses, active, game.motions, walks, rules
+        )
         changed = active
         if _edge(v, layer, grid) < least:
             return v, eroded, 0.0
@@ -296,11 +293,9 @@ class _Backup:
         found = np.full(grid.shape, self.most)
         guesses = np.zeros((*grid.shape, 2), dtype=np.int64)
         near = _near((values < self.most).any(axis=2), self.reach)
-        walks, sag = self.game.person.walks(duration), self.game.sag(duration)
-        relax_shield(
-            found, values, guesses, near, motions, walks, sag, grid,
-            self.outside,
-        )  # fmt: skip
+        walks = self.game.person.walks(duration)
+        rules = OutcomeRules(grid, self.outside, self.game.sag(duration))
+        relax_shield(found, values, guesses, near, motions, walks, rules)
         return found
 
     def stand(

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from ...core.brief_repr import brief_repr
 from .shield_erosion import eroded_values
-from .shield_game import SEGMENTS, Array, PoseGrid, ShieldGame
+from .shield_game import SEGMENTS, Array, OutcomeRules, PoseGrid, ShieldGame
 from .shield_outcomes import evaluate_motions, look_up_all
 
 NEAR = 1.1  # value over that outside, from which starts are not looked at
@@ -220,9 +220,9 @@ class ShieldTable:
             np.atleast_2d(np.asarray(poses, dtype=np.float64)),
             motions,
             self.game.person.walks(duration),
-            self.game.sag(duration) + loss,
-            self.grid,
-            self.outside,
+            OutcomeRules(
+                self.grid, self.outside, self.game.sag(duration) + loss
+            ),
             found,
         )
         return found
