@@ -204,3 +204,23 @@ def test_legs_hold_a_velocity_over_the_floor_while_they_turn() -> None:
                 rate,
             )
             assert np.allclose(legs.nearest(velocity), velocity)
+
+
+def test_walking_robot_far_from_a_person_may_halt() -> None:
+    strategy, intents = ShieldedStrategy(StandStill(), PERSON), []
+    memory = strategy.begin()
+    for i in range(3):
+        distance = 10.0 - 0.5 * SPEED * i
+        knowledge = known(0.5 * i, distance, moving=True)
+        intent, memory = strategy.decide(knowledge, memory)
+        intents.append(intent)
+    assert memory.guarded and not any(intent.walks for intent in intents)
+
+
+def test_person_is_known_after_a_halt_in_which_nothing_is_decided() -> None:
+    strategy = ShieldedStrategy(StandStill(), PERSON)
+    memory = strategy.begin()
+    for time in (0.0, 0.5, 3.1):  # longer than a step and 1 s
+        knowledge = known(time, 3.0 - SPEED * time, moving=time < 1.0)
+        _, memory = strategy.decide(knowledge, memory)
+    assert memory.course is not None and memory.guarded

@@ -68,3 +68,13 @@ def test_heading_of_a_person_who_stands_is_less_and_less_known() -> None:
     assert len(headings) % 2 == 1 and len(headings) > 3
     assert headings[0] == pytest.approx(course.heading - course.error)
     assert headings[-1] == pytest.approx(course.heading + course.error)
+
+
+def test_heading_is_known_after_a_time_without_sightings() -> None:
+    """A robot that halts sees nothing: the person may have turned."""
+    before = Course(1.0, 0.4, 0.1)
+    course = observed_course(before, ((3.0, 0.0, 0.0),), 0.3, (0.2, 0.0), 0.05)
+    assert course is not None and course.heading == 0.4
+    assert course.error == pytest.approx(0.1 + 0.2 * 2.0)
+    long = observed_course(before, ((99.0, 0.0, 0.0),), 0.3, (0.2, 0.0), 0.05)
+    assert long is not None and long.error == pi

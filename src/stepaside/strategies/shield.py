@@ -105,7 +105,9 @@ class ShieldedStrategy:
         intent, inner = decided
         intent = replace(intent, pace=1.0)  # walkers change theirs slowly
         model = self.model_for(knowledge)
-        trace = _with_sighting(memory.trace, knowledge, TRACE * model.window)
+        # No decision is taken while the robot halts.
+        kept = TRACE * model.window + model.halting
+        trace = _with_sighting(memory.trace, knowledge, kept)
         begins = knowledge.step_start_in_map or knowledge.pose_in_map
         template = _template(model, memory, knowledge)
         own = begins
@@ -156,8 +158,7 @@ class ShieldedStrategy:
             motion, duration = model.motion_of(intent)
             value = float(follow(poses, motion[None], duration)[0])
         elif moving:
-            value = table.halting_value(poses, model.halting)
-            value -= model.limits.stride
+            value = self._halting_value(own, model, memory)
         else:
             value = float(table.standing_value(poses).min())
         if value >= required:
@@ -187,6 +188,25 @@ class ShieldedStrategy:
             held = HeldMotion(best, own.theta, until)
         return _intent_of(held, model, own), memory._replace(
             held=held, replaced=memory.replaced + 1, guarded=guarded
+        )
+
+    def _halting_value(
+        self, own: Pose, model: ShieldModel, memory: ShieldMemory
+    ) -> float:
+        """Return the guaranteed distance of a robot that halts, in [m].
+
+        Meanwhile no decision is taken, and the opponent may turn unseen.
+        """
+        course = memory.course
+        assert course is not None
+        turn = self.shield.speed / self.shield.turning_radius
+        error = min(pi, course.error + turn * model.halting)
+        return model.table().halting_value(
+            relative_poses(
+                own, memory.trace[-1], course._replace(error=error), model
+            ),
+            model.halting,
+            model.limits.stride,
         )
 
 

@@ -57,13 +57,16 @@ def observed_course(
         known: Error of a heading that counts as known, in [rad].
 
     Returns:
-        The heading; None until a window has passed.
+        The heading; None before a window has passed for the first time.
     """
     turn, sighting_error = person
     last = trace[-1]
+    turned = 0.0 if before is None else turn * max(0.0, last[0] - before.time)
     earlier = [row for row in trace if row[0] <= last[0] - window + 1e-6]
     if not earlier:
-        return None
+        if before is None:
+            return None
+        return Course(last[0], before.heading, min(pi, before.error + turned))
     time, x, y = earlier[-1]
     chord = hypot(last[1] - x, last[2] - y)
     error, hidden = pi, 2.0 * sighting_error
@@ -73,7 +76,6 @@ def observed_course(
     direction = atan2(last[2] - y, last[1] - x)
     if before is None:
         return Course(last[0], direction, error)
-    turned = turn * max(0.0, last[0] - before.time)
     if error > before.error + turned:  # the chord shows less than is known
         return Course(last[0], before.heading, before.error + turned)
     off = (direction - before.heading + pi) % tau - pi

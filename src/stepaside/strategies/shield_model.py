@@ -35,7 +35,7 @@ SWAY = 0.03  # of a body on the paper's legs, in [m]
 UNMEASURED = 0.2  # tube of legs beyond their lag, if not measured, in [m]
 CELLS_PER_PERIOD = 6  # passed by the opponent while a motion is held
 TURNS = (-1.0, -0.5, 0.0, 0.5, 1.0)  # of a unicycle's step, of the largest
-FORMAT = 4  # of the files
+FORMAT = 5  # of the files
 
 
 class Motion(NamedTuple):

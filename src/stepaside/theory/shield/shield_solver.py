@@ -148,7 +148,7 @@ def solve_shield(
             stood, began = _standing(
                 game, cover, lowest, beyond, response, wait
             )
-            most = game.person.speed * wait
+            most = _approach(game, wait, cover) + game.loss_in(wait)
             if _edge(stood, most, cover) >= least:
                 grid, v, eroded, standing = cover, found, lowest, stood
                 starts, outside = began, beyond
@@ -176,11 +176,16 @@ def _layer(game: ShieldGame, stands: float, grid: PoseGrid) -> float:
     A turn of the person moves far states by more than near ones. Before a
     motion the robot may stand for a time, in [s].
     """
+    approach = _approach(game, game.period + stands, grid)
+    loss = game.disturbance + game.loss_in(stands)
+    return approach + game.speed * game.period + loss
+
+
+def _approach(game: ShieldGame, duration: float, grid: PoseGrid) -> float:
+    """Return how far the person moves a state at most in a time, in [m]."""
     person, (x, y, _) = game.person, grid.axes()
     far = sqrt(max(abs(x[0]), abs(x[-1])) ** 2 + y[-1] ** 2)
-    approach = (person.speed + person.turn * far) * (game.period + stands)
-    loss = game.disturbance + game.loss_in(stands)
-    return float(approach + game.speed * game.period + loss)
+    return float((person.speed + person.turn * far) * duration)
 
 
 def _cover(
@@ -256,6 +261,8 @@ def _converge_shield(
             return v, eroded, 0.0
         if change < STILL * most:
             break
+    else:  # values may still fall
+        return v, eroded, 0.0
     return v, eroded_values(v, grid, game.disturbance), outside
 
 

@@ -97,16 +97,33 @@ class ShieldTable:
         worst: Array = best.min(axis=1)
         return worst
 
-    def halting_value(self, poses: ArrayLike, duration: float) -> float:
+    def halting_value(
+        self, poses: ArrayLike, duration: float, reach: float = 0.0
+    ) -> float:
         """Return the guaranteed distance of a robot that halts.
 
         Args:
             poses: Poses of the robot in the frame of the person, of which the
                 worst counts. Shape (m, 3).
             duration: Time until it stands and decides again, in [s].
+            reach: Distance within which it comes to rest, in [m].
         """
         later, least = self._stood(poses, duration)
-        return min(least, float(self.standing_value(later).min()))
+        lost = reach + self.game.loss_in(duration)
+        found = self.standing_value(later) - lost
+        # No state within the loss is on the grid: all count as safe.
+        found[self._is_beyond(later, lost)] = self.outside
+        return min(least - lost, float(found.min()))
+
+    def _is_beyond(self, poses: Array, margin: float) -> Array:
+        """Return whether states are farther from the grid than a margin."""
+        x, y, _ = self.grid.axes()
+        beyond: Array = (
+            (poses[:, 0] < x[0] - margin)
+            | (poses[:, 0] > x[-1] + margin)
+            | (np.abs(poses[:, 1]) > y[-1] + margin)
+        )
+        return beyond
 
     def best_starts(self, poses: ArrayLike) -> Array:
         """Return the guaranteed distance of starts with each motion.
