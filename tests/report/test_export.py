@@ -223,6 +223,8 @@ def test_the_model_travels_with_the_bag_and_late_readers_get_it(
     model = mujoco.MjModel.from_xml_string(text.data)
     assert model.joint("HeadYaw").id >= 0
     assert (bag.folder / "pursuer.urdf").read_text() == text.data
+    evader = (bag.folder / "evader.urdf").read_text()
+    assert evader != text.data  # the accents have the colours of roles
     from rosbags.highlevel import AnyReader
     from rosbags.interfaces import ConnectionExtRosbag2, QosDurability
 

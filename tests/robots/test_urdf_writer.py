@@ -177,3 +177,11 @@ def test_a_ball_joint_is_refused(tmp_path: Path) -> None:
     robot = odd_robot(tmp_path, ball)
     with pytest.raises(ModelError, match="second' must be a hinge or a slide"):
         urdf_of(robot)
+
+
+def test_the_accent_of_a_robot_may_have_another_colour() -> None:
+    """As the pursuer's is red in recordings, and the evader's blue."""
+    plain = urdf_of(load_robot("nao"))
+    red = urdf_of(load_robot("nao"), (1.0, 0.0, 0.0, 1.0))
+    assert "rgb_255_0_0" in red and "rgb_255_0_0" not in plain
+    assert plain.count("<visual>") == red.count("<visual>")

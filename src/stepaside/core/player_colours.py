@@ -12,6 +12,7 @@ from .player_identity import PlayerIdentity, Role
 MIXES = (0.0, 0.38, -0.38, 0.6, -0.6, 0.2, -0.2, 0.5)
 MARKERS = ("o", "s", "^", "D", "v", "P", "X", "*", "<", ">")
 Rgb = tuple[float, float, float]
+Colour = tuple[float, float, float, float]  # red, green, blue, opacity
 
 
 def shade(colour: Rgb, number: int) -> Rgb:

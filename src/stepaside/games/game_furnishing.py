@@ -6,16 +6,17 @@ from typing import NamedTuple
 
 import mujoco
 
-from ..core.player_colours import Rgb, shades_of
+from ..core.player_colours import Colour, Rgb, shades_of
 from ..core.player_identity import Role
 from ..robots.description import load_robot
 from ..robots.head import load_head
 from ..sim.camera_settings import SceneSettings
 from ..sim.obstacle_geoms import add_solids, obstacle_mover
-from ..sim.pedestrian_appearance import FIGURES, Colour
+from ..sim.pedestrian_appearance import FIGURES
 from ..sim.person_body import add_person
 from ..sim.room_furnishing import Furnish, furnisher
 from ..sim.template_body import add_template
+from ..sim.world import COLOURS
 from .game_settings import GameSettings, PlayerSettings
 
 Mover = Callable[[float], None]  # moves bodies to where they are at a time [s]
@@ -39,6 +40,13 @@ def colours_in_world(settings: GameSettings) -> dict[str, Colour]:
         roles = {n: own.role for n, own in settings.identities.items()}
         shades |= {name: BASE[roles[name]] for name in settings.robots}
     return {name: (*colour, 1.0) for name, colour in shades.items()}
+
+
+def colours_of_players(settings: object) -> Mapping[str, Colour]:
+    """Return the colours of players by name, of settings of any game."""
+    if isinstance(settings, GameSettings):
+        return colours_in_world(settings)
+    return COLOURS
 
 
 class Scenery(NamedTuple):

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..core.brief_repr import brief_repr
 from ..core.errors import AnyPath, ModelError, as_path
+from ..core.player_colours import Colour
 from .description_file import read_entries
 from .description_types import NO_OVERLAY, Overlay, ReferencePoint, SensorNames
 
@@ -101,8 +102,12 @@ class RobotDescription:
         text: str = spec.to_xml()
         return text
 
-    def spec(self) -> mujoco.MjSpec:
+    def spec(self, colour: Colour | None = None) -> mujoco.MjSpec:
         """Return the editable MuJoCo model with its overlay.
+
+        Args:
+            colour: Colour of its accent, or of its torso, red to opacity; by
+                default that of the model.
 
         Raises:
             ModelError: If the file is not a model, or lacks a body or joint
@@ -129,17 +134,35 @@ class RobotDescription:
                 path=self.path,
                 mesh_folders=[self.path_of(x) for x in self.overlay.meshes],
             )
+        if colour is not None:
+            self._paint(spec, colour)
         return spec
 
-    def compile(self) -> mujoco.MjModel:
+    def _paint(self, spec: mujoco.MjSpec, colour: Colour) -> None:
+        """Set the colour of the accent of a model, or of its torso."""
+        if self.accent:
+            accent = spec.material(self.accent)
+            if accent is not None:
+                accent.rgba = colour
+            return
+        torso = spec.body(self.torso)
+        # A torso that is only a joint of others is coloured by their shapes.
+        shapes = torso.geoms or [g for c in torso.bodies for g in c.geoms]
+        for geom in shapes:
+            geom.material, geom.rgba = "", colour
+
+    def compile(self, colour: Colour | None = None) -> mujoco.MjModel:
         """Compile the model and check it against the description.
+
+        Args:
+            colour: As in :meth:`spec`.
 
         Raises:
             ModelError: If MuJoCo cannot compile it, or it lacks a body,
                 site, joint or actuator.
         """
         try:
-            model = self.spec().compile()
+            model = self.spec(colour).compile()
         except ValueError as error:
             raise ModelError(
                 f"{self.path} does not compile: {error}"

@@ -12,6 +12,7 @@ from xml.etree import ElementTree
 import mujoco
 import numpy as np
 
+from ..core.player_colours import Colour
 from ..core.poses import Array
 from .description import RobotDescription
 from .urdf_elements import rotation_of, urdf_tree
@@ -21,17 +22,20 @@ VISIBLE_GROUP = 2  # geoms of higher groups are not drawn
 _GEOMS = mujoco.mjtGeom
 
 
-def urdf_of(description: RobotDescription) -> str:
+def urdf_of(
+    description: RobotDescription, colour: Colour | None = None
+) -> str:
     """Return the URDF of a robot, as XML text; see :func:`urdf_tree`.
 
     Args:
         description: Description of the robot.
+        colour: Colour of its accent; by default that of the model.
 
     Raises:
         ModelError: If MuJoCo cannot compile the model, or it has a joint
             that URDF cannot express.
     """
-    model = description.compile()
+    model = description.compile(colour)
     tree = urdf_tree(description, model)
     coupled = description.coupled_joints(model)
     name = "_".join(description.name.lower().split())

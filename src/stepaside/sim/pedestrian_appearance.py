@@ -2,7 +2,8 @@
 
 from dataclasses import dataclass
 
-Colour = tuple[float, float, float, float]
+from ..core.player_colours import Colour
+
 HIP = 0.9  # height of an adult's hips, in [m]
 
 

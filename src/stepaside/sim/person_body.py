@@ -4,9 +4,10 @@ from math import cos, hypot, pi, sin
 
 import mujoco
 
+from ..core.player_colours import Colour
 from ..core.poses import Pose
 from .ground_truth import FloorTruth
-from .pedestrian_appearance import FIGURES, HIP, Colour, PedestrianModel
+from .pedestrian_appearance import FIGURES, HIP, PedestrianModel
 from .world import CONTACT_BITS, FLOOR_BIT, World
 
 SKIN = (0.85, 0.68, 0.56, 1.0)

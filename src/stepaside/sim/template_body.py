@@ -4,8 +4,8 @@ from math import cos, sin
 
 import mujoco
 
+from ..core.player_colours import Colour
 from ..core.poses import Pose
-from .pedestrian_appearance import Colour
 
 DISC_RADIUS = 0.07  # in [m]
 DISC_HALF_HEIGHT = 0.006  # in [m]

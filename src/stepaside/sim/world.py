@@ -11,13 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core.machine_code import BoundKernel, callback_of
+from ..core.player_colours import Colour
 from ..core.poses import Pose
 from ..core.random_streams import named_generator
 from ..robots.description import RobotDescription
 from ..robots.tree_cache import load_tree
 from .body_settings import BodySettings
 from .floor import add_floor, tilt_gravity
-from .pedestrian_appearance import Colour
 from .physics_settings import PhysicsSettings
 from .sensor_errors import perturb_masses
 
@@ -72,7 +72,7 @@ def build_model(
     for (name, description), own in zip(
         robots.items(), _contact_types(), strict=False
     ):
-        part = description.spec()
+        part = description.spec(colours.get(name))
         for geom in part.geoms:
             if geom.contype or geom.conaffinity:
                 geom.contype = own
@@ -88,8 +88,6 @@ def build_model(
                 generator,
                 length_unit=description.game.get("length_unit", 1.0),
             )
-        if name in colours:
-            _set_colour(part, description, colours[name])
         # Otherwise MuJoCo warns that the options differ.
         part.option = spec.option
         frame = spec.worldbody.add_frame()
@@ -109,24 +107,6 @@ def _contact_types() -> Iterator[int]:
     bits = range(1, CONTACT_BITS.bit_length())  # bit 0 is the floor's
     for half in combinations(bits, len(bits) // 2):
         yield sum(1 << bit for bit in half)
-
-
-def _set_colour(
-    part: mujoco.MjSpec,
-    description: RobotDescription,
-    colour: Colour,
-) -> None:
-    """Set the colour of a role on the accent of a robot, or its torso."""
-    if description.accent:
-        accent = part.material(description.accent)
-        if accent is not None:
-            accent.rgba = colour
-        return
-    torso = part.body(description.torso)
-    # A torso that is only a joint of others is coloured by their shapes.
-    shapes = torso.geoms or [g for child in torso.bodies for g in child.geoms]
-    for geom in shapes:
-        geom.material, geom.rgba = "", colour
 
 
 class World:

@@ -12,6 +12,7 @@ import numpy as np
 from ...core.poses import Array
 from ...games.duel import Duel, make_duel_run
 from ...games.game_evaluation import GameRecord
+from ...games.game_furnishing import colours_of_players
 from ...games.game_match import GameMatch, make_match_run
 from ...games.match import Match
 from ...games.outcome import Outcome
@@ -69,7 +70,10 @@ class LiveRecorder:
                 for p in match.players
                 if p.name in match.settings.robots
             }
-            self._models = {n: RobotModel.of(r) for n, r in robots.items()}
+            colours = colours_of_players(match.settings)
+            self._models = {
+                n: RobotModel.of(r, colours.get(n)) for n, r in robots.items()
+            }
             self._renew(match)
         self._recorder.before(match)
         self._signals.before(match)

@@ -9,7 +9,9 @@ import mujoco
 import numpy as np
 
 from ...core.errors import ConfigurationError
+from ...core.player_colours import Colour
 from ...core.poses import Array
+from ...games.game_furnishing import colours_of_players
 from ...games.match import Progress
 from ...games.play_rows import read_played
 from ...games.replayed_signals import RobotSignals, repeat_game
@@ -32,6 +34,7 @@ class RobotModel:
 
     Attributes:
         description: Description of the robot.
+        model: Its compiled model, in the colour of the player.
         urdf: Its URDF, as XML text.
         tree: Its links and joints.
         joints: Names of its joints, in the order of qpos.
@@ -41,16 +44,17 @@ class RobotModel:
     """
 
     description: RobotDescription
+    model: mujoco.MjModel
     urdf: str
     tree: UrdfTree
     joints: tuple[str, ...]
     foot_sites: Array
 
     @classmethod
-    def of(cls, robot: str) -> "RobotModel":
-        """Build the model of a robot by name or folder."""
+    def of(cls, robot: str, colour: Colour | None) -> "RobotModel":
+        """Build the model of a robot by name or folder, in a colour."""
         description = load_robot(robot)
-        model = description.compile()
+        model = description.compile(colour)
         names = [
             model.joint(i).name
             for i in range(model.njnt)
@@ -58,7 +62,8 @@ class RobotModel:
         ]
         return cls(
             description,
-            urdf_of(description),
+            model,
+            urdf_of(description, colour),
             urdf_tree(description, model),
             tuple(names),
             _foot_sites(description, model),
@@ -114,8 +119,11 @@ def load_recording(
         ConfigurationError: If the folder is not a valid run folder.
     """
     run = load_run(folder)
+    colours = colours_of_players(run.settings)
     models = {
-        name: RobotModel.of(run.settings.robot_of(name).robot)
+        name: RobotModel.of(
+            run.settings.robot_of(name).robot, colours.get(name)
+        )
         for name, track in run.tracks.items()
         if track.qpos is not None
     }

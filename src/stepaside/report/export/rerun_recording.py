@@ -248,10 +248,9 @@ def _log_links(stream: Any, name: str, model: RobotModel) -> None:
                 quaternion=rerun.Quaternion(xyzw=turn),
             )
             stream.log(entities[joint.child], pose, static=True)
-    compiled = model.description.compile()
     for link in model.tree.links:
         if link.body is not None and link.body >= 0:
-            _log_shapes(stream, entities[link.name], compiled, link)
+            _log_shapes(stream, entities[link.name], model.model, link)
 
 
 def _log_robot(
