@@ -402,3 +402,26 @@ def test_in_steps_a_robot_walks_a_stride_in_the_duration_of_a_step(
     track = poses_of(run_game(walk), "blue")
     speed = (track[-1, 0] - track[500, 0]) / (40.0 - 10.0)
     assert speed == pytest.approx(0.04 / (single_support + 0.122), rel=1e-6)
+
+
+def test_a_bystander_sees_its_target_with_cameras() -> None:
+    """It looks for the colour of the target, whatever its own role."""
+    pytest.importorskip("cv2")
+    watcher = robot("grey", "bystander", 0.0, 1.2, -0.5, senses="cameras")
+    run = run_game(
+        game(
+            watcher | {"target": "red", "strategy": "pursuit"},
+            robot("red", "pursuer", 1.2, 1.2, pi, strategy="stand"),
+            robot("blue", "evader", 5.0, 0.0, pi, strategy="stand"),
+            duration=4.0,
+            cameras={"colour": {"renderer": "raycast"}},
+        )
+    )
+    heading = run.tracks["grey"].torso[:, 2]
+    assert heading[-1] > heading[0] + 0.1
+    with pytest.raises(ConfigurationError, match="target must be a pursuer"):
+        game(
+            robot("red", "pursuer", 0.0, 0.0, 0.0, senses="cameras")
+            | {"target": "grey"},
+            robot("grey", "bystander", 1.0, 0.0, 0.0),
+        )

@@ -12,7 +12,7 @@ except ImportError as error:
     ) from error
 
 from ..core.poses import Array
-from ..perception.colour_detector import LOOKS, ColourDetector
+from ..perception.colour_detector import RED, TRIMS, ColourDetector
 from ..perception.gaze import OFTEN, SELDOM, Glances
 from ..perception.perception import Perception
 from ..perception.perception_builder import FloorMapping, build_perception
@@ -37,7 +37,6 @@ from .outcome import Outcome
 from .sight_evaluation import EvaluatedImage, SightEvaluator
 from .sight_summary import PerceptionSummary, SightReport
 
-GLANCES = {"pursuer": SELDOM, "evader": OFTEN}  # between glances for the map
 STILLS = 5  # images that a run stores per camera
 
 
@@ -89,14 +88,17 @@ class CameraSenses:
         if self._settings.maps_room:
             mapping = FloorMapping(
                 scan=RoomScan(behind=direction is Direction.BACKWARD),
-                glances=Glances(tick, GLANCES[own.role]),
+                glances=Glances(
+                    tick, OFTEN if own.role == "evader" else SELDOM
+                ),
                 awaits_start=True,
             )
         opponents = self._settings.sensed_opponents(own)
         return build_perception(
             self._description,
             self._head,
-            ColourDetector(LOOKS[own.role]),
+            # Of people no colour is known; they are told by their shape.
+            ColourDetector(TRIMS.get(opponents[0].role, RED)),
             tick=tick,
             mapping=mapping,
             people=any(p.body == "person" for p in opponents),

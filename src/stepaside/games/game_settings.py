@@ -463,6 +463,12 @@ def check_senses(settings: GameSettings) -> None:
                 "are robots, or all are people, got 'cameras' and opponents "
                 f"{listed or 'none'}"
             )
+        if sensed[0].body == "robot" and sensed[0].role == "bystander":
+            raise ConfigurationError(
+                f"{own.name}: target must be a pursuer or an evader with "
+                "senses 'cameras', which know the colours of these roles, "
+                f"got {sensed[0].name!r}"
+            )
         alike = [
             p.name
             for p in settings.players

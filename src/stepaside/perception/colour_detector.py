@@ -306,4 +306,5 @@ def _is_profile(pair: NDArray[np.int32]) -> bool:
     )
 
 
+TRIMS = {"pursuer": RED, "evader": BLUE}  # of robots, by their role
 LOOKS = {"pursuer": BLUE, "evader": RED}  # opponent's, by own role
