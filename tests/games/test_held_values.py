@@ -75,8 +75,8 @@ def test_values_returned_by_a_duel_do_not_change_later(
     robot: Any = walker.robot
     read, write = robot.read, robot.write
 
-    def note(*, sees: bool = True) -> Any:
-        measured = read(sees=sees)
+    def note(**parts: bool) -> Any:
+        measured = read(**parts)
         kept.keep("measurement", tuple(measured))
         return measured
 

@@ -51,7 +51,7 @@ def look_at(log: PlayLog, walker: SimulatedPlayer) -> None:
     read, write = walker.robot.read, walker.robot.write
     measured: list[Any] = []
 
-    def note(*, sees: bool = True) -> Any:
+    def note(**parts: bool) -> Any:
         measured[:] = [read()]
         return measured[0]
 

@@ -25,8 +25,9 @@ def test_a_walking_robot_measures_only_when_a_decision_is_due() -> None:
         robot: Any = pursuer.robot
         read, times = robot.read, list[float]()
 
-        def note(read: Any = read, times: Any = times, *, sees: bool) -> Any:
-            measured = read(sees=sees)
+        def note(read: Any = read, times: Any = times, **parts: bool) -> Any:
+            measured = read(**parts)
+            assert measured.gyro.size == 0  # nothing in the loop reads it
             times.append(measured.time)
             return measured
 
@@ -58,8 +59,9 @@ def test_feedback_reads_sightings_only_when_a_decision_is_due() -> None:
             always: bool = not sparing,
             *,
             sees: bool,
+            feels: bool,
         ) -> Any:
-            measured = read(sees=sees or always)
+            measured = read(sees=sees or always, feels=feels)
             if measured.sighting is not None:
                 times.append(measured.time)
             return measured

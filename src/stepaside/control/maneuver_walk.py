@@ -161,6 +161,11 @@ class ManeuverWalk:
         if self.plan is None:
             self._first_foot = foot
 
+    @property
+    def feels(self) -> bool:
+        """Whether balance uses joint angles, IMU or forces on the soles."""
+        return not isinstance(self.balance, OpenLoop)
+
     def decides(self, now: float) -> bool:
         """Return whether a decision is due at a tick, at a time in [s]."""
         return self.plan is None or now >= self._plan_ends - 1e-9

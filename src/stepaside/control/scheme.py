@@ -168,6 +168,11 @@ class ControlScheme(LocomotionScheme):
         """Plan and references of the last tick."""
         return self.locomotion.state
 
+    @property
+    def feels(self) -> bool:
+        """Whether it uses joint angles, IMU or forces on the soles."""
+        return self.locomotion.feels or self.decisions.turns is not None
+
     def decides(self, now: float) -> bool:
         """Return whether a decision is due at a tick, at a time in [s]."""
         return self.locomotion.decides(now)

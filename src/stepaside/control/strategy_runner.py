@@ -85,13 +85,14 @@ class StrategyRunner(DecisionMaker):
         self.turns = turns
         self._spacing = gait.foot_spacing
         self._target_id = 0
-        self._in_sight: PlayersInSight | None = None
+        self._in_sight: tuple[Sighting, ...] = ()
         self._velocities: dict[str, FloorVelocity] = {}
-        self._positions: dict[str, tuple[float, float, float]] = {}
+        self._sightings: dict[str, tuple[float, Pose, float, float]] = {}
 
     def note_players(self, in_sight: PlayersInSight | None) -> None:
         """Store the sightings of all players for the next decision."""
-        self._in_sight = in_sight
+        if in_sight is not None:
+            self.identity, self._in_sight = in_sight
 
     def calibrate(self, measurement: Measurement, *, stands: bool) -> None:
         """Update the turn calibration, if there is one.
@@ -185,16 +186,14 @@ class StrategyRunner(DecisionMaker):
             # A different person: its motion is unknown.
             self._target_id = sighting.target_id
             self.reset_rates()
-        template = self.templates.at(sighting.time)
-        sight = self.headings.at(sighting.time) + sighting.bearing
-        if sighting.identity is not None:
+        template, sight = self._sight_of(sighting)
+        if now - sighting.time > RECENT and sighting.identity is not None:
             x, y = self._position_of(sighting)
-            if now - sighting.time > RECENT:
-                template = self.templates.at(now)
-                sight = atan2(y - template.y, x - template.x)
-                distance = hypot(y - template.y, x - template.x)
-                sighting = sighting._replace(distance=distance)
-        known = self.observe(
+            template = self.templates.at(now)
+            sight = atan2(y - template.y, x - template.x)
+            distance = hypot(y - template.y, x - template.x)
+            sighting = sighting._replace(distance=distance)
+        return self.observe(
             now,
             template,
             sight,
@@ -204,14 +203,13 @@ class StrategyRunner(DecisionMaker):
             obstacles=self._surroundings.solids,
             map_error=self._surroundings.map_error,
         )
-        if self._in_sight is None:
-            return known
-        identity, sightings = self._in_sight
-        if len(sightings) == 1:
-            others: tuple[OtherPlayer, ...] = (_opponent(known, sighting),)
-        else:
-            others = tuple(self._other(now, template, s) for s in sightings)
-        return replace(known, identity=identity, others=others)
+
+    def _others(self, now: float, pose: Pose) -> tuple[OtherPlayer, ...]:
+        """Return all players in sight, if there are several."""
+        seen = self._in_sight
+        if len(seen) < 2:
+            return ()
+        return tuple(self._other(now, pose, each) for each in seen)
 
     def _other(
         self, now: float, template: Pose, sighting: Sighting
@@ -242,37 +240,33 @@ class StrategyRunner(DecisionMaker):
             sighting.spread,
         )
 
-    def _position_of(self, sighting: Sighting) -> tuple[float, float]:
-        """Return the position of a recognised player in odometry, in [m].
+    def _sight_of(self, sighting: Sighting) -> tuple[Pose, float]:
+        """Return own pose and direction of a sighting, in odometry.
 
-        It is computed when the player is sighted, since the history of own
-        poses is short and a hidden player may not be sighted for long.
+        They are kept for a recognised player from its sighting on, since the
+        history of own poses is short and a hidden player may not be sighted
+        for long.
         """
+        template = self.templates.at(sighting.time)
+        sight = self.headings.at(sighting.time) + sighting.bearing
+        if sighting.identity is not None:
+            name = sighting.identity.name
+            known = self._sightings.get(name)
+            if known is None or known[0] != sighting.time:
+                self._sightings[name] = (
+                    sighting.time, template, sight, sighting.distance
+                )  # fmt: skip
+        return template, sight
+
+    def _position_of(self, sighting: Sighting) -> tuple[float, float]:
+        """Return the position of a recognised player in odometry, in [m]."""
         assert sighting.identity is not None
-        name = sighting.identity.name
-        known = self._positions.get(name)
+        known = self._sightings.get(sighting.identity.name)
         if known is None or known[0] != sighting.time:
-            taken = self.templates.at(sighting.time)
-            sight = self.headings.at(sighting.time) + sighting.bearing
-            x = taken.x + sighting.distance * cos(sight)
-            y = taken.y + sighting.distance * sin(sight)
-            known = self._positions[name] = sighting.time, x, y
-        return known[1:]
-
-
-def _opponent(known: Knowledge, sighting: Sighting) -> OtherPlayer:
-    """Return the opponent as another player.
-
-    Args:
-        known: Knowledge of the opponent.
-        sighting: Its sighting.
-    """
-    assert sighting.identity is not None
-    return OtherPlayer(
-        sighting.identity,
-        known.bearing,
-        known.distance,
-        known.velocity,
-        known.age,
-        known.spread,
-    )
+            self._sight_of(sighting)
+            known = self._sightings[sighting.identity.name]
+        _, template, sight, distance = known
+        return (
+            template.x + distance * cos(sight),
+            template.y + distance * sin(sight),
+        )

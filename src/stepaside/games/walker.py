@@ -97,14 +97,17 @@ class SimulatedPlayer(RobotPlayer):
         super().__init__(robot, scheme, frame)
         # Exact sightings are read when a decision is due.
         self._coasts = robot.sees_exactly
+        self._feels = scheme.feels or not self._coasts
 
     def tick(self) -> None:
         """Read the sensors, decide, and send joint targets."""
         robot, scheme = self.robot, self.scheme
-        targets = scheme.coast(robot.world.time) if self._coasts else None
+        now, targets = robot.world.time, None
+        if self._coasts:
+            targets = scheme.coast(now)
         if targets is None:
-            sees = not self._coasts or scheme.decides(robot.world.time)
-            targets = scheme.update(robot.read(sees=sees))
+            sees = not self._coasts or scheme.decides(now)
+            targets = scheme.update(robot.read(sees=sees, feels=self._feels))
         robot.write(targets)
 
     def motion_log(self, *, closely: bool) -> WalkerLog:

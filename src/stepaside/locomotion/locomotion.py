@@ -139,6 +139,10 @@ class PlannedLocomotion(Locomotion, Protocol):
     def planned_centers(self) -> tuple[float, float, float, float]:
         """CoM reference (x, y), then ZMP reference, in odometry, in [m]."""
 
+    @property
+    def feels(self) -> bool:
+        """Whether balance uses joint angles, IMU or forces on the soles."""
+
     def lead_with(self, foot: Foot) -> None:
         """Choose the foot of the first step, if the robot stands."""
 

@@ -31,6 +31,8 @@ from .servos import (
 from .true_stance import StanceWatch, TrueStance
 from .world import World, transform_free_joint
 
+EMPTY = np.empty(0)
+
 if TYPE_CHECKING:
     from .lidar import Lidar
     from .sensor_suite import SensorSuite
@@ -258,15 +260,24 @@ class SimulatedRobot:
         mass = self.world.model.body_subtreemass[self._torso]
         return GRAVITY * float(mass)
 
-    def read(self, *, sees: bool = True) -> Measurement:
+    def read(self, *, sees: bool = True, feels: bool = True) -> Measurement:
         """Read the sensors.
 
         Args:
             sees: Whether to read the ideal sightings of other players.
+            feels: Whether to read joints, IMU and soles; their values are
+                empty otherwise.
         """
         now = self.world.time
-        self.world.update_sensors()
         seen = self._sightings(now) if sees else ()
+        first = seen[0] if seen and len(self._sights) == 1 else None
+        percepts = () if self.eyes is None else self.eyes.read(now)
+        place = None if self.place is None else self.place.read()
+        if not feels:
+            return Measurement(
+                now, *(EMPTY,) * 4, first, percepts, place, players=seen
+            )
+        self.world.update_sensors()
         angles = self._qpos_view.take(self._qpos)
         latest = None
         if self._strapdown is not None:
@@ -284,15 +295,13 @@ class SimulatedRobot:
             gyro, specific_force, forces = self._errors.readings(
                 gyro, specific_force, forces
             )
-        percepts = () if self.eyes is None else self.eyes.read(now)
-        place = None if self.place is None else self.place.read()
         return Measurement(
             now,
             angles,
             gyro,
             specific_force,
             forces,
-            seen[0] if seen and len(self._sights) == 1 else None,
+            first,
             percepts,
             place,
             None

@@ -30,6 +30,8 @@ COLOURS: Mapping[str, Colour] = {
     "evader": (0.10, 0.36, 0.75, 1.0),
 }
 
+DENSE_UP_TO = 4  # robots; MuJoCo itself changes at 60 degrees of freedom
+
 
 def build_model(
     robots: Mapping[str, RobotDescription],
@@ -63,6 +65,8 @@ def build_model(
         mujoco.mjtIntegrator, f"mjINT_{physics.integrator.upper()}"
     )
     spec.option.solver = mujoco.mjtSolver.mjSOL_NEWTON
+    if len(robots) <= DENSE_UP_TO:
+        spec.option.jacobian = mujoco.mjtJacobian.mjJAC_DENSE
     spec.option.cone = mujoco.mjtCone.mjCONE_PYRAMIDAL
     spec.visual.global_.offwidth = 1920
     spec.visual.global_.offheight = 1080

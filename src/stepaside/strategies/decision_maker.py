@@ -5,9 +5,10 @@ from typing import Any
 
 from ..arena import NO_OBSTACLES, ObstacleSet
 from ..core.errors import StrategyError
+from ..core.player_identity import PlayerIdentity
 from ..core.poses import Pose, wrap_angle
 from ..perception.measurement import Sighting
-from .knowledge import Intent, Knowledge, Limits
+from .knowledge import Intent, Knowledge, Limits, OtherPlayer
 from .opponent_rates import FloorVelocity, SightRates
 from .strategy import Strategy, evaluate_strategy
 
@@ -21,7 +22,11 @@ class DecisionMaker:
         strategy: Strategy of the player.
         limits: Limits of its gait.
         memory: Memory of the strategy.
+        identity: Own name, role and team; None if only one other player can
+            be sighted, without its identity.
     """
+
+    identity: PlayerIdentity | None = None
 
     def __init__(
         self,
@@ -87,26 +92,47 @@ class DecisionMaker:
             map_error: Largest position error of the obstacles, in [m].
         """
         time, bearing, distance = sighting[:3]
+        bearing, age = wrap_angle(bearing), max(0.0, now - time)
         rates = self._rates.note(time, sight_in_odometry, distance)
+        velocity = self._velocity_in(
+            pose_template_in_odometry, time, sighting.bearing, distance
+        )
+        others = self._others(now, pose_template_in_odometry)
+        if not others and sighting.identity is not None:
+            others = (
+                OtherPlayer(
+                    *(sighting.identity, bearing, distance),
+                    *(velocity, age, sighting.spread),
+                ),
+            )
         return Knowledge(
             time=now,
-            bearing=wrap_angle(bearing),
+            bearing=bearing,
             distance=distance,
             limits=self.limits,
             bearing_rate=rates.bearing_rate,
             closing_speed=rates.closing_speed,
-            age=max(0.0, now - time),
+            age=age,
             pose_in_map=pose_odometry_in_map.compose(
                 pose_template_in_odometry
             ),
             moving=moving,
             obstacles_in_map=obstacles,
-            velocity=self._velocity_in(
-                pose_template_in_odometry, time, bearing, distance
-            ),
+            velocity=velocity,
             spread=sighting.spread,
             map_error=map_error,
+            identity=self.identity,
+            others=others,
         )
+
+    def _others(self, now: float, pose: Pose) -> tuple[OtherPlayer, ...]:
+        """Return the other players that have been seen, if several are known.
+
+        Args:
+            now: Time of the decision, in [s].
+            pose: Pose of the template in odometry.
+        """
+        return ()
 
     def preview(self, knowledge: Knowledge) -> tuple[Intent, Any]:
         """Return the decision and its memory, without storing the memory.

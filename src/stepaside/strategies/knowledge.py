@@ -143,9 +143,10 @@ class Knowledge:
             foot has landed, and its body passes that foot half a step later.
         spread: Standard deviation of the opponent's position, in [m].
         map_error: Largest position error of the obstacles, in [m].
-        identity: Own name, role and team; None in a game of two.
+        identity: Own name, role and team; None where players are not
+            recognised.
         others: All other players that have been seen, the opponent among
-            them; empty in a game of two.
+            them; empty if sightings do not tell who was seen.
     """
 
     time: float

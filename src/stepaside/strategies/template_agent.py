@@ -33,6 +33,8 @@ class TemplateAgent(DecisionMaker):
         identity: Own identity.
     """
 
+    identity: PlayerIdentity
+
     def __init__(
         self,
         strategy: Strategy,
