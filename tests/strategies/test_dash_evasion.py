@@ -154,6 +154,20 @@ def test_the_matador_assumes_a_chaser() -> None:
     assert aside == STEP_ASIDE
 
 
+@pytest.mark.parametrize(("view", "side"), [(pi, -1), (pi / 2, 1)])
+def test_a_dash_keeps_the_person_in_view(view: float, side: int) -> None:
+    """The faster end of these legs would turn away."""
+    lags = AxisValues(0.65, 0.71, 0.53)
+    legs = VelocitySet((-0.7, 0.76), (-0.54, 0.53), (-0.84, 0.84), lags)
+    limits = Limits(0.1, 0.2, 0.04, 0.4, legs, view=view)
+    memory = STEP_ASIDE.begin()
+    for i in range(12):
+        known = Knowledge(0.05 * i, radians(80), 2.8 - 0.05 * i, limits)
+        intent, memory = STEP_ASIDE.decide(known, memory)
+    assert intent.velocity is not None
+    assert side * intent.velocity.turn > 0.0
+
+
 @pytest.mark.parametrize("legs", [None, LEGS])
 def test_without_a_threat_it_stands(legs: VelocitySet | None) -> None:
     limits = Limits(0.1, 0.2, 0.04, 0.4, legs)

@@ -12,8 +12,10 @@ from stepaside.strategies.dash_rollouts import (
     Opponent,
     closest_approaches,
     greatest_velocities,
+    headings_at,
     make_dashes,
     roll_out,
+    unseen_shares,
 )
 from stepaside.strategies.velocity_set import (
     STILL,
@@ -39,6 +41,27 @@ def test_the_body_turns_the_nearer_end_of_its_faster_axis() -> None:
     crab = VelocitySet((-SLOW, SLOW), (-FAST, FAST), (-1.0, 1.0))
     sideways = make_dashes(8, HERE, crab, 0.6).headings[3] - HERE.theta
     assert sideways == pytest.approx(0.0)  # to the left, by its faster axis
+
+
+def test_with_both_ends_each_dash_has_its_opposite_heading() -> None:
+    dashes = make_dashes(8, HERE, AT_ONCE, 0.6, both_ends=True)
+    assert np.isinf(dashes.begins[0]) and not dashes.begins[1:17].any()
+    np.testing.assert_allclose(dashes.angles[1:9], dashes.angles[9:17])
+    across = np.abs(dashes.headings[1:9] - dashes.headings[9:17])
+    np.testing.assert_allclose(across, pi)
+
+
+def test_someone_who_passes_is_unseen_while_behind() -> None:
+    """Passes a standing robot at 1 m: in view for half of the way."""
+    times = STEP * np.arange(41)[:, None]
+    standing = make_dashes(4, HERE, AT_ONCE, inf)
+    paths = np.broadcast_to([HERE.x, HERE.y], (41, 9, 2))
+    headings = headings_at(times[:1], HERE, standing, AT_ONCE)
+    start = HERE.compose(Pose(2.0, 1.0, pi))
+    passer = Opponent(start.x, start.y, start.theta, 1.0, inf)
+    shares = unseen_shares(paths, headings, passer, 0.5 * pi - 1e-6)
+    np.testing.assert_allclose(shares, 20 / 41, atol=0.03)
+    assert not unseen_shares(paths, headings, passer, pi).any()
 
 
 def test_dashes_end_where_velocities_lead() -> None:

@@ -1,6 +1,7 @@
 """Sources of sightings of the opponent: measurements or camera."""
 
 from collections.abc import Callable
+from math import pi
 from typing import TYPE_CHECKING, Generic, NamedTuple, Protocol, TypeVar
 
 from ..core.player_identity import PlayerIdentity, Role
@@ -37,7 +38,12 @@ class SightSource(Protocol):
     Attributes:
         turning: Turn of the body on the spot that a scan requests before the
             first sighting: 1 to the left, -1 to the right, or 0.
+        view: Greatest bearing at which others are seen, in [rad].
     """
+
+    @property
+    def view(self) -> float:
+        """Greatest bearing at which others are seen, in [rad]."""
 
     @property
     def turning(self) -> float:
@@ -72,9 +78,10 @@ class MeasuredSight:
     Attributes:
         turning: 0: it never scans.
         in_sight: None: it knows one opponent.
+        view: All around.
     """
 
-    turning = 0.0
+    turning, view = 0.0, pi
     in_sight: PlayersInSight | None = None
 
     def __init__(self, sighting: Sighting | None = None) -> None:
@@ -104,9 +111,10 @@ class SightOfPlayers:
     Attributes:
         turning: 0: it never scans.
         in_sight: Own identity, and the latest sighting of each player.
+        view: All around.
     """
 
-    turning = 0.0
+    turning, view = 0.0, pi
 
     def __init__(self, identity: PlayerIdentity, target: str = "") -> None:
         """Begin without sightings.
@@ -250,6 +258,11 @@ class CameraSight(_PerceivedSight["Perception"]):
         """Turn on the spot for a scan: 1 left, -1 right, or 0."""
         return self.perception.head.turning
 
+    @property
+    def view(self) -> float:
+        """Range of the head to each side, in [rad]."""
+        return self.perception.head.reach
+
     def aim(self, targets: Array) -> None:
         """Turn the head to the last known position of the opponent."""
         self.perception.aim(targets)
@@ -260,9 +273,10 @@ class LidarSight(_PerceivedSight["LidarPerception"]):
 
     Attributes:
         turning: 0: it sees all around.
+        view: All around.
     """
 
-    turning = 0.0
+    turning, view = 0.0, pi
 
     def aim(self, targets: Array) -> None:
         """Leave the head as it is."""

@@ -65,6 +65,7 @@ class StrategyRunner(DecisionMaker):
         surroundings: Surroundings | None = None,
         turns: TurnCalibration | None = None,
         velocities: VelocitySet | None = None,
+        view: float = pi,
     ) -> None:
         """Begin without a sighting.
 
@@ -76,8 +77,9 @@ class StrategyRunner(DecisionMaker):
             turns: Calibration of the turning rate; none by default.
             velocities: Velocities that the legs deliver; by default those of
                 a unicycle.
+            view: Greatest bearing at which the robot sees others, in [rad].
         """
-        super().__init__(strategy, limits_of(gait, velocities))
+        super().__init__(strategy, limits_of(gait, velocities, view))
         self._surroundings = surroundings or OpenFloor()
         self.pace = 1.0
         self.headings: StateHistory[float] = StateHistory(tick)

@@ -217,6 +217,7 @@ def place_policy_player(
             tick,
             around,
             velocities=policy.velocities,
+            view=sensing.source.view,
         ),
         PolicyWalk(policy, setup.gait, guard),
         sensing.source,

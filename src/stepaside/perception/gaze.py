@@ -31,6 +31,7 @@ class Gaze:
         pitch: Target of the head pitch, in [rad].
         searching: Whether the head scans.
         scan_ends: Number of times that a scan has reached one of its ends.
+        reach: Greatest yaw to either side, in [rad].
     """
 
     def __init__(
@@ -49,6 +50,7 @@ class Gaze:
         """
         self._camera_height = camera_height
         self._yaws, self._low, self._high = coupling.tolist()
+        self.reach: float = self._yaws[-1]
         self._tick = tick
         self._side = 1.0
         self.yaw, self.pitch = 0.0, SCAN_PITCH
@@ -90,7 +92,7 @@ class Gaze:
             stay: Whether to stop at the next end of the scan.
         """
         self.searching = True
-        edge = min(MAX_YAW, self._yaws[-1])
+        edge = min(MAX_YAW, self.reach)
         if self._side * self.yaw >= edge - 1e-6 and not stay:
             self._side = -self._side
             self.scan_ends += 1

@@ -54,6 +54,11 @@ class HeadControl:
         return self._gaze.pitch
 
     @property
+    def reach(self) -> float:
+        """Greatest yaw to either side, in [rad]."""
+        return self._gaze.reach
+
+    @property
     def turning(self) -> float:
         """Turn on the spot for the scan: 1 left, -1 right, 0 none."""
         return self._scan.turning

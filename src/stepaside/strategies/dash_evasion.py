@@ -14,12 +14,15 @@ from ..core.errors import (
 )
 from ..core.poses import Array, Pose, wrap_angle
 from .dash_rollouts import (
+    STEP,
     Dashes,
     Opponent,
     closest_approaches,
     greatest_velocities,
+    headings_at,
     make_dashes,
     roll_out,
+    unseen_shares,
 )
 from .knowledge import STAND, Intent, Knowledge, Limits
 from .strategy import BackwardStrategy
@@ -35,6 +38,9 @@ FEINT = 0.6  # time for which a chaser may turn away first, in [s]
 EFFORT = 0.05  # gain for which a robot begins to walk, or waits, in [m]
 SURPLUS = 0.02  # value of clearance beyond what is enough, per metre
 CHANGE = 0.3  # half the gain for which the opposite dash is better, in [m]
+# Loss while the opponent is out of view all the time, in [m]: more than the
+# two ends of one dash differ by on a T1, 0.1 m.
+UNSEEN = 0.3
 CHASER_RADIUS = 2.5  # turning radius of a person who chases, in [m]
 NO_FEINT = np.zeros(1)
 FEINTS = np.array([0.0, 1.0, -1.0])
@@ -82,7 +88,9 @@ class DashEvasion(BackwardStrategy):
     At each decision it rolls out standing, dashes in all directions, and the
     same dashes begun a little later, by velocity set and lag of its legs, and
     compares the closest approach of the opponent. The body turns its faster
-    axis along the dash while it walks.
+    axis along the dash while it walks. Where the robot does not see all
+    around, the other end of that axis may lead, so that the opponent stays in
+    view.
 
     An opponent with infinite turning radius keeps its course. Another one
     steers at the robot, at once or after turning fully to either side, and
@@ -159,7 +167,12 @@ class DashEvasion(BackwardStrategy):
             if waits or not self._is_near(pose, opponent):
                 return STAND, stands
         angle, heading = self._best(
-            pose, velocity, velocities, opponent, memory.angle
+            pose,
+            velocity,
+            velocities,
+            opponent,
+            memory.angle,
+            knowledge.limits.view,
         )
         if angle is None:
             return STAND, stands._replace(compared=now)
@@ -190,6 +203,7 @@ class DashEvasion(BackwardStrategy):
         velocities: VelocitySet,
         opponent: Opponent,
         present: float | None,
+        view: float,
     ) -> tuple[float | None, float]:
         """Return angle and body heading of the best dash.
 
@@ -199,15 +213,25 @@ class DashEvasion(BackwardStrategy):
             velocities: Velocities that the legs deliver.
             opponent: The opponent.
             present: Angle of the present dash; None while the robot stands.
+            view: Greatest bearing at which the opponent is seen, in [rad].
 
         Returns:
             Angle and heading in the map, in [rad]; no angle if it is best to
             stand, for now or all the time.
         """
-        dashes = make_dashes(self.directions, pose, velocities, LATER)
+        looks = view < pi
+        dashes = make_dashes(
+            self.directions, pose, velocities, LATER, both_ends=looks
+        )
         paths = roll_out(pose, velocity, dashes, velocities, self.horizon)
         value = self._values(paths, opponent)
         value = value + self._bonus(dashes, present)
+        if looks:
+            times = np.arange(0.0, self.contact_time, STEP)[:, None]
+            headings = headings_at(times, pose, dashes, velocities)
+            value -= UNSEEN * unseen_shares(
+                paths[: len(times)], headings, opponent, view
+            )
         best = int(np.argmax(value))
         if dashes.begins[best] > 0.0:
             return None, pose.theta

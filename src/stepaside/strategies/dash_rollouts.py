@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
-from math import pi
+from math import cos, pi, sin
 from typing import NamedTuple
 
 import numpy as np
@@ -52,7 +52,12 @@ class Opponent:
 
 
 def make_dashes(
-    count: int, pose: Pose, velocities: VelocitySet, later: float
+    count: int,
+    pose: Pose,
+    velocities: VelocitySet,
+    later: float,
+    *,
+    both_ends: bool = False,
 ) -> Dashes:
     """Return standing, dashes that begin now, and those that begin later.
 
@@ -63,6 +68,7 @@ def make_dashes(
         pose: Pose of the body in the map.
         velocities: Velocities that the legs deliver.
         later: Time after which the second set begins, in [s].
+        both_ends: Whether to add dashes with the other end ahead.
     """
     angles = pose.theta + 2.0 * pi / count * np.arange(count)
     ahead = max(velocities.forward[1], -velocities.forward[0])
@@ -71,11 +77,14 @@ def make_dashes(
     turns = wrap_angles(along - pose.theta)
     turns = np.where(turns > 0.5 * pi, turns - pi, turns)
     turns = np.where(turns < -0.5 * pi, turns + pi, turns)
+    if both_ends:
+        angles = np.concatenate([angles, angles])
+        turns = np.concatenate([turns, np.where(turns > 0.0, -pi, pi) + turns])
     headings = pose.theta + turns
     return Dashes(
         np.concatenate([[pose.theta], angles, angles]),
         np.concatenate([[pose.theta], headings, headings]),
-        np.repeat([np.inf, 0.0, later], [1, count, count]),
+        np.repeat([np.inf, 0.0, later], [1, angles.size, angles.size]),
     )
 
 
@@ -132,16 +141,11 @@ def roll_out(
     count = round(horizon / STEP)
     times = STEP * np.arange(count)[:, None]
     runs = times >= dashes.begins - 1e-9
-    since = np.where(runs, times - dashes.begins, 0.0)
-    turns = dashes.headings - pose.theta
-    rate = np.where(turns > 0.0, velocities.turn[1], -velocities.turn[0])
-    headings = pose.theta + np.sign(turns) * np.minimum(
-        np.abs(turns), rate * since
-    )
+    headings = headings_at(times, pose, dashes, velocities)
     commands = np.where(
         runs, greatest_velocities(dashes.angles - headings, velocities), 0.0
     )
-    moved = np.empty((2, count, len(turns)))
+    moved = np.empty((2, count, len(dashes.angles)))
     shares = [response_share(STEP, velocities.lags[i]) for i in range(2)]
     kernel = _compiled(_fill_responses)
     kernel(commands, np.array(velocity[:2]), np.array(shares), moved)
@@ -153,8 +157,56 @@ def roll_out(
         ],
         axis=2,
     )
-    start = np.broadcast_to([pose.x, pose.y], (1, len(turns), 2))
+    start = np.broadcast_to([pose.x, pose.y], (1, len(dashes.angles), 2))
     return np.concatenate([start, start + np.cumsum(steps, axis=0)])
+
+
+def headings_at(
+    times: Array, pose: Pose, dashes: Dashes, velocities: VelocitySet
+) -> Array:
+    """Return the headings of the body during dashes, in [rad].
+
+    Args:
+        times: Times since now, in [s]. Shape (m, 1).
+        pose: Pose of the body in the map.
+        dashes: Dashes.
+        velocities: Velocities that the legs deliver.
+
+    Returns:
+        Shape (m, n).
+    """
+    runs = times >= dashes.begins - 1e-9
+    since = np.where(runs, times - dashes.begins, 0.0)
+    turns = dashes.headings - pose.theta
+    rate = np.where(turns > 0.0, velocities.turn[1], -velocities.turn[0])
+    headings: Array = pose.theta + np.sign(turns) * np.minimum(
+        np.abs(turns), rate * since
+    )
+    return headings
+
+
+def unseen_shares(
+    paths: Array, headings: Array, opponent: Opponent, view: float
+) -> Array:
+    """Return the share of time for which an opponent is out of view.
+
+    The opponent keeps its course.
+
+    Args:
+        paths: Positions of the robot, in [m]. Shape (m, n, 2).
+        headings: Its headings, in [rad]. Shape (m, n).
+        opponent: Opponent at first.
+        view: Greatest bearing at which it is seen, in [rad].
+
+    Returns:
+        Shape (n,).
+    """
+    way = STEP * opponent.speed * np.arange(len(paths))[:, None]
+    x = opponent.x + way * cos(opponent.course) - paths[..., 0]
+    y = opponent.y + way * sin(opponent.course) - paths[..., 1]
+    bearings = wrap_angles(np.arctan2(y, x) - headings)
+    shares: Array = np.mean(np.abs(bearings) > view, axis=0)
+    return shares
 
 
 def closest_approaches(

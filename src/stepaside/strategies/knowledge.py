@@ -1,7 +1,7 @@
 """Input and output of a decision: knowledge and intent of a player."""
 
 from dataclasses import dataclass, replace
-from math import atan2, cos, hypot, sin
+from math import atan2, cos, hypot, pi, sin
 
 import numpy as np
 
@@ -37,6 +37,7 @@ class Limits:
         outer_stride: Longest stride of the outer foot in a turn, in [m]; None
             for any.
         foot_spacing: Coronal distance between the feet, in [m].
+        view: Greatest bearing at which the robot sees others, in [rad].
     """
 
     speed: float
@@ -46,6 +47,7 @@ class Limits:
     velocities: VelocitySet | None = None
     outer_stride: float | None = None
     foot_spacing: float = 0.0
+    view: float = pi
 
     def stride_share(self, turn: float) -> float:
         """Return the fraction of the stride that a turn allows.
@@ -59,13 +61,16 @@ class Limits:
 
 
 def limits_of(
-    gait: GaitSettings, velocities: VelocitySet | None = None
+    gait: GaitSettings,
+    velocities: VelocitySet | None = None,
+    view: float = pi,
 ) -> Limits:
     """Return the limits of a gait.
 
     Args:
         gait: Gait of a walker, or template of legs.
         velocities: Velocities that the legs deliver; None for a unicycle.
+        view: Greatest bearing at which the robot sees others, in [rad].
     """
     return Limits(
         gait.speed,
@@ -75,6 +80,7 @@ def limits_of(
         velocities,
         gait.outer_stride,
         gait.foot_spacing,
+        view,
     )
 
 
