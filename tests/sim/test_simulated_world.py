@@ -178,21 +178,25 @@ def test_steps_are_the_same_one_by_one_and_together() -> None:
     np.testing.assert_array_equal(*states)
 
 
-def fallen(ticks: int = 0) -> World:
+def fallen() -> World:
     """A robot that drops to the floor."""
     world = World({"evader": NAO}, PhysicsSettings(tick=0.006))
     world.data.qpos[2] = 0.34
     world.data.qvel[:] = np.linspace(-0.5, 0.5, world.model.nv)
     mujoco.mj_forward(world.model, world.data)
-    for _ in range(ticks):
-        world.advance()
     return world
 
 
+@pytest.mark.parametrize("always", [False, True])
 @pytest.mark.parametrize("ticks", [1, 3, 20])
-def test_sensors_are_those_of_the_last_physics_step(ticks: int) -> None:
-    """Computed afterwards, without an effect on the motion."""
-    world, reference = fallen(ticks), fallen()
+def test_sensors_are_those_of_the_last_physics_step(
+    ticks: int, always: bool
+) -> None:
+    """Computed in it or afterwards, without an effect on the motion."""
+    world, reference = fallen(), fallen()
+    world.measures_always = always
+    for _ in range(ticks):
+        world.advance()
     mujoco.mj_step(reference.model, reference.data, nstep=3 * ticks)
     world.update_sensors()
     found, expected = world.data, reference.data

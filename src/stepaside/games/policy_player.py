@@ -58,6 +58,7 @@ class PolicyPlayer(RobotPlayer):
         """
         super().__init__(robot, scheme, frame)
         self._networks, self._surroundings = networks, surroundings
+        robot.world.measures_always = True
         # Exact sightings are read when a decision is due.
         self._sees_rarely = robot.sees_exactly
 

@@ -46,7 +46,7 @@ from ..sim.simulated_robot import motor_of
 from ..sim.world import build_model
 from ..strategies import Evasion
 from ..theory import laws
-from .legs_script import CONSTANTS, legs_data, legs_sources
+from .legs_script import legs_data, legs_sources
 
 LAWS = (
     *(laws.wrap_once, laws.evasion_heading, laws.side_behind),
@@ -155,7 +155,7 @@ def functions_of(sources: Sequence[str]) -> str:
     Args:
         sources: Functions in Python.
     """
-    constants = {"pi": pi, "tau": tau, **CONSTANTS}
+    constants = {"pi": pi, "tau": tau}
     sources = [*(inspect.getsource(law) for law in LAWS), *sources]
     functions = [javascript_of(text, constants) for text in sources]
     names = re.findall(r"^function (\w+)", "\n".join(functions), re.MULTILINE)

@@ -5,7 +5,6 @@ the legs are the sources that Python runs; the network is a file that the
 visitor of the page chooses.
 """
 
-import inspect
 from hashlib import sha256
 from math import inf
 from pathlib import Path
@@ -13,7 +12,6 @@ from typing import Any
 
 import numpy as np
 
-from ..core.constants import GRAVITY
 from ..core.errors import ConfigurationError
 from ..games.duel import Duel
 from ..games.policy_player import PolicyPlayer
@@ -23,18 +21,16 @@ from ..locomotion.policy.legs_loader import load_policy
 from ..locomotion.policy.network import PolicyNetwork
 from ..locomotion.policy.policy_legs import PolicyLegs
 from ..locomotion.policy.policy_walk import PolicyWalk
-from ..locomotion.policy.runner import STANDS_BELOW, ObservationLayout
+from ..locomotion.policy.runner import (
+    ADVANCE,
+    ObservationLayout,
+    clock_values,
+)
 from ..locomotion.policy.velocity_response import INVERT
 from ..robots.description import RobotDescription, load_robot
 from ..robots.forward_kinematics import ForwardKinematics, posture_source
 from ..robots.tree_cache import load_tree
 from ..sim.sensor_errors import STRAPDOWN, axes_of
-
-CONSTANTS = {
-    "GRAVITY": GRAVITY,
-    "CORRECTION": gravity_filter.CORRECTION,
-    "BIAS_CORRECTION": gravity_filter.BIAS_CORRECTION,
-}
 
 
 def legs_of(player: object) -> PolicyLegs:
@@ -60,7 +56,9 @@ def legs_sources(description: RobotDescription) -> list[str]:
         leg_odometry.NOTE,
         INVERT,
         STRAPDOWN,
-        inspect.getsource(gravity_filter.follow_gravity),
+        gravity_filter.FOLLOW,
+        policy_legs.LEARN,
+        ADVANCE,
     ]
 
 
@@ -95,7 +93,6 @@ def legs_data(duel: Duel) -> dict[str, Any]:
         "calibration": gravity_filter.CALIBRATION,
         "settled": gravity_filter.SETTLED * gravity_filter.CALIBRATION,
         "learning": learning,
-        "bound": policy_legs.BOUND,
         "bounds": [list(axis) for axis in legs.velocities[:3]],
         "sizes": sizes.tolist(),
         "commands": commands.tolist(),
@@ -110,10 +107,7 @@ def legs_data(duel: Duel) -> dict[str, Any]:
 def policy_data(contract: PolicyContract) -> dict[str, Any]:
     """Return observations, actions and clock of a contract."""
     layout, clock = ObservationLayout.of(contract), contract.clock
-    finite = {
-        "action_clip": contract.action_clip,
-        "command_rate": contract.command_rate,
-    }
+    clip = contract.action_clip
     return {
         "size": layout.size,
         "places": {
@@ -130,14 +124,9 @@ def policy_data(contract: PolicyContract) -> dict[str, Any]:
         "observes_clipped": contract.observes_clipped,
         "filter": contract.action_filter,
         "period": contract.period,
-        "clock": clock
-        and {
-            "period": clock.period,
-            "offsets": list(clock.offsets),
-            "standing": clock.standing,
-        },
-        "stands_below": STANDS_BELOW,
-        **{name: x if x < inf else None for name, x in finite.items()},
+        "clock": [x if x < inf else None for x in clock_values(contract)],
+        "offsets": [] if clock is None else list(clock.offsets),
+        "action_clip": clip if clip < inf else None,
     }
 
 

@@ -101,7 +101,8 @@ class ForwardKinematics:
         """
         key = joint_positions.tobytes()
         if key != self._cache_key:
-            numbers = self._evaluate(joint_positions)
+            self.evaluate(joint_positions)
+            numbers = self.numbers.copy()
             posture = MeasuredPosture(
                 numbers[:3],
                 numbers[3:9].reshape(2, 3),
@@ -125,13 +126,13 @@ class ForwardKinematics:
         """Kernel from :attr:`angles` to :attr:`numbers`, if it is used."""
         return None if self._function is not None else self._run
 
-    def _evaluate(self, angles: Array) -> Array:
-        """Return the results of the formulas at angles, in [rad]."""
-        if self._function is not None:
-            return np.array(self._function(*angles.tolist()))
+    def evaluate(self, angles: Array) -> None:
+        """Set :attr:`numbers` to the results at angles, in [rad]."""
         self.angles[:] = angles
-        self._run()
-        return self.numbers.copy()
+        if self._function is None:
+            self._run()
+        else:
+            self.numbers[:] = self._function(*angles.tolist())
 
     def force_sensors(self) -> Array:
         """Return the positions of the foot force sensors.

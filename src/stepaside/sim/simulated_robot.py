@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ..core.constants import GRAVITY
 from ..core.errors import ModelError
+from ..core.index_span import span_of
 from ..core.poses import Array, Pose
 from ..perception.measurement import Measurement, Sighting
 from ..robots.description import REMEDY, RobotDescription
@@ -145,12 +146,14 @@ class SimulatedRobot:
         model, data = world.model, world.data
         self.joint_names = names = kinematics.joint_names
         joints = [model.joint(f"{name}/{n}") for n in names]
-        self._qpos = np.array([j.qposadr[0] for j in joints])
+        self._qpos = span_of([int(j.qposadr[0]) for j in joints])
         ids = np.array([motor_of(model, j.id) for j in joints])
         if gains is not None:
             set_joint_gains(model, ids, names, gains)
         self._dofs = (
-            None if gains is None else np.array([j.dofadr[0] for j in joints])
+            None
+            if gains is None
+            else span_of([int(j.dofadr[0]) for j in joints])
         )
         self.servos = self._make_servos(
             description, names, ids, body, feedforward=gains is None
@@ -223,11 +226,13 @@ class SimulatedRobot:
         self._gyro = self._sensor(sensors.gyro)
         self._accelerometer = self._sensor(sensors.accelerometer)
         self._qpos_view: Array = data.qpos
+        self._qvel_view: Array = data.qvel
         self._sensordata: Array = data.sensordata
         self._gyro_view: Array = data.sensordata[self._gyro]
         self._accelerometer_view: Array = data.sensordata[self._accelerometer]
         pressing = [self._sensor(foot).start for foot in sensors.feet]
         self._force_addresses = np.array(pressing)
+        self._force_span = span_of(pressing)
         sites = [model.site(f"{self.name}/{f}").id for f in sensors.feet]
         self._corner_sites = np.array(sites)
 
@@ -278,7 +283,7 @@ class SimulatedRobot:
                 now, *(EMPTY,) * 4, first, percepts, place, players=seen
             )
         self.world.update_sensors()
-        angles = self._qpos_view.take(self._qpos)
+        angles = self._qpos_view[self._qpos].copy()
         latest = None
         if self._strapdown is not None:
             gyro, specific_force, latest = self._strapdown.read()
@@ -289,7 +294,7 @@ class SimulatedRobot:
             )
         else:
             gyro, specific_force = self._imu.read()
-        forces = self._sensordata.take(self._force_addresses)
+        forces = self._sensordata[self._force_span].copy()
         if self._errors is not None:
             angles = self._errors.encoders(angles)
             gyro, specific_force, forces = self._errors.readings(
@@ -304,9 +309,7 @@ class SimulatedRobot:
             first,
             percepts,
             place,
-            None
-            if self._dofs is None
-            else self.world.data.qvel.take(self._dofs),
+            None if self._dofs is None else self._qvel_view[self._dofs].copy(),
             seen,
             latest,
         )

@@ -126,6 +126,8 @@ class World:
         ticks: Number of control ticks so far.
         before_step: Functions called with the time, in [s], before each
             physics step; see :meth:`call_before_step`.
+        measures_always: Whether sensors are read at each control tick: then
+            the last physics step computes them.
     """
 
     def __init__(
@@ -165,6 +167,7 @@ class World:
         self._stepped = (self.data.qpos.copy(), self.data.qvel.copy())
         self._option = self.model.opt
         self._lacks_sensors = False
+        self.measures_always = False
         self._kernels: dict[Callable[[float], None], BoundKernel] = {}
         self._control: Any = None  # runs the kernels within MuJoCo
         self.ticks = 0
@@ -204,6 +207,11 @@ class World:
             option.disableflags = NO_SENSORS
             if steps > 1:
                 mujoco.mj_step(model, data, nstep=steps - 1)
+            if self.measures_always:
+                option.disableflags = 0
+                mujoco.mj_step(model, data)
+                self.ticks += 1
+                return
             (qpos, qvel), (old_qpos, old_qvel) = self._state, self._stepped
             old_qpos[:], old_qvel[:] = qpos, qvel
             mujoco.mj_step(model, data)

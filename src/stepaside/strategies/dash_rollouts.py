@@ -139,7 +139,7 @@ def roll_out(
         (steps + 1, n, 2).
     """
     count = round(horizon / STEP)
-    times = STEP * np.arange(count)[:, None]
+    times = STEP * np.arange(count, dtype=np.float64)[:, None]
     runs = times >= dashes.begins - 1e-9
     headings = headings_at(times, pose, dashes, velocities)
     commands = np.where(

@@ -17,11 +17,11 @@ def up_at(roll: float, pitch: float) -> Array:
     return np.array([-sp, cp * sr, cp * cr])
 
 
-def standing(up: Array) -> GravityFilter:
+def standing(up: Array, velocity: Array = NONE) -> GravityFilter:
     """Filter of a robot that has stood for a second."""
-    found = GravityFilter()
+    found = GravityFilter(velocity, TICK)
     while not found.ready:
-        found.update(NONE, GRAVITY * up, NONE, TICK)
+        found.update(NONE, GRAVITY * up)
     return found
 
 
@@ -40,7 +40,7 @@ def test_the_tilt_follows_the_gyro(axis: int) -> None:
     for i in range(1, 126):
         angle = i * TICK
         up = up_at(angle, 0.0) if axis == 0 else up_at(0.0, angle)
-        found.update(rate, GRAVITY * up, NONE, TICK)
+        found.update(rate, GRAVITY * up)
     assert found.tilt[axis] == pytest.approx(0.5, abs=2e-3)
 
 
@@ -52,7 +52,7 @@ def test_a_turn_about_the_vertical_leaves_the_tilt() -> None:
         turned = np.array(
             [c * up[0] - s * up[1], s * up[0] + c * up[1], up[2]]
         )
-        found.update(np.array([0.0, 0.0, 1.0]), GRAVITY * turned, NONE, TICK)
+        found.update(np.array([0.0, 0.0, 1.0]), GRAVITY * turned)
     np.testing.assert_allclose(found.up, turned, atol=2e-3)
 
 
@@ -60,7 +60,7 @@ def test_a_constant_gyro_bias_is_learned() -> None:
     up = up_at(0.0, 0.0)
     found, bias = standing(up), np.array([0.01, -0.02, 0.0])
     for _ in range(round(120.0 / TICK)):
-        found.update(bias, GRAVITY * up, NONE, TICK)
+        found.update(bias, GRAVITY * up)
     assert found.tilt == pytest.approx((0.0, 0.0), abs=1e-4)
     np.testing.assert_allclose(found.rate, NONE, atol=1e-4)
 
@@ -74,14 +74,16 @@ def test_vertical_impacts_leave_the_tilt() -> None:
         pitch, rate = 0.05 * np.sin(phase), 0.05 * 4.0 * np.pi * np.cos(phase)
         up = up_at(0.0, pitch)
         force = (GRAVITY + 5.0 * np.sin(phase)) * up
-        found.update(np.array([0.0, rate, 0.0]), force, NONE, TICK)
+        found.update(np.array([0.0, rate, 0.0]), force)
         errors.append(found.tilt[1] - pitch)
     assert abs(np.mean(errors[-1000:])) < 2e-3
 
 
 def test_a_known_acceleration_is_no_tilt() -> None:
-    found = standing(up_at(0.0, 0.0))
-    aside = np.array([0.0, 1.0, 0.0])
+    """On a circle to the left, at 1 m/s and 1 rad/s."""
+    found = standing(up_at(0.0, 0.0), np.array([1.0, 0.0, 0.0]))
+    rate, force = np.array([0.0, 0.0, 1.0]), np.array([0.0, 1.0, GRAVITY])
+    found.update(rate, GRAVITY * up_at(0.0, 0.0))
     for _ in range(1000):
-        found.update(NONE, np.array([0.0, 1.0, GRAVITY]), aside, TICK)
+        found.update(rate, force)
     assert found.tilt == pytest.approx((0.0, 0.0), abs=1e-9)

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 from math import cos, sin
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -24,18 +23,19 @@ CORNERS = np.array([*SOLE, *SOLE])
 class FeetInTorso:
     """Kinematics whose joint angles are the feet themselves."""
 
+    def __init__(self) -> None:
+        self.numbers = np.zeros(27)
+        self.numbers[2] = 0.1  # height of the CoM
+
     def force_sensors(self) -> Array:
         """Corners of both soles."""
         return CORNERS
 
-    def posture(self, joint_positions: Array) -> Any:
+    def evaluate(self, joint_positions: Array) -> None:
         """Both feet in the torso frame, from positions and axes."""
         rows = joint_positions.reshape(2, 4, 3)
-        return SimpleNamespace(
-            positions_feet_in_torso=rows[:, 0],
-            axes_feet_in_torso=rows[:, 1:],
-            position_com_in_torso=np.array([0.0, 0.0, 0.1]),
-        )
+        self.numbers[3:9] = rows[:, 0].ravel()
+        self.numbers[9:] = rows[:, 1:].ravel()
 
 
 def begun_with(joint_positions: Array) -> LegOdometry:

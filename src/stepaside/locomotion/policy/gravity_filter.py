@@ -1,11 +1,11 @@
 """Direction of gravity in the torso frame, from gyro and accelerometer."""
 
-from collections.abc import Sequence
-from math import asin, atan2, cos, sin, sqrt
+from math import asin, atan2, cos, sin
 
 import numpy as np
 
 from ...core.constants import GRAVITY
+from ...core.machine_code import bound_loop
 from ...core.poses import Array
 
 CALIBRATION = 1.0  # of standing to average gravity, in [s]
@@ -14,38 +14,28 @@ CORRECTION = 0.5  # gain of the accelerometer, in [1/s]: a few gait cycles
 BIAS_CORRECTION = 0.05  # of the gyro bias, in [1/s^2]: damped beyond critical
 
 
-def follow_gravity(
-    up: list[float],
-    rate: list[float],
-    bias: list[float],
-    gyro: Sequence[float],
-    force: Sequence[float],
-    acceleration: Sequence[float] | Array,
-    duration: float,
-) -> None:
-    """Update upward direction, turning rate and gyro bias by one reading.
-
-    Floats one by one, since arrays of three take five times as long; in the
-    subset of Python that :mod:`stepaside.core.javascript` translates.
-    """
+FOLLOW = f"""\
+def follow_gravity(up, rate, bias, gyro, force, velocity, duration):
     x, y, z = up[0], up[1], up[2]
-    fx = (force[0] - acceleration[0]) / GRAVITY
-    fy = (force[1] - acceleration[1]) / GRAVITY
-    fz = (force[2] - acceleration[2]) / GRAVITY
+    fx = (force[0] + velocity[1] * rate[2]) / {GRAVITY}
+    fy = (force[1] - velocity[0] * rate[2]) / {GRAVITY}
+    fz = force[2] / {GRAVITY}
     ex, ey, ez = fy * z - fz * y, fz * x - fx * z, fx * y - fy * x
-    r = gyro[2] if gyro[2] == gyro[2] else 0.0  # NaN: a gyro with two axes
+    r = gyro[2] if gyro[2] == gyro[2] else 0.0
     p, q, r = gyro[0] - bias[0], gyro[1] - bias[1], r - bias[2]
     rate[0], rate[1], rate[2] = p, q, r
-    share = duration * BIAS_CORRECTION
+    share = duration[0] * {BIAS_CORRECTION}
     bias[0] -= share * ex
     bias[1] -= share * ey
     bias[2] -= share * ez
-    p, q, r = p + CORRECTION * ex, q + CORRECTION * ey, r + CORRECTION * ez
-    u = x + duration * (y * r - z * q)
-    v = y + duration * (z * p - x * r)
-    w = z + duration * (x * q - y * p)
+    p, q = p + {CORRECTION} * ex, q + {CORRECTION} * ey
+    r = r + {CORRECTION} * ez
+    u = x + duration[0] * (y * r - z * q)
+    v = y + duration[0] * (z * p - x * r)
+    w = z + duration[0] * (x * q - y * p)
     length = sqrt(u * u + v * v + w * w)
     up[0], up[1], up[2] = u / length, v / length, w / length
+"""
 
 
 class GravityFilter:
@@ -58,19 +48,30 @@ class GravityFilter:
     The bias of the gyro follows from the same error, except about the
     vertical, where gravity shows none. A robot on a policy sways and turns
     slowly while it stands, so that standing does not calibrate its gyro.
+
+    Attributes:
+        up: Upward unit vector in the torso frame. Shape (3,).
+        rate: Angular velocity without bias, in [rad/s]. Shape (3,).
     """
 
-    def __init__(self) -> None:
-        """Begin upright and uncalibrated."""
-        self._up, self.rate = [0.0, 0.0, 1.0], [0.0, 0.0, 0.0]
-        self._bias = [0.0, 0.0, 0.0]
-        self._force: Array = np.zeros(3)
-        self._time, self._count = 0.0, 0
+    def __init__(self, velocity: Array, duration: float) -> None:
+        """Begin upright and uncalibrated.
 
-    @property
-    def up(self) -> Array:
-        """Upward unit vector in the torso frame. Shape (3,)."""
-        return np.array(self._up)
+        Args:
+            velocity: Velocity of the torso in its level frame, in [m/s],
+                whose changes of direction are known accelerations; read at
+                each update. Shape (3,).
+            duration: Time between readings, in [s].
+        """
+        self.up, self.rate = np.array([0.0, 0.0, 1.0]), np.zeros(3)
+        self._force, self._duration = np.zeros(3), duration
+        self._time, self._count = 0.0, 0
+        self._readings = np.zeros(3), np.zeros(3)
+        self._follow = bound_loop(
+            *("follow_gravity", FOLLOW, "1111111"),
+            *(self.up, self.rate, np.zeros(3), *self._readings),
+            *(velocity, np.array([duration])),
+        )
 
     @property
     def ready(self) -> bool:
@@ -80,31 +81,23 @@ class GravityFilter:
     @property
     def tilt(self) -> tuple[float, float]:
         """Roll and pitch of the torso, in [rad]."""
-        x, y, z = self._up
+        x, y, z = self.up.tolist()
         return atan2(y, z), -asin(min(1.0, max(-1.0, x)))
 
-    def update(
-        self,
-        gyro: Array,
-        specific_force: Array,
-        acceleration: Sequence[float] | Array,
-        duration: float,
-    ) -> None:
+    def update(self, gyro: Array, specific_force: Array) -> None:
         """Update the direction with one reading.
 
         Args:
-            gyro: Angular velocity in the torso frame, in [rad/s]. Shape (3,).
+            gyro: Angular velocity in the torso frame, in [rad/s]; NaN about
+                the vertical from a gyro with two axes. Shape (3,).
             specific_force: Accelerometer in the torso frame, in [m/s^2].
                 Shape (3,).
-            acceleration: Known acceleration in the torso frame, in [m/s^2].
-                Shape (3,).
-            duration: Time since the last reading, in [s].
         """
         if not self.ready:
-            self._calibrate(specific_force, duration)
+            self._calibrate(specific_force)
             return
-        readings = gyro.tolist(), specific_force.tolist(), acceleration
-        follow_gravity(self._up, self.rate, self._bias, *readings, duration)
+        self._readings[0][:], self._readings[1][:] = gyro, specific_force
+        self._follow()
 
     def adopt(self, tilt: tuple[float, float]) -> None:
         """Replace the direction by the estimate of the robot itself.
@@ -116,16 +109,16 @@ class GravityFilter:
         """
         roll, pitch = tilt
         c = cos(pitch)
-        self._up = [-sin(pitch), c * sin(roll), c * cos(roll)]
+        self.up[:] = -sin(pitch), c * sin(roll), c * cos(roll)
         self._time = CALIBRATION
 
-    def _calibrate(self, specific_force: Array, duration: float) -> None:
+    def _calibrate(self, specific_force: Array) -> None:
         """Average the direction of gravity of a robot that stands."""
-        self._time += duration
+        self._time += self._duration
         if self._time < SETTLED * CALIBRATION:
             return
         self._count += 1
         self._force = (
             self._force + (specific_force - self._force) / self._count
         )
-        self._up = (self._force / np.linalg.norm(self._force)).tolist()
+        self.up[:] = self._force / np.linalg.norm(self._force)

@@ -1,6 +1,6 @@
 """Odometry of a walking robot from its loaded soles and its gyro."""
 
-from math import atan2, cos, sin
+from math import atan2, cos, isnan, sin
 
 import numpy as np
 
@@ -62,6 +62,7 @@ def note(com, feet, axes, corners, forces, given, points, loads, velocity,
     pose[0] += c * moved[0] - s * moved[1]
     pose[1] += s * moved[0] + c * moved[1]
     pose[2] += turn
+    moved[2] = turn
 """
 
 
@@ -77,7 +78,7 @@ class LegOdometry:
 
     Attributes:
         moved: Motion of the CoM over the last reading, ahead and to the left
-            at the mean heading, in [m]. Shape (2,).
+            at the mean heading, in [m], and turn, in [rad]. Shape (3,).
         velocity: Velocity of the torso in its level frame, smoothed, in
             [m/s]. Shape (3,).
     """
@@ -88,24 +89,26 @@ class LegOdometry:
         """Begin at the origin.
 
         Args:
-            forward: Kinematics of the robot.
+            forward: Kinematics of the robot, which nothing else evaluates.
             joint_positions: Initial joint angles, in [rad]. Shape (joints,).
         """
         self._forward = forward
-        self._posture = forward.posture(joint_positions)
+        forward.evaluate(joint_positions)
         self._tilt = 0.0, 0.0
-        self.moved: Array = np.zeros(2)
+        self.moved: Array = np.zeros(3)
         self.velocity: Array = np.zeros(3)
         self._pose, self._loads = np.zeros(3), np.zeros(8)
-        self._com, self._feet = np.zeros(3), np.zeros((2, 3))
-        self._axes, self._forces = np.zeros((6, 3)), np.zeros(8)
+        numbers = forward.numbers  # whose views follow
+        self._com, self._feet = numbers[:3], numbers[3:9].reshape(2, 3)
+        self._axes, self._forces = numbers[9:27].reshape(6, 3), np.zeros(8)
         # Roll, pitch, turn, duration, and the smoothing of the velocity.
         self._given = np.array([0.0, 0.0, 0.0, 0.0, SMOOTHING])
+        self._corners = np.ascontiguousarray(forward.force_sensors())
         self._note = bound_loop(
             *("note", NOTE, "12221121111"),
             *(self._com, self._feet, self._axes),
-            np.ascontiguousarray(forward.force_sensors()),
-            *(self._forces, self._given, np.zeros((9, 3)), self._loads),
+            *(self._corners, self._forces, self._given),
+            *(np.zeros((9, 3)), self._loads),
             *(self.velocity, self._pose, self.moved),
         )
 
@@ -123,11 +126,9 @@ class LegOdometry:
         left, right = self._loads.reshape(2, 4).sum(axis=1).tolist()
         side = Foot.LEFT if left >= right else Foot.RIGHT
         i = 0 if side is Foot.LEFT else 1
-        posture, level = self._posture, _tilted(*self._tilt)
-        ahead = level @ posture.axes_feet_in_torso[i, :, 0]
-        place = level @ (
-            posture.positions_feet_in_torso[i] - posture.position_com_in_torso
-        )
+        level = _tilted(*self._tilt)
+        ahead = level @ self._axes[3 * i : 3 * i + 3, 0]
+        place = level @ (self._feet[i] - self._com)
         yaw = atan2(ahead[1], ahead[0])
         return self.pose.compose(Pose(place[0], place[1], yaw)), side
 
@@ -147,23 +148,21 @@ class LegOdometry:
                 [rad].
             duration: Time since the last reading, in [s].
         """
-        posture = self._forward.posture(measurement.joint_positions)
-        self._posture, self._tilt = posture, tilt
-        self._com[:] = posture.position_com_in_torso
-        self._feet[:] = posture.positions_feet_in_torso
-        self._axes[:] = posture.axes_feet_in_torso.reshape(6, 3)
+        self._forward.evaluate(measurement.joint_positions)
+        self._tilt, given = tilt, self._given
         self._forces[:] = measurement.foot_forces
-        if np.isnan(self._forces).any():
+        if isnan(sum(self._forces.tolist())):
             self._forces[:] = self._loads_by_height()
-        self._given[:4] = *tilt, turn, duration
+        given[0], given[1] = tilt
+        given[2], given[3] = turn, duration
         self._note()
 
     def _loads_by_height(self) -> Array:
         """Return weights of the corners of both soles by their height."""
-        posture, up = self._posture, _tilted(*self._tilt)[2]
-        height = posture.positions_feet_in_torso @ up
-        corners = self._forward.force_sensors().reshape(2, 4, 2)
-        slopes = up @ posture.axes_feet_in_torso[:, :, :2]
+        up = _tilted(*self._tilt)[2]
+        height = self._feet @ up
+        corners = self._corners.reshape(2, 4, 2)
+        slopes = up @ self._axes.reshape(2, 3, 3)[:, :, :2]
         heights = height[:, None] + (corners @ slopes[:, :, None])[..., 0]
         above = heights.reshape(8) - heights.min()
         weights: Array = np.exp(-above / CONTACT)

@@ -89,6 +89,7 @@ class PolicyNetwork:
         self.states = _pair_states(path, inputs[1:], outputs[1:])
         names = [self.action.name, *(out.name for _, out in self.states)]
         self._outputs = names
+        self._bindings: dict[int, _BoundArrays] = {}
 
     def initial_memory(self) -> Memory:
         """Return recurrent states of zero, for one walker."""
@@ -139,15 +140,29 @@ class PolicyNetwork:
         memories: Sequence[Memory],
     ) -> list[tuple[Array, Memory]]:
         """Evaluate walkers together."""
-        rows = np.array(observations, dtype=np.float32)
-        feed = {self.observation.name: rows}
+        count = len(observations)
+        bound = self._bindings.get(count)
+        if bound is None:
+            width = len(observations[0])
+            shapes = [self.observation._replace(shape=(None, width))]
+            shapes += [given for given, _ in self.states]
+            bound = _BoundArrays(session, shapes, self._outputs, count)
+            self._bindings[count] = bound
+        for row, observation in zip(
+            bound.inputs[0], observations, strict=True
+        ):
+            row[:] = observation
         for i, (given, _) in enumerate(self.states):
-            parts = [memory[i] for memory in memories]
-            feed[given.name] = np.concatenate(parts, axis=_batch_axis(given))
-        found = session.run(self._outputs, feed)
+            np.concatenate(
+                [memory[i] for memory in memories],
+                axis=_batch_axis(given),
+                out=bound.inputs[1 + i],
+            )
+        session.run_with_iobinding(bound.binding)
+        found = bound.outputs
         actions: Array = found[0].astype(np.float64)
-        usable = np.abs(actions) <= LARGEST_ACTION  # NaN is not
-        if not usable.all():
+        if not abs(actions).max() <= LARGEST_ACTION:  # NaN is not
+            usable = abs(actions) <= LARGEST_ACTION
             row, at = np.argwhere(~usable)[0].tolist()
             raise PolicyError(
                 f"legs: output {at} of {self.path} must be finite and at most "
@@ -156,7 +171,7 @@ class PolicyNetwork:
         if not self.states:
             return [(action, ()) for action in actions]
         split = [
-            np.split(value, len(rows), axis=_batch_axis(given))
+            np.split(value.copy(), count, axis=_batch_axis(given))
             for (given, _), value in zip(self.states, found[1:], strict=True)
         ]
         return list(zip(actions, zip(*split, strict=True), strict=True))
@@ -166,13 +181,12 @@ class PolicyNetwork:
         names = [node.name for node in self._session.get_inputs()]
         shapes = [self.observation, *(given for given, _ in self.states)]
         draw = np.random.default_rng(0).standard_normal
+        axes = [_batch_axis(shape) for shape in shapes]
         for count in BATCHES:
-            axes = [_batch_axis(shape) for shape in shapes]
-            rows = []
-            for shape, axis in zip(shapes, axes, strict=True):
-                sizes = [size or 1 for size in shape.shape]
-                sizes[axis] = count
-                rows.append(draw(sizes).astype(np.float32))
+            rows = [
+                draw(_sizes(shape, count)).astype(np.float32)
+                for shape in shapes
+            ]
             together = batched.run(
                 self._outputs, dict(zip(names, rows, strict=True))
             )
@@ -188,6 +202,48 @@ class PolicyNetwork:
                     if not np.array_equal(one, np.take(all_, [k], axis=axis)):
                         return False
         return True
+
+
+class _BoundArrays:
+    """Inputs and outputs of a session, which reads and writes them in place.
+
+    Passing arrays at each call takes a third longer.
+
+    Attributes:
+        inputs: Inputs, to be filled.
+        outputs: Outputs of the last run.
+        binding: Binding of the session to them.
+    """
+
+    def __init__(
+        self,
+        session: Any,
+        shapes: Sequence[TensorShape],
+        outputs: Sequence[str],
+        count: int,
+    ) -> None:
+        """Bind new arrays for a number of walkers."""
+        self.inputs = [np.zeros(_sizes(x, count), np.float32) for x in shapes]
+        names = [shape.name for shape in shapes]
+        # Networks may leave sizes of outputs open: a run shows them.
+        self.outputs: list[NDArray[np.float32]] = session.run(
+            outputs, dict(zip(names, self.inputs, strict=True))
+        )
+        self.binding = session.io_binding()
+        for bind, keys, arrays in (
+            (self.binding.bind_input, names, self.inputs),
+            (self.binding.bind_output, outputs, self.outputs),
+        ):
+            for key, array in zip(keys, arrays, strict=True):
+                place = array.__array_interface__["data"][0]
+                bind(key, "cpu", 0, array.dtype.type, array.shape, place)
+
+
+def _sizes(shape: TensorShape, count: int) -> list[int]:
+    """Return the sizes of a tensor of a number of walkers."""
+    sizes = [size or 1 for size in shape.shape]
+    sizes[_batch_axis(shape)] = count
+    return sizes
 
 
 def _session_of(content: bytes) -> Any:

@@ -3,6 +3,8 @@
 import numpy as np
 
 from ...core.errors import PolicyError
+from ...core.index_span import span_of
+from ...core.machine_code import bound_loop
 from ...core.poses import Array, Pose
 from ...perception.measurement import Measurement
 from ...robots.description import RobotDescription
@@ -19,6 +21,14 @@ from .velocity_response import VelocityResponse
 
 LEARNING = 0.2  # integral gain of each velocity, in [1/s]: some gait cycles
 BOUND = 0.15  # greatest learned correction, in [m/s] and [rad/s]
+LEARN = f"""\
+def learn(intended, moved, learning, correction, wanted):
+    for i in range(3):
+        missing = intended[i] * learning[1] - moved[i]
+        learned = correction[i] + learning[0] * missing
+        correction[i] = min(max(learned, -{BOUND}), {BOUND})
+        wanted[i] = intended[i] + correction[i]
+"""
 
 
 class PolicyLegs:
@@ -34,8 +44,9 @@ class PolicyLegs:
         response: Response of the legs to commands.
         standing: Posture in which the robot begins.
         odometry: Odometry of the robot.
-        command: Command of the policy at this tick.
         intended: Intended velocity at this tick.
+        pose: Pose in odometry: place of the CoM and heading of the torso.
+        tilt: Roll and pitch of the torso, in [rad].
     """
 
     def __init__(
@@ -78,34 +89,31 @@ class PolicyLegs:
         )
         forward = ForwardKinematics(description)
         motors = forward.tree.motors
-        self._joints = np.array([motors.index(n) for n in contract.joints])
+        self._joints = span_of([motors.index(n) for n in contract.joints])
         angles = zip(contract.joints, contract.default_posture, strict=True)
         self.standing = InitialPosture(forward, dict(angles))
         self._targets = self.standing.joint_targets.copy()
         self._network, self._pool = network, pool
         self._runner = PolicyRunner(contract, network)
-        self._gravity = GravityFilter()
-        self.odometry = LegOdometry(forward, self._targets)
-        self.command = self.intended = self._wanted = STILL
-        self._learning = LEARNING if learns else 0.0
-        self._correction = [0.0, 0.0, 0.0]
+        self.odometry = odometry = LegOdometry(forward, self._targets)
+        self._gravity = GravityFilter(odometry.velocity, tick)
+        self.pose, self.tilt = odometry.pose, self._gravity.tilt
+        self.intended = self._wanted = STILL
+        self._intended, self._command = np.zeros(3), np.zeros(3)
+        self._gravity_in_torso = np.zeros(3)
+        gain, wanted = LEARNING if learns else 0.0, np.zeros(3)
+        self._learn = bound_loop(
+            *("learn", LEARN, "11111"),
+            *(self._intended, odometry.moved),
+            *(np.array([gain, contract.period]), np.zeros(3), wanted),
+        )
+        self._invert = self.response.inverse(wanted, self._command)
         self._turned, self._ticks = 0.0, 0
 
     @property
     def ready(self) -> bool:
         """Whether it has stood long enough to calibrate the gyro."""
         return self._gravity.ready
-
-    @property
-    def pose(self) -> Pose:
-        """Pose in odometry: place of the CoM and heading of the torso."""
-        x, y, theta = self.odometry.pose
-        return Pose(x, y, theta + self._turned)
-
-    @property
-    def tilt(self) -> tuple[float, float]:
-        """Roll and pitch of the torso, in [rad]."""
-        return self._gravity.tilt
 
     @property
     def velocities(self) -> VelocitySet:
@@ -141,60 +149,44 @@ class PolicyLegs:
         if velocity is not self._wanted:
             self._wanted = velocity
             self.intended = self.velocities.nearest(velocity)
-        rate = self._note_imu(measurement)
-        self._turned += rate * self._tick
+            self._intended[:] = self.intended
+        gravity = self._gravity
+        gravity.update(measurement.gyro, measurement.accelerometer)
+        if measurement.tilt is not None:
+            gravity.adopt(measurement.tilt)
+        self.tilt = gravity.tilt
+        self._turned += gravity.rate.item(2) * self._tick
         if self._ticks % self._every == 0:
             self._decide(measurement)
         self._ticks += 1
+        x, y, theta = self.odometry.pose
+        self.pose = Pose(x, y, theta + self._turned)
         return self.joint_targets
-
-    def _note_imu(self, measurement: Measurement) -> float:
-        """Update attitude and turning; return the turning rate, [rad/s]."""
-        rate = self._gravity.rate[2]
-        ahead, left, _ = self.odometry.velocity.tolist()
-        self._gravity.update(
-            measurement.gyro,
-            measurement.accelerometer,
-            (-left * rate, ahead * rate, 0.0),
-            self._tick,
-        )
-        if measurement.tilt is not None:
-            self._gravity.adopt(measurement.tilt)
-        return self._gravity.rate[2]
 
     def _decide(self, measurement: Measurement) -> None:
         """Run the policy at its own period."""
         period = self.contract.period
         turned, self._turned = self._turned, 0.0
         self.odometry.update(measurement, self.tilt, turned, period)
-        walks = self.intended != STILL
-        self.command = STILL
-        if walks:
-            gain = self._learning
-            moved = *self.odometry.moved.tolist(), turned
-            self._correction = [
-                min(max(kept + gain * (wish * period - done), -BOUND), BOUND)
-                for kept, wish, done in zip(
-                    self._correction, self.intended, moved, strict=True
-                )
-            ]
-            wishes = zip(self.intended, self._correction, strict=True)
-            self.command = self.response.command_for(
-                BodyVelocity(*(wish + learned for wish, learned in wishes))
-            )
+        if self.intended == STILL:
+            self._command.fill(0.0)
+        else:
+            self._learn()
+            self._invert()
         velocities = measurement.joint_velocities
         assert velocities is not None
+        np.negative(self._gravity.up, out=self._gravity_in_torso)
         motion = BodyMotion(
             measurement.joint_positions[self._joints],
             velocities[self._joints],
             measurement.gyro
             if measurement.latest_gyro is None
             else measurement.latest_gyro,
-            -self._gravity.up,
+            self._gravity_in_torso,
             self.odometry.velocity,
         )
         runner, network = self._runner, self._network
-        seen = runner.observe(motion, self.command)
+        seen = runner.observe(motion, self._command)
         if self._pool is not None:
             self._pool.submit(network, seen, runner.memory, runner.act)
             return

@@ -1,17 +1,39 @@
 """Evaluation of a walking policy at its control period."""
 
 from collections.abc import Sequence
-from math import cos, inf, pi, sin
+from math import inf, pi
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.machine_code import bound_loop
 from ...core.poses import Array
-from .contract import PolicyContract
+from .contract import PhaseClock, PolicyContract
 from .network import Memory, PolicyNetwork
 
 STANDS_BELOW = 0.01  # magnitude of a command that counts as zero
+ADVANCE = f"""\
+def advance(given, command, phases, offsets, sines, cosines, clock):
+    stands = 1.0
+    for i in range(3):
+        change = given[i] - command[i]
+        command[i] += min(max(change, -clock[0]), clock[0])
+        stands = stands if abs(command[i]) < {STANDS_BELOW} else 0.0
+    seen = 1.0 - clock[3] * stands
+    for k in range(phases.shape[0]):
+        phase = phases[k] + clock[1] + {pi}
+        phase = phase if phase < {2.0 * pi} else phase - {2.0 * pi}
+        phase -= {pi}
+        if clock[2] > 0.0 and stands > 0.0:
+            phase = {pi}
+        elif clock[2] > 0.0 and clock[4] > 0.0:
+            phase = offsets[k]
+        phases[k] = phase
+        sines[k] = seen * sin(phase)
+        cosines[k] = seen * cos(phase)
+    clock[4] = stands
+"""
 
 
 class BodyMotion(NamedTuple):
@@ -50,10 +72,6 @@ class PolicyRunner:
         self._default = np.array(contract.default_posture)
         self._scale = np.array(contract.action_scale)
         self.targets = self._default
-        self._command = [0.0, 0.0, 0.0]
-        clock = contract.clock
-        self._phases = list(() if clock is None else clock.offsets)
-        self._stands = True
         layout = ObservationLayout.of(contract)
         self._values = np.zeros(layout.size)
         self._parts = {
@@ -64,6 +82,16 @@ class PolicyRunner:
         self._clips = layout.clips if finite else None
         self._history: Array | None = None
         self._flat = layout.flat
+        clock = contract.clock or PhaseClock(inf, ())
+        offsets = np.array(clock.offsets, dtype=np.float64)
+        self._command = np.zeros(3)
+        self._advance = bound_loop(
+            *("advance", ADVANCE, "1111111"),
+            *(self._command, self._parts["command"]),
+            *(offsets.copy(), offsets),
+            *(self._parts["sin_phase"], self._parts["cos_phase"]),
+            np.array(clock_values(contract)),
+        )
 
     def observe(
         self, body: BodyMotion, command: Sequence[float] | Array
@@ -79,16 +107,11 @@ class PolicyRunner:
             Shape (observation width,).
         """
         contract, parts = self.contract, self._parts
-        change = contract.command_rate * contract.period
-        self._command = [
-            last + min(max(given - last, -change), change)
-            for last, given in zip(self._command, command, strict=True)
-        ]
-        self._advance_clock()
+        self._command[:] = command
+        self._advance()
         parts["base_lin_vel"][:] = body.velocity
         parts["base_ang_vel"][:] = body.angular_velocity
         parts["projected_gravity"][:] = body.gravity
-        parts["command"][:] = self._command
         np.subtract(
             body.joint_positions, self._default, out=parts["joint_pos"]
         )
@@ -130,25 +153,20 @@ class PolicyRunner:
         self.targets = targets
         return targets
 
-    def _advance_clock(self) -> None:
-        """Advance the phases by one control period."""
-        clock = self.contract.clock
-        if clock is None:
-            return
-        stands = max(map(abs, self._command)) < STANDS_BELOW
-        if clock.standing != "runs" and stands:
-            self._phases = [pi] * len(clock.offsets)
-        elif clock.standing != "runs" and self._stands:
-            self._phases = list(clock.offsets)
-        else:
-            step = 2.0 * pi * self.contract.period / clock.period
-            self._phases = [
-                (phase + step + pi) % (2.0 * pi) - pi for phase in self._phases
-            ]
-        self._stands = stands
-        seen = 0.0 if clock.standing == "silent" and stands else 1.0
-        self._parts["sin_phase"][:] = [seen * sin(x) for x in self._phases]
-        self._parts["cos_phase"][:] = [seen * cos(x) for x in self._phases]
+
+def clock_values(contract: PolicyContract) -> list[float]:
+    """Return the last argument of :data:`ADVANCE`, at the start.
+
+    They are the greatest change of a command and the step of the phases per
+    period, whether the clock waits while the command is zero, whether it is
+    silent then, and whether the command was zero.
+    """
+    clock, period = contract.clock, contract.period
+    step, waits, silent = 0.0, False, False
+    if clock is not None:
+        step = 2.0 * pi * period / clock.period
+        waits, silent = clock.standing != "runs", clock.standing == "silent"
+    return [contract.command_rate * period, step, waits, silent, 1.0]
 
 
 class ObservationLayout(NamedTuple):

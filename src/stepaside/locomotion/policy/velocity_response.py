@@ -155,9 +155,8 @@ class VelocityResponse:
         Each axis in turn is solved for what the others leave; the cross terms
         of walking policies are small.
         """
-        wanted, invert, command = self._inverse
-        wanted[:] = velocity
-        invert()
+        command = np.zeros(3)
+        self.inverse(np.array(velocity), command)()
         return BodyVelocity(*command.tolist())
 
     @property
@@ -174,16 +173,18 @@ class VelocityResponse:
             effects[i, : sizes[i]] = self._effects[i]
         return sizes, commands, effects.reshape(-1, 3)
 
-    @cached_property
-    def _inverse(self) -> tuple[Array, Callable[[], int], Array]:
-        """Velocity, the loop that inverts it, and its command."""
-        wanted, command = np.zeros(3), np.zeros(3)
-        invert = bound_loop(
+    def inverse(self, velocity: Array, command: Array) -> Callable[[], int]:
+        """Return the loop that sets the command for a velocity.
+
+        Args:
+            velocity: Velocity that is read. Shape (3,).
+            command: Command that is written. Shape (3,).
+        """
+        return bound_loop(
             *("invert", INVERT, "1i22121"),
-            *(wanted, *self.tables),
+            *(velocity, *self.tables),
             *(np.zeros(3), np.zeros((3, 3)), command),
         )
-        return wanted, invert, command
 
     @cached_property
     def velocities(self) -> VelocitySet:

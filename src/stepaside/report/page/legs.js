@@ -11,8 +11,10 @@ class LegsWalker extends Robot {
     Object.assign(this, { legs, policy, body, plan: null, turning: 0, phase: "stands" });
     this.velocity = this.intended = [0, 0, 0];
     this.next = 0;
-    this.correction = [0, 0, 0];
-    [this.up, this.rate, this.bias] = [[0, 0, 1], [0, 0, 0], [0, 0, 0]];
+    [this.up, this.rate, this.bias] = [table(3, 1, [0, 0, 1]), table(3, 1), table(3, 1)];
+    [this.correction, this.wish, this.wanted] = [0, 1, 2].map(() => table(3, 1));
+    this.learning = table(2, 1, [legs.learning, policy.period]);
+    this.tick = table(1, 1, [this.data.tick]);
     Object.assign(this, { stood: 0, count: 0, force: [0, 0, 0] });
     [this.site, this.gravity] = [body.place, legs.gravity].map((values) => table(3, 1, values));
     this.mount = table(3, 3, body.mount.flat());
@@ -25,14 +27,16 @@ class LegsWalker extends Robot {
     this.corners = table(8, 2, legs.corners.flat());
     this.given = table(5, 1, [0, 0, 0, 0, legs.smoothing]);
     [this.points, this.loads, this.forces] = [table(9, 3), table(8, 1), table(8, 1)];
-    [this.speed, this.position, this.moved] = [table(3, 1), table(3, 1), table(2, 1)];
+    [this.speed, this.position, this.moved] = [table(3, 1), table(3, 1), table(3, 1)];
     this.sizes = Int32Array.from(legs.sizes);
     this.commands = table(3, legs.commands[0].length, legs.commands.flat());
     this.effects = table(legs.effects.length, 3, legs.effects.flat());
     this.values = new Float64Array(policy.size);
-    this.command = [0, 0, 0];
-    this.phases = policy.clock ? [...policy.clock.offsets] : [];
-    this.still = true;
+    const { offsets, places } = policy;
+    [this.offsets, this.phases] = [0, 1].map(() => table(offsets.length, 1, offsets));
+    [this.commanded, this.sines, this.cosines] = ["command", "sin_phase", "cos_phase"]
+      .map((name) => this.values.subarray(...places[name]));
+    this.gait = table(5, 1, policy.clock.map((value) => value ?? Infinity));
     this.past = null;
     this.targets = Float64Array.from(policy.default);
     this.states = legs.network.states.map(([, , shape]) => new Float32Array(shape.reduce((a, b) => a * b, 1)));
@@ -83,10 +87,10 @@ class LegsWalker extends Robot {
   }
   /* Direction of gravity; see locomotion/policy/gravity_filter.py. */
   balance() {
-    const { legs, imu, data } = this, turn = this.rate[2];
+    const { legs, imu, data } = this;
     if (this.ready) {
       this.game.formulas.follow_gravity(this.up, this.rate, this.bias, imu.subarray(0, 3), imu.subarray(3, 6),
-        [-this.speed[1] * turn, this.speed[0] * turn, 0], data.tick);
+        this.speed, this.tick);
       return;
     }
     this.stood += data.tick;
@@ -94,7 +98,7 @@ class LegsWalker extends Robot {
     this.count += 1;
     this.force = this.force.map((mean, i) => mean + (imu[3 + i] - mean) / this.count);
     const length = Math.hypot(...this.force);
-    this.up = this.force.map((part) => part / length);
+    this.up.set(this.force.map((part) => part / length));
   }
   /* Odometry, then the command for the intended velocity; see locomotion/policy/policy_legs.py. */
   navigate() {
@@ -105,27 +109,22 @@ class LegsWalker extends Robot {
     const feet = table(2, 3, numbers.subarray(3, 9)), axes = table(6, 3, numbers.subarray(9, 27));
     formulas.note(numbers, feet, axes, this.corners, this.forces, this.given, this.points, this.loads,
       this.speed, this.position, this.moved);
-    const commanded = table(3, 1);
-    if (this.intended.some(Boolean)) {
-      const done = [...this.moved, turned];
-      this.correction = this.correction.map((kept, i) =>
-        clamp(kept + legs.learning * (this.intended[i] * period - done[i]), -legs.bound, legs.bound));
-      const wish = table(3, 1, this.intended.map((value, i) => value + this.correction[i]));
-      formulas.invert(wish, this.sizes, this.commands, this.effects, table(3, 1), table(3, 3), commanded);
+    if (!this.intended.some(Boolean)) {
+      this.wanted.fill(0);
+      return;
     }
-    this.wanted = commanded;
+    formulas.learn(this.intended, this.moved, this.learning, this.correction, this.wish);
+    formulas.invert(this.wish, this.sizes, this.commands, this.effects, table(3, 1), table(3, 3), this.wanted);
   }
   /* Input of the network; see locomotion/policy/runner.py. */
   observe(velocities) {
     const { policy, values, legs } = this, { places } = policy;
-    const change = policy.command_rate === null ? Infinity : policy.command_rate * policy.period;
-    this.command = this.command.map((last, i) => last + clamp(this.wanted[i] - last, -change, change));
-    this.advanceClock();
+    this.game.formulas.advance(this.wanted, this.commanded, this.phases, this.offsets, this.sines, this.cosines,
+      this.gait);
     const put = (name, given) => values.set(given, places[name][0]);
     put("base_lin_vel", this.speed);
     put("base_ang_vel", this.imu.subarray(6, 9));
     put("projected_gravity", this.up.map((part) => -part));
-    put("command", this.command);
     put("joint_pos", legs.joints.map((j, i) => this.angles[j] - policy.default[i]));
     put("joint_vel", legs.joints.map((j) => velocities[j]));
     const frame = policy.order.map((place, i) => {
@@ -136,21 +135,6 @@ class LegsWalker extends Robot {
     this.past = this.past ? [...this.past.slice(1), frame] : Array(policy.history).fill(frame);
     const all = this.past.flat();
     return Float32Array.from(policy.flat, (place) => all[place]);
-  }
-  advanceClock() {
-    const { clock, period, places, stands_below: least } = this.policy;
-    if (!clock) return;
-    const still = Math.max(...this.command.map(Math.abs)) < least, turn = 2 * Math.PI;
-    if (clock.standing !== "runs" && still) this.phases = clock.offsets.map(() => Math.PI);
-    else if (clock.standing !== "runs" && this.still) this.phases = [...clock.offsets];
-    else this.phases = this.phases.map((phase) => {
-      const next = phase + turn * period / clock.period + Math.PI;
-      return next - turn * Math.floor(next / turn) - Math.PI;
-    });
-    this.still = still;
-    const seen = clock.standing === "silent" && still ? 0 : 1;
-    this.values.set(this.phases.map((phase) => seen * Math.sin(phase)), places.sin_phase[0]);
-    this.values.set(this.phases.map((phase) => seen * Math.cos(phase)), places.cos_phase[0]);
   }
   /* Joint targets of an action, to the actuators. */
   act(raw) {
