@@ -1,5 +1,7 @@
 """Test the evader that does not know its opponent."""
 
+from collections.abc import Iterator
+from dataclasses import replace
 from math import atan2, hypot, inf, pi
 
 import numpy as np
@@ -21,7 +23,7 @@ from stepaside.strategies import (
 )
 from stepaside.strategies.irregular_pursuit import NoisyPursuit, WaitingPursuit
 from stepaside.strategies.opponent_models import MODELS, ModelFit
-from stepaside.strategies.robust_evasion import actions_of
+from stepaside.strategies.robust_evasion import RobustMemory, actions_of
 from stepaside.strategies.search.beam_search import arc_end, beam_search
 from stepaside.strategies.search.pursuer_model import (
     BeamRules,
@@ -64,23 +66,53 @@ def test_faster_pursuer_is_seen_to_be_faster() -> None:
 
 
 def test_it_looks_further_ahead_the_fewer_opponents_are_plausible() -> None:
-    evader = RobustEvasion(width=20, horizon=20)
+    planned = {
+        len(memory.assumed): memory.planned
+        for _, memory in decisions(RobustEvasion(20, 20), MODELS[0], 40)
+    }
+    assert planned == {3: 20, 2: 30, 1: 60}
+
+
+def decisions(
+    evader: RobustEvasion, model: PursuerModel, number: int
+) -> Iterator[tuple[Knowledge, RobustMemory]]:
+    """Yield knowledge and memory after each decision on an open floor."""
     pursuer, own = (-1.0, 0.1, 1.2), (0.4, -0.2, 2.0)
-    memory, planned = evader.begin(), {}
-    for n in range(40):
+    memory = evader.begin()
+    for n in range(number):
         x, y = pursuer[0] - own[0], pursuer[1] - own[1]
         bearing = wrap_angle(atan2(y, x) - own[2])
         known = Knowledge(
             0.4 * n, bearing, hypot(x, y), LIMITS, pose_in_map=Pose(*own)
         )
         intent, memory = evader.decide(known, memory)
-        assert not memory.doomed
-        planned[len(memory.assumed)] = memory.planned
-        turn = model_turn(own, pursuer, MODELS[0], RULES)
-        pursuer = arc_end(pursuer, 0.04, turn)
+        yield known, memory
+        turn = model_turn(own, pursuer, model, RULES)
+        pursuer = arc_end(pursuer, model.speed * 0.04, turn)
         turn = RULES.share * intent.heading
         own = arc_end(own, -0.04 * intent.speed_factor, turn)
-    assert planned == {3: 20, 2: 30, 1: 60}
+
+
+def test_plan_that_keeps_its_promise_is_kept() -> None:
+    """Against a known pursuer the rest survives as long as promised."""
+    evader, kept = RobustEvasion(20, 20), 0
+    (_, before), *later = decisions(evader, MODELS[3], 40)
+    for _, memory in later:
+        if len(memory.moves) < memory.planned:
+            kept += 1
+            np.testing.assert_array_equal(memory.moves, before.moves[1:])
+            assert memory.promised == before.promised - 1
+        before = memory
+    assert kept > 20
+
+
+def test_plan_is_searched_again_when_the_pursuer_departs_from_it() -> None:
+    evader = RobustEvasion(20, 20)
+    *_, (known, memory) = decisions(evader, MODELS[3], 24)
+    assert len(memory.moves) < memory.planned
+    behind = replace(known, time=9.6, bearing=pi, distance=0.4)
+    _, after = evader.decide(behind, memory)
+    assert len(after.moves) == after.planned < memory.planned
 
 
 def survival(
@@ -168,3 +200,12 @@ def test_pursuer_walks_at_its_speed() -> None:
     )
     moved = np.hypot(*np.diff(track.pursuer[:, :2], axis=0).T)
     assert moved == pytest.approx(1.3 * 0.04, rel=0.02)
+
+
+def test_evader_that_no_step_saves_searches_again() -> None:
+    """A pursuer that would have captured it walks past."""
+    evader = RobustEvasion(20, 20)
+    near = Knowledge(0.0, 0.0, 0.351, LIMITS, pose_in_map=Pose(0.0, 0.0, pi))
+    _, lost = evader.decide(near, evader.begin())
+    _, saved = evader.decide(replace(near, time=0.4, distance=1.5), lost)
+    assert len(lost.moves) < 5 < len(saved.moves)

@@ -21,7 +21,8 @@ of them turning by the whole bearing, and pursuers with another target."""
 DANGEROUS = (5, 6, 4, 3, 0)  # models to assume until they are ruled out
 SETTLING = 2  # steps until the headings are known
 MEMORY = 0.9  # weight of the earlier errors after a step
-EXACT = 4e-3  # error of a model that counts as none, in [rad] rms
+EXACT = 1e-3  # error of a model that counts as none, in [rad] rms; with
+# 4e-3 pursuers of gain x3 are told from x4 too late, and capture 13 % sooner
 RULED_OUT = 3.0  # times the least error: a model that does not explain
 LEAST_MOTION = 0.3  # stride over that of the gait that shows a direction
 ASSUMED = 3  # models that are assumed at once

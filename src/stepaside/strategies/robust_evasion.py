@@ -7,19 +7,21 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..arena.obstacles import PackedObstacles
 from ..core.constants import CAPTURE_DISTANCE
 from ..core.errors import ConfigurationError, check_positive, check_within
 from ..core.poses import Array
 from .knowledge import ON_THE_SPOT, Intent, Knowledge
 from .opponent_models import ASSUMED, MODELS, ModelFit
-from .search.pursuer_model import BeamRules
+from .search.pursuer_model import BeamRules, PursuerModel
 from .strategy import BackwardStrategy
 
 ERROR = ConfigurationError
 MARGIN = 0.005  # in addition to the required clearance, in [m]
 TURNS = 7  # turns tried per step
-WIDER = 20  # times the width where no state survives the horizon
-KEPT = 0.8  # of a plan is left when it is searched again: 0.5 loses 2 %
+WIDER = 5  # times the width where no state survives; 20 is no better
+KEPT = 0.95  # of a plan is left when it is searched again; 0.8 loses 3 %
+SLACK = 1  # steps that a plan may survive less than when it was made
 
 
 class RobustMemory(NamedTuple):
@@ -28,16 +30,17 @@ class RobustMemory(NamedTuple):
     Attributes:
         fit: Models of the pursuer, and their errors.
         moves: Turn [rad] and speed factor of the planned steps to come.
+            Shape (n, 2).
         assumed: Models that the plan was made for.
         planned: Number of steps of the plan when it was made.
-        doomed: Whether no state of the search survived its horizon.
+        promised: Number of its steps to come that survive each model.
     """
 
     fit: ModelFit = ModelFit()
-    moves: tuple[tuple[float, float], ...] = ()
+    moves: Array = np.empty((0, 2))
     assumed: tuple[int, ...] = ()
     planned: int = 0
-    doomed: bool = True
+    promised: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,56 +100,78 @@ class RobustEvasion(BackwardStrategy):
             limits.step_duration,
         )
         assumed = tuple(fit.plausible())
-        memory = memory._replace(fit=fit, moves=memory.moves[1:])
-        spent = len(memory.moves) < KEPT * memory.planned
-        if assumed != memory.assumed or spent or memory.doomed:
-            horizon = self.horizon * ASSUMED // len(assumed)
-            rules = rules._replace(horizon=horizon)
-            moves = self._plan(knowledge, fit, assumed, memory.moves, rules)
-            memory = RobustMemory(
-                fit, moves, assumed, len(moves), len(moves) < horizon
-            )
-        turn, speed = (memory.moves or ((rules.largest, ON_THE_SPOT),))[0]
-        return Intent(turn / share, speed), memory
+        begins = knowledge.step_start_in_map or own
+        game = PlannedGame(
+            tuple(MODELS[n]._replace(speed=fit.speed) for n in assumed),
+            [
+                np.array([*begins, *fit.position, fit.headings[n]])
+                for n in assumed
+            ],
+            knowledge.obstacles_in_map.packed,
+            rules._replace(horizon=self.horizon * ASSUMED // len(assumed)),
+        )
+        rest, promised = memory.moves[1:], memory.promised - 1
+        if (
+            assumed != memory.assumed
+            or len(rest) <= KEPT * memory.planned
+            or game.outcome(rest)[0] < promised - SLACK
+        ):
+            rest, promised = game.plan(rest)
+            memory = memory._replace(assumed=assumed, planned=len(rest))
+        memory = memory._replace(fit=fit, moves=rest, promised=promised)
+        turn, speed = rest[0] if len(rest) else (rules.largest, ON_THE_SPOT)
+        return Intent(float(turn) / share, float(speed)), memory
 
-    def _plan(
-        self,
-        knowledge: Knowledge,
-        fit: ModelFit,
-        assumed: tuple[int, ...],
-        rest: tuple[tuple[float, float], ...],
-        rules: BeamRules,
-    ) -> tuple[tuple[float, float], ...]:
-        """Return the moves with the best outcome against the worst model."""
-        from .search.beam_search import beam_search, survived_steps
 
-        packed = knowledge.obstacles_in_map.packed
+class PlannedGame(NamedTuple):
+    """Game against every model that is assumed, from what has been seen.
+
+    Attributes:
+        models: Models of the pursuer.
+        starts: Poses of evader and pursuer by each model. Shape (6,) each.
+        packed: Obstacles.
+        rules: Rules of the steps, and size of the search.
+    """
+
+    models: tuple[PursuerModel, ...]
+    starts: list[Array]
+    packed: PackedObstacles
+    rules: BeamRules
+
+    def outcome(self, moves: Array) -> tuple[int, int]:
+        """Return the steps that moves survive: the least, and their sum."""
+        from .search.beam_search import survived_steps
+
+        steps = [
+            survived_steps(start, moves, model, self.packed, self.rules)[0]
+            for start, model in zip(self.starts, self.models, strict=True)
+        ]
+        return min(steps), sum(steps)
+
+    def plan(self, rest: Array) -> tuple[Array, int]:
+        """Search the moves with the best outcome against the worst model.
+
+        Args:
+            rest: Rest of the last plan, which is compared with those found.
+
+        Returns:
+            Turn [rad] and speed factor of each step, and the number of
+            steps that they survive. Shape (n, 2).
+        """
+        from .search.beam_search import beam_search
+
+        rules, candidates = self.rules, []
         actions = actions_of(rules.largest)
-        begins = knowledge.step_start_in_map or knowledge.pose_in_map
-        models, starts, candidates = [], [], []
-        for number in assumed:
-            model = MODELS[number]._replace(speed=fit.speed)
-            start = np.array([*begins, *fit.position, fit.headings[number]])
-            path = beam_search(start, actions, model, packed, rules)
+        for start, model in zip(self.starts, self.models, strict=True):
+            path = beam_search(start, actions, model, self.packed, rules)
             if len(path) < rules.horizon:
                 wide = rules._replace(width=WIDER * rules.width)
-                path = beam_search(start, actions, model, packed, wide)
-            models.append(model)
-            starts.append(start)
+                path = beam_search(start, actions, model, self.packed, wide)
             candidates.append(actions[path])
-        if rest:
-            candidates.append(np.array(rest))
-        if len(models) == 1 and not len(rest):
-            best = candidates[0]
-        else:
-            best = max(
-                candidates,
-                key=lambda moves: min(
-                    survived_steps(start, moves, model, packed, rules)
-                    for start, model in zip(starts, models, strict=True)
-                ),
-            )
-        return tuple((float(u), float(v)) for u, v in best)
+        candidates.append(rest)
+        outcomes = [self.outcome(moves) for moves in candidates]
+        best = max(outcomes)
+        return candidates[outcomes.index(best)], best[0]
 
 
 @lru_cache(maxsize=8)

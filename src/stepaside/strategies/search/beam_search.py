@@ -2,21 +2,20 @@
 
 A beam of states is advanced step by step: each with every action, the
 pursuer by its model. States that are captured or touch an obstacle are
-dropped; of those that are nearly alike one is kept; and the best by
-:func:`rank` go on. So the last state that remains has survived longest.
+dropped; of those that are nearly alike one is kept; and the best by rank
+(:func:`expand`) go on. So the last state that remains has survived longest.
 """
 
-from math import atan2, cos, pi, sin, sqrt, tau
-from typing import Any
+from math import cos, pi, sin, sqrt, tau
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ...arena.obstacles import PackedObstacles
-from ...core.compilation import compiled, inlined
+from ...core.compilation import compiled, compiled_loop, inlined
 from .distance_field import DistanceField, distance_field, field_clearance
 from .pursuer_model import BeamRules, PursuerModel, model_turn
 
-PLACES = 1 << 14  # of the table of states that are alike
 EVADER_CELL, PURSUER_CELL = 0.08, 0.12  # that count as alike, in [m]
 HEADINGS = 16  # sectors that count as alike
 BESIDE = 0.2  # worth of the pursuer's bearing, in [m] per [rad]
@@ -24,6 +23,37 @@ CLEAR = 0.3  # worth of clearance, in [m] per [m], and the most that counts
 SLOW = 0.1  # speed factor of a turn on the spot, or less
 ON_SPOT_SLACK = 0.004  # of clearance that turns on the spot may use, in [m]
 FARTHEST = 1.5  # distance beyond which no more is gained, in [m]
+GRAIN = 1e-3  # of ranks that count as equal, in [m]
+GRAINS = int((FARTHEST + BESIDE * pi + CLEAR * CLEAR) / GRAIN) + 2
+
+
+class Successors(NamedTuple):
+    """Successors of the states of a beam.
+
+    Attributes:
+        poses: Poses (x [m], y [m], theta [rad]) of the evader. Shape (n, 3).
+        ranks: Ranks, in [m]. Shape (n,).
+        keys: Keys, which nearly equal states have in common. Shape (n,).
+        actions: Numbers of the actions. Shape (n,).
+        parents: Numbers of the states that they come from. Shape (n,).
+        order: Working memory: their order. Shape (n,).
+        firsts: Working memory of the sorting. Shape (GRAINS + 1,).
+    """
+
+    poses: Any
+    ranks: Any
+    keys: Any
+    actions: Any
+    parents: Any
+    order: Any
+    firsts: Any
+
+
+@inlined
+def arc_chord(way: float, turn: float) -> float:
+    """Return the chord [m] of an arc of a length [m] and a turn [rad]."""
+    z = 0.25 * turn * turn
+    return way * (1.0 - z / 6.0 * (1.0 - z / 20.0))
 
 
 @inlined
@@ -31,104 +61,218 @@ def arc_end(
     pose: tuple[float, float, float], way: float, turn: float
 ) -> tuple[float, float, float]:
     """Return the pose after an arc of a length [m] and a turn [rad]."""
-    half = 0.5 * turn
-    z = half * half
-    chord = way * (1.0 - z / 6.0 * (1.0 - z / 20.0))
+    chord = arc_chord(way, turn)
     x, y, theta = pose
-    return (
-        x + chord * cos(theta + half),
-        y + chord * sin(theta + half),
-        theta + turn,
-    )
+    along = theta + 0.5 * turn
+    return x + chord * cos(along), y + chord * sin(along), theta + turn
 
 
 @inlined
-def rank(
-    evader: tuple[float, float, float],
-    pursuer: tuple[float, float, float],
-    clear: float,
-) -> float:
-    """Return the worth of a state: far away, beside the pursuer, clear."""
-    dx, dy = evader[0] - pursuer[0], evader[1] - pursuer[1]
-    away = sqrt(dx * dx + dy * dy)
-    aim = (atan2(dy, dx) - pursuer[2] + pi) % tau - pi
-    found: float = (
-        min(away, FARTHEST) + BESIDE * abs(aim) + CLEAR * min(clear, CLEAR)
+def arc_cosine(value: float) -> float:
+    """Return the angle of a cosine within 7e-5 rad.
+
+    Abramowitz and Stegun, Handbook of Mathematical Functions, 4.4.45.
+    """
+    z = min(abs(value), 1.0)
+    angle: float = sqrt(1.0 - z) * (
+        1.5707288 + z * (-0.2121144 + z * (0.0742610 - z * 0.0187293))
     )
-    return found
+    return angle if value >= 0.0 else pi - angle
 
 
 @inlined
-def state_key(
-    evader: tuple[float, float, float], pursuer: tuple[float, float, float]
-) -> int:
-    """Return a number that states have in common that are nearly alike."""
-    key = 1
-    for place, cell in (
-        (evader[0], EVADER_CELL),
-        (evader[1], EVADER_CELL),
-        (pursuer[0], PURSUER_CELL),
-        (pursuer[1], PURSUER_CELL),
-    ):
-        key = key * 8191 + int(np.floor(place / cell)) + 4096
-    return key * HEADINGS + int((evader[2] % tau) / tau * HEADINGS)
+def action_arcs(actions: Any, stride: float) -> Any:
+    """Return forward and leftward way [m] and turn [rad] of each action.
+
+    Args:
+        actions: Turn [rad] and speed factor of each. Shape (k, 2).
+        stride: Stride of the evader, which walks backward, in [m].
+    """
+    arcs = np.empty((len(actions), 3))
+    for k in range(len(actions)):
+        turn = actions[k, 0]
+        arcs[k, 0], arcs[k, 1], arcs[k, 2] = arc_end(
+            (0.0, 0.0, 0.0), -stride * actions[k, 1], turn
+        )
+    return arcs
+
+
+@inlined
+def cell_of(place: float, cells: float) -> int:
+    """Return the cell of a coordinate [m], given the cells per meter."""
+    return int(np.floor(place * cells)) + 4096
 
 
 @inlined
 def expand(
     state: Any,
-    actions: Any,
+    arcs: Any,
     model: PursuerModel,
     field: DistanceField,
     rules: BeamRules,
-    new: Any,
-    keys: Any,
+    new: Successors,
     made: int,
 ) -> int:
-    """Add the successors of a state to ``new``; return their number.
+    """Add the successors of a state; return the number of all.
+
+    The rank of a state is its worth: far away, beside the pursuer, clear.
 
     Args:
-        state: Poses of evader and pursuer, and the rank. Shape (7,).
-        actions: Turn [rad] and speed factor of each action. Shape (k, 2).
+        state: Poses of evader and pursuer; the pursuer's is advanced by one
+            step. Shape (6,).
+        arcs: Arcs of the actions (:func:`action_arcs`). Shape (k, 3).
         model: Model of the pursuer.
         field: Distance from obstacles.
         rules: Rules of the steps.
-        new: Output: states and the action of each. Shape (n, 8).
-        keys: Output: keys of the states. Shape (n,).
-        made: Number of states in ``new`` before.
+        new: Output.
+        made: Number of successors in it before.
     """
     evader = (state[0], state[1], state[2])
     pursuer = (state[3], state[4], state[5])
     turn = model_turn(evader, pursuer, model, rules)
     chase = arc_end(pursuer, model.speed * rules.stride, turn)
-    for k in range(len(actions)):
-        way = -rules.stride * actions[k, 1]
-        after = arc_end(evader, way, actions[k, 0])
-        dx, dy = after[0] - chase[0], after[1] - chase[1]
-        if dx * dx + dy * dy <= rules.capture * rules.capture:
+    state[3], state[4], state[5] = chase
+    ahead, left = cos(chase[2]), sin(chase[2])
+    forward, leftward = cos(evader[2]), sin(evader[2])
+    chased = cell_of(chase[0], 1.0 / PURSUER_CELL) * 8191
+    chased = (chased + cell_of(chase[1], 1.0 / PURSUER_CELL)) * 8191
+    for k in range(len(arcs)):
+        x = evader[0] + forward * arcs[k, 0] - leftward * arcs[k, 1]
+        y = evader[1] + leftward * arcs[k, 0] + forward * arcs[k, 1]
+        theta = evader[2] + arcs[k, 2]
+        dx, dy = x - chase[0], y - chase[1]
+        square = dx * dx + dy * dy
+        if square <= rules.capture * rules.capture:
             continue
-        clear = field_clearance(field, after[0], after[1]) - rules.clearance
-        if clear < (0.0 if actions[k, 1] > SLOW else -ON_SPOT_SLACK):
+        clear = field_clearance(field, x, y) - rules.clearance
+        walks = abs(arcs[k, 0]) > SLOW * rules.stride
+        if clear < (0.0 if walks else -ON_SPOT_SLACK):
             continue
-        for i in range(3):
-            new[made, i], new[made, 3 + i] = after[i], chase[i]
-        new[made, 6] = rank(after, chase, clear)
-        new[made, 7] = k
-        keys[made] = state_key(after, chase)
+        away = sqrt(square)
+        aim = arc_cosine((ahead * dx + left * dy) / away)
+        new.poses[made, 0] = x
+        new.poses[made, 1] = y
+        new.poses[made, 2] = theta
+        new.ranks[made] = (
+            min(away, FARTHEST) + BESIDE * aim + CLEAR * min(clear, CLEAR)
+        )
+        new.actions[made] = k
+        key = (chased + cell_of(x, 1.0 / EVADER_CELL)) * 8191
+        key = (key + cell_of(y, 1.0 / EVADER_CELL)) * HEADINGS
+        sector = int(np.floor(theta * (HEADINGS / tau))) & (HEADINGS - 1)
+        new.keys[made] = key + sector
         made += 1
     return made
+
+
+@compiled_loop
+def expand_beam(
+    beam: Any,
+    arcs: Any,
+    model: PursuerModel,
+    field: DistanceField,
+    rules: BeamRules,
+    new: Successors,
+) -> int:
+    """Write the successors of all states; return their number.
+
+    Args:
+        beam: States (:func:`expand`). Shape (n, 6).
+        arcs: Arcs of the actions.
+        model: Model of the pursuer.
+        field: Distance from obstacles.
+        rules: Rules of the steps.
+        new: Output.
+    """
+    made = 0
+    for b in range(len(beam)):
+        more = expand(beam[b], arcs, model, field, rules, new, made)
+        for m in range(made, more):
+            new.parents[m] = b
+        made = more
+    return made
+
+
+@inlined
+def sort_ranks(ranks: Any, made: int, order: Any, firsts: Any) -> None:
+    """Write the order of falling ranks; equal ranks keep theirs.
+
+    Args:
+        ranks: Ranks of the states, in [m]. Shape (n,).
+        made: Number of states.
+        order: Output: numbers of the states. Shape (n,).
+        firsts: Working memory. Shape (GRAINS + 1,).
+    """
+    for g in range(len(firsts)):
+        firsts[g] = 0
+    for m in range(made):
+        firsts[GRAINS - int(ranks[m] / GRAIN)] += 1
+    for g in range(GRAINS):
+        firsts[g + 1] += firsts[g]
+    for m in range(made - 1, -1, -1):
+        g = GRAINS - int(ranks[m] / GRAIN)
+        firsts[g] -= 1
+        order[firsts[g]] = m
 
 
 @inlined
 def is_new(key: int, table: Any) -> bool:
     """Note a key in a hash table; return whether it was not there."""
-    place = (key * 2654435761 >> 7) & (PLACES - 1)
+    last = len(table) - 1  # a power of two less one
+    place = (key * 2654435761 >> 7) & last
     while table[place] != 0:
         if table[place] == key:
             return False
-        place = (place + 1) & (PLACES - 1)
+        place = (place + 1) & last
     table[place] = key
     return True
+
+
+@compiled_loop
+def select_best(
+    new: Successors, made: int, old: Any, beam: Any, table: Any, chosen: Any
+) -> int:
+    """Write the best successors that are not alike; return their number.
+
+    Args:
+        new: Successors.
+        made: Number of successors.
+        old: States that they come from. Shape (width, 6).
+        beam: Output: the states that go on. Shape (width, 6).
+        table: Working memory, a power of two long.
+        chosen: Output: parent and action of each. Shape (width, 2).
+    """
+    sort_ranks(new.ranks, made, new.order, new.firsts)
+    for place in range(len(table)):
+        table[place] = 0
+    count = 0
+    for n in range(made):
+        m = new.order[n]
+        if not is_new(new.keys[m], table):
+            continue
+        parent = new.parents[m]
+        for i in range(3):
+            beam[count, i] = new.poses[m, i]
+            beam[count, 3 + i] = old[parent, 3 + i]
+        chosen[count, 0], chosen[count, 1] = parent, new.actions[m]
+        count += 1
+        if count == len(beam):
+            break
+    return count
+
+
+@inlined
+def successors(number: int) -> Successors:
+    """Return memory for a number of successors."""
+    return Successors(
+        np.zeros((number, 3)),
+        np.zeros(number),
+        np.zeros(number, dtype=np.int64),
+        np.zeros(number, dtype=np.int32),
+        np.zeros(number, dtype=np.int32),
+        np.zeros(number, dtype=np.int64),
+        np.zeros(GRAINS + 1, dtype=np.int64),
+    )
 
 
 @compiled
@@ -153,45 +297,34 @@ def beam_search(
         Number of the action of each step; fewer than the horizon if no
         state of the beam survives it. Shape (n,).
     """
-    kinds, width, horizon = len(actions), rules.width, rules.horizon
+    arcs, width, horizon = (
+        action_arcs(actions, rules.stride),
+        rules.width,
+        rules.horizon,
+    )
     reach = horizon * rules.stride + 0.2
     field = distance_field(
         packed, rules.clearance + CLEAR, start[0], start[1], reach
     )
-    beam, new = np.zeros((width, 7)), np.zeros((width * kinds, 8))
-    parents = np.zeros((horizon, width), dtype=np.int64)
-    taken = np.zeros((horizon, width), dtype=np.int64)
-    keys = np.zeros(width * kinds, dtype=np.int64)
-    origin = np.zeros(width * kinds, dtype=np.int64)
-    table = np.zeros(PLACES, dtype=np.int64)
-    beam[0, :6] = start
+    new, beams = successors(width * len(arcs)), np.zeros((2, width, 6))
+    chosen = np.zeros((horizon, width, 2), dtype=np.int32)
+    places = 4
+    while places < 2 * width:
+        places *= 2
+    table = np.zeros(places, dtype=np.int64)
+    beams[0, 0] = start
     count, steps = 1, 0
     while steps < horizon:
-        made = 0
-        for b in range(count):
-            more = expand(
-                beam[b], actions, model, field, rules, new, keys, made
-            )
-            origin[made:more] = b
-            made = more
+        old, beam = beams[steps % 2], beams[(steps + 1) % 2]
+        made = expand_beam(old[:count], arcs, model, field, rules, new)
         if made == 0:
             break
-        table[:] = 0
-        count = 0
-        for m in np.argsort(-new[:made, 6]):
-            if not is_new(keys[m], table):
-                continue
-            beam[count] = new[m, :7]
-            parents[steps, count] = origin[m]
-            taken[steps, count] = int(new[m, 7])
-            count += 1
-            if count == width:
-                break
+        count = select_best(new, made, old, beam, table, chosen[steps])
         steps += 1
     path, b = np.zeros(steps, dtype=np.int64), 0
     for n in range(steps - 1, -1, -1):
-        path[n] = taken[n, b]
-        b = parents[n, b]
+        path[n] = chosen[n, b, 1]
+        b = chosen[n, b, 0]
     return path
 
 
@@ -212,16 +345,12 @@ def survived_steps(
         packed: Obstacles.
         rules: Rules of the steps.
     """
-    reach = len(moves) * rules.stride + 0.2
-    field = distance_field(
-        packed, rules.clearance + CLEAR, start[0], start[1], reach
-    )
-    state, new = np.zeros(7), np.zeros((1, 8))
-    keys = np.zeros(1, dtype=np.int64)
-    state[:6] = start
+    field = distance_field(packed, rules.clearance + CLEAR, 0.0, 0.0, 0.0)
+    arcs = action_arcs(moves, rules.stride)
+    state, new = start.copy(), successors(1)
     for n in range(len(moves)):
-        move = moves[n : n + 1]
-        if not expand(state, move, model, field, rules, new, keys, 0):
-            return n, state[6]
-        state[:] = new[0, :7]
-    return len(moves), state[6]
+        arc = arcs[n : n + 1]
+        if not expand(state, arc, model, field, rules, new, 0):
+            return n, new.ranks[0]
+        state[:3] = new.poses[0]
+    return len(moves), new.ranks[0]

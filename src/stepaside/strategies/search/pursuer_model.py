@@ -1,6 +1,6 @@
 """Model of a pursuer's steps, and the rules of a search against it."""
 
-from math import atan2, cos, pi, sin, sqrt, tau
+from math import atan2, cos, floor, pi, sin, sqrt, tau
 from typing import NamedTuple
 
 from ...core.compilation import inlined
@@ -73,7 +73,8 @@ def model_turn(
     if model.inward != 0.0 and inward > 1e-6:
         dx = dx / away - model.inward * px / inward
         dy = dy / away - model.inward * py / inward
-    aim = (atan2(dy, dx) - heading + pi) % tau - pi
+    aim = atan2(dy, dx) - heading
+    aim -= tau * floor(aim / tau + 0.5)
     wanted = min(max(model.ratio * aim, -pi), pi)
     turn: float = min(max(rules.share * wanted, -rules.largest), rules.largest)
     return turn
