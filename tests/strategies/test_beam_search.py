@@ -1,6 +1,6 @@
 """Test the beam search and its model of the pursuer."""
 
-from math import inf, pi
+from math import acos, inf, pi
 
 import numpy as np
 import pytest
@@ -17,8 +17,12 @@ from stepaside.strategies import (
 )
 from stepaside.strategies.robust_evasion import actions_of
 from stepaside.strategies.search.beam_search import (
+    GRAIN,
+    GRAINS,
+    arc_cosine,
     arc_end,
     beam_search,
+    sort_ranks,
     survived_steps,
 )
 from stepaside.strategies.search.pursuer_model import (
@@ -101,3 +105,19 @@ def test_captured_and_touching_moves_do_not_survive() -> None:
     back = np.array([[0.0, 1.0]])
     assert survived_steps(beside, back, SHARP, wall, RULES)[0] == 0
     assert survived_steps(beside, back, SHARP, none, RULES)[0] == 1
+
+
+def test_arc_cosine_is_that_of_its_reference() -> None:
+    for value in np.linspace(-1.0, 1.0, 401).tolist():
+        assert arc_cosine(value) == pytest.approx(acos(value), abs=7e-5)
+
+
+def test_ranks_fall_and_equal_ones_keep_their_order() -> None:
+    ranks = np.random.default_rng(3).uniform(0.3, 2.2, 500)
+    ranks[100:200] = ranks[:100]
+    order = np.zeros(500, dtype=np.int64)
+    sort_ranks(ranks, 500, order, np.zeros(GRAINS + 1, dtype=np.int64))
+    grains = (ranks[order] / GRAIN).astype(int)
+    assert (np.diff(grains) <= 0).all()
+    assert (np.diff(order)[np.diff(grains) == 0] > 0).all()
+    assert sorted(order) == list(range(500))
