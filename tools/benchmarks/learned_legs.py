@@ -24,8 +24,13 @@ from stepaside.core.atomic_output import atomic_draft
 from stepaside.core.worker_pool import worker_pool
 from stepaside.fitting.legs_measurement import measure_legs
 from stepaside.games.duel import run_duel
+from stepaside.games.duel_circle import circle_of_theory
 from stepaside.games.duel_settings import DuelSettings
-from stepaside.games.robot_settings import with_legs, with_robot
+from stepaside.games.robot_settings import (
+    LEGS_GAIT,
+    with_legs,
+    with_robot,
+)
 from stepaside.games.run_archive import results_of
 from stepaside.locomotion.policy.legs_settings import LegsSettings
 from stepaside.locomotion.policy.response_file import (
@@ -43,18 +48,22 @@ DURATION = 120.0  # of a duel, in [s]
 def duel_row(settings: DuelSettings) -> dict[str, Any]:
     """Return what the documents show of a duel, relative to theory."""
     summary = results_of(run_duel(settings))
-    theory, angle = summary["theory"], summary["relative_orientation_deg"]
+    angle = summary["relative_orientation_deg"]
+    circle = circle_of_theory(settings)
 
     def ratio(value: float | None, expected: float) -> float | None:
         return None if value is None else value / expected
 
-    radius = theory["radius_m"]
     return {
         "outcome": summary["outcome"],
         "duration_s": summary["duration_s"],
-        "distance_ratio": ratio(summary["distance_m"], theory["distance_m"]),
-        "pursuer_ratio": ratio(summary["pursuer"]["radius_m"], radius),
-        "evader_ratio": ratio(summary["evader"]["radius_m"], radius),
+        "distance_ratio": ratio(summary["distance_m"], circle.distance_m),
+        "pursuer_ratio": ratio(
+            summary["pursuer"]["radius_m"], circle.radius_pursuer_m
+        ),
+        "evader_ratio": ratio(
+            summary["evader"]["radius_m"], circle.radius_evader_m
+        ),
         "angle_deg": None if not isfinite(angle or 0.0) else angle,
         "converged_at_s": summary["converged_at_s"],
     }
@@ -69,17 +78,23 @@ def main() -> None:
     parser = ask(__doc__, name_of)
     parser.add_argument("robot", type=Path)
     parser.add_argument("network", type=Path)
+    parser.add_argument("--legs-contract", default="")
+    parser.add_argument("--speed", type=float, default=LEGS_GAIT["speed"])
     parser.add_argument("--seeds", type=seeds_of, default=range(1, 11))
     parser.add_argument("--random-walks", type=int, default=10)
     parser.add_argument("--workers", type=int, default=1)
     asked = parser.parse_args()
     head = header(
-        {"seeds": [asked.seeds.start, asked.seeds.stop], "duel_s": DURATION},
+        {
+            "seeds": [asked.seeds.start, asked.seeds.stop],
+            "duel_s": DURATION,
+            "speed_m_s": asked.speed,
+        },
         modules=(*PHYSICS, "fitting/legs_measurement"),
     )
     description, legs = (
         load_robot(asked.robot),
-        LegsSettings(str(asked.network)),
+        LegsSettings(str(asked.network), asked.legs_contract),
     )
     with worker_pool(asked.workers) as pool, tqdm(disable=None) as bar:
 
@@ -99,12 +114,18 @@ def main() -> None:
         with atomic_draft(file) as draft:
             entries = response_entries(found.response, asked.network)
             draft.write_text(tomli_w.dumps(entries), encoding="utf-8")
+        settings = with_legs(
+            with_robot(DuelSettings(), str(asked.robot)), legs.network
+        )
         settings = replace(
-            with_legs(
-                with_robot(DuelSettings(), str(asked.robot)),
-                str(asked.network),
-            ),
+            settings,
             duration=DURATION,
+            legs=legs,
+            gait=replace(
+                settings.gait,
+                speed=asked.speed,
+                stride=asked.speed * settings.gait.step_duration,
+            ),
         )
         games = [replace(settings, seed=seed) for seed in asked.seeds]
         rows = {}

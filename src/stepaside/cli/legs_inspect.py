@@ -40,6 +40,7 @@ def inspect(
 
     loaded = PolicyNetwork(network)
     motors: tuple[str, ...] = ()
+    driven: tuple[str, ...] = ()
     legs: tuple[str, ...] = ()
     entries: dict[str, Any] = {}
     if robot is not None:
@@ -47,7 +48,8 @@ def inspect(
         from ..robots.tree_cache import load_tree
 
         description = load_robot(robot)
-        motors = tuple(load_tree(description).motors)
+        tree = load_tree(description)
+        motors, driven = tree.motors, tree.driven_joints
         legs, entries = description.legs, description.locomotion
     reading = read_contract(
         loaded,
@@ -56,7 +58,7 @@ def inspect(
         entries=entries,
         convention=legs_contract,
     )
-    findings = examine(reading, loaded, motors)
+    findings = examine(reading, loaded, driven)
     if as_json:
         facts = _facts(reading, loaded)
         facts["findings"] = [each._asdict() for each in findings]
@@ -153,9 +155,10 @@ def _text(name: str, value: Any) -> str:
         if value is None:
             return "none"
         phases = ", ".join(f"{x:.3g}" for x in value.offsets)
+        after = f", after {value.settling:g} s" if value.settling else ""
         return (
             f"{value.period:.3g} s, phases {phases} rad, "
-            f"{value.standing} while standing"
+            f"{value.standing} while standing{after}"
         )
     if name == "command_ranges":
         limits = (

@@ -80,14 +80,15 @@ def legs_data(duel: Duel) -> dict[str, Any]:
             f"a page needs a policy whose period, {contract.period:g} [s], is "
             "a multiple of the time step of physics"
         )
-    motors = load_tree(description).motors
+    tree = load_tree(description)
     sizes, commands, effects = legs.response.tables
     learning = policy_legs.LEARNING if settings.legs.learn else 0.0
     forward = ForwardKinematics(description)
     return {
         "posture": legs.standing.posture.tolist(),
         "targets": legs.standing.joint_targets.tolist(),
-        "joints": [motors.index(name) for name in contract.joints],
+        "joints": [tree.motor_of(name) for name in contract.joints],
+        "coupled": legs.coupled,
         "corners": forward.force_sensors().tolist(),
         "smoothing": leg_odometry.SMOOTHING,
         "calibration": gravity_filter.CALIBRATION,

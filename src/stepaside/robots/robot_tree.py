@@ -103,6 +103,15 @@ class RobotTree:
         """Mass of the robot, in [kg]."""
         return sum(link.mass for link in self.links)
 
+    @property
+    def driven_joints(self) -> tuple[str, ...]:
+        """Joints with a motor, their own or that of their leader."""
+        return (*self.motors, *self.followers)
+
+    def motor_of(self, joint: str) -> int:
+        """Return the index of the motor that moves a joint."""
+        return self.motors.index(self.followers.get(joint, joint))
+
     def link_of(self, joint: str) -> int:
         """Return the index of the link that a joint moves."""
         return self.joints.index(joint) + 1

@@ -165,6 +165,15 @@ def test_a_silent_clock_is_zero_while_standing(tmp_path: Path) -> None:
     np.testing.assert_allclose(seen, [[0, 0], [1, -1]], atol=1e-6)
 
 
+def test_a_clock_still_runs_until_the_robot_has_settled(
+    tmp_path: Path,
+) -> None:
+    clock = PhaseClock(period=0.08, standing="silent", settling=0.04)
+    seen = phases(tmp_path, clock, [STILL, AHEAD, STILL, STILL, STILL, AHEAD])
+    expected = [[0, 0], [1, -1], [0, 0], [-1, 1], [0, 0], [1, -1]]
+    np.testing.assert_allclose(seen, expected, atol=1e-6)
+
+
 def test_commands_change_at_a_limited_rate(tmp_path: Path) -> None:
     contract = replace(CONTRACT, terms=(Term("command"),), command_rate=1.0)
     runner = echo(tmp_path, contract)

@@ -10,6 +10,7 @@ POLICIES = {
     "legs-fastsac_g1_29dof": "G1, 29 joints, holosoma",
     "legs-g1_12dof": "G1, 12 joints, recurrent, legged_gym",
     "legs-t1_12dof": "T1, 12 joints, Booster Gym",
+    "legs-nao": "NAO, 12 joints, B-Human",
 }
 AXES = ("forward", "lateral", "turn")
 UNITS = ("m/s", "m/s", "rad/s")

@@ -59,11 +59,14 @@ class PhaseClock:
         standing: Behaviour while the command is zero: the clock "runs",
             "holds" all phases at pi and starts anew with the next command,
             or is "silent": sine and cosine are zero.
+        settling: Time for which the clock still runs when the command has
+            become zero, in [s]: the robot steps on the spot before it stands.
     """
 
     period: float
     offsets: tuple[float, ...] = (0.0, pi)
     standing: Standing = "runs"
+    settling: float = 0.0
 
 
 class CommandRanges(NamedTuple):
@@ -165,6 +168,7 @@ class PolicyContract:
         """Check values by themselves."""
         orders, standings = get_args(HistoryOrder), get_args(Standing)
         clock = self.clock or PhaseClock(1.0)
+        settling = clock.settling
         share, rate = self.action_filter, self.command_rate
         twice = [x for x in self.joints if self.joints.count(x) > 1]
         rules = [
@@ -174,6 +178,7 @@ class PolicyContract:
             ("action_filter", share, 0.0 <= share < 1.0, "lie in [0, 1)"),
             ("command_rate", rate, rate > 0.0, "be > 0 [1/s]"),
             ("clock.period", clock.period, clock.period > 0.0, "be > 0 [s]"),
+            ("clock.settling", settling, settling >= 0.0, "be >= 0 [s]"),
         ]
         for name, word, words in (
             ("history_order", self.history_order, orders),

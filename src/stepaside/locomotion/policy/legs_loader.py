@@ -31,15 +31,15 @@ def load_policy(
         PolicyError: If the network cannot run on the robot.
     """
     network = (pool or NetworkPool()).load(Path(legs.network))
-    motors = load_tree(description).motors
+    tree = load_tree(description)
     reading = read_contract(
         network,
-        motors=motors,
+        motors=tree.motors,
         legs=description.legs,
         entries=description.locomotion,
         convention=legs.contract,
     )
-    return check_contract(reading, network, motors), network
+    return check_contract(reading, network, tree.driven_joints), network
 
 
 def load_legs(

@@ -41,6 +41,8 @@ class PolicyLegs:
 
     Attributes:
         contract: Contract of the network.
+        coupled: Joints of the policy that share a motor, for each such motor;
+            its target is the mean of theirs.
         response: Response of the legs to commands.
         standing: Posture in which the robot begins.
         odometry: Odometry of the robot.
@@ -88,8 +90,12 @@ class PolicyLegs:
             contract.command_ranges
         )
         forward = ForwardKinematics(description)
-        motors = forward.tree.motors
-        self._joints = span_of([motors.index(n) for n in contract.joints])
+        motors = [forward.tree.motor_of(name) for name in contract.joints]
+        self._joints = span_of(motors)
+        self.coupled = tuple(
+            [i for i, shared in enumerate(motors) if shared == motor]
+            for motor in sorted({m for m in motors if motors.count(m) > 1})
+        )
         angles = zip(contract.joints, contract.default_posture, strict=True)
         self.standing = InitialPosture(forward, dict(angles))
         self._targets = self.standing.joint_targets.copy()
@@ -127,7 +133,10 @@ class PolicyLegs:
         With a pool they are those of this tick once the pool has been
         flushed. Shape (joints,).
         """
-        self._targets[self._joints] = self._runner.targets
+        targets = self._runner.targets
+        for joints in self.coupled:
+            targets[joints] = targets[joints].mean()
+        self._targets[self._joints] = targets
         return self._targets
 
     def update(

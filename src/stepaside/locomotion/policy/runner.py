@@ -15,11 +15,13 @@ from .network import Memory, PolicyNetwork
 STANDS_BELOW = 0.01  # magnitude of a command that counts as zero
 ADVANCE = f"""\
 def advance(given, command, phases, offsets, sines, cosines, clock):
-    stands = 1.0
+    still = 1.0
     for i in range(3):
         change = given[i] - command[i]
         command[i] += min(max(change, -clock[0]), clock[0])
-        stands = stands if abs(command[i]) < {STANDS_BELOW} else 0.0
+        still = still if abs(command[i]) < {STANDS_BELOW} else 0.0
+    clock[5] = still * (clock[5] + 1.0)
+    stands = 1.0 if clock[5] > clock[6] else 0.0
     seen = 1.0 - clock[3] * stands
     for k in range(phases.shape[0]):
         phase = phases[k] + clock[1] + {pi}
@@ -71,7 +73,7 @@ class PolicyRunner:
         self.contract, self.memory = contract, network.initial_memory()
         self._default = np.array(contract.default_posture)
         self._scale = np.array(contract.action_scale)
-        self.targets = self._default
+        self.targets = self._default.copy()
         layout = ObservationLayout.of(contract)
         self._values = np.zeros(layout.size)
         self._parts = {
@@ -158,15 +160,18 @@ def clock_values(contract: PolicyContract) -> list[float]:
     """Return the last argument of :data:`ADVANCE`, at the start.
 
     They are the greatest change of a command and the step of the phases per
-    period, whether the clock waits while the command is zero, whether it is
-    silent then, and whether the command was zero.
+    period, whether the clock waits while the robot stands, whether it is
+    silent then, whether the robot stood, and for how many periods the command
+    has been zero and must be zero before the robot stands.
     """
     clock, period = contract.clock, contract.period
-    step, waits, silent = 0.0, False, False
+    step, waits, silent, settling = 0.0, False, False, 0.0
     if clock is not None:
         step = 2.0 * pi * period / clock.period
         waits, silent = clock.standing != "runs", clock.standing == "silent"
-    return [contract.command_rate * period, step, waits, silent, 1.0]
+        settling = clock.settling / period
+    change = contract.command_rate * period
+    return [change, step, waits, silent, 1.0, settling, settling]
 
 
 class ObservationLayout(NamedTuple):

@@ -7,7 +7,7 @@ and orders are theirs, the code is not.
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from math import inf
+from math import inf, radians
 from typing import Any
 
 from ...core.errors import PolicyError
@@ -231,6 +231,37 @@ BOOSTER_GYM = Convention(
         }.items()
     },
 )
+_NAO_LEG = (
+    *("HipYawPitch", "HipRoll", "HipPitch"),
+    *("KneePitch", "AnklePitch", "AnkleRoll"),
+)
+BHUMAN = Convention(
+    "bhuman",
+    "https://github.com/bhuman/BHumanCodeRelease, Src/Modules/MotionControl/"
+    "WalkingEngine/RLWalkingEngine.cpp, Config/Robots/Default/"
+    "rlWalkingEngine.cfg; gains: Config/Scenes/Includes/NaoV6H25.rsi3",
+    {
+        "joints": tuple(f"{side}{name}" for side in "LR" for name in _NAO_LEG),
+        "terms": BOOSTER_GYM.values["terms"],
+        "action_scale": 1.0,
+        "action_clip": 1.0,
+        "stiffness": 40.0,
+        "damping": 0.5,
+        "clock": PhaseClock(1.0 / 1.5, (0.0,), "silent", settling=1.0),
+        "command_ranges": CommandRanges(
+            forward=(-0.6, 1.0), turn=(-radians(50.0), radians(50.0))
+        ),
+    },
+    postures={
+        f"{side}{name}": angle
+        for side in "LR"
+        for name, angle in {
+            "HipPitch": -0.2,
+            "KneePitch": 0.4,
+            "AnklePitch": -0.25,
+        }.items()
+    },
+)
 CONVENTIONS = {
     each.name: each
     for each in (
@@ -240,6 +271,7 @@ CONVENTIONS = {
         LEGGED_GYM,
         MUJOCO_PLAYGROUND,
         BOOSTER_GYM,
+        BHUMAN,
     )
 }
 """Conventions by name."""

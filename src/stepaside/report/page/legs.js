@@ -36,7 +36,7 @@ class LegsWalker extends Robot {
     [this.offsets, this.phases] = [0, 1].map(() => table(offsets.length, 1, offsets));
     [this.commanded, this.sines, this.cosines] = ["command", "sin_phase", "cos_phase"]
       .map((name) => this.values.subarray(...places[name]));
-    this.gait = table(5, 1, policy.clock.map((value) => value ?? Infinity));
+    this.gait = table(policy.clock.length, 1, policy.clock.map((value) => value ?? Infinity));
     this.past = null;
     this.targets = Float64Array.from(policy.default);
     this.states = legs.network.states.map(([, , shape]) => new Float32Array(shape.reduce((a, b) => a * b, 1)));
@@ -145,6 +145,10 @@ class LegsWalker extends Robot {
       const target = policy.default[i] + policy.scale[i] * action;
       return policy.filter > 0 ? policy.filter * this.targets[i] + (1 - policy.filter) * target : target;
     });
+    for (const joints of legs.coupled) {
+      const mean = joints.reduce((sum, i) => sum + this.targets[i], 0) / joints.length;
+      joints.forEach((i) => { this.targets[i] = mean; });
+    }
     const sent = this.sent;
     legs.joints.forEach((j, i) => { sent[j] = this.targets[i]; });
   }
