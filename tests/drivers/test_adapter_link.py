@@ -3,6 +3,7 @@
 import logging
 import re
 from collections.abc import Callable, Iterator, Mapping
+from itertools import chain
 from math import degrees, inf, nan
 from threading import Event
 from time import monotonic, sleep
@@ -239,8 +240,9 @@ def test_reports_that_stay_implausible_end_the_session_with_the_reason(
         return robot.next_report()._replace(gyro=(nan, 0.0, 0.0))
 
     robot.hears = hears
-    receiver = FrameReceiver(link, 0.1, monotonic, link.read, TICK)
-    receiver._heard = monotonic() - 9.9  # noqa: SLF001 (patience of 10 s)
+    silent_for = 9.9  # of a patience of 10 s
+    times = chain([monotonic() - silent_for], iter(monotonic, None))
+    receiver = FrameReceiver(link, 0.1, times.__next__, link.read, TICK)
     with pytest.raises(SessionLost, match=r"refused: listen\(\) .*gyro must"):
         receiver.listen()
 
