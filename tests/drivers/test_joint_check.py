@@ -240,6 +240,16 @@ def test_joints_that_do_not_obey_are_found() -> None:
     assert "joints not taken" in failed(checked(robot))["hip"]
 
 
+@pytest.mark.parametrize("at", [2.1, 3.2, 6.0])
+def test_a_robot_that_falls_silent_is_found(at: float) -> None:
+    """While it holds its posture, moves a joint, or later."""
+    robot = HangingRobot()
+    silent_from = robot.clock() + at
+    robot.change = lambda report: report if report.time < silent_from else None
+    assert "no new report" in failed(checked(robot))["listen"]
+    assert robot.calls[-1] == "release"
+
+
 def test_whether_the_robot_keeps_its_targets_is_compared() -> None:
     """The safe way round is only a hint."""
     found = failed(checked(ReleasesItself()))

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...core.poses import Array
-from ..guardian_process import Guardian
+from ..guardian_process import Guardian, SessionLost
 from ..method_check import (
     FAILED,
     PASSED,
@@ -189,6 +189,9 @@ class JointCheck(MethodCheck):
             duration: How long, in [s].
             targets: Targets of all joints, in [rad], by the time since the
                 begin, in [s]; None to command nothing.
+
+        Raises:
+            SessionLost: If a robot that was commanded falls silent.
         """
         name = self._methods.name_of("listen")
         robot = self._methods.robot
@@ -210,6 +213,8 @@ class JointCheck(MethodCheck):
             if targets is not None:
                 self._reports.append(report)
                 self._pause(0.5 * robot.tick)
+        if not found and self._has_moved and duration > SILENCE:
+            raise SessionLost(f"{name} returned no new report")
         return found
 
     def _command(self, angles: Array) -> dict[str, JointTarget]:

@@ -68,7 +68,7 @@ class LiveRerun:
         recording, begins = piece
         if begins:
             self._begin(piece)
-        if begins or not recording.run.robots == recording.run.players:
+        if begins or recording.run.robots != recording.run.players:
             log_room(self._stream, recording)
         log_samples(self._stream, recording)
         self._stream.flush()
