@@ -1,7 +1,8 @@
 """Play evaders against a ladder of pursuers in empty rooms and in the open.
 
 Beside them stands an offline search that knows the pursuer's law: a beam of
-4,000 states over the whole game. Results are written::
+4,000 states over the whole game. In physics humanoids play for a minute.
+Results are written::
 
     python tools/benchmarks/opponent_ladder.py --records runs/ladder
     python tools/benchmarks/opponent_ladder.py --in-room sharp,noisy:20
@@ -23,6 +24,7 @@ from stepaside.arena import RoomRecipe
 from stepaside.strategies.robust_evasion import actions_of
 from stepaside.strategies.search.beam_search import beam_search
 from stepaside.strategies.search.pursuer_model import BeamRules, PursuerModel
+from stepaside.strategies.strategy_game import StepGame
 from stepaside.studies.result_files import header, write_result
 from stepaside.studies.result_store import ResultStore
 from stepaside.studies.tournament_campaign import tournament_study
@@ -38,6 +40,8 @@ IN_ROOM = (
     *("optimal", "noisy", "stop-and-wait", "searched-1"),
 )
 IN_OPEN = ("pure", "pure-v1.1", "pure-v1.3", "sharp", "optimal")
+IN_PHYSICS = ("sharp:20", "herding:20", "pure:20", "pure-x3:20")
+PHYSICS = TournamentSettings("physics", ROOM, StepGame(duration=60.0))
 MODELS = {  # of pursuers that capture somebody
     "pure-x3": PursuerModel(3.0),
     "pure-x4": PursuerModel(4.0),
@@ -98,6 +102,7 @@ def main() -> None:
     asked.add_argument("--seeds", type=seeds_of, default=range(2000, 2200))
     asked.add_argument("--in-room", default=",".join(IN_ROOM))
     asked.add_argument("--in-open", default=",".join(IN_OPEN))
+    asked.add_argument("--in-physics", default=",".join(IN_PHYSICS))
     asked.add_argument("--offline", type=int, default=20)
     asked.add_argument("--workers", type=int)
     asked.add_argument("--records", type=Path, default=Path("runs/ladder"))
@@ -111,12 +116,12 @@ def main() -> None:
         modules=MODULES,
         libraries=("numba", "numpy"),
     )
-    worlds: dict[str, Any] = {"3 x 3 m": {}, "open floor": {}}
-    for world, recipe, text in (
-        ("3 x 3 m", ROOM, arguments.in_room),
-        ("open floor", OPEN, arguments.in_open),
+    worlds: dict[str, Any] = {}
+    for world, settings, text in (
+        ("3 x 3 m", TournamentSettings(room=ROOM), arguments.in_room),
+        ("open floor", TournamentSettings(room=OPEN), arguments.in_open),
+        ("3 x 3 m, physics, 60 s", PHYSICS, arguments.in_physics),
     ):
-        settings = TournamentSettings(room=recipe)
         rows: list[dict[str, Any]] = []
         offline: dict[str, list[float]] = {}
         for pursuer, seeds in pursuers_of(text, arguments.seeds).items():
@@ -125,7 +130,7 @@ def main() -> None:
             run = complete(study, store, arguments.workers)
             records = list(run.records())
             made = tournament_rows(records, settings.game)
-            if pursuer in MODELS and world != "open floor":
+            if pursuer in MODELS and world == "3 x 3 m":
                 duration = settings.game.duration
                 jobs = {
                     f"{pursuer}-{seed}": OfflineSearch(

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from math import atan2, ceil, cos, hypot, inf, pi, sin, tau
-from time import perf_counter
+from time import thread_time
 from typing import ClassVar, NamedTuple
 
 import numpy as np
@@ -235,8 +235,8 @@ class StrategyTrack(NamedTuple):
             Shape (n, 3).
         evader: Poses of the evader, likewise.
         clearances: Clearances of the evader's centre, in [m]. Shape (n,).
-        decision: Mean time of a decision of the evader, without the first
-            one, which loads code, in [s].
+        decision: Mean processor time of a decision of the evader, without
+            the first one, which loads code, in [s].
         longest_decision: Longest time of a decision, likewise.
     """
 
@@ -359,9 +359,9 @@ def _moves(
     yield 0.0, pursuer.pose, evader.pose
     times = game.sample_times.tolist()
     for time in game.decision_times:
-        begun = perf_counter()
+        begun = thread_time()
         evades = evader.decide(evader.see(time, pursuer.pose))
-        decisions.append(perf_counter() - begun)
+        decisions.append(thread_time() - begun)
         pursues = pursuer.decide(pursuer.see(time, evader.pose))
         moved = move_players(game, (pursuer, evader), (pursues, evades))
         for after, _ in zip(times, moved, strict=True):

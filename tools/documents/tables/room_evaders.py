@@ -107,6 +107,8 @@ def ladder(result: Result) -> str:
         "mean survival [s]",
         "offline search [s]",
         "of it",
+        "decision [ms]",
+        "longest [ms]",
     )
     rows = []
     for world, found in result["worlds"].items():
@@ -128,6 +130,8 @@ def ladder(result: Result) -> str:
                     NONE
                     if best is None
                     else number(sum(same) / len(same) / best, 2),
+                    number(row["decision_ms"], 1),
+                    number(row["longest_decision_ms"], 0),
                 )
             )
     return table(head, rows)
