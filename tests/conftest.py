@@ -8,6 +8,7 @@ pace have a clock of their own, and the limit on each test (``timeout`` in
 import os
 import signal
 import threading
+from collections.abc import Iterator
 
 for name in ("OPENBLAS", "OMP", "NUMBA"):
     os.environ.setdefault(f"{name}_NUM_THREADS", "1")
@@ -22,6 +23,7 @@ from hypothesis import HealthCheck, settings  # noqa: E402
 settings.register_profile(
     "untimed",
     deadline=None,
+    max_examples=40,
     suppress_health_check=[HealthCheck.too_slow],
 )
 settings.load_profile("untimed")
@@ -33,6 +35,8 @@ COMPILED = {
     "theory/test_bound": "bound",
     "theory/test_upwind_scheme": "bound",
     "theory/": "unicycle",
+    "strategies/test_beam_search": "beam",
+    "strategies/test_robust_evasion": "beam",
     "strategies/test_look_ahead": "steps",
     "strategies/test_step_motion": "steps",
     "control/test_clearance": "steps",
@@ -40,9 +44,39 @@ COMPILED = {
 }
 # Begin first, so that no worker is left alone with one at the end.
 LONG = (
-    *("browser", "bound", "unicycle", "steps", "duel 11"),
+    *("browser", "bound", "unicycle", "steps", "beam", "duel 11"),
     *("test_duel", "test_walk_game", "test_seeing", "test_robot_init"),
 )
+BLANK = b"\x89PNG" + bytes(10_000) + b"IEND...."  # a figure
+
+
+@pytest.fixture(scope="session", autouse=True)
+def plain_figures() -> Iterator[None]:
+    """Draw small figures without layout; their content is the same."""
+    from stepaside.report.figure_style import plt
+
+    with plt.rc_context(
+        {"savefig.dpi": 30, "figure.constrained_layout.use": False}
+    ):
+        yield
+
+
+@pytest.fixture
+def blank_figures(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Write figures without drawing them, which takes half a second."""
+    monkeypatch.setattr(
+        "matplotlib.figure.Figure.savefig",
+        lambda figure, file, **_: file.write(BLANK),
+    )
+
+
+@pytest.fixture
+def inline_workers(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Run in this process what workers would."""
+    from inline_executor import InlineExecutor
+    from stepaside.core import worker_pool
+
+    monkeypatch.setattr(worker_pool, "worker_pool", lambda _: InlineExecutor())
 
 
 @pytest.hookimpl(tryfirst=True)

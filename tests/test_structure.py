@@ -4,6 +4,7 @@ import ast
 import subprocess
 import sys
 from collections import Counter
+from functools import cache
 from graphlib import TopologicalSorter
 from importlib import import_module
 from pathlib import Path
@@ -37,6 +38,11 @@ LAYERS = (
 MODULES = sorted(ROOT.rglob("*.py"))
 
 
+@cache
+def parsed(file: Path) -> ast.Module:
+    return ast.parse(file.read_text(encoding="utf-8"))
+
+
 def package_of(file: Path) -> str:
     return file.relative_to(ROOT).with_suffix("").parts[0]
 
@@ -45,7 +51,7 @@ def imported_packages(file: Path) -> set[str]:
     """Packages that a module imports from, anywhere in it."""
     here = file.relative_to(ROOT).with_suffix("").parts
     packages = set()
-    for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+    for node in ast.walk(parsed(file)):
         if not isinstance(node, ast.ImportFrom) or not node.level:
             continue
         base = here[: len(here) - node.level]
@@ -57,21 +63,21 @@ def imported_packages(file: Path) -> set[str]:
     return packages
 
 
-@pytest.mark.parametrize("file", MODULES, ids=lambda f: f.stem)
-def test_imports_point_down(file: Path) -> None:
-    package = package_of(file)
-    if package == "__init__":
-        return
-    for other in imported_packages(file) - {package, "__version__"}:
-        assert LAYERS.index(other) < LAYERS.index(package), (
-            f"{file} imports {other}"
-        )
+def test_imports_point_down() -> None:
+    for file in MODULES:
+        package = package_of(file)
+        if package == "__init__":
+            continue
+        for other in imported_packages(file) - {package, "__version__"}:
+            assert LAYERS.index(other) < LAYERS.index(package), (
+                f"{file} imports {other}"
+            )
 
 
 def imported_modules(file: Path) -> set[Path]:
     """Modules that a module imports, also for type checking or lazily."""
     found = set()
-    for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+    for node in ast.walk(parsed(file)):
         if isinstance(node, ast.ImportFrom) and node.level:
             names = (node.module or "").split(".") if node.module else []
             target = file.parents[node.level - 1].joinpath(*names)
@@ -90,7 +96,7 @@ def test_a_class_name_is_defined_once() -> None:
     defined = Counter(
         node.name
         for file in MODULES
-        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8")))
+        for node in ast.walk(parsed(file))
         if isinstance(node, ast.ClassDef)
     )
     assert not [name for name, times in defined.items() if times > 1]
@@ -142,7 +148,7 @@ def test_code_on_board_imports_no_simulator(package: str) -> None:
     files -= {ROOT / "robots" / f"{name}.py" for name in compiling}
     for file in files:
         assert not {"sim", "games"} & imported_packages(file), file
-        tree = ast.parse(file.read_text(encoding="utf-8"))
+        tree = parsed(file)
         for node in ast.walk(tree):
             if not isinstance(node, ast.Import | ast.ImportFrom):
                 continue

@@ -109,7 +109,6 @@ def test_areas_match_the_closed_form(
     assert found["narrowest_gap_m"] == pytest.approx(gap)
 
 
-@settings(max_examples=40)
 @given(st.floats(0.0, 200.0), st.floats(0.5, 5.0), st.floats(-pi, pi))
 def test_moving_box_keeps_its_speed_and_heading(
     time: float, later: float, heading: float

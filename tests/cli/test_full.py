@@ -21,6 +21,8 @@ from tools.fuzz.kinds import make_run
 from tools.fuzz.outlets import APART, is_outlet, outlets, words_of, writers
 from tools.fuzz.places import FAULTS, place_case
 
+pytestmark = pytest.mark.usefixtures("blank_figures")
+
 DUEL = "duel --duration=0.02 --output={}/run"
 PLAN = "plan --role=evader --bearing=0.3 --steps=4 --figure={}/plan.png"
 QUICK = ("room", "robot show", "plan", "robot init", "compare", "tournament")

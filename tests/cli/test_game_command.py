@@ -9,6 +9,8 @@ from click.testing import CliRunner, Result
 from stepaside.cli.main import main
 from stepaside.games.run_archive import load_run
 
+pytestmark = pytest.mark.usefixtures("blank_figures")
+
 FILE = """
 level = "steps"
 duration = 3.0

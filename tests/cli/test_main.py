@@ -12,6 +12,8 @@ from click.testing import CliRunner, Result
 
 from stepaside.cli.main import COMMANDS, main
 
+pytestmark = pytest.mark.usefixtures("blank_figures")
+
 
 def run(*arguments: str) -> Result:
     return CliRunner().invoke(main, arguments)

@@ -136,15 +136,6 @@ class Played(NamedTuple):
     folder: Path
 
 
-@pytest.fixture(scope="module", autouse=True)
-def plain_figures() -> Iterator[None]:
-    """Draw small figures without layout; their content is the same."""
-    with plt.rc_context(
-        {"savefig.dpi": 30, "figure.constrained_layout.use": False}
-    ):
-        yield
-
-
 @pytest.fixture(
     scope="module",
     params=[

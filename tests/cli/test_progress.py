@@ -18,6 +18,8 @@ from tools.fuzz.case import Reached
 from tools.fuzz.invoking import without_work
 from tools.fuzz.kinds import make_run
 
+pytestmark = pytest.mark.usefixtures("blank_figures")
+
 
 @click.command()
 @click.argument("seconds", type=float)

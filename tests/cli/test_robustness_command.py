@@ -18,6 +18,8 @@ from stepaside.studies.robustness_campaign import MODULES
 from stepaside.studies.robustness_trial import RobustnessTrial
 from stepaside.studies.survival_statistics import push_bound_at
 
+pytestmark = pytest.mark.usefixtures("blank_figures")
+
 ASKED = "--kind backlash --kind push --method mpc --seeds 3 --phases 1".split()
 
 

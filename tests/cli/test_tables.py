@@ -5,21 +5,23 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from click.testing import CliRunner
+from click.testing import CliRunner, Result
 
 from stepaside.cli import progress
 from stepaside.cli.main import COMMANDS, main
 from stepaside.cli.tables import format_value, label_of, unit_of
 
+pytestmark = pytest.mark.usefixtures("blank_figures", "inline_workers")
+
 TABLES = [
     "duel --duration 1",
-    "duels --seeds 0:1 --duration 1 --workers 1",
-    "walk --duration 1",
+    "duels --seeds 0:2 --duration 1 --workers 1",
+    "walk --duration 20",
     "plan --role evader --bearing 0.3",
     "unicycles --speed 0.1 --gain 0.2",
     "unicycles --strategy move-aside --pursuer-strategy lead --duration 2",
-    "circle --speed 0.1 --gain 0.2 --starts 5 --remedies",
-    "circle --evader-gain 0.3 --sample-time 0.1 --starts 0",
+    "circle --speed 0.1 --gain 0.2 --starts 2 --remedies",
+    "circle --evader-gain 0.3 --sample-time 0.1 --starts 1",
     "map --grid 3 --distances 2 --duration 5",
     "bound --grid 16 --refine 1 --games 10 --horizon 0.1",
     "bound --grid 16 --refine 0 --games 0 --horizon 0.1 --against any",
@@ -30,13 +32,36 @@ TABLES = [
 ]
 
 
-@pytest.mark.parametrize("words", TABLES)
-def test_tables_show_no_raw_keys(
-    words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.chdir(tmp_path)
+# Commands that show their progress.
+LONG = ("duel", "walk", "duels", "circle", "map", "bound", "tournament")
+
+
+def shown_by(words: str) -> Result:
+    """Run a command; its progress is a line at each update."""
     shown = CliRunner().invoke(main, words.split())
     assert shown.exit_code == 0, shown.output
+    command = words.split()[0]
+    lines = [
+        line
+        for line in shown.stderr.splitlines()
+        if line.startswith(f"stepaside: {command}: ")
+    ]
+    if command in LONG:
+        assert lines and all("s so far" in line for line in lines)
+        assert "%" in lines[-1] and "\r" not in shown.output
+        assert "so far" not in shown.stdout
+    return shown
+
+
+@pytest.fixture
+def progress_lines(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(progress, "PERIOD", 0.0)
+
+
+@pytest.mark.parametrize("words", TABLES)
+def test_tables_show_no_raw_keys(words: str, progress_lines: None) -> None:
+    shown = shown_by(words)
     table = re.sub(r"\S*/\S*", "", shown.stdout)  # paths are no keys
     assert not re.findall(r"\b[a-z]+_\w+", table), shown.stdout
     assert not re.findall(r"\b(?:True|False|None)\b", table), shown.stdout
@@ -66,39 +91,9 @@ def test_name_becomes_a_label_and_its_suffix_a_unit(
     assert label_of(name, unit=True) == with_unit
 
 
-LONG = {
-    "duel --duration 1": "duel",
-    "walk --duration 20": "walk",
-    "duels --seeds 0:2 --duration 1 --workers 1": "duels",
-    "circle --starts 5": "circle",
-    "map --grid 3 --distances 2 --duration 5": "map",
-    "bound --grid 16 --refine 0 --games 0 --horizon 0.1": "bound",
-    "tournament --seeds 0:1 --duration 1 --evader aside --workers 1": (
-        "tournament"
-    ),
-}
-
-
-@pytest.mark.parametrize("more", [[], ["--json"]])
-@pytest.mark.parametrize("words", LONG)
-def test_long_work_prints_progress_lines_to_a_pipe(
-    words: str,
-    more: list[str],
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(progress, "PERIOD", 0.0)
-    shown = CliRunner().invoke(main, [*words.split(), *more])
-    assert shown.exit_code == 0, shown.output
-    lines = [
-        line
-        for line in shown.stderr.splitlines()
-        if line.startswith(f"stepaside: {LONG[words]}: ")
-    ]
-    assert lines and all("s so far" in line for line in lines)
-    assert "%" in lines[-1] and "\r" not in shown.output
-    assert "so far" not in shown.stdout
+@pytest.mark.parametrize("words", ["walk --duration 9", TABLES[0]])
+def test_progress_is_not_among_json(words: str, progress_lines: None) -> None:
+    assert shown_by(f"{words} --json").stdout.startswith("{")
 
 
 def test_progress_lines_are_periodic(

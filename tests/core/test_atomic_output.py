@@ -32,6 +32,8 @@ from stepaside.report.run_folder import save_run, write_run
 from tools.fuzz.commands import FILES
 from tools.fuzz.outlets import READ
 
+pytestmark = pytest.mark.usefixtures("blank_figures")
+
 FULL = OSError(errno.ENOSPC, "No space left on device")
 
 

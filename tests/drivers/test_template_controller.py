@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from fake_robot import FakeStrategy
@@ -51,7 +51,6 @@ def way(time: float, start: Pose, rate: float) -> Pose:
     return start.compose(Pose(0.3 * time, -0.1 * time, rate * time))
 
 
-@settings(max_examples=40)
 @given(ANGLE, st.floats(-1.5, 1.5), st.integers(0, 12), st.booleans())
 def test_an_old_sighting_is_of_where_the_robot_was_then(
     heading: float, rate: float, late: int, saturated: bool
@@ -82,7 +81,6 @@ class Noting(FakeStrategy):
         return super().decide(knowledge, memory)
 
 
-@settings(max_examples=40)
 @given(ANGLE, st.floats(-1.5, 1.5), st.integers(0, 12))
 def test_it_knows_since_when_and_from_where(
     heading: float, rate: float, late: int

@@ -15,7 +15,6 @@ from stepaside.core.errors import ModelError
 from stepaside.fitting.derivation import DerivedDescription, derive
 from stepaside.fitting.description_writer import write_description
 from stepaside.fitting.gait_scaling import RobotSize, gait_of, game_of_size
-from stepaside.fitting.model_analysis import analyse_model
 from stepaside.fitting.motor_data import (
     LEAST_STIFFNESS,
     SATURATION_ANGLE,
@@ -43,15 +42,14 @@ from stepaside.sim.ground_truth import TrueRobotState
 from stepaside.sim.physics_settings import PhysicsSettings
 from stepaside.sim.world import COLOURS, build_model
 
-PUBLISHED = pytest.mark.parametrize(
-    "publish", [stranger.mjcf, stranger.urdf], ids=["mjcf", "urdf"]
-)
-Publish = Callable[[Path], Path]
+PUBLISHERS: dict[str, Callable[[Path], Path]] = {
+    "mjcf": stranger.mjcf,
+    "urdf": stranger.urdf,
+}
+Described = tuple[DerivedDescription, RobotDescription]
 
 
-def described(
-    model: Path, folder: Path
-) -> tuple[DerivedDescription, RobotDescription]:
+def described(model: Path, folder: Path) -> Described:
     """Derive a description, write it, and read it again."""
     folder.mkdir(exist_ok=True)
     found = derive(model, folder, [])
@@ -59,11 +57,25 @@ def described(
     return found, load_robot(folder)
 
 
-@PUBLISHED
+@pytest.fixture(scope="module")
+def strangers(
+    tmp_path_factory: pytest.TempPathFactory,
+) -> dict[str, Described]:
+    """The same robot, from each kind of model."""
+    return {
+        kind: described(
+            publish(tmp_path_factory.mktemp(kind)),
+            tmp_path_factory.mktemp(kind) / "robot",
+        )
+        for kind, publish in PUBLISHERS.items()
+    }
+
+
+@pytest.mark.parametrize("kind", PUBLISHERS)
 def test_legs_and_soles_are_found_in_the_tree(
-    publish: Publish, tmp_path: Path
+    kind: str, strangers: dict[str, Described]
 ) -> None:
-    found = analyse_model(publish(tmp_path), [])
+    found = strangers[kind][0].analysis
     left, right = found.legs
     assert left.joints == tuple(f"near_{part[0]}" for part in stranger.LEG)
     assert right.joints == tuple(f"far_{part[0]}" for part in stranger.LEG)
@@ -75,11 +87,11 @@ def test_legs_and_soles_are_found_in_the_tree(
     assert left.sole == pytest.approx(-down - stranger.FOOT)
 
 
-@PUBLISHED
+@pytest.mark.parametrize("kind", PUBLISHERS)
 def test_the_written_description_equals_the_derived_one(
-    publish: Publish, tmp_path: Path
+    kind: str, tmp_path: Path
 ) -> None:
-    model = publish(tmp_path)
+    model = PUBLISHERS[kind](tmp_path)
     before = model.read_bytes()
     found, robot = described(model, tmp_path / "robot")
     assert model.read_bytes() == before
@@ -93,11 +105,11 @@ def test_the_written_description_equals_the_derived_one(
     assert gait.sole.front == pytest.approx(stranger.SOLE[1])
 
 
-@PUBLISHED
+@pytest.mark.parametrize("kind", PUBLISHERS)
 def test_the_overlay_lets_any_model_be_controlled(
-    publish: Publish, tmp_path: Path
+    kind: str, strangers: dict[str, Described]
 ) -> None:
-    _, robot = described(publish(tmp_path), tmp_path / "robot")
+    _, robot = strangers[kind]
     model = robot.compile()
     free = int(mujoco.mjtJoint.mjJNT_FREE)
     assert model.jnt_type[model.body("chest").jntadr[0]] == free
@@ -113,10 +125,10 @@ def test_the_overlay_lets_any_model_be_controlled(
 
 
 def test_the_damping_of_a_joint_becomes_that_of_its_servo(
-    tmp_path: Path,
+    strangers: dict[str, Described],
 ) -> None:
     """It leads its targets by all of it, or the joints would lag."""
-    found, robot = described(stranger.mjcf(tmp_path), tmp_path / "robot")
+    found, robot = strangers["mjcf"]
     model = robot.compile()
     assert found.analysis.model.dof_damping.max() == 0.8
     assert not model.dof_damping.any()
@@ -124,10 +136,10 @@ def test_the_damping_of_a_joint_becomes_that_of_its_servo(
 
 
 def test_a_weak_servo_is_no_stiffer_than_its_torque_allows(
-    tmp_path: Path,
+    strangers: dict[str, Described],
 ) -> None:
     """One that is at its limit after a small error holds nothing."""
-    found = analyse_model(stranger.mjcf(tmp_path), [])
+    found = strangers["mjcf"][0].analysis
     height = 0.7
     tipping = found.mass * 9.81 * height
     leg = found.legs[0].joints
@@ -148,9 +160,9 @@ def test_a_weak_servo_is_no_stiffer_than_its_torque_allows(
 
 
 def test_a_robot_without_an_accent_wears_the_colour_of_its_role(
-    tmp_path: Path,
+    strangers: dict[str, Described],
 ) -> None:
-    _, robot = described(stranger.mjcf(tmp_path), tmp_path / "robot")
+    _, robot = strangers["mjcf"]
     model = build_model({"evader": robot}, PhysicsSettings())
     chest = model.body("evader/chest")
     first, count = int(chest.geomadr[0]), int(chest.geomnum[0])
@@ -160,10 +172,9 @@ def test_a_robot_without_an_accent_wears_the_colour_of_its_role(
 
 
 def test_speed_limits_are_those_of_the_urdf_or_asked_for(
-    tmp_path: Path,
+    strangers: dict[str, Described],
 ) -> None:
-    told, _ = described(stranger.urdf(tmp_path), tmp_path / "told")
-    untold, _ = described(stranger.mjcf(tmp_path), tmp_path / "untold")
+    (told, _), (untold, _) = strangers["urdf"], strangers["mjcf"]
     assert set(told.description.speed_limits.values()) == {9.5}
     assert not untold.published_speeds
     assert "ASK" not in write_description(told).replace("with ASK", "")
@@ -173,9 +184,9 @@ def test_speed_limits_are_those_of_the_urdf_or_asked_for(
 
 
 def test_the_place_of_a_torso_is_midway_between_its_hips(
-    tmp_path: Path,
+    strangers: dict[str, Described],
 ) -> None:
-    _, robot = described(stranger.mjcf(tmp_path), tmp_path / "robot")
+    _, robot = strangers["mjcf"]
     assert robot.place.forward == pytest.approx(stranger.HIPS)
     model = robot.compile()
     data = mujoco.MjData(model)
@@ -190,9 +201,9 @@ def test_the_place_of_a_torso_is_midway_between_its_hips(
 
 
 def test_a_missing_mesh_is_removed_and_reported(
-    tmp_path: Path,
+    strangers: dict[str, Described],
 ) -> None:
-    found, _ = described(stranger.mjcf(tmp_path), tmp_path / "robot")
+    found, _ = strangers["mjcf"]
     assert found.analysis.missing == ("lost.stl",)
     assert "lost.stl" in write_description(found)
 
@@ -242,12 +253,13 @@ def test_equal_shapes_walk_alike() -> None:
         assert far[name] == pytest.approx(times * near[name], rel=0.01)
 
 
-@pytest.mark.parametrize("feedback", [False, True], ids=["open", "feedback"])
-@PUBLISHED
+@pytest.mark.parametrize(
+    ("kind", "feedback"), [("mjcf", False), ("urdf", True)]
+)
 def test_a_derived_robot_walks_backward_in_a_circle(
-    publish: Publish, feedback: bool, tmp_path: Path
+    kind: str, feedback: bool, strangers: dict[str, Described]
 ) -> None:
-    _, robot = described(publish(tmp_path), tmp_path / "robot")
+    _, robot = strangers[kind]
     (trial,) = [
         trial
         for trial in trials_of(robot, feedback=feedback)

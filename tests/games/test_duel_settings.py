@@ -23,23 +23,23 @@ NUMBERS = [
 OTHERS = sorted(SETTINGS.keys() - NUMBERS - LISTS.keys())
 
 
-@pytest.mark.parametrize("path", SETTINGS)
-def test_every_setting_is_described(path: str) -> None:
-    setting = SETTINGS[path]
-    assert settings_of(setting.kind)[setting.name].meaning
+def test_every_setting_is_described() -> None:
+    for path, setting in SETTINGS.items():
+        assert settings_of(setting.kind)[setting.name].meaning, path
 
 
-@pytest.mark.parametrize("path", NUMBERS)
-def test_a_range_has_unit_and_reason(path: str) -> None:
-    setting = SETTINGS[path]
-    allowed = ranges_of(setting.kind)[setting.name]
-    assert allowed.unit and allowed.why and allowed.low < allowed.high
+def test_a_range_has_unit_and_reason() -> None:
+    for path in NUMBERS:
+        setting = SETTINGS[path]
+        allowed = ranges_of(setting.kind)[setting.name]
+        assert allowed.unit and allowed.why, path
+        assert allowed.low < allowed.high, path
 
 
-@pytest.mark.parametrize("path", OTHERS)
-def test_settings_without_a_range_are_no_numbers(path: str) -> None:
-    default = SETTINGS[path].default
-    assert default is None or isinstance(default, bool | str), default
+def test_settings_without_a_range_are_no_numbers() -> None:
+    for path in OTHERS:
+        default = SETTINGS[path].default
+        assert default is None or isinstance(default, bool | str), path
 
 
 def numbers_of(name: str) -> list[click.Parameter]:

@@ -23,6 +23,8 @@ pytest.importorskip("rosbags", reason="rosbags is not installed")
 from rosbags.rosbag2 import StoragePlugin, Writer  # noqa: E402
 from rosbags.typesys import Stores, get_typestore  # noqa: E402
 
+pytestmark = pytest.mark.usefixtures("blank_figures")
+
 STORE = get_typestore(Stores.ROS2_JAZZY)
 RATE = 0.4  # turning rate of the players, in [rad/s]
 Entry = tuple[float, str, str, Any]
@@ -198,7 +200,7 @@ def test_a_bag_becomes_a_run_folder_a_figure_and_a_page(
     run = load_run(output)
     assert run.game == "experiment" and run.players == ("pursuer", "evader")
     assert run.summary.notes == []  # type: ignore[union-attr]
-    assert (tmp_path / "f.png").stat().st_size > 1e4
+    assert (tmp_path / "f.png").is_file()
     assert "circling" in (tmp_path / "page.html").read_text()
     both = ["compare", str(output), str(output)]
     words = [*both, "--output", str(tmp_path / "both.png")]

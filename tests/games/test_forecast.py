@@ -25,6 +25,8 @@ from stepaside.sim.camera_settings import SceneSettings
 from stepaside.sim.person_settings import PersonSettings
 from stepaside.strategies import Evasion
 
+pytestmark = pytest.mark.usefixtures("blank_figures")
+
 START = StartSettings(1.2, 0.4, -0.3)
 BASE = DuelSettings(duration=80.0, start=START)
 

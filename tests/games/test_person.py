@@ -22,6 +22,8 @@ from stepaside.sim.person_motion import (
 from stepaside.sim.person_settings import PersonSettings
 from stepaside.theory.unicycle.unicycle_game import Unicycle
 
+pytestmark = pytest.mark.usefixtures("blank_figures")
+
 START = StartSettings(distance=1.5, pursuer_offset=0.0, evader_offset=0.0)
 
 
@@ -160,7 +162,7 @@ def test_the_command_line_accepts_a_person(tmp_path: Path) -> None:
     result = CliRunner().invoke(main, arguments)
     assert result.exit_code == 0, result.stderr
     assert json.loads(result.stdout)["theory"]["closest_approach_m"] > 0.5
-    assert (folder / "duel.png").stat().st_size > 10_000
+    assert (folder / "duel.png").is_file()
     again = CliRunner().invoke(
         main,
         [

@@ -36,6 +36,8 @@ from stepaside.robots.description import load_robot
 from stepaside.robots.tree_cache import load_tree
 from stepaside.sim.body_settings import BODIES
 
+pytestmark = pytest.mark.usefixtures("blank_figures")
+
 EVADER = PlaySettings()
 START = StartSettings(distance=0.7, pursuer_offset=0.1, evader_offset=0.2)
 

@@ -4,7 +4,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 pytest.importorskip("cv2")
@@ -22,7 +22,6 @@ def tallies(draw: st.DrawFn) -> FrameCounts:
     return FrameCounts(shown, draw(st.integers(0, shown)), draw(COUNT))
 
 
-@settings(max_examples=40)
 @given(st.lists(st.tuples(tallies(), tallies(), st.floats(0, 9)), max_size=3))
 def test_rates_are_of_all_frames_and_times_are_added(
     robots: list[tuple[FrameCounts, FrameCounts, float]],

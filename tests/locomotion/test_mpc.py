@@ -145,7 +145,6 @@ def test_tails_agree_up_to_their_assumption() -> None:
         assert 0.0 < off[tail, 3] < 0.15 * off[tail, 2]
 
 
-@settings(deadline=None, max_examples=40)
 @given(
     st.sampled_from(KINDS),
     st.floats(-0.08, 0.08),

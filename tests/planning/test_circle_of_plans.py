@@ -62,7 +62,7 @@ class Ghost:
 def play(
     gait: GaitSettings,
     *,
-    duration: float = 240.0,
+    duration: float = 160.0,
     late: float = 0.0,
     foot: Foot = Foot.LEFT,
 ) -> tuple[Array, Circle]:

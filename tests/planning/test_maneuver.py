@@ -105,7 +105,6 @@ def test_mirrored_bearing_mirrors_everything(
     np.testing.assert_allclose(other.left_height, one.right_height)
 
 
-@settings(max_examples=40, deadline=None)
 @given(st.lists(BEARINGS, min_size=2, max_size=8), st.sampled_from(Direction))
 def test_com_is_continuous_through_any_replans(
     bearings: list[float], direction: Direction

@@ -32,12 +32,12 @@ def export(run: Path, name: str) -> Path:
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Run folder of a duel of 3 s with cameras, in rays."""
+    """Run folder of a duel of 1.6 s with cameras, in rays."""
     pytest.importorskip("cv2", reason="OpenCV is not installed")
     from stepaside.sim.camera_settings import CameraSettings, ColourSettings
 
     settings = DuelSettings(
-        duration=3.0,
+        duration=1.6,
         start=StartSettings(
             distance=0.75, pursuer_offset=0.3, evader_offset=0.2
         ),

@@ -113,7 +113,7 @@ def test_a_comparison_is_drawn_and_its_file_reported(
     code, out, _ = invoke(
         "compare", str(run), str(run), "--output", str(file), "--json"
     )
-    assert code == 0 and file.stat().st_size > 10_000
+    assert code == 0 and file.is_file()
     assert json.loads(out)["figure"] == str(file)
 
 

@@ -66,5 +66,5 @@ def test_a_command_draws_on_the_sheet_that_is_asked_for(
     asked = [*arguments, "--figure", str(file), "--figure-width", "column"]
     assert CliRunner().invoke(main, asked).exit_code == 0
     with Image.open(file) as picture:
-        assert picture.width == pytest.approx(3.5 * 150, abs=2)
+        assert picture.width == pytest.approx(3.5 * 30, abs=2)
     assert sheet() is SHEETS["screen"]

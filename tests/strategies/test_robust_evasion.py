@@ -124,27 +124,23 @@ def survival(
     return float(track.times[-1])
 
 
-@pytest.mark.parametrize("seed", [1000, 1001])
-def test_herding_is_survived_in_a_room(seed: int) -> None:
-    assert survival(RobustEvasion(), HerdingPursuit(), seed, 90.0) > 89.0
+def test_herding_is_survived_in_a_room() -> None:
+    assert survival(RobustEvasion(), HerdingPursuit(), 1000, 90.0) > 89.0
 
 
 def test_sharp_pursuer_needs_0_8_of_the_time_of_an_offline_search() -> None:
     """The search knows the pursuer; the evader has to find it out."""
-    sharp, online, offline = Pursuit(gain_ratio=inf), 0.0, 0.0
-    rules = RULES._replace(width=1000, horizon=450)
-    for seed in (1000, 1001):
-        room, (pursuer, evader) = ROOMS.arena(seed)
-        path = beam_search(
-            np.array([*evader, *pursuer]),
-            actions_of(RULES.largest),
-            PursuerModel(12.5),
-            room.solid_set.packed,
-            rules,
-        )
-        offline += 0.4 * len(path)
-        online += survival(RobustEvasion(), sharp, seed, 180.0)
-    assert 0.8 * offline < online < 180.0
+    room, (pursuer, evader) = ROOMS.arena(1000)
+    path = beam_search(
+        np.array([*evader, *pursuer]),
+        actions_of(RULES.largest),
+        PursuerModel(12.5),
+        room.solid_set.packed,
+        RULES._replace(width=1000, horizon=450),
+    )
+    sharp = Pursuit(gain_ratio=inf)
+    online = survival(RobustEvasion(), sharp, 1000, 180.0)
+    assert 0.8 * 0.4 * len(path) < online < 180.0
 
 
 def test_faster_pursuer_of_the_paper_is_survived_on_an_open_floor() -> None:

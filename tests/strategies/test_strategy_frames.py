@@ -153,7 +153,6 @@ def test_a_game_in_steps_has_no_preferred_direction(name: str) -> None:
     )
 
 
-@settings(max_examples=50)
 @given(MOVED, MOVED, st.floats(0.05, 1.5), st.floats(0.0, 0.6))
 def test_an_old_sighting_refers_to_its_own_time(
     own: Pose, other: Pose, apart: float, age: float
@@ -175,7 +174,6 @@ def test_an_old_sighting_refers_to_its_own_time(
     assert (then[-1].own_x, then[-1].own_y) == pytest.approx(here[:2])
 
 
-@settings(max_examples=50)
 @given(MOVED, ANGLE, st.floats(0.5, 2.0), st.floats(0.0, 1.5))
 def test_lead_pursuit_points_ahead_of_a_straight_walk(
     own: Pose, way: float, distance: float, lead: float
@@ -198,7 +196,6 @@ def test_lead_pursuit_points_ahead_of_a_straight_walk(
         assert off == pytest.approx(0.0, abs=1e-6)
 
 
-@settings(max_examples=50)
 @given(MOVED, st.floats(-0.8, 0.8), st.floats(0.02, 0.2))
 def test_the_heading_of_a_turning_opponent_is_the_tangent(
     start: Pose, turn: float, step: float
@@ -215,7 +212,6 @@ def test_the_heading_of_a_turning_opponent_is_the_tangent(
     assert wrap_angle(found - last.theta) == pytest.approx(0.0, abs=1e-6)
 
 
-@settings(max_examples=50)
 @given(MOVED, MOVED, ANGLE, st.floats(0.0, 3.0))
 def test_the_pursuer_is_predicted_to_the_start_of_the_step(
     begins: Pose, other: Pose, heading: float, age: float
@@ -235,7 +231,6 @@ def test_the_pursuer_is_predicted_to_the_start_of_the_step(
     )
 
 
-@settings(max_examples=50)
 @given(METRES, METRES, METRES, METRES, st.floats(0.0, 2.0))
 def test_an_old_approach_is_extrapolated(
     x: float, y: float, u: float, v: float, age: float

@@ -4,7 +4,7 @@ from math import degrees, pi, sqrt
 from statistics import fmean, stdev
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from stepaside.studies.claim_jobs import JOBS
@@ -114,7 +114,6 @@ def test_text_names_the_expected_value(name: str) -> None:
     assert f"{claim.expected:.3g} {claim.unit}" in claim.text
 
 
-@settings(max_examples=40)
 @given(st.lists(st.floats(-5.0, 5.0), min_size=1, max_size=9))
 def test_measured_value_is_the_mean_of_all_runs(
     values: list[float],

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from reference_statistics import NORMAL, is_wilson
@@ -42,7 +42,6 @@ def records(draw: st.DrawFn) -> list[dict[str, Any]]:
     return rows
 
 
-@settings(max_examples=40)
 @given(records())
 def test_shares_are_of_all_duels_and_figures_of_completed_ones(
     rows: list[dict[str, Any]],
@@ -69,7 +68,6 @@ def test_shares_are_of_all_duels_and_figures_of_completed_ones(
             assert row["mean"] == pytest.approx(fmean(values))
 
 
-@settings(max_examples=40)
 @given(st.lists(ANY, min_size=2, max_size=40), ANY)
 def test_a_mean_has_the_interval_of_its_standard_error(
     values: list[float], theory: float
@@ -93,7 +91,6 @@ def test_a_mean_has_the_interval_of_its_standard_error(
         assert row is not None and row["worst"] == worst
 
 
-@settings(max_examples=40)
 @given(st.integers(1, 300), st.data())
 def test_a_share_counts_misses_too(number: int, data: st.DataObject) -> None:
     hits = data.draw(st.integers(0, number))
@@ -102,7 +99,6 @@ def test_a_share_counts_misses_too(number: int, data: st.DataObject) -> None:
     assert is_wilson(found["low"], found["high"], hits, number)
 
 
-@settings(max_examples=40)
 @given(records())
 def test_certified_distances_are_held_against_all_that_have_both(
     rows: list[dict[str, Any]],

@@ -6,7 +6,7 @@ from statistics import median
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from reference_statistics import coverage, is_wilson
@@ -172,7 +172,6 @@ def test_result_says_what_made_it() -> None:
     assert made["rows"] == [row(1.0)]
 
 
-@settings(max_examples=40)
 @given(st.integers(1, 400), st.data())
 def test_wilsons_ends_are_as_unlikely_as_95_percent_says(
     number: int, data: st.DataObject
@@ -194,7 +193,6 @@ def test_wilsons_interval_holds_the_share_19_times_in_20(number: int) -> None:
     assert min(held) > 0.9
 
 
-@settings(max_examples=40)
 @given(st.lists(st.floats(0.0, 4.0), min_size=1, max_size=20))
 def test_a_push_is_survived_where_the_limit_reaches_it(
     limits: list[float],
@@ -208,7 +206,6 @@ def test_a_push_is_survived_where_the_limit_reaches_it(
         assert is_wilson(low, high, sum(reached), len(limits))
 
 
-@settings(max_examples=40)
 @given(st.lists(st.floats(0.1, 4.0), min_size=1, max_size=20))
 def test_the_summary_of_limits_is_over_all_cases(limits: list[float]) -> None:
     rows = [row(limit) for limit in limits] + [row(9.0, "open-loop")]

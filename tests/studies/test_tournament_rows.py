@@ -4,7 +4,7 @@ from statistics import fmean, stdev
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from reference_statistics import NORMAL, is_wilson
@@ -42,7 +42,6 @@ def games(draw: st.DrawFn) -> list[dict[str, Any]]:
     ]
 
 
-@settings(max_examples=40)
 @given(games())
 def test_means_and_shares_are_over_all_games_of_a_pairing(
     records: list[dict[str, Any]],
@@ -64,7 +63,6 @@ def test_means_and_shares_are_over_all_games_of_a_pairing(
         assert row["longest_decision_ms"] == pytest.approx(1e3 * longest)
 
 
-@settings(max_examples=40)
 @given(games())
 def test_shares_of_outcomes_are_shares_and_sum_to_one(
     records: list[dict[str, Any]],
@@ -80,7 +78,6 @@ def test_shares_of_outcomes_are_shares_and_sum_to_one(
         assert is_wilson(low, high, ended.count("survived"), len(own))
 
 
-@settings(max_examples=40)
 @given(games(), st.randoms(use_true_random=False))
 def test_outcomes_do_not_change_means(
     records: list[dict[str, Any]], random: Any
@@ -94,7 +91,6 @@ def test_outcomes_do_not_change_means(
             assert one[name] == two[name], name
 
 
-@settings(max_examples=40)
 @given(games())
 def test_lost_games_are_worse_than_any_that_was_survived(
     records: list[dict[str, Any]],

@@ -78,7 +78,7 @@ def test_optimal_evader_reaches_the_value_of_the_table(
 ) -> None:
     """And no other keeps more, beyond the error of these coarse grids."""
     for bound in (pursuit, cars):
-        best, *others = check_by_playing(bound, 300)
+        best, *others = check_by_playing(bound, 150)
         assert best.name == "optimal"
         assert abs(best.mean_error) < 0.01 and best.most < 0.03
         for other in others:

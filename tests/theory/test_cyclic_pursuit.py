@@ -107,11 +107,11 @@ def test_convex_polygons_are_stable_and_dense_stars_are_not() -> None:
         np.testing.assert_allclose(quick, slow, atol=1e-8)
 
 
-@pytest.mark.parametrize("count", [3, 5, 7])
+@pytest.mark.parametrize("count", [3, 7])
 def test_games_that_begin_near_a_stable_polygon_end_on_it(count: int) -> None:
     one = polygon(count)
     rng = np.random.default_rng(count)
-    starts = one.poses() + rng.uniform(-0.05, 0.05, (20, count, 3))
+    starts = one.poses() + rng.uniform(-0.05, 0.05, (8, count, 3))
     slowest = -one.eigenvalues()[0].real
     out = play_team_games(cycle(count), starts, 18.0 / slowest)
     positions = out.poses[:, :, :2]

@@ -37,7 +37,7 @@ def random_starts(count: int, seed: int = 1) -> np.ndarray:
 
 @pytest.mark.parametrize("game", GAMES)
 def test_every_game_agrees_with_the_adaptive_integrator(game: Game) -> None:
-    starts = random_starts(40)
+    starts = random_starts(12)
     many = play_games(game, starts, 60.0, capture_distance=0.05)
     for i, start in enumerate(starts):
         one = simulate(
@@ -198,7 +198,7 @@ def test_progress_reports_every_chunk_and_chunks_change_nothing() -> None:
 @pytest.mark.parametrize("game", GAMES)
 def test_the_default_step_is_accurate_and_coarse(game: Game) -> None:
     """Outcomes are those of a tenth of the step; four steps are too long."""
-    starts = random_starts(1000, seed=3)
+    starts = random_starts(300, seed=3)
     step = accurate_step(game)
     fine = play_games(game, starts, 40.0, step=0.1 * step)
     found = play_games(game, starts, 40.0)

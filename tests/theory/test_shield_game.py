@@ -35,7 +35,7 @@ def solved(share: float, loss: float = 0.0) -> ShieldTable:
     """Return the table for a share of the closed form."""
     game = omnidirectional(loss)
     return solve_shield(
-        game, share * CLOSED, cells=6, headings=8, response=0.05
+        game, share * CLOSED, cells=4, headings=8, response=0.05
     )
 
 
