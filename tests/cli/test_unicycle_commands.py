@@ -76,10 +76,7 @@ def test_stability_under_sampling_and_delay_is_computed() -> None:
     "words",
     [
         "--speed 1 --gain 0.5",
-        "--law saturated",
         "--law saturated --angle 0.3",
-        "--angle 0.1",
-        "--law saturated --angle 0.1",
         "--pursuer-speed 1.2 --evader-gain 0.8 --angle 70deg",
     ],
 )

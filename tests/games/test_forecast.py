@@ -201,7 +201,6 @@ def duel(folder: Path, *options: str) -> Result:
 @pytest.mark.parametrize(
     ("options", "expected"),
     [
-        (["--release-distance", "0.85"], "no circle"),
         (["--trigger", "time"], "no circle"),
         ([], "later"),
     ],

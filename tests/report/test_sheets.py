@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from matplotlib import rcParams
 from PIL import Image
 
 from stepaside.cli.main import main
@@ -21,8 +22,9 @@ PLAN = ManeuverPlanner(GaitSettings()).plan(
 
 @pytest.mark.parametrize("name", ["page", "column"])
 def test_a_sheet_has_the_width_that_a_paper_asks_for(
-    name: str, tmp_path: Path
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.setitem(rcParams, "savefig.dpi", 150)
     file = tmp_path / "plan.png"
     with figures_on(name) as chosen:
         draw_plan(PLAN, "evader", file)
