@@ -1,10 +1,14 @@
 """Test kernels: their arguments, and that they can be turned off."""
 
+from contextlib import nullcontext
+
 import numpy as np
 import pytest
 
 from stepaside.core.machine_code import (
     Kernel,
+    bound_loop,
+    chained,
     is_enabled,
     kernel_of,
     plain_python,
@@ -39,6 +43,23 @@ def test_a_bound_kernel_works_on_its_arrays(kernel: Kernel) -> None:
     columns[0] = 1
     add()
     assert rows.ravel().tolist() == [3.5, 7.5]
+
+
+def test_a_chain_runs_its_loops_in_order() -> None:
+    """As machine code and as Python."""
+    double = "def double(values):\n    values[0] += values[0]\n"
+    increase = "def increase(values):\n    values[0] += 1.0\n"
+    found = []
+    for context in (nullcontext(), plain_python()):
+        values = np.array([3.0])
+        with context:
+            one = bound_loop("double", double, "1", values)
+            other = bound_loop("increase", increase, "1", values)
+        chain = chained(one, other, one)
+        for _ in range(2):
+            chain()
+        found.append(values.tolist())
+    assert found == [[58.0]] * 2
 
 
 @pytest.mark.parametrize(

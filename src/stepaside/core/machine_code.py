@@ -23,6 +23,12 @@ from .llvm_assembly import translate
 Argument = NDArray[Any] | float
 KEPT = 64  # kernels; those of a robot are about ten
 OPTIMISATION = 0  # of LLVM; formulas have no common subexpressions left
+CHAIN = """\
+define i64 @kernel(ptr %none) {{
+{calls}
+ret i64 0
+}}
+"""
 CALLBACK = """\
 define void @kernel(ptr %first, ptr %second) {{
 %address = ptrtoint ptr %second to i64
@@ -196,6 +202,36 @@ def callback_of(kernels: Sequence[BoundKernel], owner: int) -> Any:
     Returns:
         The function, as ctypes describes it.
     """
+    assembly = CALLBACK.format(owner=owner, calls=_calls_of(kernels))
+    kind = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p)
+    function = _compile(assembly, kind)
+    function.kernels = tuple(kernels)
+    return function
+
+
+def chained(*loops: Callable[[], object]) -> Callable[[], object]:
+    """Return a function that runs loops one after the other.
+
+    Args:
+        loops: Loops over their arrays; bound kernels are joined to one.
+    """
+    kernels = [loop for loop in loops if isinstance(loop, BoundKernel)]
+    if len(kernels) < len(loops):
+        return partial(_run_all, loops)
+    kind = ctypes.PYFUNCTYPE(ctypes.c_int64, ctypes.c_void_p)
+    assembly = CHAIN.format(calls=_calls_of(kernels))
+    bound = BoundKernel(_compile(assembly, kind), None)
+    bound.kept = loops
+    return bound
+
+
+def _run_all(loops: Sequence[Callable[[], object]]) -> None:
+    for loop in loops:
+        loop()
+
+
+def _calls_of(kernels: Sequence[BoundKernel]) -> str:
+    """Return calls of kernels, as assembly."""
     calls = []
     for kernel in kernels:
         called: Any = kernel.func
@@ -205,11 +241,7 @@ def callback_of(kernels: Sequence[BoundKernel], owner: int) -> Any:
             f"call i64 inttoptr (i64 {function} to ptr)"
             f"(ptr inttoptr (i64 {address} to ptr))"
         )
-    assembly = CALLBACK.format(owner=owner, calls="\n".join(calls))
-    kind = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p)
-    function = _compile(assembly, kind)
-    function.kernels = tuple(kernels)
-    return function
+    return "\n".join(calls)
 
 
 @cache

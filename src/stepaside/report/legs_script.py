@@ -22,7 +22,7 @@ from ..locomotion.policy.network import PolicyNetwork
 from ..locomotion.policy.policy_legs import PolicyLegs
 from ..locomotion.policy.policy_walk import PolicyWalk
 from ..locomotion.policy.runner import (
-    ADVANCE,
+    OBSERVE,
     ObservationLayout,
     clock_values,
 )
@@ -58,7 +58,7 @@ def legs_sources(description: RobotDescription) -> list[str]:
         STRAPDOWN,
         gravity_filter.FOLLOW,
         policy_legs.LEARN,
-        ADVANCE,
+        OBSERVE,
     ]
 
 

@@ -1,5 +1,6 @@
 """Forward kinematics of CoM, feet and head from measured joint angles."""
 
+from collections.abc import Callable
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -59,6 +60,7 @@ class ForwardKinematics:
             joints, in [rad]. Shape (joints,).
         numbers: Their results: position of the CoM, positions, then rotation
             matrices of the feet, by rows; then those of the head.
+        run: Function that evaluates the formulas.
     """
 
     def __init__(
@@ -86,8 +88,9 @@ class ForwardKinematics:
         self._function: Function | None = None
         if kernel is None:
             self._function = formula.function()
-        else:
-            self._run = kernel.bind(self.angles, self.numbers)
+        self.run: Callable[[], object] = self._run_plainly
+        if kernel is not None:
+            self.run = kernel.bind(self.angles, self.numbers)
         self._feet = [tree.sites[name] for name in feet]
         self._cache_key = b""
         self._posture: MeasuredPosture
@@ -124,15 +127,17 @@ class ForwardKinematics:
     @property
     def compiled(self) -> BoundKernel | None:
         """Kernel from :attr:`angles` to :attr:`numbers`, if it is used."""
-        return None if self._function is not None else self._run
+        return self.run if isinstance(self.run, BoundKernel) else None
 
     def evaluate(self, angles: Array) -> None:
         """Set :attr:`numbers` to the results at angles, in [rad]."""
         self.angles[:] = angles
-        if self._function is None:
-            self._run()
-        else:
-            self.numbers[:] = self._function(*angles.tolist())
+        self.run()
+
+    def _run_plainly(self) -> None:
+        """Evaluate the formulas in Python."""
+        assert self._function is not None
+        self.numbers[:] = self._function(*self.angles.tolist())
 
     def force_sensors(self) -> Array:
         """Return the positions of the foot force sensors.

@@ -24,7 +24,7 @@ class FeetInTorso:
     """Kinematics whose joint angles are the feet themselves."""
 
     def __init__(self) -> None:
-        self.numbers = np.zeros(27)
+        self.angles, self.numbers = np.zeros(24), np.zeros(27)
         self.numbers[2] = 0.1  # height of the CoM
 
     def force_sensors(self) -> Array:
@@ -33,7 +33,12 @@ class FeetInTorso:
 
     def evaluate(self, joint_positions: Array) -> None:
         """Both feet in the torso frame, from positions and axes."""
-        rows = joint_positions.reshape(2, 4, 3)
+        self.angles[:] = joint_positions
+        self.run()
+
+    def run(self) -> None:
+        """Evaluate at the angles."""
+        rows = self.angles.reshape(2, 4, 3)
         self.numbers[3:9] = rows[:, 0].ravel()
         self.numbers[9:] = rows[:, 1:].ravel()
 

@@ -35,15 +35,16 @@ CONTRACT = PolicyContract(
 STILL, AHEAD = np.zeros(3), np.array([0.5, 0.0, 0.0])
 
 
-def body(**changes: Any) -> BodyMotion:
+def body(**changes: Any) -> dict[str, Any]:
+    """Return a measured state, as fields of the motion."""
     values = {
-        "joint_positions": np.array(CONTRACT.default_posture),
+        "joint_positions": CONTRACT.default_posture,
         "joint_velocities": np.zeros(3),
         "angular_velocity": np.zeros(3),
-        "gravity": np.array([0.0, 0.0, -1.0]),
+        "up": (0.0, 0.0, 1.0),
         "velocity": np.zeros(3),
     }
-    return BodyMotion(**(values | changes))
+    return values | changes
 
 
 class Walker:
@@ -52,11 +53,16 @@ class Walker:
     def __init__(
         self, contract: PolicyContract, network: PolicyNetwork
     ) -> None:
-        self.runner, self.network = PolicyRunner(contract, network), network
+        self._motion = BodyMotion(*np.zeros((6, 3)))
+        self.runner = PolicyRunner(contract, network, self._motion, range(3))
+        self.network = network
 
-    def update(self, body: BodyMotion, command: Array) -> Array:
+    def update(self, body: dict[str, Any], command: Array) -> Array:
         """Return the targets of one control period."""
-        seen = self.runner.observe(body, command)
+        for name, value in (body | {"command": command}).items():
+            getattr(self._motion, name)[:] = value
+        self.runner.loop()
+        seen = self.runner.observation()
         (answer,) = self.network.evaluate([seen], [self.runner.memory])
         return self.runner.act(*answer)
 

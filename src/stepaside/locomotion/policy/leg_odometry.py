@@ -81,6 +81,7 @@ class LegOdometry:
             at the mean heading, in [m], and turn, in [rad]. Shape (3,).
         velocity: Velocity of the torso in its level frame, smoothed, in
             [m/s]. Shape (3,).
+        loops: Loops that advance it by a reading.
     """
 
     def __init__(
@@ -104,13 +105,14 @@ class LegOdometry:
         # Roll, pitch, turn, duration, and the smoothing of the velocity.
         self._given = np.array([0.0, 0.0, 0.0, 0.0, SMOOTHING])
         self._corners = np.ascontiguousarray(forward.force_sensors())
-        self._note = bound_loop(
+        note = bound_loop(
             *("note", NOTE, "12221121111"),
             *(self._com, self._feet, self._axes),
             *(self._corners, self._forces, self._given),
             *(np.zeros((9, 3)), self._loads),
             *(self.velocity, self._pose, self.moved),
         )
+        self.loops = forward.run, note
 
     @property
     def pose(self) -> Pose:
@@ -139,7 +141,19 @@ class LegOdometry:
         turn: float,
         duration: float,
     ) -> None:
-        """Advance by one reading.
+        """Advance by one reading; see :meth:`take`."""
+        self.take(measurement, tilt, turn, duration)
+        for loop in self.loops:
+            loop()
+
+    def take(
+        self,
+        measurement: Measurement,
+        tilt: tuple[float, float],
+        turn: float,
+        duration: float,
+    ) -> None:
+        """Take a reading, before :attr:`loops` run.
 
         Args:
             measurement: Measurement with joint angles and foot forces.
@@ -148,17 +162,17 @@ class LegOdometry:
                 [rad].
             duration: Time since the last reading, in [s].
         """
-        self._forward.evaluate(measurement.joint_positions)
+        self._forward.angles[:] = measurement.joint_positions
         self._tilt, given = tilt, self._given
         self._forces[:] = measurement.foot_forces
         if isnan(sum(self._forces.tolist())):
             self._forces[:] = self._loads_by_height()
         given[0], given[1] = tilt
         given[2], given[3] = turn, duration
-        self._note()
 
     def _loads_by_height(self) -> Array:
         """Return weights of the corners of both soles by their height."""
+        self._forward.run()
         up = _tilted(*self._tilt)[2]
         height = self._feet @ up
         corners = self._corners.reshape(2, 4, 2)

@@ -4,7 +4,7 @@ import numpy as np
 
 from ...core.errors import PolicyError
 from ...core.index_span import span_of
-from ...core.machine_code import bound_loop
+from ...core.machine_code import bound_loop, chained
 from ...core.poses import Array, Pose
 from ...perception.measurement import Measurement
 from ...robots.description import RobotDescription
@@ -90,30 +90,36 @@ class PolicyLegs:
             contract.command_ranges
         )
         forward = ForwardKinematics(description)
-        motors = [forward.tree.motor_of(name) for name in contract.joints]
-        self._joints = span_of(motors)
+        joints = [forward.tree.motor_of(name) for name in contract.joints]
+        self._joints = span_of(joints)
         self.coupled = tuple(
-            [i for i, shared in enumerate(motors) if shared == motor]
-            for motor in sorted({m for m in motors if motors.count(m) > 1})
+            [i for i, shared in enumerate(joints) if shared == motor]
+            for motor in sorted({m for m in joints if joints.count(m) > 1})
         )
         angles = zip(contract.joints, contract.default_posture, strict=True)
         self.standing = InitialPosture(forward, dict(angles))
         self._targets = self.standing.joint_targets.copy()
         self._network, self._pool = network, pool
-        self._runner = PolicyRunner(contract, network)
         self.odometry = odometry = LegOdometry(forward, self._targets)
         self._gravity = GravityFilter(odometry.velocity, tick)
         self.pose, self.tilt = odometry.pose, self._gravity.tilt
         self.intended = self._wanted = STILL
-        self._intended, self._command = np.zeros(3), np.zeros(3)
-        self._gravity_in_torso = np.zeros(3)
-        gain, wanted = LEARNING if learns else 0.0, np.zeros(3)
-        self._learn = bound_loop(
+        self._intended, wanted = np.zeros(3), np.zeros(3)
+        self._motion = motion = BodyMotion(
+            *(forward.angles, np.zeros_like(forward.angles), np.zeros(3)),
+            *(self._gravity.up, odometry.velocity, np.zeros(3)),
+        )
+        self._runner = PolicyRunner(contract, network, motion, joints)
+        gain = LEARNING if learns else 0.0
+        learn = bound_loop(
             *("learn", LEARN, "11111"),
             *(self._intended, odometry.moved),
             *(np.array([gain, contract.period]), np.zeros(3), wanted),
         )
-        self._invert = self.response.inverse(wanted, self._command)
+        invert = self.response.inverse(wanted, motion.command)
+        observe, noted = self._runner.loop, odometry.loops
+        self._stand = chained(*noted, observe)
+        self._walk = chained(*noted, learn, invert, observe)
         self._turned, self._ticks = 0.0, 0
 
     @property
@@ -174,28 +180,22 @@ class PolicyLegs:
 
     def _decide(self, measurement: Measurement) -> None:
         """Run the policy at its own period."""
-        period = self.contract.period
+        period, motion = self.contract.period, self._motion
         turned, self._turned = self._turned, 0.0
-        self.odometry.update(measurement, self.tilt, turned, period)
-        if self.intended == STILL:
-            self._command.fill(0.0)
-        else:
-            self._learn()
-            self._invert()
-        velocities = measurement.joint_velocities
+        self.odometry.take(measurement, self.tilt, turned, period)
+        velocities, spin = measurement.joint_velocities, measurement.gyro
         assert velocities is not None
-        np.negative(self._gravity.up, out=self._gravity_in_torso)
-        motion = BodyMotion(
-            measurement.joint_positions[self._joints],
-            velocities[self._joints],
-            measurement.gyro
-            if measurement.latest_gyro is None
-            else measurement.latest_gyro,
-            self._gravity_in_torso,
-            self.odometry.velocity,
-        )
+        if measurement.latest_gyro is not None:
+            spin = measurement.latest_gyro
+        motion.joint_velocities[:] = velocities
+        motion.angular_velocity[:] = spin
+        if self.intended == STILL:
+            motion.command.fill(0.0)
+            self._stand()
+        else:
+            self._walk()
         runner, network = self._runner, self._network
-        seen = runner.observe(motion, self._command)
+        seen = runner.observation()
         if self._pool is not None:
             self._pool.submit(network, seen, runner.memory, runner.act)
             return

@@ -9,20 +9,26 @@ from numpy.typing import NDArray
 
 from ...core.machine_code import bound_loop
 from ...core.poses import Array
-from .contract import PhaseClock, PolicyContract
+from .contract import PolicyContract
 from .network import Memory, PolicyNetwork
 
 STANDS_BELOW = 0.01  # magnitude of a command that counts as zero
-ADVANCE = f"""\
-def advance(given, command, phases, offsets, sines, cosines, clock):
+OBSERVE = f"""\
+def observe(positions, rates, spin, up, velocity, wanted, joints, posture,
+            values, phases, offsets, clock, order, clips, scales, frame):
     still = 1.0
     for i in range(3):
-        change = given[i] - command[i]
-        command[i] += min(max(change, -clock[0]), clock[0])
-        still = still if abs(command[i]) < {STANDS_BELOW} else 0.0
+        values[i], values[3 + i], values[6 + i] = velocity[i], spin[i], -up[i]
+        change = wanted[i] - values[9 + i]
+        values[9 + i] += min(max(change, -clock[0]), clock[0])
+        still = still if abs(values[9 + i]) < {STANDS_BELOW} else 0.0
     clock[5] = still * (clock[5] + 1.0)
     stands = 1.0 if clock[5] > clock[6] else 0.0
     seen = 1.0 - clock[3] * stands
+    n = posture.shape[0]
+    for j in range(n):
+        values[12 + j] = positions[joints[j]] - posture[j]
+        values[12 + n + j] = rates[joints[j]]
     for k in range(phases.shape[0]):
         phase = phases[k] + clock[1] + {pi}
         phase = phase if phase < {2.0 * pi} else phase - {2.0 * pi}
@@ -32,28 +38,35 @@ def advance(given, command, phases, offsets, sines, cosines, clock):
         elif clock[2] > 0.0 and clock[4] > 0.0:
             phase = offsets[k]
         phases[k] = phase
-        sines[k] = seen * sin(phase)
-        cosines[k] = seen * cos(phase)
+        at = 12 + 3 * n + k
+        values[at] = seen * sin(phase)
+        values[at + phases.shape[0]] = seen * cos(phase)
     clock[4] = stands
+    for i in range(order.shape[0]):
+        value = values[order[i]]
+        frame[i] = min(max(value, -clips[i]), clips[i]) * scales[i]
 """
 
 
 class BodyMotion(NamedTuple):
-    """Measured state of a body, as policies observe it.
+    """Arrays of what a policy observes, read at each of its periods.
 
     Attributes:
-        joint_positions: Angles of the joints of the policy, in [rad].
+        joint_positions: Angles of all joints, in [rad].
         joint_velocities: Their velocities, in [rad/s].
         angular_velocity: Of the torso in its frame, in [rad/s]. Shape (3,).
-        gravity: Unit vector of gravity in the torso frame. Shape (3,).
+        up: Upward unit vector in the torso frame. Shape (3,).
         velocity: Of the torso in its frame, in [m/s]. Shape (3,).
+        command: Commanded velocity ahead and to the left, in [m/s], and
+            turning rate, in [rad/s]. Shape (3,).
     """
 
     joint_positions: Array
     joint_velocities: Array
     angular_velocity: Array
-    gravity: Array
+    up: Array
     velocity: Array
+    command: Array
 
 
 class PolicyRunner:
@@ -62,70 +75,54 @@ class PolicyRunner:
     Attributes:
         contract: Contract of the network.
         memory: Recurrent states of the network.
+        loop: Loop that observes the motion, before :meth:`observation`.
         targets: Joint targets, in [rad], in the order of the contract. Shape
             (joints,).
     """
 
     def __init__(
-        self, contract: PolicyContract, network: PolicyNetwork
+        self,
+        contract: PolicyContract,
+        network: PolicyNetwork,
+        motion: BodyMotion,
+        joints: Sequence[int],
     ) -> None:
-        """Begin standing in the default posture."""
+        """Begin standing in the default posture.
+
+        Args:
+            contract: Contract of the network.
+            network: The network.
+            motion: Motion of the body, which others update.
+            joints: Indices of the joints of the contract in it.
+        """
         self.contract, self.memory = contract, network.initial_memory()
         self._default = np.array(contract.default_posture)
         self._scale = np.array(contract.action_scale)
         self.targets = self._default.copy()
-        layout = ObservationLayout.of(contract)
-        self._values = np.zeros(layout.size)
-        self._parts = {
-            name: self._values[place] for name, place in layout.places.items()
-        }
-        self._order, self._scales = layout.order, layout.scales
-        finite = np.isfinite(layout.clips).any()
-        self._clips = layout.clips if finite else None
+        layout, clock = ObservationLayout.of(contract), contract.clock
+        values = np.zeros(layout.size)
+        self._actions = values[layout.places["actions"]]
         self._history: Array | None = None
-        self._flat = layout.flat
-        clock = contract.clock or PhaseClock(inf, ())
-        offsets = np.array(clock.offsets, dtype=np.float64)
-        self._command = np.zeros(3)
-        self._advance = bound_loop(
-            *("advance", ADVANCE, "1111111"),
-            *(self._command, self._parts["command"]),
-            *(offsets.copy(), offsets),
-            *(self._parts["sin_phase"], self._parts["cos_phase"]),
+        self._flat, self._frame = layout.flat, np.zeros(layout.order.size)
+        offsets = np.array(() if clock is None else clock.offsets, dtype=float)
+        self.loop = bound_loop(
+            *("observe", OBSERVE, "111111i11111i111"),
+            *(*motion, np.array(joints, dtype=np.int64), self._default),
+            *(values, offsets.copy(), offsets),
             np.array(clock_values(contract)),
+            *(layout.order, layout.clips, layout.scales, self._frame),
         )
 
-    def observe(
-        self, body: BodyMotion, command: Sequence[float] | Array
-    ) -> Array:
-        """Return the input of the network at a control period.
+    def observation(self) -> Array:
+        """Return the input of the network; it changes with the next one.
 
-        Args:
-            body: Measured state.
-            command: Commanded vx, vy, in [m/s], and turning rate, in
-                [rad/s]. Shape (3,).
-
-        Returns:
-            Shape (observation width,).
+        Shape (observation width,).
         """
-        contract, parts = self.contract, self._parts
-        self._command[:] = command
-        self._advance()
-        parts["base_lin_vel"][:] = body.velocity
-        parts["base_ang_vel"][:] = body.angular_velocity
-        parts["projected_gravity"][:] = body.gravity
-        np.subtract(
-            body.joint_positions, self._default, out=parts["joint_pos"]
-        )
-        parts["joint_vel"][:] = body.joint_velocities
-        frame: Array = self._values.take(self._order)
-        if self._clips is not None:
-            frame = np.minimum(np.maximum(frame, -self._clips), self._clips)
-        frame *= self._scales
-        if contract.history == 1:
+        frame, count = self._frame, self.contract.history
+        if count == 1:
             return frame
         if self._history is None:
-            self._history = np.tile(frame, (contract.history, 1))
+            self._history = np.tile(frame, (count, 1))
         self._history[:-1] = self._history[1:]
         self._history[-1] = frame
         found: Array = self._history.ravel().take(self._flat)
@@ -146,9 +143,7 @@ class PolicyRunner:
         clipped = raw
         if limit < inf:
             clipped = np.minimum(np.maximum(raw, -limit), limit)
-        self._parts["actions"][:] = (
-            clipped if contract.observes_clipped else raw
-        )
+        self._actions[:] = clipped if contract.observes_clipped else raw
         targets = self._default + self._scale * clipped
         if share > 0.0:
             targets = share * self.targets + (1.0 - share) * targets
@@ -157,7 +152,7 @@ class PolicyRunner:
 
 
 def clock_values(contract: PolicyContract) -> list[float]:
-    """Return the last argument of :data:`ADVANCE`, at the start.
+    """Return the ``clock`` of :data:`OBSERVE`, at the start.
 
     They are the greatest change of a command and the step of the phases per
     period, whether the clock waits while the robot stands, whether it is
@@ -210,8 +205,8 @@ class ObservationLayout(NamedTuple):
             size,
             places,
             np.concatenate(terms),
-            np.concatenate(scales),
-            np.repeat([term.clip for term in contract.terms], widths),
+            np.concatenate(scales).astype(np.float64),
+            np.repeat([float(term.clip) for term in contract.terms], widths),
             _history_order(widths, contract.history, by_term=by_term),
         )
 

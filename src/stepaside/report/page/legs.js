@@ -32,11 +32,11 @@ class LegsWalker extends Robot {
     this.commands = table(3, legs.commands[0].length, legs.commands.flat());
     this.effects = table(legs.effects.length, 3, legs.effects.flat());
     this.values = new Float64Array(policy.size);
-    const { offsets, places } = policy;
-    [this.offsets, this.phases] = [0, 1].map(() => table(offsets.length, 1, offsets));
-    [this.commanded, this.sines, this.cosines] = ["command", "sin_phase", "cos_phase"]
-      .map((name) => this.values.subarray(...places[name]));
-    this.gait = table(policy.clock.length, 1, policy.clock.map((value) => value ?? Infinity));
+    const column = (values) => table(values.length, 1, values.map((value) => value ?? Infinity));
+    const { offsets, order, clips, scales } = policy;
+    [this.offsets, this.phases, this.gait] = [offsets, offsets, policy.clock].map(column);
+    [this.posture, this.order, this.clips, this.scales] = [policy.default, order, clips, scales].map(column);
+    this.seen = table(order.length, 1);
     this.past = null;
     this.targets = Float64Array.from(policy.default);
     this.states = legs.network.states.map(([, , shape]) => new Float32Array(shape.reduce((a, b) => a * b, 1)));
@@ -118,21 +118,12 @@ class LegsWalker extends Robot {
   }
   /* Input of the network; see locomotion/policy/runner.py. */
   observe(velocities) {
-    const { policy, values, legs } = this, { places } = policy;
-    this.game.formulas.advance(this.wanted, this.commanded, this.phases, this.offsets, this.sines, this.cosines,
-      this.gait);
-    const put = (name, given) => values.set(given, places[name][0]);
-    put("base_lin_vel", this.speed);
-    put("base_ang_vel", this.imu.subarray(6, 9));
-    put("projected_gravity", this.up.map((part) => -part));
-    put("joint_pos", legs.joints.map((j, i) => this.angles[j] - policy.default[i]));
-    put("joint_vel", legs.joints.map((j) => velocities[j]));
-    const frame = policy.order.map((place, i) => {
-      const clip = policy.clips[i] === null ? Infinity : policy.clips[i];
-      return clamp(values[place], -clip, clip) * policy.scales[i];
-    });
-    if (policy.history === 1) return Float32Array.from(frame);
-    this.past = this.past ? [...this.past.slice(1), frame] : Array(policy.history).fill(frame);
+    const { policy, seen } = this;
+    this.game.formulas.observe(this.angles, velocities, this.imu.subarray(6, 9), this.up, this.speed, this.wanted,
+      this.legs.joints, this.posture, this.values, this.phases, this.offsets, this.gait, this.order, this.clips,
+      this.scales, seen);
+    if (policy.history === 1) return Float32Array.from(seen);
+    this.past = this.past ? [...this.past.slice(1), [...seen]] : Array(policy.history).fill([...seen]);
     const all = this.past.flat();
     return Float32Array.from(policy.flat, (place) => all[place]);
   }
