@@ -14,23 +14,22 @@ MILLISECONDS = 1e3  # per second
 
 
 def body_of(settings: Mapping[str, Any]) -> str:
-    """Return the body of a campaign: its preset, another delay, cameras.
+    """Return the body of a campaign: its preset, another delay, sensors.
 
     Args:
         settings: Settings of the result.
     """
     changes = json.loads(settings["changes"])
-    own, body = changes.get("body"), settings["body"]
-    if own is None:
-        body = "ideal"
-        if settings["sensings"] == ["cameras"]:
-            body += f", {changes['robot'].upper()} with cameras"
-        return body
-    hardware = BODIES["hardware"]
-    if own["servo_gain"] == hardware.servo_gain:
-        body = "hardware"
-    delay = MILLISECONDS * own["cycle"] * own["delay_cycles"]
-    return f"{body}, delay {delay:g} ms"
+    own, words = changes.get("body"), ["ideal"]
+    if own is not None:
+        hardware = own["servo_gain"] == BODIES["hardware"].servo_gain
+        delay = MILLISECONDS * own["cycle"] * own["delay_cycles"]
+        words = ["hardware" if hardware else settings["body"]]
+        words.append(f"delay {delay:g} ms")
+    (sensing,) = settings["sensings"]
+    if sensing != "ideal":
+        words.append(f"{changes['robot'].upper()} with {sensing}")
+    return ", ".join(words)
 
 
 def people(*results: Mapping[str, Any]) -> str:
