@@ -22,8 +22,10 @@ from ..locomotion.policy.network import PolicyNetwork
 from ..locomotion.policy.policy_legs import PolicyLegs
 from ..locomotion.policy.policy_walk import PolicyWalk
 from ..locomotion.policy.runner import (
+    ACT,
     OBSERVE,
     ObservationLayout,
+    action_limits,
     clock_values,
 )
 from ..locomotion.policy.velocity_response import INVERT
@@ -59,6 +61,7 @@ def legs_sources(description: RobotDescription) -> list[str]:
         gravity_filter.FOLLOW,
         policy_legs.LEARN,
         OBSERVE,
+        ACT,
     ]
 
 
@@ -108,13 +111,10 @@ def legs_data(duel: Duel) -> dict[str, Any]:
 def policy_data(contract: PolicyContract) -> dict[str, Any]:
     """Return observations, actions and clock of a contract."""
     layout, clock = ObservationLayout.of(contract), contract.clock
-    clip = contract.action_clip
+    actions = layout.places["actions"]
     return {
         "size": layout.size,
-        "places": {
-            name: [place.start, place.stop]
-            for name, place in layout.places.items()
-        },
+        "actions": [actions.start, actions.stop],
         "order": layout.order.tolist(),
         "scales": layout.scales.tolist(),
         "clips": [x if x < inf else None for x in layout.clips.tolist()],
@@ -122,12 +122,10 @@ def policy_data(contract: PolicyContract) -> dict[str, Any]:
         "flat": layout.flat.tolist(),
         "default": list(contract.default_posture),
         "scale": list(contract.action_scale),
-        "observes_clipped": contract.observes_clipped,
-        "filter": contract.action_filter,
+        "limits": [x if x < inf else None for x in action_limits(contract)],
         "period": contract.period,
         "clock": [x if x < inf else None for x in clock_values(contract)],
         "offsets": [] if clock is None else list(clock.offsets),
-        "action_clip": clip if clip < inf else None,
     }
 
 

@@ -161,13 +161,9 @@ class PolicyNetwork:
         session.run_with_iobinding(bound.binding)
         found = bound.outputs
         actions: Array = found[0].astype(np.float64)
-        if not abs(actions).max() <= LARGEST_ACTION:  # NaN is not
-            usable = abs(actions) <= LARGEST_ACTION
-            row, at = np.argwhere(~usable)[0].tolist()
-            raise PolicyError(
-                f"legs: output {at} of {self.path} must be finite and at most "
-                f"{LARGEST_ACTION:g}, got {actions[row, at]:g}"
-            )
+        flat = actions.ravel()
+        if not flat @ flat < 0.5 * LARGEST_ACTION**2:  # faster than for each
+            self._check(actions)
         if not self.states:
             return [(action, ()) for action in actions]
         split = [
@@ -175,6 +171,16 @@ class PolicyNetwork:
             for (given, _), value in zip(self.states, found[1:], strict=True)
         ]
         return list(zip(actions, zip(*split, strict=True), strict=True))
+
+    def _check(self, actions: Array) -> None:
+        """Refuse actions that are NaN, infinite or huge."""
+        usable = np.abs(actions) <= LARGEST_ACTION  # NaN is not
+        if not usable.all():
+            row, at = np.argwhere(~usable)[0].tolist()
+            raise PolicyError(
+                f"legs: output {at} of {self.path} must be finite and at most "
+                f"{LARGEST_ACTION:g}, got {actions[row, at]:g}"
+            )
 
     def _gives_equal_bits(self, batched: Any) -> bool:
         """Compare a session with a free batch axis to that for one walker."""

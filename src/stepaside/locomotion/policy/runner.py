@@ -1,7 +1,7 @@
 """Evaluation of a walking policy at its control period."""
 
 from collections.abc import Sequence
-from math import inf, pi
+from math import pi
 from typing import NamedTuple
 
 import numpy as np
@@ -45,6 +45,17 @@ def observe(positions, rates, spin, up, velocity, wanted, joints, posture,
     for i in range(order.shape[0]):
         value = values[order[i]]
         frame[i] = min(max(value, -clips[i]), clips[i]) * scales[i]
+"""
+
+
+ACT = """\
+def act(raw, posture, scales, limits, actions, targets):
+    for j in range(raw.shape[0]):
+        clipped = min(max(raw[j], -limits[0]), limits[0])
+        actions[j] = clipped if limits[2] > 0.0 else raw[j]
+        target = posture[j] + scales[j] * clipped
+        mixed = limits[1] * targets[j] + (1.0 - limits[1]) * target
+        targets[j] = mixed if limits[1] > 0.0 else target
 """
 
 
@@ -96,21 +107,29 @@ class PolicyRunner:
             joints: Indices of the joints of the contract in it.
         """
         self.contract, self.memory = contract, network.initial_memory()
-        self._default = np.array(contract.default_posture)
-        self._scale = np.array(contract.action_scale)
-        self.targets = self._default.copy()
+        posture = np.array(contract.default_posture, dtype=np.float64)
+        self.targets = posture.copy()
         layout, clock = ObservationLayout.of(contract), contract.clock
-        values = np.zeros(layout.size)
-        self._actions = values[layout.places["actions"]]
+        values, self._raw = np.zeros(layout.size), np.zeros(posture.size)
         self._history: Array | None = None
         self._flat, self._frame = layout.flat, np.zeros(layout.order.size)
         offsets = np.array(() if clock is None else clock.offsets, dtype=float)
         self.loop = bound_loop(
             *("observe", OBSERVE, "111111i11111i111"),
-            *(*motion, np.array(joints, dtype=np.int64), self._default),
+            *(*motion, np.array(joints, dtype=np.int64), posture),
             *(values, offsets.copy(), offsets),
             np.array(clock_values(contract)),
             *(layout.order, layout.clips, layout.scales, self._frame),
+        )
+        self._act = bound_loop(
+            *("act", ACT, "111111"),
+            *(
+                self._raw,
+                posture,
+                np.array(contract.action_scale, dtype=float),
+            ),
+            np.array(action_limits(contract)),
+            *(values[layout.places["actions"]], self.targets),
         )
 
     def observation(self) -> Array:
@@ -138,17 +157,19 @@ class PolicyRunner:
         Returns:
             The targets, in [rad]. Shape (joints,).
         """
-        contract, self.memory = self.contract, memory
-        limit, share = contract.action_clip, contract.action_filter
-        clipped = raw
-        if limit < inf:
-            clipped = np.minimum(np.maximum(raw, -limit), limit)
-        self._actions[:] = clipped if contract.observes_clipped else raw
-        targets = self._default + self._scale * clipped
-        if share > 0.0:
-            targets = share * self.targets + (1.0 - share) * targets
-        self.targets = targets
-        return targets
+        self.memory, self._raw[:] = memory, raw
+        self._act()
+        return self.targets
+
+
+def action_limits(contract: PolicyContract) -> list[float]:
+    """Return the ``limits`` of :data:`ACT`.
+
+    They are the greatest magnitude of an action, the share of the previous
+    targets, and whether clipped actions are observed.
+    """
+    observed = float(contract.observes_clipped)
+    return [contract.action_clip, contract.action_filter, observed]
 
 
 def clock_values(contract: PolicyContract) -> list[float]:

@@ -36,6 +36,8 @@ class LegsWalker extends Robot {
     const { offsets, order, clips, scales } = policy;
     [this.offsets, this.phases, this.gait] = [offsets, offsets, policy.clock].map(column);
     [this.posture, this.order, this.clips, this.scales] = [policy.default, order, clips, scales].map(column);
+    [this.scale, this.limits] = [policy.scale, policy.limits].map(column);
+    this.actions = this.values.subarray(...policy.actions);
     this.seen = table(order.length, 1);
     this.past = null;
     this.targets = Float64Array.from(policy.default);
@@ -129,13 +131,8 @@ class LegsWalker extends Robot {
   }
   /* Joint targets of an action, to the actuators. */
   act(raw) {
-    const { policy, values, legs } = this, limit = policy.action_clip === null ? Infinity : policy.action_clip;
-    const clipped = Array.from(raw, (action) => clamp(action, -limit, limit));
-    values.set(policy.observes_clipped ? clipped : raw, policy.places.actions[0]);
-    this.targets = clipped.map((action, i) => {
-      const target = policy.default[i] + policy.scale[i] * action;
-      return policy.filter > 0 ? policy.filter * this.targets[i] + (1 - policy.filter) * target : target;
-    });
+    const { legs } = this;
+    this.game.formulas.act(table(raw.length, 1, raw), this.posture, this.scale, this.limits, this.actions, this.targets);
     for (const joints of legs.coupled) {
       const mean = joints.reduce((sum, i) => sum + this.targets[i], 0) / joints.length;
       joints.forEach((i) => { this.targets[i] = mean; });
