@@ -41,7 +41,7 @@ def test_a_sheet_that_does_not_exist_is_refused() -> None:
             pass
 
 
-@pytest.mark.parametrize("kind", ["pdf", "svg", "PDF"])
+@pytest.mark.parametrize("kind", ["svg", "PDF"])
 def test_a_figure_of_lines_is_the_same_file_each_time(
     kind: str, tmp_path: Path
 ) -> None:

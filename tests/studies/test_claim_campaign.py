@@ -354,7 +354,7 @@ def test_interrupt_ends_worker_processes_with_status_130(
     assert not (tmp_path / "claims.json").exists()
 
 
-def test_figures_are_drawn_once(tmp_path: Path) -> None:
+def test_figures_are_drawn_once(tmp_path: Path, blank_figures: None) -> None:
     def draw() -> list[tuple[str, str]]:
         return reproduce_figures.draw_figures(
             tmp_path, 3, duration=0.5, marks=2
