@@ -30,7 +30,6 @@ from stepaside.games.run_archive import load_run, results_of, write_run_files
 from stepaside.games.trajectory import Trajectory
 from stepaside.games.walker import SimulatedPlayer
 from stepaside.locomotion.zmp.control_settings import METHODS, ControlSettings
-from stepaside.report.compare_figure import draw_comparison
 from stepaside.report.figure_style import plt
 from stepaside.report.film import FilmRenderer, FilmSettings
 from stepaside.report.replay_page import write_page
@@ -273,12 +272,6 @@ def test_film_has_a_frame(played: Played) -> None:
     shown = cinema.picture(0.5 * played.case.duration)
     cinema.close()
     assert shown.shape == (48, 64, 3) and shown.std() > 5.0
-
-
-def test_run_is_compared_with_itself(played: Played, tmp_path: Path) -> None:
-    file = tmp_path / "both.png"
-    draw_comparison([load_run(played.folder), played.run], file)
-    assert plt.imread(file).std() > 0.05
 
 
 @pytest.fixture

@@ -248,7 +248,7 @@ def test_approaches_are_held_against_the_certificate() -> None:
 
 
 def test_the_command_writes_records_summary_and_figure(
-    tmp_path: Path,
+    tmp_path: Path, inline_workers: None
 ) -> None:
     folder = tmp_path / "out"
     line = ["--seeds", "5:7", "--duration", "0.5", "--workers", "1"]
