@@ -2,15 +2,15 @@
 
 Duels are played one at a time and side by side, then their commands are given
 to ``mj_step`` alone in the same process; all end in the same states. Processor
-time, least of some rounds::
+time of each control tick, least of some rounds, so that other processes
+disturb little::
 
     python tools/benchmarks/policy_duel_cost.py runs/g1 runs/policy.onnx
 """
 
 from argparse import Namespace
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 from time import thread_time
 
@@ -28,49 +28,61 @@ from stepaside.locomotion.policy.network_pool import NetworkPool
 from stepaside.studies.result_files import header, write_result
 
 
-class CommandRecorder:
-    """Match observer that records the actuator commands of each tick."""
+class TickRecorder:
+    """Match observer that records commands and processor times.
+
+    Attributes:
+        commands: Actuator commands of each tick.
+        times: Processor time at the begin of each tick, in [s].
+    """
 
     def __init__(self) -> None:
         """Begin without commands."""
         self.commands: list[Array] = []
+        self.times: list[float] = []
 
     def before(self, match: Match) -> None:
-        """Do nothing."""
+        """Note the time."""
+        self.times.append(thread_time())
 
     def acted(self, match: Match) -> None:
         """Copy the commands."""
         self.commands.append(match.world.data.ctrl.copy())
 
     def ended(self, match: Match, outcome: Outcome) -> None:
-        """Do nothing."""
+        """Note the time."""
+        self.times.append(thread_time())
 
 
-def time_of(task: Callable[[], object]) -> float:
-    """Return the processor time of a task, in [s]."""
-    began = thread_time()
-    task()
-    return thread_time() - began
-
-
-def play_bare(duel: Duel, data: mujoco.MjData, commands: list[Array]) -> None:
-    """Give recorded commands to the physics alone."""
+def play_bare(
+    duel: Duel, data: mujoco.MjData, commands: list[Array]
+) -> list[float]:
+    """Give recorded commands to the physics alone; return times, in [s]."""
     model, steps = duel.world.model, duel.world.physics.steps_per_tick
+    times = []
     for command in commands:
+        times.append(thread_time())
         data.ctrl[:] = command
         mujoco.mj_step(model, data, nstep=steps)
+    return [*times, thread_time()]
 
 
 def measure_round(
     games: Sequence[DuelSettings], duration: float
-) -> tuple[float, float, float, bool]:
-    """Return times one at a time, side by side and bare; whether all agree."""
-    alone = [Duel(game) for game in games]
-    one = sum(
-        time_of(partial(play_together, [duel], [duration])) for duel in alone
-    )
+) -> tuple[Array, Array, Array, bool]:
+    """Return times one at a time, side by side and bare; whether all agree.
+
+    Times are those of the processor for each tick, in [s].
+    """
+    clocks = [TickRecorder() for _ in games]
+    alone = [
+        Duel(game, (clock,)) for game, clock in zip(games, clocks, strict=True)
+    ]
+    for duel in alone:
+        play_together([duel], [duration])
+    one = np.diff([clock.times for clock in clocks])
     pool = NetworkPool()
-    recorders = [CommandRecorder() for _ in games]
+    recorders = [TickRecorder() for _ in games]
     duels = [
         Duel(game, (recorder,), networks=pool)
         for game, recorder in zip(games, recorders, strict=True)
@@ -79,12 +91,14 @@ def measure_round(
     for duel in duels:
         states.append(mujoco.MjData(duel.world.model))
         mujoco.mj_copyData(states[-1], duel.world.model, duel.world.data)
-    together = time_of(partial(play_together, duels, [duration] * len(duels)))
-    bare = sum(
-        time_of(partial(play_bare, *each))
-        for each in zip(
-            duels, states, [r.commands for r in recorders], strict=True
-        )
+    play_together(duels, [duration] * len(duels))
+    together = np.diff(recorders[0].times)
+    commands = [recorder.commands for recorder in recorders]
+    bare = np.diff(
+        [
+            play_bare(*each)
+            for each in zip(duels, states, commands, strict=True)
+        ]
     )
     equal = all(
         np.array_equal(single.world.data.qpos, duel.world.data.qpos)
@@ -103,9 +117,9 @@ def main() -> None:
     parser = ask(__doc__, name_of)
     parser.add_argument("robot", type=Path)
     parser.add_argument("network", type=Path)
-    parser.add_argument("--duels", type=int, default=16)
+    parser.add_argument("--duels", type=int, default=8)
     parser.add_argument("--duration", type=float, default=10.0)
-    parser.add_argument("--rounds", type=int, default=3)
+    parser.add_argument("--rounds", type=int, default=5)
     asked = parser.parse_args()
     settings = with_robot(DuelSettings(), str(asked.robot))
     settings = with_legs(settings, str(asked.network))
@@ -116,7 +130,10 @@ def main() -> None:
     rounds = [
         measure_round(games, asked.duration) for _ in range(asked.rounds)
     ]
-    one, together, bare, _ = np.min(rounds, axis=0).tolist()
+    one, together, bare = (
+        float(np.min(times, axis=0).sum())
+        for times in list(zip(*rounds, strict=True))[:3]
+    )
     played = asked.duels * asked.duration
     figures = {
         "one_at_a_time_s_per_s": played / one,
