@@ -185,6 +185,12 @@ def test_smaller_time_steps_change_little(
     assert np.abs(large - small).mean() < 3e-4
 
 
+def test_single_precision_suffices(pursuit: Bound) -> None:
+    double = solve_bound(PURSUIT, SMALL, horizon=3.0, double=True)
+    assert double.values.dtype == np.float64
+    np.testing.assert_allclose(pursuit.values, double.values, atol=2e-3)
+
+
 @pytest.mark.parametrize("scheme", DiscretisationScheme)
 def test_every_scheme_converges_to_the_value(
     scheme: DiscretisationScheme,

@@ -212,7 +212,6 @@ def stage_blocks(
                 )  # fmt: skip
 
 
-@compiled
 def mark_active_rows(changed: Any, active: Any, arm: int, times: int) -> bool:
     """Find the rows that a step may change, from those of the last step.
 
@@ -229,17 +228,12 @@ def mark_active_rows(changed: Any, active: Any, arm: int, times: int) -> bool:
     Returns:
         Whether any row is active.
     """
-    planes, rows = changed.shape
     active[:] = changed
     for _ in range(times):
         reached = active.copy()
-        for i in range(planes):
-            for j in range(rows):
-                if not reached[i, j]:
-                    continue
-                for n in range(-arm, arm + 1):
-                    if 0 <= i + n < planes:
-                        active[i + n, j] = True
-                    if 0 <= j + n < rows:
-                        active[i, j + n] = True
+        for n in range(1, arm + 1):
+            active[n:] |= reached[:-n]
+            active[:-n] |= reached[n:]
+            active[:, n:] |= reached[:, :-n]
+            active[:, :-n] |= reached[:, n:]
     return bool(active.any())
