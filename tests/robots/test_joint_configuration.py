@@ -116,16 +116,6 @@ def test_the_environment_is_not_part_of_the_tree(tmp_path: Path) -> None:
     assert "rail" not in load_tree(synthetic_humanoid(tmp_path)).bodies
 
 
-def test_motors_move_their_followers_alone() -> None:
-    tree = load_tree(load_robot("nao"))
-    angles = np.linspace(-0.3, 0.3, len(tree.motors))
-    ours = Configuration.of_motors(tree, angles, {})
-    known = dict(zip(tree.joints, ours.joints, strict=True))
-    assert known["RHipYawPitch"] == known["LHipYawPitch"] != 0.0
-    for motor, angle in zip(tree.motors, angles, strict=True):
-        assert known[motor] == angle
-
-
 def test_a_configuration_is_a_value() -> None:
     tree = load_tree(load_robot("nao"))
     ours = Configuration(tree, np.zeros(len(tree.joints)))

@@ -1,6 +1,5 @@
 """Joint configuration of a robot: frames, CoM and Jacobians, in NumPy."""
 
-from collections.abc import Mapping
 from functools import cached_property
 
 import numpy as np
@@ -54,27 +53,6 @@ class Configuration:
         self.axes = np.eye(3) if axes is None else np.array(axes)
         for values in (self.joints, self.place, self.axes):
             values.setflags(write=False)
-
-    @classmethod
-    def of_motors(
-        cls, tree: RobotTree, angles: Array, standing: Mapping[str, float]
-    ) -> "Configuration":
-        """Make the configuration of given motor angles.
-
-        Args:
-            tree: Kinematic tree of the robot.
-            angles: In the order of ``tree.motors``, in [rad].
-            standing: Angles of joints without a motor, by joint, in [rad];
-                others are 0.
-        """
-        by_joint = dict(standing)
-        by_joint.update(
-            zip(tree.motors, np.asarray(angles).tolist(), strict=True)
-        )
-        for follower, leader in tree.followers.items():
-            by_joint[follower] = by_joint.get(leader, 0.0)
-        joints = [by_joint.get(name, 0.0) for name in tree.joints]
-        return cls(tree, np.array(joints))
 
     @cached_property
     def _links(self) -> LinkPoses:
