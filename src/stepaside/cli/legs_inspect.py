@@ -156,8 +156,9 @@ def _text(name: str, value: Any) -> str:
             return "none"
         phases = ", ".join(f"{x:.3g}" for x in value.offsets)
         after = f", after {value.settling:g} s" if value.settling else ""
+        changes = f", changed by {value.spread:g} /s" if value.spread else ""
         return (
-            f"{value.period:.3g} s, phases {phases} rad, "
+            f"{value.period:.3g} s{changes}, phases {phases} rad, "
             f"{value.standing} while standing{after}"
         )
     if name == "command_ranges":

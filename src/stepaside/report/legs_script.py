@@ -95,7 +95,10 @@ def legs_data(duel: Duel) -> dict[str, Any]:
         "corners": forward.force_sensors().tolist(),
         "smoothing": leg_odometry.SMOOTHING,
         "calibration": gravity_filter.CALIBRATION,
-        "settled": gravity_filter.SETTLED * gravity_filter.CALIBRATION,
+        "corrections": [
+            [gravity_filter.FIRST, 0.0],
+            [gravity_filter.CORRECTION, gravity_filter.BIAS_CORRECTION],
+        ],
         "learning": learning,
         "bounds": [list(axis) for axis in legs.velocities[:3]],
         "sizes": sizes.tolist(),
@@ -111,10 +114,13 @@ def legs_data(duel: Duel) -> dict[str, Any]:
 def policy_data(contract: PolicyContract) -> dict[str, Any]:
     """Return observations, actions and clock of a contract."""
     layout, clock = ObservationLayout.of(contract), contract.clock
-    actions = layout.places["actions"]
+    places = {
+        name: [layout.places[name].start, layout.places[name].stop]
+        for name in ("actions", "frequency")
+    }
     return {
         "size": layout.size,
-        "actions": [actions.start, actions.stop],
+        **places,
         "order": layout.order.tolist(),
         "scales": layout.scales.tolist(),
         "clips": [x if x < inf else None for x in layout.clips.tolist()],

@@ -180,6 +180,31 @@ def test_a_clock_still_runs_until_the_robot_has_settled(
     np.testing.assert_allclose(seen, expected, atol=1e-6)
 
 
+def test_the_last_output_changes_the_frequency_of_the_clock(
+    tmp_path: Path,
+) -> None:
+    """By 2.5 /s at most: from 12.5 to 15 cycles per second."""
+    clock = PhaseClock(period=0.08, offsets=(0.0,), spread=2.5)
+    contract = replace(
+        CONTRACT,
+        terms=(Term("cos_phase"), Term("frequency")),
+        action_clip=4.0,
+        clock=clock,
+    )
+    weights = np.zeros((4, 2))
+    weights[[0, 1], [0, 1]] = 1.0
+    file = write_policy(tmp_path / "a.onnx", weights, np.array([0, 0, 0, 9.0]))
+    walker = Walker(contract, PolicyNetwork(file))
+    seen = [
+        action_of(walker.update(body(), AHEAD))[:2].tolist() for _ in range(3)
+    ]
+    phases = [0.25, 0.55, 0.85]  # of a cycle
+    cosines = [cos(2.0 * pi * phase) for phase in phases]
+    expected = [[c, f] for c, f in zip(cosines, (0.0, 4.0, 4.0), strict=True)]
+    np.testing.assert_allclose(seen, expected, atol=1e-6)
+    assert contract.action_width == 4
+
+
 def test_commands_change_at_a_limited_rate(tmp_path: Path) -> None:
     contract = replace(CONTRACT, terms=(Term("command"),), command_rate=1.0)
     runner = echo(tmp_path, contract)

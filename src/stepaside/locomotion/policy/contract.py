@@ -41,10 +41,11 @@ TERMS = {
     "actions": "previous action",
     "sin_phase": "sine of each phase of the clock",
     "cos_phase": "cosine of each phase of the clock",
+    "frequency": "previous output for the frequency of the clock [1/s]",
 }
 """Quantities that an observation may contain, by name."""
 
-WIDTHS = {"command_lin_vel": 2, "command_ang_vel": 1}
+WIDTHS = {"command_lin_vel": 2, "command_ang_vel": 1, "frequency": 1}
 OF_JOINTS = frozenset({"joint_pos", "joint_vel", "actions"})
 OF_CLOCK = frozenset({"sin_phase", "cos_phase"})
 
@@ -61,12 +62,15 @@ class PhaseClock:
             or is "silent": sine and cosine are zero.
         settling: Time for which the clock still runs when the command has
             become zero, in [s]: the robot steps on the spot before it stands.
+        spread: Largest change of the frequency by the last output of the
+            network, in [1/s]; 0 for a network without such an output.
     """
 
     period: float
     offsets: tuple[float, ...] = (0.0, pi)
     standing: Standing = "runs"
     settling: float = 0.0
+    spread: float = 0.0
 
 
 class CommandRanges(NamedTuple):
@@ -168,7 +172,7 @@ class PolicyContract:
         """Check values by themselves."""
         orders, standings = get_args(HistoryOrder), get_args(Standing)
         clock = self.clock or PhaseClock(1.0)
-        settling = clock.settling
+        settling, spread = clock.settling, clock.spread
         share, rate = self.action_filter, self.command_rate
         twice = [x for x in self.joints if self.joints.count(x) > 1]
         rules = [
@@ -179,6 +183,7 @@ class PolicyContract:
             ("command_rate", rate, rate > 0.0, "be > 0 [1/s]"),
             ("clock.period", clock.period, clock.period > 0.0, "be > 0 [s]"),
             ("clock.settling", settling, settling >= 0.0, "be >= 0 [s]"),
+            ("clock.spread", spread, spread >= 0.0, "be >= 0 [1/s]"),
         ]
         for name, word, words in (
             ("history_order", self.history_order, orders),
@@ -205,6 +210,12 @@ class PolicyContract:
         if term.name in OF_CLOCK:
             return 0 if self.clock is None else len(self.clock.offsets)
         return WIDTHS.get(term.name, 3)
+
+    @property
+    def action_width(self) -> int:
+        """Number of values of the output."""
+        changes_clock = self.clock is not None and self.clock.spread > 0.0
+        return len(self.joints) + changes_clock
 
     @property
     def observation_width(self) -> int:

@@ -85,12 +85,15 @@ def _misfits(
                 f"({terms})",
             )
         )
-    if network.action.width != len(contract.joints):
+    if network.action.width != contract.action_width:
+        more = " and one for the clock"
         found.append(
             Finding(
                 "error",
-                f"output {network.action} must have {len(contract.joints)} "
-                "values, one for each joint",
+                f"output {network.action} must have {contract.action_width} "
+                "values, one for each joint"
+                + more
+                * (contract.action_width > len(contract.joints)),
             )
         )
     return found

@@ -124,7 +124,7 @@ class PolicyLegs:
 
     @property
     def ready(self) -> bool:
-        """Whether it has stood long enough to calibrate the gyro."""
+        """Whether it has stood long enough to know where up is."""
         return self._gravity.ready
 
     @property

@@ -49,13 +49,18 @@ def observe(positions, rates, spin, up, velocity, wanted, joints, posture,
 
 
 ACT = """\
-def act(raw, posture, scales, limits, actions, targets):
-    for j in range(raw.shape[0]):
+def act(raw, posture, scales, limits, actions, targets, frequency, clock):
+    n = posture.shape[0]
+    for j in range(n):
         clipped = min(max(raw[j], -limits[0]), limits[0])
         actions[j] = clipped if limits[2] > 0.0 else raw[j]
         target = posture[j] + scales[j] * clipped
         mixed = limits[1] * targets[j] + (1.0 - limits[1]) * target
         targets[j] = mixed if limits[1] > 0.0 else target
+    if limits[3] > 0.0:
+        frequency[0] = min(max(raw[n], -limits[0]), limits[0])
+        change = min(max(frequency[0], -limits[3]), limits[3])
+        clock[1] = limits[4] + limits[5] * change
 """
 
 
@@ -110,7 +115,11 @@ class PolicyRunner:
         posture = np.array(contract.default_posture, dtype=np.float64)
         self.targets = posture.copy()
         layout, clock = ObservationLayout.of(contract), contract.clock
-        values, self._raw = np.zeros(layout.size), np.zeros(posture.size)
+        values, self._raw = (
+            np.zeros(layout.size),
+            np.zeros(contract.action_width),
+        )
+        gait = np.array(clock_values(contract))
         self._history: Array | None = None
         self._flat, self._frame = layout.flat, np.zeros(layout.order.size)
         offsets = np.array(() if clock is None else clock.offsets, dtype=float)
@@ -118,11 +127,11 @@ class PolicyRunner:
             *("observe", OBSERVE, "111111i11111i111"),
             *(*motion, np.array(joints, dtype=np.int64), posture),
             *(values, offsets.copy(), offsets),
-            np.array(clock_values(contract)),
+            gait,
             *(layout.order, layout.clips, layout.scales, self._frame),
         )
         self._act = bound_loop(
-            *("act", ACT, "111111"),
+            *("act", ACT, "11111111"),
             *(
                 self._raw,
                 posture,
@@ -130,6 +139,7 @@ class PolicyRunner:
             ),
             np.array(action_limits(contract)),
             *(values[layout.places["actions"]], self.targets),
+            *(values[layout.places["frequency"]], gait),
         )
 
     def observation(self) -> Array:
@@ -151,7 +161,7 @@ class PolicyRunner:
         """Update the targets by the output of the network.
 
         Args:
-            raw: Action. Shape (joints,).
+            raw: Output of the network. Shape (action width,).
             memory: Recurrent states.
 
         Returns:
@@ -166,10 +176,16 @@ def action_limits(contract: PolicyContract) -> list[float]:
     """Return the ``limits`` of :data:`ACT`.
 
     They are the greatest magnitude of an action, the share of the previous
-    targets, and whether clipped actions are observed.
+    targets, whether clipped actions are observed, the greatest change of the
+    frequency of the clock, in [1/s], and the step of the phases per period,
+    without a change and per [1/s] of it.
     """
-    observed = float(contract.observes_clipped)
-    return [contract.action_clip, contract.action_filter, observed]
+    observed, spread = float(contract.observes_clipped), 0.0
+    if contract.clock is not None:
+        spread = contract.clock.spread
+    step, turn = clock_values(contract)[1], 2.0 * pi * contract.period
+    clip, share = contract.action_clip, contract.action_filter
+    return [clip, share, observed, spread, step, turn]
 
 
 def clock_values(contract: PolicyContract) -> list[float]:
@@ -244,6 +260,7 @@ def _places(joints: int, phases: int) -> tuple[int, dict[str, slice]]:
         **dict.fromkeys(("projected_gravity", "command"), 3),
         **dict.fromkeys(("joint_pos", "joint_vel", "actions"), joints),
         **dict.fromkeys(("sin_phase", "cos_phase"), phases),
+        "frequency": 1,
     }
     ends = np.cumsum(list(widths.values())).tolist()
     places = {

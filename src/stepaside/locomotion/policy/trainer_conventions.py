@@ -6,7 +6,7 @@ and orders are theirs, the code is not.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import inf, radians
 from typing import Any
 
@@ -231,23 +231,35 @@ BOOSTER_GYM = Convention(
         }.items()
     },
 )
-_NAO_LEG = (
-    *("HipYawPitch", "HipRoll", "HipPitch"),
-    *("KneePitch", "AnklePitch", "AnkleRoll"),
+_BHUMAN = (
+    "https://github.com/bhuman/BHumanCodeRelease, Src/Modules/MotionControl/"
+    "WalkingEngine/RLWalkingEngine.cpp, Config/Robots/Default; gains: Config/"
+    "Scenes/Includes"
 )
+_BHUMAN_VALUES = {
+    **BOOSTER_GYM.values,
+    "command_rate": inf,
+    "clock": PhaseClock(1.0 / 1.5, (0.0,), "silent", settling=1.0),
+}
+
+
+def _legs(sides: tuple[str, str], *names: str) -> tuple[str, ...]:
+    """Return the joints of the left leg, then of the right one."""
+    return tuple(f"{side}{name}" for side in sides for name in names)
+
+
 BHUMAN = Convention(
     "bhuman",
-    "https://github.com/bhuman/BHumanCodeRelease, Src/Modules/MotionControl/"
-    "WalkingEngine/RLWalkingEngine.cpp, Config/Robots/Default/"
-    "rlWalkingEngine.cfg; gains: Config/Scenes/Includes/NaoV6H25.rsi3",
-    {
-        "joints": tuple(f"{side}{name}" for side in "LR" for name in _NAO_LEG),
-        "terms": BOOSTER_GYM.values["terms"],
-        "action_scale": 1.0,
-        "action_clip": 1.0,
+    _BHUMAN,
+    _BHUMAN_VALUES
+    | {
+        "joints": _legs(
+            ("L", "R"),
+            *("HipYawPitch", "HipRoll", "HipPitch"),
+            *("KneePitch", "AnklePitch", "AnkleRoll"),
+        ),
         "stiffness": 40.0,
         "damping": 0.5,
-        "clock": PhaseClock(1.0 / 1.5, (0.0,), "silent", settling=1.0),
         "command_ranges": CommandRanges(
             forward=(-0.6, 1.0), turn=(-radians(50.0), radians(50.0))
         ),
@@ -262,6 +274,26 @@ BHUMAN = Convention(
         }.items()
     },
 )
+BHUMAN_K1 = Convention(
+    "bhuman_k1",
+    _BHUMAN,
+    _BHUMAN_VALUES
+    | {
+        "joints": _legs(
+            ("Left_", "Right_"),
+            *("Hip_Pitch", "Hip_Roll", "Hip_Yaw"),
+            *("Knee_Pitch", "Ankle_Pitch", "Ankle_Roll"),
+        ),
+        "terms": (*BOOSTER_GYM.values["terms"], Term("frequency")),
+        "stiffness": (*4 * (135.0,), *2 * (35.0,)) * 2,
+        "damping": (*4 * (3.5,), *2 * (2.5,)) * 2,
+        "clock": replace(_BHUMAN_VALUES["clock"], spread=0.5),
+        "command_ranges": CommandRanges(
+            lateral=(-0.5, 0.5), turn=(-radians(120.0), radians(120.0))
+        ),
+    },
+    postures=BOOSTER_GYM.postures,
+)
 CONVENTIONS = {
     each.name: each
     for each in (
@@ -272,6 +304,7 @@ CONVENTIONS = {
         MUJOCO_PLAYGROUND,
         BOOSTER_GYM,
         BHUMAN,
+        BHUMAN_K1,
     )
 }
 """Conventions by name."""

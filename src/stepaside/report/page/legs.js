@@ -14,8 +14,8 @@ class LegsWalker extends Robot {
     [this.up, this.rate, this.bias] = [table(3, 1, [0, 0, 1]), table(3, 1), table(3, 1)];
     [this.correction, this.wish, this.wanted] = [0, 1, 2].map(() => table(3, 1));
     this.learning = table(2, 1, [legs.learning, policy.period]);
-    this.tick = table(1, 1, [this.data.tick]);
-    Object.assign(this, { stood: 0, count: 0, force: [0, 0, 0] });
+    this.following = table(3, 1, [this.data.tick, 0, 0]);
+    this.stood = 0;
     [this.site, this.gravity] = [body.place, legs.gravity].map((values) => table(3, 1, values));
     this.mount = table(3, 3, body.mount.flat());
     this.clock = table(1, 1);
@@ -37,7 +37,7 @@ class LegsWalker extends Robot {
     [this.offsets, this.phases, this.gait] = [offsets, offsets, policy.clock].map(column);
     [this.posture, this.order, this.clips, this.scales] = [policy.default, order, clips, scales].map(column);
     [this.scale, this.limits] = [policy.scale, policy.limits].map(column);
-    this.actions = this.values.subarray(...policy.actions);
+    [this.actions, this.frequency] = [policy.actions, policy.frequency].map((place) => this.values.subarray(...place));
     this.seen = table(order.length, 1);
     this.past = null;
     this.targets = Float64Array.from(policy.default);
@@ -90,17 +90,10 @@ class LegsWalker extends Robot {
   /* Direction of gravity; see locomotion/policy/gravity_filter.py. */
   balance() {
     const { legs, imu, data } = this;
-    if (this.ready) {
-      this.game.formulas.follow_gravity(this.up, this.rate, this.bias, imu.subarray(0, 3), imu.subarray(3, 6),
-        this.speed, this.tick);
-      return;
-    }
+    this.following.set(legs.corrections[this.ready ? 1 : 0], 1);
     this.stood += data.tick;
-    if (this.stood < legs.settled) return;
-    this.count += 1;
-    this.force = this.force.map((mean, i) => mean + (imu[3 + i] - mean) / this.count);
-    const length = Math.hypot(...this.force);
-    this.up.set(this.force.map((part) => part / length));
+    this.game.formulas.follow_gravity(this.up, this.rate, this.bias, imu.subarray(0, 3), imu.subarray(3, 6),
+      this.speed, this.following);
   }
   /* Odometry, then the command for the intended velocity; see locomotion/policy/policy_legs.py. */
   navigate() {
@@ -132,7 +125,8 @@ class LegsWalker extends Robot {
   /* Joint targets of an action, to the actuators. */
   act(raw) {
     const { legs } = this;
-    this.game.formulas.act(table(raw.length, 1, raw), this.posture, this.scale, this.limits, this.actions, this.targets);
+    this.game.formulas.act(table(raw.length, 1, raw), this.posture, this.scale, this.limits, this.actions, this.targets,
+      this.frequency, this.gait);
     for (const joints of legs.coupled) {
       const mean = joints.reduce((sum, i) => sum + this.targets[i], 0) / joints.length;
       joints.forEach((i) => { this.targets[i] = mean; });
