@@ -3,13 +3,14 @@
 from collections.abc import Mapping
 from typing import Any
 
-from .markdown import number, table
+from .markdown import NONE, number, table
 
 Result = Mapping[str, Any]
 POLICIES = {
     "legs-fastsac_g1_29dof": "G1, 29 joints, holosoma",
     "legs-g1_12dof": "G1, 12 joints, recurrent, legged_gym",
     "legs-t1_12dof": "T1, 12 joints, Booster Gym",
+    "legs-K1": "K1, 12 joints, B-Human",
     "legs-nao": "NAO, 12 joints, B-Human",
 }
 AXES = ("forward", "lateral", "turn")
@@ -87,9 +88,12 @@ def circles(results: Mapping[str, Result]) -> str:
     return table(head, rows)
 
 
-def _range(values: list[float], digits: int, unit: str) -> str:
-    """Return least and greatest value."""
+def _range(values: list[float | None], digits: int, unit: str) -> str:
+    """Return least and greatest value; a dash where one is missing."""
+    known = [value for value in values if value is not None]
+    if len(known) < len(values):
+        return NONE
     sign = "+" if unit == "%" else ""
-    low, high = min(values), max(values)
+    low, high = min(known), max(known)
     gap = "" if unit == "°" else " "
     return f"{low:{sign}.{digits}f} to {high:{sign}.{digits}f}{gap}{unit}"
