@@ -5,7 +5,7 @@ from math import acos, inf, pi
 import numpy as np
 import pytest
 
-from stepaside.arena import NO_OBSTACLES, Room
+from stepaside.arena import NO_OBSTACLES, Room, RoomRecipe
 from stepaside.core.compilation import load_numba
 from stepaside.core.poses import Pose
 from stepaside.strategies import (
@@ -30,6 +30,7 @@ from stepaside.strategies.search.pursuer_model import (
     PursuerModel,
     model_turn,
 )
+from stepaside.studies.tournament_settings import TournamentSettings
 
 pytestmark = pytest.mark.skipif(
     load_numba() is None, reason='needs the extra "fast"'
@@ -121,3 +122,17 @@ def test_ranks_fall_and_equal_ones_keep_their_order() -> None:
     assert (np.diff(grains) <= 0).all()
     assert (np.diff(order)[np.diff(grains) == 0] > 0).all()
     assert sorted(order) == list(range(500))
+
+
+def test_alike_states_fill_the_places_that_are_left() -> None:
+    """A start in a corner, where the best of each cell alone is captured."""
+    room, (pursuer, evader) = TournamentSettings(room=RoomRecipe()).arena(2018)
+    rules = RULES._replace(width=200, horizon=100)
+    path = beam_search(
+        np.array([*evader, *pursuer]),
+        actions_of(RULES.largest),
+        SHARP,
+        room.solid_set.packed,
+        rules,
+    )
+    assert len(path) > 50

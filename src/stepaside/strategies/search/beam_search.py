@@ -2,8 +2,9 @@
 
 A beam of states is advanced step by step: each with every action, the
 pursuer by its model. States that are captured or touch an obstacle are
-dropped; of those that are nearly alike one is kept; and the best by rank
-(:func:`expand`) go on. So the last state that remains has survived longest.
+dropped; of those that are nearly alike the best goes on, and where the beam
+has places left the others, by rank (:func:`expand`). So the last state that
+remains has survived longest.
 """
 
 from math import cos, pi, sin, sqrt, tau
@@ -232,7 +233,9 @@ def is_new(key: int, table: Any) -> bool:
 def select_best(
     new: Successors, made: int, old: Any, beam: Any, table: Any, chosen: Any
 ) -> int:
-    """Write the best successors that are not alike; return their number.
+    """Write the best successors, unlike ones first; return their number.
+
+    In a corner few states are unlike, and small differences decide.
 
     Args:
         new: Successors.
@@ -246,18 +249,20 @@ def select_best(
     for place in range(len(table)):
         table[place] = 0
     count = 0
-    for n in range(made):
-        m = new.order[n]
-        if not is_new(new.keys[m], table):
-            continue
-        parent = new.parents[m]
-        for i in range(3):
-            beam[count, i] = new.poses[m, i]
-            beam[count, 3 + i] = old[parent, 3 + i]
-        chosen[count, 0], chosen[count, 1] = parent, new.actions[m]
-        count += 1
-        if count == len(beam):
-            break
+    for alike in (False, True):
+        for n in range(made):
+            m = new.order[n]
+            if m < 0 or count == len(beam):
+                continue
+            if not alike and not is_new(new.keys[m], table):
+                continue
+            new.order[n] = -1
+            parent = new.parents[m]
+            for i in range(3):
+                beam[count, i] = new.poses[m, i]
+                beam[count, 3 + i] = old[parent, 3 + i]
+            chosen[count, 0], chosen[count, 1] = parent, new.actions[m]
+            count += 1
     return count
 
 
