@@ -10,7 +10,11 @@ from stepaside.core.poses import Array, wrap_angle
 from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.walker import SimulatedPlayer
-from stepaside.perception.lidar_perception import find_people, nearest_ranges
+from stepaside.perception.lidar_perception import (
+    find_people,
+    nearest_ranges,
+    standing_returns,
+)
 from stepaside.sim.person_settings import PersonSettings
 
 
@@ -48,6 +52,16 @@ def test_a_wall_is_nobody_but_who_stands_before_it_is_found() -> None:
     both = np.concatenate([wall, ring(2.0, 0.3, 0.15)])
     people = find_people(nearest_ranges(both))
     assert [d for _, d in people] == [pytest.approx(hypot(2, 0.3), abs=0.06)]
+
+
+@pytest.mark.parametrize("tilt", [-0.07, 0.0, 0.07])
+def test_a_floor_seen_with_a_wrong_tilt_is_nobody(tilt: float) -> None:
+    x, y = np.meshgrid(np.linspace(-8.0, 8.0, 81), np.linspace(-8.0, 8.0, 81))
+    floor = np.column_stack([x.ravel(), y.ravel(), tilt * x.ravel()])
+    assert standing_returns(floor).size == 0
+    person = np.column_stack([ring(4.0, 1.0, 0.15), np.full(200, 0.9)])
+    seen = standing_returns(np.concatenate([floor, person]))
+    assert len(find_people(nearest_ranges(seen))) == 1
 
 
 def test_a_robot_sees_who_comes_from_behind() -> None:

@@ -17,6 +17,7 @@ from .tracker import Tracker
 
 BINS = 360  # of bearings around the robot
 FLOOR = 0.12  # height up to which returns are those of the floor, in [m]
+TILT = 0.08  # error of the tilt of a torso that walks, in [rad]
 CEILING = 2.0  # height of the tallest people, in [m]
 JUMP = 0.3  # between ranges of two objects side by side, in [m]
 GAP = 2  # bins without a return within an object
@@ -100,9 +101,8 @@ class LidarPerception:
                 torso = pose
         position, axes = torso.position_in_odometry, torso.axes_in_odometry
         points = position + scan.points_in_torso @ axes.T
-        upright = (points[:, 2] > FLOOR) & (points[:, 2] < CEILING)
         x, y = position[:2].tolist()
-        ranges = nearest_ranges(points[upright, :2] - (x, y))
+        ranges = nearest_ranges(standing_returns(points - (x, y, 0.0)))
         found = [
             Observation(
                 scan.time,
@@ -133,6 +133,22 @@ class LidarPerception:
         distance = track.distance_from(x, y, scan.time)
         bin_of = _bin(track.bearing_from(x, y, scan.time))
         return distance < self._far and ranges[bin_of] > distance - HIDES
+
+
+def standing_returns(points: Array) -> Array:
+    """Return the points that are neither of the floor nor of the ceiling.
+
+    Args:
+        points: Returns with respect to the lidar in the plane, and their
+            heights, in [m]. Shape (n, 3).
+
+    Returns:
+        Points in the plane, in [m]. Shape (m, 2).
+    """
+    offsets, heights = points[:, :2], points[:, 2]
+    floor = FLOOR + TILT * np.hypot(offsets[:, 0], offsets[:, 1])
+    standing: Array = offsets[(heights > floor) & (heights < CEILING)]
+    return standing
 
 
 def nearest_ranges(offsets: Array) -> Array:
