@@ -3,11 +3,15 @@
 import ast
 import sys
 from collections.abc import Iterable
+from contextlib import suppress
 from functools import cache
 from hashlib import sha256
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
+from ..core.atomic_output import atomic_draft
+from ..core.compilation import cache_folder
+from ..core.errors import StepAsideError
 from .dependencies import dependencies
 
 ROOT = Path(__file__).parents[1]
@@ -17,6 +21,7 @@ UNICYCLES = ("theory/unicycle",)
 PHYSICS = ("games/duel", "games/walk_game")
 LIBRARIES = ("mujoco", "numpy")
 DIGITS = 12
+PYTHON = ".".join(map(str, sys.version_info[:2]))
 
 
 @cache
@@ -37,11 +42,22 @@ def code_version(modules: tuple[str, ...]) -> str:
     Raises:
         FileNotFoundError: If there is no such module or folder.
     """
+    # Parsing takes a second: the fingerprint of these very files is kept.
+    key = sha256(f"{_all_files()} {modules} {PYTHON}".encode()).hexdigest()
+    name = sha256(repr(modules).encode()).hexdigest()[:DIGITS]
+    kept = cache_folder() / f"code-{name}.txt"
+    with suppress(OSError, ValueError):
+        of, found = kept.read_text(encoding="utf-8").split()
+        if of == key:
+            return found
     digest = sha256()
     for file in sorted(dependencies(ROOT, modules)):
         digest.update(str(file.relative_to(ROOT).as_posix()).encode())
         digest.update(_substance(file))
-    return digest.hexdigest()[:DIGITS]
+    found = digest.hexdigest()[:DIGITS]
+    with suppress(OSError, StepAsideError), atomic_draft(kept) as draft:
+        draft.write_text(f"{key} {found}", encoding="utf-8")
+    return found
 
 
 def library_versions(
@@ -64,16 +80,20 @@ def installation() -> str:
     Unlike :func:`code_version` it covers all files as they are, and takes
     milliseconds.
     """
+    libraries = library_versions(("mujoco", "numba", "numpy", "scipy"))
+    versions = {"python": PYTHON} | libraries
+    words = " ".join(f"{name} {value}" for name, value in versions.items())
+    return f"code {_all_files()[:DIGITS]} {words}"
+
+
+def _all_files() -> str:
+    """Return a digest of all files of the package as they are."""
     digest = sha256()
     for file in sorted(ROOT.rglob("*")):
         if file.is_file() and "__pycache__" not in file.parts:
             digest.update(str(file.relative_to(ROOT).as_posix()).encode())
             digest.update(file.read_bytes())
-    python = ".".join(map(str, sys.version_info[:2]))
-    libraries = library_versions(("mujoco", "numba", "numpy", "scipy"))
-    versions = {"python": python} | libraries
-    words = " ".join(f"{name} {value}" for name, value in versions.items())
-    return f"code {digest.hexdigest()[:DIGITS]} {words}"
+    return digest.hexdigest()
 
 
 def _substance(file: Path) -> bytes:
