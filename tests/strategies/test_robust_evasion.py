@@ -65,6 +65,20 @@ def test_faster_pursuer_is_seen_to_be_faster() -> None:
     assert fit.speed == pytest.approx(1.3, abs=0.01)
 
 
+def test_a_pursuer_that_sways_is_not_seen_to_be_faster() -> None:
+    """Over two steps the sway of a walker cancels; over one it does not."""
+    for apart, seen in ((1, 1.6), (2, 1.05)):
+        pursuer, fit = (-2.0, 0.0, 0.0), ModelFit()
+        for n in range(8):
+            aside = 0.03 if n % 2 else -0.03
+            position = (pursuer[0], pursuer[1] + aside)
+            own = Pose(1.0 + 0.04 * n, 0.0, pi)
+            fit = fit.observe(0.4 * n, own, position, RULES, 0.4, apart)
+            turn = model_turn(tuple(own), pursuer, MODELS[0], RULES)
+            pursuer = arc_end(pursuer, 0.04, turn)
+        assert (fit.speed > seen) == (apart == 1)
+
+
 def test_it_looks_further_ahead_the_fewer_opponents_are_plausible() -> None:
     planned = {
         len(memory.assumed): memory.planned

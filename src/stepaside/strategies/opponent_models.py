@@ -58,6 +58,7 @@ class ModelFit(NamedTuple):
         position: tuple[float, float],
         rules: BeamRules,
         period: float,
+        apart: int = 1,
     ) -> "ModelFit":
         """Compare every model with one more observation.
 
@@ -67,11 +68,13 @@ class ModelFit(NamedTuple):
             position: Position of the pursuer, likewise, in [m].
             rules: Rules of the steps.
             period: Duration of a step, in [s].
+            apart: Number of steps between the observations that are
+                compared; 2 for walkers, whose sway repeats every two steps.
         """
         facing = atan2(own.y - position[1], own.x - position[0])
         if self.time < 0.0:
             return ModelFit(time, position, own, (facing,) * len(MODELS))
-        if time - self.time < 0.75 * period:
+        if time - self.time < (apart - 0.25) * period:
             return self
         dx = position[0] - self.position[0]
         dy = position[1] - self.position[1]
@@ -92,11 +95,11 @@ class ModelFit(NamedTuple):
                 model,
                 rules,
             )
-            off = wrap_angle(before + 0.5 * turn - chord)
+            off = wrap_angle(before + 0.5 * apart * turn - chord)
             if self.steps < SETTLING:  # chords have yet to give the heading
                 off = 0.0
             errors.append(MEMORY * error + (1.0 - MEMORY) * off * off)
-            headings.append(chord + 0.5 * turn)
+            headings.append(chord + 0.5 * apart * turn)
         return ModelFit(
             time, position, own, tuple(headings), tuple(errors), speed,
             self.steps + 1,

@@ -18,6 +18,7 @@ from .strategy import BackwardStrategy
 
 ERROR = ConfigurationError
 MARGIN = 0.005  # in addition to the required clearance, in [m]
+SWAY = 0.06  # by which the distance of walking bodies is less, in [m]
 TURNS = 7  # turns tried per step
 WIDER = 5  # times the width where no state survives; 20 is no better
 KEPT = 0.95  # of a plan is left when it is searched again; 0.8 loses 3 %
@@ -83,8 +84,13 @@ class RobustEvasion(BackwardStrategy):
         """Take the first step of the plan with the best worst outcome."""
         limits, own = knowledge.limits, knowledge.pose_in_map
         share = limits.gain * limits.stride / limits.speed
+        capture = self.capture + MARGIN
+        walks = knowledge.step_start_in_map is not None
+        if walks:
+            wide = min(capture + SWAY, knowledge.distance - SWAY)
+            capture = max(capture, wide)
         rules = BeamRules(
-            limits.stride, share, pi * share, self.capture + MARGIN,
+            limits.stride, share, pi * share, capture,
             self.body_radius + MARGIN, self.width, self.horizon,
         )  # fmt: skip
         sight = own.theta + knowledge.bearing
@@ -98,15 +104,13 @@ class RobustEvasion(BackwardStrategy):
             position,
             rules,
             limits.step_duration,
+            apart=2 if walks else 1,
         )
         assumed = tuple(fit.plausible())
         begins = knowledge.step_start_in_map or own
         game = PlannedGame(
             tuple(MODELS[n]._replace(speed=fit.speed) for n in assumed),
-            [
-                np.array([*begins, *fit.position, fit.headings[n]])
-                for n in assumed
-            ],
+            [np.array([*begins, *position, fit.headings[n]]) for n in assumed],
             knowledge.obstacles_in_map.packed,
             rules._replace(horizon=self.horizon * ASSUMED // len(assumed)),
         )
