@@ -74,7 +74,8 @@ def test_a_pursuer_that_sways_is_not_seen_to_be_faster() -> None:
             position = (pursuer[0], pursuer[1] + aside)
             own = Pose(1.0 + 0.04 * n, 0.0, pi)
             fit = fit.observe(0.4 * n, own, position, RULES, 0.4, apart)
-            turn = model_turn(tuple(own), pursuer, MODELS[0], RULES)
+            evader = own.x, own.y, own.theta
+            turn = model_turn(evader, pursuer, MODELS[0], RULES)
             pursuer = arc_end(pursuer, 0.04, turn)
         assert (fit.speed > seen) == (apart == 1)
 
