@@ -99,7 +99,7 @@ def pursuers_of(text: str, seeds: range) -> dict[str, range]:
 def main() -> None:
     """Play, search, and write the results."""
     asked = ask(__doc__, "opponent-ladder.json")
-    asked.add_argument("--seeds", type=seeds_of, default=range(2000, 2200))
+    asked.add_argument("--seeds", type=seeds_of, default=range(3000, 3200))
     asked.add_argument("--in-room", default=",".join(IN_ROOM))
     asked.add_argument("--in-open", default=",".join(IN_OPEN))
     asked.add_argument("--in-physics", default=",".join(IN_PHYSICS))
