@@ -10,6 +10,7 @@ from click.testing import CliRunner, Result
 from stepaside.cli import progress
 from stepaside.cli.main import COMMANDS, main
 from stepaside.cli.tables import format_value, label_of, unit_of
+from stepaside.games import match
 
 pytestmark = pytest.mark.usefixtures("blank_figures", "inline_workers")
 
@@ -57,6 +58,7 @@ def shown_by(words: str) -> Result:
 def progress_lines(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(progress, "PERIOD", 0.0)
+    monkeypatch.setattr(match, "REPORT_PERIOD", 0.0)
 
 
 @pytest.mark.parametrize("words", TABLES)
