@@ -73,7 +73,7 @@ def test_path_survives_as_long_as_it_says() -> None:
     packed = Room(3.0, 3.0).solid_set.packed
     actions = actions_of(RULES.largest)
     path = beam_search(START, actions, SHARP, packed, RULES)
-    steps, _ = survived_steps(START, actions[path], SHARP, packed, RULES)
+    steps = survived_steps(START, actions[path], SHARP, packed, RULES)
     assert steps == len(path) == RULES.horizon
 
 
@@ -100,12 +100,12 @@ def test_captured_and_touching_moves_do_not_survive() -> None:
     near = np.array([0.3, 0.0, 0.0, -0.06, 0.0, 0.0])
     walk_into = np.array([[0.0, 0.0]])
     none = NO_OBSTACLES.packed
-    assert survived_steps(near, walk_into, SHARP, none, RULES)[0] == 0
+    assert survived_steps(near, walk_into, SHARP, none, RULES) == 0
     wall = Room(3.0, 3.0).solid_set.packed
     beside = np.array([-1.29, 0.0, 0.0, 1.0, 0.0, pi])
     back = np.array([[0.0, 1.0]])
-    assert survived_steps(beside, back, SHARP, wall, RULES)[0] == 0
-    assert survived_steps(beside, back, SHARP, none, RULES)[0] == 1
+    assert survived_steps(beside, back, SHARP, wall, RULES) == 0
+    assert survived_steps(beside, back, SHARP, none, RULES) == 1
 
 
 def test_arc_cosine_is_that_of_its_reference() -> None:

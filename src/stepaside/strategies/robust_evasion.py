@@ -147,7 +147,7 @@ class PlannedGame(NamedTuple):
         from .search.beam_search import survived_steps
 
         steps = [
-            survived_steps(start, moves, model, self.packed, self.rules)[0]
+            survived_steps(start, moves, model, self.packed, self.rules)
             for start, model in zip(self.starts, self.models, strict=True)
         ]
         return min(steps), sum(steps)

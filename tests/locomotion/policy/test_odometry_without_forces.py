@@ -35,7 +35,9 @@ def test_the_lower_foot_carries_the_robot(stance: str, sign: float) -> None:
         for i, angles in enumerate(postures):
             zero = np.zeros(3)
             measured = Measurement(i * TICK, angles, zero, zero, given, None)
-            odometry.update(measured, (0.0, 0.0), 0.0, TICK)
+            odometry.take(measured, (0.0, 0.0), 0.0, TICK)
+            for loop in odometry.loops:
+                loop()
         places.append(odometry.pose)
     assert abs(places[0].x) > 0.01
     assert places[1] == pytest.approx(places[0], abs=2e-3)

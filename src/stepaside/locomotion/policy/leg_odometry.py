@@ -134,18 +134,6 @@ class LegOdometry:
         yaw = atan2(ahead[1], ahead[0])
         return self.pose.compose(Pose(place[0], place[1], yaw)), side
 
-    def update(
-        self,
-        measurement: Measurement,
-        tilt: tuple[float, float],
-        turn: float,
-        duration: float,
-    ) -> None:
-        """Advance by one reading; see :meth:`take`."""
-        self.take(measurement, tilt, turn, duration)
-        for loop in self.loops:
-            loop()
-
     def take(
         self,
         measurement: Measurement,

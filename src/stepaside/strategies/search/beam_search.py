@@ -340,8 +340,8 @@ def survived_steps(
     model: PursuerModel,
     packed: PackedObstacles,
     rules: BeamRules,
-) -> tuple[int, float]:
-    """Return the steps that given moves survive, and the rank at their end.
+) -> int:
+    """Return the number of steps that given moves survive.
 
     Args:
         start: As in :func:`beam_search`.
@@ -356,6 +356,6 @@ def survived_steps(
     for n in range(len(moves)):
         arc = arcs[n : n + 1]
         if not expand(state, arc, model, field, rules, new, 0):
-            return n, new.ranks[0]
+            return n
         state[:3] = new.poses[0]
-    return len(moves), new.ranks[0]
+    return len(moves)
