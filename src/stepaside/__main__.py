@@ -1,10 +1,16 @@
 """Entry point of ``stepaside`` and ``python -m stepaside``."""
 
+import gc
 import os
+
+# Containers made between two searches for garbage in cycles: imports and the
+# start of a game make about a hundred thousand, and none of them is garbage.
+GARBAGE = 300_000
 
 
 def main() -> None:
     """Run the command line; exit with status 130 on Ctrl-C during import."""
+    gc.set_threshold(GARBAGE)
     try:
         from .core.signal_handling import interruptible
 

@@ -1,6 +1,7 @@
 """Test kernels: their arguments, and that they can be turned off."""
 
 from contextlib import nullcontext
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -43,6 +44,23 @@ def test_a_bound_kernel_works_on_its_arrays(kernel: Kernel) -> None:
     columns[0] = 1
     add()
     assert rows.ravel().tolist() == [3.5, 7.5]
+
+
+def test_object_code_is_kept_by_source(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """And read again; a cache that cannot be written changes nothing."""
+    pytest.importorskip("llvmlite")
+    file = tmp_path / "file"
+    file.touch()
+    for folder in (tmp_path, tmp_path, file):
+        monkeypatch.setenv("XDG_CACHE_HOME", str(folder))
+        for number in (2.0, 3.0):
+            source = f"def fill(values):\n    values[0] = {number}\n"
+            values = np.zeros(1)
+            Kernel("fill", source, "1")(values)  # not one of this process
+            assert values[0] == number
+        assert len(list((tmp_path / "stepaside").iterdir())) == 2
 
 
 def test_a_chain_runs_its_loops_in_order() -> None:

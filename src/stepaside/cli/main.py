@@ -1,6 +1,5 @@
 """Command-line interface: the group of all commands and its errors."""
 
-import gc
 import sys
 from importlib import import_module
 from typing import Any, NoReturn
@@ -43,11 +42,6 @@ COMMANDS = {
 }
 
 
-# Containers made between two searches for garbage in cycles: imports make
-# hundreds of thousands, and none of them is garbage.
-GARBAGE = 100_000
-
-
 class LazyGroup(click.Group):
     """Command group that imports each command on first use."""
 
@@ -75,7 +69,6 @@ class LazyGroup(click.Group):
     def main(self, *args: Any, **extra: Any) -> NoReturn:
         """Run a command; report each expected error in one line, status 2."""
         extra["standalone_mode"] = False
-        gc.set_threshold(GARBAGE)
         try:
             with interruptible():
                 status = super().main(*args, **extra)

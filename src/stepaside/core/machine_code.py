@@ -2,8 +2,8 @@
 
 Without the extra "fast", or where LLVM does not support the processor, there
 are no kernels, and the same formulas run as plain Python, also on board.
-Compiling the legs of a robot takes about 0.1 s, the import of llvmlite
-half of that; it pays off within a few seconds of walking.
+Compiling the legs of a robot takes about 0.1 s once on a machine, and the
+import of llvmlite half of that; it pays off within a few seconds of walking.
 """
 
 import ctypes
@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from functools import cache, lru_cache, partial
 from math import atan2, cos, sin, sqrt
+from pathlib import Path
 from struct import pack, unpack
 from threading import Lock
 from typing import Any
@@ -18,10 +19,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .kept_files import files_digest, kept
 from .llvm_assembly import translate
 
 Argument = NDArray[Any] | float
 KEPT = 64  # kernels; those of a robot are about ten
+LOOP = ctypes.PYFUNCTYPE(ctypes.c_int64, ctypes.c_void_p)
 OPTIMISATION = 0  # of LLVM; formulas have no common subexpressions left
 CHAIN = """\
 define i64 @kernel(ptr %none) {{
@@ -112,10 +115,13 @@ class Kernel:
     def _function(self) -> Any:
         with _compiling:
             if self._compiled is None:
-                self._compiled = _compile(
-                    translate(self._source, self._arguments),
-                    ctypes.PYFUNCTYPE(ctypes.c_int64, ctypes.c_void_p),
+                inputs = self._source, self._arguments
+                code = kept(
+                    "loop",
+                    (inputs, _translator()),
+                    lambda: _assemble(translate(*inputs)),
                 )
+                self._compiled = _load(code, LOOP)
             return self._compiled
 
     def _words(self, letter: str, argument: Argument) -> list[int]:
@@ -204,7 +210,7 @@ def callback_of(kernels: Sequence[BoundKernel], owner: int) -> Any:
     """
     assembly = CALLBACK.format(owner=owner, calls=_calls_of(kernels))
     kind = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p)
-    function = _compile(assembly, kind)
+    function = _load(_assemble(assembly), kind)
     function.kernels = tuple(kernels)
     return function
 
@@ -218,9 +224,8 @@ def chained(*loops: Callable[[], object]) -> Callable[[], object]:
     kernels = [loop for loop in loops if isinstance(loop, BoundKernel)]
     if len(kernels) < len(loops):
         return partial(_run_all, loops)
-    kind = ctypes.PYFUNCTYPE(ctypes.c_int64, ctypes.c_void_p)
     assembly = CHAIN.format(calls=_calls_of(kernels))
-    bound = BoundKernel(_compile(assembly, kind), None)
+    bound = BoundKernel(_load(_assemble(assembly), LOOP), None)
     bound.kept = loops
     return bound
 
@@ -256,12 +261,34 @@ def _load_llvm() -> Any:
     return None
 
 
-def _compile(assembly: str, kind: Any) -> Any:
-    """Compile the function ``kernel`` of an assembly, of a type of ctypes."""
+@cache
+def _translator() -> tuple[object, ...]:
+    """Return what object code depends on besides its source."""
     llvm = _load_llvm()
-    target = llvm.Target.from_default_triple()
-    machine = target.create_target_machine(opt=OPTIMISATION, jit=True)
-    engine = llvm.create_mcjit_compiler(llvm.parse_assembly(assembly), machine)
+    features = llvm.get_host_cpu_features().flatten()
+    here = Path(__file__)
+    code = files_digest(here, here.with_name("llvm_assembly.py"))
+    return code, llvm.llvm_version_info, llvm.get_host_cpu_name(), features
+
+
+def _target_machine() -> Any:
+    target = _load_llvm().Target.from_default_triple()
+    return target.create_target_machine(opt=OPTIMISATION, jit=True)
+
+
+def _assemble(assembly: str) -> bytes:
+    """Return the object code of an assembly."""
+    module = _load_llvm().parse_assembly(assembly)
+    code: bytes = _target_machine().emit_object(module)
+    return code
+
+
+def _load(code: bytes, kind: Any) -> Any:
+    """Return the function ``kernel`` of object code, of a type of ctypes."""
+    llvm = _load_llvm()
+    empty = llvm.parse_assembly("")
+    engine = llvm.create_mcjit_compiler(empty, _target_machine())
+    engine.add_object_file(llvm.ObjectFileRef.from_data(code))
     engine.finalize_object()
     function = kind(engine.get_function_address("kernel"))
     function.engine = engine  # which owns the code

@@ -6,10 +6,9 @@ are three translations and the rotation about the vertical. Rows are position
 and orientation of each foot, and the CoM.
 """
 
-from collections.abc import Callable
 from typing import NamedTuple
 
-from .expression_tracing import ExpressionTrace, Number, cosine, sine
+from .expression_tracing import ExpressionTrace, Formula, Number, cosine, sine
 from .leg_joints import BASE, FIXED_ROWS, LegJoints
 from .link_poses import (
     LinkPoses,
@@ -200,9 +199,7 @@ def rotation_to_yaw(axes: Matrix, yaw: Vector) -> list[Number]:
     return scale(0.5, total)
 
 
-def trace_residuals(
-    legs: LegJoints, hints: dict[str, float]
-) -> Callable[..., tuple[float, ...]]:
+def trace_residuals(legs: LegJoints, hints: dict[str, float]) -> Formula:
     """Generate the function of residuals and Jacobian.
 
     Args:
@@ -252,7 +249,7 @@ def trace_residuals(
         for column in rows[BASE:]:
             column.append(0.0)
     entries = [x for row in transpose(rows) for x in row]
-    return traced.trace.function("leg_rows", [*errors, *entries])
+    return traced.trace.formula("leg_rows", [*errors, *entries])
 
 
 def _column(legs: LegJoints, link: int) -> int:

@@ -10,6 +10,7 @@ from .description import RobotDescription
 from .expression_tracing import Function
 from .ik_residuals import trace_residuals
 from .ik_step import step_kernel, trace_step
+from .kept_formulas import kept_formula
 from .leg_joints import BASE, FIXED_ROWS, LegJoints
 from .robot_tree import RobotTree
 
@@ -60,17 +61,17 @@ def solver_of(description: RobotDescription, tree: RobotTree) -> LegSolver:
     """Return the solver of a robot; formulas are cached by tree."""
     legs = LegJoints.of(description, tree)
     hints = description.standing
-    legs_key = (tree, legs.columns, legs.fixed, legs.sites, legs.lean > 0.0)
-    key = (*legs_key, tuple(hints.items()), is_enabled())
+    key = (*legs.key, tuple(hints.items()), is_enabled())
     if key not in _cache:
         if len(_cache) >= CACHE_SIZE:
             _cache.clear()
         step = kernel = None
         if legs.is_plain:
-            formula = trace_step(legs, hints)
+            formula = kept_formula("leg_step", legs, trace_step, hints)
             kernel = step_kernel(formula, legs)
             step = formula.function() if kernel is None else None
-        _cache[key] = trace_residuals(legs, hints), step, kernel
+        rows = kept_formula("leg_rows", legs, trace_residuals, hints)
+        _cache[key] = rows.function(), step, kernel
     return LegSolver(legs, *_cache[key])
 
 

@@ -24,6 +24,7 @@ from .expression_tracing import (
     cosines,
     sines,
 )
+from .kept_formulas import kept_formula
 from .leg_joints import LegJoints
 from .leg_kinematics import LegKinematics
 from .link_poses import LinkPoses, place_links
@@ -52,6 +53,7 @@ class LoadFormulas:
     """Generated torque formulas of one robot.
 
     Attributes:
+        tick_formula: Formula of :attr:`loads`.
         kernel: Torques of the leg motors and mass positions of many ticks,
             as machine code, if it is used.
         coordinates: Number of coordinates of the masses.
@@ -59,23 +61,17 @@ class LoadFormulas:
 
     def __init__(self, legs: LegJoints) -> None:
         """Generate the formulas."""
-        self._traced = traced = TracedMasses.of(legs)
-        self._torques = traced.torques()
-        self.coordinates = len(traced.points)
+        self._legs = legs
+        self.coordinates = 3 * len(_lumped_masses(legs)[1])
+        self.tick_formula = kept_formula("loads", legs, trace_loads)
         self.kernel: Kernel | None = self.tick_formula.kernel(
             "load_rows", self.loop, "222200"
         )
 
     @property
-    def tick_formula(self) -> Formula:
-        """Formula of :attr:`loads`."""
-        traced = self._traced
-        return traced.trace.formula("loads", [*self._torques, *traced.points])
-
-    @property
     def loop(self) -> str:
         """Source of the loop of :attr:`kernel`."""
-        legs, masses = self._traced.legs, self.coordinates
+        legs, masses = self._legs, self.coordinates
         n = len(legs.free)
         arguments = [
             *(f"states[i + 1, {j}]" for j in range(n + 3)),
@@ -97,14 +93,15 @@ class LoadFormulas:
     def points(self) -> RowFunction:
         """Mass positions of many ticks, from columns."""
         # Without the variables of the loads, which these do not depend on.
-        alone = TracedMasses.of(self._traced.legs, loaded=False)
+        alone = TracedMasses.of(self._legs, loaded=False)
         return alone.trace.formula("mass_points", alone.points).row_function()
 
     @cached_property
     def rows(self) -> RowFunction:
         """Torques of many ticks, from columns."""
-        trace = self._traced.trace
-        return trace.formula("load_columns", self._torques).row_function()
+        traced = TracedMasses.of(self._legs)
+        formula = traced.trace.formula("load_columns", traced.torques())
+        return formula.row_function()
 
 
 class LegLoads:
@@ -292,19 +289,28 @@ _cache: dict[tuple[object, ...], LoadFormulas] = {}
 
 def _load_formulas(legs: LegJoints) -> LoadFormulas:
     """Return the torque formulas of a robot, cached by tree."""
-    key = (
-        legs.tree,
-        legs.columns,
-        legs.fixed,
-        legs.sites,
-        legs.lean > 0.0,
-        is_enabled(),
-    )
+    key = (*legs.key, is_enabled())
     if key not in _cache:
         if len(_cache) >= CACHE_SIZE:
             _cache.clear()
         _cache[key] = LoadFormulas(legs)
     return _cache[key]
+
+
+def trace_loads(legs: LegJoints) -> Formula:
+    """Generate the function of torques and mass positions of one tick.
+
+    Args:
+        legs: Leg joints.
+
+    Returns:
+        Function of the arguments of :class:`TracedMasses`. Its results are
+        the torques of the leg motors, in [N m], and the positions of the
+        masses.
+    """
+    traced = TracedMasses.of(legs)
+    results = [*traced.torques(), *traced.points]
+    return traced.trace.formula("loads", results)
 
 
 class TracedMasses(NamedTuple):

@@ -132,6 +132,12 @@ class LegJoints:
         ]
 
     @property
+    def key(self) -> tuple[RobotTree, *tuple[object, ...]]:
+        """Tree, and all else that the formulas of the legs depend on."""
+        lean = self.lean > 0.0
+        return self.tree, self.columns, self.fixed, self.sites, lean
+
+    @property
     def is_plain(self) -> bool:
         """Whether each leg has six hinges and rows match unknowns.
 
