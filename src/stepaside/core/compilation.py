@@ -107,6 +107,17 @@ def _register(function: Callable[..., Any], *, inline: bool) -> None:
     _folders.add(Path(function.__code__.co_filename).parent)
 
 
+@inlined
+def copy_values(source: Any, target: Any) -> None:
+    """Copy values along one axis, in compiled code.
+
+    An assignment of slices compiles for three more seconds: its message about
+    unequal shapes is formatted by compiled code.
+    """
+    for i in range(len(source)):
+        target[i] = source[i]
+
+
 def cache_folder() -> Path:
     """Return the cache folder; ``XDG_CACHE_HOME`` is respected."""
     base = os.environ.get("XDG_CACHE_HOME") or "~/.cache"

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arena.obstacles import PackedObstacles
-from ..core.compilation import compiled, inlined
+from ..core.compilation import compiled, copy_values, inlined
 from ..core.poses import Array
 from ..theory import laws
 from .learned.observation_terms import (
@@ -181,10 +181,11 @@ def start_games(state: BatchState, games: Any, starts: Any) -> None:
     """
     for n in range(len(games)):
         i = games[n]
-        state.poses[i] = starts[n]
+        for p in range(2):
+            copy_values(starts[n, p], state.poses[i, p])
+            state.sides[i, p] = 0
+            state.walking[i, p] = False
         state.decisions[i] = 0
-        state.sides[i] = 0
-        state.walking[i] = False
         state.closest[i] = record_sight(state, i)
 
 

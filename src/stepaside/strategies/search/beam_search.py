@@ -13,7 +13,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...arena.obstacles import PackedObstacles
-from ...core.compilation import compiled, compiled_loop, inlined
+from ...core.compilation import (
+    compiled,
+    compiled_loop,
+    copy_values,
+    inlined,
+)
 from .distance_field import DistanceField, distance_field, field_clearance
 from .pursuer_model import BeamRules, PursuerModel, model_turn
 
@@ -317,7 +322,7 @@ def beam_search(
     while places < 2 * width:
         places *= 2
     table = np.zeros(places, dtype=np.int64)
-    beams[0, 0] = start
+    copy_values(start, beams[0, 0])
     count, steps = 1, 0
     while steps < horizon:
         old, beam = beams[steps % 2], beams[(steps + 1) % 2]
@@ -357,5 +362,5 @@ def survived_steps(
         arc = arcs[n : n + 1]
         if not expand(state, arc, model, field, rules, new, 0):
             return n
-        state[:3] = new.poses[0]
+        copy_values(new.poses[0], state)
     return len(moves)

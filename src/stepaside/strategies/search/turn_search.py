@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from ...arena.obstacles import PackedObstacles
-from ...core.compilation import compiled
+from ...core.compilation import compiled, copy_values
 from .candidate_maneuvers import (
     DEEPEST,
     BestManeuver,
@@ -26,6 +26,9 @@ from .distance_field import distance_field
 from .maneuver_rollout import SearchProblem, follow, judge
 from .step_motion import PlayerPair, StepRules, half_turn, step_both
 from .value_lookup import ValueTable
+
+NO_STEPS: Any = np.int64(0)
+"""Zero steps; a literal zero would compile a version of its own."""
 
 
 @compiled
@@ -99,7 +102,7 @@ def descend(
         made += more
         if score > best + objective.gain:
             best = score
-            chosen[:] = work
+            copy_values(work, chosen)
             if best >= start:
                 break
     return best, made
@@ -131,7 +134,9 @@ def search_on_spot(
         on the spot.
     """
     maneuvers, objective = problem.maneuvers, problem.objective
-    most = np.abs(maneuvers.turns).max()
+    most = 0.0
+    for u in maneuvers.turns:
+        most = max(most, abs(u))
     for side in (-1.0, 1.0):
         here, score = both, objective.enough
         c, s, ratio = half_turn(0.5 * side * most)
@@ -187,9 +192,10 @@ def search(
         maneuvers, objective, rules, spot_rules, field, table
     )
     start, spot = objective.enough, 0
-    best, made = follow(both, start, chosen[:horizon], 0, 0, -inf, problem)
+    rest = chosen[:horizon]
+    best, made = follow(both, start, rest, 0, 0, -inf, problem)
     if len(plan) > 0:
-        work[: len(plan)] = plan
+        copy_values(plan, work)
         # A tie keeps the plan.
         worst = best - objective.gain
         score, more = follow(
@@ -198,10 +204,10 @@ def search(
         made += more
         if score > worst:
             best, spot = score, planned
-            chosen[:] = work
+            copy_values(work, chosen)
     if len(maneuvers.pieces) > 0 and best < start:
         found, made = descend(
-            both, start, 0, made, best, problem, chosen, work
+            both, start, NO_STEPS, made, best, problem, chosen, work
         )
         if found > best:
             best, spot = found, 0

@@ -9,7 +9,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...core.compilation import compiled, compiled_parallel, parallel_range
+from ...core.compilation import (
+    compiled,
+    compiled_parallel,
+    copy_values,
+    parallel_range,
+)
 from .upwind_scheme import lax_friedrichs, upwind, weno5
 
 FIRST, FIFTH = 1, 5
@@ -188,7 +193,7 @@ def stage_blocks(
         for j in range(now.shape[1] - 6):
             before, after = first[i + 3, j + 3], out[i + 3, j + 3]
             if not active[i, j]:
-                after[:] = before
+                copy_values(before, after)
                 changed[i, j] = False
                 continue
             at = (i + 3) * plane + (j + 3) * line + 3
