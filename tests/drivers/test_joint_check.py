@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from stepaside.cli.main import main
+from stepaside.drivers.joint import joint_check
 from stepaside.drivers.joint.frames import MotorGains
 from stepaside.drivers.joint.joint_check import JointCheck
 from stepaside.drivers.joint.joint_map import MotorTable
@@ -113,6 +114,12 @@ class ReleasesItself(HangingRobot):
     """Robot that holds its targets, and denies it."""
 
     keeps_targets = False
+
+
+@pytest.fixture(autouse=True)
+def coarse_clock(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Listen four times in each tick, not twenty times."""
+    monkeypatch.setattr(joint_check, "POLL", TICK / 4)
 
 
 def checked(

@@ -39,7 +39,7 @@ def follow(
 
 
 @pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.parametrize("size", [1e-4, 1e-3, 5e-3])
+@pytest.mark.parametrize("size", [1e-4, 5e-3])
 @pytest.mark.parametrize("angle", [0.0, 1.6, 3.1, -1.6])
 def test_a_shift_is_back_within_a_second(
     kind: str, size: float, angle: float

@@ -398,7 +398,10 @@ def hostile_run(folder: Path, run: Path, text: str) -> Path:
     return there
 
 
-@pytest.mark.parametrize("text", [*HOSTILE[:17], "a\udc80b", "&lt;"])
+@pytest.mark.parametrize(
+    "text",
+    [*HOSTILE[4:7], "@@RUN@@", "'\"><svg>", "\x1b[2J", "a\udc80b", "&lt;"],
+)
 def test_nothing_in_a_run_folder_runs_in_its_page(
     flat: tuple[Any, list[str]], run: Path, tmp_path: Path, text: str
 ) -> None:

@@ -34,7 +34,7 @@ SPEED = PERSON.speed
 
 @pytest.fixture(autouse=True)
 def coarse(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("stepaside.strategies.shield_model.CELLS", 6)
+    monkeypatch.setattr("stepaside.strategies.shield_model.CELLS", 5)
 
 
 def known(time: float, distance: float, **changes: object) -> Knowledge:

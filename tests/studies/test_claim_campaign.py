@@ -14,6 +14,7 @@ from stepaside.cli import reproduce_figures
 from stepaside.cli.main import main
 from stepaside.core import worker_pool as workers
 from stepaside.report.claims_page import markdown_page
+from stepaside.studies import campaign
 from stepaside.studies import claim_campaign as reproduce
 from stepaside.studies.campaign import CodeStamp
 from stepaside.studies.claim_campaign import ClaimTrial
@@ -25,7 +26,6 @@ from stepaside.studies.claims import (
     Readings,
     most_deviating,
 )
-from stepaside.studies.code_version import code_version
 from stepaside.studies.paper_figures import paper_figures
 from stepaside.studies.result_store import ResultStore
 
@@ -293,7 +293,8 @@ def test_command_prints_rows_and_writes_the_page(
     for row in rows:
         assert row["measured"] is not None
         assert (row["runs"], row["spread"]) == (1, 0.0)
-        assert row["version"] == code_version(JOBS["path"].modules)
+        modules = JOBS["path"].modules
+        assert row["version"] == campaign.code_version(modules)
         assert row["verdict"] == "holds"
     stored = json.loads((tmp_path / "claims.json").read_text())
     assert stored["rows"] == rows

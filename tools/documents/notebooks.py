@@ -56,20 +56,25 @@ def scripts() -> list[Path]:
 
 
 def fingerprint(script: Path) -> dict[str, str]:
-    """Return what the outputs of a tutorial depend on.
+    """Return what the outputs of a tutorial depend on."""
+    text = script.read_text(encoding="utf-8")
+    return {
+        "script": sha256(text.encode()).hexdigest()[:DIGITS],
+        "code": code_version(modules_of(script)),
+    }
+
+
+def modules_of(script: Path) -> tuple[str, ...]:
+    """Return the modules that a tutorial says it runs.
 
     Raises:
-        ValueError: If the script does not name the modules that it runs.
+        ValueError: If the script does not name them.
     """
     text = script.read_text(encoding="utf-8")
     lines = [x for x in text.splitlines() if x.startswith(MODULES)]
     if len(lines) != 1:
         raise ValueError(f"{script.name} needs one line '{MODULES}...'")
-    modules = tuple(lines[0].removeprefix(MODULES).split())
-    return {
-        "script": sha256(text.encode()).hexdigest()[:DIGITS],
-        "code": code_version(modules),
-    }
+    return tuple(lines[0].removeprefix(MODULES).split())
 
 
 def complaint(script: Path) -> str | None:
