@@ -1,5 +1,7 @@
 """Test the direction of gravity from gyro and accelerometer."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -72,7 +74,28 @@ def test_a_constant_gyro_bias_is_learned() -> None:
     for _ in range(round(120.0 / TICK)):
         found.update(bias, GRAVITY * up)
     assert found.tilt == pytest.approx((0.0, 0.0), abs=1e-4)
-    np.testing.assert_allclose(found.rate, NONE, atol=1e-4)
+
+
+@pytest.mark.parametrize("lean", [-0.1, 0.0, 0.1])
+def test_the_heading_of_a_torso_that_rolls_and_pitches_stays(
+    lean: float,
+) -> None:
+    """Its axis moves about a cone, so that its own yaw rate has a mean."""
+    tilts = [
+        (0.1 * np.sin(12.0 * t), lean + 0.1 * np.cos(12.0 * t))
+        for t in TICK * np.arange(5000)
+    ]
+    found = standing(up_at(*tilts[0]))
+    turned = about_axis = 0.0
+    for last, (roll, pitch) in pairwise(tilts):
+        p, q = np.subtract((roll, pitch), last) / TICK
+        middle = 0.5 * (roll + last[0])
+        gyro = np.array([p, q * np.cos(middle), -q * np.sin(middle)])
+        found.update(gyro, GRAVITY * up_at(roll, pitch))
+        turned += TICK * found.turning.item(0)
+        about_axis += TICK * gyro.item(2)
+    assert abs(about_axis) > 1.0
+    assert abs(turned) < 0.02
 
 
 def test_vertical_impacts_leave_the_tilt() -> None:

@@ -128,6 +128,20 @@ def test_a_torso_rests_while_its_feet_turn_about_loaded_corners(
     assert odometry.pose == pytest.approx((0.0, 0.0, 0.0), abs=1e-9)
 
 
+def test_a_foot_that_lifts_off_between_readings_does_not_count() -> None:
+    """The right foot swings ahead while the torso rests over the left one."""
+    odometry = begun_with(np.zeros(24))
+    axes = np.tile(np.eye(3), (2, 1, 1))
+    for swung, right_carries in ((0.0, 1.0), (0.0, 1.0), (0.03, 0.0)):
+        feet = np.array([[*LEFT, -0.7], [*RIGHT, -0.7]])
+        feet[1, 0] += swung
+        angles = np.concatenate([feet[:, None], axes], axis=1).ravel()
+        forces = np.repeat([1.0, right_carries], 4)
+        odometry.take(sensed(angles, forces), (0.0, 0.0), 0.0, PERIOD)
+        run(odometry)
+    assert odometry.pose == pytest.approx((0.0, 0.0, 0.0), abs=1e-9)
+
+
 def test_machine_code_has_the_bits_of_python() -> None:
     generator = np.random.default_rng(3)
     angles = generator.normal(size=(30, 24))

@@ -17,25 +17,25 @@ BIAS_CORRECTION = 0.05  # of the gyro bias, in [1/s^2]: damped beyond critical
 
 
 FOLLOW = f"""\
-def follow_gravity(up, rate, bias, gyro, force, velocity, given):
+def follow_gravity(up, turning, bias, gyro, force, velocity, given):
     x, y, z = up[0], up[1], up[2]
-    fx = (force[0] + velocity[1] * rate[2]) / {GRAVITY}
-    fy = (force[1] - velocity[0] * rate[2]) / {GRAVITY}
+    fx = (force[0] + velocity[1] * turning[0]) / {GRAVITY}
+    fy = (force[1] - velocity[0] * turning[0]) / {GRAVITY}
     fz = force[2] / {GRAVITY}
     ex, ey, ez = fy * z - fz * y, fz * x - fx * z, fx * y - fy * x
     r = gyro[2] if gyro[2] == gyro[2] else 0.0
-    p, q, r = gyro[0] - bias[0], gyro[1] - bias[1], r - bias[2]
-    rate[0], rate[1], rate[2] = p, q, r
+    p, q = gyro[0] - bias[0], gyro[1] - bias[1]
     duration, correction, share = given[0], given[1], given[0] * given[2]
     bias[0] -= share * ex
     bias[1] -= share * ey
-    bias[2] -= share * ez
-    p, q, r = p + correction * ex, q + correction * ey, r + correction * ez
-    u = x + duration * (y * r - z * q)
-    v = y + duration * (z * p - x * r)
-    w = z + duration * (x * q - y * p)
+    a, b, c = p + correction * ex, q + correction * ey, r + correction * ez
+    u = x + duration * (y * c - z * b)
+    v = y + duration * (z * a - x * c)
+    w = z + duration * (x * b - y * a)
     length = sqrt(u * u + v * v + w * w)
     up[0], up[1], up[2] = u / length, v / length, w / length
+    y, z = 0.5 * (y + up[1]), 0.5 * (z + up[2])
+    turning[0] = (q * y + r * z) / (y * y + z * z)
 """
 
 
@@ -46,13 +46,18 @@ class GravityFilter:
     :math:`f` by :math:`k \, (f \times u) / g`. The cross product leaves out
     the component of the acceleration along :math:`u`, so that vertical
     impacts that coincide with a swing of the torso do not tilt the estimate.
-    The bias of the gyro follows from the same error, except about the
-    vertical, where gravity shows none. A robot on a policy sways and turns
-    slowly while it stands, so that standing does not calibrate its gyro.
+    The bias of the gyro follows from the same error, except about the axis
+    near the vertical, where gravity shows none: what a torso that leans shows
+    there is the sway of its walk. A robot on a policy sways and turns slowly
+    while it stands, so that standing does not calibrate its gyro.
+
+    The heading turns by the rate of the yaw angle, not by that about the axis
+    of the torso: of a torso that rolls and pitches in step they differ in the
+    mean.
 
     Attributes:
         up: Upward unit vector in the torso frame. Shape (3,).
-        rate: Angular velocity without bias, in [rad/s]. Shape (3,).
+        turning: Rate of the heading, in [rad/s]. Shape (1,).
     """
 
     def __init__(self, velocity: Array, duration: float) -> None:
@@ -64,12 +69,12 @@ class GravityFilter:
                 each update. Shape (3,).
             duration: Time between readings, in [s].
         """
-        self.up, self.rate = np.array([0.0, 0.0, 1.0]), np.zeros(3)
+        self.up, self.turning = np.array([0.0, 0.0, 1.0]), np.zeros(1)
         self._given, self._time = np.array([duration, FIRST, 0.0]), 0.0
         self._readings = np.zeros(3), np.zeros(3)
         self._follow = bound_loop(
             *("follow_gravity", FOLLOW, "1111111"),
-            *(self.up, self.rate, np.zeros(3), *self._readings),
+            *(self.up, self.turning, np.zeros(2), *self._readings),
             *(velocity, self._given),
         )
 

@@ -40,11 +40,13 @@ def note(com, feet, axes, corners, forces, given, points, loads, velocity,
         dz = zl - points[k, 2]
         points[k, 0], points[k, 1], points[k, 2] = xl, yl, zl
         if k < 8:
-            load += loads[k]
-            u += loads[k] * dx
-            v += loads[k] * dy
-            w += loads[k] * dz
-            loads[k] = max(forces[k], 0.0)
+            force = max(forces[k], 0.0)
+            weight = min(loads[k], force)
+            load += weight
+            u += weight * dx
+            v += weight * dy
+            w += weight * dz
+            loads[k] = force
         else:
             ahead, left = dx, dy
     if load > 0.0:
@@ -69,12 +71,13 @@ def note(com, feet, axes, corners, forces, given, points, loads, velocity,
 class LegOdometry:
     """Pose of the CoM over the floor, from the corners that carry it.
 
-    A corner of a sole that is loaded at one reading does not move until the
-    next, whether its foot lies flat, rolls or pivots. The torso moves by the
+    A corner of a sole that is loaded at two readings does not move between
+    them, whether its foot lies flat, rolls or pivots. The torso moves by the
     opposite of the motion of these corners in the torso frame, the mean over
-    all eight by their loads; without force sensors the lowest corners count
-    as loaded. The CoM, which is the reference point of a walking robot, moves
-    as the joints say in addition.
+    all eight by the smaller of both loads: a foot that lifts off or touches
+    down in between swings ahead. Without force sensors the lowest corners
+    count as loaded. The CoM, which is the reference point of a walking robot,
+    moves as the joints say in addition.
 
     Attributes:
         moved: Motion of the CoM over the last reading, ahead and to the left

@@ -170,7 +170,7 @@ class PolicyLegs:
         if measurement.tilt is not None:
             gravity.adopt(measurement.tilt)
         self.tilt = gravity.tilt
-        self._turned += gravity.rate.item(2) * self._tick
+        self._turned += gravity.turning.item(0) * self._tick
         if self._ticks % self._every == 0:
             self._decide(measurement)
         self._ticks += 1

