@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import mujoco
@@ -29,6 +30,7 @@ from stepaside.fitting.walk_trials import (
 )
 from stepaside.games import DuelSettings, run_duel
 from stepaside.games.robot_settings import (
+    body_of_robot,
     settings_from_description,
     with_robot,
 )
@@ -38,6 +40,7 @@ from stepaside.robots.description import (
     load_robot,
 )
 from stepaside.robots.tree_compiler import compile_tree
+from stepaside.sim.body_settings import BODIES
 from stepaside.sim.ground_truth import TrueRobotState
 from stepaside.sim.physics_settings import PhysicsSettings
 from stepaside.sim.world import COLOURS, build_model
@@ -69,6 +72,16 @@ def strangers(
         )
         for kind, publish in PUBLISHERS.items()
     }
+
+
+@pytest.mark.parametrize("kind", PUBLISHERS)
+def test_the_hardware_body_has_the_torque_limits_of_the_model(
+    kind: str, strangers: dict[str, Described]
+) -> None:
+    derived, read = strangers[kind]
+    found = body_of_robot(read.folder, "hardware")
+    assert derived.published_torques
+    assert found == replace(BODIES["hardware"], efficiency=1.0, servo_gain=1.0)
 
 
 @pytest.mark.parametrize("kind", PUBLISHERS)

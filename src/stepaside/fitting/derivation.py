@@ -57,6 +57,10 @@ GENERIC_NAMES = (
     "mjcf",
     "xml",
 )
+# Torque limits of a model are those at the joint, and its joints apply the
+# gains that they are sent; the lower values of NAO's hardware body are
+# assumptions about its motors and servos.
+MODEL_BODY = {"efficiency": 1.0, "servo_gain": 1.0}
 FEET = ("stepaside_left_sole", "stepaside_right_sole")
 
 
@@ -181,6 +185,7 @@ def derive(
             "stabiliser": stabiliser_of(size),
         },
         game=game_of_size(size, gait),
+        body=dict(MODEL_BODY) if torques else {},
     )
     return DerivedDescription(
         description,

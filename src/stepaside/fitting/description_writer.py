@@ -67,6 +67,7 @@ def write_description(derived: DerivedDescription) -> str:
                 *_gait(derived),
                 *_sole(derived),
                 *_control(derived),
+                *_body(derived),
                 *_overlay(derived),
             ]
         )
@@ -152,6 +153,17 @@ def _control(derived: DerivedDescription) -> list[str]:
         f"reach = {own.place.reach}",
         "",
     ]
+
+
+def _body(derived: DerivedDescription) -> list[str]:
+    body = derived.description.body
+    if not body:
+        return []
+    comment = (
+        "Values of the hardware body in place of NAO's: torque limits of the "
+        "model are those at the joint, which applies the gains it is sent."
+    )
+    return [*_comment(comment), *_table("body", body)]
 
 
 def _missing_meshes(derived: DerivedDescription) -> list[str]:
