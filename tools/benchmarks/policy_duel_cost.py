@@ -1,9 +1,10 @@
 """Time duels on learned legs beside the bare physics of the same motion.
 
 Duels are played one at a time and side by side, then their commands are given
-to ``mj_step`` alone in the same process; all end in the same states. Processor
-time of each control tick, least of some rounds, so that other processes
-disturb little::
+to ``mj_step`` alone in the same process, one duel after the other and tick by
+tick; all end in the same states. Times are those of the processor for each
+control tick, the least of some rounds, so that other processes disturb
+little::
 
     python tools/benchmarks/policy_duel_cost.py runs/g1 runs/policy.onnx
 """
@@ -55,24 +56,40 @@ class TickRecorder:
 
 
 def play_bare(
-    duel: Duel, data: mujoco.MjData, commands: list[Array]
-) -> list[float]:
-    """Give recorded commands to the physics alone; return times, in [s]."""
-    model, steps = duel.world.model, duel.world.physics.steps_per_tick
+    duels: Sequence[Duel], commands: Sequence[Sequence[Array]]
+) -> tuple[Array, list[mujoco.MjData]]:
+    """Give recorded commands to the physics alone, tick by tick.
+
+    Args:
+        duels: Duels at their begin, which are not changed.
+        commands: Actuator commands of each tick of each duel.
+
+    Returns:
+        Processor time of each tick of all duels, in [s], and final states.
+    """
+    states = [mujoco.MjData(duel.world.model) for duel in duels]
+    for duel, data in zip(duels, states, strict=True):
+        mujoco.mj_copyData(data, duel.world.model, duel.world.data)
+    worlds = [
+        (duel.world.model, data, duel.world.physics.steps_per_tick)
+        for duel, data in zip(duels, states, strict=True)
+    ]
     times = []
-    for command in commands:
+    for row in zip(*commands, strict=True):
         times.append(thread_time())
-        data.ctrl[:] = command
-        mujoco.mj_step(model, data, nstep=steps)
-    return [*times, thread_time()]
+        for (model, data, steps), command in zip(worlds, row, strict=True):
+            data.ctrl[:] = command
+            mujoco.mj_step(model, data, nstep=steps)
+    return np.diff([*times, thread_time()]), states
 
 
 def measure_round(
     games: Sequence[DuelSettings], duration: float
-) -> tuple[Array, Array, Array, bool]:
-    """Return times one at a time, side by side and bare; whether all agree.
+) -> tuple[Array, Array, Array, Array, bool]:
+    """Return times of duels and of bare physics; whether all agree.
 
-    Times are those of the processor for each tick, in [s].
+    Times are those of the processor for each tick, in [s]: of duels one at a
+    time and side by side, then of the bare physics likewise.
     """
     clocks = [TickRecorder() for _ in games]
     alone = [
@@ -87,25 +104,22 @@ def measure_round(
         Duel(game, (recorder,), networks=pool)
         for game, recorder in zip(games, recorders, strict=True)
     ]
-    states = []
-    for duel in duels:
-        states.append(mujoco.MjData(duel.world.model))
-        mujoco.mj_copyData(states[-1], duel.world.model, duel.world.data)
+    fresh = [Duel(game) for game in games]
     play_together(duels, [duration] * len(duels))
     together = np.diff(recorders[0].times)
     commands = [recorder.commands for recorder in recorders]
-    bare = np.diff(
-        [
-            play_bare(*each)
-            for each in zip(duels, states, commands, strict=True)
-        ]
-    )
+    bare = [
+        play_bare([duel], [rows])
+        for duel, rows in zip(fresh, commands, strict=True)
+    ]
+    bare_together, states = play_bare(fresh, commands)
     equal = all(
         np.array_equal(single.world.data.qpos, duel.world.data.qpos)
         and np.array_equal(data.qpos, duel.world.data.qpos)
         for single, duel, data in zip(alone, duels, states, strict=True)
     )
-    return one, together, bare, equal
+    times = np.array([times for times, _ in bare])
+    return one, together, times, bare_together, equal
 
 
 def main() -> None:
@@ -130,17 +144,18 @@ def main() -> None:
     rounds = [
         measure_round(games, asked.duration) for _ in range(asked.rounds)
     ]
-    one, together, bare = (
+    one, together, bare, bare_together = (
         float(np.min(times, axis=0).sum())
-        for times in list(zip(*rounds, strict=True))[:3]
+        for times in list(zip(*rounds, strict=True))[:4]
     )
     played = asked.duels * asked.duration
     figures = {
         "one_at_a_time_s_per_s": played / one,
         "side_by_side_s_per_s": played / together,
         "bare_s_per_s": played / bare,
+        "bare_side_by_side_s_per_s": played / bare_together,
         "one_at_a_time_over_bare": one / bare,
-        "side_by_side_over_bare": together / bare,
+        "side_by_side_over_bare": together / bare_together,
         "equal": all(equal for *_, equal in rounds),
     }
     head = header(

@@ -10,6 +10,7 @@ POLICIES = {
     "legs-fastsac_g1_29dof": "G1, 29 joints, holosoma",
     "legs-g1_12dof": "G1, 12 joints, recurrent, legged_gym",
     "legs-t1_12dof": "T1, 12 joints, Booster Gym",
+    "legs-T1": "T1, 13 joints, B-Human",
     "legs-K1": "K1, 12 joints, B-Human",
     "legs-nao": "NAO, 12 joints, B-Human",
 }

@@ -277,23 +277,38 @@ BHUMAN = Convention(
         }.items()
     },
 )
+_BOOSTER_LEGS = _legs(
+    ("Left_", "Right_"),
+    *("Hip_Pitch", "Hip_Roll", "Hip_Yaw"),
+    *("Knee_Pitch", "Ankle_Pitch", "Ankle_Roll"),
+)
+_BHUMAN_BOOSTER = _BHUMAN_VALUES | {
+    "terms": (*BOOSTER_GYM.values["terms"], Term("frequency")),
+    "command_ranges": CommandRanges(
+        lateral=(-0.5, 0.5), turn=(-radians(120.0), radians(120.0))
+    ),
+}
 BHUMAN_K1 = Convention(
     "bhuman_k1",
     _BHUMAN,
-    _BHUMAN_VALUES
+    _BHUMAN_BOOSTER
     | {
-        "joints": _legs(
-            ("Left_", "Right_"),
-            *("Hip_Pitch", "Hip_Roll", "Hip_Yaw"),
-            *("Knee_Pitch", "Ankle_Pitch", "Ankle_Roll"),
-        ),
-        "terms": (*BOOSTER_GYM.values["terms"], Term("frequency")),
+        "joints": _BOOSTER_LEGS,
         "stiffness": (*4 * (135.0,), *2 * (35.0,)) * 2,
         "damping": (*4 * (3.5,), *2 * (2.5,)) * 2,
         "clock": replace(_BHUMAN_VALUES["clock"], spread=0.5),
-        "command_ranges": CommandRanges(
-            lateral=(-0.5, 0.5), turn=(-radians(120.0), radians(120.0))
-        ),
+    },
+    postures=BOOSTER_GYM.postures,
+)
+BHUMAN_T1 = Convention(
+    "bhuman_t1",
+    _BHUMAN,
+    _BHUMAN_BOOSTER
+    | {
+        "joints": ("Waist", *_BOOSTER_LEGS),
+        "stiffness": (200.0, *(*4 * (200.0,), *2 * (50.0,)) * 2),
+        "damping": (5.0, *(*4 * (5.0,), *2 * (3.0,)) * 2),
+        "clock": replace(_BHUMAN_VALUES["clock"], settling=2.0, spread=0.5),
     },
     postures=BOOSTER_GYM.postures,
 )
@@ -308,6 +323,7 @@ CONVENTIONS = {
         BOOSTER_GYM,
         BHUMAN,
         BHUMAN_K1,
+        BHUMAN_T1,
     )
 }
 """Conventions by name."""
