@@ -20,7 +20,6 @@ from stepaside.strategies.search.beam_search import (
     GRAIN,
     GRAINS,
     arc_cosine,
-    arc_end,
     beam_search,
     sort_ranks,
     survived_steps,
@@ -28,6 +27,7 @@ from stepaside.strategies.search.beam_search import (
 from stepaside.strategies.search.pursuer_model import (
     BeamRules,
     PursuerModel,
+    arc_end,
     model_turn,
 )
 from stepaside.studies.tournament_settings import TournamentSettings

@@ -3,8 +3,10 @@
 from math import atan2, hypot
 from typing import NamedTuple
 
-from ..core.poses import Pose, wrap_angle
-from .search.pursuer_model import BeamRules, PursuerModel, model_turn
+import numpy as np
+
+from ..core.poses import Array, Pose, wrap_angle
+from .search.pursuer_model import BeamRules, PursuerModel, arc_end, model_turn
 
 MODELS = (
     PursuerModel(),
@@ -19,37 +21,41 @@ MODELS = (
 """Models that are compared: the paper's pursuer with other gains, the last
 of them turning by the whole bearing, and pursuers with another target."""
 DANGEROUS = (5, 6, 4, 3, 0)  # models to assume until they are ruled out
-SETTLING = 2  # steps until the headings are known
-MEMORY = 0.9  # weight of the earlier errors after a step
-EXACT = 1e-3  # error of a model that counts as none, in [rad] rms; with
-# 4e-3 pursuers of gain x3 are told from x4 too late, and capture 13 % sooner
-RULED_OUT = 3.0  # times the least error: a model that does not explain
+SETTLING = 4  # positions that show an error
+WINDOW = 6  # positions that a model is fitted to; with 10 walkers that
+# change their side too early or late rule out their own model
+MEMORY = 0.93  # weight of the earlier errors after a step
+EXACT = 1e-5  # error of a model that counts as none, in [m] rms; with
+# 2e-4 pursuers of gain x3 are not told from x4
+RULED_OUT = 1.4  # times the least error: a model that does not explain; with
+# 2 and 3 herding walkers are told from pure ones too late
+GAP = 1.5  # steps between observations, beyond which the path begins anew
 LEAST_MOTION = 0.3  # stride over that of the gait that shows a direction
 ASSUMED = 3  # models that are assumed at once
 FORGETTING = 0.995  # of the greatest observed speed, per step
 
 
 class ModelFit(NamedTuple):
-    """Errors of every model on the observed motion.
+    """Fit of every model to the observed motion.
 
     Attributes:
         time: Time of the last observation, in [s]; negative before it.
-        position: Position of the pursuer then, in [m].
-        own: Own pose then.
-        headings: Heading of the pursuer then by each model, in [rad].
-        errors: Forgetting mean of the squared error of each model's
-            direction of the next step, in [rad^2].
+        seen: Own pose, position of the pursuer and time in steps then.
+            Shape (6,).
+        path: Last observations, a step apart, without sway
+            (:func:`~.search.heading_fit.fit_heading`). Shape (n, 6).
+        poses: Pose of the pursuer at the end of the path by each model.
+        errors: Forgetting mean of the mean squared distance of each model
+            from the path, in [m^2].
         speed: Greatest stride that was seen lately, over the own.
-        steps: Number of steps that were compared.
     """
 
     time: float = -1.0
-    position: tuple[float, float] = (0.0, 0.0)
-    own: Pose = Pose(0.0, 0.0, 0.0)
-    headings: tuple[float, ...] = ()
+    seen: Array = np.zeros(6)
+    path: Array = np.empty((0, 6))
+    poses: tuple[tuple[float, float, float], ...] = ()
     errors: tuple[float, ...] = (0.0,) * len(MODELS)
     speed: float = 1.0
-    steps: int = 0
 
     def observe(
         self,
@@ -58,9 +64,9 @@ class ModelFit(NamedTuple):
         position: tuple[float, float],
         rules: BeamRules,
         period: float,
-        apart: int = 1,
+        sways: bool = False,
     ) -> "ModelFit":
-        """Compare every model with one more observation.
+        """Fit every model to the path with one more observation.
 
         Args:
             time: Time of the observation, in [s].
@@ -68,50 +74,70 @@ class ModelFit(NamedTuple):
             position: Position of the pursuer, likewise, in [m].
             rules: Rules of the steps.
             period: Duration of a step, in [s].
-            apart: Number of steps between the observations that are
-                compared; 2 for walkers, whose sway repeats every two steps.
+            sways: Whether the observations alternate from step to step with
+                the sway of walking bodies; then the path is that of the mean
+                of two, half a step earlier.
         """
-        facing = atan2(own.y - position[1], own.x - position[0])
-        if self.time < 0.0:
-            return ModelFit(time, position, own, (facing,) * len(MODELS))
-        if time - self.time < (apart - 0.25) * period:
+        passed = time - self.time
+        if self.time >= 0.0 and passed < 0.75 * period:
             return self
-        dx = position[0] - self.position[0]
-        dy = position[1] - self.position[1]
-        stride = hypot(dx, dy) * period / (time - self.time) / rules.stride
-        speed = max(1.0, FORGETTING * self.speed, min(stride, 2.0))
-        if stride < LEAST_MOTION:
-            return self._replace(
-                time=time, position=position, own=own, speed=speed
-            )
-        chord = atan2(dy, dx)
-        headings, errors = [], []
-        for model, before, error in zip(
-            MODELS, self.headings, self.errors, strict=True
-        ):
-            turn = model_turn(
-                (self.own.x, self.own.y, self.own.theta),
-                (*self.position, before),
-                model,
-                rules,
-            )
-            off = wrap_angle(before + 0.5 * apart * turn - chord)
-            if self.steps < SETTLING:  # chords have yet to give the heading
-                off = 0.0
-            errors.append(MEMORY * error + (1.0 - MEMORY) * off * off)
-            headings.append(chord + 0.5 * apart * turn)
-        return ModelFit(
-            time, position, own, tuple(headings), tuple(errors), speed,
-            self.steps + 1,
-        )  # fmt: skip
+        follows = self.time >= 0.0 and passed <= GAP * period
+        seen = np.array([*own, *position, time / period])
+        now = self._replace(time=time, seen=seen)
+        point = seen
+        if sways:
+            point = 0.5 * (self.seen + seen)
+            point[2] = own.theta - 0.5 * wrap_angle(own.theta - self.seen[2])
+        path = self.path if follows else self.path[:0]
+        if not len(path):
+            known = follows or not sways
+            x, y = (point if known else seen)[3:5].tolist()
+            pose = x, y, atan2(own.y - y, own.x - x)
+            path = point[None] if known else path
+            return now._replace(path=path, poses=(pose,) * len(MODELS))
+        if hypot(*(point - path[-1])[3:5]) < LEAST_MOTION * rules.stride:
+            return now._replace(path=np.array([*path[:-1], point]))
+        return now._fitted(np.array([*path[-WINDOW + 1 :], point]), rules)
+
+    def _fitted(self, path: Array, rules: BeamRules) -> "ModelFit":
+        """Return the fit to a path with a new point."""
+        from .search.heading_fit import fit_heading
+
+        fits = [fit_heading(path, model, rules) for model in MODELS]
+        moved = self._replace(path=path, poses=tuple(pose for pose, _ in fits))
+        if len(path) < SETTLING:
+            return moved
+        errors = (
+            MEMORY * error + (1.0 - MEMORY) * found
+            for error, (_, found) in zip(self.errors, fits, strict=True)
+        )
+        dx, dy, steps = np.diff(path[:, 3:], axis=0).T
+        speed = float(np.hypot(dx, dy).sum() / steps.sum()) / rules.stride
+        return moved._replace(
+            errors=tuple(errors),
+            speed=max(1.0, FORGETTING * self.speed, min(speed, 2.0)),
+        )
+
+    def pose(self, number: int, rules: BeamRules, ahead: float) -> Pose:
+        """Return the pose of the pursuer by a model.
+
+        Args:
+            number: Number of the model.
+            rules: Rules of the steps.
+            ahead: Time since the end of the path, in steps.
+        """
+        pose = self.poses[number]
+        if not len(self.path):
+            return Pose(*pose)
+        own = tuple(self.path[-1, :3].tolist())
+        turn = ahead * model_turn(own, pose, MODELS[number], rules)
+        return Pose(*arc_end(pose, ahead * self.speed * rules.stride, turn))
 
     def plausible(self) -> list[int]:
         """Return the numbers of the models to assume, the best first."""
         least = min(self.errors)
         limit = (RULED_OUT**2) * max(least, EXACT**2)
-        best = (
-            self.errors.index(least) if self.steps > SETTLING else DANGEROUS[0]
-        )
+        best = self.errors.index(least) if least > 0.0 else DANGEROUS[0]
         others = [
             n for n in DANGEROUS if n != best and self.errors[n] <= limit
         ]

@@ -20,7 +20,7 @@ from ...core.compilation import (
     inlined,
 )
 from .distance_field import DistanceField, distance_field, field_clearance
-from .pursuer_model import BeamRules, PursuerModel, model_turn
+from .pursuer_model import BeamRules, PursuerModel, arc_end, model_turn
 
 EVADER_CELL, PURSUER_CELL = 0.08, 0.12  # that count as alike, in [m]
 HEADINGS = 16  # sectors that count as alike
@@ -53,24 +53,6 @@ class Successors(NamedTuple):
     parents: Any
     order: Any
     firsts: Any
-
-
-@inlined
-def arc_chord(way: float, turn: float) -> float:
-    """Return the chord [m] of an arc of a length [m] and a turn [rad]."""
-    z = 0.25 * turn * turn
-    return way * (1.0 - z / 6.0 * (1.0 - z / 20.0))
-
-
-@inlined
-def arc_end(
-    pose: tuple[float, float, float], way: float, turn: float
-) -> tuple[float, float, float]:
-    """Return the pose after an arc of a length [m] and a turn [rad]."""
-    chord = arc_chord(way, turn)
-    x, y, theta = pose
-    along = theta + 0.5 * turn
-    return x + chord * cos(along), y + chord * sin(along), theta + turn
 
 
 @inlined

@@ -47,6 +47,24 @@ class BeamRules(NamedTuple):
 
 
 @inlined
+def arc_chord(way: float, turn: float) -> float:
+    """Return the chord [m] of an arc of a length [m] and a turn [rad]."""
+    z = 0.25 * turn * turn
+    return way * (1.0 - z / 6.0 * (1.0 - z / 20.0))
+
+
+@inlined
+def arc_end(
+    pose: tuple[float, float, float], way: float, turn: float
+) -> tuple[float, float, float]:
+    """Return the pose after an arc of a length [m] and a turn [rad]."""
+    chord = arc_chord(way, turn)
+    x, y, theta = pose
+    along = theta + 0.5 * turn
+    return x + chord * cos(along), y + chord * sin(along), theta + turn
+
+
+@inlined
 def model_turn(
     evader: tuple[float, float, float],
     pursuer: tuple[float, float, float],
