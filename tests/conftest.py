@@ -5,10 +5,15 @@ pace have a clock of their own, and the limit on each test (``timeout`` in
 ``pyproject.toml``) is for what hangs.
 """
 
+import gc
 import os
 import signal
+import sys
 import threading
 from collections.abc import Iterator
+from contextlib import suppress
+from importlib import import_module
+from pathlib import Path
 from zlib import crc32
 
 for name in ("OPENBLAS", "OMP", "NUMBA"):
@@ -48,6 +53,7 @@ LONG = (
     *("browser", "bound", "unicycle", "steps", "beam", "duel 11"),
     *("test_duel", "test_walk_game", "test_seeing", "test_robot_init"),
 )
+TESTS = Path(__file__).parent
 BLANK = b"\x89PNG" + bytes(10_000) + b"IEND...."  # a figure
 
 
@@ -97,6 +103,29 @@ def inline_workers(monkeypatch: pytest.MonkeyPatch) -> None:
     from stepaside.core import worker_pool
 
     monkeypatch.setattr(worker_pool, "worker_pool", lambda _: InlineExecutor())
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection(session: pytest.Session) -> None:
+    """Let every second worker import the tests from the last on.
+
+    Workers compile each file that none has compiled yet, which takes longer
+    than all imports; from both ends, each compiles half of them.
+    """
+    worker = getattr(session.config, "workerinput", {"workerid": "gw0"})
+    if int(worker["workerid"].removeprefix("gw")) % 2 == 0:
+        return
+    for file in sorted(TESTS.rglob("test_*.py"), reverse=True):
+        if str(file.parent) not in sys.path:
+            sys.path.insert(0, str(file.parent))
+        # What fails here is reported when it is collected.
+        with suppress(Exception, pytest.skip.Exception):
+            import_module(file.stem)
+
+
+def pytest_collection_finish() -> None:
+    """Keep ten thousand tests out of each collection of garbage."""
+    gc.freeze()
 
 
 @pytest.hookimpl(tryfirst=True)

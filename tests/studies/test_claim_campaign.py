@@ -14,9 +14,8 @@ from stepaside.cli import reproduce_figures
 from stepaside.cli.main import main
 from stepaside.core import worker_pool as workers
 from stepaside.report.claims_page import markdown_page
-from stepaside.studies import campaign
 from stepaside.studies import claim_campaign as reproduce
-from stepaside.studies.campaign import CodeStamp
+from stepaside.studies.campaign import CodeStamp, code_stamp
 from stepaside.studies.claim_campaign import ClaimTrial
 from stepaside.studies.claim_jobs import JOBS
 from stepaside.studies.claims import (
@@ -293,8 +292,9 @@ def test_command_prints_rows_and_writes_the_page(
     for row in rows:
         assert row["measured"] is not None
         assert (row["runs"], row["spread"]) == (1, 0.0)
-        modules = JOBS["path"].modules
-        assert row["version"] == campaign.code_version(modules)
+        job = JOBS["path"]
+        stamp = code_stamp(job.modules, job.libraries)
+        assert row["version"] == stamp.version
         assert row["verdict"] == "holds"
     stored = json.loads((tmp_path / "claims.json").read_text())
     assert stored["rows"] == rows
