@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 import stepaside.drivers.joint
-from stepaside.core.errors import ModelError
 from stepaside.drivers.joint.frames import Codec, JointCommand, JointFrame
 from stepaside.drivers.joint.joint_body import (
     JointBody,
@@ -171,8 +170,3 @@ def test_the_motors_of_a_described_robot_have_its_joints_and_limits() -> None:
     values = np.arange(motors.count, dtype=float)
     joints = JointMap(motors.names[::-1], motors)
     np.testing.assert_array_equal(joints.from_motors(values), values[::-1])
-
-
-def test_a_joint_without_a_motor_is_rejected_by_name() -> None:
-    with pytest.raises(ModelError, match="joint 'wrist' has no motor.*knee"):
-        JointMap(["wrist"], MOTORS)

@@ -1,6 +1,5 @@
 """Test duels in physics: circle, symmetry and endings."""
 
-from dataclasses import replace
 from functools import cache
 
 import mujoco
@@ -9,7 +8,6 @@ import pytest
 
 from stepaside.core.poses import Array
 from stepaside.games import DuelRun, DuelSettings, Outcome, run_duel
-from stepaside.games.duel_circle import circle_of_theory
 from stepaside.games.duel_settings import StartSettings
 from stepaside.planning import GaitSettings
 from stepaside.robots.description import load_robot
@@ -151,13 +149,3 @@ def step_of(places: Array) -> float:
 def turn_of(headings: Array) -> float:
     """Return the mean turn between successive footsteps, in [rad]."""
     return float(np.diff(np.unwrap(headings)).mean())
-
-
-def test_theory_follows_the_settings() -> None:
-    settings = DuelSettings()
-    assert circle_of_theory(settings).distance_m == pytest.approx(
-        0.9003, abs=1e-4
-    )
-    saturated = replace(settings.strategy, saturated=True)
-    circle = circle_of_theory(replace(settings, strategy=saturated))
-    assert circle.radius_evader_m == pytest.approx(0.5)

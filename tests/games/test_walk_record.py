@@ -23,7 +23,6 @@ from stepaside.locomotion.zmp.control_settings import STABILISED
 from stepaside.locomotion.zmp.feedback_loop import ClosedLoop
 from stepaside.locomotion.zmp.state_estimator import BodyState
 from stepaside.planning import Foot
-from stepaside.sim.physics_settings import PhysicsSettings
 
 
 @pytest.fixture(scope="module")
@@ -201,17 +200,6 @@ def test_single_support_lasts_while_a_foot_swings() -> None:
     cycle = round(2.0 * gait.step_duration / 0.004)
     share = gait.single_support / gait.step_duration
     assert single[-cycle:].mean() == pytest.approx(share, abs=0.01)
-
-
-@pytest.mark.parametrize(
-    ("tick", "every"), [(0.004, 5), (0.012, 2), (0.002, 10), (0.06, 1)]
-)
-def test_samples_of_a_walk_are_about_20_ms_apart(
-    tick: float, every: int
-) -> None:
-    walking = WalkGame(WalkSettings(physics=PhysicsSettings(tick=tick)))
-    assert walking.recorder.every == every
-    assert walking.recorder.times.shape == (0,)
 
 
 def test_references_and_estimates_are_placed_with_the_odometry() -> None:

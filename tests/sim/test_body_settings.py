@@ -143,13 +143,6 @@ def test_mass_errors_change_masses_but_not_names() -> None:
     assert 0.0 < np.abs(shift[:2]).max() <= 0.01 and shift[2] == 0.0
 
 
-def test_an_uneven_floor_has_the_set_height() -> None:
-    physics = PhysicsSettings(unevenness=0.005)
-    model = build_model({"walker": load_robot("nao")}, physics)
-    assert model.hfield_size[0, 2] == pytest.approx(0.005)
-    assert model.hfield_data.max() <= 1.0 and np.ptp(model.hfield_data) > 0.9
-
-
 def test_a_slope_tilts_gravity() -> None:
     physics = PhysicsSettings(slope=0.1, slope_direction=np.pi / 2)
     model = build_model({"walker": load_robot("nao")}, physics)

@@ -52,15 +52,6 @@ def test_lookup_returns_the_values_at_the_nodes(pursuit: Bound) -> None:
     assert pursuit.value(GRID.far + 1, 0.2, 0.3) == pytest.approx(edge + 1)
 
 
-def test_turning_rates_keep_their_limits_and_mirror(cars: Bound) -> None:
-    states = draw_starts(cars, 300, 5).T
-    for turn in (cars.evader_turn, cars.pursuer_turn):
-        here = turn(*states)
-        assert np.abs(here).max() <= 1.0 + 1e-9
-        mirrored = turn(states[0], -states[1], -states[2])
-        assert (np.abs(mirrored + here) > 1e-2).mean() < 0.02  # ties
-
-
 def test_pursuer_turns_towards_and_evader_away(cars: Bound) -> None:
     """Evader to the left: turn left; pursuer on its left: turn right."""
     assert cars.pursuer_turn(2.0, 1.0, 0.0) == pytest.approx(1.0)
