@@ -53,7 +53,6 @@ LONG = (
     *("browser", "bound", "unicycle", "steps", "beam", "duel 11"),
     *("test_duel", "test_walk_game", "test_seeing", "test_robot_init"),
 )
-TESTS = Path(__file__).parent
 BLANK = b"\x89PNG" + bytes(10_000) + b"IEND...."  # a figure
 
 
@@ -115,7 +114,10 @@ def pytest_collection(session: pytest.Session) -> None:
     worker = getattr(session.config, "workerinput", {"workerid": "gw0"})
     if int(worker["workerid"].removeprefix("gw")) % 2 == 0:
         return
-    for file in sorted(TESTS.rglob("test_*.py"), reverse=True):
+    given = [Path(each.partition("::")[0]) for each in session.config.args]
+    folders = [each for each in given if each.is_dir()]
+    files = [file for each in folders for file in each.rglob("test_*.py")]
+    for file in sorted(files, reverse=True):
         if str(file.parent) not in sys.path:
             sys.path.insert(0, str(file.parent))
         # What fails here is reported when it is collected.
