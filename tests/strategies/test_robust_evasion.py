@@ -122,6 +122,25 @@ def test_pose_of_a_swaying_pursuer_is_known_within_2_mm(number: int) -> None:
         assert abs(wrap_angle(pose.theta - theta)) < 0.01
 
 
+def test_lag_of_the_own_torso_is_removed_from_sightings() -> None:
+    """A torso that lags by 0.05 of the last turn sees the pursuer aside."""
+    evader, memory, before = RobustEvasion(10, 5), RobustMemory(), 0.0
+    for n, theta in enumerate((0.0, 0.2, 0.1)):
+        bearing = wrap_angle(1.0 - theta + 0.05 * (theta - before))
+        own, before = Pose(0.0, 0.0, theta), theta
+        known = Knowledge(
+            0.4 * n,
+            bearing,
+            1.2,
+            LIMITS,
+            pose_in_map=own,
+            step_start_in_map=own,
+        )
+        _, memory = evader.decide(known, memory)
+        seen = memory.fit.seen[3:5]
+        assert seen == pytest.approx((1.2 * cos(1.0), 1.2 * sin(1.0)))
+
+
 def test_unseen_steps_begin_the_path_anew() -> None:
     *_, (fit, _) = sights_of_walkers(MODELS[0], 0.0125, 0.0)
     later = fit.observe(30.0, Pose(0.5, 0.5, 0.0), (1.0, 0.5), RULES, 0.4)

@@ -40,7 +40,10 @@ IN_ROOM = (
     *("optimal", "noisy", "stop-and-wait", "searched-1"),
 )
 IN_OPEN = ("pure", "pure-v1.1", "pure-v1.3", "sharp", "optimal")
-IN_PHYSICS = ("sharp:20", "herding:20", "pure:20", "pure-x3:20")
+IN_PHYSICS = (
+    *("sharp:20", "herding:20", "pure:20", "pure-x3:20"),
+    *("stop-and-wait:20", "noisy:20"),
+)
 PHYSICS = TournamentSettings("physics", ROOM, StepGame(duration=60.0))
 MODELS = {  # of pursuers that capture somebody
     "pure-x3": PursuerModel(3.0),

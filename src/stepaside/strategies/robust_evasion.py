@@ -10,7 +10,7 @@ import numpy as np
 from ..arena.obstacles import PackedObstacles
 from ..core.constants import CAPTURE_DISTANCE
 from ..core.errors import ConfigurationError, check_positive, check_within
-from ..core.poses import Array, Pose
+from ..core.poses import Array, Pose, wrap_angle
 from .knowledge import ON_THE_SPOT, Intent, Knowledge
 from .opponent_models import ASSUMED, MODELS, ModelFit
 from .search.pursuer_model import BeamRules, PursuerModel
@@ -22,7 +22,9 @@ SWAY = 0.06  # by which the torsos of walkers, 2 cm ahead of their reference
 # points and swaying, are nearer to each other than these, in [m]; with 0.05
 # herding walkers touch the capture distance in passing
 AHEAD = 0.73  # steps from the mean of a walker's last two positions to the
-# beginning of its next step, measured on 8 walks of NAO
+# beginning of its next step, measured on walks of NAO
+TORSO_LAG = 0.05  # of the turn of a walker's last step, which its torso has
+# yet to make when it sees the pursuer; measured likewise
 TURNS = 7  # turns tried per step
 WIDER = 5  # times the width where no state survives; 20 is no better
 KEPT = 0.95  # of a plan is left when it is searched again; 0.8 loses 3 %
@@ -98,6 +100,10 @@ class RobustEvasion(BackwardStrategy):
             self.body_radius + MARGIN, self.width, self.horizon,
         )  # fmt: skip
         sight = own.theta + knowledge.bearing
+        if walks:
+            turned = wrap_angle(own.theta - float(memory.fit.seen[2]))
+            turned = min(max(turned, -rules.largest), rules.largest)
+            sight -= TORSO_LAG * turned
         position = (
             own.x + knowledge.distance * cos(sight),
             own.y + knowledge.distance * sin(sight),
