@@ -19,6 +19,7 @@ F = TypeVar("F", bound=Callable[..., Any])
 _OPTIONS: dict[str, Any] = {
     "error_model": "numpy",
     "fastmath": {"contract"},
+    "no_cfunc_wrapper": True,  # nothing takes a function as a value
 }
 _marked: list[tuple[Callable[..., Any], bool]] = []
 _folders: set[Path] = set()  # of functions registered or compiled
