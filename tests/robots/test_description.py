@@ -38,6 +38,16 @@ def test_another_robot_is_a_folder(tmp_path: Path) -> None:
     assert LegKinematics(robot, tick=0.004).stand(stance).size == 23
 
 
+def test_a_folder_may_have_the_name_of_a_robot(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "nao").mkdir()
+    copy_of_nao(tmp_path / "nao")
+    monkeypatch.chdir(tmp_path)
+    assert load_robot("./nao").folder == tmp_path / "nao"
+    assert load_robot("nao").folder == NAO.folder
+
+
 def test_a_description_is_the_same_in_a_worker() -> None:
     """Processes hand it on as bytes; what it compiles to does not change."""
     sent = pickle.loads(pickle.dumps(NAO))

@@ -172,7 +172,7 @@ def measurement_facts(result: "LegsMeasurement") -> dict[str, Any]:
         "tube_m": velocities.tube,
         "lag_s": [axis.lag for axis in result.response.axes],
         "halting": [axis.halting for axis in result.response.axes],
-        "odometry_ratio": result.odometry_ratio(),
+        "odometry_ratio": result.response.odometry_ratio,
         "random_walks": {
             "walks": len(result.random_walks),
             "falls_at_s": [t for t in result.random_walks if t is not None],
@@ -232,7 +232,9 @@ def _print(result: "LegsMeasurement") -> None:
     rows += [
         (
             "leg odometry",
-            f"true motion is {result.odometry_ratio():.3f} of it",
+            "true motion is {:.3f} of it ahead, {:.3f} to the side".format(
+                *result.response.odometry_ratio
+            ),
         ),
         (
             "combined commands",

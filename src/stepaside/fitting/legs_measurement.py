@@ -338,13 +338,6 @@ class LegsMeasurement:
             columns.append(commands @ rows / (commands @ commands))
         return np.stack(columns, axis=1)
 
-    def odometry_ratio(self) -> float:
-        """Return the true horizontal motion by that of the leg odometry."""
-        walks = [trial for trial in self.trials if trial.fell_at is None]
-        true = np.array([trial.delivered[:2] for trial in walks]).ravel()
-        estimated = np.array([trial.odometry for trial in walks]).ravel()
-        return float(true @ estimated / (estimated @ estimated))
-
 
 def measure_legs(
     description: RobotDescription,
@@ -392,7 +385,9 @@ def measure_legs(
     ]
     singles = results[: -len(COMBINED)]
     axes = [_axis(i, singles) for i in range(3)]
-    response = VelocityResponse((axes[0], axes[1], axes[2]))
+    response = VelocityResponse(
+        (axes[0], axes[1], axes[2]), odometry_ratio=_odometry_ratio(results)
+    )
     tracking = [
         LegsTrial(description, legs, body, STILL, seed + i, response)
         for i in range(TRACKING_WALKS)
@@ -440,6 +435,18 @@ def _axis(axis: int, results: list[LegsTrialResult]) -> AxisResponse:
         float(np.mean(lags)) if lags else 0.0,
         max(halts),
     )
+
+
+def _odometry_ratio(results: list[LegsTrialResult]) -> tuple[float, float]:
+    """Fit the true motion by that of the leg odometry, ahead and aside."""
+    walks = [result for result in results if result.fell_at is None]
+    true = np.array([walk.delivered[:2] for walk in walks])
+    estimated = np.array([walk.odometry for walk in walks])
+    products, squares = (true * estimated).sum(0), (estimated**2).sum(0)
+    ahead, side = np.divide(
+        products, squares, out=np.ones(2), where=squares > 0.0
+    ).tolist()
+    return ahead, side
 
 
 def _combined_error(

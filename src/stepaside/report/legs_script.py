@@ -94,6 +94,7 @@ def legs_data(duel: Duel) -> dict[str, Any]:
         "coupled": legs.coupled,
         "corners": forward.force_sensors().tolist(),
         "smoothing": leg_odometry.SMOOTHING,
+        "ratio": legs.response.odometry_ratio,
         "calibration": gravity_filter.CALIBRATION,
         "corrections": [
             [gravity_filter.FIRST, 0.0],

@@ -287,7 +287,7 @@ def load_robot(robot: AnyPath) -> RobotDescription:
 
     Args:
         robot: Name of a robot of this package, or a folder with a
-            ``robot.toml``.
+            ``robot.toml``; ``./nao`` is a folder.
 
     Raises:
         ModelError: If there is no such robot, or its file has unknown,
@@ -295,7 +295,9 @@ def load_robot(robot: AnyPath) -> RobotDescription:
     """
     given = as_path(robot, "robot", ModelError)
     folder = Path(str(files(__package__))) / given
-    if not _is_file(folder / FILE):
+    if str(robot).startswith("."):
+        folder = given.absolute()
+    elif not _is_file(folder / FILE):
         folder = given
     if not _is_file(folder / FILE):
         raise ModelError(

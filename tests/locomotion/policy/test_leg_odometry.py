@@ -49,10 +49,12 @@ class FeetInTorso:
         self.numbers[9:] = rows[:, 1:].ravel()
 
 
-def begun_with(joint_positions: Array) -> LegOdometry:
+def begun_with(
+    joint_positions: Array, ratio: tuple[float, float] = (1.0, 1.0)
+) -> LegOdometry:
     """Return the odometry of a robot that begins with its feet like that."""
     feet: Any = FeetInTorso()
-    return LegOdometry(feet, joint_positions)
+    return LegOdometry(feet, joint_positions, ratio)
 
 
 def seen_from(pose: Pose, left_carries: bool) -> Measurement:
@@ -140,6 +142,43 @@ def test_a_foot_that_lifts_off_between_readings_does_not_count() -> None:
         odometry.take(sensed(angles, forces), (0.0, 0.0), 0.0, PERIOD)
         run(odometry)
     assert odometry.pose == pytest.approx((0.0, 0.0, 0.0), abs=1e-9)
+
+
+def test_the_pose_is_true_over_feet_that_slip_by_the_ratio() -> None:
+    """The feet slip ahead and aside by known shares of the true motion."""
+    slip, moved = np.array([0.04, -0.1]), np.array([0.01, 0.003])
+    ahead, side = (1.0 / (1.0 - slip)).tolist()
+    odometry = begun_with(np.zeros(24), (ahead, side))
+    axes = np.tile(np.eye(3), (2, 1, 1))
+    for i in range(51):
+        feet = np.array([[*LEFT, -0.7], [*RIGHT, -0.7]])
+        feet[:, :2] += i * (slip - 1.0) * moved
+        angles = np.concatenate([feet[:, None], axes], axis=1).ravel()
+        # In the air for two intervals, which the velocity bridges.
+        force = 0.0 if i == 45 else 1.0
+        odometry.take(
+            sensed(angles, np.full(8, force)), (0.0, 0.0), 0.0, PERIOD
+        )
+        run(odometry)
+    pose = odometry.pose
+    assert (pose.x, pose.y) == pytest.approx((0.5, 0.15), rel=1e-3)
+
+
+@pytest.mark.parametrize("stands", [True, False])
+def test_a_foot_that_just_landed_counts_a_tenth(stands: bool) -> None:
+    """Beside a foot that stands; alone it carries the torso."""
+    odometry = begun_with(np.zeros(24))
+    axes = np.tile(np.eye(3), (2, 1, 1))
+    slides = [0.0, 0.0, 0.0, 0.01]
+    for slid, lands in zip(slides, [0.0, 0.0, 1.0, 1.0], strict=True):
+        feet = np.array([[*LEFT, -0.7], [*RIGHT, -0.7]])
+        feet[1, 0] += slid
+        angles = np.concatenate([feet[:, None], axes], axis=1).ravel()
+        forces = np.repeat([float(stands), lands], 4)
+        odometry.take(sensed(angles, forces), (0.0, 0.0), 0.0, PERIOD)
+        run(odometry)
+    share = 0.1 / 1.1 if stands else 1.0
+    assert odometry.pose.x == pytest.approx(-0.01 * share)
 
 
 def test_machine_code_has_the_bits_of_python() -> None:

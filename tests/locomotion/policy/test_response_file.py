@@ -1,5 +1,8 @@
 """Test the file of a measured response."""
 
+import tomllib
+from dataclasses import replace
+from math import nan
 from pathlib import Path
 
 import pytest
@@ -14,7 +17,9 @@ from stepaside.locomotion.policy.response_file import (
 )
 from stepaside.locomotion.policy.velocity_response import VelocityResponse
 
-RESPONSE = VelocityResponse.ideal(CommandRanges())
+RESPONSE = replace(
+    VelocityResponse.ideal(CommandRanges()), odometry_ratio=(1.03, 0.99)
+)
 
 
 def stored(folder: Path) -> Path:
@@ -27,6 +32,28 @@ def stored(folder: Path) -> Path:
 
 def test_a_response_is_read_as_written(tmp_path: Path) -> None:
     assert load_response(tmp_path, stored(tmp_path)) == RESPONSE
+
+
+def test_a_file_without_a_ratio_leaves_the_odometry_as_it_is(
+    tmp_path: Path,
+) -> None:
+    network = stored(tmp_path)
+    file = response_path(tmp_path, network)
+    entries = tomllib.loads(file.read_text())
+    del entries["odometry_ratio"]
+    file.write_text(tomli_w.dumps(entries))
+    plain = replace(RESPONSE, odometry_ratio=(1.0, 1.0))
+    assert load_response(tmp_path, network) == plain
+
+
+@pytest.mark.parametrize("ratio", [[1.0], [0.0, 1.0], [1.0, nan]])
+def test_a_bad_ratio_is_refused(tmp_path: Path, ratio: list[float]) -> None:
+    network = stored(tmp_path)
+    file = response_path(tmp_path, network)
+    entries = tomllib.loads(file.read_text())
+    file.write_text(tomli_w.dumps(entries | {"odometry_ratio": ratio}))
+    with pytest.raises(PolicyError, match=r"odometry_ratio|not a response"):
+        load_response(tmp_path, network)
 
 
 def test_another_network_of_the_name_has_no_response(tmp_path: Path) -> None:

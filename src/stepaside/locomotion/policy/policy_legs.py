@@ -100,7 +100,9 @@ class PolicyLegs:
         self.standing = InitialPosture(forward, dict(angles))
         self._targets = self.standing.joint_targets.copy()
         self._network, self._pool = network, pool
-        self.odometry = odometry = LegOdometry(forward, self._targets)
+        self.odometry = odometry = LegOdometry(
+            forward, self._targets, self.response.odometry_ratio
+        )
         self._gravity = GravityFilter(odometry.velocity, tick)
         self.pose, self.tilt = odometry.pose, self._gravity.tilt
         self.intended = self._wanted = STILL

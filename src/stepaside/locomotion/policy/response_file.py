@@ -28,6 +28,7 @@ def response_entries(
     return {
         "network": digest_of(network),
         "tube": response.tube,
+        "odometry_ratio": list(response.odometry_ratio),
         **{
             name: {
                 "commands": list(axis.commands),
@@ -70,9 +71,10 @@ def load_response(folder: Path, network: Path) -> VelocityResponse | None:
             for name in AXES
         ]
         tube = float(entries.get("tube", 0.0))
+        ahead, side = map(float, entries.get("odometry_ratio", (1.0, 1.0)))
     except (ValueError, KeyError, TypeError) as error:
         raise PolicyError(
             f"{path} is not a response of legs: `stepaside legs measure` "
             "writes it anew"
         ) from error
-    return VelocityResponse((axes[0], axes[1], axes[2]), tube)
+    return VelocityResponse((axes[0], axes[1], axes[2]), tube, (ahead, side))

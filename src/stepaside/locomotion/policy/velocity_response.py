@@ -4,6 +4,7 @@ from bisect import bisect_right
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from math import inf
 from typing import NamedTuple
 
 import numpy as np
@@ -82,18 +83,26 @@ class VelocityResponse:
         axes: Response to commands ahead, to the left and of turning.
         tube: Greatest distance of the body from its template point, in [m]; 0
             if it was not measured.
+        odometry_ratio: True motion by that of the leg odometry, ahead and to
+            the side; 1 if it was not measured.
     """
 
     axes: tuple[AxisResponse, AxisResponse, AxisResponse]
     tube: float = 0.0
+    odometry_ratio: tuple[float, float] = (1.0, 1.0)
 
     def __post_init__(self) -> None:
         """Check the tables.
 
         Raises:
             PolicyError: If a table is not ascending, or the axis does not
-                follow its command.
+                follow its command, or a ratio is not positive.
         """
+        if not all(0.0 < ratio < inf for ratio in self.odometry_ratio):
+            raise PolicyError(
+                "response.odometry_ratio must be finite and > 0, got "
+                f"{', '.join(f'{x:g}' for x in self.odometry_ratio)}"
+            )
         for i, (name, axis) in enumerate(zip(AXES, self.axes, strict=True)):
             own = [row[i] for row in axis.delivered]
             if len(axis.commands) < 2 or 0.0 not in axis.commands:

@@ -25,8 +25,8 @@ class LegsWalker extends Robot {
     this.angles = table(body.qpos.length, 1);
     this.numbers = table(27, 1);
     this.corners = table(8, 2, legs.corners.flat());
-    this.given = table(5, 1, [0, 0, 0, 0, legs.smoothing]);
-    [this.points, this.loads, this.forces] = [table(9, 3), table(8, 1), table(8, 1)];
+    this.given = table(7, 1, [0, 0, 0, 0, legs.smoothing, ...legs.ratio]);
+    [this.points, this.loads, this.forces] = [table(9, 3), table(2, 8), table(8, 1)];
     [this.speed, this.position, this.moved] = [table(3, 1), table(3, 1), table(3, 1)];
     this.sizes = Int32Array.from(legs.sizes);
     this.commands = table(3, legs.commands[0].length, legs.commands.flat());
