@@ -21,19 +21,38 @@ MODELS = (
 """Models that are compared: the paper's pursuer with other gains, the last
 of them turning by the whole bearing, and pursuers with another target."""
 DANGEROUS = (5, 6, 4, 3, 0)  # models to assume until they are ruled out
-SETTLING = 4  # positions that show an error
-WINDOW = 6  # positions that a model is fitted to; with 10 walkers that
-# change their side too early or late rule out their own model
 MEMORY = 0.93  # weight of the earlier errors after a step
 EXACT = 1e-5  # error of a model that counts as none, in [m] rms; with
 # 2e-4 pursuers of gain x3 are not told from x4
-RULED_OUT = 1.2  # times the least error: a model that does not explain; in
-# walks the true one is within it in 97 % of the steps. With 1.4 herding
-# walkers are told from pure ones so late that they capture 3 of 10, not 0
 GAP = 1.5  # steps between observations, beyond which the path begins anew
 LEAST_MOTION = 0.3  # stride over that of the gait that shows a direction
 ASSUMED = 3  # models that are assumed at once
 FORGETTING = 0.995  # of the greatest observed speed, per step
+
+
+class FitRules(NamedTuple):
+    """Rules of the fit, by the errors of the observed positions.
+
+    Attributes:
+        window: Positions that a model is fitted to.
+        settling: Positions that show an error.
+        ruled_out: Error over the least, rms, from which on a model does not
+            explain the path.
+    """
+
+    window: int
+    settling: int
+    ruled_out: float
+
+
+EXACT_SIGHT = FitRules(3, 3, 3.0)
+"""Without errors the last steps say most: in longer windows the random turns
+of ``noisy`` add up, and it captures 4 of 12 evaders, not 1."""
+SWAYING_SIGHT = FitRules(6, 4, 1.2)
+"""With 10 positions herding walkers that change their side too early or late
+rule out their own model. In walks the true model is within 1.2 times the least
+error in 97 % of the steps; with 1.4 herding walkers are told from pure ones so
+late that they capture 3 of 10 evaders, not 0."""
 
 
 class ModelFit(NamedTuple):
@@ -49,6 +68,7 @@ class ModelFit(NamedTuple):
         errors: Forgetting mean of the mean squared distance of each model
             from the path, in [m^2].
         speed: Greatest stride that was seen lately, over the own.
+        fitting: Rules of the fit.
     """
 
     time: float = -1.0
@@ -57,6 +77,7 @@ class ModelFit(NamedTuple):
     poses: tuple[tuple[float, float, float], ...] = ()
     errors: tuple[float, ...] = (0.0,) * len(MODELS)
     speed: float = 1.0
+    fitting: FitRules = EXACT_SIGHT
 
     def observe(
         self,
@@ -84,7 +105,8 @@ class ModelFit(NamedTuple):
             return self
         follows = self.time >= 0.0 and passed <= GAP * period
         seen = np.array([*own, *position, time / period])
-        now = self._replace(time=time, seen=seen)
+        fitting = SWAYING_SIGHT if sways else EXACT_SIGHT
+        now = self._replace(time=time, seen=seen, fitting=fitting)
         point = seen
         if sways:
             point = 0.5 * (self.seen + seen)
@@ -98,7 +120,8 @@ class ModelFit(NamedTuple):
             return now._replace(path=path, poses=(pose,) * len(MODELS))
         if hypot(*(point - path[-1])[3:5]) < LEAST_MOTION * rules.stride:
             return now._replace(path=np.array([*path[:-1], point]))
-        return now._fitted(np.array([*path[-WINDOW + 1 :], point]), rules)
+        kept = path[1 - fitting.window :]
+        return now._fitted(np.array([*kept, point]), rules)
 
     def _fitted(self, path: Array, rules: BeamRules) -> "ModelFit":
         """Return the fit to a path with a new point."""
@@ -106,7 +129,7 @@ class ModelFit(NamedTuple):
 
         fits = [fit_heading(path, model, rules) for model in MODELS]
         moved = self._replace(path=path, poses=tuple(pose for pose, _ in fits))
-        if len(path) < SETTLING:
+        if len(path) < self.fitting.settling:
             return moved
         errors = (
             MEMORY * error + (1.0 - MEMORY) * found
@@ -137,7 +160,7 @@ class ModelFit(NamedTuple):
     def plausible(self) -> list[int]:
         """Return the numbers of the models to assume, the best first."""
         least = min(self.errors)
-        limit = (RULED_OUT**2) * max(least, EXACT**2)
+        limit = self.fitting.ruled_out**2 * max(least, EXACT**2)
         best = self.errors.index(least) if least > 0.0 else DANGEROUS[0]
         others = [
             n for n in DANGEROUS if n != best and self.errors[n] <= limit
