@@ -32,4 +32,6 @@ def kept_formula(
 @cache
 def _generator() -> str:
     """Return a digest of the code that generates formulas."""
-    return files_digest(*sorted(Path(__file__).parent.glob("*.py")))
+    robots = Path(__file__).parent
+    constants = robots.with_name("core") / "constants.py"
+    return files_digest(constants, *sorted(robots.glob("*.py")))
