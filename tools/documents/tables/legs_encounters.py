@@ -22,7 +22,7 @@ def body_of(settings: Mapping[str, Any]) -> str:
     changes = json.loads(settings["changes"])
     own, words = changes.get("body"), ["ideal"]
     if own is not None:
-        hardware = own["servo_gain"] == BODIES["hardware"].servo_gain
+        hardware = own.get("backlash") == BODIES["hardware"].backlash
         delay = MILLISECONDS * own["cycle"] * own["delay_cycles"]
         words = ["hardware" if hardware else settings["body"]]
         words.append(f"delay {delay:g} ms")
