@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from stepaside.sim.body_settings import BODIES
 from stepaside.studies.result_files import header, write_result
 from tools.documents.__main__ import old_results
 from tools.documents.blocks import BLOCK, make
@@ -265,7 +266,8 @@ def test_counts_of_people_have_intervals() -> None:
 
 
 def test_people_around_learned_legs_are_counted_by_body() -> None:
-    body = {"cycle": 0.012, "delay_cycles": 1, "servo_gain": 0.75}
+    backlash = BODIES["hardware"].backlash
+    body = {"cycle": 0.012, "delay_cycles": 1, "backlash": backlash}
     row = {
         **{"speed_m_s": 1.4, "number": 12, "contacts": 1, "falls": 2},
         **{"closest_m": 0.5, "mean_closest_m": 0.6, "triggered_at_m": None},
