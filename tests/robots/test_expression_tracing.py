@@ -35,7 +35,7 @@ def test_a_traced_function_equals_its_formula() -> None:
     trace = ExpressionTrace()
     x, y = trace.variable("x", 0.3), trace.variable("y", 0.7)
     traced = formula(x, y)
-    function = trace.function("formula", traced)
+    function = trace.formula("formula", traced).function()
     np.testing.assert_allclose(
         [hint_of(number) for number in traced], function(0.3, 0.7)
     )
@@ -79,7 +79,7 @@ def test_variables_are_reused_after_their_last_use() -> None:
     value = 0.4
     for _ in range(40):
         value = sin(value) + value
-    (found,) = trace.function("chain", [number])(0.4)
+    (found,) = trace.formula("chain", [number]).function()(0.4)
     assert found == pytest.approx(value)
 
 

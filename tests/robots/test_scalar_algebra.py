@@ -69,7 +69,8 @@ def test_rows_that_share_a_number_cost_no_division() -> None:
     factors = LuFactors([[x, y, 0.0], [x, y, 1.0], [0.0, z, 1.0]])
     text = trace.source("f", factors.solve([1.0, 2.0, 3.0]))
     assert text.count("/") == 2
-    values = trace.function("f", factors.solve([1.0, 2.0, 3.0]))(4.0, 6.0, 7.0)
+    formula = trace.formula("f", factors.solve([1.0, 2.0, 3.0]))
+    values = formula.function()(4.0, 6.0, 7.0)
     matrix = np.array([[4, 6, 0], [4, 6, 1], [0, 7, 1.0]])
     np.testing.assert_allclose(matrix @ values, [1, 2, 3])
 

@@ -258,10 +258,6 @@ class ExpressionTrace:
         """
         return Formula(name, self.source(name, results))
 
-    def function(self, name: str, results: Sequence[Number]) -> Function:
-        """Return the function that computes ``results``, in Python."""
-        return self.formula(name, results).function()
-
 
 Number = TracedNumber | float
 
