@@ -351,6 +351,11 @@ def test_invalid_settings_are_refused_in_one_line(
             "--horizon requires --against pursuit or any, got person",
         ),
         ("robustness --kind push --sensing cameras", "requires --kind person"),
+        ("robustness --kind push --rear-camera", "requires --kind person"),
+        (
+            "robustness --kind person --sensing lidar --rear-camera",
+            "--rear-camera requires --sensing cameras",
+        ),
     ],
 )
 def test_options_without_effect_are_refused(line: str, message: str) -> None:

@@ -10,7 +10,7 @@ import pytest
 
 from stepaside.control.sight_sources import CameraSight
 from stepaside.core.errors import ConfigurationError
-from stepaside.core.poses import wrap_angle
+from stepaside.core.poses import wrap_angle, wrap_angles
 from stepaside.games import DuelSettings, Outcome, Run, run_duel
 from stepaside.games.configuration_file import (
     dump_configuration,
@@ -169,6 +169,31 @@ def test_a_person_nearby_is_one_track_and_not_lost() -> None:
         ranges.append(abs(seen.distance - hypot(u - x, v - y)))
     assert np.median(errors) < 5.0 and max(errors) < 15.0
     assert np.median(ranges) < 0.08 and max(ranges) < 0.3
+
+
+BEHIND = replace(
+    SEEING,
+    duration=2.0,
+    pursuer="person",
+    person=PersonSettings("straight", 0.5),
+    start=StartSettings(2.8, 0.0, radians(-170.0)),
+)
+
+
+@pytest.mark.parametrize("rear", [False, True])
+def test_a_rear_camera_shows_a_person_behind(rear: bool) -> None:
+    cameras = replace(RAYS, rear_camera=rear)
+    run = run_duel(replace(BEHIND, cameras=cameras))
+    time, bearing, distance, true, away, lost = run.tracks["evader"].sight.T
+    known = (time > 1.5) & np.isfinite(bearing)
+    if not rear:
+        assert not known.any()
+        return
+    assert known.sum() == (time > 1.5).sum()
+    error = wrap_angles(bearing[known] - true[known])
+    assert np.degrees(np.abs(error)).max() < 5.0
+    assert np.abs(distance[known] - away[known]).max() < 0.25
+    assert not lost[known].any()
 
 
 def test_the_estimated_camera_pose_is_true_while_walking() -> None:

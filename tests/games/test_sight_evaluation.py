@@ -21,7 +21,9 @@ CAMERA = CameraModel.of_field_of_view(80, 60, radians(60.0), radians(45.0))
 PERIOD = 0.1
 TOP = Mount(np.array([0.05, 0.01, 0.06]), rotation(0.0, radians(3.0), 0.0))
 DEPTH = Mount(np.array([0.03, -0.02, 0.14]), rotation(0.0, radians(9.0), 0.0))
-HEAD = SimpleNamespace(body="head", top=TOP, depth=DEPTH)
+HEAD = SimpleNamespace(
+    top=TOP, bottom=None, depth=(DEPTH,), body_of=lambda mount: "head"
+)
 
 
 class Truth:

@@ -208,7 +208,7 @@ def test_a_robot_that_scans_the_room_may_look_with_the_lower_camera() -> None:
     while not eyes.perception.head.is_ready:
         body = eyes.perception.body
         if body is not None:
-            position, axes, _ = camera_pose(body, HEAD.depth)
+            position, axes, _ = camera_pose(body, HEAD.depth[0])
             shown = draw(DEPTH, position, axes, [], time=now)
             position, axes, _ = camera_pose(body, HEAD.top)
             pixels = paint(CAMERA, position, axes, [])

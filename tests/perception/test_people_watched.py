@@ -1,6 +1,7 @@
 """Test target selection in a room with people and walls."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from math import atan2, cos, degrees, hypot, radians, sin
 
 import numpy as np
@@ -43,7 +44,7 @@ class Watch:
         now, percepts = self._ticks * TICK, list[Percept]()
         body = self.perception.body
         if self._ticks % 4 == 0 and body is not None:
-            place, axes, _ = camera_pose(body, HEAD.depth)
+            place, axes, _ = camera_pose(body, HEAD.depth[0])
             posts: list[Post] = [(x, y, 0.15, 1.7) for x, y in people]
             taken = body.time  # a tick ago, with the head as it was then
             image = draw(CAMERA, place, axes, posts, self._walls, taken)
@@ -52,6 +53,11 @@ class Watch:
             percepts += [
                 SonarEcho(now, side, self._echo) for side in HEAD.sonars
             ]
+        return self._take(percepts)
+
+    def _take(self, percepts: Sequence[Percept]) -> Sighting | None:
+        """Take in percepts at the next tick."""
+        now = self._ticks * TICK
         self._ticks += 1
         measured = Measurement(
             now,
@@ -287,3 +293,41 @@ def test_a_person_who_may_pass_settles_later(
     told = 0.05 * (1 + settled.index(True))
     assert told == pytest.approx(least, abs=0.26)
     assert told >= least - 0.06
+
+
+class WatchBehind(Watch):
+    """The same robot with a camera on its back, and none on its head."""
+
+    def see(self, people: Sequence[Place]) -> Sighting | None:
+        """Take in one tick of a scene, shown by the camera on the back."""
+        body, percepts = self.perception.body, list[Percept]()
+        if self._ticks % 4 == 0 and body is not None:
+            place, axes, _ = camera_pose(body, HEAD.depth[1])
+            posts: list[Post] = [(x, y, 0.15, 1.7) for x, y in people]
+            image = draw(CAMERA, place, axes, posts, self._walls, body.time)
+            percepts.append(replace(image, number=1))
+        return self._take(percepts)
+
+
+def test_a_camera_on_the_back_shows_who_comes_from_behind() -> None:
+    """At true bearing and distance, wherever the head looks."""
+    watch, place = WatchBehind([], None), coming(170.0, 0.8, 3.2)
+    seen = None
+    for tick in range(90):
+        seen = watch.see([place(tick * TICK)])
+    assert seen is not None and seen.settled
+    x, y = place(89 * TICK)
+    assert abs(wrap_angle(seen.bearing - atan2(y, x))) < radians(3.0)
+    assert seen.distance == pytest.approx(hypot(x, y), abs=0.1)
+
+
+def test_the_head_searches_ahead_while_the_back_watches_a_person() -> None:
+    watch, place = WatchBehind([], None), coming(180.0, 0.8, 3.2)
+    yaws = []
+    for tick in range(130):
+        watch.see([place(tick * TICK)])
+        yaws.append(watch.perception.head.yaw)
+    assert watch.perception.sighting is not None
+    assert watch.perception.gaze_target is None
+    assert not watch.perception.searching  # for it is not lost
+    assert min(yaws) < radians(-80.0) and max(yaws) > radians(80.0)

@@ -106,10 +106,10 @@ def test_obstacles_start_unidentified_tracks(
     np.testing.assert_allclose(
         place,
         body.position_head_in_odometry
-        + body.axes_head_in_odometry @ HEAD.depth.position_in_body,
+        + body.axes_head_in_odometry @ HEAD.depth[0].position_in_body,
     )
     np.testing.assert_allclose(
-        axes, body.axes_head_in_odometry @ HEAD.depth.axes_in_body
+        axes, body.axes_head_in_odometry @ HEAD.depth[0].axes_in_body
     )
     assert own == pytest.approx(eyes.torso[:2])
 
@@ -266,7 +266,7 @@ def test_a_frame_counts_a_miss_only_within_its_view(
     if percept is depth:
         place = (
             body.position_head_in_odometry
-            + body.axes_head_in_odometry @ HEAD.depth.position_in_body
+            + body.axes_head_in_odometry @ HEAD.depth[0].position_in_body
         )
     track = eyes.know(place[0] + 1.5 * cos(angle), place[1] + 1.5 * sin(angle))
     eyes.see(TICK, percept(TICK))
@@ -353,7 +353,7 @@ def test_a_track_within_the_near_limit_counts_no_miss(
     """Otherwise no near track would be confirmed by two cameras."""
     eyes, _ = mapping()
     show(monkeypatch)
-    forward = HEAD.depth.position_in_body[0]
+    forward = HEAD.depth[0].position_in_body[0]
     image = depth(TICK)
     away = image.near + NEAR_MARGIN + forward + beyond
     track = eyes.know(*eyes.beside(away, 0.0))

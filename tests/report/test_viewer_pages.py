@@ -27,6 +27,7 @@ from stepaside.games.run_captions import describe_state
 from stepaside.games.walker import SimulatedPlayer
 from stepaside.locomotion.zmp.control_settings import OPEN_LOOP, STABILISED
 from stepaside.perception.images import ColourImage, DepthImage
+from stepaside.perception.percept_stages import FrameReport
 from stepaside.planning import GaitSettings
 from stepaside.report.figure_style import EVADER, PURSUER
 from stepaside.report.palette import ON_BOTH_FLOORS
@@ -187,7 +188,7 @@ def test_the_newest_image_of_each_camera_is_handed_out_once(
 
     def report(kind: type[ColourImage] | type[DepthImage]) -> Any:
         values = [nothing] * len(fields(kind))
-        return SimpleNamespace(image=kind(*values))
+        return FrameReport(kind(*values), ())
 
     def act(**reports: Any) -> None:
         players = [

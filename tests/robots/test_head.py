@@ -9,7 +9,11 @@ import pytest
 from stepaside.core.errors import ModelError
 from stepaside.core.poses import Array
 from stepaside.robots.description import load_robot
-from stepaside.robots.head import HeadDescription, load_head, rotation
+from stepaside.robots.head import (
+    HeadDescription,
+    load_head,
+    rotation,
+)
 
 NAO = load_robot("nao")
 HEAD = load_head(NAO)
@@ -44,7 +48,7 @@ def test_signs_of_angles_are_those_of_a_robot() -> None:
 
 
 def test_cameras_point_forward_and_slightly_down() -> None:
-    for mount, degrees in ((HEAD.top, 1.2), (HEAD.depth, 8.0)):
+    for mount, degrees in ((HEAD.top, 1.2), (HEAD.depth[0], 8.0)):
         ahead = cos(radians(degrees)), 0.0, -sin(radians(degrees))
         np.testing.assert_allclose(mount.axes_in_body[:, 0], ahead, atol=1e-15)
         np.testing.assert_allclose(
@@ -53,8 +57,34 @@ def test_cameras_point_forward_and_slightly_down() -> None:
         assert (
             mount.axes_in_body[2, 2] > 0.9 and mount.position_in_body[1] == 0.0
         )
-    assert HEAD.depth.position_in_body[2] > HEAD.top.position_in_body[2]
-    assert HEAD.housing == (0.035, 0.18, 0.05)
+    assert HEAD.depth[0].position_in_body[2] > HEAD.top.position_in_body[2]
+    assert HEAD.housings[0] == (0.035, 0.18, 0.05)
+
+
+def test_the_rear_camera_looks_backward_from_the_torso() -> None:
+    rear = HEAD.depth[1]
+    np.testing.assert_allclose(
+        rear.axes_in_body, np.diag([-1.0, -1.0, 1.0]), atol=1e-15
+    )
+    assert rear.on_torso and HEAD.body_of(rear) == "torso"
+    assert HEAD.body_of(HEAD.depth[0]) == HEAD.body_of(HEAD.top) == "head"
+
+
+def test_a_camera_that_a_robot_lacks_is_refused(tmp_path: Path) -> None:
+    head = rewritten(tmp_path, "[rear]", "[other]")
+    assert head.depth_mounts(rear=False) == head.depth
+    with pytest.raises(ModelError, match=r"no rear camera.*\[rear\]"):
+        head.depth_mounts(rear=True)
+
+
+def test_a_torso_may_carry_several_cameras(tmp_path: Path) -> None:
+    more = "[[rear]]\nplace = [0.0, 0.1, 0.0]\npitch = 0\nyaw = 90\n"
+    more += "housing = [0.1, 0.2, 0.3]\n[[rear]]"
+    head = rewritten(tmp_path, "[rear]", more)
+    _, left, back = head.depth_mounts(rear=True)
+    np.testing.assert_allclose(left.axes_in_body[:, 0], (0, 1, 0), atol=1e-15)
+    np.testing.assert_allclose(back.axes_in_body[:, 0], (-1, 0, 0), atol=1e-15)
+    assert head.housings[1] == (0.1, 0.2, 0.3)
 
 
 def test_sonars_are_mirror_images_and_point_outward() -> None:
@@ -97,6 +127,11 @@ def rewritten(folder: Path, old: str, new: str) -> HeadDescription:
         ("pitch = 8.0", 'pitch = "down"', "real number"),
         ("[sonar.left]", "[sonar.left", "head.toml"),
         ("turn = [-0.00478508, ", "turn = [", "rotation"),
+        ("yaw = 180.0", "", "yaw"),
+        ("yaw = 180.0", 'yaw = "back"', "real number"),
+        ("[-0.075, 0.0, 0.1]", "[-0.075, 0.1]", "three numbers"),
+        ("[-0.075, 0.0, 0.1]", "[-0.075, nan, 0.1]", "three numbers"),
+        ("[0.026, 0.124, 0.029]", "[0.026, 0.124]", "three numbers"),
     ],
 )
 def test_a_wrong_head_is_refused_by_its_file(

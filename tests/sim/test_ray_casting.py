@@ -79,9 +79,12 @@ def test_rays_ignore_invisible_geoms() -> None:
 
 
 def depths(
-    things: str, settings: DepthSettings, mount: Mount = AHEAD
+    things: str,
+    settings: DepthSettings,
+    mount: Mount = AHEAD,
+    at: str = 'pos="0 0 0.5"',
 ) -> np.ndarray:
-    _, caster = cast(things, CAMERA.rays().reshape(-1, 3), mount)
+    _, caster = cast(things, CAMERA.rays().reshape(-1, 3), mount, at)
     return DepthCaster(caster, CAMERA, settings, generator()).take()
 
 
@@ -106,6 +109,15 @@ def test_depth_comes_back_from_within_the_limits(
     """They hold from the mount, 0.1 m ahead of the body."""
     image = depths(wall(face), CLEAN)
     assert (image[2] > 0.0).all() if seen else (image[2] == 0.0).all()
+
+
+def test_the_floor_is_seen_far_from_the_origin_of_the_world() -> None:
+    """The floor is 18 m wide."""
+    near, far = (
+        depths("", CLEAN, at=f'pos="{x} 0 0.5"') for x in ("0.0", "-8.5")
+    )
+    assert (near > 0.0).any()
+    np.testing.assert_allclose(far, near, atol=1e-4)
 
 
 def test_depth_noise_and_quanta_grow_with_the_square() -> None:

@@ -140,13 +140,13 @@ def test_the_housing_is_massless_and_behind_the_lens() -> None:
     head = model.body("me/head").id
     _, housing = np.flatnonzero(model.geom_bodyid == head)
     assert model.body_mass[head] == pytest.approx(0.6)
-    depth, width, height = HEAD.housing
+    depth, width, height = HEAD.housings[0]
     np.testing.assert_allclose(
         model.geom_size[housing], (depth / 2, width / 2, height / 2)
     )
     window = data.geom_xpos[housing] + (depth / 2, 0.0, 0.0)
     np.testing.assert_allclose(
-        window, HEAD.depth.position_in_body + (1.0, 2.0, 0.5)
+        window, HEAD.depth[0].position_in_body + (1.0, 2.0, 0.5)
     )
     assert model.geom_group[housing] == 2
     assert model.geom_contype[housing] == 0 == model.geom_conaffinity[housing]

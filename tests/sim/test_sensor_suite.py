@@ -94,10 +94,14 @@ def eyes_of(
     seed: int = 3,
     renderer: Any = None,
 ) -> SensorSuite:
-    """Return sensors of a head 0.5 m above a floor, a box 1.6 m ahead."""
+    """Return sensors of a head 0.5 m above a floor, between two boxes.
+
+    One is 1.6 m ahead, one 1 m behind; the torso is 1 m ahead of the head.
+    """
     model = mujoco.MjModel.from_xml_string(
         '<mujoco><worldbody><geom name="floor" type="plane" size="9 9 1"/>'
         '<geom type="box" pos="2.1 0 0.4" size="0.5 0.4 0.4" rgba="1 0 0 1"/>'
+        '<geom type="box" pos="-1.5 0 0.4" size="0.5 0.4 0.4"/>'
         '<body name="me/torso" pos="1.0 0 0.3"/>'
         '<camera name="other"/><body name="me/head" pos="0 0 0.5">'
         '<camera name="me/head_camera"/></body></worldbody></mujoco>'
@@ -178,6 +182,37 @@ def test_images_are_taken_from_the_sensor_mounts() -> None:
     for echo in (left, right):
         assert isinstance(echo, SonarEcho) and echo.distance is not None
         assert echo.distance == pytest.approx(0.6, abs=0.03)
+
+
+def depth_images(eyes: SensorSuite, ticks: int = 60) -> list[DepthImage]:
+    """Depth images that arrive in a time."""
+    arrived = [p for i in range(ticks) for p in eyes.read(i * TICK)]
+    return [p for p in arrived if isinstance(p, DepthImage)]
+
+
+def test_a_rear_camera_changes_no_bit_of_the_other_sensors() -> None:
+    alone, both = eyes_of(), eyes_of(replace(PLAIN, rear_camera=True))
+    expected, images = depth_images(alone), depth_images(both)
+    ahead = [p for p in images if p.number == 0]
+    assert len(expected) == len(ahead) > 2
+    for one, other in zip(expected, ahead, strict=True):
+        assert one.time == other.time
+        np.testing.assert_array_equal(one.depths, other.depths)
+    assert len(images) == 2 * len(ahead)
+
+
+def test_the_rear_camera_looks_backward_from_the_torso() -> None:
+    """The face of the box behind is 2 m behind the torso."""
+    eyes = eyes_of(replace(PLAIN, rear_camera=True))
+    (first, *_) = (p for p in depth_images(eyes) if p.number == 1)
+    assert (first.near, first.far) == (0.6, 6.0)
+    assert first.depths.shape == (60, 106)
+    assert degrees(2 * np.arctan(53 / first.camera.focal_x)) == pytest.approx(
+        87.0
+    )
+    assert first.depths[30, 53] == pytest.approx(2.0 - 0.075, abs=0.05)
+    # Above the box there is nothing; the other box lies ahead.
+    assert first.depths[0].max() == 0.0
 
 
 def test_exposed_percepts_are_listed_before_their_latency() -> None:

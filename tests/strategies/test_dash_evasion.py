@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from stepaside.core.errors import ConfigurationError
-from stepaside.core.poses import Pose
+from stepaside.core.poses import ALL_AROUND, Pose, Sector
 from stepaside.games.template_game import TemplateGame, play_point
 from stepaside.planning import GaitSettings
 from stepaside.sim.person_motion import PersonMotion, Place
@@ -154,12 +154,20 @@ def test_the_matador_assumes_a_chaser() -> None:
     assert aside == STEP_ASIDE
 
 
-@pytest.mark.parametrize(("view", "side"), [(pi, -1), (pi / 2, 1)])
-def test_a_dash_keeps_the_person_in_view(view: float, side: int) -> None:
+AHEAD, BEHIND = Sector(0.0, pi / 2), Sector(pi, pi / 2)
+
+
+@pytest.mark.parametrize(
+    ("views", "side"),
+    [(ALL_AROUND, -1), ((AHEAD,), 1), ((AHEAD, BEHIND), -1)],
+)
+def test_a_dash_keeps_the_person_in_view(
+    views: tuple[Sector, ...], side: int
+) -> None:
     """The faster end of these legs would turn away."""
     lags = AxisValues(0.65, 0.71, 0.53)
     legs = VelocitySet((-0.7, 0.76), (-0.54, 0.53), (-0.84, 0.84), lags)
-    limits = Limits(0.1, 0.2, 0.04, 0.4, legs, view=view)
+    limits = Limits(0.1, 0.2, 0.04, 0.4, legs, views=views)
     memory = STEP_ASIDE.begin()
     for i in range(12):
         known = Knowledge(0.05 * i, radians(80), 2.8 - 0.05 * i, limits)

@@ -59,6 +59,7 @@ class Chase:
         robot: Folder of the robot.
         network: File of its policy.
         sensing: Sensing of the robot.
+        rear: Whether it has a depth camera that looks backward.
         radius: Smallest turning radius of the person, in [m].
         direction: Number of the direction that the person comes from.
         feints: Whether the person feints.
@@ -70,6 +71,7 @@ class Chase:
     robot: str
     network: str
     sensing: str
+    rear: bool
     radius: float
     direction: int
     feints: bool
@@ -82,6 +84,7 @@ class Chase:
         return replace(
             base,
             sensing=self.sensing,
+            cameras=replace(base.cameras, rear_camera=self.rear),
             person=PersonSettings(
                 "steer",
                 SPEED,
@@ -161,22 +164,27 @@ def main() -> None:
         lambda given: (
             "legs-chasers.json"
             if given.sensing == "ideal"
-            else f"legs-chasers-{given.sensing}.json"
+            else f"legs-chasers-{'two-' * given.rear_camera}"
+            f"{given.sensing}.json"
         ),
     )
     parser.add_argument("robot", type=Path)
     parser.add_argument("network", type=Path)
     parser.add_argument("--sensing", choices=SENSING, default="ideal")
+    parser.add_argument("--rear-camera", action="store_true")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--like", type=Path, help="earlier results")
     parser.add_argument("--people", choices=PEOPLE, nargs="+", default=PEOPLE)
     parser.add_argument("--workers", type=int, default=1)
     asked = parser.parse_args()
+    if asked.rear_camera and asked.sensing != "cameras":
+        parser.error("--rear-camera requires --sensing cameras")
     head = header(
         {
             "robot": asked.robot.name,
             "network": asked.network.name,
             "sensing": asked.sensing,
+            **({"rear_camera": True} if asked.rear_camera else {}),
             "speed_m_s": SPEED,
             "directions": DIRECTIONS,
             "duration_s": DURATION,
@@ -185,7 +193,8 @@ def main() -> None:
         },
         modules=PHYSICS,
     )
-    where = str(asked.robot), str(asked.network), asked.sensing
+    rear = asked.rear_camera
+    where = str(asked.robot), str(asked.network), asked.sensing, rear
     known = {}
     if asked.like is not None:
         earlier = json.loads(asked.like.read_text(encoding="utf-8"))

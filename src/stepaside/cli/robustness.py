@@ -9,6 +9,7 @@ import click
 
 from ..games.duel_settings import SENSING
 from ..games.walk_settings import WalkSettings
+from ..sim.camera_settings import CameraSettings
 from ..strategies.shield_settings import ShieldSettings
 from .campaign_options import CampaignOptions, campaign_options
 from .options.common_options import (
@@ -99,6 +100,13 @@ def _print_limits(
 
 
 PERSON = "person"
+# Options of cameras that serve to study images.
+OF_IMAGES = (
+    "colour.optics",
+    "colour.renderer",
+    "drop_frames",
+    "added_latency",
+)
 
 
 def _kinds() -> Collection[str]:
@@ -201,6 +209,7 @@ def _methods() -> Collection[str]:
 @json_option
 @writes_files
 @takes(ShieldSettings, "shield")
+@takes(CameraSettings, "cameras", without=OF_IMAGES)
 @takes_settings(
     WalkSettings,
     *WALK,
@@ -223,6 +232,7 @@ def robustness(
     reactions: tuple[str, ...],
     people: int,
     shield: ShieldSettings,
+    cameras: CameraSettings,
     campaign: CampaignOptions,
     figure: str | None,
     as_json: bool,
@@ -238,13 +248,22 @@ def robustness(
     kinds = _unique(kinds) or tuple(k for k in _kinds() if k != PERSON)
     if PERSON not in kinds:
         refuse_options(
-            {"sensings", "legs", "strategy", "reactions", "people"},
+            {
+                "sensings",
+                "legs",
+                "strategy",
+                "reactions",
+                "people",
+                "rear_camera",
+            },
             f"--kind {PERSON}",
         )
     if people:
         refuse_options({"reactions"}, "no --people")
         if len(_unique(sensings)) > 1:
             raise click.UsageError("--people takes one --sensing")
+    if "cameras" not in sensings:
+        refuse_options({"rear_camera"}, "--sensing cameras")
     if "push" not in kinds:
         refuse_options({"phases"}, "--kind push")
     body, changes = changes_of(settings)
@@ -278,6 +297,7 @@ def robustness(
             _unique(reactions),
             people,
             shield,
+            cameras,
         )
         asked = _description_of(met, body, settings.seed, changes)
         found, last = meet_people(settings, met, campaign)
@@ -315,6 +335,7 @@ def _description_of(
         "shield": shield,
         "reactions": met.reactions,
         "people": met.number,
+        "rear_camera": met.cameras.rear_camera,
         "changes": changes,
     }
     return {

@@ -4,6 +4,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..sim.camera_settings import CameraSettings
 from ..strategies.shield_settings import ShieldSettings
 from .campaign_options import CampaignOptions
 from .campaign_reports import run_campaign
@@ -29,6 +30,7 @@ class PeopleRequest:
         number: Number of people drawn at random instead of a grid; 0 for the
             grid.
         shield: Shield of the robot.
+        cameras: Its cameras.
     """
 
     sensings: tuple[str, ...]
@@ -38,6 +40,7 @@ class PeopleRequest:
     reactions: tuple[str, ...] = ()
     number: int = 0
     shield: ShieldSettings = ShieldSettings()
+    cameras: CameraSettings = CameraSettings()
 
 
 def meet_people(
@@ -70,7 +73,11 @@ def meet_people(
     )
 
     base = base_settings(
-        settings, request.legs, request.strategy, request.shield
+        settings,
+        request.legs,
+        request.strategy,
+        request.shield,
+        request.cameras,
     )
     if request.number:
         base = replace(base, seed=settings.seed)

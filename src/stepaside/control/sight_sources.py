@@ -1,11 +1,10 @@
 """Sources of sightings of the opponent: measurements or camera."""
 
 from collections.abc import Callable
-from math import pi
 from typing import TYPE_CHECKING, Generic, NamedTuple, Protocol, TypeVar
 
 from ..core.player_identity import PlayerIdentity, Role
-from ..core.poses import Array
+from ..core.poses import ALL_AROUND, Array, Sector
 from ..locomotion.zmp.current_step import CurrentStep
 from ..perception.attitude import AttitudeFilter
 from ..perception.measurement import Measurement, Sighting
@@ -38,12 +37,12 @@ class SightSource(Protocol):
     Attributes:
         turning: Turn of the body on the spot that a scan requests before the
             first sighting: 1 to the left, -1 to the right, or 0.
-        view: Greatest bearing at which others are seen, in [rad].
+        views: Bearings at which others are seen.
     """
 
     @property
-    def view(self) -> float:
-        """Greatest bearing at which others are seen, in [rad]."""
+    def views(self) -> tuple[Sector, ...]:
+        """Bearings at which others are seen."""
 
     @property
     def turning(self) -> float:
@@ -78,10 +77,10 @@ class MeasuredSight:
     Attributes:
         turning: 0: it never scans.
         in_sight: None: it knows one opponent.
-        view: All around.
+        views: All around.
     """
 
-    turning, view = 0.0, pi
+    turning, views = 0.0, ALL_AROUND
     in_sight: PlayersInSight | None = None
 
     def __init__(self, sighting: Sighting | None = None) -> None:
@@ -111,10 +110,10 @@ class SightOfPlayers:
     Attributes:
         turning: 0: it never scans.
         in_sight: Own identity, and the latest sighting of each player.
-        view: All around.
+        views: All around.
     """
 
-    turning, view = 0.0, pi
+    turning, views = 0.0, ALL_AROUND
 
     def __init__(self, identity: PlayerIdentity, target: str = "") -> None:
         """Begin without sightings.
@@ -259,9 +258,9 @@ class CameraSight(_PerceivedSight["Perception"]):
         return self.perception.head.turning
 
     @property
-    def view(self) -> float:
-        """Range of the head to each side, in [rad]."""
-        return self.perception.head.reach
+    def views(self) -> tuple[Sector, ...]:
+        """Range of the head, and views of the cameras on the torso."""
+        return self.perception.views
 
     def aim(self, targets: Array) -> None:
         """Turn the head to the last known position of the opponent."""
@@ -273,10 +272,10 @@ class LidarSight(_PerceivedSight["LidarPerception"]):
 
     Attributes:
         turning: 0: it sees all around.
-        view: All around.
+        views: All around.
     """
 
-    turning, view = 0.0, pi
+    turning, views = 0.0, ALL_AROUND
 
     def aim(self, targets: Array) -> None:
         """Leave the head as it is."""

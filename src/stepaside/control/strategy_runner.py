@@ -3,7 +3,7 @@
 from dataclasses import replace
 from math import atan2, cos, hypot, pi, sin
 
-from ..core.poses import Pose
+from ..core.poses import ALL_AROUND, Pose, Sector
 from ..perception.measurement import Measurement, Sighting
 from ..planning import Foot, GaitSettings
 from ..planning.template_path import pose_beside_foot
@@ -65,7 +65,7 @@ class StrategyRunner(DecisionMaker):
         surroundings: Surroundings | None = None,
         turns: TurnCalibration | None = None,
         velocities: VelocitySet | None = None,
-        view: float = pi,
+        views: tuple[Sector, ...] = ALL_AROUND,
     ) -> None:
         """Begin without a sighting.
 
@@ -77,9 +77,9 @@ class StrategyRunner(DecisionMaker):
             turns: Calibration of the turning rate; none by default.
             velocities: Velocities that the legs deliver; by default those of
                 a unicycle.
-            view: Greatest bearing at which the robot sees others, in [rad].
+            views: Bearings at which the robot sees others.
         """
-        super().__init__(strategy, limits_of(gait, velocities, view))
+        super().__init__(strategy, limits_of(gait, velocities, views))
         self._surroundings = surroundings or OpenFloor()
         self.pace = 1.0
         self.headings: StateHistory[float] = StateHistory(tick)

@@ -1,5 +1,6 @@
 """Planar poses (x [m], y [m], theta [rad]) and angles."""
 
+from collections.abc import Sequence
 from math import cos, pi, remainder, sin, tau
 from typing import NamedTuple
 
@@ -7,6 +8,40 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
+
+
+class Sector(NamedTuple):
+    """Range of directions.
+
+    Attributes:
+        middle: Middle of the range, in [rad].
+        half: Half of its width, in [rad].
+    """
+
+    middle: float
+    half: float
+
+
+ALL_AROUND = (Sector(0.0, pi),)
+
+
+def in_sectors(
+    sectors: Sequence[Sector], angles: ArrayLike
+) -> NDArray[np.bool_]:
+    """Return whether angles, in [rad], lie in any of several sectors.
+
+    Args:
+        sectors: The sectors.
+        angles: Angles. Shape (...).
+
+    Returns:
+        Shape (...).
+    """
+    found = np.zeros(np.shape(angles), dtype=np.bool_)
+    for middle, half in sectors:
+        offsets = np.asarray(angles, dtype=np.float64) - middle
+        found |= np.abs(wrap_angles(offsets)) <= half
+    return found
 
 
 def wrap_angle(angle: float) -> float:

@@ -1,6 +1,7 @@
 """Cameras, perception and its evaluation in a game with camera sensing."""
 
 from collections.abc import Mapping, Sequence
+from math import atan2
 
 from ..core.errors import ConfigurationError
 
@@ -11,7 +12,7 @@ except ImportError as error:
         "sensing with cameras needs OpenCV: pip install 'stepaside[vision]'"
     ) from error
 
-from ..core.poses import Array
+from ..core.poses import Array, Sector
 from ..perception.colour_detector import RED, TRIMS, ColourDetector
 from ..perception.gaze import OFTEN, SELDOM, Glances
 from ..perception.perception import Perception
@@ -31,7 +32,7 @@ from ..sim.sensor_suite import SensorSuite
 from ..sim.simulated_robot import SimulatedRobot
 from ..sim.world import World
 from .game_furnishing import uses_lower_camera
-from .game_settings import GameSettings
+from .game_settings import GameSettings, PlayerSettings
 from .match import Match
 from .outcome import Outcome
 from .sight_evaluation import EvaluatedImage, SightEvaluator
@@ -62,7 +63,8 @@ class CameraSenses:
             settings: Settings of the game, with the initial poses filled in.
             description: Description of the robots; all are of one model.
             directions: Driving direction of each robot that perceives in
-                this process; one that walks backward scans the room behind.
+                this process; one that walks backward and has no camera on
+                its torso scans the room behind.
             tick: Control period, in [s].
 
         Raises:
@@ -85,12 +87,13 @@ class CameraSenses:
     ) -> Perception:
         """Build the perception of a robot."""
         own, mapping = self._settings.player(name), None
+        views = self._fixed_views(own)
         if self._settings.maps_room:
+            backward = direction is Direction.BACKWARD and not views
+            often = own.role == "evader" and not views
             mapping = FloorMapping(
-                scan=RoomScan(behind=direction is Direction.BACKWARD),
-                glances=Glances(
-                    tick, OFTEN if own.role == "evader" else SELDOM
-                ),
+                scan=RoomScan(behind=backward),
+                glances=Glances(tick, OFTEN if often else SELDOM),
                 awaits_start=True,
             )
         opponents = self._settings.sensed_opponents(own)
@@ -103,7 +106,28 @@ class CameraSenses:
             mapping=mapping,
             people=any(p.body == "person" for p in opponents),
             unnamed=len(self._settings.unnamed_opponents(own)),
+            fixed_views=views,
         )
+
+    def _has_depth(self, own: PlayerSettings) -> bool:
+        """Return whether a robot has depth cameras and sonars."""
+        return self._settings.maps_room or own.role == "evader"
+
+    def _fixed_views(self, own: PlayerSettings) -> tuple[Sector, ...]:
+        """Return the bearings that cameras on the torso of a robot show.
+
+        Raises:
+            ModelError: If it should have some, and has none.
+        """
+        if not self._has_depth(own):
+            return ()
+        cameras, found = self._settings.cameras, []
+        for mount in self._head.depth_mounts(rear=cameras.rear_camera):
+            if mount.on_torso:
+                x, y, _ = mount.axes_in_body[:, 0].tolist()
+                half = 0.5 * cameras.depth_of(mount).across
+                found.append(Sector(atan2(y, x), half))
+        return tuple(found)
 
     def eyes_of(self, world: World, name: str) -> SensorSuite:
         """Return the cameras and sonars of a robot of a world."""
@@ -116,7 +140,7 @@ class CameraSenses:
             self._settings.cameras,
             self._shared_screen(world),
             self._settings.seed,
-            with_depth=self._settings.maps_room or own.role == "evader",
+            with_depth=self._has_depth(own),
             looks_low=perception.looks_low
             if perception is not None
             and uses_lower_camera(self._settings, own)

@@ -32,6 +32,7 @@ def scenery_of_duel(settings: DuelSettings) -> Scenery:
                 load_head(load_robot(settings.robot_of(EVADER).robot)),
                 walls=wall_distance(settings),
                 housings=(EVADER,),
+                rear=settings.cameras.rear_camera,
                 upper=settings.robots,
                 lower=settings.robots if looks_low else (),
             )

@@ -105,6 +105,7 @@ def scenery_of_game(
                 load_head(load_robot(seeing[0].robot)),
                 walls=0.0,
                 housings=[p.name for p in seeing if p.role == "evader"],
+                rear=settings.cameras.rear_camera,
                 upper=[p.name for p in seeing],
                 lower=[
                     p.name for p in seeing if uses_lower_camera(settings, p)

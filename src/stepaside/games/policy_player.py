@@ -218,7 +218,7 @@ def place_policy_player(
             tick,
             around,
             velocities=policy.velocities,
-            view=sensing.source.view,
+            views=sensing.source.views,
         ),
         PolicyWalk(policy, setup.gait, guard),
         sensing.source,

@@ -66,7 +66,7 @@ class SightEvaluator:
 
     Attributes:
         colour: Frames of the colour camera.
-        depth: Frames of the depth camera.
+        depth: Frames of the depth cameras.
         stills: Example images, by camera.
     """
 
@@ -97,8 +97,6 @@ class SightEvaluator:
         self._robot, self._other = robot, other
         self._perception, self._head = perception, head
         self._things = things
-        model = robot.world.model
-        self._body = model.body(f"{robot.name}/{head.body}").id
         self._true: dict[Percept, tuple[float, bool, list[float]]] = {}
         self.colour, self.depth = FrameCounts(), FrameCounts()
         self.stills: dict[str, list[EvaluatedImage]] = {
@@ -125,10 +123,11 @@ class SightEvaluator:
         """Store the truth at the instant at which an image is taken."""
         if isinstance(percept, SonarEcho | LidarScan):
             return
-        is_colour = isinstance(percept, ColourImage)
-        mount = self._head.top if is_colour else self._head.depth
-        if isinstance(percept, ColourImage) and percept.low:
-            mount = self._head.bottom or mount
+        head, is_colour = self._head, isinstance(percept, ColourImage)
+        if isinstance(percept, DepthImage):
+            mount = head.depth[percept.number]
+        else:
+            mount = (head.bottom if percept.low else None) or head.top
         position, axes = self._camera(mount)
         target = np.array(
             [*self._other.position_torso_in_world, self._height()]
@@ -167,7 +166,10 @@ class SightEvaluator:
                 for thing in allowed
             ):
                 counts.false += 1
-        stills = self.stills[kind]
+        # Of several depth cameras only the one on the head has examples.
+        stills = self.stills.get(report.camera)
+        if stills is None:
+            return
         if len(stills) < len(self._still_times):
             if report.image.time >= self._still_times[len(stills)]:
                 stills.append(EvaluatedImage(report, azimuth))
@@ -218,9 +220,10 @@ class SightEvaluator:
         )
 
     def _camera(self, mount: Mount) -> tuple[Array, Array]:
-        data = self._robot.world.data
-        axes = data.xmat[self._body].reshape(3, 3)
-        place = data.xpos[self._body] + axes @ mount.position_in_body
+        name = f"{self._robot.name}/{self._head.body_of(mount)}"
+        body = self._robot.world.data.body(name)
+        axes = body.xmat.reshape(3, 3)
+        place = body.xpos + axes @ mount.position_in_body
         return place, axes @ mount.axes_in_body
 
     def _height(self) -> float:

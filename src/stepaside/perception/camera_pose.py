@@ -73,16 +73,19 @@ class CameraPose(NamedTuple):
 
 
 def camera_pose(body: BodyPose, mount: Mount) -> CameraPose:
-    """Return the pose of a head camera in odometry.
+    """Return the pose of a camera in odometry.
 
     Args:
         body: Pose of the body.
-        mount: Mount of the camera on the head.
+        mount: Mount of the camera.
     """
+    position, axes = body.position_head_in_odometry, body.axes_head_in_odometry
+    if mount.on_torso:
+        position = body.position_torso_in_odometry
+        axes = body.axes_torso_in_odometry
     return CameraPose(
-        body.position_head_in_odometry
-        + body.axes_head_in_odometry @ mount.position_in_body,
-        body.axes_head_in_odometry @ mount.axes_in_body,
+        position + axes @ mount.position_in_body,
+        axes @ mount.axes_in_body,
         body.pose_torso_in_odometry[:2],
     )
 

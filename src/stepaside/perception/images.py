@@ -40,6 +40,7 @@ class DepthImage:
             (height, width).
         near: Lower limit of the range, in [m].
         far: Upper limit of the range, in [m].
+        number: Number of the camera among the depth cameras of the robot.
     """
 
     time: float
@@ -47,6 +48,7 @@ class DepthImage:
     depths: Depths
     near: float
     far: float
+    number: int = 0
 
 
 @dataclass(frozen=True, slots=True)

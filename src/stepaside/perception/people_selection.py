@@ -59,10 +59,15 @@ class PeopleSelection:
     ) -> TargetTrack | None:
         """Return an approaching track, else one that is due for a glance.
 
+        Tracks that a camera on the torso shows do not need the head.
         ``x`` and ``y`` are the own position in odometry, in [m].
         """
         tracks = self._tracker.tracks
-        candidates = recent_tracks(tracks, main, now)
+        candidates = [
+            track
+            for track in recent_tracks(tracks, main, now)
+            if not track.is_watched(now)
+        ]
         for track in candidates:
             if (
                 track.has_walked

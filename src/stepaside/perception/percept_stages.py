@@ -22,7 +22,7 @@ from .observations import (
 )
 from .sonar import is_valid_echo, may_be_mapped, observe_echo
 from .target_selection import MAX_GAZE_AGE, TargetSelection
-from .track import Observation
+from .track import Observation, TargetTrack
 from .tracker import Tracker
 
 MAX_AGE = 0.5  # of the opponent's position when the map is updated, in [s]
@@ -49,6 +49,14 @@ class FrameReport:
     colour: ColourDetection | None = None
     depth: DepthScene | None = None
     sought: bool = True
+
+    @property
+    def camera(self) -> str:
+        """Name of the camera: ``colour``, ``depth``, ``depth 1`` and on."""
+        if isinstance(self.image, ColourImage):
+            return "colour"
+        number = self.image.number
+        return f"depth {number}" if number else "depth"
 
 
 def record_misses(
@@ -190,27 +198,30 @@ class DepthUse(Protocol):
 
     def take(
         self, image: DepthImage, scene: DepthScene, camera: CameraPose
-    ) -> None:
+    ) -> list[TargetTrack]:
         """Update tracks and map.
 
         Args:
             image: The image.
             scene: Obstacles and shadows in it.
             camera: Pose of the camera at its exposure.
+
+        Returns:
+            Tracks that were updated or started.
         """
 
 
 class DepthCameraStage:
     """Depth images: detect obstacles and shadows."""
 
-    def __init__(self, mount: Mount, use: DepthUse) -> None:
+    def __init__(self, mounts: Sequence[Mount], use: DepthUse) -> None:
         """Combine the parts.
 
         Args:
-            mount: Mount of the camera on the head.
+            mounts: Mounts of the cameras, by number.
             use: Use of the detections.
         """
-        self._mount, self._use = mount, use
+        self._mounts, self._use = mounts, use
 
     def process(self, image: DepthImage, body: BodyPose) -> FrameReport:
         """Update tracks and map with an image.
@@ -219,9 +230,13 @@ class DepthCameraStage:
             image: The image.
             body: Pose of the body at its exposure.
         """
-        camera = camera_pose(body, self._mount)
+        mount = self._mounts[image.number]
+        camera = camera_pose(body, mount)
         scene = detect_obstacles(image, camera)
-        self._use.take(image, scene, camera)
+        updated = self._use.take(image, scene, camera)
+        if mount.on_torso:
+            for track in updated:
+                track.watched_at = image.time
         azimuths = tuple(o.azimuth for o in scene.obstacles)
         azimuths += tuple(s.azimuth for s in scene.shadows)
         return FrameReport(image, azimuths, depth=scene)
@@ -246,7 +261,7 @@ class OpenFloorDepth:
 
     def take(
         self, image: DepthImage, scene: DepthScene, camera: CameraPose
-    ) -> None:
+    ) -> list[TargetTrack]:
         """Update the tracks with obstacles, then with shadows."""
         tracker = self._tracker
         parts: dict[bool, list[Observation]] = {True: [], False: []}
@@ -264,11 +279,12 @@ class OpenFloorDepth:
                 track.confirmed for track in tracker.tracks
             )
             wall = self._near_walls and not shadow.whole
-            tracker.observe(
+            updated += tracker.observe(
                 [observe_shadow(image, shadow, camera, tracker.tracks)],
                 may_start=may_start and not wall,
                 walked_only=wall,
             )
+        return updated
 
 
 class MappedFloorDepth:
@@ -299,7 +315,7 @@ class MappedFloorDepth:
 
     def take(
         self, image: DepthImage, scene: DepthScene, camera: CameraPose
-    ) -> None:
+    ) -> list[TargetTrack]:
         """Update the map, then the track of the opponent."""
         tracker, time = self._tracker, image.time
         main = self._selection.main(time, *camera.position_torso_in_odometry)
@@ -316,6 +332,7 @@ class MappedFloorDepth:
         )
         blind = image.near + NEAR_MARGIN
         record_misses(tracker, updated, image, camera, blind_distance=blind)
+        return updated
 
 
 class SonarStage:

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from ..core.poses import Array, Pose, wrap_angle
+from ..core.poses import Array, Pose, Sector, wrap_angle
 from ..robots.body_pose import BodyPose
 from .camera_pose import BodyPoseHistory, PoseHistory
 from .floor_map import FloorMap
@@ -92,6 +92,7 @@ class PosedPerception:
         head: HeadControl,
         floor: FloorMap | None = None,
         *,
+        fixed_views: tuple[Sector, ...] = (),
         update_period: float,
     ) -> None:
         """Combine the parts; see :mod:`.perception_builder`.
@@ -103,14 +104,15 @@ class PosedPerception:
             selection: Selection of the target among its tracks.
             head: Motion of the head.
             floor: Map of the floor that the stages fill, if any.
+            fixed_views: Bearings that cameras on the torso show.
             update_period: Longest time between two selections of the target,
                 by tracks predicted to the present, in [s]; 0 for every tick.
         """
         self.poses, self.tracker, self.floor = poses, tracker, floor
-        self.head = head
+        self.head, self._fixed_views = head, fixed_views
         self._stages, self._selection = stages, selection
         self._update_period, self._next_update = update_period, 0.0
-        self._heading = 0.0
+        self._heading, self._watched = 0.0, False
         self.sighting: Sighting | None = None
         self.unnamed: tuple[Sighting, ...] = ()
         self.gaze_target: GazeTarget | None = None
@@ -122,9 +124,14 @@ class PosedPerception:
         return self.poses.latest
 
     @property
+    def views(self) -> tuple[Sector, ...]:
+        """Range of the head, and bearings that cameras on the torso show."""
+        return (Sector(0.0, self.head.reach), *self._fixed_views)
+
+    @property
     def searching(self) -> bool:
-        """Whether the head searches for the opponent."""
-        return self.gaze_target is None
+        """Whether the head searches, and no camera on the torso watches."""
+        return self.gaze_target is None and not self._watched
 
     def see_from(
         self, body: BodyPose, percepts: Sequence[AnyPercept]
@@ -177,6 +184,7 @@ class PosedPerception:
         self._heading = heading
         main = self._selection.main(now, x, y)
         self.sighting = self.gaze_target = None
+        self._watched = main is not None and main.is_watched(now)
         self.unnamed = ()
         if self.head.scans:
             return

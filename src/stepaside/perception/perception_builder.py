@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..core.poses import Array
+from ..core.poses import Array, Sector
 from ..robots.body_pose import BodyKinematics
 from ..robots.description import RobotDescription
 from ..robots.head import HeadDescription, Mount
@@ -69,6 +69,7 @@ def build_perception(
     mapping: FloorMapping | None = None,
     people: bool = False,
     unnamed: int = 0,
+    fixed_views: tuple[Sector, ...] = (),
 ) -> Perception:
     """Build the perception of a robot.
 
@@ -81,6 +82,7 @@ def build_perception(
         people: Whether people, who wear no trim, may approach.
         unnamed: Number of opponents if there are more robots than one
             opponent, which all wear the trim and are not told apart; else 0.
+        fixed_views: Bearings that cameras on the torso show.
     """
     # Walls and obstacles of a map rest, so a robot's motion may be smooth.
     calm = mapping is not None and not people
@@ -129,6 +131,7 @@ def build_perception(
         None if mapping is None else mapping.floor,
         # A person at 1 m/s needs a decision before the next image arrives.
         update_period=0.0 if people else UPDATE_PERIOD,
+        fixed_views=fixed_views,
     )
 
 
@@ -157,7 +160,7 @@ def build_posed_perception(
             TopCameraStage(at_head, detector, tracker, [], near=False),
             BottomCameraStage(at_head, [], tracker),
             DepthCameraStage(
-                at_head, OpenFloorDepth(tracker, near_walls=False)
+                [at_head], OpenFloorDepth(tracker, near_walls=False)
             ),
             SonarStage({}, tracker, selection),
         ),

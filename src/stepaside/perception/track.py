@@ -86,6 +86,8 @@ class TargetTrack:
         observed_at: Time of the last observation, in [s].
         ranged_at: Time of the last measured distance, in [s].
         imaged_at: Time of the last observation by a camera, in [s].
+        watched_at: Time of the last observation by a camera on the torso,
+            in [s].
         observed_since: Start of the observations without a gap, in [s].
         confirmed: Whether enough frames show it.
         height: Largest observed height, in [m].
@@ -103,7 +105,7 @@ class TargetTrack:
         """Start with a first observation and velocity, in [m/s]."""
         self.number, self._acceleration = number, motion.acceleration
         self.has_walked = False
-        self.imaged_at = -inf
+        self.imaged_at = self.watched_at = -inf
         self._first_position: tuple[float, float] | None = None
         self._trail: deque[tuple[float, float, float]] = deque()
         self.time = self.observed_at = self.started_at = first.time
@@ -151,6 +153,14 @@ class TargetTrack:
         if not trail or now - trail[-1][0] > TRAIL:
             return False
         return trail[-1][0] - trail[0][0] >= MIN_SPAN
+
+    def is_watched(self, now: float) -> bool:
+        """Return whether a camera on the torso has just shown it.
+
+        Args:
+            now: Time, in [s].
+        """
+        return now - self.watched_at <= MAX_GAP
 
     def _store_position(self, observation: Observation) -> None:
         """Store a precise position."""
@@ -241,6 +251,7 @@ class TargetTrack:
         self.height = max(self.height, other.height)
         self.has_walked |= other.has_walked
         self.imaged_at = max(self.imaged_at, other.imaged_at)
+        self.watched_at = max(self.watched_at, other.watched_at)
 
     @property
     def is_rejected(self) -> bool:

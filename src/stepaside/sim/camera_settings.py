@@ -8,6 +8,7 @@ from ..core.errors import ConfigurationError, check_within
 from ..core.ranges import Range, check_count
 from ..core.setting import REQUIRED, check_settings, setting
 from ..perception.camera_model import CameraModel
+from ..robots.head import Mount
 
 PIXELS = Range(
     8,
@@ -18,6 +19,7 @@ PIXELS = Range(
 )
 RATE = Range(1.0, 60.0, "1/s", "typical of such sensors")
 LATENCY = Range(0.0, 1.0, "s", "how long a robot stores its poses")
+VIEW = Range(0.1, 2.6, "rad", "a narrow lens; beyond, no flat image")
 QUANTUM = Range(1e-6, 1.0, "m", "from below the noise to useless")
 MAX_OBJECTS = 100  # in a room
 KINDS = ("red box", "blue box", "white figure")
@@ -79,6 +81,8 @@ class DepthSettings:
 
     width: int = setting(80, "Image columns that are used, of 640", PIXELS)
     height: int = setting(60, "Image rows that are used, of 480", PIXELS)
+    across: float = setting(radians(58.0), "Horizontal field of view", VIEW)
+    down: float = setting(radians(45.0), "Vertical field of view", VIEW)
     rate: float = setting(15.0, "Frame rate {unit}; the sensor gives 30", RATE)
     latency: float = setting(
         0.05, "Latency, from exposure to arrival", LATENCY
@@ -117,10 +121,34 @@ class DepthSettings:
         check_within(self.far, self.near, 20.0, "far", "m", ConfigurationError)
 
     def model(self) -> CameraModel:
-        """Return the camera model with the optics of the Xtion."""
+        """Return the camera model with these optics."""
         return CameraModel.of_field_of_view(
-            self.width, self.height, radians(58.0), radians(45.0)
+            self.width, self.height, self.across, self.down
         )
+
+
+@dataclass(frozen=True, slots=True)
+class RearSettings(DepthSettings):
+    """Settings of a RealSense D455 on the evader's torso.
+
+    Rate, latency and noise are those of the camera on the head: the noise
+    that the vendor's formula gives for this camera is the same, too.
+    """
+
+    width: int = setting(106, "Image columns that are used, of 848", PIXELS)
+    height: int = setting(60, "Image rows that are used, of 480", PIXELS)
+    across: float = setting(radians(87.0), "Horizontal field of view", VIEW)
+    down: float = setting(radians(58.0), "Vertical field of view", VIEW)
+    near: float = setting(
+        0.6,
+        "Shortest distance that is measured",
+        Range(0.01, 20.0, "m", "the size of a lens"),
+    )
+    far: float = setting(
+        6.0,
+        "Longest distance that is measured",
+        Range(0.01, 20.0, "m", "from near to the size of a room"),
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -213,6 +241,17 @@ class CameraSettings:
     depth: DepthSettings = setting(
         DepthSettings(), "Depth camera on the evader's head"
     )
+    rear_camera: bool = setting(
+        False,
+        "Whether the evader uses the depth cameras on its torso",
+        option="--rear-camera/--no-rear-camera",
+        option_help="Use the depth cameras that look backward",
+    )
+    rear: RearSettings = setting(
+        RearSettings(),
+        "Depth cameras on the evader's torso",
+        needs=("cameras.rear_camera", ""),
+    )
     sonar: SonarSettings = setting(
         SonarSettings(), "Sonars in the evader's chest"
     )
@@ -232,6 +271,10 @@ class CameraSettings:
     def __post_init__(self) -> None:
         """Check the ranges."""
         check_settings(self)
+
+    def depth_of(self, mount: Mount) -> DepthSettings:
+        """Return the settings of the depth camera on a mount."""
+        return self.rear if mount.on_torso else self.depth
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,6 +17,9 @@ AMBIENT, DIFFUSE = 0.55, 0.45
 TILE = 0.5  # side of a square of the floor, in [m]
 MIN_COSINE = 0.12  # of the incidence angle for a return to depth cameras
 MIN_COSINE_SONAR = 0.5  # of the incidence angle for an echo
+# MuJoCo drops a plane whose origin is beyond the cutoff: a floor would vanish
+# before robots far from the origin of the world.
+UNLIMITED = 1e10  # cutoff, in [m]
 CONE_RAYS = 6  # across the cone of a sonar
 UP = np.array([0.0, 0.0, 1.0])
 
@@ -121,7 +124,7 @@ class DepthCaster:
     def take(self) -> Depths:
         """Return a depth image, in [m]; 0 without return."""
         caster, settings = self._caster, self._settings
-        caster.cast(2.0 * settings.far)
+        caster.cast(UNLIMITED)
         hit = caster.distances > 0.0
         depth = caster.distances * caster.along
         squared = depth**2

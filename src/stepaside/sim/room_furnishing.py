@@ -1,6 +1,7 @@
 """Walls, objects and robot-mounted cameras of a simulated room."""
 
 from collections.abc import Callable, Sequence
+from math import atan2, cos, sin
 
 import mujoco
 import numpy as np
@@ -37,6 +38,7 @@ def furnisher(
     *,
     walls: float,
     housings: Sequence[str] = (),
+    rear: bool = False,
     upper: Sequence[str] = (),
     lower: Sequence[str] = (),
 ) -> Furnish:
@@ -46,7 +48,8 @@ def furnisher(
         room: Scene with the objects.
         head: Description of the heads of the robots.
         walls: Distance of the walls from the origin, in [m]; 0 for none.
-        housings: Names of robots that carry a depth camera.
+        housings: Names of robots that carry depth cameras.
+        rear: Whether these have cameras on the torso, too.
         upper: Names of robots that use the top camera of their heads; it is
             added to models without one.
         lower: Names of robots that use the bottom camera.
@@ -61,7 +64,11 @@ def furnisher(
             )
             _add_thing(body, thing.kind)
         for name in housings:
-            _add_housing(spec, name, head)
+            for mount, size in zip(
+                head.depth_mounts(rear=rear), head.housings, strict=False
+            ):
+                body = spec.body(f"{name}/{head.body_of(mount)}")
+                _add_housing(body, mount, size)
         for name in upper:
             if spec.camera(f"{name}/{head.camera}") is None:
                 _add_camera(spec, name, head, head.camera, head.top)
@@ -158,15 +165,18 @@ def _add_thing(body: mujoco.MjsBody, kind: str) -> None:
 
 
 def _add_housing(
-    spec: mujoco.MjSpec, wearer: str, head: HeadDescription
+    body: mujoco.MjsBody, mount: Mount, size: tuple[float, float, float]
 ) -> None:
-    """Add the massless housing of the depth camera to a head."""
-    depth, width, height = head.housing
-    x, y, z = head.depth.position_in_body.tolist()
-    spec.body(f"{wearer}/{head.body}").add_geom(
+    """Add the massless housing of a depth camera to its body."""
+    depth, width, height = size
+    x, y, z = mount.position_in_body.tolist()
+    forward = mount.axes_in_body[:, 0]
+    yaw = atan2(forward[1], forward[0])
+    body.add_geom(
         type=mujoco.mjtGeom.mjGEOM_BOX,
         # The mount is at the front face of the housing.
-        pos=[x - 0.5 * depth, y, z],
+        pos=[x - 0.5 * depth * cos(yaw), y - 0.5 * depth * sin(yaw), z],
+        quat=[cos(0.5 * yaw), 0.0, 0.0, sin(0.5 * yaw)],
         size=[0.5 * depth, 0.5 * width, 0.5 * height],
         rgba=[0.1, 0.1, 0.1, 1.0],
         group=2,

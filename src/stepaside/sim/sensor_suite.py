@@ -7,6 +7,7 @@ from math import atan, hypot
 import cv2
 import numpy as np
 
+from ..core.poses import Array
 from ..core.random_streams import named_generator
 from ..perception.camera_model import CameraModel
 from ..perception.images import (
@@ -72,17 +73,17 @@ class SensorSuite:
         self._looks_low = looks_low
         self._world, self._name = world, name
         self._settings, self._seed = settings, seed
-        self._head = head = load_head(description)
+        self._head = load_head(description)
         self._renderer = renderer
         self.exposed: list[Percept] = []
         self._due = 0.0
         camera = settings.colour.model()
         self.camera = _reduced(camera) if renderer is None else camera
-        body = f"{name}/{head.body}"
-        self._streams = [self._colour(body)]
+        self._streams = [self._colour()]
         if with_depth:
-            self._streams.append(self._depth(body))
-            self._streams += self._sonars(f"{name}/{description.torso}")
+            used = self._head.depth_mounts(rear=settings.rear_camera)
+            self._streams += map(self._depth, range(len(used)), used)
+            self._streams += self._sonars()
 
     def read(self, now: float) -> tuple[Percept, ...]:
         """Return the percepts that arrive at a tick."""
@@ -99,6 +100,13 @@ class SensorSuite:
         """Release the graphics context, if any."""
         if self._renderer is not None:
             self._renderer.close()
+
+    def _caster(self, mount: Mount, rays: Array) -> RayCaster:
+        """Return a caster of rays in the frame of a mount. Shape (n, 3)."""
+        body = f"{self._name}/{self._head.body_of(mount)}"
+        return RayCaster(
+            self._world.model, self._world.data, body, mount, rays
+        )
 
     def _generator(self, purpose: str) -> np.random.Generator:
         return named_generator(self._seed, f"eyes/{self._name}/{purpose}")
@@ -122,13 +130,13 @@ class SensorSuite:
             deque(),
         )
 
-    def _colour(self, body: str) -> SensorStream[Percept]:
+    def _colour(self) -> SensorStream[Percept]:
         settings, camera = self._settings.colour, self.camera
         head, low = self._head, self._looks_low
-        upper = self._pixels(body, head.top, head.camera)
+        upper = self._pixels(head.top, head.camera)
         lower = None
         if low is not None and head.bottom is not None:
-            lower = self._pixels(body, head.bottom, LOWER)
+            lower = self._pixels(head.bottom, LOWER)
         noise = ImageNoise(camera, settings.noise, self._generator("grain"))
 
         def take(now: float) -> Percept:
@@ -138,21 +146,17 @@ class SensorSuite:
 
         return self._stream("colour", take, settings.rate, settings.latency)
 
-    def _pixels(
-        self, body: str, mount: Mount, name: str
-    ) -> Callable[[], Pixels]:
+    def _pixels(self, mount: Mount, name: str) -> Callable[[], Pixels]:
         """Return the function that takes images of one camera of the head.
 
         Args:
-            body: Name of the head body.
             mount: Mount of the camera on the head.
             name: Name of the camera in the model.
         """
         model, data, camera = self._world.model, self._world.data, self.camera
         screen = self._renderer
         if screen is None:
-            rays = camera.rays().reshape(-1, 3)
-            caster = RayCaster(model, data, body, mount, rays)
+            caster = self._caster(mount, camera.rays().reshape(-1, 3))
             return ColourCaster(model, caster, camera).take
         number = model.camera(f"{self._name}/{name}").id
         vertical = 2.0 * np.arctan(0.5 * camera.height / camera.focal_y)
@@ -169,28 +173,27 @@ class SensorSuite:
 
         return draw
 
-    def _depth(self, body: str) -> SensorStream[Percept]:
-        world, settings = self._world, self._settings.depth
-        camera = settings.model()
-        rays = camera.rays().reshape(-1, 3)
-        mount = self._head.depth
-        caster = RayCaster(world.model, world.data, body, mount, rays)
-        generator = self._generator("depth")
+    def _depth(self, number: int, mount: Mount) -> SensorStream[Percept]:
+        """Return the stream of a depth camera."""
+        settings = self._settings.depth_of(mount)
+        camera, name = settings.model(), f"depth {number}".removesuffix(" 0")
+        caster = self._caster(mount, camera.rays().reshape(-1, 3))
+        generator = self._generator(name)
         depth_caster = DepthCaster(caster, camera, settings, generator)
+        near, far = settings.near, settings.far
 
         def take(now: float) -> Percept:
             return DepthImage(
-                now, camera, depth_caster.take(), settings.near, settings.far
+                now, camera, depth_caster.take(), near, far, number
             )
 
-        return self._stream("depth", take, settings.rate, settings.latency)
+        return self._stream(name, take, settings.rate, settings.latency)
 
-    def _sonars(self, torso: str) -> list[SensorStream[Percept]]:
-        world, settings = self._world, self._settings.sonar
+    def _sonars(self) -> list[SensorStream[Percept]]:
+        settings = self._settings.sonar
         streams = []
         for key, mount in self._head.sonars.items():
-            rays = cone(settings.cone)
-            caster = RayCaster(world.model, world.data, torso, mount, rays)
+            caster = self._caster(mount, cone(settings.cone))
             generator = self._generator(f"sonar {key}")
             sonar_caster = SonarCaster(caster, settings, generator)
 

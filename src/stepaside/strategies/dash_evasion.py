@@ -12,7 +12,7 @@ from ..core.errors import (
     check_positive,
     check_within,
 )
-from ..core.poses import Array, Pose, wrap_angle
+from ..core.poses import ALL_AROUND, Array, Pose, Sector, wrap_angle
 from .dash_rollouts import (
     STEP,
     Dashes,
@@ -172,7 +172,7 @@ class DashEvasion(BackwardStrategy):
             velocities,
             opponent,
             memory.angle,
-            knowledge.limits.view,
+            knowledge.limits.views,
         )
         if angle is None:
             return STAND, stands._replace(compared=now)
@@ -203,7 +203,7 @@ class DashEvasion(BackwardStrategy):
         velocities: VelocitySet,
         opponent: Opponent,
         present: float | None,
-        view: float,
+        views: tuple[Sector, ...],
     ) -> tuple[float | None, float]:
         """Return angle and body heading of the best dash.
 
@@ -213,13 +213,13 @@ class DashEvasion(BackwardStrategy):
             velocities: Velocities that the legs deliver.
             opponent: The opponent.
             present: Angle of the present dash; None while the robot stands.
-            view: Greatest bearing at which the opponent is seen, in [rad].
+            views: Bearings at which the opponent is seen.
 
         Returns:
             Angle and heading in the map, in [rad]; no angle if it is best to
             stand, for now or all the time.
         """
-        looks = view < pi
+        looks = views != ALL_AROUND
         dashes = make_dashes(
             self.directions, pose, velocities, LATER, both_ends=looks
         )
@@ -230,7 +230,7 @@ class DashEvasion(BackwardStrategy):
             times = np.arange(0.0, self.contact_time, STEP)[:, None]
             headings = headings_at(times, pose, dashes, velocities)
             value -= UNSEEN * unseen_shares(
-                paths[: len(times)], headings, opponent, view
+                paths[: len(times)], headings, opponent, views
             )
         best = int(np.argmax(value))
         if dashes.begins[best] > 0.0:

@@ -1,6 +1,6 @@
 """Rollouts of straight dashes against behaviours of an opponent."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
 from math import cos, pi, sin
@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.compilation import compiled
-from ..core.poses import Array, Pose, wrap_angles
+from ..core.poses import Array, Pose, Sector, in_sectors, wrap_angles
 from .velocity_set import BodyVelocity, VelocitySet, response_share
 
 STEP = 0.1  # of a rollout, in [s]
@@ -186,7 +186,10 @@ def headings_at(
 
 
 def unseen_shares(
-    paths: Array, headings: Array, opponent: Opponent, view: float
+    paths: Array,
+    headings: Array,
+    opponent: Opponent,
+    views: Sequence[Sector],
 ) -> Array:
     """Return the share of time for which an opponent is out of view.
 
@@ -196,7 +199,7 @@ def unseen_shares(
         paths: Positions of the robot, in [m]. Shape (m, n, 2).
         headings: Its headings, in [rad]. Shape (m, n).
         opponent: Opponent at first.
-        view: Greatest bearing at which it is seen, in [rad].
+        views: Bearings at which it is seen.
 
     Returns:
         Shape (n,).
@@ -204,8 +207,8 @@ def unseen_shares(
     way = STEP * opponent.speed * np.arange(len(paths))[:, None]
     x = opponent.x + way * cos(opponent.course) - paths[..., 0]
     y = opponent.y + way * sin(opponent.course) - paths[..., 1]
-    bearings = wrap_angles(np.arctan2(y, x) - headings)
-    shares: Array = np.mean(np.abs(bearings) > view, axis=0)
+    seen = in_sectors(views, np.arctan2(y, x) - headings)
+    shares: Array = np.mean(~seen, axis=0)
     return shares
 
 

@@ -1,7 +1,7 @@
 """Input and output of a decision: knowledge and intent of a player."""
 
 from dataclasses import dataclass, replace
-from math import atan2, cos, hypot, pi, sin
+from math import atan2, cos, hypot, sin
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from ..core.errors import (
     shown,
 )
 from ..core.player_identity import PlayerIdentity
-from ..core.poses import Pose
+from ..core.poses import ALL_AROUND, Pose, Sector
 from ..planning import GaitSettings
 from ..planning.gait_settings import stride_share
 from .velocity_set import STILL, BodyVelocity, VelocitySet
@@ -37,7 +37,7 @@ class Limits:
         outer_stride: Longest stride of the outer foot in a turn, in [m]; None
             for any.
         foot_spacing: Coronal distance between the feet, in [m].
-        view: Greatest bearing at which the robot sees others, in [rad].
+        views: Bearings at which the robot sees others.
     """
 
     speed: float
@@ -47,7 +47,7 @@ class Limits:
     velocities: VelocitySet | None = None
     outer_stride: float | None = None
     foot_spacing: float = 0.0
-    view: float = pi
+    views: tuple[Sector, ...] = ALL_AROUND
 
     def stride_share(self, turn: float) -> float:
         """Return the fraction of the stride that a turn allows.
@@ -63,14 +63,14 @@ class Limits:
 def limits_of(
     gait: GaitSettings,
     velocities: VelocitySet | None = None,
-    view: float = pi,
+    views: tuple[Sector, ...] = ALL_AROUND,
 ) -> Limits:
     """Return the limits of a gait.
 
     Args:
         gait: Gait of a walker, or template of legs.
         velocities: Velocities that the legs deliver; None for a unicycle.
-        view: Greatest bearing at which the robot sees others, in [rad].
+        views: Bearings at which the robot sees others.
     """
     return Limits(
         gait.speed,
@@ -80,7 +80,7 @@ def limits_of(
         velocities,
         gait.outer_stride,
         gait.foot_spacing,
-        view,
+        views,
     )
 
 

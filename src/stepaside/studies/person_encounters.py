@@ -17,6 +17,7 @@ from ..games.robot_settings import with_legs
 from ..games.run import DuelRun
 from ..games.walk_settings import WalkSettings
 from ..locomotion.policy.legs_settings import LegsSettings
+from ..sim.camera_settings import CameraSettings
 from ..sim.crowd_motion import REACTIONS
 from ..sim.person_settings import PersonSettings
 from ..strategies import DashEvasion, Evasion
@@ -41,6 +42,7 @@ TURNS_AT = 1.6  # likewise at which they turn towards it
 TURNING_OFFSET = 1.2  # of the path of people before they turn, in [m]
 NO_LEGS = LegsSettings()
 NO_SHIELD = ShieldSettings()
+CAMERAS = CameraSettings()
 PASSING = 1.0  # least offset of people who only pass, in [m]
 STANDING = 1.5  # time before a person can trigger evasion, in [s]
 WALL_CLEARANCE = 4.0  # from the person to the walls with cameras, in [m]
@@ -149,6 +151,7 @@ def base_settings(
     legs: LegsSettings = NO_LEGS,
     strategy: str = "",
     shield: ShieldSettings = NO_SHIELD,
+    cameras: CameraSettings = CAMERAS,
 ) -> DuelSettings:
     """Return the game settings of a campaign.
 
@@ -157,6 +160,7 @@ def base_settings(
         legs: Walking policy; with one the robot steps aside.
         strategy: Strategy of the robot; by default that for its legs.
         shield: Shield of the robot.
+        cameras: Its cameras, with the sensing of cameras.
     """
     base = DuelSettings(
         robot=walk.robot,
@@ -167,6 +171,7 @@ def base_settings(
         pursuer="person",
         strategy=Evasion(trigger="time"),
         shield=shield,
+        cameras=cameras,
     )
     if legs.walks:
         base = replace(

@@ -13,6 +13,17 @@ from .markdown import counted, number, table
 MILLISECONDS = 1e3  # per second
 
 
+def seen_by(settings: Mapping[str, Any], sensing: str) -> str:
+    """Return the sensors of a result in words.
+
+    Args:
+        settings: Settings of the result.
+        sensing: Kind of sensing.
+    """
+    rear = settings.get("rear_camera", False)
+    return "cameras all around" if rear else sensing
+
+
 def body_of(settings: Mapping[str, Any]) -> str:
     """Return the body of a campaign: its preset, another delay, sensors.
 
@@ -28,7 +39,8 @@ def body_of(settings: Mapping[str, Any]) -> str:
         words.append(f"delay {delay:g} ms")
     (sensing,) = settings["sensings"]
     if sensing != "ideal":
-        words.append(f"{changes['robot'].upper()} with {sensing}")
+        robot = changes["robot"].upper()
+        words.append(f"{robot} with {seen_by(settings, sensing)}")
     return ", ".join(words)
 
 
@@ -91,7 +103,7 @@ def chasers(*results: Mapping[str, Any]) -> str:
             rows.append(
                 (
                     result["settings"]["robot"].upper(),
-                    result["settings"]["sensing"],
+                    seen_by(result["settings"], result["settings"]["sensing"]),
                     "feints" if feints else "steers",
                     f"{radius:g}",
                     number(result["closed_form_m"][f"{radius:g}"], 2),

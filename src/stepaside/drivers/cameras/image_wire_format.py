@@ -3,10 +3,11 @@
 A message is a little-endian header of 52 bytes followed by the pixels. The
 header holds four letters for the format (``RGB8``: rows of red, green and
 blue, one byte each; ``DPTH``: rows of depths in [m], float32, 0 without an
-echo), the number of the sensor frame with which the image arrived (uint32),
-its age then in [s] (float64), columns and rows (uint16 each), the
-horizontal and vertical focal lengths in [px], and the minimum and maximum
-depth in [m] (float64 each; 0 for colours).
+echo; ``DPT1`` to ``DPT9``: the same of further cameras), the number of the
+sensor frame with which the image arrived (uint32), its age then in [s]
+(float64), columns and rows (uint16 each), the horizontal and vertical focal
+lengths in [px], and the minimum and maximum depth in [m] (float64 each; 0 for
+colours).
 """
 
 import struct
@@ -20,8 +21,9 @@ from ...perception.camera_model import CameraModel
 from ...perception.images import ColourImage, DepthImage
 
 HEADER = struct.Struct("<4sIdHHdddd")
-COLOUR, DEPTH = b"RGB8", b"DPTH"
-PIXEL_BYTES = {COLOUR: 3, DEPTH: 4}
+COLOUR = b"RGB8"
+DEPTH = (b"DPTH", *(b"DPT%d" % i for i in range(1, 10)))  # by the camera
+PIXEL_BYTES = {COLOUR: 3} | dict.fromkeys(DEPTH, 4)
 MAX_AGE = 10.0  # age of an image that is accepted, in [s]
 SIZES = (8, 4096)  # range of columns and rows, in [px]
 MAX_BYTES = 1 << 23  # size of one image
@@ -53,7 +55,10 @@ def pack_image(message: ImageMessage) -> bytes:
     if isinstance(image, ColourImage):
         letters, data = COLOUR, image.pixels.tobytes()
     else:
-        letters, data = DEPTH, image.depths.astype("<f4").tobytes()
+        letters, data = (
+            DEPTH[image.number],
+            image.depths.astype("<f4").tobytes(),
+        )
         near, far = image.near, image.far
     header = HEADER.pack(
         letters,
@@ -105,7 +110,8 @@ def _payload_size(
     letters, _, age, width, height, *numbers = header
     low, high = SIZES
     if letters not in PIXEL_BYTES:
-        raise ImageError(f"an image must begin with {COLOUR!r} or {DEPTH!r}")
+        known = ", ".join(map(repr, PIXEL_BYTES))
+        raise ImageError(f"an image must begin with one of {known}")
     if not (low <= width <= high and low <= height <= high):
         raise ImageError(
             f"width and height must lie in [{low}, {high}] px, got {width} "
@@ -143,5 +149,6 @@ def _message(
     depths = np.frombuffer(data, "<f4").reshape(height, width)
     if not np.all(np.isfinite(depths)):
         raise ImageError("depths must be finite")
-    image = DepthImage(0.0, camera, depths.astype(np.float32), near, far)
+    taken, number = depths.astype(np.float32), DEPTH.index(letters)
+    image = DepthImage(0.0, camera, taken, near, far, number)
     return ImageMessage(frame, age, image)

@@ -14,6 +14,7 @@ from ...core.poses import Array, Pose
 from ...games.replayed_signals import RobotSignals
 from ...perception.images import ColourImage
 from ...planning.gait_settings import SoleRectangle
+from ...robots.head import depth_camera_name
 from ...robots.urdf_elements import IMU, OPTICAL
 from ..landed_footsteps import landed_footsteps
 from ..palette import colours_in
@@ -405,7 +406,8 @@ class PlayerTopics:
                 kind = "sensor_msgs/msg/CompressedImage"
                 topic = self._topic(f"{name}/image_raw/compressed")
             else:
-                name, kind = "depth_camera", "sensor_msgs/msg/Image"
+                name = depth_camera_name(image.number)
+                kind = "sensor_msgs/msg/Image"
                 topic = self._topic(f"{name}/image_raw")
             header = make.header(image.time, self._frame(name + OPTICAL))
             message = (

@@ -139,8 +139,7 @@ class PlotHistory:
             if player.begun is not None:
                 self._note_step(player, player.begun)
             for report in player.reports:
-                camera = type(report.image).__name__.removesuffix("Image")
-                self.frames[f"{player.name}, {camera.lower()}"] = report
+                self.frames[f"{player.name}, {report.camera}"] = report
 
     def ended(self, match: Match, outcome: Outcome) -> None:
         """Do nothing."""
