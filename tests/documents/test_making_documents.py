@@ -281,13 +281,16 @@ def test_people_around_learned_legs_are_counted_by_body() -> None:
     moved = json.dumps({"body": body, "robot": "t1"})
     sees = {"changes": moved, "sensings": ["lidar"]}
     seeing = {"settings": ideal | sees}
-    results = plain | rows, own | rows, seeing | rows
+    both = {"sensings": ["cameras"], "rear_camera": True}
+    behind = {"settings": ideal | sees | both}
+    results = plain | rows, own | rows, seeing | rows, behind | rows
     for name in ("legs-people", "legs-passers-by"):
         made = TABLES[name](*results).splitlines()
         assert made[2].startswith("| ideal |")
         assert made[3].startswith("| hardware, delay 12 ms |")
         assert counted(1, 12) in made[3]
         assert made[4].startswith("| hardware, delay 12 ms, T1 with lidar |")
+        assert ", T1 with cameras ahead and behind |" in made[5]
     chases = [
         {
             **{"turning_radius_m": 4.0, "feints": False, "outcome": outcome},

@@ -21,7 +21,7 @@ def seen_by(settings: Mapping[str, Any], sensing: str) -> str:
         sensing: Kind of sensing.
     """
     rear = settings.get("rear_camera", False)
-    return "cameras all around" if rear else sensing
+    return "cameras ahead and behind" if rear else sensing
 
 
 def body_of(settings: Mapping[str, Any]) -> str:
