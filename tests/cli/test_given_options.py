@@ -352,6 +352,7 @@ def test_invalid_settings_are_refused_in_one_line(
         ),
         ("robustness --kind push --sensing cameras", "requires --kind person"),
         ("robustness --kind push --rear-camera", "requires --kind person"),
+        ("robustness --depth-camera d455", "requires --kind person"),
         (
             "robustness --kind person --sensing lidar --rear-camera",
             "--rear-camera requires --sensing cameras",

@@ -1,6 +1,6 @@
 """Test the ranges of sensors and scenes."""
 
-from math import degrees, inf, nan
+from math import degrees, inf, nan, radians
 from typing import Any
 
 import numpy as np
@@ -11,13 +11,16 @@ from stepaside.core.setting import ranges_of
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.sim.camera_settings import (
     CLUTTER,
+    DEPTH_CAMERAS,
     KINDS,
     CameraSettings,
     ColourSettings,
     DepthSettings,
+    RearSettings,
     RoomObject,
     SceneSettings,
     SonarSettings,
+    depth_camera_of,
 )
 from stepaside.sim.person_settings import PersonSettings
 
@@ -137,8 +140,14 @@ def test_default_sensors_are_those_of_the_documents() -> None:
     assert ColourSettings() == ColourSettings(
         "v5", 320, 240, 15.0, 0.05, 4.0, "auto"
     )
+    errors = 0.0019, 0.00285, 0.02
     assert DepthSettings() == DepthSettings(
-        80, 60, 15.0, 0.05, 0.8, 3.5, 0.0019, 0.00285, 0.02
+        *(80, 60, radians(58.0), radians(45.0)),
+        *(15.0, 0.05, 0.8, 3.5, *errors),
+    )
+    assert RearSettings() == RearSettings(
+        *(106, 60, radians(87.0), radians(58.0)),
+        *(15.0, 0.05, 0.6, 6.0, *errors),
     )
     sonar = SonarSettings()
     assert (sonar.rate, sonar.near, sonar.far) == (10.0, 0.2, 0.8)
@@ -158,3 +167,20 @@ def test_clutter_has_its_documented_positions() -> None:
     assert places["blue box"] == (-1.6, -2.0)
     assert places["white figure"] == (3.2, -1.8)
     assert min(np.hypot(x, y) for x, y in places.values()) > 2.5
+
+
+def test_depth_cameras_of_a_head_have_names() -> None:
+    d455 = DEPTH_CAMERAS["d455"]
+    assert (d455.near, d455.far) == (0.6, 6.0)
+    assert type(d455) is DepthSettings  # as a configuration file makes it
+    assert depth_camera_of(CameraSettings()) == ""
+    assert depth_camera_of(CameraSettings(depth=d455)) == "d455"
+    own = CameraSettings(depth=DepthSettings(far=3.0))
+    assert depth_camera_of(own) == ""
+
+
+def test_a_rear_camera_is_checked_like_the_one_on_the_head() -> None:
+    with pytest.raises(ConfigurationError, match=r"far must lie in \[3"):
+        RearSettings(near=3.0, far=2.0)
+    with pytest.raises(ConfigurationError, match="across must lie"):
+        RearSettings(across=3.0)

@@ -32,6 +32,11 @@ from stepaside.games.robot_settings import with_legs, with_robot
 from stepaside.locomotion.policy.legs_loader import load_legs
 from stepaside.locomotion.policy.legs_settings import LegsSettings
 from stepaside.robots.description import load_robot
+from stepaside.sim.camera_settings import (
+    DEPTH_CAMERAS,
+    CameraSettings,
+    depth_camera_of,
+)
 from stepaside.sim.person_settings import PersonSettings
 from stepaside.studies.code_version import PHYSICS
 from stepaside.studies.result_files import header, write_result
@@ -59,7 +64,7 @@ class Chase:
         robot: Folder of the robot.
         network: File of its policy.
         sensing: Sensing of the robot.
-        rear: Whether it has a depth camera that looks backward.
+        cameras: Its cameras, with the sensing of cameras.
         radius: Smallest turning radius of the person, in [m].
         direction: Number of the direction that the person comes from.
         feints: Whether the person feints.
@@ -71,7 +76,7 @@ class Chase:
     robot: str
     network: str
     sensing: str
-    rear: bool
+    cameras: CameraSettings
     radius: float
     direction: int
     feints: bool
@@ -84,7 +89,7 @@ class Chase:
         return replace(
             base,
             sensing=self.sensing,
-            cameras=replace(base.cameras, rear_camera=self.rear),
+            cameras=self.cameras,
             person=PersonSettings(
                 "steer",
                 SPEED,
@@ -164,14 +169,18 @@ def main() -> None:
         lambda given: (
             "legs-chasers.json"
             if given.sensing == "ideal"
-            else f"legs-chasers-{'two-' * given.rear_camera}"
-            f"{given.sensing}.json"
+            else f"legs-chasers-{'rear-' * given.rear_camera}"
+            f"{given.sensing}"
+            f"{'' if given.depth_camera == 'xtion' else '-d455'}.json"
         ),
     )
     parser.add_argument("robot", type=Path)
     parser.add_argument("network", type=Path)
     parser.add_argument("--sensing", choices=SENSING, default="ideal")
     parser.add_argument("--rear-camera", action="store_true")
+    parser.add_argument(
+        "--depth-camera", choices=DEPTH_CAMERAS, default="xtion"
+    )
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--like", type=Path, help="earlier results")
     parser.add_argument("--people", choices=PEOPLE, nargs="+", default=PEOPLE)
@@ -179,12 +188,20 @@ def main() -> None:
     asked = parser.parse_args()
     if asked.rear_camera and asked.sensing != "cameras":
         parser.error("--rear-camera requires --sensing cameras")
+    cameras = CameraSettings(
+        depth=DEPTH_CAMERAS[asked.depth_camera],
+        rear_camera=asked.rear_camera,
+    )
+    chosen = {
+        "depth_camera": depth_camera_of(cameras),
+        "rear_camera": cameras.rear_camera,
+    }
     head = header(
         {
             "robot": asked.robot.name,
             "network": asked.network.name,
             "sensing": asked.sensing,
-            **({"rear_camera": True} if asked.rear_camera else {}),
+            **{name: value for name, value in chosen.items() if value},
             "speed_m_s": SPEED,
             "directions": DIRECTIONS,
             "duration_s": DURATION,
@@ -193,8 +210,7 @@ def main() -> None:
         },
         modules=PHYSICS,
     )
-    rear = asked.rear_camera
-    where = str(asked.robot), str(asked.network), asked.sensing, rear
+    where = str(asked.robot), str(asked.network), asked.sensing, cameras
     known = {}
     if asked.like is not None:
         earlier = json.loads(asked.like.read_text(encoding="utf-8"))

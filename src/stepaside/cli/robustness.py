@@ -9,7 +9,7 @@ import click
 
 from ..games.duel_settings import SENSING
 from ..games.walk_settings import WalkSettings
-from ..sim.camera_settings import CameraSettings
+from ..sim.camera_settings import CameraSettings, depth_camera_of
 from ..strategies.shield_settings import ShieldSettings
 from .campaign_options import CampaignOptions, campaign_options
 from .options.common_options import (
@@ -254,6 +254,7 @@ def robustness(
                 "strategy",
                 "reactions",
                 "people",
+                "depth",
                 "rear_camera",
             },
             f"--kind {PERSON}",
@@ -263,7 +264,7 @@ def robustness(
         if len(_unique(sensings)) > 1:
             raise click.UsageError("--people takes one --sensing")
     if "cameras" not in sensings:
-        refuse_options({"rear_camera"}, "--sensing cameras")
+        refuse_options({"depth", "rear_camera"}, "--sensing cameras")
     if "push" not in kinds:
         refuse_options({"phases"}, "--kind push")
     body, changes = changes_of(settings)
@@ -335,6 +336,7 @@ def _description_of(
         "shield": shield,
         "reactions": met.reactions,
         "people": met.number,
+        "depth_camera": depth_camera_of(met.cameras),
         "rear_camera": met.cameras.rear_camera,
         "changes": changes,
     }

@@ -1,6 +1,6 @@
 """Settings of cameras and sonars, and of the scene around the robots."""
 
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from math import radians
 
 from ..arena import Room
@@ -151,6 +151,13 @@ class RearSettings(DepthSettings):
     )
 
 
+# Depth cameras for a head, by name.
+DEPTH_CAMERAS = {
+    "xtion": DepthSettings(),
+    "d455": DepthSettings(**asdict(RearSettings())),
+}
+
+
 @dataclass(frozen=True, slots=True)
 class SonarSettings:
     """Settings of NAO's sonars, V5 and V6."""
@@ -239,7 +246,10 @@ class CameraSettings:
         ColourSettings(), "Top camera in the head of each robot"
     )
     depth: DepthSettings = setting(
-        DepthSettings(), "Depth camera on the evader's head"
+        DepthSettings(),
+        "Depth camera on the evader's head",
+        presets=DEPTH_CAMERAS,
+        option="--depth-camera",
     )
     rear_camera: bool = setting(
         False,
@@ -275,6 +285,14 @@ class CameraSettings:
     def depth_of(self, mount: Mount) -> DepthSettings:
         """Return the settings of the depth camera on a mount."""
         return self.rear if mount.on_torso else self.depth
+
+
+def depth_camera_of(cameras: CameraSettings) -> str:
+    """Return the name of the depth camera on the head; empty if default."""
+    names = {
+        name for name, own in DEPTH_CAMERAS.items() if own == cameras.depth
+    }
+    return "" if cameras.depth == DepthSettings() else "".join(names)
 
 
 @dataclass(frozen=True, slots=True)

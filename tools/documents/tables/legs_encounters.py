@@ -21,7 +21,9 @@ def seen_by(settings: Mapping[str, Any], sensing: str) -> str:
         sensing: Kind of sensing.
     """
     rear = settings.get("rear_camera", False)
-    return "cameras ahead and behind" if rear else sensing
+    words = "cameras ahead and behind" if rear else sensing
+    camera = settings.get("depth_camera", "")
+    return f"{words} ({camera.upper()})" if camera else words
 
 
 def body_of(settings: Mapping[str, Any]) -> str:
