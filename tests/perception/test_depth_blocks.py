@@ -225,6 +225,13 @@ def test_only_floor_within_the_range_can_be_hidden() -> None:
     assert [len(shadows) for shadows in seen] == [0, 1]
 
 
+def test_floor_at_grazing_incidence_hides_nothing() -> None:
+    """From 0.3 m, floor beyond 2 m, within the range, returns nothing."""
+    grazing, steep = (37, 41, 10, 70, 0.0), (41, 45, 10, 70, 0.0)
+    seen = [draw(block, height=0.3).shadows for block in (grazing, steep)]
+    assert [len(shadows) for shadows in seen] == [0, 1]
+
+
 def test_few_pixels_without_return_are_no_shadow() -> None:
     for scale in (1, 2):
         for columns, shadows in ((8, 1), (7, 0)):

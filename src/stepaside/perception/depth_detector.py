@@ -71,6 +71,9 @@ MAX_LEG_WIDTH = 0.25  # in [m]
 MAX_LEG_GAP = 0.45  # between the legs of one person, in [m]
 MAX_SHADOW_GAP = 0.25  # between parts of one near object, as legs, in [rad]
 MIN_SHADOW_AREA = 24  # pixels without return, at 80 columns
+# Sine of a ray's slope from which floor returns: depth cameras measure up to
+# an incidence of about 83 degrees; the tilt may be wrong by 1.5 degrees.
+MIN_SLOPE = 0.15
 
 
 class DepthComponent(NamedTuple):
@@ -337,6 +340,7 @@ def _shadows(
             down > 1e-6, camera.position_in_odometry[2] / down, np.inf
         )
     expected = (floor > 1.1 * image.near) & (floor < 0.85 * image.far)
+    expected &= down > MIN_SLOPE * np.linalg.norm(rays, axis=-1)
     no_return = (expected & (depths == 0.0)).astype(np.uint8)
     no_return = np.asarray(
         cv2.morphologyEx(no_return, cv2.MORPH_OPEN, np.ones((3, 3), np.uint8)),
