@@ -198,6 +198,16 @@ def angle(column: int) -> float:
     return float(np.arctan((39.5 - column) / ACROSS))
 
 
+def test_an_arm_that_is_nearer_does_not_shift_a_person() -> None:
+    """A sixth of the pixels, 0.2 m before the rest of a body."""
+    body, arm = (0, 40, 34, 46, 1.5), (10, 30, 38, 42, 1.3)
+    for blocks, nearest in (([body], 1.5), ([body, arm], 1.3)):
+        (person,) = draw(*blocks).obstacles
+        assert person.height > 1.0
+        assert person.nearest == pytest.approx(nearest, abs=0.03)
+        assert person.x_in_odometry == pytest.approx(0.3 + 1.625, abs=0.04)
+
+
 @pytest.mark.parametrize("yaw", [0.0, 1.0, 3.1, -3.1])
 def test_a_shadow_is_as_wide_as_the_hidden_floor(yaw: float) -> None:
     scene = draw((43, 60, 10, 20, 0.0), (43, 60, 50, 70, 0.0), yaw=yaw)

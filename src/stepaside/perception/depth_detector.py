@@ -67,6 +67,10 @@ MIN_HEIGHT = 0.15  # of an obstacle, in [m]
 TRUSTED = 0.95  # fraction of the far limit within which depth is complete
 WHOLE_BEYOND = 2.0  # farther obstacles must not be cut by an edge, in [m]
 TRUNCATED = 0.12  # beyond the near limit: part may be nearer, in [m]
+TALL = 0.75  # height beyond which an obstacle may be a person, in [m]
+# By which a tenth of a body is nearer than a quarter of it, as seen from
+# ahead, in [m]; more is an arm, which is 0.1 m nearer from the side.
+ROUNDNESS = 0.02
 MAX_LEG_WIDTH = 0.25  # in [m]
 MAX_LEG_GAP = 0.45  # between the legs of one person, in [m]
 MAX_SHADOW_GAP = 0.25  # between parts of one near object, as legs, in [rad]
@@ -315,7 +319,11 @@ def _measure(
     azimuth = 0.5 * (low + high)
     width = nearest * (high - low)
     columns = np.flatnonzero(part.any(axis=0))
-    reach = nearest + min(max(0.5 * width, 0.11), 0.16)
+    height = float(points[:, 2].max())
+    front = nearest
+    if height > TALL:
+        front = max(front, float(np.quantile(distances, 0.25)) - ROUNDNESS)
+    reach = front + min(max(0.5 * width, 0.11), 0.16)
     bearing = heading + azimuth
     return DetectedObstacle(
         float(eye[0] + reach * np.cos(bearing)),
@@ -324,7 +332,7 @@ def _measure(
         bearing,
         azimuth,
         width,
-        float(points[:, 2].max()),
+        height,
         bool(columns[0] > 0 and columns[-1] < part.shape[1] - 1),
         bool(part[:2].any()),
     )
