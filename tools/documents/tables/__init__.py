@@ -104,6 +104,7 @@ TABLES: dict[str, Callable[..., str]] = {
     "stops": stopping.stops,
     "survivors": mutation.survivors,
     "viewer": viewer.figures,
+    "warp": benchmark.warp,
     "worst-seeds": many_duels.worst_seeds,
 }
 

@@ -132,6 +132,38 @@ def integrators(result: Mapping[str, Any]) -> str:
     return table(("integrator", *cases, "falls"), rows)
 
 
+def warp(result: Mapping[str, Any]) -> str:
+    """List rates of duels on processor cores and on a GPU."""
+    processor, gpu = result["processor"], result["warp"]
+    two = next(row["rate"] for row in processor if row["threads"] == 2)
+    rows = [
+        (f"`mujoco.batch`, threads: {row['threads']}", row, "")
+        for row in processor
+    ]
+    for row in gpu:
+        away = [after["median_m"] for after in row["after"].values()]
+        rows.append(
+            (
+                f"MuJoCo Warp, duels at once: {row['worlds']}",
+                row,
+                f"{number(1e3 * max(away), 3)} mm",
+            )
+        )
+    return table(
+        ("", "simulated s per s", "duels of 60 s per h", "times", "away"),
+        [
+            (
+                what,
+                f"{row['rate']:,.3g}",
+                f"{60.0 * row['rate']:,.3g}",
+                f"{row['rate'] / two:.3g}",
+                away,
+            )
+            for what, row, away in rows
+        ],
+    )
+
+
 def headlines(result: Mapping[str, Any]) -> str:
     """Return the values that the README shows."""
     figures = result["figures"]
