@@ -77,7 +77,11 @@ def main() -> None:
         record(arguments.record)
         return
     found = json.loads(arguments.measured.read_text(encoding="utf-8"))
-    head = header({"seed": SEED, "duration_s": DURATION})
+    head = header(
+        {"seed": SEED, "duration_s": DURATION},
+        command="python tools/benchmarks/warp_physics.py "
+        "--measured measured.json",
+    )
     head["libraries"] = found.pop("libraries")  # of the machine with the GPU
     write_result(arguments.output, head, **found)
 

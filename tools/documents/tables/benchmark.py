@@ -154,9 +154,9 @@ def warp(result: Mapping[str, Any]) -> str:
         [
             (
                 what,
-                f"{row['rate']:,.3g}",
-                f"{60.0 * row['rate']:,.3g}",
-                f"{row['rate'] / two:.3g}",
+                _three_digits(row["rate"]),
+                _three_digits(60.0 * row["rate"]),
+                _three_digits(row["rate"] / two),
                 away,
             )
             for what, row, away in rows
@@ -200,3 +200,8 @@ def headlines(result: Mapping[str, Any]) -> str:
             ),
         ],
     )
+
+
+def _three_digits(value: float) -> str:
+    """Format a number with three significant digits, such as 61,800."""
+    return f"{float(f'{value:.3g}'):,.10g}"
