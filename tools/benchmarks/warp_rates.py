@@ -11,10 +11,7 @@ import gc
 import json
 import os
 from argparse import ArgumentParser
-from collections import defaultdict
-from collections.abc import Callable, Iterator
-from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager
+from collections.abc import Callable
 from importlib.metadata import version
 from pathlib import Path
 from time import perf_counter
@@ -238,88 +235,6 @@ class WarpDuels:
             if kind.value.bit_count() == 1 and found & kind.value
         ]
 
-    def compile_kernels(self, architecture: int | None = None) -> float:
-        """Compile the kernels of a step on all cores, unless they are kept.
-
-        At their first launch they would be compiled one after the other.
-
-        Args:
-            architecture: Compute capability such as 90, of a GPU that need not
-                be here; that of this machine by default, which loads them.
-
-        Returns:
-            Wall-clock time in [s].
-        """
-        begin = perf_counter()
-        width = 1 if warp.get_device().is_cpu and architecture is None else 256
-        with _noted_launches(width) as launches:
-            self._step()
-
-        device = warp.get_device()
-
-        def load(module: Any) -> None:
-            for width in launches[module]:
-                if architecture is None:
-                    warp.force_load(device, [module], width, max_workers=0)
-                else:
-                    module.options["block_dim"] = width
-                    warp.compile_aot_module(
-                        module, arch=architecture, use_ptx=False
-                    )
-
-        with ThreadPoolExecutor(os.cpu_count()) as workers:
-            list(workers.map(load, launches))
-        return perf_counter() - begin
-
-
-@contextmanager
-def _noted_launches(width: int) -> Iterator[dict[Any, set[int]]]:
-    """Note modules and block widths of kernels instead of launching them.
-
-    Args:
-        width: Block width of launches that name none.
-    """
-    noted: dict[Any, set[int]] = defaultdict(set)
-    names = (
-        "launch",
-        "launch_tiled",
-        "capture_while",
-        "capture_if",
-        "get_suggested_block_size",  # compiles for the module's own width
-    )
-    kept = {name: getattr(warp, name) for name in names}
-
-    def note(kernel: Any, dim: Any, *_: Any, **options: Any) -> None:
-        if np.prod(dim) > 0:  # else it is not loaded
-            noted[kernel.module].add(options.get("block_dim") or width)
-
-    def suggest(kernel: Any, *_: Any) -> tuple[int, int]:
-        noted[kernel.module].add(kernel.module.options["block_dim"])
-        return 1, 1
-
-    def once(_: Any, while_body: Callable[..., None], **given: Any) -> None:
-        while_body(**given)
-
-    def branch(
-        _: Any,
-        on_true: Callable[..., None] | None = None,
-        on_false: Callable[..., None] | None = None,
-        **given: Any,
-    ) -> None:
-        for body in (on_true, on_false):
-            if body is not None:
-                body(**given)
-
-    instead = (note, note, once, branch, suggest)
-    replaced = dict(zip(names, instead, strict=True))
-    try:
-        for name, function in replaced.items():
-            setattr(warp, name, function)
-        yield noted
-    finally:
-        for name, function in kept.items():
-            setattr(warp, name, function)
-
 
 def warp_rate(
     recorded: Recorded,
@@ -421,7 +336,9 @@ def measure(
     device = warp.get_device()
     _, reference = on_processor(recorded, COMPARED, os.cpu_count() or 1)
     processor = processor_rates(recorded)
-    loading = WarpDuels(recorded, 1).compile_kernels()
+    begin = perf_counter()
+    WarpDuels(recorded, 1).capture()  # compiles what is not kept
+    loading = perf_counter() - begin
     print(f"kernels loaded in {loading:.1f} s", flush=True)
     rows: list[dict[str, Any]] = []
     begin = perf_counter()
@@ -454,18 +371,8 @@ def main() -> None:
     asked.add_argument("--output", type=Path, default=Path("measured.json"))
     asked.add_argument("--worlds", type=int, nargs="+", default=WORLDS)
     asked.add_argument("--seconds", type=float, default=120.0)
-    asked.add_argument(
-        "--compile-for",
-        type=int,
-        metavar="CAPABILITY",
-        help="only compile the kernels, for a GPU of a compute capability",
-    )
     arguments = asked.parse_args()
     recorded = Recorded.read(arguments.folder)
-    if arguments.compile_for is not None:
-        spent = WarpDuels(recorded, 1).compile_kernels(arguments.compile_for)
-        print(f"compiled in {spent:.1f} s")
-        return
     found = measure(recorded, arguments.worlds, arguments.seconds)
     arguments.output.write_text(json.dumps(found, indent=1) + "\n")
 
