@@ -22,7 +22,7 @@ from stepaside.strategies.search.beam_search import (
     arc_cosine,
     beam_search,
     sort_ranks,
-    survived_steps,
+    play_moves,
 )
 from stepaside.strategies.search.pursuer_model import (
     BeamRules,
@@ -36,7 +36,7 @@ pytestmark = pytest.mark.skipif(
     load_numba() is None, reason='needs the extra "fast"'
 )
 RULES = BeamRules(0.04, 0.08, 0.08 * pi, 0.35, 0.2, 60, 50)
-SHARP = PursuerModel(12.5)
+MODEL, SHARP = PursuerModel(), PursuerModel(12.5)
 START = np.array([0.5, 0.2, 0.3, -0.5, -0.1, 0.9])
 
 
@@ -73,8 +73,33 @@ def test_path_survives_as_long_as_it_says() -> None:
     packed = Room(3.0, 3.0).solid_set.packed
     actions = actions_of(RULES.largest)
     path = beam_search(START, actions, SHARP, packed, RULES)
-    steps = survived_steps(START, actions[path], SHARP, packed, RULES)
+    steps, least = play_moves(START, actions[path], SHARP, packed, RULES)
     assert steps == len(path) == RULES.horizon
+    assert RULES.capture < least < 0.8
+
+
+def test_cautious_path_stays_further_away() -> None:
+    packed, actions = Room(3.0, 3.0).solid_set.packed, actions_of(0.25)
+    least = []
+    for caution in (0.0, 2.0):
+        rules = RULES._replace(caution=caution)
+        path = beam_search(START, actions, MODEL, packed, rules)
+        steps, nearest = play_moves(START, actions[path], MODEL, packed, rules)
+        assert steps == rules.horizon
+        least.append(nearest)
+    assert least[1] > least[0] + 0.05
+
+
+def test_evader_that_is_too_near_to_a_wall_may_only_leave_it() -> None:
+    wall = Room(3.0, 3.0).solid_set.packed
+    inside = np.array([-1.32, 0.0, 0.0, 1.0, 0.0, pi])
+    into, out = np.array([[0.0, 1.0]]), np.array([[0.0, -1.0]])
+    turn = np.array([[0.25, 0.0]])
+    played = [
+        play_moves(inside, moves, SHARP, wall, RULES)[0]
+        for moves in (into, out, turn)
+    ]
+    assert played == [0, 1, 1]
 
 
 def test_wider_beams_survive_longer_in_a_small_room() -> None:
@@ -100,12 +125,12 @@ def test_captured_and_touching_moves_do_not_survive() -> None:
     near = np.array([0.3, 0.0, 0.0, -0.06, 0.0, 0.0])
     walk_into = np.array([[0.0, 0.0]])
     none = NO_OBSTACLES.packed
-    assert survived_steps(near, walk_into, SHARP, none, RULES) == 0
+    assert play_moves(near, walk_into, SHARP, none, RULES)[0] == 0
     wall = Room(3.0, 3.0).solid_set.packed
     beside = np.array([-1.29, 0.0, 0.0, 1.0, 0.0, pi])
     back = np.array([[0.0, 1.0]])
-    assert survived_steps(beside, back, SHARP, wall, RULES) == 0
-    assert survived_steps(beside, back, SHARP, none, RULES) == 1
+    assert play_moves(beside, back, SHARP, wall, RULES)[0] == 0
+    assert play_moves(beside, back, SHARP, none, RULES)[0] == 1
 
 
 def test_arc_cosine_is_that_of_its_reference() -> None:

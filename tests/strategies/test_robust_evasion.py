@@ -22,9 +22,17 @@ from stepaside.strategies import (
     play_strategies,
 )
 from stepaside.strategies.irregular_pursuit import NoisyPursuit, WaitingPursuit
-from stepaside.strategies.opponent_models import MODELS, ModelFit
-from stepaside.strategies.robust_evasion import RobustMemory, actions_of
-from stepaside.strategies.search.beam_search import beam_search
+from stepaside.strategies.opponent_models import (
+    MODELS,
+    SWAYING_SIGHT,
+    ModelFit,
+)
+from stepaside.strategies.robust_evasion import (
+    PlannedGame,
+    RobustMemory,
+    actions_of,
+)
+from stepaside.strategies.search.beam_search import beam_search, play_moves
 from stepaside.strategies.search.pursuer_model import (
     BeamRules,
     PursuerModel,
@@ -54,6 +62,40 @@ def test_model_that_walks_explains_its_own_steps(number: int) -> None:
     errors = np.sqrt(fit.errors)
     assert errors[number] == errors.min() and number in fit.plausible()
     assert fit.speed == pytest.approx(1.0, abs=1e-3)
+
+
+def test_weight_of_a_model_falls_with_its_error() -> None:
+    squares = np.array([1.0, 1.1, 1.3, 1.45, 4.0, 1.0, 9.0, 1.2])
+    fit = ModelFit(errors=tuple(1e-6 * squares), fitting=SWAYING_SIGHT)
+    weights = fit.weights()
+    assert weights.max() == weights[0] == weights[5] == 1.0
+    assert (np.diff(weights[:3]) < 0.0).all()
+    assert (weights[[3, 4, 6]] == 0.0).all()
+    assert fit.plausible() == [0, 5]
+    assert (ModelFit().weights() == 1.0).all()
+
+
+def test_where_no_plan_survives_all_it_survives_the_most_likely() -> None:
+    """Beside a corner, where each model is survived by another plan."""
+    own = np.array([-0.89, -0.96, 0.7])
+    starts = [np.array([*own, -0.35, -0.51, -2.3])] * 2
+    packed = ROOMS.arena(1002)[0].solid_set.packed
+    rules = RULES._replace(width=200, horizon=75, capture=0.385)
+    models = MODELS[0], MODELS[6]
+    survived = []
+    for weights in ([0.9, 0.1], [0.1, 0.9]):
+        game = PlannedGame(
+            models, starts, np.array(weights), 2, 0, packed, rules
+        )
+        moves, promised = game.plan(np.empty((0, 2)))
+        steps = [
+            play_moves(start, moves, model, packed, rules)[0]
+            for start, model in zip(starts, models, strict=True)
+        ]
+        assert promised == pytest.approx(float(np.dot(weights, steps)))
+        survived.append(steps)
+    assert survived[0][0] == survived[1][1] == 75
+    assert survived[0][1] < 75 > survived[1][0]
 
 
 def test_faster_pursuer_is_seen_to_be_faster() -> None:

@@ -20,7 +20,9 @@ MODELS = (
 )
 """Models that are compared: the paper's pursuer with other gains, the last
 of them turning by the whole bearing, and pursuers with another target."""
-DANGEROUS = (5, 6, 4, 3, 0)  # models to assume until they are ruled out
+DANGEROUS = (6, 3, 0, 5, 4)  # models to search until they are ruled out
+SHARPNESS = 5.0  # with which the weight of a model falls with the square of
+# its error
 MEMORY = 0.93  # weight of the earlier errors after a step
 EXACT = 1e-5  # error of a model that counts as none, in [m] rms; with
 # 2e-4 pursuers of gain x3 are not told from x4
@@ -157,12 +159,18 @@ class ModelFit(NamedTuple):
         turn = ahead * model_turn(own, pose, MODELS[number], rules)
         return Pose(*arc_end(pose, ahead * self.speed * rules.stride, turn))
 
+    def weights(self) -> Array:
+        """Return the weight of each model, 1 for the best; 0 if ruled out."""
+        squares = np.maximum(self.errors, EXACT**2)
+        ratios = squares / squares.min()
+        weights: Array = np.exp(-SHARPNESS * (ratios - 1.0))
+        weights[ratios > self.fitting.ruled_out**2] = 0.0
+        return weights
+
     def plausible(self) -> list[int]:
-        """Return the numbers of the models to assume, the best first."""
-        least = min(self.errors)
-        limit = self.fitting.ruled_out**2 * max(least, EXACT**2)
-        best = self.errors.index(least) if least > 0.0 else DANGEROUS[0]
-        others = [
-            n for n in DANGEROUS if n != best and self.errors[n] <= limit
-        ]
+        """Return the numbers of the models to search, the best first."""
+        weights = self.weights()
+        seen = max(self.errors) > 0.0
+        best = int(weights.argmax()) if seen else DANGEROUS[0]
+        others = [n for n in DANGEROUS if n != best and weights[n] > 0.0]
         return [best, *others][:ASSUMED]

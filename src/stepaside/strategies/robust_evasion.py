@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from functools import lru_cache
-from math import cos, pi, sin
+from math import atan2, cos, pi, sin
 from typing import NamedTuple
 
 import numpy as np
@@ -18,9 +18,15 @@ from .strategy import BackwardStrategy
 
 ERROR = ConfigurationError
 MARGIN = 0.005  # in addition to the required clearance, in [m]
-SWAY = 0.06  # by which the torsos of walkers, 2 cm ahead of their reference
-# points and swaying, are nearer to each other than these, in [m]; with 0.05
-# herding walkers touch the capture distance in passing
+SWAY = 0.03  # by which the torsos of walkers, which lead their reference
+# points by 2 cm and sway, are nearer to each other than these, in [m]
+WALL_SWAY = 0.01  # in addition to the clearance of walkers, in [m]; with
+# none the guard of the walk refuses turns beside walls
+CAUTION = 2.0  # of walkers (:class:`~.search.pursuer_model.BeamRules`)
+HEADING_ERROR = 0.2  # of a walking pursuer, to either side, in [rad]
+NEARER = 0.015  # that it may be than it seems, in [m]
+KEPT_STEPS = 3  # by which a walker's new plan must survive longer than the
+# rest of the last one
 AHEAD = 0.73  # steps from the mean of a walker's last two positions to the
 # beginning of its next step, measured on walks of NAO
 TORSO_LAG = 0.05  # of the turn of a walker's last step, which its torso has
@@ -28,6 +34,7 @@ TORSO_LAG = 0.05  # of the turn of a walker's last step, which its torso has
 TURNS = 7  # turns tried per step
 WIDER = 5  # times the width where no state survives; 20 is no better
 KEPT = 0.95  # of a plan is left when it is searched again; 0.8 loses 3 %
+ROUNDING = 1e-6  # of a mean number of steps
 SLACK = 1  # steps that a plan may survive less than when it was made
 
 
@@ -47,7 +54,7 @@ class RobustMemory(NamedTuple):
     moves: Array = np.empty((0, 2))
     assumed: tuple[int, ...] = ()
     planned: int = 0
-    promised: int = 0
+    promised: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,16 +96,8 @@ class RobustEvasion(BackwardStrategy):
     ) -> tuple[Intent, RobustMemory]:
         """Take the first step of the plan with the best worst outcome."""
         limits, own = knowledge.limits, knowledge.pose_in_map
-        share = limits.gain * limits.stride / limits.speed
-        capture = self.capture + MARGIN
         walks = knowledge.step_start_in_map is not None
-        if walks:
-            wide = min(capture + SWAY, knowledge.distance - SWAY)
-            capture = max(capture, wide)
-        rules = BeamRules(
-            limits.stride, share, pi * share, capture,
-            self.body_radius + MARGIN, self.width, self.horizon,
-        )  # fmt: skip
+        rules = self._rules(knowledge, walks=walks)
         sight = own.theta + knowledge.bearing
         if walks:
             turned = wrap_angle(own.theta - float(memory.fit.seen[2]))
@@ -128,58 +127,96 @@ class RobustEvasion(BackwardStrategy):
             memory = memory._replace(assumed=assumed, planned=len(rest))
         memory = memory._replace(fit=fit, moves=rest, promised=promised)
         turn, speed = rest[0] if len(rest) else (rules.largest, ON_THE_SPOT)
-        return Intent(float(turn) / share, float(speed)), memory
+        return Intent(float(turn) / rules.share, float(speed)), memory
+
+    def _rules(self, knowledge: Knowledge, *, walks: bool) -> BeamRules:
+        """Return the rules of the steps.
+
+        Args:
+            knowledge: Knowledge of the evader.
+            walks: Whether it is a walker.
+        """
+        limits = knowledge.limits
+        share = limits.gain * limits.stride / limits.speed
+        capture, clearance = self.capture + MARGIN, self.body_radius + MARGIN
+        caution = 0.0
+        if walks:  # an evader that is too near may leave
+            capture = min(capture + SWAY, knowledge.distance - SWAY)
+            clearance, caution = clearance + WALL_SWAY, CAUTION
+        return BeamRules(
+            limits.stride, share, pi * share, capture, clearance,
+            self.width, self.horizon, caution,
+        )  # fmt: skip
 
 
 class PlannedGame(NamedTuple):
-    """Game against every model that is assumed, from what has been seen.
+    """Game against every model that is plausible, from what has been seen.
 
     Attributes:
-        models: Models of the pursuer.
+        models: Models of the pursuer, first those that are searched.
         starts: Poses of evader and pursuer by each model. Shape (6,) each.
+        weights: Weight of each, one in all. Shape (n,).
+        searched: Number of models that are searched.
+        kept: Steps by which a new plan must survive longer than the rest of
+            the last one.
         packed: Obstacles.
         rules: Rules of the steps, and size of the search.
     """
 
     models: tuple[PursuerModel, ...]
     starts: list[Array]
+    weights: Array
+    searched: int
+    kept: float
     packed: PackedObstacles
     rules: BeamRules
 
-    def outcome(self, moves: Array) -> tuple[int, int]:
-        """Return the steps that moves survive: the least, and their sum."""
-        from .search.beam_search import survived_steps
+    def outcome(self, moves: Array) -> tuple[float, float]:
+        """Return the steps that moves survive, and their least distance.
 
-        steps = [
-            survived_steps(start, moves, model, self.packed, self.rules)
-            for start, model in zip(self.starts, self.models, strict=True)
-        ]
-        return min(steps), sum(steps)
+        Returns:
+            Mean number of steps, by the weights of the models; and least
+            distance against any of them, in [m].
+        """
+        from .search.beam_search import play_moves
 
-    def plan(self, rest: Array) -> tuple[Array, int]:
-        """Search the moves with the best outcome against the worst model.
+        steps, least = zip(
+            *(
+                play_moves(start, moves, model, self.packed, self.rules)
+                for start, model in zip(self.starts, self.models, strict=True)
+            ),
+            strict=True,
+        )
+        return float(self.weights @ steps), min(least)
+
+    def plan(self, rest: Array) -> tuple[Array, float]:
+        """Search the moves that survive longest against most models.
 
         Args:
             rest: Rest of the last plan, which is compared with those found.
 
         Returns:
-            Turn [rad] and speed factor of each step, and the number of
-            steps that they survive. Shape (n, 2).
+            Turn [rad] and speed factor of each step, and the mean number
+            of steps that they survive. Shape (n, 2).
         """
         from .search.beam_search import beam_search
 
         rules, candidates = self.rules, []
         actions = actions_of(rules.largest)
-        for start, model in zip(self.starts, self.models, strict=True):
+        for n in range(self.searched):
+            start, model = self.starts[n], self.models[n]
             path = beam_search(start, actions, model, self.packed, rules)
             if len(path) < rules.horizon:
                 wide = rules._replace(width=WIDER * rules.width)
                 path = beam_search(start, actions, model, self.packed, wide)
             candidates.append(actions[path])
-        candidates.append(rest)
         outcomes = [self.outcome(moves) for moves in candidates]
-        best = max(outcomes)
-        return candidates[outcomes.index(best)], best[0]
+        found = max(outcomes)
+        steps, least = self.outcome(rest)
+        ends = self.kept and found[0] > rules.horizon - ROUNDING
+        if (steps + self.kept, least) > found and not ends:
+            return rest, steps
+        return candidates[outcomes.index(found)], found[0]
 
 
 def planned_game(
@@ -189,28 +226,65 @@ def planned_game(
     assumed: tuple[int, ...],
     rules: BeamRules,
 ) -> PlannedGame:
-    """Return the game against the models that are assumed.
+    """Return the game against the models that are plausible.
 
     Args:
         knowledge: Knowledge of the evader.
         position: Position of the pursuer that was seen, in [m].
         fit: Fit of the models.
-        assumed: Numbers of the models.
+        assumed: Numbers of the models that are searched.
         rules: Rules of the steps.
     """
+    weights = fit.weights()
+    others = [n for n in range(len(MODELS)) if weights[n] and n not in assumed]
+    numbers = [*assumed, *others]
+    models = tuple(MODELS[n]._replace(speed=fit.speed) for n in numbers)
+    weights = weights[numbers] / weights[numbers].sum()
+    packed = knowledge.obstacles_in_map.packed
     begins = knowledge.step_start_in_map
-    horizon = rules.horizon * ASSUMED // len(assumed)
-    poses = [Pose(*position, fit.poses[n][2]) for n in assumed]
-    if begins is not None:  # the walk of humanoids is less predictable
-        horizon = rules.horizon
-        ahead = AHEAD + knowledge.age / knowledge.limits.step_duration
-        poses = [fit.pose(n, rules, ahead) for n in assumed]
-    own = begins or knowledge.pose_in_map
+    if begins is None:
+        own, horizon = knowledge.pose_in_map, rules.horizon * ASSUMED
+        return PlannedGame(
+            models,
+            [np.array([*own, *position, fit.poses[n][2]]) for n in numbers],
+            weights,
+            len(assumed),
+            0,
+            packed,
+            rules._replace(horizon=horizon // len(assumed)),
+        )
+    # Humanoids walk less predictably.
+    ahead = AHEAD + knowledge.age / knowledge.limits.step_duration
+    poses = [fit.pose(n, rules, ahead) for n in numbers]
+    poses += [
+        approached(begins, pose, side)
+        for side in (-HEADING_ERROR, HEADING_ERROR)
+        for pose in poses
+    ]
     return PlannedGame(
-        tuple(MODELS[n]._replace(speed=fit.speed) for n in assumed),
-        [np.array([*own, *pose]) for pose in poses],
-        knowledge.obstacles_in_map.packed,
-        rules._replace(horizon=horizon),
+        models * 3,
+        [np.array([*begins, *pose]) for pose in poses],
+        np.tile(weights / 3.0, 3),
+        len(assumed),
+        KEPT_STEPS,
+        packed,
+        rules,
+    )
+
+
+def approached(own: Pose, pursuer: Pose, turn: float) -> Pose:
+    """Return a pose of a pursuer that is nearer and turned.
+
+    Args:
+        own: Pose of the evader.
+        pursuer: Pose of the pursuer in the same frame.
+        turn: Change of its heading, in [rad].
+    """
+    sight = atan2(own.y - pursuer.y, own.x - pursuer.x)
+    return Pose(
+        pursuer.x + NEARER * cos(sight),
+        pursuer.y + NEARER * sin(sight),
+        pursuer.theta + turn,
     )
 
 

@@ -29,15 +29,18 @@ CLEAR = 0.3  # worth of clearance, in [m] per [m], and the most that counts
 SLOW = 0.1  # speed factor of a turn on the spot, or less
 ON_SPOT_SLACK = 0.004  # of clearance that turns on the spot may use, in [m]
 FARTHEST = 1.5  # distance beyond which no more is gained, in [m]
+ENOUGH = 0.8  # least distance of a game beyond which no more counts, in [m]
 GRAIN = 1e-3  # of ranks that count as equal, in [m]
-GRAINS = int((FARTHEST + BESIDE * pi + CLEAR * CLEAR) / GRAIN) + 2
+BEST = FARTHEST + BESIDE * pi + CLEAR * CLEAR + 3.0 * ENOUGH  # rank, in [m]
+GRAINS = int(BEST / GRAIN) + 2
 
 
 class Successors(NamedTuple):
     """Successors of the states of a beam.
 
     Attributes:
-        poses: Poses (x [m], y [m], theta [rad]) of the evader. Shape (n, 3).
+        poses: Poses (x [m], y [m], theta [rad]) of the evader, and least
+            distance so far [m]. Shape (n, 4).
         ranks: Ranks, in [m]. Shape (n,).
         keys: Keys, which nearly equal states have in common. Shape (n,).
         actions: Numbers of the actions. Shape (n,).
@@ -103,11 +106,12 @@ def expand(
 ) -> int:
     """Add the successors of a state; return the number of all.
 
-    The rank of a state is its worth: far away, beside the pursuer, clear.
+    The rank of a state is its worth: far away, beside the pursuer, clear;
+    with caution, never near.
 
     Args:
-        state: Poses of evader and pursuer; the pursuer's is advanced by one
-            step. Shape (6,).
+        state: Poses of evader and pursuer, and least distance so far, in
+            [m]; the pursuer's pose is advanced by one step. Shape (7,).
         arcs: Arcs of the actions (:func:`action_arcs`). Shape (k, 3).
         model: Model of the pursuer.
         field: Distance from obstacles.
@@ -122,6 +126,11 @@ def expand(
     state[3], state[4], state[5] = chase
     ahead, left = cos(chase[2]), sin(chase[2])
     forward, leftward = cos(evader[2]), sin(evader[2])
+    # Who is too near to an obstacle may leave it.
+    near = field_clearance(field, evader[0], evader[1]) - rules.clearance
+    walking, turning = 0.0, -ON_SPOT_SLACK
+    if near < turning:
+        walking = turning = near
     chased = cell_of(chase[0], 1.0 / PURSUER_CELL) * 8191
     chased = (chased + cell_of(chase[1], 1.0 / PURSUER_CELL)) * 8191
     for k in range(len(arcs)):
@@ -134,15 +143,20 @@ def expand(
             continue
         clear = field_clearance(field, x, y) - rules.clearance
         walks = abs(arcs[k, 0]) > SLOW * rules.stride
-        if clear < (0.0 if walks else -ON_SPOT_SLACK):
+        if clear < (walking if walks else turning):
             continue
         away = sqrt(square)
         aim = arc_cosine((ahead * dx + left * dy) / away)
         new.poses[made, 0] = x
         new.poses[made, 1] = y
         new.poses[made, 2] = theta
+        least = min(away, state[6])
+        new.poses[made, 3] = least
         new.ranks[made] = (
-            min(away, FARTHEST) + BESIDE * aim + CLEAR * min(clear, CLEAR)
+            min(away, FARTHEST)
+            + BESIDE * aim
+            + CLEAR * min(clear, CLEAR)
+            + rules.caution * least
         )
         new.actions[made] = k
         key = (chased + cell_of(x, 1.0 / EVADER_CELL)) * 8191
@@ -165,7 +179,7 @@ def expand_beam(
     """Write the successors of all states; return their number.
 
     Args:
-        beam: States (:func:`expand`). Shape (n, 6).
+        beam: States (:func:`expand`). Shape (n, 7).
         arcs: Arcs of the actions.
         model: Model of the pursuer.
         field: Distance from obstacles.
@@ -227,8 +241,8 @@ def select_best(
     Args:
         new: Successors.
         made: Number of successors.
-        old: States that they come from. Shape (width, 6).
-        beam: Output: the states that go on. Shape (width, 6).
+        old: States that they come from. Shape (width, 7).
+        beam: Output: the states that go on. Shape (width, 7).
         table: Working memory, a power of two long.
         chosen: Output: parent and action of each. Shape (width, 2).
     """
@@ -248,6 +262,7 @@ def select_best(
             for i in range(3):
                 beam[count, i] = new.poses[m, i]
                 beam[count, 3 + i] = old[parent, 3 + i]
+            beam[count, 6] = new.poses[m, 3]
             chosen[count, 0], chosen[count, 1] = parent, new.actions[m]
             count += 1
     return count
@@ -257,7 +272,7 @@ def select_best(
 def successors(number: int) -> Successors:
     """Return memory for a number of successors."""
     return Successors(
-        np.zeros((number, 3)),
+        np.zeros((number, 4)),
         np.zeros(number),
         np.zeros(number, dtype=np.int64),
         np.zeros(number, dtype=np.int32),
@@ -298,13 +313,14 @@ def beam_search(
     field = distance_field(
         packed, rules.clearance + CLEAR, start[0], start[1], reach
     )
-    new, beams = successors(width * len(arcs)), np.zeros((2, width, 6))
+    new, beams = successors(width * len(arcs)), np.zeros((2, width, 7))
     chosen = np.zeros((horizon, width, 2), dtype=np.int32)
     places = 4
     while places < 2 * width:
         places *= 2
     table = np.zeros(places, dtype=np.int64)
     copy_values(start, beams[0, 0])
+    beams[0, 0, 6] = ENOUGH
     count, steps = 1, 0
     while steps < horizon:
         old, beam = beams[steps % 2], beams[(steps + 1) % 2]
@@ -321,14 +337,14 @@ def beam_search(
 
 
 @compiled
-def survived_steps(
+def play_moves(
     start: Any,
     moves: Any,
     model: PursuerModel,
     packed: PackedObstacles,
     rules: BeamRules,
-) -> int:
-    """Return the number of steps that given moves survive.
+) -> tuple[int, float]:
+    """Return the steps that given moves survive, and their least distance.
 
     Args:
         start: As in :func:`beam_search`.
@@ -336,13 +352,18 @@ def survived_steps(
         model: Model of the pursuer.
         packed: Obstacles.
         rules: Rules of the steps.
+
+    Returns:
+        Number of steps, and least distance in them, in [m], at most 0.8.
     """
     field = distance_field(packed, rules.clearance + CLEAR, 0.0, 0.0, 0.0)
     arcs = action_arcs(moves, rules.stride)
-    state, new = start.copy(), successors(1)
+    state, new = np.full(7, ENOUGH), successors(1)
+    copy_values(start, state)
     for n in range(len(moves)):
         arc = arcs[n : n + 1]
         if not expand(state, arc, model, field, rules, new, 0):
-            return n
-        copy_values(new.poses[0], state)
-    return len(moves)
+            return n, state[6]
+        copy_values(new.poses[0, :3], state)
+        state[6] = new.poses[0, 3]
+    return len(moves), state[6]

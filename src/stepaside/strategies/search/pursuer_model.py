@@ -35,6 +35,8 @@ class BeamRules(NamedTuple):
         clearance: Least clearance of the evader's centre, in [m].
         width: Number of states that go on.
         horizon: Number of steps.
+        caution: Worth of the least distance of a game so far, in [m] per
+            [m], at most 3.
     """
 
     stride: float
@@ -44,6 +46,7 @@ class BeamRules(NamedTuple):
     clearance: float
     width: int
     horizon: int
+    caution: float = 0.0
 
 
 @inlined
