@@ -45,9 +45,9 @@ class RobustMemory(NamedTuple):
         fit: Models of the pursuer, and their errors.
         moves: Turn [rad] and speed factor of the planned steps to come.
             Shape (n, 2).
-        assumed: Models that the plan was made for.
+        assumed: Models that were searched for the plan.
         planned: Number of steps of the plan when it was made.
-        promised: Number of its steps to come that survive each model.
+        promised: Mean number of its steps to come that it survives.
     """
 
     fit: ModelFit = ModelFit()
@@ -61,10 +61,10 @@ class RobustMemory(NamedTuple):
 class RobustEvasion(BackwardStrategy):
     """Evader that plans against every model of the pursuer that is plausible.
 
-    The models that explain the last seconds are kept; for each a beam search
-    looks for the game that survives longest, and the plan that survives
-    longest against the worst of them is walked. It backs away, turns on the
-    spot and goes around obstacles.
+    The models that explain the last seconds are kept; for some of them a beam
+    search looks for the game that survives longest, and the plan that
+    survives longest against all, in the mean by their weights, is walked. It
+    backs away, turns on the spot and goes around obstacles.
 
     Attributes:
         width: Number of states that the search follows.
@@ -94,7 +94,7 @@ class RobustEvasion(BackwardStrategy):
     def decide(
         self, knowledge: Knowledge, memory: RobustMemory
     ) -> tuple[Intent, RobustMemory]:
-        """Take the first step of the plan with the best worst outcome."""
+        """Take the first step of the plan that survives longest."""
         limits, own = knowledge.limits, knowledge.pose_in_map
         walks = knowledge.step_start_in_map is not None
         rules = self._rules(knowledge, walks=walks)

@@ -28,6 +28,8 @@ BESIDE = 0.2  # worth of the pursuer's bearing, in [m] per [rad]
 CLEAR = 0.3  # worth of clearance, in [m] per [m], and the most that counts
 SLOW = 0.1  # speed factor of a turn on the spot, or less
 ON_SPOT_SLACK = 0.004  # of clearance that turns on the spot may use, in [m]
+LEAVING = 0.002  # clearance that an evader gains that leaves an obstacle, in
+# [m]; an arc bulges by 0.0013
 FARTHEST = 1.5  # distance beyond which no more is gained, in [m]
 ENOUGH = 0.8  # least distance of a game beyond which no more counts, in [m]
 GRAIN = 1e-3  # of ranks that count as equal, in [m]
@@ -126,11 +128,11 @@ def expand(
     state[3], state[4], state[5] = chase
     ahead, left = cos(chase[2]), sin(chase[2])
     forward, leftward = cos(evader[2]), sin(evader[2])
-    # Who is too near to an obstacle may leave it.
+    # An evader that is too near to an obstacle may turn, or leave it.
     near = field_clearance(field, evader[0], evader[1]) - rules.clearance
     walking, turning = 0.0, -ON_SPOT_SLACK
     if near < turning:
-        walking = turning = near
+        walking, turning = min(near + LEAVING, 0.0), near
     chased = cell_of(chase[0], 1.0 / PURSUER_CELL) * 8191
     chased = (chased + cell_of(chase[1], 1.0 / PURSUER_CELL)) * 8191
     for k in range(len(arcs)):
