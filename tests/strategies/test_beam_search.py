@@ -21,8 +21,8 @@ from stepaside.strategies.search.beam_search import (
     GRAINS,
     arc_cosine,
     beam_search,
-    sort_ranks,
     play_moves,
+    sort_ranks,
 )
 from stepaside.strategies.search.pursuer_model import (
     BeamRules,
