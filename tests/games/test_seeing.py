@@ -184,7 +184,9 @@ BEHIND = replace(
 def test_a_rear_camera_shows_a_person_behind(rear: bool) -> None:
     cameras = replace(RAYS, rear_camera=rear)
     run = run_duel(replace(BEHIND, cameras=cameras))
-    time, bearing, distance, true, away, lost = run.tracks["evader"].sight.T
+    sight = run.tracks["evader"].sight
+    assert sight is not None
+    time, bearing, distance, true, away, lost = sight.T
     known = (time > 1.5) & np.isfinite(bearing)
     if not rear:
         assert not known.any()

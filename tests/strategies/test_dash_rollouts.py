@@ -6,7 +6,7 @@ from math import atan2, inf, pi
 import numpy as np
 import pytest
 
-from stepaside.core.poses import Pose
+from stepaside.core.poses import ALL_AROUND, Pose, Sector
 from stepaside.strategies.dash_rollouts import (
     STEP,
     Opponent,
@@ -59,9 +59,11 @@ def test_someone_who_passes_is_unseen_while_behind() -> None:
     headings = headings_at(now, HERE, standing, AT_ONCE)
     start = HERE.compose(Pose(2.0, 1.0, pi))
     passer = Opponent(start.x, start.y, start.theta, 1.0, inf)
-    shares = unseen_shares(paths, headings, passer, 0.5 * pi - 1e-6)
-    np.testing.assert_allclose(shares, 20 / 41, atol=0.03)
-    assert not unseen_shares(paths, headings, passer, pi).any()
+    ahead, behind = (Sector(middle, 0.5 * pi - 1e-6) for middle in (0.0, pi))
+    for views in ((ahead,), (behind,)):
+        shares = unseen_shares(paths, headings, passer, views)
+        np.testing.assert_allclose(shares, 20 / 41, atol=0.03)
+    assert not unseen_shares(paths, headings, passer, ALL_AROUND).any()
 
 
 def test_dashes_end_where_velocities_lead() -> None:

@@ -228,9 +228,7 @@ FAULTS: dict[str, tuple[Patch, ...]] = {
     "saturated.smaller": (
         played_as(lambda g: replace(g, law=unicycle_claims.FIG_2.law)),
     ),
-    "saturated.less": (
-        played_as(lambda g: replace(g, law=unicycle_claims.FIG_2.law)),
-    ),
+    "saturated.less": (seen_as(lambda g, t, p, e: (p, e - (0.0, 0.0, 0.5))),),
     "saturated.namely": (
         seen_as(lambda g, t, p, e: (p, e + (0.0, 0.0, 0.01))),
         seen_as(lambda g, t, p, e: (p, e - (0.0, 0.0, 0.01))),
