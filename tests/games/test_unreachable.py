@@ -32,7 +32,7 @@ pytestmark = pytest.mark.usefixtures("blank_figures")
 
 # Four times the paper's stride: it can be stood, and begun.
 FAR = GaitSettings(stride=0.16)
-WORDS = r"lost its footing at 1\.\d\d s: NAO cannot follow: \w+ foot"
+WORDS = r"lost its footing at 1\.\d\d s: NAO cannot follow: (\w+ foot|CoM)"
 LONG = 60.0  # [s]; no event of a loop that runs comes as late as this
 
 
