@@ -28,9 +28,11 @@ from stepaside.strategies.opponent_models import (
     ModelFit,
 )
 from stepaside.strategies.robust_evasion import (
+    NEARER,
     PlannedGame,
     RobustMemory,
     actions_of,
+    approached,
 )
 from stepaside.strategies.search.beam_search import beam_search, play_moves
 from stepaside.strategies.search.pursuer_model import (
@@ -330,3 +332,24 @@ def test_evader_that_no_step_saves_searches_again() -> None:
     _, lost = evader.decide(near, evader.begin())
     _, saved = evader.decide(replace(near, time=0.4, distance=1.5), lost)
     assert len(lost.moves) < 5 < len(saved.moves)
+
+
+def test_walker_that_is_nearer_than_the_capture_distance_still_flees() -> None:
+    evader, own = RobustEvasion(20, 20), Pose(0.0, 0.0, pi)
+    near = Knowledge(
+        0.0, 0.0, 0.34, LIMITS, pose_in_map=own, step_start_in_map=own
+    )
+    intent, memory = evader.decide(near, evader.begin())
+    assert len(memory.moves) > 5 and intent.speed_factor == 1.0
+    still = replace(near, step_start_in_map=None)
+    _, lost = evader.decide(still, evader.begin())
+    assert len(lost.moves) == 0
+
+
+def test_pursuer_with_errors_is_nearer_and_turned() -> None:
+    own, seen = Pose(0.3, -0.2, 1.0), Pose(-0.5, 0.4, 0.7)
+    for turn in (-0.2, 0.2):
+        pose = approached(own, seen, turn)
+        before, after = (hypot(own.x - p.x, own.y - p.y) for p in (seen, pose))
+        assert before - after == pytest.approx(NEARER)
+        assert pose.theta - seen.theta == pytest.approx(turn)
