@@ -9,8 +9,8 @@ STAMP := $(VENV)/.installed
 INSTALL := -m pip install --disable-pip-version-check --no-warn-script-location \
 	--root-user-action=ignore --constraint constraints.txt
 
-.PHONY: setup duel test-tools test types suite python other other-setup other-test mutate \
-	fuzz bench figures docs docs-run docs-setup wheel release clean constraints \
+.PHONY: setup duel test types suite python other other-setup other-test mutate \
+	bench figures docs docs-run docs-setup wheel release clean constraints \
 	ros2-peers test-ament test-export test-rcss
 
 setup: $(STAMP)
@@ -43,10 +43,6 @@ types:
 suite:
 	$(BIN)/pytest --numprocesses auto
 
-# Tests of the tools of developers, which `make test` does not run.
-test-tools: setup
-	$(BIN)/pytest --numprocesses auto tools/tests
-
 # The Python that the next environment is made with.
 python:
 	@echo $(PYTHON)
@@ -69,11 +65,6 @@ other-setup:
 other-test:
 	.venv-other/bin/python -m pytest --numprocesses auto \
 		$(OTHER:%=tests/%.py)
-
-# Bad input for a while: make fuzz MINUTES=60
-MINUTES ?= 10
-fuzz: setup
-	$(BIN)/python -m tools.fuzz --minutes $(MINUTES)
 
 # The wheel, installed with nothing optional: commands work, or say what lacks.
 wheel: setup
@@ -152,12 +143,11 @@ test-export: .venv-export/.installed
 		pytest-xdist yourdfpy
 	touch $@
 
-# Faults that the tests should notice; goes on where it was cut short.
-SAMPLE ?= 400
-CAP ?= 40
+# Faults that the tests of one package should notice: docs/testing.md
 mutate: setup
-	OPENBLAS_NUM_THREADS=1 $(BIN)/python -m tools.mutation --write \
-		--sample $(SAMPLE) --cap $(CAP)
+	$(BIN)/python $(INSTALL) --quiet "mutmut>=3.8"
+	$(BIN)/mutmut run
+	$(BIN)/mutmut results
 
 bench: setup
 	$(BIN)/python $(INSTALL) --editable ".[bench]"

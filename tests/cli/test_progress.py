@@ -14,11 +14,15 @@ from stepaside.cli.progress import (
     announce_effort,
     duration_text,
 )
-from tools.fuzz.case import Reached
-from tools.fuzz.invoking import without_work
-from tools.fuzz.kinds import make_run
+from stepaside.games.duel import run_duel
+from stepaside.games.duel_settings import DuelSettings
+from stepaside.report.run_folder import write_run
 
 pytestmark = pytest.mark.usefixtures("blank_figures")
+
+
+class Reached(Exception):
+    """Work would begin here."""
 
 
 @click.command()
@@ -32,7 +36,7 @@ def work(seconds: float, workers: int) -> None:
 @pytest.fixture(scope="module")
 def run(tmp_path_factory: pytest.TempPathFactory) -> str:
     folder = tmp_path_factory.mktemp("effort") / "run"
-    make_run(folder)
+    write_run(folder, run_duel(DuelSettings(duration=0.2)))
     return str(folder)
 
 
@@ -80,9 +84,16 @@ def test_durations_have_the_largest_fitting_unit(
     ],
 )
 def test_campaigns_announce_their_size(
-    words: str, wanted: str, capsys: pytest.CaptureFixture[str]
+    words: str,
+    wanted: str,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    with without_work(), pytest.raises(Reached):
+    def begin(*_: object) -> None:
+        raise Reached
+
+    monkeypatch.setattr("stepaside.core.worker_pool.worker_pool", begin)
+    with pytest.raises(Reached):
         main(words.split())
     assert wanted in capsys.readouterr().err
 

@@ -21,15 +21,8 @@ from stepaside.core.atomic_output import (
 )
 from stepaside.core.signal_handling import interruptible
 from stepaside.core.worker_pool import worker_pool
-from tools.fuzz.case import complaint_of
-from tools.fuzz.moments import moment_case
 
 HERE = sha256(platform.node().encode()).hexdigest()[:8]
-
-
-def test_output_of_an_ended_command_is_complete_and_a_rerun_agrees() -> None:
-    """``python -m tools.fuzz --kinds moments`` tries many moments."""
-    assert complaint_of(moment_case("duel", signal.SIGTERM, 0.7)) == ""
 
 
 def ended() -> int:
