@@ -21,7 +21,7 @@ TABLES = [
     "plan --role evader --bearing 0.3",
     "unicycles --speed 0.1 --gain 0.2",
     "unicycles --strategy move-aside --pursuer-strategy lead --duration 2",
-    "circle --speed 0.1 --gain 0.2 --starts 2 --remedies",
+    "circle --speed 0.1 --gain 0.2 --starts 2",
     "circle --evader-gain 0.3 --sample-time 0.1 --starts 1",
     "map --grid 3 --distances 2 --duration 5",
     "bound --grid 16 --refine 1 --games 10 --horizon 0.1",

@@ -216,17 +216,6 @@ def test_circle_lists_main_and_reversed_with_their_basins() -> None:
     assert [c["share"] for c in kept] == [None, None]
 
 
-def test_circle_simulates_remedies() -> None:
-    words = f"{FAST} --remedies --starts 30 --seed 1"
-    found = loads(circle, words)["remedies"]
-    named = {row["name"]: row for row in found}
-    assert named["as it is"]["reversed_share"] > 0.0
-    assert named["gain times 0.25"]["reversed_share"] == 0.0
-    assert "gain times 0.25" in run(circle, words).output
-    bad = run(circle, "--remedies --starts 0")
-    assert bad.exit_code == 2 and "--starts" in bad.stderr
-
-
 def test_map_of_a_faster_pursuer_has_both_circles(tmp_path: Path) -> None:
     words = f"{FAST} --grid 7 --distances 2 --figure {tmp_path / 'm.png'}"
     found = loads(map_command, words)

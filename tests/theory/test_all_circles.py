@@ -27,10 +27,6 @@ from stepaside.theory.unicycle.equilibria import (
 from stepaside.theory.unicycle.kernel import play_games
 from stepaside.theory.unicycle.ratio_map import map_ratios
 from stepaside.theory.unicycle.relative_coordinates import RelativeStart
-from stepaside.theory.unicycle.reversed_circle_remedies import (
-    alternatives,
-    try_remedies,
-)
 from stepaside.theory.unicycle.unicycle_game import Game, TurningLaw, make_game
 
 FAST = make_game(2.0, 1.0, 1.0, 4.0)
@@ -330,17 +326,3 @@ def test_side_of_the_smaller_error_is_the_side_behind() -> None:
             errors = {s: abs(wrap_angle(psi + s * angle)) for s in (-1, 1)}
             smaller = min(errors, key=lambda s: errors[s])
             assert smaller == (-1 if psi > 0.0 else 1) or psi == 0.0
-
-
-def test_remedies_are_played_from_the_same_starts() -> None:
-    tried = try_remedies(FAST, random_starts(FAST, 40))
-    assert [r.name for r in tried] == list(alternatives(FAST))
-    as_it_is = tried[0]
-    assert as_it_is.game == FAST
-    assert as_it_is.reversed_share == as_it_is.basins.shares[1] > 0.0
-    assert as_it_is.end_distance_m == as_it_is.basins.circles[1].distance_m
-    slow = next(r for r in tried if r.name == "gain times 0.25")
-    assert slow.game.evader.gain == 1.0 and slow.reversed_share == 0.0
-    assert slow.end_distance_m == slow.basins.circles[0].distance_m
-    games = [remedy.game for remedy in tried]
-    assert len(set(games)) == len(games)

@@ -1,7 +1,6 @@
 """Test how long games are played, and what an evader can change."""
 
 from dataclasses import replace
-from math import inf, pi, radians
 from typing import Any
 
 import numpy as np
@@ -10,7 +9,6 @@ import pytest
 from stepaside.theory.unicycle.adaptive_simulation import simulate
 from stepaside.theory.unicycle.all_circles import circles_of
 from stepaside.theory.unicycle.basins import (
-    Basins,
     duration_and_step,
     find_basins,
     random_starts,
@@ -18,11 +16,7 @@ from stepaside.theory.unicycle.basins import (
 )
 from stepaside.theory.unicycle.kernel import Outcomes, play_games
 from stepaside.theory.unicycle.relative_coordinates import RelativeStart
-from stepaside.theory.unicycle.reversed_circle_remedies import (
-    Remedy,
-    alternatives,
-)
-from stepaside.theory.unicycle.unicycle_game import Game, TurningLaw, make_game
+from stepaside.theory.unicycle.unicycle_game import Game, make_game
 
 FAST = make_game(2.0, 1.0, 1.0, 4.0)
 SLOW_EVADER = make_game(1.0, 1.0, 2.0, 0.5)
@@ -70,37 +64,6 @@ def test_mean_closest_approach_is_that_of_the_games() -> None:
     assert found.closest_distance == pytest.approx(expected, abs=1e-5)
 
 
-def test_each_alternative_changes_one_parameter() -> None:
-    game = make_game(2.0, 1.0, 1.0, 4.0, 2.0, hysteresis=0.3)
-    found = alternatives(game)
-    slower, half, double = (
-        replace(game, evader=replace(game.evader, gain=gain))
-        for gain in (1.0, 2.0, 8.0)
-    )
-    tried = {
-        f"angle {degrees} deg": replace(
-            game, angle=radians(degrees), hysteresis=0.0
-        )
-        for degrees in (30, 60, 120, 150)
-    }
-    expected = {
-        "as it is": game,
-        "keeps its side": make_game(
-            2, 1, 1, 4, 2.0, side_rule="latched", hysteresis=0.3
-        ),
-        "widest hysteresis": replace(game, hysteresis=pi - 2.0),
-        **tried,
-        "saturated law": replace(game, law=TurningLaw.SATURATED),
-        "gain times 0.25": slower,
-        "gain times 0.5": half,
-        "gain times 2": double,
-    }
-    assert found == expected
-    saturated = replace(game, law=TurningLaw.SATURATED)
-    back = alternatives(saturated)["proportional law"]
-    assert back == game
-
-
 @pytest.mark.parametrize(
     ("gain", "step"), [(1.0, 0.02), (4.0, 0.02), (10.0, 0.01), (0.1, 0.1)]
 )
@@ -129,19 +92,6 @@ def test_random_starts_depend_on_the_seed() -> None:
     one, other = (random_starts(FAST, 5, seed=seed) for seed in (1, 2))
     np.testing.assert_array_equal(one, random_starts(FAST, 5, seed=1))
     assert np.all(one != other)
-
-
-def test_end_distance_counts_only_circles_that_are_reached() -> None:
-    circles = circles_of(FAST)
-    for shares, turned, distance in (
-        ((0.75, 0.0), 0.0, circles[0].distance_m),
-        ((0.5, 0.25), 0.25, circles[1].distance_m),
-        ((0.0, 0.0), 0.0, inf),
-    ):
-        basins = Basins(circles, shares, 0.0, 0.0, 1.0, 4, 1.0)
-        remedy = Remedy("as it is", FAST, basins)
-        assert remedy.reversed_share == turned
-        assert remedy.end_distance_m == distance
 
 
 def test_fractions_and_closest_approach_are_over_all_starts() -> None:

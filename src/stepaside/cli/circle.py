@@ -6,7 +6,7 @@ import click
 
 from ..core.atomic_output import FIGURES
 from ..theory.unicycle.unicycle_game import Game
-from .circle_tables import describe_circles, describe_remedies, print_circles
+from .circle_tables import describe_circles, print_circles
 from .options.common_options import (
     capture_option,
     delay_option,
@@ -48,11 +48,6 @@ from .unicycle_options import describe_game, finite, game_options
     default=0, show_default=True, help="Random seed of the initial poses."
 )
 @capture_option(default=1e-6, show_default=True)
-@click.option(
-    "--remedies/--no-remedies",
-    default=False,
-    help="Simulate alternative strategies that avoid the reversed circle.",
-)
 @json_option
 @writes_files
 def circle(
@@ -64,20 +59,14 @@ def circle(
     starts: int,
     seed: int,
     body: float,
-    remedies: bool,
     as_json: bool,
 ) -> None:
     """Find the circles of a game, their stability and basins of attraction."""
-    if remedies and starts == 0:
-        raise click.UsageError("--remedies needs --starts > 0")
-    games = _announce(game, starts, remedies=remedies)
+    _announce(game, starts)
     result = describe_circle(game, sample_time, delay)
     drawn = (starts, seed, body)
-    with show_progress("circle", games, "games", quiet=as_json) as bar:
+    with show_progress("circle", starts, "games", quiet=as_json) as bar:
         result |= describe_circles(game, *drawn, bar.update)
-        if remedies:
-            found = describe_remedies(game, *drawn, bar.update)
-            result["remedies"] = found
     if figure is not None:
         from ..report.unicycle_ratios import draw_ratios
 
@@ -94,19 +83,12 @@ def circle(
     print_circles(result)
 
 
-def _announce(game: Game, starts: int, *, remedies: bool) -> int:
-    """Announce long simulations; return the number of games."""
+def _announce(game: Game, starts: int) -> None:
+    """Announce long simulations."""
     from ..theory.unicycle.basins import duration_and_step
-    from ..theory.unicycle.reversed_circle_remedies import alternatives
 
-    played = [game, *(alternatives(game).values() if remedies else ())]
-    steps = 0.0
-    for each in played if starts else ():
-        duration, step = duration_and_step(each)
-        steps += starts * duration / step
-    games = starts * len(played)
-    announce_effort(f"{games} games", steps / STEPS)
-    return games
+    duration, step = duration_and_step(game) if starts else (0.0, 1.0)
+    announce_effort(f"{starts} games", starts * duration / step / STEPS)
 
 
 def describe_circle(

@@ -79,33 +79,6 @@ def describe_one(circle: Circle, share: float | None) -> dict[str, Any]:
     }
 
 
-def describe_remedies(
-    game: Game,
-    starts: int,
-    seed: int,
-    body: float,
-    progress: Progress | None = None,
-) -> list[dict[str, Any]]:
-    """Simulate alternative strategies of the evader; return their results."""
-    from ..theory.unicycle.basins import random_starts
-    from ..theory.unicycle.reversed_circle_remedies import try_remedies
-
-    drawn = random_starts(game, starts, seed=seed)
-    return [
-        {
-            "name": remedy.name,
-            "reversed_share": remedy.reversed_share,
-            "captured_share": remedy.basins.captured,
-            "unsettled_share": remedy.basins.unsettled,
-            "mean_closest_distance_m": remedy.basins.closest_distance,
-            "end_distance_m": finite(remedy.end_distance_m),
-        }
-        for remedy in try_remedies(
-            game, drawn, capture_distance=body, progress=progress
-        )
-    ]
-
-
 _COLUMNS = {
     "direction": "direction",
     "side_rule": "side rule",
@@ -115,19 +88,12 @@ _COLUMNS = {
     "time_constant_s": "time constant",
     "starts_share": "basin",
 }
-_REMEDIES = {
-    "name": "remedy",
-    "reversed_share": "reversed",
-    "captured_share": "captured",
-    "mean_closest_distance_m": "mean closest approach",
-    "end_distance_m": "minimum final distance",
-}
 _DIRECTIONS = {1: "main", -1: "reversed"}
 
 
 def print_circles(result: dict[str, Any]) -> None:
     """Print the result as tables."""
-    lists = ("circles", "remedies", "game", "starts")
+    lists = ("circles", "game", "starts")
     if result["exists"]:
         print_table(table_rows(result, (k for k in result if k not in lists)))
     else:
@@ -148,9 +114,6 @@ def print_circles(result: dict[str, Any]) -> None:
         echo("\n  games that did not end on a circle")
         names = ("captured_share", "unsettled_share")
         print_table(table_rows(result["starts"], names))
-    if result.get("remedies"):
-        echo()
-        _print_rows(result["remedies"], _REMEDIES)
 
 
 def _print_rows(

@@ -82,8 +82,6 @@ TABLES: dict[str, Callable[..., str]] = {
     "ros2-peers": ros2_sessions.peers,
     "rating": learning.rating,
     "rating-scores": learning.scores,
-    "remedies": unicycles.remedies,
-    "team-kernel": unicycles.team_kernel,
     "teams": games_of_many.teams,
     "crowds": games_of_many.crowds,
     "side-changes": unicycles.side_changes,

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
-from .markdown import NONE, number, table
+from .markdown import NONE, table
 
 Result = Mapping[str, Any]
 
@@ -14,28 +14,6 @@ def certified_starts(result: Result) -> str:
     keys = ("in the diamond", "certain, latched", "certain, behind")
     rows = [
         (row["starts"], *(_percent(row[key]) for key in keys))
-        for row in result["rows"]
-    ]
-    return table(head, rows)
-
-
-def remedies(result: Result) -> str:
-    """List remedies against a close reversed circle."""
-    head = (
-        "remedy",
-        "end reversed",
-        "captured",
-        "mean closest [m]",
-        "least at the end [m]",
-    )
-    rows = [
-        (
-            row["name"],
-            _percent(row["reversed_share"]),
-            _percent(row["captured_share"]),
-            number(row["mean_closest_distance_m"], 2),
-            number(row["end_distance_m"], 2),
-        )
         for row in result["rows"]
     ]
     return table(head, rows)
@@ -101,25 +79,3 @@ def steps_beyond(result: Result) -> str:
 
 def _percent(share: float) -> str:
     return f"{100.0 * share:.1f} %"
-
-
-def team_kernel(result: Result) -> str:
-    """List rates of compiled games by the number of players."""
-    head = (
-        "kernel",
-        "players",
-        "player-steps per second",
-        "pair-steps per second",
-        "player-step over half a step of two",
-    )
-    rows = [
-        (
-            row["kernel"],
-            str(row["players"]),
-            f"{row['player_steps_per_s'] / 1e6:.0f} million",
-            f"{row['pair_steps_per_s'] / 1e6:.0f} million",
-            number(row["cost_per_player_over_two"], 2),
-        )
-        for row in result["rows"]
-    ]
-    return table(head, rows)

@@ -1,1 +1,0 @@
-"""Games of several unicycles: batches, cyclic pursuit, Apollonius cells."""
