@@ -14,7 +14,7 @@ from scipy.optimize import linprog
 from reference_plans import reference_sole
 from stepaside.core.poses import Array
 from stepaside.planning import Foot, ManeuverPlan
-from stepaside.planning.capturability import FootReach
+from stepaside.planning.push_bound import FootReach
 
 SAMPLES = 8  # in each phase
 STANDS = 1.5  # how long the ZMP is sampled after the last landing, in [s]
@@ -80,31 +80,6 @@ def options(
             [corners_of(plan, row), landing(plan, row, x, y)]
         )
         steps.append([*before, (STANDS, both)])
-    return steps
-
-
-def two_steps(
-    plan: ManeuverPlan, time: float, reach: FootReach
-) -> list[Supports]:
-    """Two footsteps from a single support, the second beside the first."""
-    gait = plan.schedule.settings
-    old = corners_of(plan, 1)
-    origin = landing(plan, 1, 0.0, 0.0)
-    steps: list[Supports] = []
-    for x, y in landings(plan, reach, 2):
-        first = landing(plan, 1, x, y)
-        for u, v in landings(plan, reach, 2):
-            # The foot that stood swings past the other one, to its own side.
-            second = old + landing(plan, 1, u, -v) - origin
-            second += landing(plan, 1, x, y) - origin
-            steps.append(
-                [
-                    (gait.single_support - time, old),
-                    (gait.double_support, np.concatenate([old, first])),
-                    (gait.single_support, first),
-                    (STANDS, np.concatenate([first, second])),
-                ]
-            )
     return steps
 
 

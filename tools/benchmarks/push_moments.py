@@ -26,7 +26,7 @@ from stepaside.planning import (
     GaitSettings,
     ManeuverPlanner,
 )
-from stepaside.planning.capturability import push_bound
+from stepaside.planning.push_bound import push_bound
 from stepaside.planning.steady_gait import steady_plan
 from stepaside.studies.push_results import MODULES
 from stepaside.studies.result_files import header, read_result, write_result

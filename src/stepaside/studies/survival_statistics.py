@@ -10,7 +10,7 @@ import numpy as np
 
 from ..games.walk_settings import WalkSettings
 from ..planning import Direction, Foot, ManeuverPlanner
-from ..planning.capturability import FootReach, push_bound
+from ..planning.push_bound import FootReach, push_bound
 from ..planning.steady_gait import steady_plan
 from .push_limits import limit_of, outcomes_of
 from .records import Record

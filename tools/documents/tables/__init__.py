@@ -85,7 +85,6 @@ TABLES: dict[str, Callable[..., str]] = {
     "teams": games_of_many.teams,
     "crowds": games_of_many.crowds,
     "side-changes": unicycles.side_changes,
-    "steps-beyond": unicycles.steps_beyond,
     "rms": walking.rms,
     "rooms": rooms.outcomes,
     "camera-errors": camera_errors.figures,

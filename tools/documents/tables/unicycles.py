@@ -51,31 +51,5 @@ def side_changes(result: Result) -> str:
     return table(head, rows)
 
 
-def steps_beyond(result: Result) -> str:
-    """List what the push bound omits, as ratios to it."""
-    head = (
-        "gait",
-        "walk",
-        "more steps, aside",
-        "along",
-        "most",
-        "landing earlier, median",
-        "most",
-    )
-    rows = [
-        (
-            row["gait"],
-            row["walk"],
-            f"+{_percent(row['more_steps_aside'])}",
-            f"+{_percent(row['more_steps_along'])}",
-            f"+{_percent(row['more_steps_most'])}",
-            f"x {row['earlier_median']:.2f}",
-            f"x {row['earlier_most']:.2f}",
-        )
-        for row in result["rows"]
-    ]
-    return table(head, rows)
-
-
 def _percent(share: float) -> str:
     return f"{100.0 * share:.1f} %"

@@ -39,8 +39,6 @@ from .gait_settings import GaitSettings
 from .plan import ManeuverPlan
 from .support_polygon import sole_corners
 
-MAX_STEPS = 20  # more have no effect: each counts by exp(-eta T)
-
 
 class FootReach(NamedTuple):
     """Reachable landings, in the axes of the support foot.
@@ -66,12 +64,11 @@ def push_bound(
     reach: FootReach,
     *,
     lasts: float = 0.0,
-    steps: int = 1,
 ) -> float:
     r"""Return the largest push such that it and all smaller ones are held.
 
-    A push is held by the feet on the floor, or by reachable footsteps that
-    land at the planned times, the first in place of the next planned one.
+    A push is held by the feet on the floor, or by one reachable footstep that
+    lands at the planned time, in place of the next planned one.
 
     A push of finite duration is a constant force, with the ZMP free from
     its start: with :math:`h = \eta T` it shifts the DCM by the factor
@@ -86,7 +83,6 @@ def push_bound(
         mass: Mass of the body, in [kg].
         reach: Reachable landings.
         lasts: Duration of the push, in [s]; 0 is an impulse.
-        steps: Number of footsteps, one by default. None follow a halt.
 
     Returns:
         Impulse at the CoM, in [N s]; 0 if the DCM cannot be held at all.
@@ -98,7 +94,6 @@ def push_bound(
     check_bearing(direction, "direction")
     check_within(time, 0.0, plan.schedule.first_step_duration, "time", "s")
     check_not_negative(lasts, "lasts", "s")
-    check_within(steps, 0, MAX_STEPS, "steps", "1")
     for name, value in reach._asdict().items():
         check_not_negative(value, f"reach.{name}", "m")
     dcm = plan.sample([time]).dcm[0]
@@ -108,7 +103,7 @@ def push_bound(
     # Every smaller push must be held too, by any of the regions.
     for enter, leave in sorted(
         ray_interval(dcm, heading, region)
-        for region in held_regions(plan, time, reach, steps)
+        for region in held_regions(plan, time, reach)
     ):
         if enter <= shift:
             shift = max(shift, leave)
@@ -118,7 +113,7 @@ def push_bound(
 
 
 def held_regions(
-    plan: ManeuverPlan, time: float, reach: FootReach, steps: int
+    plan: ManeuverPlan, time: float, reach: FootReach
 ) -> list[Array]:
     """Return convex regions of DCMs that can be held.
 
@@ -126,29 +121,28 @@ def held_regions(
         plan: Current plan.
         time: Time since it began, in [s].
         reach: Reachable landings.
-        steps: Number of footsteps.
 
     Returns:
         Corners of each region in the plan frame, counter-clockwise, in [m]:
         first the region held by the feet on the floor, then that held by
-        footsteps. Their union need not be convex. Shapes (n, 2).
+        the next footstep. Their union need not be convex. Shapes (n, 2).
     """
     gait, phases = plan.schedule.settings, plan.support()
     now = max(i for i, phase in enumerate(phases) if phase.start <= time)
     regions = [phases[now].corners]
     until = now if phases[now].single else now + 1
-    if not steps or until == len(phases):
+    if until == len(phases):
         return regions
     row = phases[until].rows[0]
     x, y, theta = plan.placements[row]
     c, s = cos(theta), sin(theta)
     support = plan.first_foot if row % 2 == 0 else plan.first_foot.other
-    for region in _held_after_landing(gait, reach, support, steps):
-        region = region @ np.array([[c, s], [-s, c]]) + (x, y)
-        for phase in reversed(phases[now : until + 1]):
-            rest = phase.end - max(phase.start, time)
-            region = _before(region, phase.corners, gait.eta, rest)
-        regions.append(region)
+    region = _held_after_landing(gait, reach, support)
+    region = region @ np.array([[c, s], [-s, c]]) + (x, y)
+    for phase in reversed(phases[now : until + 1]):
+        rest = phase.end - max(phase.start, time)
+        region = _before(region, phase.corners, gait.eta, rest)
+    regions.append(region)
     return regions
 
 
@@ -180,12 +174,12 @@ def ray_interval(
 
 
 def _held_after_landing(
-    gait: GaitSettings, reach: FootReach, support: Foot, steps: int
-) -> list[Array]:
-    """Return DCMs at a landing that this footstep and later ones hold.
+    gait: GaitSettings, reach: FootReach, support: Foot
+) -> Array:
+    """Return DCMs at a landing that its two feet can hold.
 
     Returns:
-        Corners of convex regions in the axes of the stance foot.
+        Corners of a convex region in the axes of the stance foot.
     """
     side = support.other.value
     near = 2.0 * gait.sole.inner + reach.gap
@@ -194,19 +188,7 @@ def _held_after_landing(
     landings = np.array([(x, side * y) for x in ahead for y in (near, far)])
     old = sole_corners(np.zeros(3), support, gait.sole)
     new = sole_corners(np.zeros(3), support.other, gait.sole)
-    regions = [convex_hull(np.concatenate([old, _sum(landings, new)]))]
-    if steps == 1:
-        return regions
-    # Or continue: a double support on both feet, then the new foot alone, then
-    # the next landing. The region is linear in the weight w of the new foot in
-    # the mean ZMP, so the union is the hull of its two ends.
-    fade = exp(-gait.eta * gait.double_support)
-    for later in _held_after_landing(gait, reach, support.other, steps - 1):
-        alone = _before(later, new, gait.eta, gait.single_support)
-        stays = _sum(fade * _sum(landings, alone), (1.0 - fade) * old)
-        moves = _sum(landings, _sum(fade * alone, (1.0 - fade) * new))
-        regions.append(convex_hull(np.concatenate([stays, moves])))
-    return regions
+    return convex_hull(np.concatenate([old, _sum(landings, new)]))
 
 
 def _before(region: Array, feet: Array, eta: float, duration: float) -> Array:
