@@ -224,6 +224,7 @@ def test_given_side_is_kept_by_the_latched_rule(side: int) -> None:
         ("step", {"duration": 1.0, "step": -0.1}),
         ("capture_distance", {"duration": 1.0, "capture_distance": 0.0}),
         ("backend", {"duration": 1.0, "backend": "fortran"}),
+        ("side", {"duration": 1.0, "side": 2}),
     ],
 )
 def test_values_out_of_range_are_refused_by_name(

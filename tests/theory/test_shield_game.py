@@ -6,6 +6,7 @@ from math import pi, tau
 import numpy as np
 import pytest
 
+from stepaside.core.errors import PlanError
 from stepaside.theory.chauffeur.chauffeur_game import guaranteed_distance
 from stepaside.theory.shield import (
     PersonModel,
@@ -121,6 +122,14 @@ def test_erosion_lowers_a_slope_by_the_loss() -> None:
     least = 0.25 * np.hypot(1.0, 2.0)
     assert (lowered >= least - 1e-9).all()
     assert (lowered <= least / np.cos(pi / 8) + 1e-9).all()
+
+
+@pytest.mark.parametrize("least", [0.0, -0.2, float("nan")])
+def test_required_distance_that_is_not_positive_is_refused(
+    least: float,
+) -> None:
+    with pytest.raises(PlanError, match="least must be finite and > 0"):
+        solve_shield(omnidirectional(), least)
 
 
 @pytest.mark.parametrize("name", ["speed", "turning_radius"])

@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 
 from ...core.compilation import compiled
-from ...core.errors import check_within
+from ...core.errors import check_positive, check_within
 from ..chauffeur.chauffeur_game import guaranteed_distance
 from .shield_erosion import eroded_values
 from .shield_game import (
@@ -130,6 +130,7 @@ def solve_shield(
     Raises:
         PlanError: If a value is out of range.
     """
+    check_positive(least, "least", "m")
     check_within(cells, 4, 100, "cells", "1")
     check_within(headings, 8, 180, "headings", "1")
     check_within(response, 0.0, 10.0, "response", "s")

@@ -34,7 +34,7 @@ from .relative_motion import (
     geometry_of,
     geometry_of_arrays,
 )
-from .unicycle_game import Game
+from .unicycle_game import Game, check_side
 
 Array = NDArray[np.float64]
 _EVENTS = (Event.CAPTURE, *EDGES)
@@ -243,11 +243,12 @@ def simulate(
         The game, with dense output.
 
     Raises:
-        PlanError: If a duration or distance is not finite and positive.
+        PlanError: If a value is out of range.
         StepAsideError: If the integrator fails.
     """
     check_positive(duration, "duration", "s")
     check_positive(capture_distance, "capture_distance", "m")
+    check_side(side or 0)
     rules = flat_parameters(game, capture_distance)
     r, a, psi = start.wrapped()
     sight = geometry_of(RelativeState(r, a, psi), rules).sight

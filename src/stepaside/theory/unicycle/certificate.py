@@ -34,7 +34,7 @@ from ..laws import evasion_heading, side_behind
 from .circle_equations import circle_of
 from .invariant_set import stays_unwrapped
 from .relative_coordinates import RelativeStart
-from .unicycle_game import Game
+from .unicycle_game import Game, check_side
 
 _FACTOR = 0.98  # ratio of |d| at successive knots of the integration
 _STOPS = 2000  # points on the boundary of the disc that contains the game
@@ -80,6 +80,7 @@ def certify(game: Game, start: RelativeStart, *, side: int = 0) -> Certificate:
             "the certificate needs equal speeds and gains, the proportional "
             f"law and an angle > 0 [rad], got {game}"
         )
+    check_side(side)
     speed, gain, alpha = game.pursuer.speed, game.pursuer.gain, game.angle
     radius = circle_of(game).distance_m
     r, a, psi = start.wrapped()

@@ -17,7 +17,7 @@ from .game_batch import Array, BatchTiming, deviations
 from .game_parameters import flat_parameters
 from .relative_coordinates import check_bearings
 from .relative_motion import RelativeState
-from .unicycle_game import Game
+from .unicycle_game import Game, check_side
 
 # Step size times the larger gain, in [rad]: 0.05 s at 0.5 /s. Six games of
 # 4,096 starts have the outcomes of a step of 0.0025 s, and closest approaches
@@ -102,6 +102,7 @@ def play_games(
         step = duration / ceil(duration / accurate_step(game) - 1e-9)
     check_positive(step, "step", "s")
     check_positive(capture_distance, "capture_distance", "m")
+    check_side(side)
     if duration > MAX_STEPS * step:
         raise PlanError(
             f"duration must be at most {MAX_STEPS:g} steps of {step:g} [s], "

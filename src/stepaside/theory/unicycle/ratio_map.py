@@ -51,6 +51,9 @@ def map_ratios(
 
     Returns:
         Distances over the grid.
+
+    Raises:
+        PlanError: If the law or a value is not valid.
     """
     speeds = np.asarray(speed_ratios, dtype=np.float64)
     gains = np.asarray(gain_ratios, dtype=np.float64)

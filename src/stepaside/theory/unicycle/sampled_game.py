@@ -17,7 +17,7 @@ from ...core.errors import check_not_negative, check_positive
 from ...core.poses import Pose
 from .. import laws
 from .relative_coordinates import RelativeStart
-from .unicycle_game import Game
+from .unicycle_game import Game, check_side
 
 Array = NDArray[np.float64]
 _PARTS = 16  # samples per arc for the closest approach
@@ -143,6 +143,7 @@ def simulate_sampled(
     check_positive(sample_time, "sample_time", "s")
     check_not_negative(delay, "delay", "s")
     check_positive(capture_distance, "capture_distance", "m")
+    check_side(side)
     evader = start.evader_pose(pursuer)
     whole = floor(delay / sample_time + 1e-12)
     late = max(0.0, delay - whole * sample_time)

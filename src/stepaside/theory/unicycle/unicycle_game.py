@@ -6,9 +6,9 @@ from enum import StrEnum
 from functools import wraps
 from inspect import signature
 from math import pi
-from typing import Any, ParamSpec, TypeVar
+from typing import Any, Never, ParamSpec, TypeVar
 
-from ...core.errors import check_positive, check_within
+from ...core.errors import PlanError, check_positive, check_within, shown
 
 Values = ParamSpec("Values")
 Found = TypeVar("Found")
@@ -19,14 +19,25 @@ MOVE_ASIDE = pi / 2
 """Evasion angle of "move aside", in [rad]."""
 
 
-class TurningLaw(StrEnum):
+class _Choice(StrEnum):
+    """Values by name."""
+
+    @classmethod
+    def _missing_(cls, value: object) -> Never:
+        raise PlanError(
+            f"{cls.__name__} must be one of {', '.join(cls)}, "
+            f"got {shown(value)}"
+        )
+
+
+class TurningLaw(_Choice):
     """Law from the evader's heading error to its turning rate."""
 
     PROPORTIONAL = "proportional"  # eq. (4)
     SATURATED = "saturated"  # eq. (6)
 
 
-class SideRule(StrEnum):
+class SideRule(_Choice):
     """Rule for the side of the line of sight to which the evader moves.
 
     ``BEHIND`` takes, at every instant, the direction behind the evader
@@ -104,6 +115,12 @@ class Game:
         """
         ends = self.angle in (0.0, pi)
         return ends or self.side_rule is SideRule.LATCHED
+
+
+def check_side(side: int) -> None:
+    """Raise :class:`PlanError` unless a side is -1, 1, or 0 for none."""
+    if side not in (-1, 0, 1):
+        raise PlanError(f"side must be -1 or 1, got {shown(side)}")
 
 
 def make_game(
