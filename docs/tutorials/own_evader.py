@@ -88,7 +88,7 @@ axes.legend()
 # goes through `memory` ([strategies](../strategies.md)).
 #
 # Many games say more than one: `stepaside rate evader.py:BackAndAside aside
-# deflected --role evader` rates it beside built-in evaders against a fixed
+# look-ahead --role evader` rates it beside built-in evaders against a fixed
 # suite of opponents, and `stepaside duels --strategy
 # evader.py:BackAndAside --seeds 0:100` plays humanoids from a hundred random
 # starts ([campaigns](../campaigns.md)).

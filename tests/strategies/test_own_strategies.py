@@ -22,7 +22,6 @@ from stepaside.games.outcome import Outcome
 from stepaside.planning import Direction
 from stepaside.strategies import (
     STRATEGIES,
-    DeflectedEvasion,
     Evasion,
     HerdingPursuit,
     Pursuit,
@@ -128,16 +127,15 @@ def test_strategies_have_names() -> None:
     assert load_strategy("pursuit") == Pursuit()
     assert load_strategy("stand") == StandStill()
     assert load_strategy("walk") == Walk()
-    assert load_strategy("deflected", evader) == DeflectedEvasion(evader)
     assert load_strategy("pursuit-x2.5") == Pursuit(gain_ratio=2.5)
     assert load_strategy("sharp") == Pursuit(gain_ratio=inf)
     assert load_strategy("herding") == HerdingPursuit()
     others = {"look-ahead", "optimal", "lead", "optimal-pursuit"}
     others |= {"robust", "noisy", "stop-and-wait"}
-    others |= {"sharp", "herding", "cyclic", "assigned", "encircle"}
+    others |= {"sharp", "herding", "cyclic", "assigned"}
     others |= {"pincer", "team-evasion", "goal"}
     others |= {"step-aside", "matador", "wary"}
-    paper = {"evasion", "deflected", "pursuit", "stand", "walk"}
+    paper = {"evasion", "pursuit", "stand", "walk"}
     assert set(STRATEGIES) == paper | others
 
 

@@ -1,4 +1,4 @@
-"""Test the pursuers beside the paper's, and deflected evasion."""
+"""Test the pursuers beside the paper's."""
 
 from math import atan2, cos, hypot, inf, pi, sin
 from typing import Any
@@ -6,10 +6,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.arena import Disc, ObstacleSet, Room, wall_between
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.strategies import (
-    DeflectedEvasion,
     Evasion,
     HerdingPursuit,
     Knowledge,
@@ -166,44 +164,3 @@ def test_herding_turns_with_the_room() -> None:
     np.testing.assert_allclose(
         other[:, :2], np.stack([c * x - s * y, s * x + c * y], -1), atol=1e-9
     )
-
-
-def test_without_obstacles_there_is_no_deflection() -> None:
-    game = StepGame(duration=20.0)
-    one, other = (
-        play_strategies(Pursuit(), evader, START, game=game).evader
-        for evader in (ASIDE, DeflectedEvasion(ASIDE))
-    )
-    np.testing.assert_array_equal(one, other)
-
-
-def test_a_wall_turns_it_along_and_a_far_one_does_not() -> None:
-    """Backing into a wall: the push out of it has the closed form."""
-    turn = Pose(0.0, 0.0, 0.4)  # so that it pushes along x and y
-    wall = wall_between((-5.0, -0.55), (5.0, -0.55))  # its face at -0.5
-    back = DeflectedEvasion(Evasion(angle=0.0, safety_radius=9.0))
-    known = Knowledge(0.0, 0.0, 1.0, NAO, pose_in_map=Pose(0.0, 0.0, 0.5))
-    straight, _ = back.decide(known, back.begin())
-    assert straight.heading == 0.0
-    near = Knowledge(
-        *(0.0, 0.0, 1.0, NAO),
-        pose_in_map=Pose(0.0, 0.0, 0.9),
-        obstacles_in_map=ObstacleSet((wall.moved(turn),)),
-    )
-    turned, _ = back.decide(near, back.begin())
-    push = back.strength * (1.0 / 0.3 - 1.0 / back.reach)
-    way = np.arctan2(-np.sin(0.5) + push, -np.cos(0.5))
-    assert wrap_angle(turned.heading + 0.5 + pi - way) == pytest.approx(
-        0.0, abs=1e-6
-    )
-    far = wall_between((-5.0, -2.0), (5.0, -2.0))
-    room = Room(obstacles=(far, Disc(0.0, 3.0, 0.1)))
-    away = Knowledge(
-        0.0,
-        0.0,
-        1.0,
-        NAO,
-        pose_in_map=Pose(0.0, 0.0, 0.5),
-        obstacles_in_map=room.solid_set,
-    )
-    assert back.decide(away, back.begin())[0] == straight

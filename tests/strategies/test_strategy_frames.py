@@ -12,7 +12,6 @@ from hypothesis import strategies as st
 from stepaside.arena import Box, Disc, Obstacle, ObstacleSet, Polygon, Room
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.strategies import (
-    DeflectedEvasion,
     Evasion,
     Intent,
     Knowledge,
@@ -46,7 +45,6 @@ STRATEGIES: dict[str, Any] = {
     "optimal pursuit": OptimalPursuit(cells=16),
     "evasion": Evasion(angle=1.0, safety_radius=1e6),
     "evasion in time": Evasion(trigger="time", contact_time=20.0),
-    "deflected": DeflectedEvasion(),
     "look-ahead": LookAhead(cells=16),
     "optimal": OptimalEvasion(cells=16),
 }

@@ -1,4 +1,4 @@
-"""Test strategies of teams: cyclic, assigned, encircling, pincer, evasion."""
+"""Test strategies of teams: cyclic, assigned, pincer, evasion."""
 
 from dataclasses import replace
 from itertools import permutations
@@ -24,7 +24,6 @@ from stepaside.strategies.team_evasion import (
 from stepaside.strategies.team_pursuit import (
     AssignedPursuit,
     CyclicPursuit,
-    Encirclement,
     Pincer,
     keep_apart,
 )
@@ -112,35 +111,6 @@ def test_assigned_pursuers_take_different_evaders() -> None:
     assert heading(AssignedPursuit(), first) == pytest.approx(pi / 2)
     second = known("r2", r1=(0.0, 2.0), b1=(2.0, 2.0), b2=(0.0, 6.0))
     assert heading(AssignedPursuit(), second) == pytest.approx(pi / 4)
-
-
-def test_encircling_pursuers_have_evenly_spaced_places() -> None:
-    positions = {"r1": (0.0, 0.0), "r2": (4.0, 1.0), "r3": (3.0, -2.0)}
-    evader = (2.0, 0.5)
-    places = []
-    for own, (x, y) in positions.items():
-        others = {
-            name: (u - x, v - y)
-            for name, (u, v) in (positions | {"b1": evader}).items()
-            if name != own
-        }
-        aim = heading(Encirclement(radius=1.0), known(own, **others))
-        # The place is where the heading meets the ring first.
-        dx, dy = x - evader[0], y - evader[1]
-        along = dx * cos(aim) + dy * sin(aim)
-        way = -along - (along**2 - dx * dx - dy * dy + 1.0) ** 0.5
-        places.append(atan2(dy + way * sin(aim), dx + way * cos(aim)))
-    assert len(places) == 3
-
-
-def test_a_pursuer_halts_in_its_place_and_leaves_it_with_a_margin() -> None:
-    ring = Encirclement(radius=1.0)
-    there = known("r1", r2=(2.0, 0.0), b1=(1.0, 0.0))
-    intent, memory = ring.decide(there, ring.begin())
-    assert not intent.walks
-    moved = known("r1", r2=(2.2, 0.0), b1=(1.2, 0.0))
-    assert not ring.decide(moved, memory)[0].walks
-    assert ring.decide(moved, ring.begin())[0].walks
 
 
 def test_the_pincer_closes_from_both_sides() -> None:

@@ -77,7 +77,6 @@ EXPECTED = {
     "evading.survives": (1.0, 0.1),
     "evading.clear": (-1e-9, 0.0),
     "evading.aside": (0.1, 0.0),
-    "evading.deflected": (0.0, 0.0),
     "evading.decision": (10.0, 0.0),
     "rooms.touched": (0.0, 0.0),
     "rooms.clear": (0.0, 0.0),

@@ -60,12 +60,10 @@ def played() -> PlayedGames:
         {
             "open": {
                 "aside": 5 * (game(0.7),),
-                "deflected": 5 * (game(0.7),),
                 "look-ahead": 5 * (game(0.99),),
             },
             "room": {
                 "aside": 5 * (TOUCHED,),
-                "deflected": (*(3 * (TOUCHED,)), *(2 * (game(),))),
                 "look-ahead": 5 * (game(),),
             },
         }
@@ -97,10 +95,6 @@ EVADING: dict[str, tuple[Fault, ...]] = {
     "aside": (
         with_games("room", "aside", *(5 * (game(),))),
         with_games("room", AHEAD, *(5 * (TOUCHED,))),
-    ),
-    "deflected": (
-        with_games("room", "deflected", *(5 * (game(),))),
-        with_games("room", AHEAD, *(3 * (CAPTURED,)), game(), game()),
     ),
     "decision": (with_games("room", AHEAD, game(), game(decision=0.03)),),
 }

@@ -29,7 +29,7 @@ WORLDS = {
     "3 x 3 m, 3 discs": RoomRecipe(discs=3),
 }
 SIZES = (1.8, 2.0, 2.2, 2.5, 3.0, 4.0, 6.0)  # sides of square rooms, in [m]
-IN_SMALL = ("look-ahead", "aside", "deflected")
+IN_SMALL = ("look-ahead", "aside")
 PURSUERS = (
     *("pure", "pure-x1.5", "pure-x2", "pure-x2.5", "pure-x2.8", "pure-x3"),
     *("pure-x4", "sharp", "herding", "lead", "optimal"),

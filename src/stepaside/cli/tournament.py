@@ -113,7 +113,7 @@ def _levels() -> tuple[str, ...]:
     multiple=True,
     metavar="NAME",
     help="Strategy of an evader: robust, look-ahead, aside, saturated, alpha, "
-    "deflected, optimal, FILE.py:NAME or FILE.onnx; repeatable.  "
+    "optimal, FILE.py:NAME or FILE.onnx; repeatable.  "
     "[default: all]",
 )
 @click.option(

@@ -5,7 +5,6 @@ from typing import Any, NamedTuple
 
 from ..core.errors import ConfigurationError, shown
 from ..strategies import STRATEGIES, Evasion, Strategy
-from ..strategies.registry import OF_EVASION
 
 EVASION = "evasion"
 
@@ -55,16 +54,14 @@ def resolve_strategies(
                 f"{shown(evader)}, got a {type(strategy).__name__}"
             )
         strategy, evader = _base(strategy), strategy
+    if type(evader) is Evasion:
+        if strategy not in (Evasion(), evader):
+            raise ConfigurationError(
+                "strategy must be omitted with an evader_strategy that "
+                f"contains another, got {shown(strategy)}"
+            )
+        strategy = evader
     if not isinstance(evader, str):
-        inner = evader if type(evader) is Evasion else strategy
-        inner = getattr(evader, "evasion", inner)
-        if type(inner) is Evasion and _name(evader, inner) in OF_EVASION:
-            if strategy not in (Evasion(), inner):
-                raise ConfigurationError(
-                    "strategy must be omitted with an evader_strategy that "
-                    f"contains another, got {shown(strategy)}"
-                )
-            strategy = inner
         evader = _name(evader, strategy) or evader
     if not isinstance(pursuer, str):
         pursuer = _name(pursuer, strategy) or pursuer

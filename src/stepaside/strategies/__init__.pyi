@@ -1,7 +1,6 @@
 from .constant_walk import StandStill as StandStill
 from .constant_walk import Walk as Walk
 from .dash_evasion import DashEvasion as DashEvasion
-from .deflected_evasion import DeflectedEvasion as DeflectedEvasion
 from .evasion import Evasion as Evasion
 from .evasion import EvasionMemory as EvasionMemory
 from .goal_walk import GoalWalk as GoalWalk
@@ -31,7 +30,6 @@ from .strategy_game import play_strategies as play_strategies
 from .team_evasion import TeamEvasion as TeamEvasion
 from .team_pursuit import AssignedPursuit as AssignedPursuit
 from .team_pursuit import CyclicPursuit as CyclicPursuit
-from .team_pursuit import Encirclement as Encirclement
 from .team_pursuit import Pincer as Pincer
 from .teleoperation import TeleoperatedPursuit as TeleoperatedPursuit
 from .wary_evasion import WaryEvasion as WaryEvasion
@@ -40,8 +38,6 @@ __all__ = [
     "AssignedPursuit",
     "CyclicPursuit",
     "DashEvasion",
-    "DeflectedEvasion",
-    "Encirclement",
     "Evasion",
     "EvasionMemory",
     "GoalWalk",

@@ -40,7 +40,6 @@ def _matador() -> Strategy:
 
 STRATEGIES: Mapping[str, Callable[[Evasion], Strategy]] = {
     "evasion": lambda evasion: evasion,
-    "deflected": lambda evasion: strategies.DeflectedEvasion(evasion),
     "look-ahead": lambda evasion: strategies.LookAhead(),
     "robust": lambda evasion: strategies.RobustEvasion(),
     "optimal": lambda evasion: strategies.OptimalEvasion(),
@@ -56,7 +55,6 @@ STRATEGIES: Mapping[str, Callable[[Evasion], Strategy]] = {
     "optimal-pursuit": lambda evasion: strategies.OptimalPursuit(),
     "cyclic": lambda evasion: strategies.CyclicPursuit(),
     "assigned": lambda evasion: strategies.AssignedPursuit(),
-    "encircle": lambda evasion: strategies.Encirclement(),
     "pincer": lambda evasion: strategies.Pincer(),
     "team-evasion": lambda evasion: strategies.TeamEvasion(),
     "goal": lambda evasion: strategies.GoalWalk(),
@@ -65,7 +63,7 @@ STRATEGIES: Mapping[str, Callable[[Evasion], Strategy]] = {
 }
 """Factory of each named strategy, given the settings of the paper's evader."""
 
-OF_EVASION = ("evasion", "deflected")  # strategies that use them
+OF_EVASION = ("evasion",)  # strategies that use them
 _OBJECT = re.compile(r"object [\w.<>]+\(.*\)", re.DOTALL)
 _WITH_GAIN = re.compile(r"pursuit-x(?P<ratio>\d+(?:\.\d*)?)", re.ASCII)
 """The paper's pursuer with another gain than its gait's."""

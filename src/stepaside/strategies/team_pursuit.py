@@ -1,7 +1,7 @@
-"""Pursuit in teams: cyclic, encircling, assigned, and from both sides."""
+"""Pursuit in teams: cyclic, assigned, and from both sides."""
 
 from dataclasses import dataclass, field, replace
-from math import atan2, cos, hypot, pi, sin, tau
+from math import atan2, cos, pi, sin
 from typing import Any
 
 import numpy as np
@@ -16,8 +16,6 @@ from .pursuit import Pursuit, PursuitVariant
 APART = 0.7  # from teammates from which pursuers turn away, in [m]
 TOO_NEAR = 0.45  # to a teammate ahead at which a pursuer halts, in [m]
 BESIDE = -0.6  # cosine of the bearing from which a teammate is behind
-ON_SLOT = 0.1  # distance from a slot at which a pursuer halts, in [m]
-OFF_SLOT = 0.25  # distance at which it walks again, in [m]
 Point = tuple[float, float]
 
 
@@ -74,57 +72,6 @@ class AssignedPursuit(_TeamPursuit):
             knowledge = knowledge.about(evaders[assign(costs)[row]])
         intent, memory = self.pursuit.decide(knowledge, memory)
         return keep_apart(knowledge, intent), memory
-
-
-@dataclass(frozen=True, slots=True)
-class Encirclement(_TeamPursuit):
-    """Pursuer that takes its place on a ring around the evader.
-
-    The places are evenly spaced, and turned so that the pursuers keep their
-    order around the evader and walk the least.
-    """
-
-    radius: float = setting(
-        0.8,
-        "Radius of the ring",
-        Range(0.1, 100.0, "m", "the bodies have a width"),
-    )
-
-    def __post_init__(self) -> None:
-        """Validate the settings."""
-        check_settings(self)
-
-    def begin(self) -> tuple[bool, Any]:
-        """Return whether it is in its place, and the memory of pursuit."""
-        return False, self.pursuit.begin()
-
-    def decide(
-        self, knowledge: Knowledge, memory: tuple[bool, Any]
-    ) -> tuple[Intent, tuple[bool, Any]]:
-        """Head for the own place on the ring, and halt there."""
-        halted, inner = memory
-        x, y = self._slot(knowledge)
-        away = hypot(x, y)
-        if away < (OFF_SLOT if halted else ON_SLOT):
-            return STAND, (True, inner)
-        intent, inner = self.pursuit.decide(knowledge.towards(x, y), inner)
-        return keep_apart(knowledge, intent), (False, inner)
-
-    def _slot(self, knowledge: Knowledge) -> Point:
-        """Return the own place on the ring in the frame, in [m]."""
-        u, v = position_of_opponent(knowledge)
-        angles = {
-            name: atan2(y - v, x - u)
-            for name, (x, y) in fellows_of(knowledge).items()
-        }
-        own = knowledge.identity.name if knowledge.identity else ""
-        ordered = sorted(angles, key=lambda name: (angles[name], name))
-        spacing = tau / len(ordered)
-        # Circular mean of the turns that bring each pursuer to its place.
-        turns = [angles[n] - spacing * k for k, n in enumerate(ordered)]
-        turn = atan2(sum(map(sin, turns)), sum(map(cos, turns)))
-        angle = turn + spacing * ordered.index(own)
-        return u + self.radius * cos(angle), v + self.radius * sin(angle)
 
 
 @dataclass(frozen=True, slots=True)

@@ -62,17 +62,6 @@ EVADING = (
         relation=">",
     ),
     Claim(
-        "deflected",
-        "deflecting the direction at obstacles does not suffice (fraction "
-        "that look-ahead survives against the paper's pursuer, less that of "
-        "a deflected evader)",
-        SEQUEL,
-        STEPS,
-        0.0,
-        "1",
-        relation=">",
-    ),
-    Claim(
         "decision",
         "in the 10 ms that planning may take (mean time of its decisions, "
         "on the computer that made this report, not on a NAO)",

@@ -25,7 +25,7 @@ TOURNAMENTS = {
     "open": TournamentSettings(room=RoomRecipe(None, None), game=GAME),
     "room": TournamentSettings(room=RoomRecipe(discs=3), game=GAME),
 }
-EVADERS = ("aside", "deflected", "look-ahead")
+EVADERS = ("aside", "look-ahead")
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,9 +86,6 @@ def read_evading(played: PlayedGames) -> Readings:
         "survives": played.survived("look-ahead"),
         "clear": clear - GAME.body_radius,
         "aside": played.survived("look-ahead") - played.survived("aside"),
-        "deflected": (
-            played.survived("look-ahead") - played.survived("deflected")
-        ),
         "decision": 1e3 * float(np.mean(decisions)),
     }
 

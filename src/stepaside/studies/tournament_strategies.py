@@ -6,7 +6,6 @@ from math import pi, radians
 
 from ..core.errors import ConfigurationError, check_within
 from ..strategies import (
-    DeflectedEvasion,
     Evasion,
     LookAhead,
     OptimalEvasion,
@@ -24,7 +23,6 @@ EVADERS: Mapping[str, Callable[[float], Strategy]] = {
     "aside": lambda angle: Evasion(safety_radius=ALWAYS),
     "saturated": lambda angle: Evasion(saturated=True, safety_radius=ALWAYS),
     "alpha": lambda angle: Evasion(angle, safety_radius=ALWAYS),
-    "deflected": lambda angle: DeflectedEvasion(),
     "optimal": lambda angle: OptimalEvasion(),
     "robust": lambda angle: RobustEvasion(),
 }
