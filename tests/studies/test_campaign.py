@@ -19,7 +19,6 @@ from stepaside.studies.campaign import (
     Study,
     StudyRun,
     run_study,
-    verify_study,
 )
 from stepaside.studies.case_grid import CaseGrid
 from stepaside.studies.executors import open_engine
@@ -199,51 +198,6 @@ def test_blocks_grow_with_short_cases_and_are_bounded(
         run = run_study(study_of(range(20_000)), None, pool)
     assert run.completed and sum(sizes) == 20_000
     assert sizes[0] == 1 and 100 < max(sizes) <= campaigns.LARGEST_BLOCK
-
-
-def test_older_records_are_verified_if_cases_repeat(tmp_path: Path) -> None:
-    store = ResultStore(tmp_path)
-    run_study(study_of(stamp=OLD), store)
-    found = verify_study(study_of(), store, 3)
-    assert len(found.repeated) == 3 and not found.differing
-    run = run_study(study_of(), store)
-    assert run.reused == 12
-    record = next(iter(run.records()))
-    assert record["version"] == "0"
-    assert record["verified"] == {**NOW._asdict(), "replayed": 3}
-
-
-def wrong(case: int) -> Record:
-    return square(case) | ({"square": -1} if case == 4 else {})
-
-
-def test_older_records_are_not_verified_if_cases_differ(
-    tmp_path: Path,
-) -> None:
-    store = ResultStore(tmp_path)
-    run_study(study_of(measure=wrong, stamp=OLD), store)
-    found = verify_study(study_of(), store, 12)
-    assert found.differing == [4]
-    assert all("verified" not in record for record in store.read().values())
-
-
-def test_only_older_records_can_vouch_for_older_ones(tmp_path: Path) -> None:
-    """Current records come out the same; that says nothing of the others."""
-    store = ResultStore(tmp_path)
-    run_study(study_of(range(3, 6), wrong, OLD), store)
-    run_study(study_of(range(6, 12)), store)
-    found = verify_study(study_of(), store, 3)
-    assert found.repeated == [3, 4, 5] and found.differing == [4]
-
-
-def test_current_records_are_repeated_if_there_are_no_older_ones(
-    tmp_path: Path,
-) -> None:
-    store = ResultStore(tmp_path)
-    run_study(study_of(), store)
-    lines = len(list(store.entries()))
-    assert len(verify_study(study_of(), store, 4).repeated) == 4
-    assert len(list(store.entries())) == lines
 
 
 def test_a_grid_is_a_product_in_the_order_of_nested_loops() -> None:

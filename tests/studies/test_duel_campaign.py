@@ -16,8 +16,6 @@ import pytest
 from click.testing import CliRunner
 
 from stepaside.cli.duels import duels
-from stepaside.cli.main import main
-from stepaside.core import worker_pool as workers
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.sim.push import Push
 from stepaside.strategies import Evasion
@@ -160,12 +158,10 @@ def test_records_of_other_settings_are_not_these(
     assert len(store.read()) == 2
 
 
-def test_versions_of_records_name_those_that_were_verified() -> None:
+def test_versions_of_records_are_one_or_a_list() -> None:
     old = CodeStamp("old", {"mujoco": "0"})
-    verified = {**NOW._asdict(), "replayed": 3}
-    records = [made(s, **old._asdict(), verified=verified) for s in (1, 2)]
-    stamps = versions_of(records)
-    assert stamps["version"] == "old" and stamps["verified"] == verified
+    records = [made(s, **old._asdict()) for s in (1, 2)]
+    assert versions_of(records)["version"] == "old"
     assert versions_of([*records, made(3)])["version"] == ["old", "new"]
 
 
@@ -272,32 +268,6 @@ def test_invalid_seeds_are_refused(bad: str) -> None:
     answer = CliRunner().invoke(duels, ["--seeds", bad, "--json"])
     assert answer.exit_code == 2
     assert "FIRST" in answer.output and "got" in answer.output
-
-
-def test_verifying_nothing_is_refused(tmp_path: Path) -> None:
-    answer = CliRunner().invoke(
-        duels, ["--verify", "3", "--output", str(tmp_path)]
-    )
-    assert answer.exit_code == 2 and "records" in answer.output
-
-
-def test_nothing_is_played_when_verified_duels_differ(
-    quick: Here, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    with ResultStore(tmp_path / "records").writer() as writer:
-        for seed in range(3):
-            digest = "another" if seed else "d0"
-            old = made(seed, version="old", digest=digest)
-            writer.append([(key_of(replace(SETTINGS, seed=seed)), old)])
-    monkeypatch.setattr(workers, "worker_pool", lambda _: quick)
-    line = ["duels", "--seeds", "0:9", "--verify", "3", "--json"]
-    line += ["--duration", "120", "--output", str(tmp_path)]
-    answer = CliRunner().invoke(main, line)
-    assert answer.exit_code == 1, answer.output
-    assert "1 of 3 repeated cases agree" in answer.stderr
-    assert "results of 1, 2 differ" in answer.stderr
-    assert answer.stdout == "" and len(quick.seeds) == 3
-    assert [f.name for f in tmp_path.iterdir()] == ["records"]
 
 
 CHILD = """

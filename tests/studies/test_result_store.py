@@ -118,14 +118,11 @@ def test_an_index_tells_versions_apart(store: ResultStore) -> None:
     with store.writer() as writer:
         first, second = writer.append([("c", old), ("d", old | {"y": 1})])
         (third,) = writer.append([("c", new)])
-        (verified,) = writer.append([("e", old | {"verified": new})])
     stamp_1, stamp_2 = '["1", {"numpy": "2"}]', '["2", {"numpy": "2"}]'
     index = RecordIndex(store)
     assert index.find("c", stamp_1) == first
     assert index.find("c", stamp_2) == third
     assert index.find("d", stamp_2) is None
-    assert index.find_other("d", stamp_2) == second
-    assert index.find("e", stamp_2) == verified
     assert RecordIndex(store, ["y"]).find("c", stamp_2) is None
     assert RecordIndex(store, ["y"]).find("d", stamp_1) == second
 

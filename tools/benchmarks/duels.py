@@ -7,9 +7,7 @@ results, so that more seeds can be added later::
     python tools/benchmarks/duels.py hardware --seeds 0:200
     python tools/benchmarks/duels.py cameras --seeds 0:100
 
-``--verify N`` repeats N recorded duels; if all agree to the bit, the records
-of an older version of the code are reused. ``--summarise`` only recomputes
-the summary from the records.
+``--summarise`` only recomputes the summary from the records.
 """
 
 from collections.abc import Sequence
@@ -82,7 +80,6 @@ def main() -> None:
     parser = ask(__doc__, lambda given: f"duels-{given.kind}.json")
     parser.add_argument("kind", choices=list(KINDS))
     parser.add_argument("--seeds", type=seeds_of, default=range(0, 40))
-    parser.add_argument("--verify", type=int)
     parser.add_argument("--summarise", action="store_true")
     parser.add_argument("--workers", type=int)
     asked = parser.parse_args()
@@ -93,7 +90,7 @@ def main() -> None:
         return
     store = ResultStore(output.with_suffix(""))
     study = duel_study(settings, seeds)
-    run = complete(study, store, asked.workers, verify=asked.verify)
+    run = complete(study, store, asked.workers)
     records = list(run.records())
     compact(store)
     entries = json_settings(settings) | {"seeds": [seeds.start, seeds.stop]}

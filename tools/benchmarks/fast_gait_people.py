@@ -6,9 +6,6 @@ straight --gait fast``: from ahead within 30 degrees, at a walking distance of
 in ``runs/comers``::
 
     python tools/benchmarks/fast_gait_people.py --seeds 0:50
-
-``--verify N`` repeats N recorded duels of each kind; if all agree to the bit,
-the records of an older version of the code are reused.
 """
 
 from dataclasses import replace
@@ -80,14 +77,13 @@ def main() -> None:
     parser.add_argument("--seeds", type=seeds_of, default=range(0, 50))
     parser.add_argument("--kinds", nargs="+", choices=KINDS, default=KINDS)
     parser.add_argument("--records", type=Path, default=Path("runs/comers"))
-    parser.add_argument("--verify", type=int)
     parser.add_argument("--workers", type=int)
     asked = parser.parse_args()
     rows: list[Record] = []
     for kind in asked.kinds:
         study = duel_study(KINDS[kind], asked.seeds)
         store = ResultStore(asked.records / kind)
-        run = complete(study, store, asked.workers, verify=asked.verify)
+        run = complete(study, store, asked.workers)
         rows.append(row_of(kind, list(run.records())))
     seeds = [asked.seeds.start, asked.seeds.stop]
     libraries = ["mujoco", "numpy", "opencv-python-headless"]

@@ -17,7 +17,6 @@ from stepaside.studies.campaign import (
     Study,
     StudyRun,
     run_study,
-    verify_study,
 )
 from stepaside.studies.executors import Engine, open_engine
 from stepaside.studies.result_store import ResultStore
@@ -31,8 +30,6 @@ def complete(
     study: Study[C],
     store: ResultStore | None,
     workers: int | None = None,
-    *,
-    verify: int | None = None,
 ) -> StudyRun[C]:
     """Run a study to its end, with a progress bar.
 
@@ -40,28 +37,22 @@ def complete(
         study: Study.
         store: Store of its records; None for a temporary one.
         workers: Number of processes; all cores by default, 0 for this one.
-        verify: Number of older records to repeat first; if all agree, the
-            older records are reused.
 
     Raises:
         KeyboardInterrupt: After Ctrl-C; finished cases are stored.
         OutputError: If a record cannot be stored.
     """
     if workers == 0:
-        return _complete(study, store, Engine.of(None), verify)
+        return _complete(study, store, Engine.of(None))
     with open_engine(workers=workers) as engine:
-        return _complete(study, store, engine, verify)
+        return _complete(study, store, engine)
 
 
 def _complete(
     study: Study[C],
     store: ResultStore | None,
     engine: Engine,
-    verify: int | None,
 ) -> StudyRun[C]:
-    if verify is not None and store is not None:
-        differing = verify_study(study, store, verify, engine).differing
-        print(f"different results: {differing}")
     with tqdm(total=len(study.cases), disable=None) as bar:
 
         def report(progress: CampaignProgress) -> None:

@@ -65,14 +65,6 @@ shard_option = partial(
     help="Run every N-th case only, from the I-th; `stepaside merge` joins "
     "the outputs.",
 )
-verify_option = partial(
-    click.option,
-    "--verify",
-    type=click.IntRange(1, 100_000),
-    metavar="N",
-    help="Repeat N recorded cases. If all results agree, reuse the records "
-    "of an older version of the code; otherwise exit with status 1.",
-)
 
 
 class CampaignOptions(NamedTuple):
@@ -83,7 +75,6 @@ class CampaignOptions(NamedTuple):
         executor: Specification of the executor; see
             :func:`~stepaside.studies.executors.open_engine`.
         shard: Number of the shard, from 1, and number of shards.
-        verify: Number of recorded cases to repeat.
         output: Folder of results; None to store nothing.
         table: File of the table of all records.
     """
@@ -91,7 +82,6 @@ class CampaignOptions(NamedTuple):
     workers: int | None = None
     executor: str = POOL
     shard: tuple[int, int] | None = None
-    verify: int | None = None
     output: Path | None = None
     table: Path | None = None
 
@@ -160,7 +150,6 @@ def campaign_options(
             workers: int | None,
             executor: str,
             shard: tuple[int, int] | None,
-            verify: int | None,
             output: Path | None,
             **values: Any,
         ) -> Any:
@@ -170,9 +159,7 @@ def campaign_options(
                 check_file(table, overwrite=True)
             if output is not None:
                 check_folder(output, new=False)
-            campaign = CampaignOptions(
-                workers, executor, shard, verify, output, table
-            )
+            campaign = CampaignOptions(workers, executor, shard, output, table)
             if output is not None:
                 note_records(campaign.records)
             try:
@@ -188,7 +175,6 @@ def campaign_options(
         )
         for option in (
             output_option,
-            verify_option(),
             shard_option(),
             executor_option(),
             workers_option(),

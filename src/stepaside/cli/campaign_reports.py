@@ -3,16 +3,12 @@
 from contextlib import nullcontext
 from typing import TYPE_CHECKING, TypeVar
 
-import click
-
 from .campaign_options import CampaignOptions
-from .output_files import has_records
 from .progress import show_progress
 from .terminal import echo, exit_interrupted, resume_message
 
 if TYPE_CHECKING:
     from ..studies.campaign import CampaignProgress, Study, StudyRun
-    from ..studies.executors import Engine
     from ..studies.result_store import ResultStore
 
 C = TypeVar("C")
@@ -51,8 +47,6 @@ def run_campaign(
         and (len(study.cases) <= few or (few and campaign.workers == 1))
         else open_engine(campaign.executor, campaign.workers) as engine,
     ):
-        if campaign.verify is not None:
-            _verify(study, campaign, engine)
 
         def report(progress: "CampaignProgress") -> None:
             bar.initial, bar.n = progress.reused, progress.finished
@@ -97,29 +91,3 @@ def report_invalid_lines(store: "ResultStore") -> None:
             "records are computed again",
             err=True,
         )
-
-
-def _verify(
-    study: "Study[C]", campaign: CampaignOptions, engine: "Engine"
-) -> None:
-    """Repeat recorded cases; exit if results differ."""
-    from ..studies.campaign import verify_study
-
-    store = campaign.store
-    if store is None or not has_records(campaign.records):
-        raise click.UsageError(
-            f"--verify requires an --output with records, got "
-            f"{campaign.output}"
-        )
-    assert campaign.verify is not None
-    found = verify_study(study, store, campaign.verify, engine)
-    same = len(found.repeated) - len(found.differing)
-    echo(f"{same} of {len(found.repeated)} repeated cases agree", err=True)
-    if found.differing:
-        cases = ", ".join(map(str, found.differing))
-        echo(
-            f"stepaside: the results of {cases} differ; no record was "
-            "reused, no further case run",
-            err=True,
-        )
-        raise SystemExit(1)

@@ -10,7 +10,6 @@ from time import perf_counter
 from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeVar
 
 from ..core.errors import CampaignError, OutputError
-from ..core.random_streams import named_generator
 from .code_version import code_version, installation, library_versions
 from .executors import Engine
 from .records import Record
@@ -411,76 +410,3 @@ class _Campaign(Generic[C]):
             run = self._run
             total = len(self._cases)
             self._report(CampaignProgress(run.finished, run.reused, total))
-
-
-class Verification(NamedTuple):
-    """Result of a verification.
-
-    Attributes:
-        repeated: Cases that were measured again.
-        differing: Those whose record differs.
-    """
-
-    repeated: list[Any]
-    differing: list[Any]
-
-
-def verify_study(
-    study: Study[C],
-    store: ResultStore,
-    number: int,
-    executor: Executor | Engine | None = None,
-) -> Verification:
-    """Measure some recorded cases again, and compare.
-
-    Cases recorded by an older version of code or libraries are repeated
-    first. If all of them give the same record, every older record of the
-    study counts as verified by the present version.
-
-    Args:
-        study: Study.
-        store: Store of its records.
-        number: Number of cases to repeat, drawn at random.
-        executor: See :func:`run_study`.
-    """
-    index = RecordIndex(store, study.fields)
-    older: dict[int, int] = {}
-    current: dict[int, int] = {}
-    for i, case in enumerate(study.cases):
-        key, stamp = study.key_of(case), study.stamp_of(case).text
-        found = index.find(key, stamp)
-        other = index.find_other(key, stamp)
-        if found is not None:
-            current[i] = found
-        elif other is not None:
-            older[i] = other
-    recorded = older or current
-    order = named_generator(0, "verify").permutation(len(recorded))
-    drawn = sorted(list(recorded)[i] for i in order[:number].tolist())
-    sample = replace(study, cases=[study.cases[i] for i in drawn])
-    again = run_study(sample, None, executor)
-    differing = [
-        case
-        for i, (case, record) in zip(drawn, again.items(), strict=True)
-        if _substance(study, record)
-        != _substance(study, store.record_at(recorded[i]))
-    ]
-    if older and not differing:
-        _mark_verified(study, store, older, len(drawn))
-    return Verification(list(sample.cases), differing)
-
-
-def _mark_verified(
-    study: Study[C], store: ResultStore, older: Mapping[int, int], number: int
-) -> None:
-    with store.writer() as writer:
-        for i, position in older.items():
-            case = study.cases[i]
-            verified = study.stamp_of(case)._asdict() | {"replayed": number}
-            record = store.record_at(position) | {"verified": verified}
-            writer.append([(study.key_of(case), record)])
-
-
-def _substance(study: Study[C], record: Record) -> Record:
-    machine = {*study.volatile, "version", "libraries", "verified"}
-    return {k: v for k, v in record.items() if k not in machine}

@@ -46,13 +46,12 @@ def versions_of(records: Iterable[Record]) -> Record:
     """Return the versions of code and libraries of some records.
 
     Returns:
-        ``version`` and ``libraries`` of the records, and ``verified``:
-        versions that were found to play the same, if any. Each is a list if
-        there are several.
+        ``version`` and ``libraries`` of the records. Each is a list if there
+        are several.
     """
     stamps: dict[str, list[Any]] = {}
     for record in records:
-        for name in ("version", "libraries", "verified"):
+        for name in ("version", "libraries"):
             value = record.get(name)
             found = stamps.setdefault(name, [])
             if value is not None and value not in found:

@@ -200,7 +200,7 @@ class RecordIndex:
     """Positions of the records of a store, by key and by their stamp.
 
     A stamp is the version of the code and of the libraries that measured a
-    record, or with which it was verified.
+    record.
     """
 
     def __init__(
@@ -216,7 +216,7 @@ class RecordIndex:
         self._positions: dict[str, dict[str, int]] = {}
         for key, record, position in store.entries():
             if needed <= record.keys():
-                stamp = stamp_text(record.get("verified", record))
+                stamp = stamp_text(record)
                 self._positions.setdefault(stamp, {})[key] = position
 
     def __bool__(self) -> bool:
@@ -226,13 +226,6 @@ class RecordIndex:
     def find(self, key: str, stamp: str) -> int | None:
         """Return the position of the record of a case with a stamp."""
         return self._positions.get(stamp, {}).get(key)
-
-    def find_other(self, key: str, stamp: str) -> int | None:
-        """Return the position of a record with another stamp, if any."""
-        for other, positions in self._positions.items():
-            if other != stamp and key in positions:
-                return positions[key]
-        return None
 
 
 def stamp_text(record: Mapping[str, Any]) -> str:
