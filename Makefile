@@ -163,7 +163,7 @@ figures: setup
 docs: docs-setup
 	$(BIN)/sphinx-build --quiet --fail-on-warning --keep-going \
 		-d build/site-cache docs build/site
-	$(BIN)/python -m tools.documents.play_page build/site/play
+	$(BIN)/python -m tools.documents.recorded_page build/site/recorded.html
 	$(BIN)/python -m tools.documents.site_links build/site
 	@echo "the site is build/site/index.html"
 

@@ -6,10 +6,8 @@ from pathlib import Path
 import pytest
 
 import stepaside
-from stepaside.games.duel_settings import DuelSettings
-from stepaside.report import game_page
 from stepaside.studies.code_version import ROOT
-from tools.documents import gallery, notebooks, play_page, site_links
+from tools.documents import gallery, notebooks, site_links
 
 DOCS = Path(__file__).parents[2] / "docs"
 TREE = re.compile(r"```{toctree}\n(.*?)```", re.DOTALL)
@@ -97,14 +95,3 @@ def test_broken_links_of_a_site_are_found(tmp_path: Path) -> None:
         "index.html: sub/page.html#bad: no such anchor",
         "index.html: gone.png: no such file",
     ]
-
-
-def test_without_npm_the_site_plays_a_recording(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    short = DuelSettings(seed=7, duration=0.4)
-    monkeypatch.setattr(play_page, "SETTINGS", short)
-    monkeypatch.setattr(game_page, "which", lambda name: None)
-    message = play_page.write(tmp_path / "play")
-    assert "recorded" in message and "npm" in message
-    assert (tmp_path / "play/index.html").stat().st_size > 100_000

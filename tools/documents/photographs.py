@@ -7,8 +7,7 @@ depend on the speed of the machine::
     python -m tools.documents.photographs page.gif   # some
 
 ``view.png`` is a live page with cameras, ``page.gif`` an animation of one on
-which the pursuer is pushed by hand, ``replay.png`` the offline page,
-``play.png`` the page that plays.
+which the pursuer is pushed by hand, ``replay.png`` the offline page.
 """
 
 from argparse import ArgumentParser
@@ -27,11 +26,9 @@ from tqdm import tqdm
 
 from stepaside.games.duel import run_duel
 from stepaside.games.duel_settings import DuelSettings
-from stepaside.report.game_page import write_game_page
 from stepaside.report.replay_page import write_page
 from stepaside.report.viewer.live_page import Page
 
-from ..static_server import served_folder
 from .pictures import IMAGES
 
 DESK = {"width": 1280, "height": 720}
@@ -124,29 +121,10 @@ def replay(browser: Any) -> None:
         page.screenshot(path=IMAGES / "replay.png")
 
 
-def play(browser: Any) -> None:
-    """Take a screenshot of the page that plays, on the circle."""
-    with TemporaryDirectory() as place:
-        write_game_page(DuelSettings(seed=7), Path(place))
-        with served_folder(Path(place)) as address:
-            page = opened(browser, address)
-            page.evaluate("stepaside.loaded.then(() => toggle(false))")
-            page.evaluate(
-                f"""while (stepaside.game.time < {PLAYED}) {{
-                  stepaside.game.tick();
-                  note();
-                }}
-                byId("rate").hidden = true;"""
-            )
-            page.evaluate(DRAWN)
-            page.screenshot(path=IMAGES / "play.png")
-
-
 TAKEN = {
     "view.png": view,
     "page.gif": film,
     "replay.png": replay,
-    "play.png": play,
 }
 
 

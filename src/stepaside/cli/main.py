@@ -20,7 +20,6 @@ COMMANDS = {
     "merge": "Join the outputs of the shards of a campaign.",
     "view": "Watch a duel in the browser; push or drive the robots.",
     "replay": "Replay a run: live page, offline page or video.",
-    "page": "Write a page on which a duel is played in the browser.",
     "compare": "Plot several runs in one figure.",
     "export": "Write a run for other programs: MCAP, Rerun, URDF, tables.",
     "walk": "Simulate the walk of one humanoid and measure it.",

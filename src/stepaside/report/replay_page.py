@@ -3,7 +3,6 @@
 import io
 import zipfile
 from base64 import b64encode
-from collections.abc import Sequence
 from functools import cache
 from importlib.resources import files
 from typing import Any
@@ -29,8 +28,7 @@ TEMPLATE = "viewer.html.template"
 BEGIN = "/**\n * @license\n * Copyright 2010-"  # notice of three.js
 END = 'Object.defineProperty(t,"__esModule",{value:!0})}));'
 RATE = 20.0  # samples per second of the run
-SHARED = ("scene.js", "stage.js")
-SCRIPTS = (*SHARED, "plots.js", "page.js")
+SCRIPTS = ("scene.js", "stage.js", "plots.js", "page.js")
 LABEL_GAP = 0.04  # between a player's highest point and its label, in [m]
 TOP_MARGIN = 0.4  # around the players in the top view, in [m]
 
@@ -61,17 +59,12 @@ def three_js() -> str:
     return text[begin:end]
 
 
-def template(page: str, scripts: Sequence[str]) -> str:
-    """Return a page without a run: markup, style, three.js and scripts.
-
-    Args:
-        page: File of the markup.
-        scripts: Files of the scripts, in their order.
-    """
+def template() -> str:
+    """Return the page without a run: markup, style, three.js and scripts."""
     folder = files(__package__).joinpath("page")
     text, style, *sources = (
         folder.joinpath(name).read_text(encoding="utf-8")
-        for name in (page, "page.css", *scripts)
+        for name in ("page.html", "page.css", *SCRIPTS)
     )
     text = text.replace("@@STYLE@@", style).replace("@@THREE@@", three_js())
     return text.replace("@@SCRIPT@@", '"use strict";\n' + "".join(sources))
@@ -89,9 +82,7 @@ def write_page(run: Run, file: AnyPath) -> None:
         OutputError: If the file cannot be written.
     """
     file = as_path(file, "file")
-    text = fill_page(
-        template("page.html", SCRIPTS), {"NAME": run.name}, page_data(run)
-    )
+    text = fill_page(template(), {"NAME": run.name}, page_data(run))
     with atomic_draft(file) as draft:
         draft.write_text(text, encoding="utf-8", newline="\n")
 

@@ -42,13 +42,6 @@ DUEL = (
     OptionGroup("Passing pedestrians", ("passers",)),
     OptionGroup("Pushes", ("pushes",)),
 )
-PAGE = (
-    RUN,
-    START,
-    OptionGroup("Evasion", ("strategy",)),
-    GAIT,
-    OptionGroup("Learned legs (docs/legs.md)", ("legs",)),
-)
 WALK = (
     RUN,
     OptionGroup("Walk", ("bearing", "backward", "pushes")),
@@ -66,8 +59,3 @@ def duel_options(*without: str) -> Decorator:
         without: Entries whose options the command does not have.
     """
     return takes_settings(DuelSettings, *DUEL, without=without)
-
-
-def page_options() -> Decorator:
-    """Add the options of a duel that a page can play; pass ``settings``."""
-    return takes_settings(DuelSettings, *PAGE, without=("duration",))

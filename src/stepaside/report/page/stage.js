@@ -1,5 +1,5 @@
 "use strict";
-/* What the replay page and the page that plays share: scene, theme, cameras, legend. */
+/* Scene, theme, cameras and legend of the replay page. */
 
 const byId = (id) => document.getElementById(id);
 const run = JSON.parse(byId("run").textContent);
