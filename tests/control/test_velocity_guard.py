@@ -5,7 +5,7 @@ from math import cos, hypot, pi, sin
 import numpy as np
 import pytest
 
-from stepaside.arena import Disc, Room
+from stepaside.arena import Box, Disc, Obstacle, Room
 from stepaside.control.clearance.surroundings import KnownRoom
 from stepaside.control.clearance.velocity_guard import VelocityGuard
 from stepaside.core.poses import Pose
@@ -28,12 +28,14 @@ def guard_of(velocities: VelocitySet) -> VelocityGuard:
     return VelocityGuard(KnownRoom(ROOM, ORIGIN), velocities, CLEARANCE)
 
 
-def path(velocity: BodyVelocity, pose: Pose) -> np.ndarray:
+def path(
+    velocity: BodyVelocity, pose: Pose, duration: float = DURATION
+) -> np.ndarray:
     """Positions until the robot stands, integrated in small steps."""
     x, y, theta = pose
     steps, rows = 400, [(x, y)]
     for _ in range(steps):
-        step = DURATION / steps
+        step = duration / steps
         middle = theta + 0.5 * velocity.turn * step
         x += step * (
             velocity.forward * cos(middle) - velocity.lateral * sin(middle)
@@ -45,12 +47,13 @@ def path(velocity: BodyVelocity, pose: Pose) -> np.ndarray:
         rows.append((x, y))
     ahead = HALTING.forward * velocity.forward / 0.7
     left = HALTING.lateral * velocity.lateral / 0.4
-    rows.append(
-        (
-            x + ahead * cos(theta) - left * sin(theta),
-            y + ahead * sin(theta) + left * cos(theta),
+    for share in np.linspace(0.01, 1.0, 100):
+        rows.append(
+            (
+                x + share * (ahead * cos(theta) - left * sin(theta)),
+                y + share * (ahead * sin(theta) + left * cos(theta)),
+            )
         )
-    )
     return np.array(rows)
 
 
@@ -102,6 +105,48 @@ def test_a_robot_too_near_may_move_away_only() -> None:
     assert guard_of(UNICYCLE).admit(
         BodyVelocity(0.5, 0.0, 0.0), too_near, DURATION
     ) in (STILL, BodyVelocity(0.0, 0.0, 0.0))
+
+
+@pytest.mark.parametrize("duration", [0.08, 0.4, 0.547, 1.0])
+@pytest.mark.parametrize("gap", [0.2, 0.25, 0.3, 0.38, 0.45])
+@pytest.mark.parametrize("kind", ["wall", "pole"])
+def test_no_path_leads_through_a_thin_obstacle(
+    kind: str, gap: float, duration: float
+) -> None:
+    """Nor nearer to it, from within the clearance."""
+    thin: Obstacle = Box(gap + 0.02, 0.0, 0.04, 3.0)
+    if kind == "pole":
+        thin = Disc(gap + 0.02, 0.0, 0.02)
+    room = Room(8.0, 8.0, (thin,))
+    generator = np.random.default_rng(8)
+    wishes = [BodyVelocity(0.7), BodyVelocity(0.5, 0.2, 0.9)]
+    for _ in range(8):
+        wish = generator.uniform((0.0, -0.4, -0.9), (0.7, 0.4, 0.9))
+        wishes.append(SIDEWAYS.nearest(BodyVelocity(*wish.tolist())))
+    for velocities in (SIDEWAYS, UNICYCLE):
+        guard = VelocityGuard(KnownRoom(room, ORIGIN), velocities, CLEARANCE)
+        for wish in map(velocities.nearest, wishes):
+            admitted = guard.admit(wish, ORIGIN, duration)
+            way = path(admitted, ORIGIN, duration)
+            clear = room.solid_set.clearance(way)
+            # Chords of arcs are off by less than 1 mm.
+            assert clear.min() >= min(CLEARANCE, clear[0]) - 1e-3
+
+
+def test_the_measured_tube_of_the_legs_is_kept_clear() -> None:
+    wish, before_wall = BodyVelocity(0.7), Pose(-1.0, 1.0, pi / 2)
+    walls = KnownRoom(ROOM, ORIGIN)
+    least = []
+    for tube in (0.0, 0.28):
+        legs = UNICYCLE._replace(tube=tube)
+        guard = VelocityGuard(walls, legs, CLEARANCE)
+        pose = before_wall
+        for _ in range(20):
+            velocity = guard.admit(wish, pose, DURATION)
+            x, y = path(velocity, pose)[-1].tolist()
+            pose = Pose(x, y, pose.theta)
+        least.append(float(ROOM.solid_set.clearance([pose[:2]])[0]))
+    assert CLEARANCE <= least[0] < CLEARANCE + 0.28 <= least[1]
 
 
 def test_an_open_floor_changes_nothing() -> None:

@@ -159,9 +159,24 @@ def test_a_topic_is_held_while_it_is_true() -> None:
     assert not switch.released()
     clock.now += 1.1 * AGE
     assert "/operator/hold is not true" in switch.released()
-    switch.close()
-    del writer
+
+    def turns(is_held: bool) -> bool:
+        """Wait at one time until the switch is held or released."""
+        end = monotonic() + 20.0
+        while bool(switch.released()) == is_held and monotonic() < end:
+            sleep(0.01)
+        return bool(switch.released()) != is_held
+
+    # Letting go counts at once: by a message, or because its writer leaves.
+    writer.write(Bool(True))
+    assert turns(True)
+    writer.write(Bool(False))
+    assert turns(False)
+    writer.write(Bool(True))
+    assert turns(True)
     operator.close()
+    assert turns(False)
+    switch.close()
 
 
 @pytest.mark.parametrize(

@@ -32,9 +32,12 @@ class Echo(sa.JointRobot):
         self.angles = dict.fromkeys(NAO_MOTORS.names, 0.0)
         self.speeds = dict.fromkeys(NAO_MOTORS.names, 0.0)
 
+    def clock(self):
+        return monotonic()
+
     def listen(self):
         sleep(0.004)
-        now = monotonic()
+        now = self.clock()
         force = (0.0, 0.0, 9.8 + 0.01 * (now % 0.1))
         sees = sa.Sighting.of_position(now, 0.6, 0.1)
         return sa.JointReport(
@@ -53,15 +56,43 @@ class Echo(sa.JointRobot):
         with open(os.environ["ECHO_LOG"], "a") as log:
             print(word, file=log)
 
-class Seeing(Echo):
-    """The same with a camera, which shows an opponent 1 m ahead."""
+class Simulated(Echo):
+    """The same with a clock of its own, which waits for the program."""
+
+    paced = False
+    now = 0.0
+
+    def clock(self):
+        return self.now
 
     def listen(self):
+        self.now += self.tick
+        return super().listen()
+
+class Seeing(Simulated):
+    """The same with a camera, which shows an opponent 1 m ahead.
+
+    The clock waits for each image: a busy computer makes none late.
+    """
+
+    next_image = 0.0
+    renders = False
+
+    def listen(self):
+        while self.renders:
+            sleep(0.001)
         return super().listen()._replace(sighting=None)
 
     def image(self):
-        sleep(0.05)
-        now, camera = monotonic(), scene.SimulatedWalker(0, 1.0)
+        if self.now < self.next_image:
+            return None
+        self.renders, self.next_image = True, self.now + 0.06
+        image = self.render()
+        self.renders = False
+        return image
+
+    def render(self):
+        camera = scene.SimulatedWalker(0, 1.0)
         camera.socket.close()
         scene.CAMERA = 0.46
         camera.person = [1.0, 0.0]
@@ -69,7 +100,7 @@ class Seeing(Echo):
         camera.head = [yaw, pitch + 0.021]
         pixels = camera.image().partition(b"\\n")[2]
         pixels = np.frombuffer(pixels, np.uint8).reshape(120, 160, 3)
-        return sa.CameraImage(now, pixels, scene.FOCAL, scene.FOCAL)
+        return sa.CameraImage(self.now, pixels, scene.FOCAL, scene.FOCAL)
 '''
 ADAPTERS = Path(__file__).parents[2] / "examples" / "adapters"
 PLAY = "from stepaside.cli.main import main; main()"
@@ -157,3 +188,17 @@ def test_a_joint_robot_finds_its_opponent_by_its_camera(
     _, bearing, distance = np.median(seen[-20:], axis=0)
     assert bearing == pytest.approx(0.0, abs=0.1)
     assert distance == pytest.approx(1.0, abs=0.15)
+
+
+def test_the_clock_of_a_simulated_joint_robot_may_be_said_to_pause(
+    tmp_path: Path,
+) -> None:
+    """Its class says so; then the option says the same."""
+    words = "--duration", "0.5", "--sim-time", "--wait", "0"
+    real = started(tmp_path, "Echo", *words)
+    said = real.communicate(timeout=LONGEST)[1]
+    assert real.returncode == 2
+    assert "JointRobot with paced = False" in said
+    simulated = started(tmp_path, "Simulated", *words)
+    said = simulated.communicate(timeout=LONGEST)[1]
+    assert simulated.returncode == 0 and "walking" in said

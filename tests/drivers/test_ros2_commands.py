@@ -225,13 +225,16 @@ def test_rest_in_place_of_control_is_written_as_it_is_taken() -> None:
 
 
 @pytest.mark.parametrize("kind", [Twist, TwistStamped])
-def test_a_served_robot_follows_either_type(kind: type[Any]) -> None:
+def test_a_served_robot_follows_either_type(
+    kind: type[Any], caplog: pytest.LogCaptureFixture
+) -> None:
+    """It says that it does not step sideways."""
     dds, other = DdsParticipant(0, tag=TAG), DdsParticipant(0, tag=TAG)
     walker = SimulatedUnicycle()
     clock = WorldClock(dds)
     server = Ros2Server(dds, "/nao", walker, ["a"], clock, tick=0.012)
     writers = [other.writer(TOPIC, kind)]
-    twist = Twist(Vector3(0.05), Vector3(0.0, 0.0, 0.1))
+    twist = Twist(Vector3(0.05, -0.02), Vector3(0.0, 0.0, 0.1))
     header = Header(Time.of(3.0), "base_link")
     message = twist if kind is Twist else TwistStamped(header, twist)
 
@@ -243,6 +246,7 @@ def test_a_served_robot_follows_either_type(kind: type[Any]) -> None:
 
     until(obeys)
     assert server.connected and not server.refused
+    assert caplog.text.count("linear.y is ignored") == 1
     writers.clear()
 
     def left() -> bool:

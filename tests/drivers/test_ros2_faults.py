@@ -114,7 +114,9 @@ def test_a_world_that_is_killed_ends_the_session(
     until(player, walks)
     world.kill()
     world.wait(LONGEST)
-    with pytest.raises(SessionLost, match="no report from the robot for 1 s"):
+    with pytest.raises(
+        SessionLost, match="no new report from the robot for 1 s"
+    ):
         while True:
             tick = player.tick()
     assert tick.velocity == REST

@@ -37,20 +37,26 @@ REPORTS = [report(PERIOD * i) for i in range(40)]
 
 
 def playing_of(
-    robot: FakeWalker, strategy: Any = None, **changes: bool
+    robot: FakeWalker,
+    strategy: Any = None,
+    *,
+    paced: bool = True,
+    **changes: bool,
 ) -> VelocityLoop:
     return VelocityLoop(
         robot,
         lambda: TemplateController(strategy or Pursuit(), GAIT),
         VelocityLimits(),
-        WatchSettings(),
+        WatchSettings(paced=paced),
         clock=robot.clock,
         **changes,
     )
 
 
-def played(robot: FakeWalker, ticks: int) -> list[VelocityTick]:
-    playing = playing_of(robot)
+def played(
+    robot: FakeWalker, ticks: int, *, paced: bool = True
+) -> list[VelocityTick]:
+    playing = playing_of(robot, paced=paced)
     return [playing.tick() for _ in range(ticks)]
 
 
@@ -143,10 +149,22 @@ def test_a_robot_that_falls_silent_is_asked_to_rest_and_goes_on_later() -> (
 def test_a_robot_that_stays_silent_ends_the_session() -> None:
     robot = FakeWalker(REPORTS[:20])
     playing = playing_of(robot)
-    with pytest.raises(SessionLost, match="no report from the robot for 10 s"):
+    with pytest.raises(
+        SessionLost, match="no new report from the robot for 10 s"
+    ):
         for _ in range(400):
             playing.tick()
     assert robot.asked[-1] == REST
+
+
+def test_the_clock_of_a_simulator_may_pause_for_any_time() -> None:
+    later = [report(PERIOD * i) for i in range(20, 40)]
+    robot = FakeWalker([*REPORTS[:20], *400 * [None], *later])
+    ticks = played(robot, 440, paced=False)  # 20 s
+    assert ticks[300].state is DrivingState.WALKING
+    assert ticks[-1].state is DrivingState.WALKING
+    with pytest.raises(SessionLost, match="no odometry received yet"):
+        played(FakeWalker([]), 400, paced=False)
 
 
 def test_leaving_slows_down_and_then_rests() -> None:

@@ -1,5 +1,6 @@
 """Test when a robot that walks by itself must rest."""
 
+import re
 from math import inf, nan, pi, radians
 
 import pytest
@@ -46,6 +47,53 @@ def test_simulated_time_may_stand_still() -> None:
     assert dog.check(report(STAMP + 60.0), 9.01) == ""
 
 
+def test_a_report_with_the_stamp_of_the_last_one_is_none() -> None:
+    dog = settled()
+    frozen = report(STAMP + 0.25)
+    assert dog.check(frozen, 0.25) == ""
+    assert dog.check(frozen, 0.45) == ""
+    said = dog.check(frozen, 0.52)
+    assert said == "no odometry for 0.27 s: the stamp stays at 700000000.250 s"
+    assert "the stamp stays at" in dog.check(None, 5.0)
+    assert dog.silent == pytest.approx(4.75)
+    assert "waiting for more" in dog.check(report(STAMP + 5.0), 5.05)
+    told = dog.check(None, 6.0)
+    assert told.startswith("no odometry for") and "stamp" not in told
+
+
+def test_a_repeated_report_may_bring_a_hindrance() -> None:
+    dog = settled(paced=False)
+    again = report(STAMP + 0.2)
+    assert dog.check(again, 0.3) == ""
+    hindered = again._replace(hindrance="another commands")
+    assert dog.check(hindered, 0.35) == "another commands"
+    assert dog.check(again, 0.4) == ""
+
+
+@pytest.mark.parametrize(
+    ("pose", "said"),
+    [
+        (Pose(50.0, 0.0, 0.0), "position jumped by 50.00 m in 0.050 s"),
+        (Pose(0.0, 0.0, 2.0), "heading jumped by 2.00 rad in 0.050 s"),
+        (Pose(0.0, 0.0, 90.0), "heading must .* got 90.0: is it in degrees"),
+        (Pose(0.4, 0.0, 0.5), ""),
+    ],
+)
+def test_a_pose_that_jumps_stops_the_robot(pose: Pose, said: str) -> None:
+    dog = settled()
+    told = dog.check(report(STAMP + 0.25, pose=pose), 0.25)
+    assert re.search(f"^odometry: the {said}", told) if said else not told
+    then = dog.check(report(STAMP + 0.3, pose=pose), 0.3)
+    assert bool(then) == bool(said)
+
+
+def test_a_turn_through_pi_is_no_jump() -> None:
+    dog = Watchdog(WatchSettings(warm_up=1))
+    assert not dog.check(report(STAMP, pose=Pose(0.0, 0.0, 3.13)), 0.0)
+    turned = report(STAMP + 0.05, pose=Pose(0.0, 0.0, -3.13))
+    assert not dog.check(turned, 0.05)
+
+
 @pytest.mark.parametrize("bad", [nan, inf])
 @pytest.mark.parametrize("place", ["time", "x", "theta"])
 def test_odometry_that_is_no_number_stops_the_robot(
@@ -55,7 +103,7 @@ def test_odometry_that_is_no_number_stops_the_robot(
     values = {"time": STAMP + 0.25, "x": 0.0, "theta": 0.0} | {place: bad}
     pose = Pose(values["x"], 0.0, values["theta"])
     sick = VelocityReport(values["time"], pose, Sighting(STAMP, 0.0, 1.0))
-    assert "NaN or inf" in dog.check(sick, 0.25)
+    assert "must be finite" in dog.check(sick, 0.25)
     assert "waiting for more" in dog.check(report(STAMP + 0.3), 0.3)
 
 

@@ -220,6 +220,48 @@ def test_a_gap_is_noted(circling: Path, tmp_path: Path) -> None:
     assert run.summary.notes == ["evader has no pose for 2.00 s; interpolated"]
 
 
+def test_invalid_poses_are_left_out_and_noted(tmp_path: Path) -> None:
+    entries = []
+    for name, ahead in (("a", 0.0), ("b", 0.5 * pi)):
+        for i, time in enumerate(np.arange(0.0, 10.0, 0.05).tolist()):
+            entry = odometry(
+                f"/{name}", time, "map", on_circle(time, 1.0, ahead)
+            )
+            pose = entry[3].pose.pose
+            q = pose.orientation
+            # A quaternion of any length is a rotation; zero is none.
+            q.z, q.w = 0.3 * q.z, 0.3 * q.w
+            if name == "b" and i == 50:
+                q.z = q.w = 0.0
+            if name == "b" and i == 90:
+                pose.position.x = np.nan
+            entries.append(entry)
+    bag = write_bag(tmp_path / "invalid", entries)
+    run = import_experiment(bag, ("pursuer=/a", "evader=/b"))
+    assert run.summary.notes == ["evader has 2 invalid poses; left out"]
+    assert run.summary.distance_m == pytest.approx(2**0.5, rel=1e-3)
+    times: Array = run.times
+    expected = [on_circle(t, 1.0, 0.0) for t in times.tolist()]
+    np.testing.assert_allclose(run.pursuer.torso, expected, atol=1e-6)
+
+
+def test_static_transforms_may_come_after_the_first_poses(
+    tmp_path: Path,
+) -> None:
+    start = Pose(3.0, -1.0, 2.0)
+    static = transform(0.0, "map", "a/odom", start)
+    entries = [tf("/tf_static", 0.12, static)]
+    for time in np.arange(0.0, 10.0, 0.05).tolist():
+        pose = start.inverse().compose(on_circle(time, 0.8, 0.0))
+        entries.append(tf("/tf", time, transform(time, "a/odom", "a", pose)))
+        pose = on_circle(time, 0.8, 0.5 * pi)
+        entries.append(tf("/tf", time, transform(time, "map", "b", pose)))
+    bag = write_bag(tmp_path / "late", entries)
+    run = import_experiment(bag, ("pursuer=a", "evader=b"))
+    assert run.duration == pytest.approx(9.95, abs=1e-6)
+    assert run.summary.distance_m == pytest.approx(0.8 * 2**0.5, rel=1e-3)
+
+
 def test_without_stamps_the_times_of_recording_count(tmp_path: Path) -> None:
     entries = []
     for name, ahead in (("a", 0.0), ("b", 1.0)):
@@ -256,6 +298,19 @@ def _not_finite(folder: Path) -> Path:
     return write_bag(folder / "nan", entries)
 
 
+def _looped(folder: Path) -> Path:
+    """The clock of the second player begins anew at 5 s."""
+    entries = []
+    for time in np.arange(0.0, 10.0, 0.1).tolist():
+        pose = on_circle(time, 1.0, 0.0)
+        entries.append(odometry("/a", time, "map", pose))
+        again = time if time < 5.0 else time - 5.0
+        pose = on_circle(time, 1.0, pi)
+        _, *rest = odometry("/b", again, "map", pose)
+        entries.append((time, rest[0], rest[1], rest[2]))
+    return write_bag(folder / "looped", entries)
+
+
 def _text(folder: Path) -> Path:
     file = folder / "text.mcap"
     file.write_text("no bag")
@@ -273,6 +328,7 @@ def _text(folder: Path) -> Path:
         (_apart, ("p=/a", "P"), "frame must be NAME=FRAME"),
         (_never_together, ("p=/a", "e=/b"), "poses at common times"),
         (_not_finite, ("p=/a", "e=/b"), "must be finite"),
+        (_looped, ("p=/a", "e=/b"), "stamps of e must not go back, got 4.90"),
         (_text, ("p=/a", "e=/b"), "must be a ROS 2 bag"),
     ],
 )

@@ -1,6 +1,7 @@
 """Test games of robots on learned legs."""
 
 from dataclasses import replace
+from hashlib import sha256
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,7 @@ pytest.importorskip("onnxruntime")
 
 from legs_robot import nao_on_legs
 from stepaside.arena import Room
+from stepaside.cli.main import main
 from stepaside.core.errors import ConfigurationError, PolicyError
 from stepaside.core.poses import Pose
 from stepaside.games.duel import Duel, run_duel, run_duels
@@ -144,6 +146,29 @@ def test_a_robot_in_a_room_knows_it(standing: DuelSettings) -> None:
     known = strategy.told[-1]
     assert known.pose_in_map[:2] == pytest.approx((1.0, 0.0), abs=0.05)
     assert known.obstacles_in_map
+
+
+@pytest.mark.parametrize("bad", ["nan", "-0.1", "inf"])
+def test_legs_whose_measured_response_cannot_be_are_refused(
+    bad: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder = nao_on_legs(tmp_path / "nao")
+    digest = sha256((folder / "policy.onnx").read_bytes()).hexdigest()
+    lines = [f'network = "{digest}"', "tube = 0.1"]
+    for i, axis in enumerate(("forward", "lateral", "turn")):
+        rows = np.outer([-1.0, 0.0, 1.0], np.eye(3)[i]).tolist()
+        lines += [
+            f"[{axis}]\ncommands = [-1.0, 0.0, 1.0]\ndelivered = {rows}",
+            f"lag = 0.1\nhalting = {bad if i == 0 else 0.2}",
+        ]
+    file = folder / "legs-policy.toml"
+    file.write_text("\n".join(lines))
+    with pytest.raises(SystemExit) as left:
+        main(["duel", "--robot", str(folder), "--duration", "0.5"])
+    assert left.value.code == 2
+    said = capsys.readouterr().err
+    assert f"{file}: forward.halting must lie in [0, 100] [m]" in said
+    assert f"got {bad}" in said
 
 
 def test_a_body_keeps_its_delays_at_another_tick() -> None:

@@ -87,6 +87,14 @@ class ConnectionSettings:
         positive("rad/s", None),
         option="--max-turn",
     )
+    max_lateral: float | None = setting(
+        None,
+        "Maximum lateral speed of a ROS 2 robot that steps sideways; requires "
+        "--max-speed and --max-turn, and without it no lateral velocity is "
+        "commanded",
+        positive("m/s", None),
+        option="--max-lateral",
+    )
     domain: int | None = setting(
         None,
         "ROS 2 domain; ROS_DOMAIN_ID by default, or 0 if that is not set",

@@ -29,7 +29,7 @@ CONNECTING = 6.0  # longest time that connecting takes, in [s]
 PAUSE = 0.3  # between two attempts, in [s]
 UNUSED_BY_CHECK = {
     *("record", "duration", "dead_man", "images", "max_speed", "max_turn"),
-    *("sim_time", "interface", "role", "remap", "opponent"),
+    *("sim_time", "interface", "role", "remap", "opponent", "max_lateral"),
 }
 TIME_IS_UP = "played long enough"
 INTERRUPTED = "interrupted"
@@ -94,6 +94,12 @@ def play(
     made = connection.robot_class()
     joints = connection.moves_joints(made)
     _refuse_unused(settings, connection, joints=joints)
+    if joints and getattr(made, "paced", True):
+        refuse_options(
+            {"sim_time"},
+            "a robot with velocity commands, or a JointRobot with paced = "
+            "False",
+        )
     with ExitStack() as stack:
         line = StatusLine(sys.stderr)
         stack.callback(line.close)
@@ -157,8 +163,7 @@ def _refuse_unused(
         )
     if joints:
         refuse_options(
-            {"max_speed", "max_turn", "sim_time"},
-            "a robot with velocity commands",
+            {"max_speed", "max_turn"}, "a robot with velocity commands"
         )
         if connection.on_nao:
             refuse_options({"dead_man"}, "a robot without a chest button")
@@ -172,7 +177,9 @@ def _refuse_unused(
     if settings.sensing != "cameras":
         refuse_options({"images"}, "--sensing cameras, got ideal")
     if not connection.robot.startswith(ROS2):
-        refuse_options({"remap", "opponent"}, f"a robot at {ROS2}")
+        refuse_options(
+            {"remap", "opponent", "max_lateral"}, f"a robot at {ROS2}"
+        )
     sources = connection.robot, connection.images, connection.dead_man
     if not any(ROS2 in str(source) for source in sources):
         refuse_options({"domain", "network"}, f"a robot or images at {ROS2}")

@@ -147,6 +147,12 @@ def _velocity_connection(
             "over ROS 2 the opponent's position is received on a topic"
         )
     if robot.startswith(ROS2):
+        aside = connection.max_lateral or 0.0
+        if aside and not (connection.max_speed and connection.max_turn):
+            raise click.UsageError(
+                "--max-lateral requires --max-speed and --max-turn"
+            )
+        limits = VelocityLimits(lateral=aside)
         return VelocityConnection(*_ros2_connection(connection), limits)
     if robot.startswith(NAOQI):
         return VelocityConnection(

@@ -1,7 +1,7 @@
 """Planar poses (x [m], y [m], theta [rad]) and angles."""
 
 from collections.abc import Sequence
-from math import cos, pi, remainder, sin, tau
+from math import cos, hypot, nan, pi, remainder, sin, tau
 from typing import NamedTuple
 
 import numpy as np
@@ -53,6 +53,34 @@ def wrap_angles(angles: ArrayLike) -> Array:
     """Wrap angles to [-pi, pi), elementwise, in [rad]."""
     wrapped: Array = (np.asarray(angles, dtype=np.float64) + pi) % tau - pi
     return wrapped
+
+
+def rotation_of_quaternion(x: float, y: float, z: float, w: float) -> Array:
+    """Return the rotation of a quaternion of any length. Shape (3, 3).
+
+    It is NaN if the quaternion is zero or not finite.
+    """
+    norm = hypot(x, y, z, w)
+    x, y, z, w = (part / norm if norm > 0.0 else nan for part in (x, y, z, w))
+    return np.array(
+        [
+            [
+                1 - 2 * (y * y + z * z),
+                2 * (x * y - w * z),
+                2 * (x * z + w * y),
+            ],
+            [
+                2 * (x * y + w * z),
+                1 - 2 * (x * x + z * z),
+                2 * (y * z - w * x),
+            ],
+            [
+                2 * (x * z - w * y),
+                2 * (y * z + w * x),
+                1 - 2 * (x * x + y * y),
+            ],
+        ]
+    )
 
 
 class Pose(NamedTuple):

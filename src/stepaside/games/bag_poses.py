@@ -2,17 +2,18 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from math import isfinite
+from math import atan2
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ..core.errors import ConfigurationError
-from ..core.poses import Array
+from ..core.poses import Array, rotation_of_quaternion
 
-TRANSFORMS = ("/tf", "/tf_static")
+MOVING, STATIC = "/tf", "/tf_static"
 MOST_LISTED = 12  # names in a message
+SHUFFLED = 1.0  # by which stamps may be out of order, in [s]
 # Path to the pose in messages with a header, by type.
 POSE_FIELDS = {
     "nav_msgs/msg/Odometry": ("pose", "pose"),
@@ -30,12 +31,15 @@ class PoseSeries:
         times: Increasing times, in [s]. Shape (n,).
         positions: Positions (x, y, z), in [m]. Shape (n, 3).
         headings: Unwrapped headings, in [rad]. Shape (n,).
+        invalid: Number of poses that were left out: not finite, or with a
+            zero rotation.
     """
 
     world: str
     times: Array
     positions: Array
     headings: Array
+    invalid: int
 
 
 def read_poses(bag: Path, sources: Mapping[str, str]) -> dict[str, PoseSeries]:
@@ -89,11 +93,14 @@ def _read(
     tree = TransformTree(frames)
     rows: dict[str, list[tuple[float, ...]]] = {p: [] for p in sources}
     worlds: dict[str, set[str]] = {p: set() for p in sources}
+    if frames:  # static transforms hold from the beginning
+        for _, _, _, message in _messages(reader, {STATIC}):
+            tree.place(message)
     for topic, kind, time, message in _messages(
-        reader, {*sources.values(), *(TRANSFORMS if frames else ())}
+        reader, {*sources.values(), *((MOVING,) if frames else ())}
     ):
-        if topic in TRANSFORMS:
-            for player, world, row in tree.update(message, time, topic):
+        if topic == MOVING:
+            for player, world, row in tree.update(message, time):
                 worlds[player].add(world)
                 rows[player].append(row)
             continue
@@ -122,6 +129,8 @@ def _messages(
 ) -> Iterator[tuple[str, str, float, Any]]:
     """Yield topic, type, time of recording in [s], and message."""
     chosen = [c for c in reader.connections if c.topic in topics]
+    if not chosen:
+        return  # the reader would yield all
     for connection, stamp, raw in reader.messages(chosen):
         message = reader.deserialize(raw, connection.msgtype)
         yield connection.topic, connection.msgtype, 1e-9 * stamp, message
@@ -142,31 +151,32 @@ class TransformTree:
         """
         self._wanted = {p: f.removeprefix("/") for p, f in wanted.items()}
         self._above: dict[str, tuple[str, Array]] = {}
-        self._moving: set[str] = set()
         self.frames: dict[str, None] = {}
 
+    def place(self, message: Any) -> list[tuple[str, float]]:
+        """Take transforms; return each child with its time, in [s]."""
+        placed = []
+        for each in message.transforms:
+            parent = each.header.frame_id.removeprefix("/")
+            child = each.child_frame_id.removeprefix("/")
+            self._above[child] = (
+                parent,
+                _matrix(each.transform.translation, each.transform.rotation),
+            )
+            self.frames |= {parent: None, child: None}
+            placed.append((child, _stamp(each)))
+        return placed
+
     def update(
-        self, message: Any, time: float, topic: str
+        self, message: Any, time: float
     ) -> Iterator[tuple[str, str, tuple[float, ...]]]:
         """Take transforms; yield player, root frame and row of new poses.
 
         Args:
-            message: Transforms of ``/tf`` or ``/tf_static``.
+            message: Transforms.
             time: Time of recording, in [s].
-            topic: Name of the topic.
         """
-        changed: dict[str, float] = {}
-        for each in message.transforms:
-            parent = each.header.frame_id.removeprefix("/")
-            child = each.child_frame_id.removeprefix("/")
-            matrix = _matrix(
-                each.transform.translation, each.transform.rotation
-            )
-            self._above[child] = parent, matrix
-            self.frames |= {parent: None, child: None}
-            if topic == "/tf":
-                self._moving.add(child)
-                changed[child] = _stamp(each)
+        changed = dict(self.place(message))
         for player, frame in self._wanted.items():
             chain, root, pose = self._pose_of(frame)
             moved = [changed[link] for link in chain if link in changed]
@@ -191,39 +201,19 @@ def _stamp(message: Any) -> float:
 
 
 def _matrix(position: Any, rotation: Any) -> Array:
-    """Return a pose as a homogeneous matrix. Shape (4, 4)."""
-    w, x, y, z = rotation.w, rotation.x, rotation.y, rotation.z
-    norm = float(np.sqrt(w * w + x * x + y * y + z * z)) or np.nan
-    w, x, y, z = w / norm, x / norm, y / norm, z / norm
-    return np.array(
-        [
-            [
-                1 - 2 * (y * y + z * z),
-                2 * (x * y - w * z),
-                2 * (x * z + w * y),
-                position.x,
-            ],
-            [
-                2 * (x * y + w * z),
-                1 - 2 * (x * x + z * z),
-                2 * (y * z - w * x),
-                position.y,
-            ],
-            [
-                2 * (x * z - w * y),
-                2 * (y * z + w * x),
-                1 - 2 * (x * x + y * y),
-                position.z,
-            ],
-            [0.0, 0.0, 0.0, 1.0],
-        ]
+    """Return a pose as a homogeneous matrix; NaN if it is invalid."""
+    matrix = np.eye(4)
+    matrix[:3, :3] = rotation_of_quaternion(
+        rotation.x, rotation.y, rotation.z, rotation.w
     )
+    matrix[:3, 3] = position.x, position.y, position.z
+    return matrix
 
 
 def _row(stamp: float, time: float, pose: Array) -> tuple[float, ...]:
     """Return both times, position and heading of a pose."""
     x, y, z = pose[:3, 3].tolist()
-    return stamp, time, x, y, z, float(np.arctan2(pose[1, 0], pose[0, 0]))
+    return stamp, time, x, y, z, atan2(pose[1, 0], pose[0, 0])
 
 
 def _series(
@@ -232,32 +222,37 @@ def _series(
     """Return the poses of one player, in the order of their times.
 
     Raises:
-        ConfigurationError: If a pose is not finite, there is only one, or
-            the frame of the poses changes.
+        ConfigurationError: If there are fewer than two valid poses, their
+            frame changes, or the clock goes back.
     """
     if len(worlds) > 1:
         raise ConfigurationError(
             f"poses of {player} must all be in one frame, got "
             f"{_listed(dict.fromkeys(sorted(worlds)))}"
         )
-    for row in rows:
-        if not all(isfinite(value) for value in row):
-            raise ConfigurationError(
-                f"poses of {player} must be finite with a rotation that is "
-                f"not zero, got {row[2:]} at {row[0]:g} s"
-            )
     table = np.array(rows)
+    valid = np.isfinite(table).all(axis=1)
+    table = table[valid]
     # Without stamps, the times of recording must do.
     times = table[:, 0] if table[:, 0].any() else table[:, 1]
+    back = np.maximum.accumulate(times) - times
+    if (back > SHUFFLED).any():
+        at = int(back.argmax())
+        raise ConfigurationError(
+            f"stamps of {player} must not go back, got {back[at]:.2f} s back "
+            f"at {times[at]:.2f} s: cut the bag where its clock was reset"
+        )
     times, kept = np.unique(times, return_index=True)
     table = table[kept]
     if len(table) < 2:
         raise ConfigurationError(
-            f"poses of {player} must have at least 2 times, got {len(table)}"
+            f"poses of {player} must be finite with a rotation that is not "
+            f"zero at 2 times at least, got {len(table)} of {len(rows)}"
         )
     headings = np.unwrap(table[:, 5])
     (world,) = worlds
-    return PoseSeries(world, times, table[:, 2:5], headings)
+    invalid = int((~valid).sum())
+    return PoseSeries(world, times, table[:, 2:5], headings, invalid)
 
 
 def _listed(names: Mapping[str, Any]) -> str:

@@ -103,7 +103,7 @@ def import_experiment(bag: Path, words: tuple[str, ...]) -> ExperimentRun:
         duration=round(float(elapsed[-1]), 9),
         times=elapsed,
         tracks=tracks,
-        summary=_summary(bag.name, elapsed, tracks, gaps),
+        summary=_summary(bag.name, elapsed, tracks, gaps, series),
     )
 
 
@@ -130,6 +130,7 @@ def _summary(
     times: Array,
     tracks: Mapping[str, Trajectory],
     gaps: Mapping[str, float],
+    series: Mapping[str, PoseSeries],
 ) -> ExperimentSummary:
     names = list(tracks)
     one, other = (tracks[name].unicycle for name in names[:2])
@@ -157,6 +158,11 @@ def _summary(
             f"{name} has no pose for {gap:.2f} s; interpolated"
             for name, gap in gaps.items()
             if gap > NOTED_GAP
+        ]
+        + [
+            f"{name} has {one.invalid} invalid poses; left out"
+            for name, one in series.items()
+            if one.invalid
         ],
     )
 

@@ -2,8 +2,9 @@
 
 import tomllib
 from dataclasses import replace
-from math import nan
+from math import inf, nan
 from pathlib import Path
+from typing import Any
 
 import pytest
 import tomli_w
@@ -15,7 +16,10 @@ from stepaside.locomotion.policy.response_file import (
     response_entries,
     response_path,
 )
-from stepaside.locomotion.policy.velocity_response import VelocityResponse
+from stepaside.locomotion.policy.velocity_response import (
+    AXES,
+    VelocityResponse,
+)
 
 RESPONSE = replace(
     VelocityResponse.ideal(CommandRanges()), odometry_ratio=(1.03, 0.99)
@@ -46,13 +50,53 @@ def test_a_file_without_a_ratio_leaves_the_odometry_as_it_is(
     assert load_response(tmp_path, network) == plain
 
 
-@pytest.mark.parametrize("ratio", [[1.0], [0.0, 1.0], [1.0, nan]])
-def test_a_bad_ratio_is_refused(tmp_path: Path, ratio: list[float]) -> None:
+@pytest.mark.parametrize("bad", [nan, inf, -inf, -1e3])
+@pytest.mark.parametrize(
+    "place",
+    [
+        *(("tube",), ("odometry_ratio", 1)),
+        *((axis, name) for axis in AXES for name in ("lag", "halting")),
+        *((axis, "commands", 0) for axis in AXES),
+        *((axis, "delivered", 0, n) for axis in AXES for n in range(3)),
+    ],
+)
+def test_a_number_that_cannot_be_is_refused_by_file_name_and_value(
+    place: tuple[str | int, ...], bad: float, tmp_path: Path
+) -> None:
     network = stored(tmp_path)
     file = response_path(tmp_path, network)
     entries = tomllib.loads(file.read_text())
-    file.write_text(tomli_w.dumps(entries | {"odometry_ratio": ratio}))
-    with pytest.raises(PolicyError, match=r"odometry_ratio|not a response"):
+    *outer, last = place
+    found: Any = entries
+    for key in outer:
+        found = found[key]
+    found[last] = bad
+    file.write_text(tomli_w.dumps(entries))
+    name = ".".join(str(key) for key in place if isinstance(key, str))
+    with pytest.raises(PolicyError) as refused:
+        load_response(tmp_path, network)
+    text = str(refused.value)
+    assert str(file) in text and name in text and f"got {bad:g}" in text
+
+
+def test_a_ratio_for_one_axis_is_refused(tmp_path: Path) -> None:
+    network = stored(tmp_path)
+    file = response_path(tmp_path, network)
+    entries = tomllib.loads(file.read_text())
+    file.write_text(tomli_w.dumps(entries | {"odometry_ratio": [1.0]}))
+    with pytest.raises(PolicyError, match="not a response"):
+        load_response(tmp_path, network)
+
+
+def test_an_axis_without_a_row_for_each_command_is_refused(
+    tmp_path: Path,
+) -> None:
+    network = stored(tmp_path)
+    file = response_path(tmp_path, network)
+    entries = tomllib.loads(file.read_text())
+    entries["turn"]["delivered"].pop()
+    file.write_text(tomli_w.dumps(entries))
+    with pytest.raises(PolicyError, match=r"turn.delivered must have a row"):
         load_response(tmp_path, network)
 
 

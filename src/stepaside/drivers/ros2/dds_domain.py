@@ -1,4 +1,4 @@
-"""DDS participant, by default restricted to this machine."""
+"""DDS participant, by default announced on this machine only."""
 
 import os
 from collections.abc import Iterator
@@ -19,8 +19,10 @@ SETTING = "CYCLONEDDS_URI"
 CREATION = RLock()  # topics that are created concurrently may fail
 MAX_DOMAIN = 232  # last domain number for which ports exist
 LOCAL = (
-    "ROS 2 topics stay on this machine: start its ROS 2 programs with "
-    "ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST; --network reaches others"
+    "ROS 2 topics are announced on this machine only: start its ROS 2 "
+    "programs with ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST; --network "
+    "reaches others. CycloneDDS opens its UDP ports on all interfaces all "
+    "the same: close them by a firewall on a network that others use"
 )
 # Fast DDS, vendor 1.15: version 3, of ROS 2 Kilted, describes types in a form
 # that CycloneDDS takes for invalid, and then no endpoint of them is matched.

@@ -3,7 +3,7 @@
 import logging
 from collections.abc import Callable, Mapping
 from functools import partial
-from math import atan2, hypot, inf
+from math import atan2, hypot, inf, isnan
 from time import monotonic, sleep
 from typing import Any
 
@@ -44,6 +44,7 @@ STOP_PAUSE = 0.02  # between two of them, in [s]
 GUARDIAN_DURATION = 3.0  # of zero commands by the guardian, in [s]
 HINT_AFTER = 3.0  # without any publisher of odometry, in [s]
 POSE_TICK = 0.01  # between stored poses, in [s]
+FAULT_AGE = 0.5  # at which invalid detections no longer count, in [s]
 UNSTAMPED = Header(Time(0, 0), "")  # robots read it as now, or reject it
 log = logging.getLogger(__name__)
 
@@ -79,7 +80,8 @@ class Ros2Body:
             opponent: Class of the detections that count; empty for any.
         """
         self._dds, self._namespace = dds, namespace
-        self._opponent, self._fault = opponent, ""
+        self._opponent = opponent
+        self._fault, self._fault_ends = "", -inf
 
         def topic_of(name: str) -> str:
             return dds_topic(namespace, name, remapping)
@@ -186,16 +188,28 @@ class Ros2Body:
                 self._note((point.x, point.y), stamp, odometry)
         for detections in take_messages(self._detections):
             self._note_detections(detections, odometry)
-        return VelocityReport(time, pose, self._sighting, self._hindrance())
+        hindrance = self._odometry_fault(time, pose) or self._hindrance(time)
+        return VelocityReport(time, pose, self._sighting, hindrance)
 
-    def _hindrance(self) -> str:
+    def _odometry_fault(self, time: float, pose: Pose) -> str:
+        """Return which field of the odometry is not filled, if any."""
+        if time == 0.0:
+            return f"{self._odometry_name} has no stamp: header.stamp is 0"
+        if isnan(pose.theta):
+            return (
+                f"{self._odometry_name} has no heading: pose.orientation is "
+                "zero or not finite"
+            )
+        return ""
+
+    def _hindrance(self, time: float) -> str:
         """Return why the robot must not move; empty if it may."""
         if self._commands and (reason := self._commands.hindrance()):
             return reason
         others = self.commanders
         if others:
             return f"{others} others command this robot"
-        return self._fault
+        return self._fault if time < self._fault_ends else ""
 
     def _note_detections(
         self, message: Detection3DArray, odometry: Odometry
@@ -205,8 +219,9 @@ class Ros2Body:
         Detections in the axes of a camera are refused: there, x is to the
         right and y down.
         """
-        frame, self._fault = message.header.frame_id, ""
+        frame, self._fault_ends = message.header.frame_id, -inf
         if frame.endswith(("optical", "optical_frame")):
+            self._fault_ends = odometry.header.stamp.seconds + FAULT_AGE
             self._fault = (
                 f"detections are in {frame}, and must be in "
                 f"{odometry.child_frame_id} or {odometry.header.frame_id}"

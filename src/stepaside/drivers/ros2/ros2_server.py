@@ -175,7 +175,7 @@ class Ros2Server:
         self._ticks = 0
         self._silent = 0
         self._velocity = REST
-        self._closed = False
+        self._closed = self._ignores_lateral = False
         self._state: WalkerState | None = None
         self._polls = 0
         self.refused = 0
@@ -271,6 +271,12 @@ class Ros2Server:
             self.refused += 1
             self._velocity = REST
             return
+        if twist.linear.y and not self._ignores_lateral:
+            self._ignores_lateral = True
+            log.warning(
+                "%s: the robot does not step sideways; linear.y is ignored",
+                self._namespace or "/",
+            )
         self.answered, self._silent = True, 0
         self._velocity = VelocityCommand(forward, turn)
 

@@ -35,6 +35,8 @@ class TopicSwitch:
         now = self._clock()
         for message in take_messages(self._reader):
             self._held_until = now + AGE if message.data else -1.0
+        if not self._reader.get_matched_publications():
+            self._held_until = -1.0  # the publisher has left
         if now <= self._held_until:
             return ""
         return f"dead-man switch: {self._topic} is not true"

@@ -1,11 +1,13 @@
 """Names of topics and frames, and conversions of poses, for ROS 2 on DDS."""
 
 from collections.abc import Mapping, Sequence
-from math import atan2, cos, hypot, sin
+from math import cos, hypot, sin
 from types import MappingProxyType
 
+import numpy as np
+
 from ...core.errors import ConfigurationError
-from ...core.poses import Pose
+from ...core.poses import Pose, rotation_of_quaternion
 from .messages import (
     Detection3DArray,
     Point,
@@ -107,12 +109,6 @@ def frame(namespace: str, name: str) -> str:
     return f"{namespace}/{name}".lstrip("/")
 
 
-def yaw(rotation: Quaternion) -> float:
-    """Return the yaw angle of a rotation, in [rad]."""
-    x, y, z, w = rotation.x, rotation.y, rotation.z, rotation.w
-    return atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
-
-
 def yaw_rotation(heading: float) -> Quaternion:
     """Return the rotation about the vertical by a heading, in [rad]."""
     return Quaternion(0.0, 0.0, sin(0.5 * heading), cos(0.5 * heading))
@@ -137,9 +133,13 @@ def pose_message(pose: Pose) -> PoseMessage:
 
 
 def pose_of(message: PoseMessage) -> Pose:
-    """Project the pose of a message onto the floor."""
-    point = message.position
-    return Pose(point.x, point.y, yaw(message.orientation))
+    """Project the pose of a message onto the floor.
+
+    The heading is NaN if the rotation is zero or not finite.
+    """
+    point, q = message.position, message.orientation
+    turn = rotation_of_quaternion(q.x, q.y, q.z, q.w)
+    return Pose(point.x, point.y, float(np.arctan2(turn[1, 0], turn[0, 0])))
 
 
 def position_of(message: PointStamped | PoseStamped) -> Point:

@@ -1,19 +1,17 @@
 """Driver for a robot that a user connects in Python."""
 
 import logging
-import re
 from collections.abc import Callable
 from concurrent.futures import Future
-from math import hypot, isfinite, pi
+from math import nan
 from time import monotonic, sleep
 from typing import Any
 
-from ...core.poses import Pose, wrap_angle
+from ...core.poses import Pose
 from ...core.user_file import FAILURES, shown_briefly
 from ...perception.measurement import Sighting
 from ..guardian_process import SessionLost
 from ..method_thread import (
-    BLOCKED,
     CLOSE_TIMEOUT,
     MethodThread,
     open_robot,
@@ -26,10 +24,6 @@ POLL = 0.005  # between two calls of listen() that returned None, in [s]
 PREPARE_TIMEOUT = 30.0  # for prepare(), in [s]: to stand up
 UNSTOPPED = 0.5  # for stop() while another method is blocked, in [s]
 FORSAKEN = 5.0  # time of a blocked method that ends the session, in [s]
-FASTEST = 10.0  # plausible speed of a walking robot, in [m/s]
-FASTEST_TURN = 15.0  # plausible turning rate, in [rad/s]
-MIN_PASSED = 0.02  # over which a jump is judged at least, in [s]
-_NUMBER = re.compile(r"[-\d.]+")
 log = logging.getLogger(__name__)
 
 
@@ -73,12 +67,11 @@ class AdapterBody:
         self._stopping: Future[Any] | None = None
         self._stop_began = 0.0
         self._wanted = REST
-        self._last: VelocityReport | None = None
-        self._due = self._heard = clock()
-        self._logged = ""
+        self._time = nan  # of the last report
+        self._due = clock()
 
     def listen(self, patience: float) -> VelocityReport | None:
-        """Return the newest report since the last call, or None.
+        """Return the newest report, or None; the last one if it is repeated.
 
         Args:
             patience: Longest time to wait for a report, in [s].
@@ -89,6 +82,7 @@ class AdapterBody:
         """
         deadline = self._clock() + patience
         sleep(min(max(self._due - self._clock(), 0.0), patience))
+        report: VelocityReport | None = None
         while True:
             self._raise_failure()
             if self._reading is None:
@@ -96,14 +90,16 @@ class AdapterBody:
             try:
                 got = self._reading.result(max(deadline - self._clock(), 0.0))
             except TimeoutError:
-                return None
-            self._reading = None
-            report = self._accepted(got)
-            if report is not None:
-                self._due = self._clock() + PERIOD
                 return report
+            self._reading = None
+            if got is not None:
+                report = converted_report(got, self._methods.name_of("listen"))
+                if report.time != self._time:
+                    self._time = report.time
+                    self._due = self._clock() + PERIOD
+                    return report
             if self._clock() >= deadline:
-                return None
+                return report
             sleep(POLL)
 
     def command(self, velocity: VelocityCommand) -> None:
@@ -213,35 +209,6 @@ class AdapterBody:
         if self._commanding is not None and self._commanding.done():
             self._commanding.result()
 
-    def _accepted(self, got: Any) -> VelocityReport | None:
-        """Check the result of listen(); None if it is not newer."""
-        if got is None:
-            return None
-        name = self._methods.name_of("listen")
-        report = converted_report(got, name)
-        last, self._last = self._last, report
-        now = self._clock()
-        if last is not None and report.time == last.time:
-            if now - self._heard > BLOCKED:
-                self._log(
-                    f"{name} repeats its report of {report.time:.3f} s: the "
-                    "robot is silent, or the time is not a measurement's"
-                )
-            return None
-        self._heard = now
-        fault = report_fault(report, last)
-        self._log(f"{name}: {fault}" if fault else "")
-        if fault:
-            report = report._replace(hindrance=f"listen(): {fault}")
-        return report
-
-    def _log(self, text: str) -> None:
-        """Log a fault when it begins."""
-        kind = _NUMBER.sub("", text)
-        if kind and kind != self._logged:
-            log.warning("%s", text)
-        self._logged = kind
-
 
 def connect_adapter_stopper(
     make: type[VelocityRobot],
@@ -260,42 +227,6 @@ def connect_adapter_stopper(
     methods = MethodThread(robot)
     open_robot(methods)
     return lambda: methods.run("stop", CLOSE_TIMEOUT)
-
-
-def report_fault(report: VelocityReport, last: VelocityReport | None) -> str:
-    """Return why a report is implausible; empty if it is plausible.
-
-    Args:
-        report: Newest report.
-        last: The one before, if any.
-    """
-    if not all(isfinite(v) for v in (report.time, *report.pose)):
-        return f"time and pose must be finite, got {_numbers(report)}"
-    if abs(report.pose.theta) > 2.0 * pi:
-        return (
-            "the heading must lie in [-pi, pi] rad, got "
-            f"{report.pose.theta:.1f}: is it in degrees?"
-        )
-    if last is None or not all(isfinite(v) for v in (last.time, *last.pose)):
-        return ""
-    passed = max(report.time - last.time, MIN_PASSED)
-    turned = abs(wrap_angle(report.pose.theta - last.pose.theta))
-    if turned > FASTEST_TURN * passed:
-        return (
-            f"the heading jumped by {turned:.2f} rad in {passed:.3f} s: is "
-            "it in degrees?"
-        )
-    moved = hypot(report.pose.x - last.pose.x, report.pose.y - last.pose.y)
-    if moved > FASTEST * passed:
-        return (
-            f"the position jumped by {moved:.2f} m in {passed:.3f} s: is it "
-            "in millimetres?"
-        )
-    return ""
-
-
-def _numbers(report: VelocityReport) -> str:
-    return ", ".join(f"{v:g}" for v in (report.time, *report.pose))
 
 
 def converted_report(got: Any, name: str) -> VelocityReport:

@@ -21,10 +21,9 @@ from .adapter_body import (
     POLL,
     PREPARE_TIMEOUT,
     converted_report,
-    report_fault,
 )
 from .velocity_body import VelocityReport
-from .watchdog import WatchSettings
+from .watchdog import WatchSettings, report_fault
 
 STANDING, MOVING = 2.0, 2.5  # durations of the parts, in [s]
 SETTLED = 1.0  # last part of a motion, over which it is measured, in [s]

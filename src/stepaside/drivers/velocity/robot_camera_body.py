@@ -71,6 +71,8 @@ class RobotCameraBody:
         report = self._body.listen(patience)
         if report is None or report.hindrance:
             return report
+        if self._reports and report.time == self._reports[-1].time:
+            return report  # repeated
         self._reports.append(report)
         percepts = []
         image = self._camera.take(report.time)

@@ -113,9 +113,12 @@ class VelocityLoop:
         """
         report = self.body.listen(PATIENCE)
         hindrance = self._watchdog.check(report, self._clock())
-        if self._watchdog.silent > self._forsaken:
+        # The clock of a simulator may pause for any time.
+        waits = self._paced or self._report is None
+        if waits and self._watchdog.silent > self._forsaken:
             raise SessionLost(
-                f"no report from the robot for {self._forsaken:g} s"
+                f"no new report from the robot for {self._forsaken:g} s: "
+                f"{hindrance}"
             )
         hindrance = hindrance or self._failure
         velocity = self._decide(report, hindrance)

@@ -1,14 +1,18 @@
 """Watchdog of the reports of a robot that follows velocity commands."""
 
 from dataclasses import dataclass
-from math import isfinite
+from math import hypot, isfinite, pi
 
 from ...core.errors import ConfigurationError, check_within
+from ...core.poses import wrap_angle
 from ...perception.measurement import Sighting
 from ..sighting_checks import sighting_fault
 from .velocity_body import VelocityReport
 
 DRIFT = 0.02  # relative difference of two clocks' rates at most
+FASTEST = 10.0  # plausible speed of a walking robot, in [m/s]
+FASTEST_TURN = 15.0  # plausible turning rate, in [rad/s]
+MIN_PASSED = 0.02  # over which a jump is judged at least, in [s]
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,7 +54,8 @@ class Watchdog:
     """Check of each report, and of its absence.
 
     The clocks of robot and computer may have different zeros, so only time
-    differences are compared: the robot's clock must not run ahead.
+    differences are compared: the robot's clock must not run ahead. A report
+    with the time of the one before is none: it is repeated.
 
     Attributes:
         silent: Time since the newest report, in [s].
@@ -59,7 +64,9 @@ class Watchdog:
     def __init__(self, settings: WatchSettings) -> None:
         """Start before the first report."""
         self._settings = settings
-        self._stamp: float | None = None
+        self._newest: VelocityReport | None = None
+        self._repeats = False
+        self._last: VelocityReport | None = None  # if it was valid
         self._arrived = 0.0
         self._lead = 0.0
         self._good = 0
@@ -80,18 +87,28 @@ class Watchdog:
         """
         if self._began is None:
             self._began = self._arrived = now
-        if report is None:
-            return self._silence(now)
+        newest = self._newest
+        repeats = (
+            report is not None
+            and newest is not None
+            and (report.time == newest.time)
+        )
+        if report is None or repeats:
+            self._repeats = self._repeats or repeats
+            verdict = self._silence(now)
+            return (report and report.hindrance) or verdict
         fault = self._fault(report, now)
+        self._newest, self._repeats = report, False
         self._arrived, self.silent = now, 0.0
         if fault:
-            self._good, self._stamp, self._lead = 0, None, 0.0
+            self._good, self._last, self._lead = 0, None, 0.0
             self._verdict = report.hindrance or fault
             return self._verdict
-        self._stamp = report.time
+        self._last = report
         self._good += 1
         if self._good < self._settings.warm_up:
-            self._verdict = f"waiting for more {self._settings.source}"
+            waits = f"waiting for more {self._settings.source}"
+            self._verdict = report.hindrance or waits
         else:
             self._verdict = report.hindrance or self._sighting_fault(
                 report.sighting, report.time
@@ -101,29 +118,29 @@ class Watchdog:
     def _silence(self, now: float) -> str:
         self.silent = now - self._arrived
         if self._settings.paced and self.silent > self._settings.silence:
-            self._good, self._stamp = 0, None
-            if self._verdict != self._none:
-                self._verdict = (
-                    f"no {self._settings.source} for {self.silent:.2f} s"
+            self._good, self._last = 0, None
+            source, newest = self._settings.source, self._newest
+            if newest is not None:
+                self._verdict = f"no {source} for {self.silent:.2f} s" + (
+                    f": the stamp stays at {newest.time:.3f} s"
+                    if self._repeats
+                    else ""
                 )
         return self._verdict
 
     def _fault(self, report: VelocityReport, now: float) -> str:
-        """Return why the odometry is invalid; empty if it is valid."""
-        if not all(isfinite(v) for v in (report.time, *report.pose)):
-            return f"{self._settings.source}: NaN or inf"
-        if self._stamp is None:
-            return ""
-        passed = report.time - self._stamp
+        """Return why a new report is invalid; empty if it is valid."""
+        source, last = self._settings.source, self._last
+        passed = 0.0 if last is None else report.time - last.time
         if passed < 0.0:
-            source = self._settings.source
             return f"{source}: went back in time by {-passed:.3f} s"
-        if not self._settings.paced:
+        if fault := report_fault(report, last):
+            return f"{source}: {fault}"
+        if last is None or not self._settings.paced:
             return ""
         gone = (now - self._arrived) * (1.0 + DRIFT)
         self._lead = max(0.0, self._lead + passed - gone)
         if self._lead > self._settings.lead:
-            source = self._settings.source
             return f"{source}: {self._lead:.3f} s ahead of the clock"
         return ""
 
@@ -141,3 +158,39 @@ class Watchdog:
         if age > self._settings.oldest:
             return f"the sighting is {min(age, 9999.0):.1f} s old"
         return ""
+
+
+def report_fault(report: VelocityReport, last: VelocityReport | None) -> str:
+    """Return why a report is implausible; empty if it is plausible.
+
+    Args:
+        report: Newest report.
+        last: The one before, if it is to be continued; plausible itself.
+    """
+    if not all(isfinite(v) for v in (report.time, *report.pose)):
+        return f"time and pose must be finite, got {_numbers(report)}"
+    if abs(report.pose.theta) > 2.0 * pi:
+        return (
+            "the heading must lie in [-pi, pi] rad, got "
+            f"{report.pose.theta:.1f}: is it in degrees?"
+        )
+    if last is None:
+        return ""
+    passed = max(report.time - last.time, MIN_PASSED)
+    turned = abs(wrap_angle(report.pose.theta - last.pose.theta))
+    if turned > FASTEST_TURN * passed:
+        return (
+            f"the heading jumped by {turned:.2f} rad in {passed:.3f} s: is "
+            "it in degrees?"
+        )
+    moved = hypot(report.pose.x - last.pose.x, report.pose.y - last.pose.y)
+    if moved > FASTEST * passed:
+        return (
+            f"the position jumped by {moved:.2f} m in {passed:.3f} s: is it "
+            "in millimetres?"
+        )
+    return ""
+
+
+def _numbers(report: VelocityReport) -> str:
+    return ", ".join(f"{v:g}" for v in (report.time, *report.pose))

@@ -77,4 +77,9 @@ def load_response(folder: Path, network: Path) -> VelocityResponse | None:
             f"{path} is not a response of legs: `stepaside legs measure` "
             "writes it anew"
         ) from error
-    return VelocityResponse((axes[0], axes[1], axes[2]), tube, (ahead, side))
+    try:
+        return VelocityResponse(
+            (axes[0], axes[1], axes[2]), tube, (ahead, side)
+        )
+    except PolicyError as error:
+        raise PolicyError(f"{path}: {error}") from error

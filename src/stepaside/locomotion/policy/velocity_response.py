@@ -4,13 +4,13 @@ from bisect import bisect_right
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from math import inf
+from itertools import chain
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.errors import PolicyError
+from ...core.errors import PolicyError, check_positive, check_within
 from ...core.machine_code import bound_loop
 from ...core.poses import Array
 from ...strategies.velocity_set import (
@@ -23,6 +23,7 @@ from .contract import CommandRanges
 
 AXES = ("forward", "lateral", "turn")
 TOLERANCE = 1e-9  # of the share of an interval
+LARGEST = 100.0  # of each number, in its unit
 SWEEPS = 12  # over the axes of the inverse; it converges before
 
 INVERT = f"""\
@@ -95,24 +96,35 @@ class VelocityResponse:
         """Check the tables.
 
         Raises:
-            PolicyError: If a table is not ascending, or the axis does not
-                follow its command, or a ratio is not positive.
+            PolicyError: If a number is not finite or out of its range, or a
+                table is not ascending.
         """
-        if not all(0.0 < ratio < inf for ratio in self.odometry_ratio):
-            raise PolicyError(
-                "response.odometry_ratio must be finite and > 0, got "
-                f"{', '.join(f'{x:g}' for x in self.odometry_ratio)}"
-            )
+        _check(self.tube, 0.0, "tube", "m")
+        for ratio in self.odometry_ratio:
+            check_positive(ratio, "odometry_ratio", "1", PolicyError)
         for i, (name, axis) in enumerate(zip(AXES, self.axes, strict=True)):
-            own = [row[i] for row in axis.delivered]
+            unit = "rad" if name == "turn" else "m"
+            _check(axis.lag, 0.0, f"{name}.lag", "s")
+            _check(axis.halting, 0.0, f"{name}.halting", unit)
+            for value in axis.commands:
+                _check(value, -LARGEST, f"{name}.commands", "1")
+            for value in chain(*axis.delivered):
+                _check(value, -LARGEST, f"{name}.delivered", "m/s or rad/s")
             if len(axis.commands) < 2 or 0.0 not in axis.commands:
                 raise PolicyError(
-                    f"response.{name} must contain a command of 0 and others"
+                    f"{name}.commands must contain a command of 0 and others"
                 )
-            for values in (axis.commands, own):
+            own = [row[i] for row in axis.delivered]
+            if len(own) != len(axis.commands):
+                raise PolicyError(
+                    f"{name}.delivered must have a row for each of the "
+                    f"{len(axis.commands)} commands, got {len(own)}"
+                )
+            for field, values in (("commands", axis.commands),
+                                  ("delivered", own)):  # fmt: skip
                 if not (np.diff(values) > 0.0).all():
                     raise PolicyError(
-                        f"response.{name} must ascend with the command, got "
+                        f"{name}.{field} must ascend with the command, got "
                         f"{', '.join(f'{x:.3g}' for x in values)}"
                     )
 
@@ -204,6 +216,10 @@ class VelocityResponse:
         return VelocitySet(
             bounds[0], bounds[1], bounds[2], lags, halting, self.tube
         )
+
+
+def _check(value: float, least: float, name: str, unit: str) -> None:
+    check_within(value, least, LARGEST, name, unit, PolicyError)
 
 
 def _locate(values: Sequence[float], value: float) -> tuple[int, float]:
