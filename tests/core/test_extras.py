@@ -15,9 +15,6 @@ from tools.documents.store import ROOT
 
 PACKAGES = {  # where the name of the package differs
     "cv2": "opencv-python-headless",
-    "rerun": "rerun-sdk",
-    "rerun_cli": "rerun-sdk",
-    "foxglove": "foxglove-sdk",
     "dask_jobqueue": "dask-jobqueue",
     "yaml": "pyyaml",
 }
@@ -39,15 +36,10 @@ NEEDS = {
     f"duel {SHORT} --sensing cameras": "vision",
     f"duel {SHORT} --method mpc": "mpc",
     "view --no-open --serve-for 0.1": "viewer",
-    "view --no-open --rerun": "rerun",
-    "view --no-open --foxglove": "foxglove",
     "replay run --no-open --serve-for 0.1": "viewer",
     "replay run --html page.html": "viewer",
-    "page folder": "viewer",
     "export run --to mcap": "export",
-    "export run --to rerun": "rerun",
     "export run --to parquet": "tables",
-    "export run --to lerobot": "lerobot",
     "replay run --video film.mp4": "viewer",
     "play --role evader --robot lola:none": "robot",
     "serve --lola evader=socket --wait 0.1": "robot",

@@ -4,6 +4,7 @@ import json
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
+from xml.etree.ElementTree import fromstring
 
 import mujoco
 import numpy as np
@@ -75,6 +76,12 @@ def bag(folder: Path) -> Bag:
             entry = (1e-9 * record.log_time, message)
             topics.setdefault(channel.topic, []).append(entry)
     return Bag(exported, topics)
+
+
+def points(message: Any) -> Array:
+    """Return the points of a cloud. Shape (n, 3)."""
+    rows = np.frombuffer(bytes(message.data), "<f4").reshape(-1, 3)
+    return rows.astype(np.float64)
 
 
 def matrix(transform: Any) -> Array:
@@ -196,18 +203,29 @@ def test_the_zmp_follows_from_the_wrenches_of_the_soles(
 def test_points_footsteps_and_strategy_are_those_of_the_run(
     bag: Bag, run: Run
 ) -> None:
-    com = bag.topics["/evader/com"][50][1].point
+    com = bag.topics["/evader/com"][50][1].pose.position
     np.testing.assert_allclose((com.x, com.y, com.z), run.evader.com[50])
     landings = run.evader.landings
     assert landings is not None
     landed = bag.topics["/evader/footsteps/landed"]
     assert 2 < len(landed) <= len(landings)
     planned = bag.topics["/evader/footsteps/planned"]
-    assert all(len(m.markers) == 5 for _, m in planned)
+    sole = 45  # points
+    assert all(m.width == 5 * sole for _, m in planned)
+    assert [m.width for _, m in landed] == [
+        sole * (n + 1) for n in range(len(landed))
+    ]
     for (_, one), (_, other) in zip(landed, planned, strict=False):
-        real, plan = one.markers[0].pose.position, other.markers[0].pose
-        apart = np.hypot(real.x - plan.position.x, real.y - plan.position.y)
+        real, plan = points(one)[-sole:], points(other)[:sole]
+        apart = np.hypot(*(real - plan).mean(axis=0)[:2])
         assert 0.0 < apart < 0.01
+    # The first sole covers its footstep: side, x, y, heading.
+    _, _, x, y, heading = landings[0]
+    away = points(planned[0][1])[:sole, :2] - (x, y)
+    ahead = away @ (np.cos(heading), np.sin(heading))
+    gait = run.settings.gait
+    assert ahead.min() == pytest.approx(gait.sole.back, abs=1e-6)
+    assert ahead.max() == pytest.approx(gait.sole.front, abs=1e-6)
     bearing = bag.topics["/evader/strategy/sighting_bearing_rad"]
     assert abs(bearing[-1][1].data) < np.pi
     sides = {m.data for _, m in bag.topics["/evader/strategy/memory_side"]}
@@ -222,9 +240,13 @@ def test_the_model_travels_with_the_bag_and_late_readers_get_it(
     [(_, text)] = bag.topics["/pursuer/robot_description"]
     model = mujoco.MjModel.from_xml_string(text.data)
     assert model.joint("HeadYaw").id >= 0
-    assert (bag.folder / "pursuer.urdf").read_text() == text.data
-    evader = (bag.folder / "evader.urdf").read_text()
-    assert evader != text.data  # the accents have the colours of roles
+    links = {link.get("name") for link in fromstring(text.data).iter("link")}
+    assert links <= {*poses_in_map(bag, 0)} and "pursuer/l_sole" in links
+    pursuer, evader = (
+        (bag.folder / f"{name}.urdf").read_text()
+        for name in ("pursuer", "evader")
+    )
+    assert evader != pursuer  # the accents have the colours of roles
     from rosbags.highlevel import AnyReader
     from rosbags.interfaces import ConnectionExtRosbag2, QosDurability
 
@@ -253,7 +275,7 @@ def test_the_layout_names_topics_and_frames_of_the_bag(bag: Bag) -> None:
     }
     for panel in panels.values():
         topics |= {p["value"].split(".")[0] for p in panel.get("paths", ())}
-    assert topics - {"/room"} <= set(bag.topics)
+    assert topics - {"/room/robot_description"} <= set(bag.topics)
     frames = {"frame:" + frame for frame in poses_in_map(bag, 0)}
     assert set(panels["3D!scene"]["transforms"]) <= frames
 

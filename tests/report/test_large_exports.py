@@ -1,7 +1,11 @@
 """Test formats whose libraries are large: ``make test-export`` has them."""
 
-import json
+import re
+import subprocess
+import sys
+from math import pi
 from pathlib import Path
+from shutil import which
 from typing import Any
 
 import numpy as np
@@ -9,7 +13,9 @@ import pytest
 from click.testing import CliRunner
 from scipy.spatial.transform import Rotation
 
+from stepaside.arena import Disc, Room
 from stepaside.cli.main import main
+from stepaside.core.poses import Pose
 from stepaside.games.duel import run_duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.run import Run
@@ -17,6 +23,7 @@ from stepaside.games.run_archive import load_run, write_run_files
 from stepaside.games.walk_game import run_walk
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.robots.urdf_elements import BASE
+from stepaside.sim.camera_settings import SceneSettings
 
 
 def export(run: Path, name: str) -> Path:
@@ -137,97 +144,49 @@ def test_images_travel_with_their_calibration(folder: Path) -> None:
     assert images[-1].header.frame_id == "evader/camera_optical_frame"
 
 
-def test_rerun_reads_a_walk_back(walk: Path) -> None:
-    rerun = pytest.importorskip("rerun", reason="Rerun is not installed")
-    run = load_run(walk)
-    (name,) = run.robots
-    file = export(walk, "rerun") / "walk.rrd"
-    with rerun.server.Server(datasets={"runs": [str(file)]}) as server:
-        dataset = server.client().get_dataset("runs")
-        base = f"/world/{name}/{BASE}"
-        view = dataset.filter_contents([base])
-        table = view.reader(index="time").to_pandas().sort_values("time")
-    column = table[f"{base}:Transform3D:translation"].dropna()
-    qpos = run.tracks[name].qpos
-    assert qpos is not None
-    found = np.stack([row[0] for row in column])
-    np.testing.assert_allclose(found, qpos[:, :3], atol=1e-6)
+DRAWN = {
+    "/evader/com": "InstancePoses3D:translations",
+    "/evader/zmp": "InstancePoses3D:translations",
+    "/pursuer/footsteps/planned": "Points3D:positions",
+    "/pursuer/footsteps/landed": "Points3D:positions",
+    "/tf": "Transform3D:translation",
+    "/evader/visual_geometries/": "Ellipsoids3D:half_sizes",
+    "/pursuer/visual_geometries/": "Cylinders3D:lengths",
+    "/room/visual_geometries/": "Cylinders3D:lengths",
+}
+"""What Rerun draws, by the beginning of its entity."""
 
 
-def test_a_dataset_has_an_episode_for_each_robot(
-    folder: Path, run: Run
-) -> None:
-    pytest.importorskip("pyarrow", reason="pyarrow is not installed")
-    av = pytest.importorskip("av", reason="PyAV is not installed")
-    from pyarrow.parquet import read_schema, read_table
-
-    root = export(folder, "lerobot")
-    info = json.loads((root / "meta/info.json").read_text())
-    frames = read_table(root / "data/chunk-000/file-000.parquet")
-    camera = "observation.images.camera"
-    assert {*frames.column_names, camera} == set(info["features"])
-    assert frames.num_rows == info["total_frames"] == 2 * len(run.times)
-    for key, feature in info["features"].items():
-        if feature["shape"] != [1] and key != camera:
-            assert [frames[key].type.list_size] == feature["shape"]
-    count = len(run.times)
-    [first, second] = read_table(
-        root / "meta/episodes/chunk-000/file-000.parquet"
-    ).to_pylist()
-    assert (first["dataset_to_index"], second["length"]) == (count, count)
-    qpos = run.evader.qpos
-    assert qpos is not None
-
-    def column(name: str) -> Any:
-        rows = frames[name].to_pylist()
-        return np.array(rows[second["dataset_from_index"] :])
-
-    np.testing.assert_array_equal(column("observation.state"), qpos[:, 7:])
-    sight = column("observation.environment_state")
-    np.testing.assert_allclose(sight[:, 1], run.distance, rtol=1e-6)
-    times = run.times - run.times[0]
-    np.testing.assert_allclose(column("timestamp"), times, atol=1e-6)
-    tasks = read_schema(root / "meta/tasks.parquet").pandas_metadata
-    assert tasks["index_columns"] == ["task"]
-    number = second[f"videos/{camera}/file_index"]
-    video = info["video_path"].format(
-        video_key=camera, chunk_index=0, file_index=number
+def test_rerun_draws_robots_footsteps_room_com_and_zmp(tmp_path: Path) -> None:
+    rerun = which("rerun", path=str(Path(sys.executable).parent))
+    if rerun is None:
+        pytest.skip("Rerun is not installed")
+    settings = DuelSettings(
+        duration=5.0,
+        room=SceneSettings(
+            plan=Room(
+                obstacles=(Disc(0.6, 1.4, 0.1),),
+                starts=(Pose(0.0, 0.0, 0.2), Pose(1.0, 0.0, pi)),
+            )
+        ),
     )
-    with av.open(str(root / video)) as container:
-        images = sum(1 for _ in container.decode(video=0))
-    assert images == count
-
-
-def test_statistics_are_those_of_all_frames(folder: Path, run: Run) -> None:
-    pytest.importorskip("pyarrow", reason="pyarrow is not installed")
-    root = folder.with_name("duel-lerobot")
-    stats = json.loads((root / "meta/stats.json").read_text())
-    angles = [run.tracks[name].qpos for name in run.robots]
-    both = np.concatenate([q[:, 7:] for q in angles if q is not None])
-    found = stats["observation.state"]
-    for name, values in (
-        ("mean", both.astype(float).mean(0)),
-        ("std", both.astype(float).std(0)),
-        ("min", both.min(0)),
+    folder = tmp_path / "room"
+    folder.mkdir()
+    write_run_files(folder, run_duel(settings))
+    bag = export(folder, "mcap") / "room.mcap"
+    target = tmp_path / "room.rrd"
+    for words in (
+        ["mcap", "convert", str(bag), "-o", str(target)],
+        ["rrd", "print", str(target)],
     ):
-        np.testing.assert_allclose(found[name], values, atol=1e-6)
-    assert found["count"] == [2 * len(run.times)]
-
-
-def test_rerun_reads_poses_and_numbers_back(folder: Path, run: Run) -> None:
-    rerun = pytest.importorskip("rerun", reason="Rerun is not installed")
-    file = export(folder, "rerun") / "duel.rrd"
-    with rerun.server.Server(datasets={"runs": [str(file)]}) as server:
-        dataset = server.client().get_dataset("runs")
-        base = f"/world/evader/{BASE}"
-        view = dataset.filter_contents([base, "/signals/distance"])
-        table = view.reader(index="time").to_pandas().sort_values("time")
-    column = f"{base}:Transform3D:translation"
-    known = table[column].notna()
-    found = np.stack([row[0] for row in table[column][known]])
-    qpos = run.evader.qpos
-    assert qpos is not None
-    np.testing.assert_allclose(found, qpos[:, :3], atol=1e-6)
-    numbers = table["/signals/distance:Scalars:scalars"].dropna()
-    distance = np.array([row[0] for row in numbers])
-    np.testing.assert_allclose(distance, run.distance)
+        done = subprocess.run(
+            [rerun, *words], capture_output=True, text=True, check=True
+        )
+    chunks = re.findall(
+        r"^Chunk.* - (/\S*) - .*columns: \[(.*)\]$", done.stdout, re.MULTILINE
+    )
+    for entity, archetype in DRAWN.items():
+        assert any(
+            path.startswith(entity) and archetype in columns
+            for path, columns in chunks
+        ), entity

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from ..games.match import Progress
     from ..report.export.recording import Recording
 
-FORMATS = ("mcap", "rerun", "urdf", "lerobot", "csv", "parquet")
+FORMATS = ("mcap", "urdf", "csv", "parquet")
 
 
 @click.command("export")
@@ -27,8 +27,7 @@ FORMATS = ("mcap", "rerun", "urdf", "lerobot", "csv", "parquet")
     "format_name",
     required=True,
     type=click.Choice(FORMATS),
-    help="Format: a ROS 2 bag, a Rerun recording, robot models, a LeRobot "
-    "dataset, or tables.",
+    help="Format: a ROS 2 bag, robot models, or tables.",
 )
 @click.option(
     "--output",

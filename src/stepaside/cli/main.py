@@ -21,7 +21,7 @@ COMMANDS = {
     "view": "Watch a duel in the browser; push or drive the robots.",
     "replay": "Replay a run: live page, offline page or video.",
     "compare": "Plot several runs in one figure.",
-    "export": "Write a run for other programs: MCAP, Rerun, URDF, tables.",
+    "export": "Write a run for other programs: MCAP, URDF, tables.",
     "walk": "Simulate the walk of one humanoid and measure it.",
     "robustness": "Measure how a walk survives disturbances, on all cores.",
     "plan": "Plan one maneuver: footsteps, ZMP and CoM.",

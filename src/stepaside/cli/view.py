@@ -1,7 +1,7 @@
 """``stepaside view``: an interactive game in the browser."""
 
 import webbrowser
-from contextlib import ExitStack
+from contextlib import closing
 from pathlib import Path
 from time import sleep
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -21,7 +21,6 @@ from .terminal import echo
 if TYPE_CHECKING:
     from ..games.duel_settings import DuelSettings
     from ..games.game_settings import GameSettings
-    from ..report.export.live_recording import LiveSink
     from ..report.viewer.live_page import Page
 
 
@@ -35,8 +34,6 @@ class ViewOptions(NamedTuple):
         opens: Whether to open a browser.
         run: Whether the simulation starts at once.
         demo: Whether the page is for an audience.
-        rerun_port: Port for the Rerun viewer; None not to serve it.
-        foxglove_port: Port for Foxglove; None not to serve it.
         serve_for: Time after which to stop, in [s]; None for no limit.
     """
 
@@ -46,8 +43,6 @@ class ViewOptions(NamedTuple):
     opens: bool
     run: bool
     demo: bool
-    rerun_port: int | None
-    foxglove_port: int | None
     serve_for: float | None
 
 
@@ -80,24 +75,6 @@ OWN = {*ViewOptions._fields, "seed"}
     help="Show large text and no controls, and play one game after the other "
     "with the next seeds, for an audience.",
 )
-@click.option(
-    "--rerun",
-    "rerun_port",
-    type=click.IntRange(1, 65535),
-    is_flag=False,
-    flag_value=9876,
-    help="Also serve the game to the Rerun viewer, on a port of this machine; "
-    "9876 if none is given.",
-)
-@click.option(
-    "--foxglove",
-    "foxglove_port",
-    type=click.IntRange(1, 65535),
-    is_flag=False,
-    flag_value=8765,
-    help="Also serve the game to Foxglove, on a WebSocket of this machine; at "
-    "port 8765 if none is given.",
-)
 @serve_for_option("--duration")
 @duel_options("duration")
 def view(settings: "DuelSettings", **options: Any) -> None:
@@ -111,22 +88,10 @@ def view(settings: "DuelSettings", **options: Any) -> None:
     played: DuelSettings | GameSettings = settings
     if given.file is not None:
         played = _game_of(given.file)
-    with ExitStack() as stack:
-        sinks = _open_sinks(given, stack)
-        from ..report.export.live_recording import LiveRecorder, LiveStreams
-        from ..report.viewer.live_page import Page
+    from ..report.viewer.live_page import Page
 
-        recorder = LiveRecorder()
-        page = Page(
-            played,
-            host=given.host,
-            port=given.port,
-            demo=given.demo,
-            observers=(recorder,) if sinks else (),
-        )
-        stack.callback(page.close)
-        streams = LiveStreams(recorder, page.session.lock, sinks)
-        stack.callback(streams.close)
+    page = Page(played, host=given.host, port=given.port, demo=given.demo)
+    with closing(page):
         page.session.running = given.run
         _serve(page, given)
 
@@ -151,31 +116,6 @@ def _serve(page: "Page", options: ViewOptions) -> None:
         sleep(options.serve_for)
     except KeyboardInterrupt:
         echo("stepaside: stopped; saved runs remain", err=True)
-
-
-def _open_sinks(options: ViewOptions, stack: ExitStack) -> "list[LiveSink]":
-    """Serve other programs, and print how they connect.
-
-    Args:
-        options: Options with their ports.
-        stack: Closes what was opened.
-    """
-    sinks: list[LiveSink] = []
-    if options.rerun_port is not None:
-        from ..report.export.live_rerun import LiveRerun
-
-        rerun = LiveRerun(options.rerun_port)
-        echo(f"Rerun: rerun {rerun.address}")
-        stack.callback(rerun.close)
-        sinks.append(rerun)
-    if options.foxglove_port is not None:
-        from ..report.export.live_foxglove import LiveFoxglove
-
-        foxglove = LiveFoxglove(options.foxglove_port)
-        echo(f"Foxglove: Open connection, {foxglove.address}")
-        stack.callback(foxglove.close)
-        sinks.append(foxglove)
-    return sinks
 
 
 def _game_of(file: Path) -> "GameSettings":

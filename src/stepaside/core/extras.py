@@ -6,8 +6,6 @@ EXTRAS = {  # as in ``pyproject.toml``, with the names of the modules
     "slurm": ("dask_jobqueue",),
     "tables": ("polars",),
     "export": ("rosbags",),
-    "rerun": ("rerun", "rerun_cli"),
-    "foxglove": ("foxglove", "rosbags"),
     "fast": ("llvmlite", "numba"),
     "learn": ("gymnasium", "numba", "pettingzoo"),
     "legs": ("onnx", "onnxruntime", "yaml"),
@@ -17,7 +15,6 @@ EXTRAS = {  # as in ``pyproject.toml``, with the names of the modules
     "ros2": ("cyclonedds",),
     "viewer": ("av", "msgspec", "trimesh", "viser", "websockets"),
     "vision": ("cv2",),
-    "lerobot": ("av", "pyarrow"),
 }
 
 

@@ -11,7 +11,6 @@ from ...perception.camera_model import CameraModel
 
 UNKNOWN = np.full(9, 0.0)
 NO_ORIENTATION = np.array([-1.0] + [0.0] * 8)  # as sensor_msgs/Imu says it
-BOX = "CUBE"
 JPEG_QUALITY = 90
 
 
@@ -84,10 +83,24 @@ class MessageFactory:
             "geometry_msgs/msg/TransformStamped", header, child, both
         )
 
-    def point_stamped(self, header: Any, point: Sequence[float]) -> Any:
-        """Return a point with header."""
+    def points(self, header: Any, points: Array) -> Any:
+        """Return a cloud of points, in [m]. Shape (n, 3)."""
+        rows = np.ascontiguousarray(points, dtype="<f4")
+        field = self._types["sensor_msgs/msg/PointField"]
         return self.make(
-            "geometry_msgs/msg/PointStamped", header, self.point(*point)
+            "sensor_msgs/msg/PointCloud2",
+            header,
+            1,
+            len(rows),
+            [
+                field(name, 4 * i, field.FLOAT32, 1)
+                for i, name in enumerate("xyz")
+            ],
+            False,
+            12,
+            12 * len(rows),
+            np.frombuffer(rows.tobytes(), dtype=np.uint8),
+            True,
         )
 
     def joint_state(
@@ -157,54 +170,6 @@ class MessageFactory:
     def text(self, value: str) -> Any:
         """Return a plain text."""
         return self.make("std_msgs/msg/String", value)
-
-    def marker(
-        self,
-        header: Any,
-        namespace: str,
-        number: int,
-        shape: str,
-        pose: Any,
-        scale: Sequence[float],
-        colour: Sequence[float],
-    ) -> Any:
-        """Return a marker that stays until it is replaced."""
-        kind = self._types["visualization_msgs/msg/Marker"]
-        duration = self.make("builtin_interfaces/msg/Duration", 0, 0)
-        return kind(
-            header=header,
-            ns=namespace,
-            id=number,
-            type=int(getattr(kind, shape)),
-            action=int(kind.ADD),
-            pose=pose,
-            scale=self.vector(*scale),
-            color=self.make("std_msgs/msg/ColorRGBA", *colour),
-            lifetime=duration,
-            frame_locked=False,
-            points=[],
-            colors=[],
-            texture_resource="",
-            texture=self.make(
-                "sensor_msgs/msg/CompressedImage",
-                header,
-                "",
-                np.zeros(0, dtype=np.uint8),
-            ),
-            uv_coordinates=[],
-            text="",
-            mesh_resource="",
-            mesh_file=self.make(
-                "visualization_msgs/msg/MeshFile",
-                "",
-                np.zeros(0, dtype=np.uint8),
-            ),
-            mesh_use_embedded_materials=False,
-        )
-
-    def markers(self, markers: list[Any]) -> Any:
-        """Return a list of markers."""
-        return self.make("visualization_msgs/msg/MarkerArray", markers)
 
     def jpeg(self, header: Any, pixels: NDArray[np.uint8]) -> Any:
         """Return a colour image as JPEG."""

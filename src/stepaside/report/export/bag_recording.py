@@ -1,24 +1,25 @@
-"""Recordings as ROS 2 bags in MCAP, for Foxglove, PlotJuggler and rosbag2.
+"""Recordings as ROS 2 bags in MCAP, for Foxglove, Rerun, PlotJuggler, rosbag2.
 
-Each player has a namespace. Frames follow REP 105 and REP 120: ``map``, then
-``NAME/odom``, ``NAME/base_footprint``, ``NAME/base_link`` and the links.
+Each player has a namespace. Geometry is in types that Foxglove, Rerun and RViz
+draw: transforms, URDF, poses and clouds of points. Frames follow REP 105 and
+REP 120: ``map``, then ``NAME/odom``, ``NAME/base_footprint``,
+``NAME/base_link`` and the links.
 """
 
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
+from xml.etree import ElementTree
 
 import numpy as np
 
 from ...core.poses import Array, Pose
 from ...games.replayed_signals import RobotSignals
 from ...perception.images import ColourImage
-from ...planning.gait_settings import SoleRectangle
 from ...robots.head import depth_camera_name
 from ...robots.urdf_elements import IMU, OPTICAL
 from ..landed_footsteps import landed_footsteps
-from ..palette import colours_in
-from .bag_messages import BOX, MessageFactory, nanoseconds
+from .bag_messages import MessageFactory, nanoseconds
 from .foxglove_layout import write_layout
 from .recorded_transforms import (
     base_poses,
@@ -26,10 +27,11 @@ from .recorded_transforms import (
     quaternion_of,
 )
 from .recording import Recording, RobotModel, foot_wrenches
-from .room_markers import room_markers
+from .room_model import RoomModel
 
 MAP = "map"
-THICKNESS = 0.004  # of the marker of a footstep, in [m]
+GRID = 9, 5  # points of a sole, along and across
+LANDED = 40  # soles that are shown at once
 POINTS = ("com", "com_reference", "zmp", "zmp_reference")
 
 
@@ -122,8 +124,6 @@ def messages_of(
     recording: Recording,
     factory: MessageFactory,
     report: Callable[[int, int], None] | None = None,
-    *,
-    room: bool = True,
 ) -> Iterator[TopicMessage]:
     """Yield all messages of a recording, in the order of their times.
 
@@ -131,22 +131,19 @@ def messages_of(
         recording: The recording.
         factory: Maker of messages.
         report: Called with the samples done and their number.
-        room: Whether to include obstacles, persons and templates.
     """
     run = recording.run
     players = [PlayerTopics(recording, name, factory) for name in run.players]
     times = run.times
+    room = RoomTopics(RoomModel(run), factory)
     static = [t for player in players for t in player.static_transforms()]
-    tf = "tf2_msgs/msg/TFMessage"
+    static += room.transforms(None, float(times[0]))
     first = float(times[0])
     yield TopicMessage(
-        first, "/tf_static", tf, factory.make(tf, static), stays=True
+        first, "/tf_static", TF, factory.make(TF, static), stays=True
     )
     events = [m for player in players for m in player.events()]
-    events += [
-        TopicMessage(time, "/room", f"{MARKERS}", message, stays=True)
-        for time, message in (room_markers(run, factory) if room else ())
-    ]
+    events += room.description(first)
     events.sort(key=lambda event: event.time)
     pending = iter(events)
     event = next(pending, None)
@@ -155,7 +152,8 @@ def messages_of(
             yield event._replace(time=max(event.time, first))
             event = next(pending, None)
         moved = [t for p in players for t in p.transforms(index, time)]
-        yield TopicMessage(time, "/tf", tf, factory.make(tf, moved))
+        moved += room.transforms(index, time)
+        yield TopicMessage(time, "/tf", TF, factory.make(TF, moved))
         for player in players:
             yield from player.sample(index, time)
         yield from _pair_numbers(recording, factory, index, time)
@@ -163,8 +161,46 @@ def messages_of(
             report(index, len(times))
 
 
-MARKERS = "visualization_msgs/msg/MarkerArray"
+TF = "tf2_msgs/msg/TFMessage"
+POSE = "geometry_msgs/msg/PoseStamped"
+CLOUD = "sensor_msgs/msg/PointCloud2"
 NUMBER = "std_msgs/msg/Float64"
+
+
+class RoomTopics:
+    """Messages of what is no robot: a URDF, and where its links are."""
+
+    def __init__(self, room: RoomModel, factory: MessageFactory) -> None:
+        """Find which shapes move."""
+        self._room, self._factory = room, factory
+        self._moves = dict(room.moved())
+        first = self._moves.pop(0, [])
+        later = self._moves.values()
+        moving = {shape.frame for shapes in later for shape in shapes}
+        self._static = [s for s in first if s.frame not in moving]
+        self._moves[0] = [s for s in first if s.frame in moving]
+
+    def transforms(self, index: int | None, time: float) -> list[Any]:
+        """Return the transforms that change at a sample; None for static."""
+        make = self._factory
+        shapes = self._static if index is None else self._moves.get(index, ())
+        return [
+            make.transform(
+                make.header(time, MAP),
+                shape.frame,
+                shape.position.tolist(),
+                make.rotation(shape.quaternion.tolist()),
+            )
+            for shape in shapes
+        ]
+
+    def description(self, time: float) -> list[TopicMessage]:
+        """Return the URDF, if there is a shape."""
+        if not self._room.shapes:
+            return []
+        text, topic = self._room.urdf, "/room/robot_description"
+        message = self._factory.text(text)
+        return [TopicMessage(time, topic, TEXT, message, stays=True)]
 
 
 def _pair_numbers(
@@ -200,7 +236,6 @@ class PlayerTopics:
         self._times, self._track = run.times, run.tracks[name]
         self._signals = recording.signals.get(name, RobotSignals())
         self._model: RobotModel | None = None
-        self._colour = colours_in("light", run.players)[name]
         self._footprints = self._track.unicycle
         self._odometry = Pose(*self._footprints[0].tolist())
         inverse = self._odometry.inverse()
@@ -286,16 +321,15 @@ class PlayerTopics:
             name: getattr(self._track, name) for name in POINTS
         }
         points["dcm"] = self._signals.dcm
-        kind = "geometry_msgs/msg/PointStamped"
+        x, y, heading = self._footprints[index].tolist()
+        poses = {"pose": make.pose((x, y, 0.0), make.upright(heading))}
         for name, rows in points.items():
             if rows is not None and np.isfinite(rows[index]).all():
-                message = make.point_stamped(in_map, rows[index].tolist())
-                yield TopicMessage(time, self._topic(name), kind, message)
-        x, y, heading = self._footprints[index].tolist()
-        kind = "geometry_msgs/msg/PoseStamped"
-        pose = make.pose((x, y, 0.0), make.upright(heading))
-        message = make.make(kind, in_map, pose)
-        yield TopicMessage(time, self._topic("pose"), kind, message)
+                point = rows[index].tolist()
+                poses[name] = make.pose(point, make.upright(0.0))
+        for name, pose in poses.items():
+            message = make.make(POSE, in_map, pose)
+            yield TopicMessage(time, self._topic(name), POSE, message)
         for name, values in self._signals.strategy.items():
             if np.isfinite(values[index]):
                 topic = self._topic(f"strategy/{name}")
@@ -339,63 +373,45 @@ class PlayerTopics:
         found: list[TopicMessage] = []
         if self._model is not None:
             topic, kind = self._topic("robot_description"), TEXT
-            message = make.text(self._model.urdf)
+            message = make.text(_with_prefix(self._model.urdf, self._name))
             found.append(TopicMessage(first, topic, kind, message, stays=True))
-            found += self._footstep_markers(self._model)
+            found += self._footsteps(self._model)
         for time, phase in self._signals.phases:
             topic, message = self._topic("phase"), make.text(phase)
             found.append(TopicMessage(time, topic, TEXT, message, stays=True))
         return found + list(self._images())
 
-    def _footstep_markers(self, model: RobotModel) -> Iterator[TopicMessage]:
-        """Yield planned footsteps, landings as planned and as they were."""
-        track = self._track
+    def _footsteps(self, model: RobotModel) -> Iterator[TopicMessage]:
+        """Yield the soles of each plan, and those that have landed."""
+        make, track = self._factory, self._track
         assert track.qpos is not None
         topic = self._topic("footsteps/planned")
         for plan in self._signals.plans:
-            marks = self._soles(plan.time, plan.footsteps, "planned", 0.4)
-            yield TopicMessage(plan.time, topic, MARKERS, marks)
+            header = make.header(plan.time, MAP)
+            cloud = make.points(header, self._soles(plan.footsteps))
+            yield TopicMessage(plan.time, topic, CLOUD, cloud)
         if track.landings is None:
             return
         topic = self._topic("footsteps/landed")
         rows = landed_footsteps(model.description, self._times, track)
-        for row in rows:
-            time = float(row[0])
-            number = round(1e3 * time)  # also in pieces of a live game
-            marks = self._soles(time, row[None, 1:], "landed", 0.8, number)
-            yield TopicMessage(time, topic, MARKERS, marks)
+        for number, time in enumerate(rows[:, 0].tolist(), 1):
+            last = rows[max(0, number - LANDED) : number, 1:]
+            cloud = make.points(make.header(time, MAP), self._soles(last))
+            yield TopicMessage(time, topic, CLOUD, cloud)
 
-    def _soles(
-        self,
-        time: float,
-        rows: Array,
-        namespace: str,
-        alpha: float,
-        first: int = 0,
-    ) -> Any:
-        """Return markers of soles: rows (side, x, y, heading)."""
-        make, sole = self._factory, self._sole
-        header = make.header(time, MAP)
-        colour = (*(part / 255.0 for part in self._rgb()), alpha)
-        markers = []
-        for number, (side, x, y, heading) in enumerate(rows.tolist(), first):
-            size, middle = _sole_box(sole, side)
-            center = Pose(x, y, heading).compose(Pose(*middle, 0.0))
-            pose = make.pose(
-                (center.x, center.y, 0.5 * THICKNESS), make.upright(heading)
-            )
-            scale = (*size, THICKNESS)
-            markers.append(
-                make.marker(
-                    header, namespace, number, BOX, pose, scale, colour
-                )
-            )
-        return make.markers(markers)
+    def _soles(self, rows: Array) -> Array:
+        """Return points of soles: rows (side, x, y, heading).
 
-    def _rgb(self) -> tuple[int, int, int]:
-        text = self._colour.lstrip("#")
-        red, green, blue = (int(text[i : i + 2], 16) for i in (0, 2, 4))
-        return red, green, blue
+        Shape (n, 3), in ``map``.
+        """
+        sole = self._sole
+        ahead = np.linspace(sole.back, sole.front, GRID[0])
+        outward = np.linspace(-sole.inner, sole.outer, GRID[1])
+        u, v = (part.ravel() for part in np.meshgrid(ahead, outward))
+        side, x, y, heading = (part[:, None] for part in rows.T)
+        c, s = np.cos(heading), np.sin(heading)
+        found = [x + c * u - s * side * v, y + s * u + c * side * v]
+        return np.stack([*found, np.zeros_like(found[0])], -1).reshape(-1, 3)
 
     def _images(self) -> Iterator[TopicMessage]:
         """Yield images with their calibration."""
@@ -431,12 +447,12 @@ def _row(rows: Array | None, index: int) -> Array | None:
     return None if rows is None else rows[index]
 
 
-def _sole_box(
-    sole: SoleRectangle, side: float
-) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Return size and center of a sole in its foot frame, in [m]."""
-    length = sole.front - sole.back
-    width = sole.outer + sole.inner
-    ahead = 0.5 * (sole.front + sole.back)
-    aside = 0.5 * side * (sole.outer - sole.inner)
-    return (length, width), (ahead, aside)
+def _with_prefix(urdf: str, name: str) -> str:
+    """Return a URDF whose links are named like the frames of a player."""
+    robot = ElementTree.fromstring(urdf)
+    robot.set("name", name)
+    for link in robot.iter("link"):
+        link.set("name", f"{name}/{link.get('name')}")
+    for end in (*robot.iter("parent"), *robot.iter("child")):
+        end.set("link", f"{name}/{end.get('link')}")
+    return ElementTree.tostring(robot, encoding="unicode")

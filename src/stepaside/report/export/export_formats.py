@@ -35,21 +35,6 @@ def _write_mcap(folder: Path, run: Recording, report: Report | None) -> None:
     write_bag(folder, run, report)
 
 
-def _write_lerobot(
-    folder: Path, run: Recording, report: Report | None
-) -> None:
-    from .lerobot_dataset import write_lerobot
-
-    write_lerobot(folder, run)
-
-
-def _write_rerun(folder: Path, run: Recording, report: Report | None) -> None:
-    from .rerun_recording import write_rerun
-
-    write_rerun(folder / f"{run.run.name}.rrd", run)
-    _write_urdf(folder, run, report)
-
-
 def _write_csv(folder: Path, run: Recording, report: Report | None) -> None:
     from .signal_tables import write_csv
 
@@ -71,7 +56,7 @@ def _write_urdf(folder: Path, run: Recording, report: Report | None) -> None:
 
 FORMATS = {
     "mcap": ExportFormat(
-        "a ROS 2 bag for Foxglove, PlotJuggler and rosbag2, with its layout",
+        "a ROS 2 bag for Foxglove, Rerun, PlotJuggler and rosbag2",
         ("rosbags",),
         True,
         _write_mcap,
@@ -82,18 +67,6 @@ FORMATS = {
         False,
         _write_urdf,
     ),
-    "rerun": ExportFormat(
-        "a recording for the Rerun viewer, with its blueprint",
-        ("rerun",),
-        True,
-        _write_rerun,
-    ),
-    "lerobot": ExportFormat(
-        "a LeRobot dataset 3.0 with an episode for each robot",
-        ("pyarrow", "av"),
-        True,
-        _write_lerobot,
-    ),
     "csv": ExportFormat(
         "tables for spreadsheets and PlotJuggler", (), True, _write_csv
     ),
@@ -101,7 +74,6 @@ FORMATS = {
         "the same tables as Parquet", ("polars",), True, _write_parquet
     ),
 }
-OF_ROBOTS = ("urdf", "lerobot")  # formats of robots only
 
 
 def check_format(name: str) -> None:
@@ -135,7 +107,7 @@ def export_recording(
         OutputError: If it cannot be written.
         ConfigurationError: If the format is of robots and there are none.
     """
-    if name in OF_ROBOTS and not recording.models:
+    if name == "urdf" and not recording.models:
         raise ConfigurationError(
             f"format {name} needs a run with a robot, got none"
         )

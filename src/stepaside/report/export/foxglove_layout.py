@@ -21,8 +21,8 @@ GRID = {
     "position": [0, 0, 0],
     "rotation": [0, 0, 0],
 }
-# Points over the floor: name of the topic, colour, radius [m].
-MARKS = (("com", "#5b2a86", 0.02), ("zmp", "#e0a400", 0.015))
+# Points: name of the topic, colour.
+MARKS = (("com", "#5b2a86"), ("zmp", "#e0a400"))
 
 
 def write_layout(file: Path, recording: Recording) -> None:
@@ -67,30 +67,28 @@ def _stack(names: list[str], direction: str) -> Any:
 
 
 def _scene(recording: Recording) -> dict[str, Any]:
-    layers: dict[str, Any] = {"grid": GRID}
-    topics: dict[str, Any] = {"/room": {"visible": True}}
+    colours = colours_in("light", recording.run.players)
+    layers: dict[str, Any] = {"grid": GRID, "room": _urdf_layer("room")}
+    topics: dict[str, Any] = {}
     transforms: dict[str, Any] = {}
     for name in recording.run.players:
-        for part in ("planned", "landed"):
-            topics[f"/{name}/footsteps/{part}"] = {"visible": True}
-        for mark, colour, radius in MARKS:
+        for part, alpha in (("planned", "60"), ("landed", "c0")):
+            topics[f"/{name}/footsteps/{part}"] = {
+                "visible": True,
+                "colorMode": "flat",
+                "flatColor": colours[name] + alpha,
+                "pointSize": 3,
+            }
+        for mark, colour in MARKS:
             topics[f"/{name}/{mark}"] = {
                 "visible": True,
+                "type": "axis",
+                "axisScale": 0.08,
                 "color": colour,
-                "pointSize": radius,
             }
         transforms[f"frame:{name}/base_footprint"] = {"visible": True}
     for name, model in recording.models.items():
-        layers[name] = {
-            "layerId": "foxglove.Urdf",
-            "instanceId": name,
-            "label": name,
-            "visible": True,
-            "sourceType": "topic",
-            "topic": f"/{name}/robot_description",
-            "framePrefix": f"{name}/",
-            "displayMode": "visual",
-        }
+        layers[name] = _urdf_layer(name)
         for link in model.tree.links:
             transforms[f"frame:{name}/{link.name}"] = {"visible": False}
     return {
@@ -113,6 +111,18 @@ def _scene(recording: Recording) -> dict[str, Any]:
         "transforms": transforms,
         "layers": layers,
         "imageMode": {},
+    }
+
+
+def _urdf_layer(name: str) -> dict[str, Any]:
+    return {
+        "layerId": "foxglove.Urdf",
+        "instanceId": name,
+        "label": name,
+        "visible": True,
+        "sourceType": "topic",
+        "topic": f"/{name}/robot_description",
+        "displayMode": "visual",
     }
 
 
@@ -158,7 +168,7 @@ def _plots(recording: Recording) -> list[tuple[str, dict[str, Any]]]:
             paths["angle [rad]"] = ("/angle_rad.data", "#888888")
         found.append(("Plot!distance", _plot("Distance and angle", paths)))
     heights = {
-        f"{name} CoM z [m]": (f"/{name}/com.point.z", colours[name])
+        f"{name} CoM z [m]": (f"/{name}/com.pose.position.z", colours[name])
         for name in recording.models
     }
     forces = {

@@ -13,7 +13,6 @@ import numpy as np
 from ...core.errors import StepAsideError
 from ...games.duel_settings import EVADER, PLAYERS, DuelSettings
 from ...games.game_settings import GameSettings
-from ...games.match import MatchObserver
 from ..palette import THEMES
 from ..text_escaping import for_markdown
 from .camera_panel import CameraPanel
@@ -70,7 +69,6 @@ class Page:
         host: str,
         port: int,
         demo: bool = False,
-        observers: tuple[MatchObserver, ...] = (),
     ) -> None:
         """Serve a game, which is paused at first.
 
@@ -80,7 +78,6 @@ class Page:
             port: First port to try.
             demo: Whether the page is for an audience: large text, panels
                 minimised, one game after the other with the next seeds.
-            observers: Further observers of each game.
 
         Raises:
             StepAsideError: If the address cannot be used or the settings are
@@ -89,7 +86,7 @@ class Page:
         served = open_server(host, port)
         self.server, self.gate = served.server, served.gate
         try:
-            self.session = LiveSession(settings, observers)
+            self.session = LiveSession(settings)
         except BaseException:
             self.server.stop()
             raise

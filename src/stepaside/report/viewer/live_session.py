@@ -96,16 +96,11 @@ class LiveSession:
             before the first measurement.
     """
 
-    def __init__(
-        self,
-        settings: LiveSettings,
-        observers: tuple[MatchObserver, ...] = (),
-    ) -> None:
+    def __init__(self, settings: LiveSettings) -> None:
         """Start the loop with a game that is paused.
 
         Args:
             settings: Settings of the game.
-            observers: Further observers of each game.
 
         Raises:
             StepAsideError: If the settings are invalid.
@@ -116,7 +111,6 @@ class LiveSession:
         self.slow_motion = 1.0
         self.real_time_factor = 0.0
         self.error: str | None = None
-        self._observers = observers
         self._requests: deque[Callable[[], None]] = deque()
         self._closing = threading.Event()
         self._thread = threading.Thread(target=self._loop, daemon=True)
@@ -151,7 +145,7 @@ class LiveSession:
         # A live game has no end, so that its history is bounded.
         trail = PlotHistory()
         recorders: tuple[MatchObserver, ...] = trail, LiveRecording()
-        match = open_match(settings, recorders + self._observers)
+        match = open_match(settings, recorders)
         self._close_match()
         self._open = match
         self.match = match
