@@ -111,8 +111,8 @@ class DashEvasion(BackwardStrategy):
 
     turning_radius: float = inf
     enough: float = 1.2
-    clearance: float = 1.0
-    contact_time: float = 3.5
+    clearance: float = 0.8
+    contact_time: float = 1.8
     horizon: float = 6.0
     directions: int = 24
     effort: float = EFFORT

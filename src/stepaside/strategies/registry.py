@@ -34,7 +34,12 @@ def _matador() -> Strategy:
     from .dash_evasion import CHASER_RADIUS, DashEvasion
 
     return DashEvasion(
-        CHASER_RADIUS, enough=inf, contact_time=6.0, effort=0.0, change=0.1
+        CHASER_RADIUS,
+        enough=inf,
+        clearance=1.0,
+        contact_time=6.0,
+        effort=0.0,
+        change=0.1,
     )
 
 

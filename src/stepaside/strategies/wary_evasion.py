@@ -31,6 +31,8 @@ class WaryEvasion(DashEvasion):
     """
 
     turning_radius: float = CHASER_RADIUS
+    clearance: float = 1.0
+    contact_time: float = 3.5
     doubt: float = 0.5
     alertness: float = 1.5
 
