@@ -27,7 +27,7 @@ feedback = ControlSettings(method="measured", feedback=True)
 
 print("gait             control     outcome      speed [m/s]  tilt [deg]")
 for name, gait in gaits.items():
-    for control in (ControlSettings(), feedback):
+    for control in (ControlSettings(feedback=False), feedback):
         walk = WalkSettings(
             duration=seconds,
             gait=gait,

@@ -10,9 +10,7 @@ Run it alone: ``python examples/many_duels.py``.
 import sys
 from concurrent.futures import ProcessPoolExecutor
 
-from stepaside import BODIES, ControlSettings, DuelSettings, run_duel
-
-FEEDBACK = ControlSettings(method="measured", feedback=True)
+from stepaside import BODIES, DuelSettings, run_duel
 
 
 def main(seconds: float, seeds: range) -> None:
@@ -22,7 +20,6 @@ def main(seconds: float, seeds: range) -> None:
             seed=seed,
             duration=seconds,
             body=BODIES[body],
-            control=ControlSettings() if body == "ideal" else FEEDBACK,
         )
         for body in ("ideal", "hardware")
         for seed in seeds

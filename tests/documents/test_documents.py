@@ -12,6 +12,7 @@ from tools.documents.store import ROOT, Store
 
 # Tables that hold no measurements: words, sources, settings, symbols.
 NOT_MEASURED = {
+    ("docs/configuration.md", "open setting"),
     ("docs/interfaces.md", "part"),
     ("docs/guides.md", "I want to"),
     ("docs/reference.md", "page"),

@@ -52,7 +52,7 @@ def walked(
     """A walk that strays by a part of what a steady one may."""
     return WalkTrialResult(
         trial.path.name,
-        trial.control.feedback,
+        bool(trial.control.feedback),
         "fell" if falls else "walked",
         not falls,
         0.3 if falls else 1.0,
@@ -116,7 +116,7 @@ def test_a_robot_that_walks_as_described_passes(
     told: list[tuple[int, int]] = []
 
     def falls_with_feedback(trial: WalkTrial) -> WalkTrialResult:
-        return walked(trial, 0.3, falls=trial.control.feedback)
+        return walked(trial, 0.3, falls=bool(trial.control.feedback))
 
     monkeypatch.setattr(checking, "walk_trial", falls_with_feedback)
     checked = check_robot(
@@ -164,7 +164,7 @@ def search(
             off -= 0.4
         if stiff > 1.5 * own.overlay.servos["near_bend"].stiffness:
             off -= 0.4
-        return walked(trial, off, falls=trial.control.feedback)
+        return walked(trial, off, falls=bool(trial.control.feedback))
 
     monkeypatch.setattr(tuning, "walk_trial", walk)
     return GaitSearch(

@@ -46,7 +46,7 @@ def walked(trial: WalkTrial, **changes: Any) -> WalkTrialResult:
     strain = JointStrain(0.37, "LHipRoll", 0.82, "RKneePitch", 0.0, 0.0043)
     plain = WalkTrialResult(
         trial.path.name,
-        trial.control.feedback,
+        bool(trial.control.feedback),
         "walked",
         True,
         1.0,

@@ -284,7 +284,7 @@ def test_a_configuration_is_read_as_written(tmp_path: Path) -> None:
     file = tmp_path / "duel.toml"
     file.write_text(dump_configuration(settings), encoding="utf-8")
     assert "pursuer_offset" not in file.read_text(encoding="utf-8")
-    assert load_configuration(file) == settings
+    assert load_configuration(file) == settings.resolved()
 
 
 def test_integers_are_converted_to_floats_but_not_conversely() -> None:

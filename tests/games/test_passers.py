@@ -106,7 +106,7 @@ def test_passers_are_part_of_configurations(tmp_path: Any) -> None:
     settings = duel(Passer(0.8, 3.0, 1.5, -1.5, "child"), Passer(0.0, 2.0))
     file = tmp_path / "duel.toml"
     file.write_text(dump_configuration(settings), encoding="utf-8")
-    assert load_configuration(file) == settings
+    assert load_configuration(file) == settings.resolved()
     shown = CliRunner().invoke(
         main,
         [

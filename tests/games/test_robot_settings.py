@@ -151,7 +151,7 @@ def test_two_players_may_be_different_robots(tmp_path: Path) -> None:
         tomllib.loads(dump_configuration(made)),
         "itself",
     )
-    assert again == made
+    assert again == made.resolved()
     config = given("duel", "--pursuer-robot", robot)
     assert config["pursuer_robot"]["gait"]["speed"] == 0.08
     assert "evader_robot" not in config
@@ -214,3 +214,14 @@ def test_a_body_has_the_errors_of_its_robot(tmp_path: Path) -> None:
     )
     with pytest.raises(ConfigurationError, match="body: unknown entry delay"):
         body_of_robot(wrong, "hardware")
+
+
+def test_a_gait_of_nao_is_refused_for_a_robot_with_its_own(
+    tmp_path: Path,
+) -> None:
+    robot = changed_nao(tmp_path / "tall", **{"speed = 0.1 ": "speed = 0.2 "})
+    line = ["walk", "--robot", robot, "--gait", "fast", "--print-config"]
+    refused = CliRunner().invoke(main, line)
+    assert refused.exit_code == 2
+    assert "--gait fast requires a robot with NAO's gait" in refused.stderr
+    assert "tall" in refused.stderr

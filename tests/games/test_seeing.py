@@ -272,7 +272,8 @@ def test_a_scene_is_part_of_the_configuration() -> None:
     import tomllib
 
     assert (
-        parse_settings(DuelSettings, tomllib.loads(text), "test") == settings
+        parse_settings(DuelSettings, tomllib.loads(text), "test")
+        == settings.resolved()
     )
 
 

@@ -106,7 +106,8 @@ def test_unknown_names_are_refused_with_the_known_ones() -> None:
 @pytest.mark.parametrize("method", ["measured", "mpc"])
 def test_a_measured_state_needs_feedback(method: str) -> None:
     with pytest.raises(ConfigurationError, match="needs feedback = true"):
-        ControlSettings(method=method)  # type: ignore[arg-type]
+        ControlSettings(method, False)  # type: ignore[arg-type]
     settings = ControlSettings(method=method, feedback=True)  # type: ignore[arg-type]
     assert settings.method == method
-    assert ControlSettings(feedback=True).method == "closed-form"
+    with pytest.raises(ConfigurationError, match="true or false, got 1"):
+        ControlSettings(feedback=1)  # type: ignore[arg-type]

@@ -271,7 +271,7 @@ def test_nonsense_is_refused() -> None:
     with pytest.raises(ConfigurationError, match="mpc.steps"):
         MpcSettings(steps=0)
     with pytest.raises(ConfigurationError, match="needs feedback"):
-        ControlSettings("mpc")
+        ControlSettings("mpc", False)
 
 
 def test_tails_match_their_definitions() -> None:

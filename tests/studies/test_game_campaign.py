@@ -47,7 +47,7 @@ def game(**entries: Any) -> GameSettings:
 
 def test_a_team_has_one_strategy_and_others_keep_theirs() -> None:
     settings = with_team(game(), Role.PURSUER, "pincer")
-    names = [p.played_strategy for p in settings.players]
+    names = [p.strategy for p in settings.resolved().players]
     assert names == ["pincer", "pincer", "evasion"]
     assert with_team(settings, Role.PURSUER, "") == settings
 

@@ -275,7 +275,7 @@ def test_robots_on_learned_legs_step_aside_of_people_all_around(
     assert {e.speed for e in each} == {0.5, 1.0, 1.4, 1.8}
     assert len({e.bearing for e in each if not e.passes}) == 12
     settings = each[0].settings
-    assert settings.evader_strategy == "step-aside"
+    assert settings.resolved().evader_strategy == "step-aside"
     assert settings.legs == legs
     assert settings.gait.speed == 0.5
     (seen,) = encounters(

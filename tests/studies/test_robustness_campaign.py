@@ -55,7 +55,7 @@ def survives(
 
 
 def test_each_method_has_its_control() -> None:
-    assert control_of("open-loop") == ControlSettings()
+    assert control_of("open-loop") == ControlSettings("closed-form", False)
     for method in ("closed-form", "measured", "mpc"):
         control = control_of(method)
         assert (control.method, control.feedback) == (method, True)

@@ -73,7 +73,7 @@ def law_of(strategy: Strategy) -> BatchLaw:
     """
     if type(strategy) is Pursuit:
         return BatchLaw(PURSUES, strategy.saturated, strategy.gain_ratio)
-    if type(strategy) is Evasion and strategy.trigger == "distance":
+    if type(strategy) is Evasion and strategy.trigger != "time":
         return BatchLaw(
             EVADES,
             strategy.saturated,

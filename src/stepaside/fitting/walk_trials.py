@@ -11,7 +11,7 @@ from ..games.robot_settings import settings_from_description
 from ..games.walk_game import WalkGame
 from ..games.walk_settings import WalkSettings
 from ..games.walk_summary import WalkSummary
-from ..locomotion.zmp.control_settings import ControlSettings, Method
+from ..locomotion.zmp.control_settings import ControlSettings
 from ..planning import GaitSettings
 from ..robots.description import RobotDescription
 from .joint_strain import JointStrain, StrainGauge
@@ -120,7 +120,7 @@ def control_with(control: ControlSettings, feedback: bool) -> ControlSettings:
         control: Control settings to change.
         feedback: Whether to use feedback.
     """
-    method: Method = control.method if feedback else "closed-form"
+    method = control.method if feedback else "closed-form"
     if feedback and not control.feedback:
         method = "measured"
     return replace(control, method=method, feedback=feedback)
@@ -148,7 +148,6 @@ def trials_of(
 def walk_trial(trial: WalkTrial) -> WalkTrialResult:
     """Run a walk trial; an invalid one has an error message as its result."""
     gait, path = trial.gait, trial.path
-    feedback = trial.control.feedback
     duration = (
         START_TIME + gait.start_support + 2 * CYCLES * gait.step_duration
     )
@@ -159,7 +158,8 @@ def walk_trial(trial: WalkTrial) -> WalkTrialResult:
         backward=path.backward,
         gait=gait,
         control=trial.control,
-    )
+    ).resolved()
+    feedback = bool(settings.control.feedback)
     gauge = StrainGauge()
     try:
         game = WalkGame(

@@ -6,6 +6,7 @@ from dataclasses import fields, is_dataclass
 from enum import Enum
 from math import isfinite
 from pathlib import Path
+from types import NoneType
 from typing import Any, Literal, TypeVar, get_args, get_origin, get_type_hints
 
 import dacite
@@ -21,6 +22,7 @@ from ..core.errors import (
 )
 from .duel_settings import DuelSettings
 from .game_settings import GameSettings, PlayerSettings
+from .walk_settings import WalkSettings
 
 
 def over(below: dict[str, Any], above: dict[str, Any]) -> dict[str, Any]:
@@ -168,7 +170,7 @@ def parse_settings(
     entries = {key: v for key, v in entries.items() if key not in left}
 
     if base is not None:
-        entries = over(settings_entries(base), entries)
+        entries = over(open_entries(base), entries)
     entries = with_tuples(kind, entries)
     hooks: dict[type[Any], Callable[[Any], Any]]
     hooks = {float: _as_float, int: _as_int, Room: _as_room}
@@ -209,7 +211,17 @@ def dump_configuration(settings: Any) -> str:
 
 
 def settings_entries(settings: Any) -> dict[str, Any]:
-    """Return settings as the nested entries of a configuration file."""
+    """Return settings as the nested entries of a configuration file.
+
+    What they leave open is resolved.
+    """
+    if isinstance(settings, DuelSettings | GameSettings | WalkSettings):
+        settings = settings.resolved()
+    return open_entries(settings)
+
+
+def open_entries(settings: Any) -> dict[str, Any]:
+    """Return settings as nested entries, without those that are open."""
     if isinstance(settings, DuelSettings | GameSettings | PlayerSettings):
         settings = settings.named()
     entries: dict[str, Any] = _plain(_unfolded(settings))
@@ -223,6 +235,9 @@ def json_settings(settings: Any) -> dict[str, Any]:
 
 
 def _type_name(kind: Any) -> str:
+    kinds = [one for one in get_args(kind) if one is not NoneType]
+    if NoneType in get_args(kind) and len(kinds) == 1:
+        return _type_name(kinds[0])
     if get_origin(kind) is Literal:
         return f"one of {', '.join(map(str, get_args(kind)))}"
     return f"a {getattr(kind, '__name__', kind)}"

@@ -37,7 +37,13 @@ from ..strategies.registry import (
 )
 from ..strategies.shield import shielded
 from ..strategies.shield_settings import ShieldSettings
-from .strategy_resolution import EVASION, resolve_strategies
+from .implied_settings import (
+    EVASION,
+    implied_control,
+    implied_evader,
+    implied_trigger,
+)
+from .strategy_resolution import resolve_strategies
 
 ERROR = ConfigurationError
 SENSING = ("ideal", "cameras", "lidar")
@@ -126,6 +132,11 @@ class RobotSettings:
     control: ControlSettings = setting(ControlSettings(), "Walking control")
     legs: LegsSettings = setting(LegsSettings(), "Learned legs")
 
+    def resolved(self, body: BodySettings) -> "RobotSettings":
+        """Return the robot with its control as gait and body need."""
+        control = implied_control(self.control, self.gait, body)
+        return replace(self, control=control)
+
 
 @dataclass(frozen=True, slots=True)
 class DuelSettings:
@@ -149,11 +160,11 @@ class DuelSettings:
         Evasion(), "Settings of the paper's evasion strategy"
     )
     evader_strategy: str | Strategy = setting(
-        EVASION,
+        "",
         f"Strategy of the evader: {STRATEGY_NAMES}",
         option="--strategy",
         aliases=("--evader-strategy",),
-        default_text="evasion",
+        default_text="evasion; step-aside on learned legs against a person",
     )
     pursuer_strategy: str | Strategy = setting(
         PURSUIT,
@@ -276,7 +287,8 @@ class DuelSettings:
             return
         check_settings(self)
         for name in ("evader_strategy", "pursuer_strategy"):
-            check_strategy_name(getattr(self, name), name, recorded=True)
+            if name == "pursuer_strategy" or self.evader_strategy:
+                check_strategy_name(getattr(self, name), name, recorded=True)
         if self.pursuer == "person" and self.pursuer_strategy != PURSUIT:
             raise ConfigurationError(
                 f"pursuer_strategy must be {PURSUIT!r} for a person, whose "
@@ -326,6 +338,32 @@ class DuelSettings:
             self.robot, self.gait, self.control, self.legs
         )
 
+    def resolved(self) -> "DuelSettings":
+        """Return the settings of the same duel with nothing left open."""
+        strategy = self.strategy
+        if self.uses_evasion:
+            strategy = implied_trigger(
+                strategy,
+                self.robot_of(EVADER).gait,
+                person=self.pursuer == "person",
+            )
+        pursuer, evader = self.pursuer_robot, self.evader_robot
+        return replace(
+            self,
+            strategy=strategy,
+            evader_strategy=self.resolved_evader,
+            control=implied_control(self.control, self.gait, self.body),
+            pursuer_robot=pursuer and pursuer.resolved(self.body),
+            evader_robot=evader and evader.resolved(self.body),
+        )
+
+    @property
+    def resolved_evader(self) -> str | Strategy:
+        """Strategy of the evader, also if it is left open."""
+        return self.evader_strategy or implied_evader(
+            self.robot_of(EVADER).legs, person=self.pursuer == "person"
+        )
+
     def named(self) -> "DuelSettings":
         """Return the settings with a text for each strategy object."""
         return replace(
@@ -337,7 +375,7 @@ class DuelSettings:
     @property
     def uses_evasion(self) -> bool:
         """Whether a player uses the settings of ``strategy``."""
-        played = (self.evader_strategy, self.pursuer_strategy)
+        played = (self.resolved_evader, self.pursuer_strategy)
         return any(
             each in OF_EVASION
             if isinstance(each, str)
@@ -394,11 +432,12 @@ class DuelSettings:
     @property
     def is_of_the_paper(self) -> bool:
         """Whether both strategies are those of the paper, without a room."""
-        played = (self.evader_strategy, self.pursuer_strategy)
+        played = (self.resolved_evader, self.pursuer_strategy)
         return self.room.plan is None and played == (EVASION, PURSUIT)
 
 
 def load_evader(settings: DuelSettings) -> Strategy:
     """Load the strategy of the evader, within its shield if it has one."""
+    settings = settings.resolved()
     strategy = load_strategy(settings.evader_strategy, settings.strategy)
     return shielded(strategy, settings.shield)

@@ -8,8 +8,8 @@ from ..core.errors import AnyPath, ConfigurationError, as_path, shown
 from ..robots.description import load_robot
 from .configuration_file import (
     load_entries,
+    open_entries,
     parse_settings,
-    settings_entries,
 )
 from .game_settings import GameSettings, PlayerSettings
 from .player_names import MOST_PLAYERS
@@ -70,7 +70,7 @@ def parse_game(entries: dict[str, Any], source: str) -> GameSettings:
             f"{shown(listed)}"
         )
     players = [
-        settings_entries(_player(each, f"{source}, player {number}"))
+        open_entries(_player(each, f"{source}, player {number}"))
         for number, entry in enumerate(listed, start=1)
         for each in _copies(entry, f"{source}, player {number}")
     ]

@@ -31,13 +31,17 @@ from ..strategies.registry import (
 )
 from ..strategies.shield_settings import ShieldSettings
 from .duel_settings import BODY_HELP, RobotSettings
+from .implied_settings import (
+    implied_control,
+    implied_evader,
+    implied_trigger,
+)
 from .player_names import MOST_PLAYERS, PLAYER_NAME
 
 BODY_KINDS = ("robot", "unicycle", "person", "run")
 GAME_LEVELS = ("physics", "steps", "unicycle")
 SENSING = ("ideal", "cameras", "lidar")
 MOST_ROBOTS = 12  # in physics
-USUAL_STRATEGIES = {"pursuer": "pursuit", "evader": "evasion"}
 NAO_RADIUS = 0.14  # within which its body stands and sways, in [m]
 POSITION = Range(-100.0, 100.0, "m", "the farthest initial distance")
 TURN = Range(-2.0 * pi, 2.0 * pi, "rad", "a turn")
@@ -74,8 +78,9 @@ class PlayerSettings:
     )
     strategy: str | Strategy = setting(
         "",
-        "Strategy of a robot or a unicycle; if empty, that of the paper for "
-        "its role, and a bystander stands",
+        "Strategy of a robot or a unicycle; if empty, it walks to its goal if "
+        "it has one, steps aside for people if it evades on learned legs, and "
+        "else plays that of the paper for its role; a bystander stands",
     )
     evasion: Evasion = setting(
         Evasion(), "Settings of the paper's evasion strategy"
@@ -167,11 +172,6 @@ class PlayerSettings:
         return PlayerIdentity(
             self.name, Role(self.role), self.team or self.role
         )
-
-    @property
-    def played_strategy(self) -> str | Strategy:
-        """Name of its strategy, or an object; by default that of its role."""
-        return self.strategy or USUAL_STRATEGIES.get(self.role, "stand")
 
     def named(self) -> "PlayerSettings":
         """Return the settings with a text for a strategy object."""
@@ -359,14 +359,40 @@ class GameSettings:
         """
         return {
             p.name: p.evasion.area
-            for p in self.players
-            if p.decides and p.played_strategy in OF_EVASION
+            for p in self.resolved().players
+            if p.decides and p.strategy in OF_EVASION
         }
 
     @property
     def maps_room(self) -> bool:
         """Whether robots map the room with their cameras."""
         return self.room is not None and self.map.source == "seen"
+
+    def resolved(self) -> "GameSettings":
+        """Return the settings of the same game with nothing left open."""
+        return replace(self, players=tuple(map(self._resolved, self.players)))
+
+    def _resolved(self, own: PlayerSettings) -> PlayerSettings:
+        """Return a player with strategy, trigger and control."""
+        if not own.decides:
+            return own
+        person = any(p.body == "person" for p in self.sensed_opponents(own))
+        strategy, evasion = own.strategy, own.evasion
+        if not strategy and (own.goal or own.draws_goal):
+            strategy = "goal"
+        elif not strategy and own.role == "evader":
+            legs = own.legs if self.level == "physics" else LegsSettings()
+            strategy = implied_evader(legs, person=person)
+        elif not strategy:
+            strategy = "pursuit" if own.role == "pursuer" else "stand"
+        if strategy in OF_EVASION:
+            evasion = implied_trigger(evasion, own.gait, person=person)
+        return replace(
+            own,
+            strategy=strategy,
+            evasion=evasion,
+            control=implied_control(own.control, own.gait, self.body),
+        )
 
     def named(self) -> "GameSettings":
         """Return the settings with a text for each strategy object."""

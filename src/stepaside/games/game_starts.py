@@ -22,8 +22,9 @@ ROBOT = 0.4  # least distance of two robots without one of their own, in [m]
 
 
 def with_starts(settings: GameSettings) -> GameSettings:
-    """Return the settings of the same game with all starts filled in.
+    """Return the settings of the same game with nothing left open.
 
+    All starts are filled in, and what the settings imply.
     Positions are drawn from the seed where they are omitted, then headings:
     as in a duel, pursuers look up to a right angle beside their opponent,
     evaders up to 30 degrees beside theirs, people with a goal to the goal,
@@ -56,7 +57,7 @@ def with_starts(settings: GameSettings) -> GameSettings:
     for player in placed.players:
         if player.body == "person" and not player.goal:
             poses[player.name] = walk_on_path(placed, player).pose
-    return settings.with_places(_wrapped(poses), goals)
+    return settings.with_places(_wrapped(poses), goals).resolved()
 
 
 def _given_pose(player: PlayerSettings) -> Pose | None:

@@ -17,16 +17,11 @@ COMFORT = 0.35  # beyond contact, that a walk to a goal keeps free, in [m]
 def strategy_of(player: PlayerSettings, map_in_world: Pose) -> Strategy:
     """Return the strategy of a player.
 
-    A player with a goal and no strategy walks to the goal.
-
     Args:
-        player: Settings of the player.
+        player: Settings of the player, with a strategy.
         map_in_world: Pose of the frame of its map in the world.
     """
-    if player.goal and not player.strategy:
-        strategy: Strategy = GoalWalk()
-    else:
-        strategy = load_strategy(player.played_strategy, player.evasion)
+    strategy = load_strategy(player.strategy, player.evasion)
     if isinstance(strategy, GoalWalk) and player.goal:
         x, y = player.goal
         goal = map_in_world.inverse().compose(Pose(x, y, 0.0))

@@ -38,12 +38,15 @@ def draw_start(settings: DuelSettings) -> StartSettings:
 
 
 def with_initial_poses(settings: DuelSettings) -> DuelSettings:
-    """Return the settings of the same duel with its start filled in.
+    """Return the settings of the same duel with nothing left open.
+
+    Its start is filled in, and what the settings imply.
 
     Raises:
         ConfigurationError: If a room has no space for the start, or settings
             and room give different starts.
     """
+    settings = settings.resolved()
     plan = settings.room.plan
     if plan is None:
         return replace(settings, start=draw_start(settings))

@@ -10,7 +10,7 @@ from ..planning import GaitSettings
 from ..strategies import Evasion
 from ..strategies.registry import check_strategy_name
 from .duel_settings import EVADER, PLAYERS, PURSUER, RobotSettings
-from .strategy_resolution import EVASION
+from .implied_settings import EVASION
 
 LANGUAGES = LOLA, NAOQI, ROS2, PYTHON, RCSS = (
     *("lola", "naoqi", "ros2"),

@@ -73,7 +73,11 @@ def settings_of_robot(robot: str) -> RobotSettings:
     Raises:
         StepAsideError: If the description is invalid.
     """
-    return replace(settings_from_description(load_robot(robot)), robot=robot)
+    own = settings_from_description(load_robot(robot))
+    if not own.control.feedback:  # the robot needs none, but a body may
+        control = replace(own.control, method=None, feedback=None)
+        own = replace(own, control=control)
+    return replace(own, robot=robot)
 
 
 def settings_from_description(description: RobotDescription) -> RobotSettings:

@@ -5,8 +5,7 @@ from typing import Any, NamedTuple
 
 from ..core.errors import ConfigurationError, shown
 from ..strategies import STRATEGIES, Evasion, Strategy
-
-EVASION = "evasion"
+from .implied_settings import EVASION
 
 
 class DuelStrategies(NamedTuple):
@@ -14,7 +13,8 @@ class DuelStrategies(NamedTuple):
 
     Attributes:
         strategy: Settings of the evasion of the paper.
-        evader_strategy: Name of the evader's strategy, or an object.
+        evader_strategy: Name of the evader's strategy, or an object; empty
+            if open.
         pursuer_strategy: Name of the pursuer's strategy, or an object.
     """
 
@@ -48,7 +48,7 @@ def resolve_strategies(
     ):
         _check(name, value)
     if type(strategy) is not Evasion:
-        if evader != EVASION:
+        if evader not in ("", EVASION):
             raise ConfigurationError(
                 "strategy must be an Evasion with evader_strategy "
                 f"{shown(evader)}, got a {type(strategy).__name__}"

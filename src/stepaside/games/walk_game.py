@@ -87,7 +87,7 @@ class WalkGame(Match):
             StepAsideError: If the settings contradict each other or cannot
                 be met by the robot.
         """
-        self.settings = settings
+        self.settings = settings = settings.resolved()
         description = description or load_robot(settings.robot)
         world = World(
             {WALKER: description},

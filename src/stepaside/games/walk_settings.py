@@ -1,6 +1,6 @@
 """Settings of a walk: equal settings repeat it exactly."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import pi
 from typing import ClassVar
 
@@ -18,6 +18,7 @@ from ..sim.body_settings import BODIES, BodySettings
 from ..sim.physics_settings import PhysicsSettings
 from ..sim.push import MOST_PUSHES, Push, check_pushes
 from .duel_settings import BODY_HELP, GAIT_HELP, RobotSettings
+from .implied_settings import implied_control
 
 WALKER = "walker"
 
@@ -83,6 +84,11 @@ class WalkSettings:
         check_settings(self)
         check_count(self.pushes, MOST_PUSHES, "pushes")
         check_pushes(self.pushes, (WALKER,))
+
+    def resolved(self) -> "WalkSettings":
+        """Return the settings of the same walk with nothing left open."""
+        control = implied_control(self.control, self.gait, self.body)
+        return replace(self, control=control)
 
     def robot_of(self, player: str) -> RobotSettings:
         """Return robot, gait and control of the walker.

@@ -1,7 +1,6 @@
 from .footsteps import Foot as Foot
 from .footsteps import Footstep as Footstep
 from .gait_settings import PRESETS as PRESETS
-from .gait_settings import STABILISED as STABILISED
 from .gait_settings import GaitSettings as GaitSettings
 from .gait_settings import SoleRectangle as SoleRectangle
 from .maneuver import CenterState as CenterState
@@ -14,7 +13,6 @@ from .plan import PlanSamples as PlanSamples
 
 __all__ = [
     "PRESETS",
-    "STABILISED",
     "CenterState",
     "Direction",
     "Foot",

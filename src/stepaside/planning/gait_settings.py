@@ -13,6 +13,7 @@ from .swing import SwingProfile
 # From about a thousandth to a hundred times the values of humanoids.
 SMALL = "size of a foot"
 WIDE = "beyond, exponentials of the gait overflow a double"
+FAST_STEP = 0.4  # between those of the gaits "fast" and "nao", in [s]
 
 
 @dataclass(frozen=True, slots=True)
@@ -191,6 +192,15 @@ class GaitSettings:
         """Time from one landing to the next, in [s]."""
         return self.single_support + self.double_support
 
+    @property
+    def is_fast(self) -> bool:
+        """Whether steps are too short to walk without feedback.
+
+        They are also too short for the measured state to settle, so that
+        plans begin at the planned state.
+        """
+        return self.step_duration < FAST_STEP
+
     def at_pace(self, pace: float) -> "GaitSettings":
         """Return the gait with a reduced step rate.
 
@@ -274,6 +284,3 @@ The gait "fast" walks the same circle as "nao" in 1/3.6 of the time: speed and
 gain are larger by the same factor. Its step takes 0.32 s of both path and gait
 time. Its swing reaction is that of the NAO's legs.
 """
-
-STABILISED = frozenset({"fast"})
-"""Names of gaits that require feedback on every body."""

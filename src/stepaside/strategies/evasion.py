@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, replace
 from math import inf, pi, radians
-from typing import Literal, NamedTuple
+from typing import Literal, NamedTuple, get_args
 
 from ..core.errors import ConfigurationError
 from ..core.ranges import Range
@@ -88,12 +88,14 @@ class Evasion:
         aliases=("--hysteresis",),
         needs=("strategy.trigger", "distance"),
     )
-    trigger: Trigger = setting(
-        "distance",
+    trigger: Trigger | None = setting(
+        None,
         "Condition that triggers evasion: distance, or predicted time to "
         "contact",
+        names=get_args(Trigger),
         option="--trigger",
-        default_text="time for a person and a fast gait, else distance",
+        default_text="time against a person with steps shorter than 0.4 s, "
+        "else distance",
     )
     contact_time: float = setting(
         3.5,

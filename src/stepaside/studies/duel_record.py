@@ -50,7 +50,8 @@ def settings_hash(settings: DuelSettings) -> str:
     is added later does not change it. The content of strategy files is
     included, that of their imports is not.
     """
-    default = asdict(DuelSettings(seed=0).named())
+    settings = settings.resolved()
+    default = asdict(DuelSettings(seed=0).resolved())
     entries = _differences(asdict(replace(settings.named(), seed=0)), default)
     for name in (settings.evader_strategy, settings.pursuer_strategy):
         file = file_of(name) if isinstance(name, str) else None

@@ -157,7 +157,7 @@ def base_settings(
 
     Args:
         walk: Robot, gait, physics, body and control.
-        legs: Walking policy; with one the robot steps aside.
+        legs: Walking policy.
         strategy: Strategy of the robot; by default that for its legs.
         shield: Shield of the robot.
         cameras: Its cameras, with the sensing of cameras.
@@ -177,10 +177,9 @@ def base_settings(
         base = replace(
             with_legs(base, legs.network),
             legs=legs,
-            evader_strategy="step-aside",
             strategy=replace(base.strategy, clearance=DashEvasion().clearance),
         )
-    return replace(base, evader_strategy=strategy) if strategy else base
+    return replace(base, evader_strategy=strategy)
 
 
 def encounters(

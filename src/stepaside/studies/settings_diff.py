@@ -7,6 +7,7 @@ from typing import Any
 
 from ..games.configuration_file import parse_settings, settings_entries
 from ..games.walk_settings import WalkSettings
+from ..locomotion.zmp.control_settings import OPEN_LOOP
 from ..sim.body_settings import BODIES
 
 OWN = "own"  # body that is no preset
@@ -25,7 +26,7 @@ def changes_of(walk: WalkSettings) -> tuple[str, str]:
         Preset of the body, or ``OWN``; and the changes as JSON, empty if
         there are none.
     """
-    default = WalkSettings()
+    default = WalkSettings(control=OPEN_LOOP)
     presets = [name for name, body in BODIES.items() if body == walk.body]
     plain = replace(
         walk,
@@ -35,8 +36,8 @@ def changes_of(walk: WalkSettings) -> tuple[str, str]:
         body=default.body if presets else walk.body,
         control=replace(
             walk.control,
-            method=default.control.method,
-            feedback=default.control.feedback,
+            method=OPEN_LOOP.method,
+            feedback=OPEN_LOOP.feedback,
         ),
     )
     found = _differences(settings_entries(plain), settings_entries(default))

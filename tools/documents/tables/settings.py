@@ -12,6 +12,7 @@ from stepaside.cli.options.parameter_types import NumberType
 from stepaside.cli.options.setting_options import SettingOption
 from stepaside.cli.plan import PlanSettings
 from stepaside.core.ranges import Range
+from stepaside.core.setting import Setting as Description
 from stepaside.core.setting import settings_of
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.game_settings import GameSettings, PlayerSettings
@@ -91,7 +92,7 @@ def settings(_: Any) -> str:
                 f"`{option}`" if option else "",
                 known.text.removesuffix("."),
                 values,
-                "" if path in LISTS else _default(setting.default),
+                "" if path in LISTS else _default(setting.default, known),
                 why,
             )
         )
@@ -100,13 +101,17 @@ def settings(_: Any) -> str:
 
 
 def _type(setting: Setting) -> str:
-    if isinstance(setting.default, bool):
+    known = settings_of(setting.kind)[setting.name]
+    is_open = setting.default is None and "/" in known.option
+    if isinstance(setting.default, bool) or is_open:
         return "true, false"
     return "a list" if setting.path in LISTS else "text"
 
 
-def _default(value: Any) -> str:
-    if value is None or value == () or value == []:
+def _default(value: Any, known: Description) -> str:
+    if value in (None, ""):  # open, or none
+        return known.default_text
+    if value == () or value == []:
         return ""
     if isinstance(value, bool):
         return "true" if value else "false"

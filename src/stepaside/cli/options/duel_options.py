@@ -1,7 +1,7 @@
 """Options of the commands that simulate duels or walks."""
 
 from ...games.duel_settings import DuelSettings
-from .implied_settings import RECIPE
+from .room_options import RECIPE
 from .setting_options import Decorator
 from .settings_command import OptionGroup, takes_settings
 

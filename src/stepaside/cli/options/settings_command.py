@@ -21,16 +21,11 @@ from ...games.robot_settings import (
     with_players,
     with_robot,
 )
+from ...planning import PRESETS
 from ...strategies.registry import OF_EVASION
 from ..terminal import write_result
-from .implied_settings import (
-    RECIPE,
-    with_control,
-    with_room,
-    with_sensing,
-    with_trigger,
-)
 from .print_config import commented
+from .room_options import RECIPE, with_room, with_sensing
 from .setting_options import (
     OWN,
     Decorator,
@@ -51,6 +46,15 @@ ROOM_SIZE = Entry(
     None,
     tuple[float, float] | None,
 )
+
+
+CONTROL = ("control.method", "control.feedback")
+IMPLY: Mapping[str, tuple[str, ...]] = {
+    "body": CONTROL,
+    "gait": (*CONTROL, "strategy.trigger"),
+    "pursuer": ("strategy.trigger",),
+}
+"""Entries of a file that an option leaves open again, as it implies them."""
 
 
 class OptionGroup(NamedTuple):
@@ -174,18 +178,10 @@ def _settings(
     if robot is not None:
         given["robot"] = robot
     file = {} if config is None else load_entries(config)
-    settings, needs_feedback = _base_settings(
-        kind, given, dict(file), str(config), ignored
-    )
-    if hasattr(settings, "control"):
-        given = with_control(
-            given,
-            settings.control,
-            needed=needs_feedback,
-            method_in_file="method" in file.get("control", {}),
-        )
-    if hasattr(settings, "pursuer"):
-        given = with_trigger(given, settings.pursuer)
+    own = _without(file, {e for path in given for e in IMPLY.get(path, ())})
+    settings = _base_settings(kind, given, own, str(config), ignored)
+    if given.get("control.feedback") is False:  # only one method needs none
+        given.setdefault("control.method", None)
     if hasattr(settings, "sensing"):
         given = with_sensing(
             given,
@@ -197,7 +193,21 @@ def _settings(
             given[entry.path] = entry.value_of(given[entry.path])
     if "body" in named and hasattr(settings, "robot"):
         given["body"] = body_of_robot(settings.robot, named["body"])
-    return changed(settings, with_room(given))
+    settings = changed(settings, with_room(given))
+    return settings.resolved() if hasattr(settings, "resolved") else settings
+
+
+def _without(
+    entries: Mapping[str, Any], paths: Collection[str], section: str = ""
+) -> dict[str, Any]:
+    """Return the nested entries of a file without those at some paths."""
+    return {
+        name: _without(value, paths, f"{section}{name}.")
+        if isinstance(value, dict)
+        else value
+        for name, value in entries.items()
+        if f"{section}{name}" not in paths
+    }
 
 
 def _base_settings(
@@ -206,7 +216,7 @@ def _base_settings(
     file: dict[str, Any],
     source: str,
     ignored: Collection[str],
-) -> tuple[Any, bool]:
+) -> Any:
     """Return the settings of the chosen robots, changed by the file.
 
     Args:
@@ -217,14 +227,17 @@ def _base_settings(
             are removed.
         source: Name of the file.
         ignored: Entries of the file that belong to other commands.
-
-    Returns:
-        The settings, and whether the robot needs feedback.
     """
     base = kind()
     if hasattr(base, "robot"):
         robot = given.get("robot", file.pop("robot", base.robot))
         base = with_robot(base, str(robot))
+        if "gait" in given and base.gait != PRESETS["nao"]:
+            raise click.UsageError(
+                f"--gait {given['gait']} requires a robot with NAO's gait, "
+                f"got --robot {robot}, which has its own: its lengths and "
+                "times are NAO's"
+            )
         players = {}
         for player in ("pursuer", "evader"):
             path = f"{player}_robot"
@@ -238,9 +251,7 @@ def _base_settings(
         network = given.get("legs.network", in_file)
         if network and hasattr(base, "legs"):
             base = with_legs(base, network)
-    needs_feedback = hasattr(base, "control") and base.control.feedback
-    base = parse_settings(kind, file, source, aside=ignored, base=base)
-    return base, needs_feedback
+    return parse_settings(kind, file, source, aside=ignored, base=base)
 
 
 def changed(settings: S, values: Mapping[str, Any]) -> S:
@@ -283,6 +294,13 @@ def _refuse_unused(
         options: Entries of all options of the command.
         settings: Resulting settings.
     """
+    unused = [e.flag for e in given if e.path.startswith("strategy.")]
+    if unused and not settings.uses_evasion:
+        raise click.UsageError(
+            f"{', '.join(unused)} requires the strategy "
+            f"{' or '.join(OF_EVASION)}, got --strategy "
+            f"{settings.named().evader_strategy}"
+        )
     names = {entry.path: entry.flag for entry in options}
     for entry in given:
         for path, needed in entry.needs:
@@ -294,13 +312,6 @@ def _refuse_unused(
                     f"{entry.flag} requires {names[path]} {needed}".rstrip()
                     + (f", got {value}" if needed else "")
                 )
-    unused = [e.flag for e in given if e.path.startswith("strategy.")]
-    if unused and not settings.uses_evasion:
-        raise click.UsageError(
-            f"{', '.join(unused)} requires the strategy "
-            f"{' or '.join(OF_EVASION)}, got --strategy "
-            f"{settings.named().evader_strategy}"
-        )
 
 
 def _value_at(settings: Any, path: str) -> Any:

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Literal, get_args
 
-from ...core.errors import ConfigurationError
+from ...core.errors import ConfigurationError, shown
 from ...core.ranges import Range
 from ...core.setting import check_settings, setting
 
@@ -176,23 +176,31 @@ class MpcSettings:
 
 @dataclass(frozen=True, slots=True)
 class ControlSettings:
-    """Method and feedback of walking control."""
+    """Method and feedback of walking control.
 
-    method: Method = setting(
-        "closed-form",
+    Method and feedback that are None are decided by gait and body; see
+    :mod:`stepaside.games.implied_settings`.
+    """
+
+    method: Method | None = setting(
+        None,
         "Start of each maneuver: the state planned by the last one "
         "(closed-form, as in the paper), the measured state (measured), or "
         "the measured state with the intrinsically stable MPC in between "
         "(mpc); the last two need feedback",
+        names=METHODS,
         option="--method",
+        default_text="closed-form; measured with feedback, unless steps are "
+        "shorter than 0.4 s",
     )
-    feedback: bool = setting(
-        False,
+    feedback: bool | None = setting(
+        None,
         "Estimate the state and stabilise the gait, or execute plans in open "
         "loop",
         option="--feedback/--no-feedback",
         aliases=(" /--open-loop",),
-        default_text="feedback unless --body is ideal",
+        default_text="feedback unless the body is ideal; always with steps "
+        "shorter than 0.4 s or another method than closed-form",
     )
     stabiliser: StabiliserSettings = setting(
         StabiliserSettings(), "Gains of the feedback"
@@ -212,11 +220,15 @@ class ControlSettings:
     def __post_init__(self) -> None:
         """Validate the settings."""
         check_settings(self)
-        if self.method != "closed-form" and not self.feedback:
+        if not isinstance(self.feedback, bool | None):
+            raise ConfigurationError(
+                f"feedback must be true or false, got {shown(self.feedback)}"
+            )
+        if self.feedback is False and self.method in ("measured", "mpc"):
             raise ConfigurationError(
                 f"method {self.method!r} needs feedback = true, got false"
             )
 
 
-OPEN_LOOP = ControlSettings()
+OPEN_LOOP = ControlSettings("closed-form", False)
 STABILISED = ControlSettings("measured", True)

@@ -10,8 +10,8 @@ import viser
 from ...core.errors import StepAsideError
 from ...games.duel import Duel
 from ...games.duel_settings import EVADER, SENSING, DuelSettings
+from ...games.implied_settings import EVASION
 from ...games.match import Match
-from ...games.strategy_resolution import EVASION
 from ...games.walker import RobotPlayer
 from ...locomotion.zmp.control_settings import (
     OPEN_LOOP,
@@ -43,7 +43,7 @@ def body_choices(
     }
     names = [n for n, body in BODIES.items() if body == settings.body]
     name = (names or [CUSTOM_BODY])[0]
-    choices[name] = settings.body, settings.control
+    choices[name] = settings.body, settings.resolved().control
     return choices, name
 
 

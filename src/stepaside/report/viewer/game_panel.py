@@ -14,8 +14,8 @@ from .live_session import LiveSession
 def players_table(settings: GameSettings) -> str:
     """Return the players of a game as a table in Markdown."""
     rows = ["| player | role | body | strategy |", "|--|--|--|--|"]
-    for own in settings.players:
-        strategy = str(own.named().played_strategy) if own.decides else ""
+    for own in settings.resolved().named().players:
+        strategy = str(own.strategy) if own.decides else ""
         cells = own.name, own.role, own.body, for_markdown(strategy)
         rows.append(f"| {' | '.join(cells)} |")
     return "\n".join(rows)

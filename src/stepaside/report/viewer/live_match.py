@@ -12,8 +12,8 @@ from ...games.duel_circle import circle_of_theory
 from ...games.duel_settings import EVADER, PLAYERS, DuelSettings
 from ...games.game_match import GameMatch
 from ...games.game_settings import GameSettings
+from ...games.implied_settings import EVASION
 from ...games.match import MatchObserver
-from ...games.strategy_resolution import EVASION
 from ..settling_report import settling_time
 
 LiveSettings = DuelSettings | GameSettings
@@ -59,7 +59,7 @@ def room_of(settings: LiveSettings) -> Room | None:
 def safety_radii(settings: LiveSettings) -> dict[str, float]:
     """Return the safety radius of each player that has one, in [m]."""
     if isinstance(settings, DuelSettings):
-        return {EVADER: settings.strategy.area}
+        return {EVADER: settings.resolved().strategy.area}
     return settings.safety_radii
 
 
@@ -99,6 +99,7 @@ def trigger_distance(settings: DuelSettings) -> float:
 
     Infinite for strategies that do not wait for a distance.
     """
+    settings = settings.resolved()
     if settings.evader_strategy != EVASION:
         return inf
     if settings.pursuer == "person":
