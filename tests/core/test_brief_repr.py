@@ -17,7 +17,6 @@ from stepaside import (
     WalkSettings,
     make_game,
 )
-from stepaside.core.brief_repr import html_repr
 from stepaside.core.poses import Pose
 from stepaside.strategies import Evasion, Pursuit, play_strategies
 from stepaside.strategies.strategy_game import StepGame
@@ -89,22 +88,3 @@ def test_settings_show_what_differs_from_the_default() -> None:
     assert repr(changed) == "DuelSettings(gait=GaitSettings(stride=0.06))"
     pushed = WalkSettings(pushes=(Push(1.0, 2.0, 0.5),))
     assert "impulse=1.0" in repr(pushed) and "gait" not in repr(pushed)
-
-
-def test_a_notebook_shows_changed_settings_in_bold() -> None:
-    table = html_repr(DuelSettings(seed=3, duration=20.0))
-    assert "<td>seed</td><td><b>3</b></td>" in table
-    assert "<td>duration</td><td><b>20.0</b></td>" in table
-    assert "<td>gait.stride</td><td>0.04</td>" in table
-    assert DuelSettings()._repr_html_() == html_repr(DuelSettings())
-
-
-def test_a_notebook_shows_the_summary_of_a_run() -> None:
-    run = a_run()
-    shown = run._repr_html_()
-    assert "min_distance_m" in shown
-    assert f"{run.summary.min_distance_m:.6g}" in shown
-
-
-def test_text_of_a_value_cannot_become_markup() -> None:
-    assert "<i>" not in html_repr(Named("<i>"))

@@ -5,7 +5,6 @@ import re
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import matplotlib.pyplot as plt
@@ -28,7 +27,6 @@ from stepaside.report.figure_style import COLOURS, PUSHED, THEORY, colours_of
 from stepaside.report.landed_footsteps import footsteps_in
 from stepaside.report.replay_page import write_page
 from stepaside.report.scene import RunScene
-from stepaside.report.viewer.replay_viewer import ReplayPage
 from stepaside.report.viewer.scene_layers import push_arrows
 
 NAMES = ("walker", "hare", "tortoise")
@@ -182,28 +180,6 @@ def _of(drawn: mujoco.MjvScene, colour: str) -> list[Any]:
     rgb = np.array(list(bytes.fromhex(colour[1:]))) / 255.0
     geoms = [drawn.geoms[i] for i in range(drawn.ngeom)]
     return [g for g in geoms if np.allclose(g.rgba[:3], rgb, atol=1e-3)]
-
-
-@by_count
-def test_every_player_is_in_the_layers_of_a_replay(count: int) -> None:
-    run = game(count)
-    drawn: dict[tuple[str, str], Array] = {}
-    layers = SimpleNamespace(
-        draw=lambda layer, who, lines, colour: drawn.update(
-            {(layer, who): lines}
-        )
-    )
-    page: Any = SimpleNamespace(
-        _run=run, _layers=layers, _footsteps=footsteps_in(run)
-    )
-    ReplayPage._draw(page, 20)
-    for layer in ("CoM trace", "footsteps", "pushes"):
-        assert {who for what, who in drawn if what == layer} == set(
-            NAMES[:count]
-        )
-    assert len(drawn["pushes", NAMES[count - 1]]) == 3
-    sight = "line of sight", "-".join(NAMES[:2])
-    assert (sight in drawn) is (count == 2)
 
 
 def test_an_arrow_ends_where_the_push_was_applied() -> None:

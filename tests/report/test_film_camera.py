@@ -89,17 +89,6 @@ def test_a_view_frames_its_points_tightly(
     assert fractions.max() == pytest.approx(MARGIN)
 
 
-def test_the_evader_s_view_has_the_pursuer_in_the_center() -> None:
-    camera = FilmCamera(run(), "eyes", FOVY, ASPECT)
-    view = camera.view(100)
-    pursuer, evader = (run().tracks[n].com[100] for n in PLAYERS)
-    assert view.project(pursuer, FOVY) == pytest.approx((0.0, 0.0), abs=1e-9)
-    eye = view.target - view.distance * view.axes[2]
-    assert np.hypot(*(eye - evader)[:2]) < 0.1 and eye[2] > evader[2]
-    behind = evader + (evader - pursuer)
-    assert view.project(behind, FOVY) is None
-
-
 @pytest.mark.parametrize("name", VIEWS)
 def test_a_view_has_the_axes_of_mujoco_s_camera(name: str) -> None:
     view = FilmCamera(run(), name, FOVY, ASPECT).view(50)

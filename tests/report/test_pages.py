@@ -50,9 +50,7 @@ pytestmark = [
 @pytest.fixture(autouse=True)
 def _calm(monkeypatch: pytest.MonkeyPatch) -> None:
     """No page is told more often than it looks; see ``browsing``."""
-    for module in ("live_page", "replay_viewer"):
-        place = f"stepaside.report.viewer.{module}.RATE"
-        monkeypatch.setattr(place, 1e3 / PAUSE)
+    monkeypatch.setattr("stepaside.report.viewer.live_page.RATE", 1e3 / PAUSE)
 
 
 @pytest.fixture(scope="module")
@@ -252,41 +250,6 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> Path:
     result = CliRunner().invoke(main, [*arguments, "--output", str(folder)])
     assert result.exit_code == 0
     return folder
-
-
-HOSTILE_NAME = "<img src=x onerror=ran=1><iframe srcdoc=a>**b** ![a](x)"
-
-
-@pytest.fixture(scope="module")
-def replayed(browser: Any, run: Path) -> Iterator[Any]:
-    """The page on which a run of a hostile name is replayed."""
-    from stepaside.report.viewer.replay_viewer import ReplayPage
-
-    named = replace(load_run(run), name=HOSTILE_NAME)
-    served = ReplayPage(named, port=8741)
-    served.start()
-    try:
-        page = open_page(browser)
-        page.goto(f"http://127.0.0.1:{served.server.get_port()}")
-        yield page
-        page.close()
-    finally:
-        served.close()
-
-
-def test_a_replay_can_be_scrubbed(replayed: Any) -> None:
-    replayed.get_by_text("0.00 s, distance").first.wait_for()
-    slider = replayed.get_by_role("slider", name="Time [s]", exact=True)
-    slider.press("End")
-    replayed.get_by_text("4.00 s, distance").first.wait_for()
-    keep_picture(replayed, "replay.png")
-    check_readable(replayed)
-
-
-def test_a_hostile_name_is_text_on_the_replay_page(replayed: Any) -> None:
-    replayed.get_by_text(HOSTILE_NAME).first.wait_for()
-    assert replayed.evaluate("window.ran") is None
-    assert replayed.locator("iframe").count() == 0
 
 
 def check_readable(page: Any) -> None:

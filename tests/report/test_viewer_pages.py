@@ -2,8 +2,6 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import fields, replace
-from html import unescape
-from itertools import count
 from math import degrees, inf, pi, radians
 from threading import Event, RLock, Thread
 from types import SimpleNamespace
@@ -17,13 +15,11 @@ from fake_page import Client, Gui, open_fake
 from match_callbacks import observe_ticks
 from stepaside.control.strategy_runner import StrategyRunner
 from stepaside.core.errors import ConfigurationError, StepAsideError
-from stepaside.core.poses import Array, Pose, wrap_angle
-from stepaside.games.duel import Duel, run_duel
+from stepaside.core.poses import Pose, wrap_angle
+from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.match import Match
 from stepaside.games.outcome import Outcome
-from stepaside.games.run import DuelRun
-from stepaside.games.run_captions import describe_state
 from stepaside.games.walker import SimulatedPlayer
 from stepaside.locomotion.zmp.control_settings import OPEN_LOOP, STABILISED
 from stepaside.perception.images import ColourImage, DepthImage
@@ -31,16 +27,13 @@ from stepaside.perception.percept_stages import FrameReport
 from stepaside.planning import GaitSettings
 from stepaside.report.figure_style import EVADER, PURSUER
 from stepaside.report.palette import ON_BOTH_FLOORS
-from stepaside.report.scene import RunScene
 from stepaside.report.viewer import live_page as pages
 from stepaside.report.viewer import plot_history as trails
-from stepaside.report.viewer import replay_viewer as replaying
 from stepaside.report.viewer.drive_panel import DrivePanel, add_push
 from stepaside.report.viewer.live_page import Page
 from stepaside.report.viewer.live_session import LiveSession
 from stepaside.report.viewer.plot_history import PlotHistory
 from stepaside.report.viewer.plots import Plots
-from stepaside.report.viewer.replay_viewer import ReplayPage
 from stepaside.report.viewer.true_odometry import true_odometry
 from stepaside.sim.body_settings import BODIES
 from stepaside.strategies import (
@@ -49,7 +42,6 @@ from stepaside.strategies import (
     Pursuit,
     TeleoperatedPursuit,
 )
-from synthetic_run import changed, drifted
 
 START = StartSettings(distance=1.0, pursuer_offset=0.3, evader_offset=-0.2)
 SETTINGS = DuelSettings(start=START)
@@ -759,170 +751,3 @@ def test_a_reset_takes_what_the_controls_say(live: tuple[Page, Any]) -> None:
     gui["Duel"].press("reset")
     assert "distance must lie in" in viewer.notices[-1].body
     assert settings_of(session).start.distance == 1.4
-
-
-@pytest.fixture(scope="module")
-def run() -> DuelRun:
-    """A short run whose robots then are moved by hand."""
-    run = run_duel(replace(SETTINGS, duration=2.0))
-    times: Array = 0.02 * np.arange(len(run.times), dtype=float)
-    run = changed(drifted(run, times), triggered_at_s=0.5, converged_at_s=1.6)
-    return replace(run, name="short")
-
-
-@pytest.fixture
-def replay(monkeypatch: pytest.MonkeyPatch, run: DuelRun) -> tuple[Any, Any]:
-    monkeypatch.setattr(replaying, "open_server", open_fake)
-    made = ReplayPage(run, port=99)
-    return made, made.server
-
-
-@pytest.mark.parametrize(
-    ("time", "index"),
-    [(0.0, 0), (0.5, 25), (0.51, 26), (1.7, 85), (2.0, 100), (9.0, 100)],
-)
-def test_a_replay_shows_the_sample_of_its_time(
-    replay: tuple[Any, Any], run: DuelRun, time: float, index: int
-) -> None:
-    """Bodies, lines and words are those of that moment."""
-    page, server = replay
-    page.show(time)
-    stage = RunScene(run)
-    stage.put(index)
-    frames = [
-        (int(name.split("/")[-1]), item)
-        for name, item in server.scene.items.items()
-        if name.startswith("/bodies/") and name.count("/") == 2
-    ]
-    assert len(frames) > 20
-    for body, frame in frames:
-        np.testing.assert_array_equal(frame.position, stage.data.xpos[body])
-        np.testing.assert_array_equal(frame.wxyz, stage.data.xquat[body])
-    status = unescape(server.gui.texts[0].content)
-    assert status == (
-        f"**short**: {describe_state(run, index)}\n\n"
-        f"{run.times[index]:.2f} s, "
-        f"distance {run.distance[index]:.2f} m, angle between "
-        f"the headings {run.orientation[index]:.0f}°"
-    )
-    items = server.scene.items
-    torsos = [run.tracks[name].torso for name in ("pursuer", "evader")]
-    places = [torso[index, :2] for torso in torsos]
-    sight = items["/layers/line of sight/pursuer-evader"].points[0]
-    np.testing.assert_allclose(sight[:, :2], places, atol=1e-6)
-    np.testing.assert_allclose(sight[:, 2], 0.25)
-    safety = items["/layers/safety radius/evader"].points[..., :2]
-    away = np.hypot(*(safety[:, 0] - places[1]).T)
-    np.testing.assert_allclose(away, 0.8, atol=1e-5)
-    circle = items["/layers/theoretical circle/both"].points[..., :2]
-    assert run.circle is not None
-    middle = circle[:, 0].mean(axis=0)
-    np.testing.assert_allclose(middle, run.circle[:2], atol=1e-5)
-    for name in ("pursuer", "evader"):
-        way = run.tracks[name].com[: index + 1 : 5, :2]
-        drawn = items.get(f"/layers/CoM trace/{name}")
-        if len(way) < 2:
-            assert drawn is None
-            continue
-        np.testing.assert_allclose(drawn.points[0, 0, :2], way[0], atol=1e-5)
-        np.testing.assert_allclose(drawn.points[-1, 1, :2], way[-1], atol=1e-5)
-        assert len(drawn.points) == len(way) - 1
-
-
-def test_a_replay_has_its_slider_plots_and_layers(
-    replay: tuple[Any, Any], run: DuelRun
-) -> None:
-    page, server = replay
-    assert server.options == {
-        "host": "127.0.0.1",
-        "port": 99,
-    }
-    slider = server.gui["Time [s]"]
-    assert slider.min == 0.0 and slider.max == run.times[-1]
-    assert slider.value == 0.0 and page.slider is slider
-    distance, angle = server.gui.plots
-    assert run.theory is not None
-    for plot, values, level in (
-        (distance, run.distance, run.theory[1]),
-        (angle, run.orientation, run.theory[2]),
-    ):
-        np.testing.assert_allclose(plot.data[0], run.times)
-        np.testing.assert_allclose(plot.data[1], values)
-        np.testing.assert_allclose(plot.data[2], level)
-    place = 0.5 * (run.pursuer.torso[0] + run.evader.torso[0])
-    camera = server.initial_camera
-    np.testing.assert_allclose(
-        camera.position, [place[0] - 1.5, place[1] - 1.6, 1.3]
-    )
-    np.testing.assert_allclose(camera.look_at, [place[0], place[1], 0.2])
-    server.gui["Safety radius"].press(False)
-    page.show(1.0)
-    assert "/layers/safety radius/evader" not in server.scene.items
-    assert "/layers/line of sight/pursuer-evader" in server.scene.items
-    server.gui["Play"].press()
-    page.show(1.0)
-    assert server.gui["Play"].label == "Pause"
-    server.gui["Play"].press()
-    page.show(1.0)
-    assert server.gui["Play"].label == "Play"
-
-
-def test_a_replay_without_theory_has_its_plots(
-    monkeypatch: pytest.MonkeyPatch, run: DuelRun
-) -> None:
-    """UPlot draws nothing of a plot in which one series is NaN."""
-    monkeypatch.setattr(replaying, "open_server", open_fake)
-    other = replace(
-        run, settings=replace(run.settings, evader_strategy="stand")
-    )
-    assert other.theory is None
-    page: Any = ReplayPage(other, port=99)
-    for plot in page.server.gui.plots:
-        assert len(plot.data) == len(plot.series) == 2
-        assert np.isfinite(plot.data).all() and len(plot.data[0]) > 90
-
-
-def test_playing_moves_the_slider_by_time_and_speed_to_the_end(
-    replay: tuple[Any, Any], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    page, server = replay
-    clock = count(0.0, 0.25)
-    monkeypatch.setattr(replaying, "perf_counter", lambda: next(clock))
-    monkeypatch.setattr(replaying, "sleep", lambda seconds: None)
-    shown: list[float] = []
-    done = Event()
-
-    def show(time: float) -> None:
-        shown.append(time)
-        if len(shown) == 6:
-            done.set()
-
-    page.show = show
-    server.gui["Speed"].value = 2.0
-    server.gui["Play"].press()
-    # The clock is looked at twice in a round: half a second passes.
-    page.start()
-    assert done.wait(60.0)
-    page.close()
-    np.testing.assert_allclose(shown[:6], [0.5, 1.5, 2.0, 2.0, 2.0, 2.0])
-
-
-def test_a_replay_that_cannot_be_shown_goes_on(
-    replay: tuple[Any, Any], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    page, server = replay
-    monkeypatch.setattr(replaying, "sleep", lambda seconds: None)
-    tried: list[float] = []
-    tried_again = Event()
-
-    def fail(time: float) -> None:
-        tried.append(time)
-        if len(tried) == 2:
-            tried_again.set()
-        raise RuntimeError("no light")
-
-    page.show = fail
-    page.start()
-    assert tried_again.wait(60.0)
-    page.close()
-    assert server.stopped

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from ..games.run import ExperimentRun
 
 ONLY_BAGS = ("frames", "output", "figure")  # options of a bag
-NO_BAGS = ("video", "gif", "strip", "port", "opens", "serve_for")
+NO_BAGS = ("video", "gif", "opens")
 
 
 class BagOutputs(NamedTuple):

@@ -1,15 +1,15 @@
-"""``stepaside replay``: a run as a live page, an offline page or a video."""
+"""``stepaside replay``: a run as an offline page or a video."""
 
 import webbrowser
 from collections.abc import Callable
 from dataclasses import fields, replace
 from pathlib import Path
-from time import sleep
+from tempfile import mkdtemp
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..core.atomic_output import FIGURES, reason_of
+from ..core.atomic_output import reason_of
 from ..core.errors import OutputError
 from ..report.film_settings import AROUND, SLOWEST, FilmSettings
 from .bag_replay import ONLY_BAGS, BagOutputs, is_bag, replay_bag
@@ -18,8 +18,6 @@ from .options.common_options import (
     figure_option,
     figure_width,
     json_option,
-    port_option,
-    serve_for_option,
 )
 from .options.setting_options import refuse_options, takes
 from .output_files import OutputFile, attempt, writes_files
@@ -30,11 +28,9 @@ if TYPE_CHECKING:
     from ..games.run import Run
 
 
-PAGE = ("port", "opens", "serve_for")  # options of the live page
 FILMS = {
     "video": FilmSettings(),
     "gif": FilmSettings(480, 270, rate=10.0, duration=12.0),
-    "strip": FilmSettings(640, 480, rate=1.0, duration=3600.0),
 }
 
 
@@ -65,16 +61,9 @@ FILMS = {
 @click.option(
     "--gif", type=OutputFile(".gif"), help="Write a short animation."
 )
-@click.option(
-    "--strip",
-    type=OutputFile(*FIGURES),
-    help="Write four frames of the run, each above its top view.",
-)
 @takes(FilmSettings, "film", build=dict)
 @figure_width
-@port_option()
 @browser_option()
-@serve_for_option()
 @json_option
 @writes_files
 def replay(
@@ -82,20 +71,19 @@ def replay(
     html: str | None,
     video: str | None,
     gif: str | None,
-    strip: str | None,
     film: dict[str, Any],
     as_json: bool,
     frames: tuple[str, ...],
     output: Path | None,
     figure: str | None,
-    **page: Any,
+    opens: bool,
 ) -> None:
     """Replay the run in the folder RUN, or measure a ROS 2 bag.
 
-    By default, serves a page with a time slider. With --html, --video, --gif
-    or --strip, writes files instead. Where RUN is a bag (a folder with
-    metadata.yaml, a .mcap or a .db3 file), measures players whose motion was
-    recorded elsewhere, as --frame names them.
+    By default, writes a page with a time slider to a temporary folder and
+    opens it. With --html, --video or --gif, writes files instead. Where RUN
+    is a bag (a folder with metadata.yaml, a .mcap or a .db3 file), measures
+    players whose motion was recorded elsewhere, as --frame names them.
     """
     from ..games.run_archive import load_run
 
@@ -104,12 +92,15 @@ def replay(
         replay_bag(run, frames, outputs, as_json=as_json)
         return
     refuse_options(ONLY_BAGS, "a ROS 2 bag")
-    if not (video or gif or strip):
+    if not (video or gif):
         names = {field.name for field in fields(FilmSettings)}
-        refuse_options(names, "--video, --gif or --strip")
-    if html or video or gif or strip:
-        refuse_options(PAGE, "a live page, without output files")
+        refuse_options(names, "--video or --gif")
     loaded = load_run(run)
+    shows = not (html or video or gif)
+    if shows:
+        html = str(Path(mkdtemp(prefix="stepaside-")) / f"{loaded.name}.html")
+    else:
+        refuse_options(("opens",), "a page without output files")
     written: dict[str, dict[str, Any]] = {}
     if html is not None:
         from ..report.replay_page import write_page
@@ -119,15 +110,14 @@ def replay(
             written["html"] = _written(Path(html))
 
         attempt(write)
-    for kind, file in (("video", video), ("gif", gif), ("strip", strip)):
+    for kind, file in (("video", video), ("gif", gif)):
         if file is not None:
             chosen = _even(replace(FILMS[kind], **film))
-            if kind != "strip":
-                _announce(chosen, loaded)
+            _announce(chosen, loaded)
             _render(kind, run, Path(file), chosen, written)
-    if not (html or video or gif or strip):
-        _serve(loaded, **page)
-    elif as_json:
+    if shows and opens and html is not None:
+        webbrowser.open(Path(html).as_uri())
+    if as_json:
         print_json(written)
     else:
         for kind, entry in written.items():
@@ -145,10 +135,6 @@ def _even(film: FilmSettings) -> FilmSettings:
 
 
 def _writer(kind: str) -> Callable[..., int]:
-    if kind == "strip":
-        from ..report.film_strip import write_strip
-
-        return write_strip
     from ..report.film import write_gif, write_video
 
     return write_video if kind == "video" else write_gif
@@ -201,24 +187,3 @@ def _render(
             written[name] = _written(file) | {"pictures": bar.n}
 
         attempt(render)
-
-
-def _serve(
-    run: "Run", port: int, opens: bool, serve_for: float | None
-) -> None:
-    from ..report.viewer.replay_viewer import ReplayPage
-
-    page = ReplayPage(run, port=port)
-    page.start()
-    address = f"http://127.0.0.1:{page.server.get_port()}"
-    echo(f"serving at {address}; press Ctrl-C to stop")
-    if opens:
-        webbrowser.open(address)
-    try:
-        while serve_for is None:
-            sleep(1.0)
-        sleep(serve_for)
-    except KeyboardInterrupt:
-        echo("stepaside: stopped; the run is unchanged", err=True)
-    finally:
-        page.close()

@@ -26,41 +26,6 @@ def brief_repr(value: Any) -> str:
     return f"{type(value).__name__}({', '.join(shown)})"
 
 
-def html_repr(value: Any) -> str:
-    """Write a dataclass or a named tuple as a table in HTML.
-
-    Fields that differ from their default are bold; nested values are rows of
-    their own, with the names of their fields joined by dots.
-
-    Args:
-        value: Instance of a dataclass or of a named tuple.
-    """
-    from html import escape
-
-    rows = "".join(
-        f"<tr><td>{escape(name)}</td><td>{_marked(text, changed)}</td></tr>"
-        for name, text, changed in _rows(value)
-    )
-    return f"<table><caption>{type(value).__name__}</caption>{rows}</table>"
-
-
-def _rows(value: Any, prefix: str = "") -> Iterator[tuple[str, str, bool]]:
-    """Yield name, text and whether it differs from the default."""
-    for name, default in _defaults(value):
-        inner = getattr(value, name)
-        if is_dataclass(inner) and not isinstance(inner, type):
-            yield from _rows(inner, f"{prefix}{name}.")
-        else:
-            changed = default is not MISSING and not _equals(inner, default)
-            yield prefix + name, _brief(inner), changed
-
-
-def _marked(text: str, is_bold: bool) -> str:
-    from html import escape
-
-    return f"<b>{escape(text)}</b>" if is_bold else escape(text)
-
-
 def _defaults(value: Any) -> Iterator[tuple[str, Any]]:
     """Yield fields with their defaults; ``MISSING`` if there is none."""
     if not is_dataclass(value):

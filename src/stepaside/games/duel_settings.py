@@ -5,7 +5,7 @@ from math import pi
 from typing import ClassVar
 
 from ..control.clearance.map_settings import MapSettings
-from ..core.brief_repr import brief_repr, html_repr
+from ..core.brief_repr import brief_repr
 from ..core.errors import ConfigurationError, check_within
 from ..core.ranges import (
     RUNTIME,
@@ -144,7 +144,6 @@ class DuelSettings:
 
     game: ClassVar[str] = "duel"
     __repr__ = brief_repr
-    _repr_html_ = html_repr
 
     seed: int = setting(1, "Random seed", SEEDS, option="--seed")
     duration: float = setting(

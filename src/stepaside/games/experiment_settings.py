@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import ClassVar
 
-from ..core.brief_repr import brief_repr, html_repr
+from ..core.brief_repr import brief_repr
 from ..core.errors import ConfigurationError
 from ..core.ranges import Range
 from ..core.setting import check_settings, setting
@@ -17,7 +17,6 @@ class ExperimentSettings:
 
     game: ClassVar[str] = "experiment"
     __repr__ = brief_repr
-    _repr_html_ = html_repr
 
     source: str = setting("", "Name of the recording")
     frames: tuple[str, ...] = setting(

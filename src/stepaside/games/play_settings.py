@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import ClassVar
 
-from ..core.brief_repr import brief_repr, html_repr
+from ..core.brief_repr import brief_repr
 from ..core.setting import check_settings, setting
 from ..locomotion.zmp.control_settings import ControlSettings
 from ..planning import GaitSettings
@@ -24,7 +24,6 @@ class PlaySettings:
 
     game: ClassVar[str] = "play"
     __repr__ = brief_repr
-    _repr_html_ = html_repr
 
     role: str = setting(EVADER, "Role of the player", names=PLAYERS)
     language: str = setting(LOLA, "Protocol of the robot", names=LANGUAGES)

@@ -16,7 +16,6 @@ from typing import (
 import numpy as np
 
 from ..arena import Room
-from ..core.brief_repr import html_repr
 from ..core.player_identity import PlayerIdentity, Role
 from ..core.poses import Array
 from ..sim.camera_settings import RoomObject
@@ -131,12 +130,6 @@ class GameRun(Generic[SettingsT, SummaryT]):
             f"{self.game.capitalize()}Run({self.name!r}, {self.message!r}, "
             f"{len(self.times)} samples of {' and '.join(self.players)})"
         )
-
-    def _repr_html_(self) -> str:
-        """Return the description and the summary, for notebooks."""
-        from html import escape
-
-        return f"<p>{escape(repr(self))}</p>{html_repr(self.summary)}"
 
     @property
     def game(self) -> str:

@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 from math import pi
 from typing import ClassVar
 
-from ..core.brief_repr import brief_repr, html_repr
+from ..core.brief_repr import brief_repr
 from ..core.ranges import (
     RUNTIME,
     SEEDS,
@@ -29,7 +29,6 @@ class WalkSettings:
 
     game: ClassVar[str] = "walk"
     __repr__ = brief_repr
-    _repr_html_ = html_repr
 
     seed: int = setting(1, "Random seed", SEEDS, option="--seed")
     duration: float = setting(

@@ -26,7 +26,6 @@ from ..sim.offscreen_rendering import (
 )
 from .film_camera import FilmCamera
 from .film_captions import caption, draw_title
-from .film_insets import FilmInsets, inset_width
 from .film_layers import add_layers, aim_light
 from .film_settings import FilmSettings
 from .landed_footsteps import footsteps_in
@@ -35,10 +34,7 @@ from .scene import RunScene
 CHUNK = 15  # images that one worker renders at a time
 TRAIL = 20.0  # duration of traces, in [s]
 QUALITY = RenderQuality(samples=4, shadow=2048, slices=18, stacks=10)
-# Shadows end at this distance from the target, in [m]. The evader's view
-# looks far, so that the edge would be visible.
-SHADOW_REACH = {"eyes": 12.0}
-DEFAULT_SHADOW_REACH = 4.0  # of all other cameras, in [m]
+SHADOW_REACH = 4.0  # distance from the target at which they end, in [m]
 
 
 class FilmRenderer:
@@ -53,21 +49,14 @@ class FilmRenderer:
         model = self._scene.model
         _dim_lights(model)
         self._fovy = float(model.vis.global_.fovy)
-        width, self._insets = settings.width, None
-        if settings.camera == "split":
-            inset = inset_width(settings.width, settings.height)
-            width -= inset
-            size = inset, settings.height
-            self._insets = FilmInsets(run, self._scene, backend, size)
-        aspect = width / settings.height
+        aspect = settings.width / settings.height
         self._camera = FilmCamera(run, settings.camera, self._fovy, aspect)
-        reach = SHADOW_REACH.get(settings.camera, DEFAULT_SHADOW_REACH)
         self._renderer = OffscreenRenderer(
             model,
-            width,
+            settings.width,
             settings.height,
             backend,
-            QUALITY._replace(reach=max(reach, self._camera.reach)),
+            QUALITY._replace(reach=max(SHADOW_REACH, self._camera.reach)),
         )
         self._closest = closest_time(run)
 
@@ -100,17 +89,11 @@ class FilmRenderer:
                 fovy=self._fovy,
                 speed=settings.speed_at(time, self._closest),
             )
-        image = draw_title(image, settings.title)
-        if self._insets is not None:
-            inset = self._insets.picture(index)
-            image = np.concatenate([image, inset], axis=1)
-        return image
+        return draw_title(image, settings.title)
 
     def close(self) -> None:
         """Release the graphics."""
         self._renderer.close()
-        if self._insets is not None:
-            self._insets.close()
 
 
 def _dim_lights(model: mujoco.MjModel) -> None:

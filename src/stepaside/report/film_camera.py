@@ -4,13 +4,12 @@ A camera frames a set of points. The distance from which all of them are in
 the image has a closed form, since each point is in it from some distance on.
 """
 
-from math import atan2, cos, degrees, hypot, radians, sin, tan
+from math import cos, radians, sin, tan
 from typing import NamedTuple
 
 import mujoco
 import numpy as np
 
-from ..core.errors import ConfigurationError
 from ..core.poses import Array
 from ..games.run import Run
 from ..sim.obstacle_geoms import HEIGHT as WALL_HEIGHT
@@ -21,7 +20,6 @@ MARGIN = 0.86  # fraction of the image's half sides that points may take
 HEIGHT = 0.62  # of a player with its label, in [m]
 CENTERING_STEPS = 4  # iterations that center a view
 HALF_WIDTH = 0.15  # of a player, in [m]
-EYES = 0.2, 0.09  # of the evader, above and in front of its torso, in [m]
 PERIOD = 0.1  # between the views that a following camera smooths, in [s]
 SMOOTHING = 1.5  # standard deviation of its Gaussian window, in [s]
 
@@ -132,18 +130,7 @@ class FilmCamera:
             name: One of :data:`~stepaside.report.film_settings.VIEWS`.
             fovy: Vertical field of view, in [deg].
             aspect: Width over height of the image.
-
-        Raises:
-            ConfigurationError: If the evader's view is requested for a run
-                of one player.
         """
-        if name == "eyes" and run.pair is None:
-            raise ConfigurationError(
-                "camera eyes needs a run of two players, got one of "
-                f"{len(run.players)}"
-            )
-        # The scene beside the insets has the following camera.
-        name = "follow" if name == "split" else name
         self._run, self._name = run, name
         self._fovy, self._aspect = fovy, aspect
         self._whole = self._frame(slice(None), with_circle=True)
@@ -167,7 +154,7 @@ class FilmCamera:
             )
             target = np.array([x, y, z])
             return CameraView(target, distance, AZIMUTH, ELEVATION)
-        return self._eyes(index) if self._name == "eyes" else self._whole
+        return self._whole
 
     def _frame(self, chosen: slice, *, with_circle: bool) -> CameraView:
         """Return the view that frames the players over some samples."""
@@ -222,23 +209,3 @@ class FilmCamera:
             padded = np.pad(column, half, mode="edge")
             column[:] = np.convolve(padded, kernel, mode="valid")
         return times[chosen], rows
-
-    def _eyes(self, index: int) -> CameraView:
-        """Return the view from the second player's head to the first."""
-        above, forward = EYES
-        assert self._run.pair is not None
-        first, second = self._run.pair
-        pursuer, evader = (t.torso[index, :2] for t in (first, second))
-        sight = pursuer - evader
-        distance = max(float(hypot(*sight)), 1e-6)
-        height = float(second.com[index, 2]) + above
-        eye = np.array([*(evader + forward * sight / distance), height])
-        target = np.array([*pursuer, float(first.com[index, 2])])
-        ahead = target - eye
-        level = float(hypot(ahead[0], ahead[1]))
-        return CameraView(
-            target,
-            float(np.linalg.norm(ahead)),
-            degrees(atan2(ahead[1], ahead[0])),
-            degrees(atan2(ahead[2], level)),
-        )

@@ -8,7 +8,7 @@ from ..core.setting import check_settings, setting
 
 SLOWEST = 0.25  # factor of the film's speed at the closest approach
 AROUND = 2.0  # time before and after it that is slower, in [s]
-VIEWS = ("fixed", "follow", "top", "eyes", "split")
+VIEWS = ("fixed", "follow", "top")
 WHY = "from a frame of a fast film to a night"
 
 
@@ -21,14 +21,14 @@ class FilmSettings:
         "Image width [pixels]",
         Range(16, 3840, "pixels", "of a screen", whole=True),
         option="--width",
-        default_text="1280, gif 480, strip 640",
+        default_text="1280, gif 480",
     )
     height: int = setting(
         720,
         "Image height [pixels]",
         Range(16, 2160, "pixels", "of a screen", whole=True),
         option="--height",
-        default_text="720, gif 270, strip 480",
+        default_text="720, gif 270",
     )
     rate: float = setting(
         30.0,
@@ -54,13 +54,12 @@ class FilmSettings:
         "Duration of the run in the video",
         Range(1e-6, 86400.0, "s", "the longest run"),
         option="--duration",
-        default_text="60, gif 12, strip the whole run",
+        default_text="60, gif 12",
     )
     camera: str = setting(
         "fixed",
         "View of the video: fixed view of the whole run, following the "
-        "robots, top view, evader's camera, or following beside both robots' "
-        "camera images",
+        "robots, or from above",
         names=VIEWS,
         option="--camera",
     )
