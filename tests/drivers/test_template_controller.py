@@ -72,6 +72,21 @@ def test_an_old_sighting_is_of_where_the_robot_was_then(
     assert told.turn == pytest.approx(turn)
 
 
+class SlowStrategy(FakeStrategy):
+    """Strategy that walks at half the pace."""
+
+    def decide(self, knowledge: Any, memory: Any) -> Any:
+        """Want a heading at half the pace."""
+        return Intent(0.4, pace=0.5), None
+
+
+def test_the_pace_slows_speed_and_turn_alike() -> None:
+    mind = TemplateController(SlowStrategy(), GAIT)
+    ahead = Sighting(0.0, 0.0, 1.0)
+    told = mind.decide(VelocityReport(0.0, Pose(0.0, 0.0, 0.0), ahead))
+    assert told == pytest.approx((0.5 * GAIT.speed, 0.5 * GAIT.gain * 0.4, 0))
+
+
 class Noting(FakeStrategy):
     """Strategy that exposes its knowledge."""
 

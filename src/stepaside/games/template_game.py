@@ -7,7 +7,7 @@ from math import atan2, hypot
 import numpy as np
 
 from ..core.poses import Array, Pose, wrap_angle
-from ..locomotion.locomotion import MotionRequest
+from ..locomotion.locomotion import MotionRequest, template_velocity
 from ..planning import GaitSettings
 from ..planning.path import UnicycleTrajectory
 from ..sim.person_motion import PersonMotion, Place
@@ -139,10 +139,7 @@ def play_point(
     Returns:
         Motion of both.
     """
-    from ..locomotion.policy.policy_walk import (
-        decision_interval,
-        template_velocity,
-    )
+    from ..locomotion.policy.policy_walk import decision_interval
 
     limits = limits_of(gait, velocities)
     memory, pose = strategy.begin(), evader

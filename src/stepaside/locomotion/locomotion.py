@@ -7,7 +7,8 @@ from ..perception.measurement import Measurement
 from ..planning import Direction, Foot, GaitSettings
 from ..robots.leg_kinematics import LegKinematics
 from ..strategies.knowledge import Intent
-from ..strategies.velocity_set import VelocitySet
+from ..strategies.velocity_set import STILL, BodyVelocity, VelocitySet
+from ..theory import laws
 from .walk_snapshots import Phase, StepStarted, WalkState
 from .zmp.current_step import CurrentStep
 
@@ -25,6 +26,30 @@ class MotionRequest(NamedTuple):
     intent: Intent
     direction: Direction
     saturated: bool
+
+
+def template_velocity(
+    request: MotionRequest, gait: GaitSettings
+) -> BodyVelocity:
+    """Return the desired velocity of the template.
+
+    It is the desired body velocity, or that of the template unicycle, (3)
+    and (8), or (6) if saturated.
+
+    Args:
+        request: Decision of the player.
+        gait: Speed and steering gain of the template.
+    """
+    intent = request.intent
+    if not intent.walks:
+        return STILL
+    if intent.velocity is not None:
+        return intent.velocity
+    speed = request.direction.value * gait.speed * intent.speed_factor
+    law = laws.saturated_rate if request.saturated else laws.proportional_rate
+    return BodyVelocity(
+        speed * intent.pace, 0.0, law(intent.heading, gait.gain) * intent.pace
+    )
 
 
 class IntentSource(Protocol):

@@ -4,8 +4,7 @@ from math import pi
 
 import pytest
 
-from stepaside.locomotion.locomotion import MotionRequest
-from stepaside.locomotion.policy.policy_walk import template_velocity
+from stepaside.locomotion.locomotion import MotionRequest, template_velocity
 from stepaside.planning import Direction, GaitSettings
 from stepaside.strategies import STAND, Intent
 
@@ -24,6 +23,16 @@ def test_a_request_becomes_the_velocity_of_the_template(
     assert template_velocity(slow, GAIT) == pytest.approx(
         (0.125 * direction.value, 0.0, 0.1)
     )
+
+
+@pytest.mark.parametrize("heading", [-3.0, -0.1, 0.5])
+def test_a_saturated_request_turns_at_the_rate_of_the_gain(
+    heading: float,
+) -> None:
+    """Equation (6)."""
+    request = MotionRequest(Intent(heading), Direction.FORWARD, True)
+    turn = 0.4 if heading > 0.0 else -0.4
+    assert template_velocity(request, GAIT) == pytest.approx((0.5, 0.0, turn))
 
 
 def test_standing_is_no_velocity() -> None:

@@ -1,10 +1,10 @@
 """Velocity control by the paper's template, a unicycle."""
 
 from ...control.strategy_runner import StrategyRunner
+from ...locomotion.locomotion import MotionRequest, template_velocity
 from ...planning import GaitSettings
 from ...strategies import Strategy
 from ...strategies.velocity_set import VelocitySet
-from ...theory import laws
 from .velocity_body import REST, VelocityCommand, VelocityReport
 
 MEMORY_TICK = 0.02  # between poses stored for the strategy, in [s]
@@ -57,18 +57,11 @@ class TemplateController:
             return REST
         intent = decisions.decide(report.time, sighting, moving=self.moving)
         self.moving = intent.walks
-        if not intent.walks:
-            return REST
-        if intent.velocity is not None:
-            ahead, left, turn = intent.velocity
-            return VelocityCommand(ahead, turn, left)
-        strategy, gait = decisions.strategy, self._gait
-        law = (
-            laws.saturated_rate
-            if strategy.saturated
-            else laws.proportional_rate
+        strategy = decisions.strategy
+        velocity = template_velocity(
+            MotionRequest(intent, strategy.direction, strategy.saturated),
+            self._gait,
         )
         return VelocityCommand(
-            strategy.direction.value * gait.speed * intent.speed_factor,
-            law(intent.heading, gait.gain),
+            velocity.forward, velocity.turn, velocity.lateral
         )

@@ -7,7 +7,7 @@ from ...perception.measurement import Measurement
 from ...planning import Foot, GaitSettings
 from ...strategies.knowledge import Intent
 from ...strategies.velocity_set import STILL, BodyVelocity, VelocitySet
-from ..locomotion import IntentSource, MotionRequest
+from ..locomotion import IntentSource, template_velocity
 from ..walk_snapshots import Phase, StepStarted
 from ..zmp.current_step import CurrentStep, resting_step
 from .policy_legs import PolicyLegs
@@ -28,29 +28,6 @@ class VelocityFilter(Protocol):
             pose: Pose of the robot in odometry.
             duration: Time until the next decision, in [s].
         """
-
-
-def template_velocity(
-    request: MotionRequest, gait: GaitSettings
-) -> BodyVelocity:
-    """Return the desired velocity of the template.
-
-    It is the desired body velocity, or that of the template unicycle, (3)
-    and (8).
-
-    Args:
-        request: Decision of the player.
-        gait: Speed and steering gain of the template.
-    """
-    intent = request.intent
-    if not intent.walks:
-        return STILL
-    if intent.velocity is not None:
-        return intent.velocity
-    speed = request.direction.value * gait.speed * intent.speed_factor
-    return BodyVelocity(
-        speed * intent.pace, 0.0, gait.gain * intent.heading * intent.pace
-    )
 
 
 def decision_interval(intent: Intent, gait: GaitSettings) -> float:
