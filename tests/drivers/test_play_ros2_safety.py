@@ -10,6 +10,7 @@ import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from math import cos, hypot, nan, pi, sin
+from pathlib import Path
 from threading import Thread
 from time import monotonic, sleep
 from typing import Any
@@ -66,7 +67,7 @@ class Robot:
         self.place, self.rotation = Point(0.0, 0.0), AHEAD
         self.opponent: tuple[float, float] | None = (2.0, 0.5)
         self.optical = False
-        self.velocity = (0.0, 0.0)
+        self.velocity, self.lateral = (0.0, 0.0), 0.0
         self._ended = False
         self._thread = Thread(target=self._run)
         self._thread.start()
@@ -76,6 +77,7 @@ class Robot:
             self._tell()
             for twist in take_messages(self._commands):
                 self.velocity = twist.linear.x, twist.angular.z
+                self.lateral = twist.linear.y
             sleep(PERIOD)
 
     def _tell(self) -> None:
@@ -117,11 +119,11 @@ class Robot:
 class Session:
     """The robot, and a ``play`` that drives it."""
 
-    def __init__(self) -> None:
+    def __init__(self, *options: str) -> None:
         self.robot = Robot()
         self.lines: list[str] = []
         self.process = subprocess.Popen(
-            [sys.executable, "-c", PLAY, *WORDS],
+            [sys.executable, "-c", PLAY, *WORDS, *options],
             env=os.environ | {"ROS_DOMAIN_ID": str(DOMAIN)},
             stderr=subprocess.PIPE,
             text=True,
@@ -261,3 +263,32 @@ def test_a_switch_that_is_silent_is_released(session: Session) -> None:
     session.robot.is_held = None
     took = session.stops_for("/hold is not true")
     assert took < 0.6 + SLACK
+
+
+SIDEWAYS = """
+import stepaside as sa
+from stepaside.strategies.velocity_set import BodyVelocity
+
+class Sideways:
+    direction, saturated = sa.Direction.FORWARD, False
+
+    def begin(self):
+        pass
+
+    def decide(self, knowledge, memory):
+        return sa.Intent(velocity=BodyVelocity(0.1, -0.5, 0.0)), None
+"""
+
+
+def test_a_robot_that_steps_sideways_is_commanded_so(tmp_path: Path) -> None:
+    file = tmp_path / "sideways.py"
+    file.write_text(SIDEWAYS)
+    session = Session(
+        *("--max-lateral", "0.2", "--pursuer-strategy", f"{file}:Sideways")
+    )
+    try:
+        # The direction is kept within the limits.
+        session.until(lambda: session.robot.lateral == pytest.approx(-0.2))
+        assert session.robot.velocity == pytest.approx((0.04, 0.0))
+    finally:
+        session.close()

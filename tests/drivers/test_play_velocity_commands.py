@@ -43,6 +43,14 @@ def refused(capsys: pytest.CaptureFixture[str], *words: str) -> str:
             "play --role evader --robot ros2:/e --interface footsteps",
             "--interface requires",
         ),
+        (
+            "play --robot ros2:/e --max-lateral 0.3 --max-speed 0.4",
+            "--max-lateral requires --max-speed and --max-turn",
+        ),
+        (
+            "play --robot naoqi:tcp://127.0.0.1:1 --max-lateral 0.3",
+            "requires a robot at ros2:",
+        ),
         ("serve", "--lola PLAYER=ADDRESS or --naoqi"),
         (
             "serve --ros2 evader",
@@ -107,7 +115,8 @@ def test_local_topics_name_the_setting_that_ros_needs(words: str) -> None:
     )
     try:
         assert process.stderr is not None
-        assert any(LOCALHOST in line for line in process.stderr)
+        said = next(line for line in process.stderr if LOCALHOST in line)
+        assert "opens its UDP ports on all interfaces" in said
     finally:
         process.kill()
         process.communicate(timeout=20.0)
