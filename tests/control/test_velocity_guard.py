@@ -121,8 +121,8 @@ def test_no_path_leads_through_a_thin_obstacle(
     generator = np.random.default_rng(8)
     wishes = [BodyVelocity(0.7), BodyVelocity(0.5, 0.2, 0.9)]
     for _ in range(8):
-        wish = generator.uniform((0.0, -0.4, -0.9), (0.7, 0.4, 0.9))
-        wishes.append(SIDEWAYS.nearest(BodyVelocity(*wish.tolist())))
+        drawn = generator.uniform((0.0, -0.4, -0.9), (0.7, 0.4, 0.9))
+        wishes.append(BodyVelocity(*drawn.tolist()))
     for velocities in (SIDEWAYS, UNICYCLE):
         guard = VelocityGuard(KnownRoom(room, ORIGIN), velocities, CLEARANCE)
         for wish in map(velocities.nearest, wishes):
