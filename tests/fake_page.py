@@ -315,14 +315,6 @@ class Server:
         self.stopped = True
 
 
-def open_fake(host: str, port: int) -> Any:
-    """Return a fake server without access control."""
-    from stepaside.report.viewer.page_server import Notices
-
-    server: Any = Server(host=host, port=port)
-    return SimpleNamespace(
-        server=server,
-        gate=None,
-        notices=Notices(server),
-        joystick=SimpleNamespace(connect=lambda steer: None),
-    )
+def open_fake(port: int) -> Any:
+    """Return a fake server."""
+    return Server(port=port)

@@ -36,7 +36,7 @@ NEEDS = {
     f"duel {SHORT} --sensing cameras": "vision",
     f"duel {SHORT} --method mpc": "mpc",
     "view --no-open --serve-for 0.1": "viewer",
-    "replay run --no-open --serve-for 0.1": "viewer",
+    "replay run --no-open": "viewer",
     "replay run --html page.html": "viewer",
     "export run --to mcap": "export",
     "export run --to parquet": "tables",

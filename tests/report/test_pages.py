@@ -82,7 +82,7 @@ def test_a_live_duel_can_be_watched_pushed_and_driven(browser: Any) -> None:
     from stepaside.report.viewer.live_page import Page
 
     start = StartSettings(distance=1.2, pursuer_offset=0.5, evader_offset=0.0)
-    live = Page(DuelSettings(start=start), host="127.0.0.1", port=8731)
+    live = Page(DuelSettings(start=start), port=8731)
     live.start()
     session = live.session
 
@@ -158,18 +158,18 @@ def test_a_live_duel_can_be_watched_pushed_and_driven(browser: Any) -> None:
     assert threading.active_count() < 50
 
 
-def test_a_robot_is_pulled_with_the_pointer_and_driven_by_hand(
+def test_a_robot_is_pulled_with_the_pointer(
     browser: Any,
 ) -> None:
     from stepaside.report.viewer.live_page import Page
 
-    live = Page(DuelSettings(), host="127.0.0.1", port=8771)
+    live = Page(DuelSettings(), port=8771)
     live.start()
     session = live.session
     pursuer = session.match.players[0]
     assert isinstance(pursuer, SimulatedPlayer)
     try:
-        page = open_page(browser, width=900, has_touch=True)
+        page = open_page(browser, width=900)
         page.goto(f"http://127.0.0.1:{live.server.get_port()}")
         page.get_by_text("standing").first.wait_for()
         # By the evader's view the pursuer is in the middle.
@@ -205,27 +205,6 @@ def test_a_robot_is_pulled_with_the_pointer_and_driven_by_hand(
         assert pusher is not None
         # To the right of who faces it, which is to its own left.
         until(page, lambda: pusher.impulse[1] > 0.1)
-
-        def last(name: str) -> Any:
-            """Value in the last command of teleoperation; 0 before any."""
-            return session.commands[-1][name] if session.commands else 0
-
-        stick = page.locator("#stick").bounding_box()
-        middle = stick["x"] + 54, stick["y"] + 54
-        page.mouse.move(*middle)
-        page.mouse.down()
-        page.mouse.move(middle[0] - 30, middle[1] - 30, steps=3)
-        until(page, lambda: last("going") and last("turn") > 0.5)
-        keep_picture(page, "driving.png")
-        page.mouse.up()
-        until(page, lambda: not last("going"))
-
-        hold = "(axes) => { navigator.getGamepads = () => [{ axes }]; }"
-        page.evaluate(hold, [0.6, -0.6])
-        until(page, lambda: last("turn") < -0.5)
-        page.evaluate(hold, [0.0, 0.0])
-        until(page, lambda: not last("going"))
-        check_readable(page)
         page.close()
     finally:
         live.close()
@@ -250,18 +229,6 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> Path:
     result = CliRunner().invoke(main, [*arguments, "--output", str(folder)])
     assert result.exit_code == 0
     return folder
-
-
-def check_readable(page: Any) -> None:
-    """Every control of a page has a name, and all stands in a place."""
-    page.get_by_role("heading", level=1).wait_for(state="attached")
-    assert page.get_by_role("main").count() == 1
-    page.get_by_role("button").first.wait_for()
-    nameless = """() => [...document.querySelectorAll(
-        "button:not([aria-hidden]), input, [role=slider]")].filter((each) =>
-        !(each.textContent.trim() || each.ariaLabel || each.labels?.length
-          || each.title))"""
-    until(page, lambda: page.evaluate(f"({nameless})().length") == 0)
 
 
 def test_the_written_page_opens_without_a_network(
@@ -390,34 +357,3 @@ def test_a_page_s_policy_lets_nothing_else_run(
     assert page.evaluate("window.ran") is None
     assert any("Content Security Policy" in told for told in wrong)
     wrong.clear()
-
-
-def test_a_page_of_elsewhere_cannot_reach_the_live_page(browser: Any) -> None:
-    import viser
-
-    from stepaside.report.viewer.page_server import open_server
-
-    served = open_server("127.0.0.1", 8761)
-    port = served.gate.address.port
-    plug = f"""(host) => new Promise((told) => {{
-        const socket = new WebSocket(
-            `ws://${{host}}:{port}`, ["viser-v{viser.__version__}"]);
-        socket.onopen = () => told("open");
-        socket.onerror = () => told("refused");
-    }})"""
-    try:
-        page = open_page(browser)
-        own = f"http://127.0.0.1:{port}"
-        page.goto(own)
-        assert page.evaluate(plug, "127.0.0.1") == "open"
-        frame = f"<h1>evil</h1><iframe src='{own}'></iframe>"
-        page.route(
-            "http://evil.example/**",
-            lambda route: route.fulfill(body=frame, content_type="text/html"),
-        )
-        page.goto("http://evil.example/")
-        for host in ("127.0.0.1", "localhost"):
-            assert page.evaluate(plug, host) == "refused"
-        page.close()
-    finally:
-        served.server.stop()

@@ -13,7 +13,6 @@ from fake_page import Gui, Scene
 from stepaside.core.poses import Array, Pose
 from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
-from stepaside.games.walker import SimulatedPlayer
 from stepaside.locomotion.walk_snapshots import Phase, WalkState
 from stepaside.perception.images import ColourImage
 from stepaside.planning import Foot, SoleRectangle
@@ -46,7 +45,6 @@ from stepaside.report.viewer.scene_layers import (
     safety_ring,
     support_outline,
 )
-from stepaside.report.viewer.status_text import phases_of, status_text
 from stepaside.report.viewer.true_odometry import true_odometry
 from stepaside.report.visual_geoms import colour_of, visual_geoms_of
 
@@ -452,72 +450,6 @@ STAND, WALK, HALT, FELL = (
     Phase.HALTING,
     Phase.FALLEN,
 )
-
-
-@pytest.mark.parametrize(
-    ("phases", "distance", "angle", "expected"),
-    [
-        ((STAND, STAND), 0.5, 90.0, "both robots are **standing**"),
-        ((WALK, STAND), 0.79, 90.0, "the evader is **triggered**"),
-        ((WALK, STAND), 0.81, 90.0, "the pursuer walks"),
-        ((HALT, STAND), 0.81, 90.0, "the pursuer walks"),
-        ((STAND, HALT), 0.9, 90.0, "the evader is **halting**"),
-        ((WALK, WALK), 0.944, 90.0, "**on the circle**"),
-        ((WALK, WALK), 0.856, 90.0, "**on the circle**"),
-        ((WALK, WALK), 0.946, 90.0, "**evading**"),
-        ((WALK, WALK), 0.854, 90.0, "**evading**"),
-        ((WALK, WALK), 0.9, 94.9, "**on the circle**"),
-        ((WALK, WALK), 0.9, 85.1, "**on the circle**"),
-        ((WALK, WALK), 0.9, 95.1, "**evading**"),
-        ((WALK, WALK), 0.9, 84.9, "**evading**"),
-        ((FELL, STAND), 0.5, 90.0, "**pursuer fell**"),
-        ((WALK, FELL), 0.9, 90.0, "**evader fell**"),
-        ((FELL, FELL), 0.9, 90.0, "**pursuer and evader fell**"),
-    ],
-)
-def test_words_follow_phases_and_bands(
-    phases: tuple[Phase, Phase], distance: float, angle: float, expected: str
-) -> None:
-    words = status_text(phases, distance, angle, 0.8, (0.9, 90.0))
-    assert expected in words
-    if distance == 0.9 and phases == (WALK, WALK):
-        alone = status_text(phases, distance, angle, 0.8, None)
-        assert "**evading**" in alone
-
-
-def test_without_a_safety_area_no_trigger_is_drawn() -> None:
-    assert "walks" in status_text((WALK, STAND), 0.1, 0.0, inf, None)
-
-
-def test_a_true_fall_counts_as_a_phase() -> None:
-    def player(phase: Phase, fallen: bool) -> Any:
-        walk = SimpleNamespace(phase=phase)
-        seen = SimpleNamespace(walk=walk)
-        return SimpleNamespace(has_fallen=fallen, snapshot=lambda: seen)
-
-    for fallen in (False, True):
-        duel: Any = SimpleNamespace(
-            players=[player(WALK, False), player(HALT, fallen)]
-        )
-        assert phases_of(duel) == (WALK, FELL if fallen else HALT)
-
-
-@pytest.mark.parametrize("lies", [False, True])
-@pytest.mark.parametrize("phase", Phase)
-def test_a_robot_has_fallen_that_lies_or_feels_it(
-    lies: bool, phase: Phase
-) -> None:
-    robot: Any = SimulatedPlayer.__new__(SimulatedPlayer)
-    robot.truth = SimpleNamespace(has_fallen=lies)
-    robot.scheme = SimpleNamespace(phase=phase)
-    assert robot.has_fallen is (lies or phase is FELL)
-
-
-def test_who_has_no_phases_of_its_own_walks() -> None:
-    seen = SimpleNamespace(walk=None)
-    person: Any = SimpleNamespace(has_fallen=False, snapshot=lambda: seen)
-    duel: Any = SimpleNamespace(players=[person, person])
-    assert phases_of(duel) == (WALK, WALK)
 
 
 def image(azimuths: tuple[float, ...], *, depth: bool = False) -> Any:

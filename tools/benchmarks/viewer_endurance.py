@@ -106,7 +106,7 @@ def main() -> None:
     asked = ask(__doc__, "viewer.json")
     asked.add_argument("--minutes", type=float, default=30.0)
     arguments = asked.parse_args()
-    page = CountedPage(DuelSettings(seed=7), host="127.0.0.1", port=PORT)
+    page = CountedPage(DuelSettings(seed=7), port=PORT)
     page.start()
     session = page.session
     session.running, session.speed = True, float("inf")

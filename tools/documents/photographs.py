@@ -46,7 +46,7 @@ EACH, RATE = 0.2, 8  # time between pictures in [s]; pictures a second
 @contextmanager
 def live(browser: Any, settings: DuelSettings) -> Iterator[tuple[Page, Any]]:
     """Serve a page and open it."""
-    served = Page(settings, host="127.0.0.1", port=8890)
+    served = Page(settings, port=8890)
     served.start()
     try:
         page = opened(browser, f"http://127.0.0.1:{served.server.get_port()}")

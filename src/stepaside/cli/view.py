@@ -29,7 +29,6 @@ class ViewOptions(NamedTuple):
 
     Attributes:
         file: Game file; None for a duel.
-        host: Address of the server.
         port: First port to try.
         opens: Whether to open a browser.
         run: Whether the simulation starts at once.
@@ -38,7 +37,6 @@ class ViewOptions(NamedTuple):
     """
 
     file: Path | None
-    host: str
     port: int
     opens: bool
     run: bool
@@ -54,13 +52,6 @@ OWN = {*ViewOptions._fields, "seed"}
     "file",
     required=False,
     type=click.Path(exists=True, dir_okay=False, path_type=Path),
-)
-@click.option(
-    "--host",
-    default="127.0.0.1",
-    show_default=True,
-    help="Address of the server. If other machines can reach it, the link "
-    "contains a secret.",
 )
 @port_option()
 @browser_option()
@@ -90,7 +81,7 @@ def view(settings: "DuelSettings", **options: Any) -> None:
         played = _game_of(given.file)
     from ..report.viewer.live_page import Page
 
-    page = Page(played, host=given.host, port=given.port, demo=given.demo)
+    page = Page(played, port=given.port, demo=given.demo)
     with closing(page):
         page.session.running = given.run
         _serve(page, given)
@@ -98,14 +89,10 @@ def view(settings: "DuelSettings", **options: Any) -> None:
 
 def _serve(page: "Page", options: ViewOptions) -> None:
     """Serve a page until it is interrupted."""
-    if page.gate.secret:
-        echo(
-            f"stepaside: other machines can reach {options.host}; anyone with "
-            "the link can drive the robots",
-            err=True,
-        )
+    from ..report.viewer.page_server import address_of
+
     page.start()
-    address = page.gate.link
+    address = address_of(page.server)
     echo(f"serving at {address}; press Ctrl-C to stop")
     if options.opens:
         webbrowser.open(address)

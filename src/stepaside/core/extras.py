@@ -13,7 +13,7 @@ EXTRAS = {  # as in ``pyproject.toml``, with the names of the modules
     "robot": ("msgpack",),
     "naoqi": ("msgpack", "qi"),
     "ros2": ("cyclonedds",),
-    "viewer": ("av", "msgspec", "trimesh", "viser", "websockets"),
+    "viewer": ("av", "trimesh", "viser", "websockets"),
     "vision": ("cv2",),
 }
 

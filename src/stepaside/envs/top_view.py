@@ -73,16 +73,15 @@ class ImagePage:
         address: Address of the page.
     """
 
-    def __init__(self, host: str = "127.0.0.1", port: int = 8080) -> None:
+    def __init__(self, port: int = 8080) -> None:
         """Serve the page at the first free port.
 
         Args:
-            host: Address of this machine.
             port: First port to try.
         """
         from ..report.viewer.page_server import open_server
 
-        self._server = open_server(host, port)
+        self._server = open_server(port)
         self._handle: Any = None
 
     def show(self, image: NDArray[np.uint8], info: dict[str, Any]) -> None:
@@ -96,7 +95,7 @@ class ImagePage:
             f"{key} {value:.2f}" if isinstance(value, float) else f"{value}"
             for key, value in info.items()
         )
-        gui = self._server.server.gui
+        gui = self._server.gui
         if self._handle is None:
             self._handle = gui.add_image(image), gui.add_markdown(text)
         else:

@@ -86,10 +86,9 @@ class DrivePanel:
         self._score = Scoreboard(*(() if duel else ("the others",)))
         with gui.add_folder("Drive the pursuer" if duel else "Drive a robot"):
             gui.add_markdown(
-                f"{'Catch the evader' if duel else 'Walk'} with the buttons, "
-                "a gamepad, the joystick "
-                "on a touch screen or the keys: arrows left, right and up "
-                "(straight), g (go), h (halt)."
+                f"{'Catch the evader' if duel else 'Walk'} with the buttons "
+                "or the keys: arrows left, right and up (straight), g (go), "
+                "h (halt)."
             )
             self._choice = gui.add_dropdown(
                 "Driven robot", names, visible=len(names) > 1
@@ -159,15 +158,6 @@ class DrivePanel:
         text = self._score.text()
         if self._score_text.content != text:
             self._score_text.content = text
-
-    def steer(self, turn: float, going: bool) -> None:
-        """Drive the robot by a joystick.
-
-        Args:
-            turn: From -1 (right) to 1 (left).
-            going: Whether to walk.
-        """
-        self._drive(turn=turn, going=going)
 
     def _drive(
         self, *, turn: float | None = None, going: bool | None = None

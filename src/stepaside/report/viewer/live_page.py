@@ -31,7 +31,7 @@ from .live_match import (
 )
 from .live_session import LiveSession, LiveSnapshot
 from .page_layout import arrange_panels
-from .page_server import open_server
+from .page_server import Notices, open_server
 from .plot_history import MAX_POSES, PERIOD, BodyPoses
 from .plots import Plots
 from .run_saving import RunSaver
@@ -56,7 +56,6 @@ class Page:
 
     Attributes:
         server: viser's server.
-        gate: Access control.
         session: The game.
         layers: Layers drawn over the scene.
         plots: Plots of the history.
@@ -66,7 +65,6 @@ class Page:
         self,
         settings: LiveSettings,
         *,
-        host: str,
         port: int,
         demo: bool = False,
     ) -> None:
@@ -74,7 +72,6 @@ class Page:
 
         Args:
             settings: Settings of the game.
-            host: Address to serve at.
             port: First port to try.
             demo: Whether the page is for an audience: large text, panels
                 minimised, one game after the other with the next seeds.
@@ -83,14 +80,13 @@ class Page:
             StepAsideError: If the address cannot be used or the settings are
                 invalid.
         """
-        served = open_server(host, port)
-        self.server, self.gate = served.server, served.gate
+        self.server = open_server(port)
         try:
             self.session = LiveSession(settings)
         except BaseException:
             self.server.stop()
             raise
-        self._notify = served.notices.show
+        self._notify = Notices(self.server).show
         self._closing = threading.Event()
         self.layers, self._viewers = self._set_scene()
         self._generation = self.session.generation
@@ -107,7 +103,6 @@ class Page:
             if self.session.settings.robots:
                 add_push(gui, self.session, self._notify)
                 self._drive = DrivePanel(gui, self.session)
-                served.joystick.connect(self._drive.steer)
         self._panel: DuelPanel | GamePanel
         with layout.settings:
             if is_duel:

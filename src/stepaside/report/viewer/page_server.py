@@ -1,33 +1,20 @@
-"""Server of the pages: viser's, with access control and message filter.
-
-viser starts a ``websockets`` server itself and offers no way to check
-``Host`` and ``Origin``, to limit messages or to use a socket that listens
-already; ``websockets`` does. So ``websockets.asyncio.server.serve`` is
-replaced while viser starts. A version of viser that starts its server in
-another way is refused.
-"""
+"""Server of the live page: viser's, on this machine alone."""
 
 import logging
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from typing import Any
 
 import viser
 import websockets.asyncio.server as sockets
 
 from ...core.errors import ConfigurationError
-from .access_control import AccessControl
-from .gamepad import GamepadInput
-from .page_address import PageAddress, listen
 from .page_layout import set_theme
-from .page_messages import MAX_SIZE, MessageFilter
-from .script_injection import Answer, PageScripts
 
+HOST = "127.0.0.1"
 STARTING = threading.Lock()
 NOTICE_TIME = 8.0  # for which a message is shown, in [s]
-ACCESSIBILITY_SCRIPT = "readable.js"
 # Invalid requests must not print tracebacks on the terminal.
 REQUEST_LOG = logging.getLogger(f"{__name__}.requests")
 REQUEST_LOG.addFilter(lambda record: record.msg != "opening handshake failed")
@@ -65,95 +52,52 @@ class Notices:
                 self._open.append(notice)
 
 
-@dataclass(frozen=True, slots=True)
-class PageServer:
-    """Server of a page with its access control.
+def open_server(port: int) -> viser.ViserServer:
+    """Serve an empty page on this machine, at the next free port.
 
-    Attributes:
-        server: viser's server.
-        gate: Access control.
-        messages: Filter of the messages of pages.
-        notices: Messages shown to viewers, such as refused input.
-        joystick: Joystick and gamepad input.
-    """
-
-    server: viser.ViserServer
-    gate: AccessControl
-    messages: MessageFilter
-    notices: Notices
-    joystick: GamepadInput
-
-
-def open_server(host: str, port: int) -> PageServer:
-    """Serve an empty page.
+    Pages of other origins cannot connect: a browser lets any page open a
+    WebSocket to any address, and says in ``Origin`` where the page is from.
 
     Args:
-        host: Address of this machine.
         port: First port to try.
 
     Raises:
-        ConfigurationError: If the address cannot be used.
+        ConfigurationError: If origins cannot be checked with this viser.
     """
-    address = listen(host, port)
-    gate, messages = AccessControl(address), MessageFilter()
-    scripts = PageScripts(ACCESSIBILITY_SCRIPT)
-    joystick = GamepadInput(scripts)
-
-    def handle(answer: Answer) -> Answer:
-        return gate.guard(joystick.handle(scripts.handle(answer)))
-
-    with STARTING, _controlled(address, gate, messages, handle) as started:
+    with STARTING, _origins_checked() as started:
         server = viser.ViserServer(
-            host=host, port=address.port, label="stepaside", verbose=False
+            host=HOST, port=port, label="stepaside", verbose=False
         )
     if not started:
         server.stop()
-        address.listening.close()
         raise ConfigurationError(
-            "viser must start a websockets server, so that access can be "
-            f"controlled; version {viser.__version__} does not"
+            "viser must start a websockets server, so that origins can be "
+            f"checked; version {viser.__version__} does not"
         )
-    notices = Notices(server)
-    messages.watch(server.gui, server.scene, notices.show)
     set_theme(server.gui, "light")
-    return PageServer(server, gate, messages, notices, joystick)
+    return server
+
+
+def address_of(server: viser.ViserServer) -> str:
+    """Return the URL of a page."""
+    return f"http://{HOST}:{server.get_port()}"
 
 
 @contextmanager
-def _controlled(
-    address: PageAddress,
-    gate: AccessControl,
-    messages: MessageFilter,
-    handle: Callable[[Answer], Answer],
-) -> Iterator[list[bool]]:
-    """Add access control to servers that start inside a ``with`` block.
+def _origins_checked() -> Iterator[list[int]]:
+    """Let servers that start in a ``with`` block accept their own pages only.
 
     Yields:
-        List with an entry for each server that was started.
+        List that gets the ports that were tried.
     """
     begin, started = sockets.serve, []
 
-    class FilteredConnection(sockets.ServerConnection):
-        """Connection that drops messages a page could not have sent."""
-
-        async def recv(self, decode: bool | None = None) -> Any:
-            """Wait for the next accepted message."""
-            while True:
-                raw = await super().recv(decode)
-                if messages.accepts(raw):
-                    return raw
-
-    def serve(handler: Any, *_: Any, **options: Any) -> Any:
-        started.append(True)
-        answer = options.pop("process_request")
-        options |= {
-            "process_request": handle(answer),
-            "create_connection": FilteredConnection,
-            "logger": REQUEST_LOG,
-            "max_size": MAX_SIZE,
-            "sock": address.listening,
-        }
-        return begin(gate.limit(handler), **options)
+    def serve(handler: Any, host: str, port: int, **options: Any) -> Any:
+        started.append(port)
+        own: Any = [f"http://{name}:{port}" for name in (HOST, "localhost")]
+        return begin(
+            handler, host, port, origins=own, logger=REQUEST_LOG, **options
+        )
 
     sockets.serve = serve  # type: ignore[misc, assignment]
     try:
