@@ -53,7 +53,7 @@ def _differs(settings: DuelSettings) -> str | None:
         return "the paper has no rooms"
     if not settings.is_of_the_paper:
         return "the strategies are not the paper's"
-    if settings.strategy.trigger == "time":
+    if settings.resolved().strategy.trigger == "time":
         return "evasion begins and ends by the time to contact"
     if settings.pursuer == "person":
         if person.path != "steer" or isfinite(person.halt_after):
