@@ -53,14 +53,14 @@ AHEAD = Quaternion(0.0, 0.0, 0.0, 1.0)
 class Robot:
     """A robot of others, with the operator's switch."""
 
-    def __init__(self) -> None:
-        self.dds = dds = DdsParticipant(DOMAIN)
+    def __init__(self, domain: int) -> None:
+        self.dds = dds = DdsParticipant(domain)
         self._odometry = dds.writer("rt/it/odom", Odometry)
         self._points = dds.writer("rt/it/other", PointStamped)
         self._poses = dds.writer("rt/it/other_pose", PoseStamped)
         self._detections = dds.writer("rt/it/detections", Detection3DArray)
         self._commands = dds.reader("rt/it/cmd_vel", Twist)
-        self.operator = DdsParticipant(DOMAIN)
+        self.operator = DdsParticipant(domain)
         self._switch = self.operator.writer("rt/hold", Bool)
         self.is_held: bool | None = True
         self.stamp: Callable[[], float] = monotonic
@@ -119,12 +119,12 @@ class Robot:
 class Session:
     """The robot, and a ``play`` that drives it."""
 
-    def __init__(self, *options: str) -> None:
-        self.robot = Robot()
+    def __init__(self, *options: str, domain: int = DOMAIN) -> None:
+        self.robot = Robot(domain)
         self.lines: list[str] = []
         self.process = subprocess.Popen(
             [sys.executable, "-c", PLAY, *WORDS, *options],
-            env=os.environ | {"ROS_DOMAIN_ID": str(DOMAIN)},
+            env=os.environ | {"ROS_DOMAIN_ID": str(domain)},
             stderr=subprocess.PIPE,
             text=True,
         )
@@ -284,7 +284,8 @@ def test_a_robot_that_steps_sideways_is_commanded_so(tmp_path: Path) -> None:
     file = tmp_path / "sideways.py"
     file.write_text(SIDEWAYS)
     session = Session(
-        *("--max-lateral", "0.2", "--pursuer-strategy", f"{file}:Sideways")
+        *("--max-lateral", "0.2", "--pursuer-strategy", f"{file}:Sideways"),
+        domain=DOMAIN + 1,  # the other session goes on
     )
     try:
         # The direction is kept within the limits.
