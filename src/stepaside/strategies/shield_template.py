@@ -11,8 +11,7 @@ from math import exp, hypot
 from typing import NamedTuple
 
 LEGS_PERIOD = 0.48  # of the motions of legs: several cells of the grid, [s]
-# Per period, in [m]; a G1 with 29 joints has a tube of 0.40 m, with 0.03 of
-# 0.59 m.
+# Per period, in [m]; with it a G1 with 29 joints has a tube of 0.28 m.
 LEGS_LOSS = 0.08
 
 Vector = tuple[float, float]

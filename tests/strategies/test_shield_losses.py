@@ -1,0 +1,364 @@
+"""Test that the shield charges each loss of docs/shield.md.
+
+What is charged is computed here, by the formulas of that page.
+"""
+
+from dataclasses import dataclass, replace
+from math import asin, atan2, cos, hypot, pi, sin
+
+import numpy as np
+import pytest
+
+from stepaside.core.poses import Array, Pose, wrap_angle
+from stepaside.planning import Direction
+from stepaside.strategies import StandStill
+from stepaside.strategies.knowledge import STAND, Intent, Knowledge, Limits
+from stepaside.strategies.shield import ShieldedStrategy, ShieldMemory
+from stepaside.strategies.shield_settings import ShieldSettings
+from stepaside.strategies.velocity_set import (
+    AxisValues,
+    BodyVelocity,
+    VelocitySet,
+)
+from stepaside.theory.shield import ShieldTable, sub_poses
+
+STEP, STRIDE = 0.5, 0.04  # of the paper's walk, in [s] and [m]
+WALK = Limits(0.1, 0.2, STRIDE, STEP)
+LEGS = VelocitySet(
+    (-0.5, 0.6), (-0.1, 0.3), (-0.9, 0.4), AxisValues(0.2, 0.4, 0.1), tube=0.25
+)
+PERSON = ShieldSettings(True, 0.03, 0.5, 0.3)
+HALT = STEP + 1.0  # until a walking robot stands and decides again, in [s]
+
+
+@pytest.fixture(autouse=True)
+def coarse(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("stepaside.strategies.shield_model.CELLS", 5)
+
+
+def heading_error(person: ShieldSettings, window: float) -> float:
+    """Return b: the turn in a window, and both ends of its chord."""
+    turned = (window + 0.02) * person.speed / person.turning_radius
+    return turned + asin(4.0 * person.sighting_error / person.speed / window)
+
+
+def walk_loss(person: ShieldSettings, period: float) -> float:
+    """Return epsilon of the paper's walk, in [m]."""
+    lost = 0.01 * period / STEP if person.loss is None else person.loss
+    return lost + person.speed * heading_error(person, STEP) * period
+
+
+def walk_required(person: ShieldSettings, period: float) -> float:
+    """Return r of the paper's walk, in [m]."""
+    return (
+        person.contact
+        + person.sighting_error
+        + walk_loss(person, period)
+        + (0.5 * STRIDE + 0.03)
+        + person.speed * person.sighting_delay
+    )
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {},
+        {"turning_radius": 5.0},
+        {"loss": 0.07},
+        {"sighting_delay": 0.4},
+        {"sighting_error": 0.001},
+        {"contact": 0.5},
+    ],
+)
+def test_required_distance_of_the_papers_walk(
+    changes: dict[str, float],
+) -> None:
+    person = replace(PERSON, **changes)
+    shield = ShieldedStrategy(StandStill(), person)
+    model = shield.model_for(Knowledge(0.0, 0.0, 3.0, WALK))
+    game = model.game()
+    assert game.loss == pytest.approx(walk_loss(person, game.period))
+    assert game.jump == pytest.approx(2.0 * person.sighting_error)
+    assert game.person.speed == person.speed
+    assert game.person.turn == person.speed / person.turning_radius
+    required = walk_required(person, game.period)
+    assert model.required == pytest.approx(required)
+    assert model.response == pytest.approx(2.0 * STEP)
+
+
+def test_required_distance_of_learned_legs() -> None:
+    person = replace(PERSON, sighting_delay=0.4, sighting_error=1e-4)
+    shield, limits = ShieldedStrategy(StandStill(), person), WALK
+    models = [
+        shield.model_for(
+            Knowledge(0.0, 0.0, 3.0, replace(limits, velocities=legs))
+        )
+        for legs in (
+            LEGS,
+            LEGS._replace(tube=0.0),
+            LEGS._replace(tube=0.0, lags=AxisValues(0.2, 0.7, 0.1)),
+        )
+    ]
+    epsilon = 0.08 + person.speed * heading_error(person, 0.08) * 0.48
+    assert models[0].game().loss == pytest.approx(epsilon)
+    assert models[0].game().period == 0.48
+    required = 0.3 + 1e-4 + epsilon + 0.25 + person.speed * 0.4
+    assert models[0].required == pytest.approx(required)
+    # A body is its lag behind: by 0.3 s more at 0.6 m/s.
+    more = models[2].required - models[1].required
+    assert more == pytest.approx(0.3 * 0.6)
+
+
+def test_motions_are_those_that_both_sides_of_the_legs_deliver() -> None:
+    """Legs hold a velocity over the floor while they turn."""
+    limits = replace(WALK, velocities=LEGS)
+    shield = ShieldedStrategy(StandStill(), PERSON)
+    model = shield.model_for(Knowledge(0.0, 0.0, 3.0, limits))
+    motions = model.game().motions
+    fastest = 0.0
+    for motion in motions:
+        u, v, turned = motion[-1]
+        rate, moved = turned / 0.48, hypot(u, v) / 0.48
+        fastest = max(fastest, moved)
+        mirrored = np.abs(motions - motion * [1.0, -1.0, -1.0])
+        assert mirrored.max(axis=(1, 2)).min() < 1e-9
+        for share in (0.0, 0.5, 1.0):
+            angle = atan2(v, u) - share * turned
+            body = BodyVelocity(moved * cos(angle), moved * sin(angle), rate)
+            assert np.allclose(LEGS.nearest(body), body)
+    assert fastest == pytest.approx(0.6)
+
+
+def test_template_of_lagging_legs_is_where_they_come_to_rest() -> None:
+    """Legs that follow with their lag exactly displace it by nothing."""
+    legs = LEGS._replace(lags=AxisValues(0.4, 0.3, 0.1))
+    limits = replace(WALK, velocities=legs)
+    # Nothing is certified against this person: the strategy decides.
+    person = ShieldSettings(True, 3.0, 0.5, 0.3)
+    strategy = ShieldedStrategy(Walking(Intent(pi, 1.0)), person)
+    memory, body, velocity = strategy.begin(), 0.0, 0.0
+    for i in range(60):
+        known = Knowledge(
+            0.08 * i, 0.0, 5.0, limits,
+            pose_in_map=Pose(body, 0.0, 0.0), moving=True,
+        )  # fmt: skip
+        _, memory = strategy.decide(known, memory)
+        assert memory.template is not None
+        rest = body + 0.4 * velocity
+        assert memory.template.position[0] == pytest.approx(rest, abs=1e-9)
+        command = memory.command[0]
+        change = (1.0 - np.exp(-0.08 / 0.4)) * (command - velocity)
+        body += 0.08 * command - 0.4 * change
+        velocity += change
+    assert body < -0.2
+
+
+@pytest.mark.parametrize("side", [-1.0, 1.0])
+def test_heading_is_off_by_the_errors_of_both_ends_of_a_chord(
+    side: float,
+) -> None:
+    """Of a slow person, whose chord is short."""
+    person = ShieldSettings(True, 1.0, 1000.0, 0.3, sighting_error=0.02)
+    strategy, walked = ShieldedStrategy(StandStill(), person), 0.1
+    memory = strategy.begin()
+    for i, error in enumerate((-0.02, 0.02)):
+        x, y = 2.0 - walked * i, side * error
+        known = Knowledge(0.5 * i, atan2(y, x), hypot(x, y), WALK)
+        _, memory = strategy.decide(known, memory)
+    assert memory.course is not None
+    off = abs(wrap_angle(memory.course.heading - pi))
+    assert off == pytest.approx(atan2(0.04, walked))
+    assert memory.course.error >= off
+
+
+def test_window_of_a_heading_is_between_sightings() -> None:
+    """Decisions are a window apart, but the second sighting is old."""
+    strategy = ShieldedStrategy(StandStill(), PERSON)
+    for age, known in ((0.0, True), (0.3, False)):
+        memory = strategy.begin()
+        first = Knowledge(0.0, 0.0, 3.0, WALK)
+        second = Knowledge(0.5, 0.0, 2.99, WALK, age=age)
+        for knowledge in (first, second):
+            _, memory = strategy.decide(knowledge, memory)
+        assert memory.guarded == known
+
+
+@dataclass(frozen=True)
+class Walking:
+    """Evader that always decides the same.
+
+    Attributes:
+        intent: Its decision.
+    """
+
+    intent: Intent
+    direction: Direction = Direction.BACKWARD
+    saturated: bool = False
+
+    def begin(self) -> None:
+        """Return an empty memory."""
+
+    def decide(
+        self, knowledge: Knowledge, memory: None
+    ) -> tuple[Intent, None]:
+        """Return the decision."""
+        return self.intent, None
+
+
+def decides(
+    intent: Intent, pose: Array, *, moving: bool, stood: int
+) -> tuple[bool, ShieldTable]:
+    """Return whether a decision stands, and the table.
+
+    Args:
+        intent: Decision of the strategy.
+        pose: Pose of the robot in the frame of the person.
+        moving: Whether it walks.
+        stood: Windows for which the person has stood.
+    """
+    strategy = ShieldedStrategy(Walking(intent), PERSON)
+    memory: ShieldMemory = strategy.begin()
+    turned = Pose(0.3, -0.2, 0.7)  # of the person in the map
+    own = turned.compose(Pose(*pose.tolist()))
+    for i in range(-1, stood + 1):
+        walked = PERSON.speed * STEP * min(i, 0)
+        x = turned.x + walked * cos(turned.theta)
+        y = turned.y + walked * sin(turned.theta)
+        bearing = wrap_angle(atan2(y - own.y, x - own.x) - own.theta)
+        away = hypot(x - own.x, y - own.y)
+        known = Knowledge(
+            STEP * (i + 1), bearing, away, WALK, pose_in_map=own,
+            moving=moving,
+        )  # fmt: skip
+        decided, memory = strategy.decide(known, memory)
+    return decided == intent, strategy.model_for(known).table()
+
+
+def after_walks(pose: Array, duration: float) -> tuple[Array, float]:
+    """Return poses of a standing robot after walks, and the least distance."""
+    most = PERSON.speed / PERSON.turning_radius
+    twists = [
+        (share * PERSON.speed, 0.0, rate)
+        for share in (0.0, 0.5, 1.0)
+        for rate in (-most, -0.5 * most, 0.0, 0.5 * most, most)
+    ]
+    walks = sub_poses(twists, duration)
+    x, y = pose[0] - walks[:, :, 0], pose[1] - walks[:, :, 1]
+    turned = walks[:, -1, 2]
+    c, s = np.cos(turned), np.sin(turned)
+    later = np.stack(
+        [
+            c * x[:, -1] + s * y[:, -1],
+            c * y[:, -1] - s * x[:, -1],
+            pose[2] - turned,
+        ],
+        axis=1,
+    )
+    return later, float(np.hypot(x, y).min())
+
+
+def guaranteed(
+    table: ShieldTable, intent: Intent, poses: Array, *, moving: bool
+) -> float:
+    """Return what a decision leaves guaranteed, by docs/shield.md, in [m]."""
+    if intent.walks:
+        turn = 0.08 * intent.heading
+        twist = (-STRIDE * intent.speed_factor / STEP, 0.0, turn / STEP)
+        motion = sub_poses([twist], STEP)
+        follow = table.outcomes if moving else table.start_outcomes
+        return float(follow(poses, motion, STEP)[0])
+    if not moving:
+        return float(table.standing_value(poses).min())
+    # Less a stride and the loss of the time in which nothing is decided.
+    lost = STRIDE + walk_loss(PERSON, 2.0) * HALT / 2.0
+    found = []
+    for pose in poses:
+        later, least = after_walks(pose, HALT)
+        found += [least, table.standing_value(later).min()]
+    return float(min(found)) - lost
+
+
+def turned_to(pose: Array, spread: float) -> Array:
+    """Return a pose for three headings of the person. Shape (3, 3)."""
+    x, y, theta = pose
+    rows = []
+    for heading in (-spread, 0.0, spread):
+        c, s = cos(heading), sin(heading)
+        rows.append((c * x + s * y, c * y - s * x, theta - heading))
+    return np.array(rows)
+
+
+def uncertain(stood: int, unseen: float = 0.0) -> float:
+    """Return how far the heading may be off, in [rad].
+
+    Args:
+        stood: Windows for which the person has stood.
+        unseen: Time in which nothing is decided, in [s].
+    """
+    if not stood and not unseen:
+        return 0.0  # what is known of it is charged by the loss
+    turned = PERSON.speed / PERSON.turning_radius * (STEP * stood + unseen)
+    return heading_error(PERSON, STEP) + turned
+
+
+@pytest.mark.parametrize("stood", [0, 5])
+@pytest.mark.parametrize("moving", [False, True])
+@pytest.mark.parametrize("intent", [STAND, Intent(2.0, 0.8)])
+def test_decision_stands_where_the_required_distance_stays_guaranteed(
+    intent: Intent, moving: bool, stood: int
+) -> None:
+    """Against all headings that the person can have."""
+    halts = moving and not intent.walks
+    spread = uncertain(stood, HALT if halts else 0.0)
+    random, counts = np.random.default_rng(7), [0, 0]
+    required = walk_required(PERSON, 2.0)
+    for pose in random.uniform([-0.8, -0.9, -pi], [1.2, 0.9, pi], (150, 3)):
+        stands, table = decides(intent, pose, moving=moving, stood=stood)
+        poses = turned_to(pose, spread)
+        value = guaranteed(table, intent, poses, moving=moving)
+        if abs(value - required) > 0.002:
+            assert stands == (value > required)
+            counts[stands] += 1
+    assert min(counts) > 10
+
+
+def test_no_halt_where_only_a_person_who_does_not_turn_unseen_is_evaded() -> (
+    None
+):
+    random, required = np.random.default_rng(9), walk_required(PERSON, 2.0)
+    _, table = decides(STAND, np.array([2.0, 0.0, 0.0]), moving=True, stood=0)
+    spread, refused = uncertain(0, HALT), 0
+    for pose in random.uniform([0.3, 0.3, -pi], [0.9, 0.6, pi], (600, 3)):
+        seen, turned = (
+            guaranteed(table, STAND, turned_to(pose, each), moving=True)
+            for each in (0.0, spread)
+        )
+        if seen > required > turned + 0.001:
+            assert not decides(STAND, pose, moving=True, stood=0)[0]
+            refused += 1
+    assert refused > 2
+
+
+@pytest.mark.parametrize(
+    ("name", "least", "greatest"),
+    [("response", 1.0, 3.0), ("sighting_delay", 0.0, 2.0)],
+)
+def test_robot_must_start_earlier_by_the_way_of_the_person_meanwhile(
+    name: str, least: float, greatest: float
+) -> None:
+    """A robot that responds late, or acts on old sightings."""
+    begins = []
+    for value in (least, greatest):
+        person = replace(PERSON, **{name: value})
+        strategy = ShieldedStrategy(StandStill(), person)
+        for away in np.arange(1.2, 0.3, -0.01):
+            memory = strategy.begin()
+            for i in (-1, 0):
+                distance = away - person.speed * STEP * i
+                known = Knowledge(STEP * (i + 1), 0.0, distance, WALK)
+                intent, memory = strategy.decide(known, memory)
+            if intent.walks:
+                break
+        begins.append(away)
+    walked = PERSON.speed * (greatest - least)
+    assert begins[1] - begins[0] > walked - 0.02
