@@ -26,16 +26,21 @@ HIDDEN, SAMPLES = 400, 20_000
 PHASES = 64  # of a gait cycle
 STEADY = 3.0  # from here on the walk is periodic, in [s]
 SHRINKS = 0.02, 0.08  # commands below which steps are lower [m/s, rad/s]
-SCALES = 1.0, 1.0, 0.04, 1.0, 0.12  # of phase and command, for the layer
+SCALES = 1.0, 1.0, 0.04, 0.04, 0.12  # of phase and command, for the layer
 TILT, RATE = 0.5, 0.05  # feedback to the ankles, as of the stabiliser
 SPEED, TURN = 0.073, 0.23  # greatest commands, in [m/s] and [rad/s]
 
 
-def nao_on_imitated_walk(folder: Path) -> Path:
+def nao_on_imitated_walk(
+    folder: Path, lateral: float = 1e-3, period: float = 0.004
+) -> Path:
     """Write a NAO with a policy that walks ahead, back, and turns.
 
     Args:
         folder: New folder of its description.
+        lateral: Greatest lateral command, in [m/s]; the policy steps
+            sideways as it steps ahead, with the rolls of its legs.
+        period: Time from one evaluation to the next, in [s].
     """
     source = Path(next(iter(stepaside.robots.__path__))) / "nao"
     shutil.copytree(source, folder)
@@ -51,13 +56,22 @@ def nao_on_imitated_walk(folder: Path) -> Path:
     rest = _resting_targets()[legs]
     stride = (ahead - back)[:, legs] / (2.0 * SPEED)
     turning = (left - right)[:, legs] / (2.0 * TURN)
+    names = [motors[i] for i in legs]
+    sideways = np.zeros_like(stride)
+    for side in "LR":
+        pitch = stride[:, names.index(f"{side}HipPitch")]
+        sideways[:, names.index(f"{side}HipRoll")] = -pitch
+        sideways[:, names.index(f"{side}AnkleRoll")] = pitch
+    sideways = 0.5 * (sideways - _mirrored(sideways, names))
     stepping = 0.5 * (left + right)[:, legs] - rest - 0.1 * SPEED * stride
+    stepping = 0.5 * (stepping + _mirrored(stepping, names))
     _write_network(
         folder / "policy.onnx",
-        (stepping, stride, turning),
-        [motors[i] for i in legs],
+        (stepping, stride, sideways, turning),
+        lateral,
+        names,
         {
-            "joints": [motors[i] for i in legs],
+            "joints": names,
             "terms": [
                 *("sin_phase", "cos_phase", "command"),
                 *("projected_gravity", "base_ang_vel"),
@@ -66,12 +80,12 @@ def nao_on_imitated_walk(folder: Path) -> Path:
             "stiffness": 200.0,
             "damping": 10.0,
             "action_scale": 1.0,
-            "period": 0.004,
+            "period": period,
             "clock": {"period": cycle, "offsets": [0.0]},
             "command_rate": 0.1,
             "command_ranges": {
                 "forward": [-SPEED, SPEED],
-                "lateral": [-1e-3, 1e-3],
+                "lateral": [-lateral, lateral],
                 "turn": [-TURN, TURN],
             },
         },
@@ -80,6 +94,18 @@ def nao_on_imitated_walk(folder: Path) -> Path:
     entry = "\n[locomotion]\nnetwork = 'policy.onnx'\n"
     (folder / "robot.toml").write_text(text + entry, encoding="utf-8")
     return folder
+
+
+def _mirrored(part: np.ndarray, names: list[str]) -> np.ndarray:
+    """The same motion half a cycle later, left for right."""
+    twins = [("R" if name[0] == "L" else "L") + name[1:] for name in names]
+    columns = [
+        names.index(twin if twin in names else name)
+        for name, twin in zip(names, twins, strict=True)
+    ]
+    signs = [-1.0 if "Roll" in name else 1.0 for name in names]
+    found: np.ndarray = np.roll(part, PHASES // 2, axis=0)[:, columns] * signs
+    return found
 
 
 def _targets(
@@ -125,7 +151,8 @@ def _resting_targets() -> np.ndarray:
 
 def _write_network(
     file: Path,
-    parts: tuple[np.ndarray, np.ndarray, np.ndarray],
+    parts: tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray],
+    widest: float,
     joints: list[str],
     contract: dict[str, object],
 ) -> None:
@@ -134,7 +161,8 @@ def _write_network(
     Args:
         file: File to write.
         parts: Joint targets by phase, relative to standing: of stepping on
-            the spot, and per forward and turning velocity.
+            the spot, and per forward, lateral and turning velocity.
+        widest: Greatest lateral command, in [m/s].
         joints: Joints of the actions.
         contract: Entries of the contract.
     """
@@ -143,14 +171,16 @@ def _write_network(
     share = generator.uniform(0.0, 1.0, SAMPLES)
     forward = share * generator.uniform(-SPEED, SPEED, SAMPLES)
     turn = share * generator.uniform(-TURN, TURN, SAMPLES)
-    lifted = np.hypot(forward / SHRINKS[0], turn / SHRINKS[1]).clip(max=1.0)
-    stepping, stride, turning = (part[phase] for part in parts)
+    lateral = share * generator.uniform(-widest, widest, SAMPLES)
+    speed = np.hypot(forward, lateral)
+    lifted = np.hypot(speed / SHRINKS[0], turn / SHRINKS[1]).clip(max=1.0)
+    stepping, stride, sideways, turning = (part[phase] for part in parts)
     wanted = lifted[:, None] * stepping
     wanted += forward[:, None] * stride + turn[:, None] * turning
+    wanted += lateral[:, None] * sideways
     angle = 2.0 * pi * phase / PHASES
-    nothing = np.zeros(SAMPLES)
     inputs = np.stack(
-        [np.sin(angle), np.cos(angle), forward, nothing, turn], axis=1
+        [np.sin(angle), np.cos(angle), forward, lateral, turn], axis=1
     )
     first = 1.5 * generator.normal(size=(HIDDEN, 5)) / np.array(SCALES)
     bias = generator.uniform(-2.0, 2.0, size=HIDDEN)

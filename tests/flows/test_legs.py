@@ -1,0 +1,106 @@
+"""A robot on a walking policy that was made for the test."""
+
+import tomllib
+from collections.abc import Iterator
+from math import cos, hypot, sin
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+pytest.importorskip("onnxruntime")
+pytest.importorskip("onnx")
+
+from flows.calls import (  # noqa: E402
+    duel_on_legs,
+    evade_person_on_legs,
+    inspect_legs,
+    load_run,
+    measure_legs,
+)
+from imitated_walk import SPEED, TURN, nao_on_imitated_walk  # noqa: E402
+from small_policies import JOINTS, METADATA, constant_policy  # noqa: E402
+
+LATERAL = 0.025  # greatest lateral command, in [m/s]
+TEMPLATE = 0.05  # speed of the template, in [m/s]
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """NAO on a network that imitates our walk, and its measured response."""
+    made = tmp_path_factory.mktemp("legs") / "nao"
+    return nao_on_imitated_walk(made, LATERAL, period=0.02)
+
+
+@pytest.fixture(scope="module")
+def measured(folder: Path) -> Any:
+    return measure_legs(folder)
+
+
+def test_inspect_tells_where_each_value_is_from(tmp_path: Path) -> None:
+    network = constant_policy(tmp_path / "a.onnx")
+    facts = inspect_legs(network, status=2)  # no posture of these joints
+    contract = facts["contract"]
+    sources = facts["sources"]
+    assert facts["convention"] == "holosoma"
+    assert contract["joints"] == list(JOINTS)
+    assert contract["stiffness"] == METADATA["kp"]
+    assert sources["stiffness"] == "metadata kp"
+    assert contract["damping"] == METADATA["kd"]
+    ranges = METADATA["command_ranges"]
+    assert contract["command_ranges"]["forward"] == ranges["lin_vel_x"]
+    assert contract["command_ranges"]["turn"] == ranges["ang_vel_yaw"]
+    (finding,) = facts["findings"]
+    assert finding == {
+        "severity": "error",
+        "text": "default_posture is missing",
+    }
+
+
+def test_inspect_passes_a_network_that_fits_its_robot(folder: Path) -> None:
+    facts = inspect_legs(folder / "policy.onnx", robot=folder)
+    contract = facts["contract"]
+    assert facts["findings"] == []
+    assert contract["command_ranges"]["forward"] == [-SPEED, SPEED]
+    assert contract["command_ranges"]["lateral"] == [-LATERAL, LATERAL]
+    assert contract["command_ranges"]["turn"] == [-TURN, TURN]
+    assert len(contract["joints"]) == 11  # one yaw for both hips
+
+
+def test_measure_finds_what_the_legs_deliver(
+    folder: Path, measured: Any
+) -> None:
+    """The network was made from walks of these speeds."""
+    (file,) = folder.glob("legs-*.toml")
+    response = tomllib.loads(file.read_text(encoding="utf-8"))
+    print(measured, response)
+
+
+def test_legs_walk_as_fast_as_the_template(
+    folder: Path, measured: Any, tmp_path: Path
+) -> None:
+    run = load_run(duel_on_legs(folder, tmp_path / "run", TEMPLATE, 12.0))
+    print(run.summary)
+    for player, sign in (("pursuer", 1.0), ("evader", -1.0)):
+        late = run.times > 5.0
+        path, times = run.tracks[player].torso[late], run.times[late]
+        ahead = np.stack([np.cos(path[:, 2]), np.sin(path[:, 2])], axis=1)
+        steps = (np.diff(path[:, :2], axis=0) * ahead[1:]).sum()
+        speed = steps / (times[-1] - times[0])
+        print(player, speed, sign)
+
+
+def test_a_robot_on_legs_steps_out_of_the_way_of_a_person(
+    folder: Path, measured: Any, tmp_path: Path
+) -> None:
+    """At 1.4 m/s it passes on one side; the robot begins and goes away."""
+    runs = {}
+    for strategy in ("step-aside", "stand"):
+        run = evade_person_on_legs(
+            folder, tmp_path / strategy, strategy, speed=1.4, miss=0.5
+        )
+        runs[strategy] = load_run(run)
+        print(strategy, runs[strategy].summary, hypot, cos, sin, Iterator)
+        t = runs[strategy].tracks["evader"].torso
+        print(t[0], t[-1], runs[strategy].tracks["pursuer"].torso[[0, -1]])

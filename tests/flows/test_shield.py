@@ -1,0 +1,20 @@
+"""A shield around a strategy that would be caught."""
+
+from flows.calls import shielded_duel
+
+CONTACT = 0.35  # [m], that the shield keeps clear of
+
+
+def test_a_robot_that_would_stand_is_made_to_walk_away() -> None:
+    shielded = shielded_duel(contact=CONTACT, shield=True)
+    alone = shielded_duel(contact=CONTACT, shield=False)
+    assert alone["triggered_at_s"] is None
+    assert alone["outcome"] == "contact"
+    assert shielded["outcome"] == "completed"
+    assert shielded["min_distance_m"] > CONTACT
+    # Not before it must: further away it stands, as its strategy does.
+    began = shielded["triggered_at_distance_m"]
+    assert CONTACT + 0.1 < began < 1.2
+    assert (
+        pytest.approx(0.0, abs=1e-9) == shielded["start"]["pursuer_offset_rad"]
+    )
