@@ -22,7 +22,7 @@ from flows.calls import (  # noqa: E402
 from imitated_walk import SPEED, TURN, nao_on_imitated_walk  # noqa: E402
 from small_policies import JOINTS, METADATA, constant_policy  # noqa: E402
 
-LATERAL = 0.025  # greatest lateral command, in [m/s]
+LATERAL = 0.05  # greatest lateral command, in [m/s]
 TEMPLATE = 0.05  # speed of the template, in [m/s]
 
 
@@ -74,21 +74,32 @@ def test_measure_finds_what_the_legs_deliver(
     """The network was made from walks of these speeds."""
     (file,) = folder.glob("legs-*.toml")
     response = tomllib.loads(file.read_text(encoding="utf-8"))
-    print(measured, response)
+    assert measured["falls"] == 0 and 0.0 < response["tube"] < 0.1
+    for axis, column, exact in (("forward", 0, 0.06), ("turn", 2, 0.18)):
+        commands = np.array(response[axis]["commands"])
+        delivered = np.array(response[axis]["delivered"])[:, column]
+        small = np.abs(commands) < exact
+        assert small.sum() >= 5
+        np.testing.assert_allclose(
+            delivered[small], commands[small], atol=0.08 * exact
+        )
+        assert 0.0 < response[axis]["lag"] < 2.0
+    commands = np.array(response["lateral"]["commands"])
+    delivered = np.array(response["lateral"]["delivered"])[:, 1]
+    np.testing.assert_allclose(delivered, commands, atol=0.02)
 
 
 def test_legs_walk_as_fast_as_the_template(
     folder: Path, measured: Any, tmp_path: Path
 ) -> None:
     run = load_run(duel_on_legs(folder, tmp_path / "run", TEMPLATE, 12.0))
-    print(run.summary)
     for player, sign in (("pursuer", 1.0), ("evader", -1.0)):
         late = run.times > 5.0
         path, times = run.tracks[player].torso[late], run.times[late]
         ahead = np.stack([np.cos(path[:, 2]), np.sin(path[:, 2])], axis=1)
-        steps = (np.diff(path[:, :2], axis=0) * ahead[1:]).sum()
-        speed = steps / (times[-1] - times[0])
-        print(player, speed, sign)
+        way = (np.diff(path[:, :2], axis=0) * ahead[1:]).sum()
+        speed = way / (times[-1] - times[0])
+        assert speed == pytest.approx(sign * TEMPLATE, rel=0.1), player
 
 
 def test_a_robot_on_legs_steps_out_of_the_way_of_a_person(
