@@ -134,7 +134,7 @@ class Ros2Robot:
         self.pose = (0.0, 0.0, 0.0)
         self.velocity = (0.0, 0.0)
         self.frozen = False  # its sensors
-        self.commands = 0
+        self.told: list[tuple[float, float, float]] = []  # its poses
         self._ends = Event()
         self._thread = Thread(target=self._run, daemon=True)
         self._thread.start()
@@ -150,7 +150,6 @@ class Ros2Robot:
         while not self._ends.wait(0.5 * PERIOD):
             for message in self._commands.take(10):
                 if isinstance(message, kind("geometry_msgs/msg/Twist")):
-                    self.commands += 1
                     self.velocity = (message.linear.x, message.angular.z)
             now = monotonic()
             self._move(now - last)
@@ -172,6 +171,7 @@ class Ros2Robot:
         )
 
     def _tell(self, stamp: float, pose: tuple[float, float, float]) -> None:
+        self.told.append(pose)
         x, y, heading = pose
         own = header(stamp, "odom")
         point = make("geometry_msgs/Point", x, y, 0.0)

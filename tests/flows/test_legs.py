@@ -1,8 +1,7 @@
 """A robot on a walking policy that was made for the test."""
 
 import tomllib
-from collections.abc import Iterator
-from math import cos, hypot, sin
+from math import hypot, sqrt
 from pathlib import Path
 from typing import Any
 
@@ -112,6 +111,13 @@ def test_a_robot_on_legs_steps_out_of_the_way_of_a_person(
             folder, tmp_path / strategy, strategy, speed=1.4, miss=0.5
         )
         runs[strategy] = load_run(run)
-        print(strategy, runs[strategy].summary, hypot, cos, sin, Iterator)
-        t = runs[strategy].tracks["evader"].torso
-        print(t[0], t[-1], runs[strategy].tracks["pursuer"].torso[[0, -1]])
+    miss, speed = 0.5, 1.4
+    aside, stood = runs["step-aside"], runs["stand"]
+    # It begins 1.8 s before the person is within 0.8 m.
+    ahead = sqrt(0.8**2 - miss**2) + 1.8 * speed
+    began = aside.summary.triggered_at_distance_m
+    assert began == pytest.approx(hypot(ahead, miss), abs=0.2)
+    assert stood.summary.min_distance_m == pytest.approx(miss, abs=0.03)
+    assert aside.summary.min_distance_m > miss + 0.05
+    first, *_, last = aside.tracks["evader"].torso
+    assert (last - first)[1] < -0.03  # the person passes at positive y
