@@ -3,17 +3,12 @@
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from stepaside.games.trajectory import Trajectory
 from stepaside.report import figure_style as style
 from stepaside.report import people_figure, value_function_figure
-from stepaside.report.film_settings import FilmSettings
-from stepaside.report.film_strip import legend_entries
 from stepaside.theory.bound import Bound, Grid, solve_bound, two_car_game
-from synthetic_run import run_of
 
 
 @pytest.fixture
@@ -59,23 +54,6 @@ def test_people_have_their_ring_speeds_and_touches_named(
     title = kept[0].axes[0].get_title()
     assert "[m]" in title and "cameras" in title and "ahead" in title
     style.plt.close("all")
-
-
-def test_pictures_of_a_strip_have_every_line_named() -> None:
-    times = np.linspace(0.0, 3.0, 31)
-    tracks = {}
-    for name, x in (("pursuer", 0.0), ("evader", 1.0)):
-        torso = np.tile([x, 0.0, 0.0], (31, 1))
-        tracks[name] = Trajectory(com=torso.copy(), torso=torso)
-    run = run_of(times, tracks)
-    _, names = legend_entries(run, FilmSettings())
-    assert names == [
-        "path of the pursuer",
-        "path of the evader",
-        "ring: safety radius of the evader, 0.8 m",
-        "line of sight",
-    ]
-    assert len(legend_entries(run, FilmSettings(layers=False))[1]) == 2
 
 
 def test_the_bound_s_lines_are_named(kept: list[Figure], bound: Bound) -> None:
