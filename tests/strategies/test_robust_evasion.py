@@ -94,7 +94,8 @@ class World:
 
 def states(number: int, nearest: float) -> list[tuple[float, ...]]:
     """Return free states in the room of :class:`World`."""
-    random, found = np.random.default_rng(1), []
+    random = np.random.default_rng(1)
+    found: list[tuple[float, ...]] = []
     walls = World().known((0.0, 0.0, 0.0, 0.0, 1.0), walks=False)
     while len(found) < number:
         low = [-1.2, -1.2, -pi, -pi, nearest]
@@ -126,7 +127,8 @@ def test_plans_keep_a_margin_to_walls(walks: bool, least: float) -> None:
     for state in states(60, 0.4):
         known = World().known(state, walks=walks)
         _, memory = evader.decide(known, RobustMemory())
-        pose, points = tuple(known.pose_in_map), []
+        x, y, theta = known.pose_in_map
+        pose, points = (x, y, theta), []
         for turn, speed in memory.moves:
             pose = arc_end(pose, -0.04 * speed, turn)
             points.append(pose[:2])

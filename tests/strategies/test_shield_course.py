@@ -57,19 +57,6 @@ def test_observed_heading_turns_as_a_person_and_stays_near_it(
             assert moved <= TURN * WINDOW + 1e-9
 
 
-def test_heading_of_a_person_who_stands_is_less_and_less_known() -> None:
-    trace: Trace = ((0.0, 0.0, 0.0), (0.5, 0.5, 0.0))
-    course = observe(None, trace)
-    for i in range(2, 20):
-        trace = (*trace[-3:], (0.5 * i, 0.5, 0.0))
-        course = observe(course, trace)
-    assert course is not None and course.error > 10.0 * KNOWN
-    headings = course.headings(KNOWN)
-    assert len(headings) % 2 == 1 and len(headings) > 3
-    assert headings[0] == pytest.approx(course.heading - course.error)
-    assert headings[-1] == pytest.approx(course.heading + course.error)
-
-
 def test_heading_is_known_after_a_time_without_sightings() -> None:
     """A robot that halts sees nothing: the person may have turned."""
     before = Course(1.0, 0.4, 0.1)

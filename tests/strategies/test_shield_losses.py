@@ -5,6 +5,7 @@ What is charged is computed here, by the formulas of that page.
 
 from dataclasses import dataclass, replace
 from math import asin, atan2, cos, hypot, pi, sin
+from typing import Any
 
 import numpy as np
 import pytest
@@ -71,7 +72,7 @@ def walk_required(person: ShieldSettings, period: float) -> float:
     ],
 )
 def test_required_distance_of_the_papers_walk(
-    changes: dict[str, float],
+    changes: dict[str, Any],
 ) -> None:
     person = replace(PERSON, **changes)
     shield = ShieldedStrategy(StandStill(), person)
@@ -349,7 +350,8 @@ def test_robot_must_start_earlier_by_the_way_of_the_person_meanwhile(
     """A robot that responds late, or acts on old sightings."""
     begins = []
     for value in (least, greatest):
-        person = replace(PERSON, **{name: value})
+        changes: dict[str, Any] = {name: value}
+        person = replace(PERSON, **changes)
         strategy = ShieldedStrategy(StandStill(), person)
         for away in np.arange(1.2, 0.3, -0.01):
             memory = strategy.begin()

@@ -11,13 +11,11 @@ from stepaside.core.poses import Array
 from stepaside.theory.chauffeur.chauffeur_game import guaranteed_distance
 from stepaside.theory.shield import (
     PersonModel,
-    PoseGrid,
     ShieldGame,
     ShieldTable,
     solve_shield,
     sub_poses,
 )
-from stepaside.theory.shield.shield_erosion import eroded_values
 
 SPEED = 0.6  # of the robot, by that of the person
 PERIOD = 0.25  # in turning radii per speed of the person
@@ -190,17 +188,6 @@ def test_values_hold_against_every_walk_and_displacement() -> None:
         check("halt", table.halting_value(pose, 0.6, 0.1), value, way)
     for name, each in excess.items():
         assert max(each) < cells[name] * table.grid.spacing, name
-
-
-def test_erosion_lowers_a_slope_by_the_loss() -> None:
-    grid = PoseGrid(0.0, 0.1, (20, 20, 8))
-    x, y, _ = grid.axes()
-    slope = np.repeat((x[:, None] + 2.0 * y)[:, :, None], 8, axis=2)
-    eroded = eroded_values(slope, grid, 0.25)
-    lowered = (slope - eroded)[5:-5, 5:-5]
-    least = 0.25 * np.hypot(1.0, 2.0)
-    assert (lowered >= least - 1e-9).all()
-    assert (lowered <= least / np.cos(pi / 8) + 1e-9).all()
 
 
 @pytest.mark.parametrize("least", [0.0, -0.2, float("nan")])
