@@ -143,7 +143,11 @@ def play_own(
 ) -> subprocess.Popen[str]:
     """Start to control a robot by FILE.py:CLASS."""
     options: list[object] = ["--role", role]
-    given = {"speed": speed, "gain": gain, "duration": duration}
+    given: dict[str, object] = {
+        "speed": speed,
+        "gain": gain,
+        "duration": duration,
+    }
     given |= {"record": record, "dead-man": dead_man or None}
     for name, value in given.items():
         if value is not None:

@@ -47,7 +47,7 @@ def test_a_robot_on_ros2_walks_as_the_laws_say_and_is_recorded(
     from flows.ros2_peer import DOMAIN, Ros2Robot
 
     robot, folder = Ros2Robot("/walker", OPPONENT), tmp_path / "run"
-    template = {"speed": SPEED, "gain": GAIN, "domain": DOMAIN}
+    template: dict[str, Any] = {"speed": SPEED, "gain": GAIN, "domain": DOMAIN}
     play = start(play_ros2("/walker", duration=3.0, record=folder, **template))
     command = (-SPEED, GAIN * EVASION)
     try:
@@ -233,7 +233,7 @@ def test_a_served_robot_is_held_by_its_client_on_lola(
     serve = start(serve_lola(tmp_path / "e", duration=2.0))
     client = LolaClient(tmp_path / "e")
     stance: list[float] = []
-    frames = []
+    frames: list[dict[str, Any]] = []
     while (frame := client.read()) is not None:
         assert frame["Battery"][3] == len(frames)
         frames.append(frame)

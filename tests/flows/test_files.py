@@ -92,7 +92,8 @@ def axes(quaternions: np.ndarray) -> np.ndarray:
 
 def integral(values: np.ndarray, times: np.ndarray) -> np.ndarray:
     middles = 0.5 * (values[1:] + values[:-1])
-    return (middles * np.diff(times)[:, None]).sum(axis=0)
+    found: np.ndarray = (middles * np.diff(times)[:, None]).sum(axis=0)
+    return found
 
 
 @pytest.mark.parametrize("player", PLAYERS)

@@ -37,6 +37,9 @@ def measured(folder: Path) -> Any:
     return measure_legs(folder)
 
 
+CONTRACT: Any = METADATA
+
+
 def test_inspect_tells_where_each_value_is_from(tmp_path: Path) -> None:
     network = constant_policy(tmp_path / "a.onnx")
     facts = inspect_legs(network, status=2)  # no posture of these joints
@@ -47,7 +50,7 @@ def test_inspect_tells_where_each_value_is_from(tmp_path: Path) -> None:
     assert contract["stiffness"] == METADATA["kp"]
     assert sources["stiffness"] == "metadata kp"
     assert contract["damping"] == METADATA["kd"]
-    ranges = METADATA["command_ranges"]
+    ranges = CONTRACT["command_ranges"]
     assert contract["command_ranges"]["forward"] == ranges["lin_vel_x"]
     assert contract["command_ranges"]["turn"] == ranges["ang_vel_yaw"]
     (finding,) = facts["findings"]
