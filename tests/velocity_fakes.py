@@ -1,13 +1,12 @@
 """Fake robots that follow velocity commands."""
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from math import cos, sin
 from time import monotonic, sleep
 from typing import Any
 
 from stepaside.core.poses import Pose
 from stepaside.drivers.guardian_process import SessionLost
-from stepaside.drivers.velocity.footstep_commands import FootCommand
 from stepaside.drivers.velocity.velocity_body import (
     REST,
     VelocityCommand,
@@ -15,7 +14,6 @@ from stepaside.drivers.velocity.velocity_body import (
 )
 from stepaside.drivers.velocity.walking_robot import WalkerState
 from stepaside.perception.measurement import Sighting
-from stepaside.planning import Foot
 
 LONGEST = 200.0  # for what takes milliseconds, in [s]
 PERIOD = 0.05  # between reports, in [s]
@@ -78,22 +76,10 @@ class SimulatedUnicycle:
         self.pose = Pose(0.0, 0.0, 0.0)
         self.velocity = self.commanded = REST
         self.sighting: Sighting | None = None
-        self.head: dict[str, float] = {}
-        self.leads: list[Foot] = []
-        self.step: FootCommand | None = None
-        self.steps = 0
 
     def command(self, velocity: VelocityCommand) -> None:
         """Store the command."""
         self.commanded = velocity
-
-    def look(self, angles: Mapping[str, float]) -> None:
-        """Note where it is to look."""
-        self.head |= angles
-
-    def lead_with(self, foot: Foot) -> None:
-        """Note its first foot."""
-        self.leads.append(foot)
 
     def state(self) -> WalkerState:
         """Return the state now."""
@@ -103,8 +89,6 @@ class SimulatedUnicycle:
             self.velocity,
             [0.1, 0.2],
             self.sighting,
-            step=self.step,
-            steps=self.steps,
         )
 
     def move(self, velocity: VelocityCommand, passed: float) -> None:

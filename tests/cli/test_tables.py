@@ -121,15 +121,6 @@ def test_bare_command_prints_help() -> None:
     assert len(bare.stdout.splitlines()) > len(COMMANDS)
 
 
-@pytest.mark.parametrize("command", ["play", "serve"])
-def test_help_names_every_interface_alike(command: str) -> None:
-    help_ = CliRunner().invoke(main, [command, "--help"]).stdout
-    first = help_.partition("Options:")[0]
-    for text in (COMMANDS[command], first):
-        for language in ("LoLA", "NAOqi", "ROS 2"):
-            assert language in text
-
-
 def test_readme_names_every_extra() -> None:
     import tomllib
 

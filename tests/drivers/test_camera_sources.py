@@ -56,7 +56,7 @@ def test_a_film_stands_for_a_camera(tmp_path: Path) -> None:
         writer.write(cv2.cvtColor(HALVES, cv2.COLOR_RGB2BGR))
     writer.release()
     camera = open_v4l2(film, MODEL, latency=0.03)
-    (image,) = until(lambda: camera.percepts(0, 5.0, 0.012))
+    (image,) = until(lambda: camera.percepts(5.0))
     check(image, 25.0)
     assert 4.0 < image.time <= 5.0 - 0.03
     camera.close()
@@ -83,11 +83,11 @@ def test_only_the_newest_recent_image_is_returned() -> None:
     )
     until(lambda: gone)
     clock[0] += 0.1
-    (image,) = camera.percepts(3, 2.0, 0.012)
+    (image,) = camera.percepts(2.0)
     assert isinstance(image, ColourImage)
     np.testing.assert_array_equal(image.pixels, HALVES + 1)
     assert image.time == pytest.approx(1.85)
-    assert camera.percepts(4, 2.0, 0.012) == []
+    assert camera.percepts(2.0) == []
     camera.close()
 
 
@@ -95,34 +95,6 @@ def test_scaled_optics_see_as_far() -> None:
     half = resize_model(MODEL, 160, 120)
     np.testing.assert_allclose(half.ray(0.0, 0.0), MODEL.ray(0.0, 0.0))
     assert resize_model(MODEL, 320, 240) is MODEL
-
-
-def test_a_naoqi_robot_offers_its_camera_images() -> None:
-    pytest.importorskip("qi")
-    from stepaside.drivers.naoqi.naoqi_server import NaoqiServer
-    from stepaside.drivers.naoqi.video_client import open_video
-    from stepaside.drivers.velocity.velocity_body import VelocityCommand
-
-    walker = Seer()
-    url = "tcp://127.0.0.1:0"
-    server = NaoqiServer(
-        url, walker, ["a", "b"], VelocityCommand(1, 1), tick=0.012
-    )
-    camera = open_video(server.url, MODEL, rate=15.0, latency=0.05)
-    try:
-        sleep(0.05)
-        assert camera.percepts(0, 0.0, 0.012) == []  # none was taken yet
-        walker.image = ColourImage(1.25, MODEL, HALVES)
-        server.speak()
-        (image,) = until(lambda: camera.percepts(0, 3.0, 0.012))
-        check(image, 0.0)
-        sleep(0.05)
-        assert camera.percepts(1, 3.0, 0.012) == []  # it is the same one
-    finally:
-        camera.close()
-        server.close()
-    with pytest.raises(SessionLost):
-        open_video("tcp://127.0.0.1:1", MODEL, rate=15.0, latency=0.0)
 
 
 @pytest.mark.parametrize("squeezed", [False, True])
@@ -146,7 +118,7 @@ def test_a_ros2_robot_publishes_its_camera_images(squeezed: bool) -> None:
         walker.time += 0.012
         walker.image = ColourImage(walker.time, MODEL, HALVES)
         server.speak()
-        images = camera.percepts(0, 2.0, 0.012)
+        images = camera.percepts(2.0)
         return [i for i in images if i.camera.focal_x == 136.0]  # type: ignore[union-attr]
 
     try:

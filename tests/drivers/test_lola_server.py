@@ -287,7 +287,7 @@ def test_a_file_is_not_taken_for_a_socket(address: LolaAddress) -> None:
 
 
 @pytest.mark.parametrize(
-    "suffix", ["", ".new", ".ideal-sight", ".ideal-sight.new", ".cameras"]
+    "suffix", ["", ".new", ".ideal-sight", ".ideal-sight.new"]
 )
 @pytest.mark.parametrize("kind", ["file", "link", "lost link", "datagrams"])
 def test_files_of_others_are_not_removed_or_replaced(
@@ -306,7 +306,7 @@ def test_files_of_others_are_not_removed_or_replaced(
             aim.write_text("mine")
     before = theirs.lstat().st_ino
     try:
-        LolaServer(address, MadeUpRobot(), JOINTS, cameras=True).close()
+        LolaServer(address, MadeUpRobot(), JOINTS).close()
     except ConfigurationError as error:
         assert address.path in str(error)
     assert theirs.lstat().st_ino == before

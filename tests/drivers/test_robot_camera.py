@@ -166,7 +166,7 @@ def test_a_joint_robot_times_its_images_by_control() -> None:
     deadline = monotonic() + SLACK
     found: list[Percept] = []
     while not found:
-        found = camera.percepts(75, 1.5, 0.02)
+        found = camera.percepts(1.5)
         assert monotonic() < deadline
     (seen,) = found
     assert isinstance(seen, ColourImage)
@@ -182,7 +182,7 @@ class Film:
             ColourImage(4.9, CameraModel(160, 120, 140.0, 141.0), PIXELS)
         ]
 
-    def percepts(self, frame: int, now: float, tick: float) -> list[Percept]:
+    def percepts(self, now: float) -> list[Percept]:
         """The image, once."""
         left, self.left = self.left, []
         return left

@@ -171,7 +171,7 @@ def test_an_image_is_of_where_the_robot_was_when_it_was_taken(
             x, y, theta = where(now)
             return VelocityReport(now, Pose(x, y, wrap_angle(theta)))
 
-        def percepts(self, frame: int, now: float, tick: float) -> list[Any]:
+        def percepts(self, now: float) -> list[Any]:
             return [Image(now - late)] if now > late else []
 
         def command(self, velocity: VelocityCommand) -> None:

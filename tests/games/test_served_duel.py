@@ -14,7 +14,6 @@ from stepaside.drivers.joint.joint_body import JointBody
 from stepaside.drivers.joint.joint_loop import JointLoop, JointTick
 from stepaside.drivers.joint.safety_state_machine import RobotState
 from stepaside.drivers.joint.session_options import SessionOptions
-from stepaside.drivers.lola.camera_socket import CameraClient
 from stepaside.drivers.lola.lola_address import LolaAddress
 from stepaside.drivers.lola.lola_connection import open_lola
 from stepaside.drivers.scheme_factory import control_scheme_factory
@@ -30,7 +29,6 @@ from stepaside.report.run_folder import write_run
 from stepaside.report.scene import RunScene
 from stepaside.robots.description import load_robot
 from stepaside.sim.body_settings import BODIES
-from stepaside.sim.camera_settings import CameraSettings, ColourSettings
 from stepaside.strategies import Evasion, Pursuit, Strategy
 from synthetic_run import check_same
 
@@ -41,22 +39,14 @@ def client(
     address: LolaAddress,
     strategy: Strategy,
     ticks: list[JointTick],
-    sees_as: str | None,
 ) -> None:
     """Play one player until its robot disconnects."""
-
-    def open_eyes() -> CameraClient:
-        assert address.cameras is not None
-        return CameraClient(address.cameras)
 
     def open_body(scheme: object) -> JointBody:
         kinematics = scheme.kinematics  # type: ignore[attr-defined]
         targets = scheme.joint_targets  # type: ignore[attr-defined]
         return open_lola(
-            address,
-            kinematics.joint_names,
-            targets,
-            SessionOptions(open_eyes=None if sees_as is None else open_eyes),
+            address, kinematics.joint_names, targets, SessionOptions()
         )
 
     make = control_scheme_factory(
@@ -64,7 +54,6 @@ def client(
         GaitSettings(),
         FEEDBACK,
         tick=0.012,
-        sees_as=sees_as,
     )
     while not Path(address.path).exists():
         pass  # the world is being built
@@ -78,7 +67,7 @@ def client(
 
 @contextmanager
 def clients(
-    folder: Path, *, see: bool = False
+    folder: Path,
 ) -> Iterator[tuple[dict[str, LolaAddress], list[JointTick]]]:
     addresses = {
         name: LolaAddress(path=str(folder / name))
@@ -87,10 +76,7 @@ def clients(
     roles = {"pursuer": Pursuit(), "evader": Evasion()}
     ticks: list[JointTick] = []
     threads = [
-        Thread(
-            target=client,
-            args=(addresses[n], roles[n], ticks, n if see else None),
-        )
+        Thread(target=client, args=(addresses[n], roles[n], ticks))
         for n in addresses
     ]
     for thread in threads:
@@ -131,32 +117,6 @@ def test_in_lock_step_the_duel_is_the_one_played_in_one_process(
     walked = [t for t in ticks if t.state is RobotState.WALKING]
     assert max(t.measurement.time for t in walked) >= 249 * 0.012 - 1e-9
     assert not any(Path(a.path).exists() for a in addresses.values())
-
-
-def test_with_cameras_a_served_duel_is_the_one_played_in_one_process(
-    tmp_path: Path,
-) -> None:
-    """Each image travels with the frame that it belongs to."""
-    pytest.importorskip("cv2")
-    settings = DuelSettings(
-        seed=7,
-        duration=1.5,
-        start=StartSettings(0.75, 0.2, 0.1),
-        body=BODIES["delayed"],
-        control=FEEDBACK,
-        sensing="cameras",
-        cameras=CameraSettings(colour=ColourSettings(renderer="raycast")),
-    )
-    with clients(tmp_path, see=True) as (addresses, ticks):
-        endpoints = {name: LolaEndpoint(a) for name, a in addresses.items()}
-        over = serve_duel(settings, endpoints, lock_step=True)
-    played = run_duel(settings)
-    for name, track in over.run.tracks.items():
-        found, wanted = track.qpos, played.tracks[name].qpos
-        assert found is not None and wanted is not None
-        np.testing.assert_allclose(found, wanted, atol=2e-3)
-    seen = [t for t in ticks if t.sighting is not None]
-    assert len(seen) > 100
 
 
 def check_record(served: DuelRun, played: DuelRun, folder: Path) -> None:

@@ -11,7 +11,6 @@ if TYPE_CHECKING:
     from ..drivers.cameras.robot_camera import PosedCamera
     from ..drivers.joint.adapter_link import AdapterLink
     from ..drivers.joint.joint_robot import JointRobot
-    from ..drivers.lola.lola_address import LolaAddress
     from ..drivers.velocity.velocity_body import VelocityBody
     from ..drivers.velocity.velocity_robot import VelocityRobot
     from ..games.duel_settings import DuelSettings
@@ -21,14 +20,12 @@ V4L2, NAOQI, ROS2 = "v4l2:", "naoqi:", "ros2:"
 
 def open_cameras(
     settings: "DuelSettings",
-    robot: "LolaAddress | None",
     connection: ConnectionSettings,
 ) -> "ImageSource":
     """Open the camera that supplies images of the opponent.
 
     Args:
         settings: Settings with optics and latency of the camera.
-        robot: LoLA address of the robot; None for other interfaces.
         connection: Connection to the robot.
 
     Raises:
@@ -39,7 +36,7 @@ def open_cameras(
     model = colour.model()
     latency = colour.latency + settings.cameras.added_latency
     if camera is None:
-        return _simulated_camera(robot)
+        raise click.UsageError("--sensing cameras requires --images")
     if camera.startswith(V4L2):
         from ..drivers.cameras.v4l2 import open_v4l2
 
@@ -93,11 +90,10 @@ def open_camera_body(
         dry_run=dry_run,
         joint_names=perception.poses.kinematics.forward.tree.motors,
         head=(head.yaw, head.pitch),
-        make_mover=connection.mover_factory(settings),
     )
     connection = connection.with_images(url)
     try:
-        camera = open_cameras(settings, None, connection)
+        camera = open_cameras(settings, connection)
     except BaseException:
         body.close()
         raise
@@ -134,7 +130,7 @@ def open_seeing_robot(
             camera = RobotCamera(robot, needs_mount=True)
         else:
             assert make.camera is not None  # as checked
-            source = open_cameras(settings, None, connection)
+            source = open_cameras(settings, connection)
             camera = MountedCamera(source, make.camera)
     except BaseException:
         body.close()
@@ -206,15 +202,4 @@ def open_joint_camera(
     """
     if connection.images is None:
         return link.open_camera()
-    return open_cameras(settings, None, connection)
-
-
-def _simulated_camera(robot: "LolaAddress | None") -> "ImageSource":
-    """Return the camera channel next to the socket of a simulated robot."""
-    from ..drivers.lola.camera_socket import CameraClient
-
-    if robot is None or robot.cameras is None:
-        raise click.UsageError(
-            "--images is required: a robot at HOST:PORT has no camera channel"
-        )
-    return CameraClient(robot.cameras)
+    return open_cameras(settings, connection)

@@ -3,7 +3,7 @@
 import re
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 from click.core import ParameterSource
@@ -24,15 +24,11 @@ from .options.parameter_types import REASON, positive
 from .terminal import echo
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from ..drivers.naoqi.velocity_mover import Mover
     from ..drivers.robot_loader import RobotClass
     from ..drivers.ros2.dds_domain import DdsParticipant
 
 LOLA, NAOQI, ROS2, RCSS = "lola:", "naoqi:", "ros2:", "rcss:"
 _SWITCH = re.compile(r"key|gamepad(:.+)?|ros2:/.+")
-MOTION_INTERFACES = ("velocity", "footsteps", "joints")
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,16 +60,9 @@ class ConnectionSettings:
     images: str | None = setting(
         None,
         "Source of images for --sensing cameras: v4l2:DEVICE, "
-        "naoqi:tcp://HOST:PORT or ros2:/TOPIC; the camera channel of a "
-        "simulated robot by default",
+        "naoqi:tcp://HOST:PORT or ros2:/TOPIC; the camera of a robot on "
+        "NAOqi by default",
         option="--images",
-    )
-    interface: str | None = setting(
-        None,
-        "Commands sent to a robot over NAOqi",
-        names=MOTION_INTERFACES,
-        option="--interface",
-        default_text="velocity",
     )
     max_speed: float | None = setting(
         None,
@@ -180,12 +169,6 @@ class ConnectionSettings:
                 f"{switch!r}",
                 param_hint="--dead-man",
             )
-        if self.interface is not None and not self.robot.startswith(NAOQI):
-            raise click.UsageError(
-                f"--interface requires a robot at {NAOQI}, got "
-                f"{self.robot!r}; LoLA accepts joint targets only, ROS 2 "
-                "velocities only"
-            )
 
     @property
     def in_python(self) -> bool:
@@ -221,28 +204,13 @@ class ConnectionSettings:
             from ..drivers.joint.joint_robot import JointRobot
 
             return issubclass(made, JointRobot)
-        by_joints = self.robot.startswith((LOLA, RCSS))
-        return by_joints or self.interface == "joints"
+        return self.robot.startswith((LOLA, RCSS))
 
     def strategy(self, settings: DuelSettings) -> Strategy:
         """Load the strategy of the role."""
         if self.role == EVADER:
             return load_evader(settings)
         return load_strategy(settings.pursuer_strategy, settings.strategy)
-
-    def mover_factory(
-        self, settings: DuelSettings
-    ) -> "Callable[[Any, Callable[[], float]], Mover]":
-        """Return the factory of the mover that sends commands to ALMotion."""
-        from ..drivers.naoqi.velocity_mover import VelocityMover
-
-        if self.interface != "footsteps":
-            return VelocityMover
-        from ..drivers.naoqi.footstep_mover import FootstepMover
-
-        return lambda motion, clock: FootstepMover(
-            motion, settings.gait, clock
-        )
 
     def with_images(self, url: str) -> "ConnectionSettings":
         """Return the settings with the camera of a NAOqi robot as default."""

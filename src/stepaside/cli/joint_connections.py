@@ -5,7 +5,6 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from .connection_settings import (
-    NAOQI,
     RCSS,
     ConnectionSettings,
     with_feedback,
@@ -242,23 +241,10 @@ def _joints_of(
         "guarded": True,
         "patience": connection.wait,
     }
-    if robot.startswith(NAOQI):
-        from ..drivers.naoqi.joint_connection import open_joints as open_naoqi
-        from ..drivers.naoqi.naoqi_url import parse_url
-
-        url = parse_url(robot)
-        connection = connection.with_images(url)
-        camera = (
-            partial(open_cameras, settings, None, connection) if sees else None
-        )
-        how = SessionOptions(**session, open_eyes=camera)
-        return partial(open_naoqi, url, how=how)
     from ..drivers.lola.lola_address import parse_address
     from ..drivers.lola.lola_connection import open_lola
 
     address = parse_address(robot)
-    camera = (
-        partial(open_cameras, settings, address, connection) if sees else None
-    )
+    camera = partial(open_cameras, settings, connection) if sees else None
     how = SessionOptions(**session, open_eyes=camera)
     return partial(open_lola, address, how=how)

@@ -33,7 +33,7 @@ COMMANDS = {
     "rate": "Rate strategies and learned policies against a fixed suite.",
     "room": "Generate a random room, or inspect a room file.",
     "play": "Control a robot over LoLA, NAOqi or ROS 2.",
-    "serve": "Serve simulated robots over LoLA, NAOqi or ROS 2.",
+    "serve": "Serve simulated robots over LoLA or ROS 2.",
     "reproduce": "Measure every claim of the paper and write a report.",
     "robot": "Show, describe, check or tune a robot.",
     "legs": "Inspect or measure a learned walking policy.",

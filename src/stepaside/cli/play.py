@@ -29,7 +29,7 @@ CONNECTING = 6.0  # longest time that connecting takes, in [s]
 PAUSE = 0.3  # between two attempts, in [s]
 UNUSED_BY_CHECK = {
     *("record", "duration", "dead_man", "images", "max_speed", "max_turn"),
-    *("sim_time", "interface", "role", "remap", "opponent", "max_lateral"),
+    *("sim_time", "role", "remap", "opponent", "max_lateral"),
 }
 TIME_IS_UP = "played long enough"
 INTERRUPTED = "interrupted"
@@ -59,8 +59,7 @@ def play(
     \b
     --robot lola:ADDRESS       joint targets for a NAO V6, every 12 ms
     --robot naoqi:tcp://...    velocities for the robot's own walking
-                               controller, or footsteps or joints
-                               (--interface)
+                               controller
     --robot ros2:/NAMESPACE    velocities for the robot's own walking
                                controller, on ROS 2 topics
     --robot rcss:HOST:PORT     joint targets for a K1 or T1 in the RoboCup

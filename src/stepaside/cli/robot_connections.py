@@ -243,11 +243,7 @@ def _naoqi_connection(
             return open_camera_body(settings, url, connection)
         from ..drivers.naoqi.naoqi_body import NaoqiBody
 
-        return NaoqiBody(
-            url,
-            dry_run=connection.dry_run,
-            make_mover=connection.mover_factory(settings),
-        )
+        return NaoqiBody(url, dry_run=connection.dry_run)
 
     def join_naoqi() -> "Callable[[], None]":
         from ..drivers.naoqi.naoqi_body import connect_stopper

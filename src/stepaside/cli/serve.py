@@ -39,22 +39,6 @@ SIGHTS = ("ideal", "none")
     "HOST:PORT.",
 )
 @click.option(
-    "--naoqi",
-    "naoqi",
-    multiple=True,
-    metavar="PLAYER=URL",
-    help="Serve a player's robot with its own walking controller over NAOqi, "
-    "at tcp://127.0.0.1:PORT.",
-)
-@click.option(
-    "--naoqi-joints",
-    "naoqi_joints",
-    multiple=True,
-    metavar="PLAYER=URL",
-    help="Serve the joints of a player's robot over NAOqi, at "
-    "tcp://127.0.0.1:PORT.",
-)
-@click.option(
     "--ros2",
     "ros2",
     multiple=True,
@@ -94,14 +78,11 @@ def serve(
     as_json: bool,
     **languages: Any,
 ) -> None:
-    """Serve simulated robots over LoLA, NAOqi or ROS 2, and play a duel.
+    """Serve simulated robots over LoLA or ROS 2, and play a duel.
 
     \b
-    --lola          joint targets every 12 ms, like a NAO V6
-    --naoqi-joints  joint targets over NAOqi
-    --naoqi         velocities or footsteps for the robot's own walking
-                    controller
-    --ros2          velocities for the robot's own walking controller
+    --lola  joint targets every 12 ms, like a NAO V6
+    --ros2  velocities for the robot's own walking controller
 
     A player that is not served is controlled by this process. The simulation
     starts when every served robot has a client that commands it with

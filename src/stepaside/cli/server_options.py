@@ -11,8 +11,6 @@ if TYPE_CHECKING:
 
 ADDRESS_FORMATS = {
     "lola": "ADDRESS",
-    "naoqi": "tcp://HOST:PORT",
-    "naoqi-joints": "tcp://HOST:PORT",
     "ros2": "/NAMESPACE",
 }
 
@@ -34,21 +32,6 @@ def endpoints_of(
     endpoints: dict[str, RobotEndpoint] = {}
     for name, place in _entries("lola", options["lola"], endpoints):
         endpoints[name] = LolaEndpoint(parse_address(place), ideal_sight)
-    if options["naoqi"]:
-        from ..drivers.naoqi.naoqi_url import parse_url
-        from ..games.robot_endpoints import NaoqiEndpoint
-
-        for name, place in _entries("naoqi", options["naoqi"], endpoints):
-            endpoints[name] = NaoqiEndpoint(parse_url(place), ideal_sight)
-    if options["naoqi_joints"]:
-        from ..drivers.naoqi.naoqi_url import parse_url
-        from ..games.robot_endpoints import NaoqiJointsEndpoint
-
-        joints = options["naoqi_joints"]
-        for name, place in _entries("naoqi-joints", joints, endpoints):
-            endpoints[name] = NaoqiJointsEndpoint(
-                parse_url(place), ideal_sight
-            )
     if options["ros2"]:
         from ..drivers.ros2.namespaces import parse_namespace
         from ..drivers.ros2.ros2_server import WorldClock

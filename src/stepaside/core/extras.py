@@ -11,7 +11,7 @@ EXTRAS = {  # as in ``pyproject.toml``, with the names of the modules
     "legs": ("onnx", "onnxruntime", "yaml"),
     "mpc": ("daqp",),
     "robot": ("msgpack",),
-    "naoqi": ("msgpack", "qi"),
+    "naoqi": ("qi",),
     "ros2": ("cyclonedds",),
     "viewer": ("av", "trimesh", "viser", "websockets"),
     "vision": ("cv2",),

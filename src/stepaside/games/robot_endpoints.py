@@ -2,12 +2,9 @@
 
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
-from ..control.velocity_walk import velocity_limits
-from ..core.errors import ConfigurationError
 from ..drivers.lola.lola_address import LolaAddress
 from ..drivers.lola.lola_server import LolaServer
 from ..drivers.lola.nao_joints import TICK
-from ..drivers.velocity.velocity_body import VelocityCommand
 from .client_synchroniser import RobotServer
 from .game_world import RemoteControl
 from .player import Player
@@ -39,7 +36,7 @@ class RobotEndpoint(Protocol):
 
 
 class LolaEndpoint(NamedTuple):
-    """Joints served over LoLA, with the images of a robot with cameras.
+    """Joints served over LoLA.
 
     Attributes:
         address: Address of the server.
@@ -59,74 +56,6 @@ class LolaEndpoint(NamedTuple):
         assert isinstance(player, ServedPlayer)
         return LolaServer(
             self.address,
-            player,
-            player.robot.joint_names,
-            lock_step=lock_step,
-            ideal_sight=self.ideal_sight,
-            cameras=player.robot.eyes is not None,
-        )
-
-
-class NaoqiEndpoint(NamedTuple):
-    """Robot with its own walk, commanded by velocities over NAOqi.
-
-    Attributes:
-        url: URL of its services, like tcp://127.0.0.1:PORT.
-        ideal_sight: Whether the true line of sight is served.
-    """
-
-    url: str
-    ideal_sight: bool = True
-
-    @property
-    def control(self) -> RemoteControl:
-        """Velocities: the robot balances itself."""
-        return RemoteControl(balances=True, ideal_sight=self.ideal_sight)
-
-    def serve(self, player: Player, *, lock_step: bool) -> RobotServer:
-        """Serve a robot that balances itself."""
-        from ..drivers.naoqi.naoqi_server import NaoqiServer
-
-        assert isinstance(player, VelocityWalker)
-        if lock_step:
-            raise ConfigurationError(
-                "a robot on NAOqi cannot be served in lock step: its calls "
-                "carry no time"
-            )
-        gait = player.scheme.locomotion.gait
-        return NaoqiServer(
-            self.url,
-            player,
-            player.robot.joint_names,
-            VelocityCommand(*velocity_limits(gait)),
-            tick=TICK,
-            gait=gait,
-        )
-
-
-class NaoqiJointsEndpoint(NamedTuple):
-    """Robot whose joints are set by calls of NAOqi.
-
-    Attributes:
-        url: URL of its services, like tcp://127.0.0.1:PORT.
-        ideal_sight: Whether the true line of sight is served.
-    """
-
-    url: str
-    ideal_sight: bool = True
-
-    @property
-    def control(self) -> RemoteControl:
-        """Joint targets: the client balances the robot."""
-        return RemoteControl(balances=False, ideal_sight=self.ideal_sight)
-
-    def serve(self, player: Player, *, lock_step: bool) -> RobotServer:
-        """Serve the joints of a robot; the client has to balance it."""
-        from ..drivers.naoqi.joint_server import NaoqiJointServer
-
-        assert isinstance(player, ServedPlayer)
-        return NaoqiJointServer(
-            self.url,
             player,
             player.robot.joint_names,
             lock_step=lock_step,

@@ -1,15 +1,12 @@
 """Simulated robots with their own walk, commanded by velocities."""
 
-from collections.abc import Mapping
-
 from ..control.scheme_builder import ClearanceSetup, build_walk
 from ..control.velocity_scheme import VelocityScheme
-from ..core.poses import Array, Pose, wrap_angle
-from ..drivers.velocity.footstep_commands import FootCommand
+from ..core.poses import Pose, wrap_angle
 from ..drivers.velocity.velocity_body import VelocityCommand
 from ..drivers.velocity.walking_robot import TorsoInFootprint, WalkerState
 from ..locomotion.walk_snapshots import Phase, StepStarted
-from ..perception.images import ColourImage, SonarEcho
+from ..perception.images import ColourImage
 from ..perception.measurement import Measurement, Sighting
 from ..planning import Foot
 from ..robots.body_pose import torso_pose_on_foot
@@ -21,8 +18,6 @@ from ..sim.world import World
 from .player import PhysicalPlayer, Snapshot, snapshot_of
 from .walker_factory import RobotSensing, WalkerSetup, place_robot
 from .walker_log import WalkerLog
-
-HEAD_SPEED = 3.0  # of a head commanded by a client, in [rad/s]
 
 
 class VelocityWalker(PhysicalPlayer):
@@ -54,12 +49,8 @@ class VelocityWalker(PhysicalPlayer):
         self._forward = ForwardKinematics(description)
         self.scheme, self.frame = scheme, frame
         self._measurement: Measurement | None = None
-        self._head: dict[int, float] = {}
-        self._head_targets: Array | None = None
         self._image: ColourImage | None = None
-        self._echoes: dict[str, float | None] = {}
         self._ticks = -1
-        self._steps = 0
 
     @property
     def begun(self) -> StepStarted | None:
@@ -83,13 +74,7 @@ class VelocityWalker(PhysicalPlayer):
 
     def tick(self) -> None:
         """Walk at the commanded velocity."""
-        targets = self.scheme.update(self._read())
-        if self._head:
-            targets = self._with_head(targets)
-        self.robot.write(targets)
-        begun = self.begun
-        if begun is not None and begun.planning_time is not None:
-            self._steps += 1
+        self.robot.write(self.scheme.update(self._read()))
 
     def snapshot(self) -> Snapshot:
         """Return the state at this instant."""
@@ -106,7 +91,6 @@ class VelocityWalker(PhysicalPlayer):
         """Return the state that the robot reports to its client."""
         measurement = self._read()
         now, scheme = measurement.time, self.scheme
-        walk = scheme.locomotion.state
         return WalkerState(
             now,
             scheme.templates.at(now),
@@ -114,16 +98,8 @@ class VelocityWalker(PhysicalPlayer):
             measurement.joint_positions.tolist(),
             self._sighting(measurement),
             self._image,
-            (walk.left_foot, walk.right_foot),
-            self._present_step(now),
-            self._steps,
-            self._echoes.copy(),
             self._torso(measurement),
         )
-
-    def lead_with(self, foot: Foot) -> None:
-        """Make the first step with a foot, if the robot stands."""
-        self.scheme.locomotion.lead_with(foot)
 
     def _torso(self, measurement: Measurement) -> TorsoInFootprint:
         """Return the pose of the torso by the stance foot and the tilt."""
@@ -145,41 +121,6 @@ class VelocityWalker(PhysicalPlayer):
             (planar.x, planar.y, z), (*tilt, wrap_angle(planar.theta))
         )
 
-    def _present_step(self, now: float) -> FootCommand | None:
-        """Return the step in progress, with its remaining time."""
-        walk = self.scheme.locomotion.state
-        plan = walk.plan
-        if plan is None:
-            return None
-        ends = walk.plan_started + plan.schedule.first_step_duration
-        landing = Pose(*plan.placements[2].tolist())
-        return FootCommand(plan.first_foot, landing, max(0.0, ends - now))
-
-    def look(self, angles: Mapping[str, float]) -> None:
-        """Turn the head.
-
-        Args:
-            angles: Target angles of head joints by name, in [rad].
-
-        Raises:
-            ValueError: If the robot has no such joint.
-        """
-        kinematics = self.scheme.locomotion.kinematics
-        for name, angle in angles.items():
-            self._head[kinematics.joint_names.index(name)] = angle
-
-    def _with_head(self, targets: Array) -> Array:
-        """Return joint targets with the head moved at limited speed."""
-        if self._head_targets is None:
-            self._head_targets = targets.copy()
-        changed = targets.copy()
-        limit = HEAD_SPEED * self.robot.world.physics.tick
-        for joint, angle in self._head.items():
-            error = angle - float(self._head_targets[joint])
-            self._head_targets[joint] += min(max(error, -limit), limit)
-            changed[joint] = self._head_targets[joint]
-        return changed
-
     def _read(self) -> Measurement:
         """Return the measurement of this tick; noise is drawn once."""
         ticks = self.robot.world.ticks
@@ -188,8 +129,6 @@ class VelocityWalker(PhysicalPlayer):
             for percept in self._measurement.percepts:
                 if isinstance(percept, ColourImage):
                     self._image = percept
-                elif isinstance(percept, SonarEcho):
-                    self._echoes[percept.sonar] = percept.distance
         return self._measurement
 
     def _sighting(self, measurement: Measurement) -> Sighting | None:

@@ -46,7 +46,6 @@ TABLES: dict[str, Callable[..., str]] = {
     "shield-maps": bounds.shield_maps,
     "people-fast-gait": people.fast_gait,
     "served-velocities": served.velocities,
-    "served-naoqi": served.naoqi,
     "each": person_approaches.each,
     "evading-opponents": room_evaders.opponents,
     "open-floor": room_evaders.open_floor,

@@ -36,13 +36,6 @@ def velocities(result: Mapping[str, Any]) -> str:
     )
 
 
-def naoqi(result: Mapping[str, Any]) -> str:
-    """List duels over NAOqi by motion interface."""
-    return table(
-        ("by", *HEAD), ((row["by"], *_duel(row)) for row in result["rows"])
-    )
-
-
 def _duel(row: Mapping[str, Any]) -> tuple[str, ...]:
     return (
         row["body"],

@@ -17,13 +17,11 @@ log = logging.getLogger(__name__)
 class ImageSource(Protocol):
     """One or more cameras of a robot."""
 
-    def percepts(self, frame: int, now: float, tick: float) -> list[Percept]:
+    def percepts(self, now: float) -> list[Percept]:
         """Return the images since the last call, oldest first.
 
         Args:
-            frame: Number of the robot's newest sensor frame.
-            now: Time of that frame, in [s].
-            tick: Time from one frame to the next, in [s].
+            now: Time of the robot's newest report, in [s].
         """
 
     def close(self) -> None:
@@ -78,7 +76,7 @@ class LiveCamera:
         self._thread = Thread(target=self._grab_all, name=name, daemon=True)
         self._thread.start()
 
-    def percepts(self, frame: int, now: float, tick: float) -> list[Percept]:
+    def percepts(self, now: float) -> list[Percept]:
         """Return the newest image, if there is a new one."""
         newest, self._newest = self._newest, None
         if newest is None:

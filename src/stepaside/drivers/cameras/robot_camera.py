@@ -213,7 +213,7 @@ class MountedCamera:
     def take(self, now: float) -> CameraImage | None:
         """Return the newest image, if there is a new one."""
         image = None
-        for found in self._source.percepts(0, now, 0.0):
+        for found in self._source.percepts(now):
             if isinstance(found, ColourImage):
                 image = found
         if image is None:
@@ -320,7 +320,7 @@ class JointRobotCamera(RobotCamera):
         super().__init__(robot, needs_mount=False)
         self.report_time = 0.0
 
-    def percepts(self, frame: int, now: float, tick: float) -> list[Percept]:
+    def percepts(self, now: float) -> list[Percept]:
         """Return the newest image, if there is a new one, by our time."""
         image = self.take(self.report_time)
         if image is None:

@@ -199,7 +199,7 @@ class JointBody:
         measured = measurement_of(frame, self._joints, time, self.sighting)
         if self._eyes is None:
             return measured
-        images = self._eyes.percepts(count, time, self.tick)
+        images = self._eyes.percepts(time)
         return measured._replace(percepts=(*images, *measured.percepts))
 
     def write(self, joint_targets: Array) -> None:

@@ -8,7 +8,6 @@ from ...core.errors import ConfigurationError
 SCHEME = "lola:"
 DEFAULT_PATH = "/tmp/robocup"  # socket of every NAO V6
 SIGHT_SUFFIX = ".ideal-sight"  # of a simulated robot's ground truth channel
-CAMERAS_SUFFIX = ".cameras"  # of a simulated robot's image channel
 EARLY = "s"  # temporary name of a socket before it listens
 MAX_PATH = 107 - len(SIGHT_SUFFIX) - len("/.12345678/s")  # in bytes
 
@@ -34,11 +33,6 @@ class LolaAddress:
     def sight(self) -> "LolaAddress | None":
         """Address of the ideal line of sight; None for TCP."""
         return LolaAddress(self.path + SIGHT_SUFFIX) if self.path else None
-
-    @property
-    def cameras(self) -> "LolaAddress | None":
-        """Address of a simulated robot's images; None for TCP."""
-        return LolaAddress(self.path + CAMERAS_SUFFIX) if self.path else None
 
     def open(self) -> socket.socket:
         """Create a socket of the address's family, not connected or bound."""

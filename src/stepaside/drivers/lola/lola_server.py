@@ -7,7 +7,6 @@ from typing import Any
 import msgpack
 
 from ...core.poses import Array
-from .camera_socket import CameraServer
 from .listener import ClientListener
 from .lola_address import LolaAddress
 from .lola_frames import ActuatorFrame, clip_actuators, pack_sensors
@@ -79,7 +78,6 @@ class LolaServer:
         *,
         lock_step: bool = False,
         ideal_sight: bool = True,
-        cameras: bool = False,
     ) -> None:
         """Listen for a client.
 
@@ -89,7 +87,6 @@ class LolaServer:
             joint_names: Its joints, in the order of its measurements.
             lock_step: Whether the simulation waits for answers.
             ideal_sight: Whether the true line of sight is offered.
-            cameras: Whether the images of its cameras are offered.
 
         Raises:
             ConfigurationError: If the address cannot be listened on.
@@ -97,16 +94,14 @@ class LolaServer:
         """
         self._joints = ServedJoints(robot, joint_names)
         self._lock_step = lock_step
-        # First, so that a client that finds the robot finds them, too.
-        self._channels: list[SightServer | CameraServer] = []
+        # First, so that a client that finds the robot finds it, too.
+        self._sight: SightServer | None = None
         try:
             if ideal_sight and address.sight is not None:
-                self._channels.append(SightServer(address.sight))
-            if cameras and address.cameras is not None:
-                self._channels.append(CameraServer(address.cameras))
+                self._sight = SightServer(address.sight)
             self._listener = ClientListener(address)
         except BaseException:
-            self._close_channels()
+            self._close_sight()
             raise
         self._reader = ActuatorFrameReader()
         self._chest_pressed = False
@@ -152,16 +147,16 @@ class LolaServer:
         self.hear()  # a late answer must not count for the next frame
         if self._listener.accept():
             self._reader, self.count = ActuatorFrameReader(), -1
-            for channel in self._channels:
-                channel.restart()
+            if self._sight is not None:
+                self._sight.restart()
             log.info("%s: client connected", self._listener.address)
         measurement = self._joints.sense()
         self.answered = False
         if not self.connected:
             return
         self.count += 1
-        for channel in self._channels:
-            channel.send(measurement, self.count)
+        if self._sight is not None:
+            self._sight.send(measurement, self.count)
         frame = self._joints.frame(
             self.count,
             chest_pressed=self._chest_pressed,
@@ -197,11 +192,11 @@ class LolaServer:
     def close(self) -> None:
         """Disconnect the client and stop the server."""
         self._listener.close()
-        self._close_channels()
+        self._close_sight()
 
-    def _close_channels(self) -> None:
-        for channel in self._channels:
-            channel.close()
+    def _close_sight(self) -> None:
+        if self._sight is not None:
+            self._sight.close()
 
     def _try(self, data: bytes) -> None:
         try:

@@ -15,7 +15,7 @@ from ..guardian_process import SessionLost
 from ..velocity.velocity_body import VelocityCommand, VelocityReport
 from .naoqi_url import IDEAL_SIGHT
 from .qi_session import Call, answer_of, ask, connect
-from .velocity_mover import Mover, VelocityMover
+from .velocity_mover import VelocityMover
 
 PERIOD = 0.05  # between two queries of the robot's state, in [s]
 STAND_UP_TIMEOUT = 20.0  # in [s]
@@ -50,9 +50,6 @@ class NaoqiBody:
         dry_run: bool = False,
         joint_names: Sequence[str] = (),
         head: tuple[str, str] = HEAD,
-        make_mover: Callable[
-            [Any, Callable[[], float]], Mover
-        ] = VelocityMover,
         clock: Callable[[], float] = monotonic,
     ) -> None:
         """Connect, and make the robot stand up.
@@ -62,8 +59,6 @@ class NaoqiBody:
             dry_run: Whether nothing is commanded.
             joint_names: Joints whose angles are read, if any.
             head: Names of the yaw and pitch joints of the head.
-            make_mover: Factory of the mover, given ALMotion and a clock;
-                commands ``move`` by default.
             clock: Time of this computer, in [s]; that of the reports.
 
         Raises:
@@ -89,7 +84,7 @@ class NaoqiBody:
         self._names, self._head = list(joint_names), list(head)
         self._turning: Any = None
         self.joints: Array = np.zeros(len(self._names))
-        self._mover = make_mover(self._motion, clock)
+        self._mover = VelocityMover(self._motion, clock)
         position = Call(self._motion, "getRobotPosition", True)
         memory = Call(self._memory, "getListData", KEYS)
         self._queries = [position, memory]

@@ -47,29 +47,6 @@ def connect(url: str) -> Any:
     return session
 
 
-def listen(url: str, services: dict[str, Any]) -> Any:
-    """Offer services, with their own service directory.
-
-    Args:
-        url: Address like tcp://127.0.0.1:PORT.
-        services: Objects whose methods are offered, by service name.
-
-    Raises:
-        ConfigurationError: If the address cannot be listened on.
-    """
-    _application()
-    session = qi.Session()
-    try:
-        session.listenStandalone(url)
-        for name, service in services.items():
-            session.registerService(name, service)
-    except RuntimeError as error:
-        session.close()
-        why = reason_of(error)
-        raise ConfigurationError(f"cannot listen at {url}: {why}") from error
-    return session
-
-
 def ask(service: Any, method: str, *values: Any, within: float) -> Any:
     """Call a method, and wait up to ``within``, in [s], for its answer.
 

@@ -1,25 +1,14 @@
 """Velocity commands to ALMotion."""
 
 from collections.abc import Callable
-from typing import Any, Protocol
+from typing import Any
 
 from ..guardian_process import SessionLost
 from ..velocity.velocity_body import REST, VelocityCommand
-from .qi_session import answer_of, reason_of
+from .qi_session import answer_of
 
 REPEAT = 0.25  # after which an unchanged velocity is sent again, in [s]
 TIMEOUT = 1.0  # for the answer to a command, in [s]
-
-
-class Mover(Protocol):
-    """Sender of commands to ALMotion that does not wait for the answer."""
-
-    def command(self, velocity: VelocityCommand) -> None:
-        """Command a velocity.
-
-        Raises:
-            SessionLost: If the robot cannot be reached or does not answer.
-        """
 
 
 class PendingCall:
@@ -46,14 +35,6 @@ class PendingCall:
         self._what, self._future = what, future
         self.called = self._clock()
 
-    def refusal(self) -> str:
-        """Return why the call was refused; empty if not, or not yet."""
-        future = self._future
-        if future is None or not future.isFinished() or not future.hasError():
-            return ""
-        self._future = None
-        return reason_of(future.error())
-
     @property
     def arrived(self) -> bool:
         """Whether the call has been answered.
@@ -74,7 +55,7 @@ class PendingCall:
 
 
 class VelocityMover:
-    """Mover by ``move`` and ``stopMove``."""
+    """Sender of velocities by ``move`` and ``stopMove``; it never waits."""
 
     def __init__(self, motion: Any, clock: Callable[[], float]) -> None:
         """Command an ALMotion, by the clock of this computer in [s]."""

@@ -163,7 +163,7 @@ class TopicCamera:
         kind: Any = CompressedImage if self._is_compressed else Image
         self._reader = dds.reader(dds_topic("", topic.strip("/")), kind, DEPTH)
 
-    def percepts(self, frame: int, now: float, tick: float) -> list[Percept]:
+    def percepts(self, now: float) -> list[Percept]:
         """Return the newest image, if there is a new one."""
         for info in take_messages(self._calibrations)[-1:]:
             self._calibrate(info)

@@ -67,7 +67,6 @@ class CameraBody:
         """
         self._body, self._eyes = body, eyes
         self._perception, self._turns_head = perception, turns_head
-        self._count = 0
         self._reports: deque[PoseReport] = deque(maxlen=HISTORY)
 
     def listen(self, patience: float) -> VelocityReport | None:
@@ -75,8 +74,7 @@ class CameraBody:
         report = self._body.listen(patience)
         if report is None:
             return None
-        self._count += 1
-        images = self._eyes.percepts(self._count, report.time, PERIOD)
+        images = self._eyes.percepts(report.time)
         measured = Measurement(
             report.time,
             self._body.joints,

@@ -1,0 +1,111 @@
+"""A robot on NAOqi: the services that we call, over a real session."""
+
+from math import cos, sin
+from time import monotonic
+from typing import Any
+
+import qi
+
+FALLEN, BUTTON = "robotHasFallen", "ChestButtonPressed"
+SIGHT = "Stepaside/IdealSight"  # age [s], bearing [rad], distance [m]
+
+
+class ALMotion:
+    """Walk by ``move``, as long as nothing else is said."""
+
+    def __init__(self) -> None:
+        self.velocity = (0.0, 0.0, 0.0)
+        self.moves: list[tuple[float, float, float]] = []
+        self.calls: list[str] = []
+        self.silent = False
+        self._pose, self._since = [0.0, 0.0, 0.0], monotonic()
+
+    def wakeUp(self) -> None:
+        """Stiffen the motors."""
+        self.calls.append("wakeUp")
+
+    def rest(self) -> None:
+        """Crouch and go limp."""
+        self._go((0.0, 0.0, 0.0))
+        self.calls.append("rest")
+
+    def move(self, x: float, y: float, theta: float) -> None:
+        """Walk with a velocity, in [m/s] and [rad/s]."""
+        self._go((x, y, theta))
+        self.moves.append((x, y, theta))
+
+    def stopMove(self) -> None:
+        """Stop walking."""
+        self._go((0.0, 0.0, 0.0))
+        self.calls.append("stopMove")
+
+    def getRobotPosition(self, use_sensors: bool) -> list[float]:
+        """Return x [m], y [m] and heading [rad]."""
+        while self.silent:
+            qi.async_(lambda: None, delay=100_000).wait()
+        self._go(self.velocity)
+        return list(self._pose)
+
+    def _go(self, velocity: tuple[float, float, float]) -> None:
+        """Move as until now, then with another velocity."""
+        now = monotonic()
+        passed, self._since = now - self._since, now
+        x, y, theta = self.velocity
+        c, s = cos(self._pose[2]), sin(self._pose[2])
+        self._pose[0] += passed * (c * x - s * y)
+        self._pose[1] += passed * (s * x + c * y)
+        self._pose[2] += passed * theta
+        self.velocity = velocity
+
+
+class ALMemory:
+    """Values of the sensors by name."""
+
+    def __init__(self) -> None:
+        self.values: dict[str, Any] = {FALLEN: 0, BUTTON: 0.0}
+
+    def getListData(self, names: list[str]) -> list[Any]:
+        """Return values; None for unknown names."""
+        return [self.values.get(name) for name in names]
+
+
+class ALRobotPosture:
+    """Postures, reached at once."""
+
+    def goToPosture(self, name: str, speed: float) -> bool:
+        """Take a posture."""
+        return True
+
+
+class ALVideoDevice:
+    """One camera; its newest image is always the same."""
+
+    def subscribeCamera(self, *_: Any) -> str:
+        """Return a handle."""
+        return "one"
+
+    def getImageRemote(self, handle: str) -> list[Any]:
+        """Return two columns and a row in RGB, red and blue."""
+        return [2, 1, 3, 11, 5, 0, bytes((255, 0, 0, 0, 0, 255))]
+
+    def releaseImage(self, handle: str) -> bool:
+        """Forget the image."""
+        return True
+
+
+class NaoqiPeer:
+    """Robot that listens on this machine."""
+
+    def __init__(self) -> None:
+        qi.logging.setLevel(qi.logging.FATAL)
+        self.motion, self.memory = ALMotion(), ALMemory()
+        self.session = qi.Session()
+        self.session.listenStandalone("tcp://127.0.0.1:0")
+        for service in (
+            self.motion,
+            self.memory,
+            ALRobotPosture(),
+            ALVideoDevice(),
+        ):
+            self.session.registerService(type(service).__name__, service)
+        self.url = str(self.session.endpoints()[0])
