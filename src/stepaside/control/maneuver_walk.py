@@ -156,11 +156,6 @@ class ManeuverWalk:
             adapted=self.balance.adapted,
         )
 
-    def lead_with(self, foot: Foot) -> None:
-        """Choose the foot of the first step, if the robot stands."""
-        if self.plan is None:
-            self._first_foot = foot
-
     @property
     def feels(self) -> bool:
         """Whether balance uses joint angles, IMU or forces on the soles."""

@@ -168,9 +168,6 @@ class PlannedLocomotion(Locomotion, Protocol):
     def feels(self) -> bool:
         """Whether balance uses joint angles, IMU or forces on the soles."""
 
-    def lead_with(self, foot: Foot) -> None:
-        """Choose the foot of the first step, if the robot stands."""
-
     def decides(self, now: float) -> bool:
         """Return whether a decision is due at a tick, at a time in [s]."""
 

@@ -163,20 +163,6 @@ class ForwardKinematics:
         return np.array(corners)
 
 
-def posture_source(description: RobotDescription) -> str:
-    """Return the formulas of CoM and feet as Python source.
-
-    Its function ``posture_row(angles, numbers)`` takes the angles of the
-    actuated joints and writes the 27 results of
-    :attr:`ForwardKinematics.numbers`.
-    """
-    tree = load_tree(description)
-    feet = (description.left_foot, description.right_foot)
-    standing = tuple(sorted(description.standing.items()))
-    formula, _ = _trace_posture(tree, feet, None, standing, is_enabled())
-    return "\n".join([formula.text, _row_loop(len(tree.motors))])
-
-
 def _row_loop(count: int) -> str:
     """Return the loop that evaluates the formulas at some angles."""
     return LOOP.format(", ".join(f"angles[{i}]" for i in range(count)))

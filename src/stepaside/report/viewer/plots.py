@@ -1,6 +1,6 @@
 """Plots over time, with the theory's values."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 import viser
@@ -104,10 +104,6 @@ class SignalPlot:
         options = (NO_SIGNAL, *labels)
         if tuple(self._choice.options) != options:
             self._choice.options = options
-
-    def on_choice(self, call: Callable[[], None]) -> None:
-        """Call a function whenever a viewer chooses a quantity."""
-        self._choice.on_update(lambda _: call())
 
     def show(self, times: Array, values: Array) -> None:
         """Show the chosen quantity.

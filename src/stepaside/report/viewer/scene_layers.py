@@ -9,7 +9,7 @@ import viser
 from ...core.convex import convex_hull
 from ...core.poses import Array, Pose
 from ...locomotion.walk_snapshots import WalkState
-from ...planning import Foot, SoleRectangle
+from ...planning import Foot
 from ...planning.support_polygon import sole_corners
 from ..palette import on_both_floors
 
@@ -212,27 +212,6 @@ def footprints_of(
             corners = sole_corners(pose, planned.foot, sole)
             outlines.append(polyline(corners, height, closed=True))
     return np.concatenate(outlines) if outlines else np.zeros((0, 2, 3))
-
-
-def footprints_at(landings: Array, sole: SoleRectangle, now: float) -> Array:
-    """Return outlines of the footsteps of a recorded robot. Shape (n, 2, 3).
-
-    Args:
-        landings: Rows (time [s], side, x [m], y [m], theta [rad]). Shape
-            (m, 5).
-        sole: Shape of a left sole.
-        now: Time, in [s]; the next footstep is included.
-    """
-    begun = landings[landings[:, 0] <= now + FOOTPRINT_LEAD][-MAX_FOOTPRINTS:]
-    outlines = [
-        polyline(
-            sole_corners(np.array(pose), Foot(int(side)), sole),
-            HEIGHTS["footsteps"],
-            closed=True,
-        )
-        for _, side, *pose in begun.tolist()
-    ]
-    return np.concatenate([np.zeros((0, 2, 3)), *outlines])
 
 
 def push_arrows(pushes: Array | None, now: float) -> Array:
