@@ -19,8 +19,8 @@ from ...perception.images import ColourImage
 from ...robots.head import depth_camera_name
 from ...robots.urdf_elements import IMU, OPTICAL
 from ..landed_footsteps import landed_footsteps
+from .bag_layout import write_layout
 from .bag_messages import MessageFactory, nanoseconds
-from .foxglove_layout import write_layout
 from .recorded_transforms import (
     base_poses,
     joint_poses,
