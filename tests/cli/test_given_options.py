@@ -167,46 +167,6 @@ def test_options_switch_off_flags_of_a_file(file: Path) -> None:
     assert clutter == list(CLUTTER)
 
 
-def test_feedback_is_the_default_for_imperfect_bodies() -> None:
-    for line, method, feedback in (
-        ("duel --body hardware", "measured", True),
-        ("duel --body hardware --no-feedback", "closed-form", False),
-        ("duel --body ideal", "closed-form", False),
-        ("walk --method mpc", "mpc", True),
-        ("walk --feedback", "measured", True),
-        ("walk --feedback --method closed-form", "closed-form", True),
-        ("walk --backlash 1deg", "measured", True),
-    ):
-        control = settings(line).control
-        assert (control.method, control.feedback) == (method, feedback), line
-
-
-def test_fast_gait_implies_feedback() -> None:
-    for line, method, feedback in (
-        ("walk --gait fast", "closed-form", True),
-        ("duel --gait fast --body hardware", "closed-form", True),
-        ("duel --gait fast --method measured", "measured", True),
-        ("view --gait fast --open-loop", "closed-form", False),
-        ("duel --gait nao", "closed-form", False),
-    ):
-        found = settings(line)
-        wanted = PRESETS["nao" if "nao" in line else "fast"]
-        assert found.gait == wanted, line
-        control = found.control
-        assert (control.method, control.feedback) == (method, feedback), line
-
-
-def test_person_and_fast_gait_imply_trigger_by_time() -> None:
-    for line, trigger in (
-        ("duel --gait fast --pursuer person", "time"),
-        ("duel --gait fast --pursuer person --trigger distance", "distance"),
-        ("duel --gait fast", "distance"),
-        ("duel --pursuer person", "distance"),
-        ("duel --trigger time", "time"),
-    ):
-        assert settings(line).strategy.trigger == trigger, line
-
-
 def test_changing_the_method_keeps_feedback_of_the_file(
     file: Path,
 ) -> None:

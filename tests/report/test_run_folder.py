@@ -15,10 +15,8 @@ from stepaside.core.poses import Array
 from stepaside.games.duel import run_duel
 from stepaside.games.duel_circle import circle_of_theory
 from stepaside.games.duel_settings import DuelSettings, StartSettings
-from stepaside.games.outcome import Outcome
 from stepaside.games.run import DuelRun, Run
 from stepaside.games.run_archive import FORMAT, load_run, results_of
-from stepaside.games.run_captions import describe_state
 from stepaside.games.trajectory import Trajectory
 from stepaside.report import duel_figure, sight_figure
 from stepaside.report.run_folder import check_output, free_folder, write_run
@@ -265,51 +263,6 @@ def test_the_circle_lies_round_the_way_after_they_converged() -> None:
     assert synthetic_duel().circle is None
 
 
-COMING = "the pursuer walks; the evader stands"
-TRIGGERED = "the evader is triggered"
-EVADING = "the evader is evading"
-ROUND = "both robots are on the circle"
-
-
-@pytest.mark.parametrize(
-    ("time", "words"),
-    [
-        (0.0, COMING),
-        (4.9, COMING),
-        (5.0, TRIGGERED),
-        (5.9, TRIGGERED),
-        (6.0, EVADING),
-        (29.9, EVADING),
-        (30.0, ROUND),
-        (40.0, ROUND),
-    ],
-)
-def test_words_change_with_the_time(time: float, words: str) -> None:
-    run = synthetic_duel(triggered_at_s=5.0, converged_at_s=30.0)
-    assert describe_state(run, round(10.0 * time)) == words
-
-
-@pytest.mark.parametrize(
-    ("summary", "words"),
-    [
-        ({}, COMING),
-        ({"triggered_at_s": 5.0}, EVADING),
-        ({"triggered_at_s": 39.5}, TRIGGERED),
-        ({"outcome": Outcome.FALL, "message": "evader fell"}, "evader fell"),
-        ({"outcome": Outcome.CONTACT, "message": "touched"}, "touched"),
-        ({"outcome": Outcome.UNREACHABLE, "message": "lost"}, "lost"),
-        ({"outcome": Outcome.INTERRUPTED, "message": "stopped"}, COMING),
-    ],
-)
-def test_the_last_words_are_how_it_ended(
-    summary: dict[str, Any], words: str
-) -> None:
-    run = synthetic_duel(**summary)
-    assert describe_state(run, 400) == words
-    before = EVADING if summary.get("triggered_at_s") == 5.0 else COMING
-    assert describe_state(run, 394) == before
-
-
 def test_the_stage_puts_the_bodies_where_they_were(
     result: DuelRun,
 ) -> None:
@@ -376,17 +329,3 @@ def _legs(stage: RunScene, heading: float) -> Array:
     turn = np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
     seen: Array = turn @ stage.data.xmat[own].reshape(-1, 3, 3)
     return seen
-
-
-def test_words_of_a_duel_with_a_person_speak_of_players() -> None:
-    zero = np.zeros((2, 3))
-    tracks = {name: Trajectory(zero, zero) for name in ("pursuer", "evader")}
-    for pursuer, who in (("robot", "robots"), ("person", "players")):
-        run = run_of(
-            np.arange(2.0),
-            tracks,
-            settings=DuelSettings(pursuer=pursuer),
-            triggered_at_s=-5.0,
-            converged_at_s=0.0,
-        )
-        assert describe_state(run, 1) == f"both {who} are on the circle"
