@@ -8,8 +8,12 @@ import json
 import os
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
 
 import stepaside as sa
 
@@ -68,6 +72,70 @@ def start_stepaside(
 
 
 # Duels, walks and theory.
+
+Arrays = dict[str, NDArray[np.float64]]
+
+
+def summary(game: str, *options: object) -> Any:
+    """The printed summary of a duel, a walk, a game or a game of theory."""
+    return stepaside(game, *options, "--json").json
+
+
+def kept_summary(game: str, folder: Path, *options: object) -> Any:
+    """Play into a run folder; the summary that it holds."""
+    stepaside(game, *options, "--output", folder)
+    return json.loads((folder / "summary.json").read_text())
+
+
+def trajectories(folder: Path) -> Arrays:
+    """The arrays of a run folder by name."""
+    with np.load(folder / "trajectories.npz") as arrays:
+        return dict(arrays)
+
+
+def configuration(folder: Path) -> dict[str, Any]:
+    """The settings of a run folder."""
+    return tomllib.loads((folder / "configuration.toml").read_text())
+
+
+def play_duel(
+    start: tuple[float, float, float], duration: float, **evasion: Any
+) -> sa.DuelRun:
+    """Play a duel from Python.
+
+    Args:
+        start: Distance, in [m]; offsets of pursuer and evader, in [rad].
+        duration: Simulated time, in [s].
+        evasion: Settings of the paper's evader.
+    """
+    return sa.run_duel(
+        sa.DuelSettings(
+            duration=duration,
+            start=sa.StartSettings(*start),
+            strategy=sa.Evasion(**evasion),
+        )
+    )
+
+
+def recorded_claims(folder: Path, shard: str) -> Any:
+    """Measure one share of the paper's claims; readings by claim."""
+    stepaside(
+        *("reproduce", "--runs", 1, "--shard", shard, "--workers", 1),
+        *("--output", folder),
+    )
+    (records,) = (folder / "records").glob("*.jsonl")
+    lines = [json.loads(line) for line in records.read_text().splitlines()]
+    return {
+        line["key"].partition("/")[0]: line["record"]["readings"]
+        for line in lines
+    }
+
+
+def arena_duel(**settings: Any) -> Any:
+    """The Gymnasium environment of an evader against the paper's pursuer."""
+    import gymnasium
+
+    return gymnasium.make("stepaside.envs:stepaside/Evade-v0", **settings)
 
 
 # Games of many, levels, strategies, studies and environments.

@@ -1,0 +1,114 @@
+"""Games of more than two: pursuers, teams, a polygon, a crowd."""
+
+from itertools import combinations
+from math import pi, sin
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from flows.calls import kept_summary, summary, trajectories
+from flows.circles import GAIN, PACE, SPEED, apart
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+CROWD = """
+duration = 16.0
+level = "steps"
+
+[room]
+width = 6.0
+depth = 6.0
+
+[[players]]
+name = "robot"
+role = "evader"
+strategy = "goal"
+start = [-0.9, 0.0, 0.0]
+goal = [0.0, 0.0]
+
+[[players]]
+name = "person"
+count = 4
+body = "person"
+draws_goal = true
+crowd = { speed = 0.8, returns = true }
+"""
+
+
+def test_two_pursuers_walk_at_their_evader(tmp_path: Path) -> None:
+    """In physics; each pair's closest approach is that of its arrays."""
+    game = EXAMPLES / "two-pursuers.toml"
+    seen = kept_summary("game", tmp_path / "run", game, "--duration", 15)
+    assert seen["outcome"] == "completed" and seen["fallen"] == []
+    assert len(seen["pairs"]) == 3
+    kept = trajectories(tmp_path / "run")
+    for pair in seen["pairs"]:
+        one, other = (kept[f"{name}_torso"] for name in pair["players"])
+        near = apart(one, other)
+        # Torso points are less than 2 cm from the origins of the torsos.
+        assert pair["closest_m"] == pytest.approx(near.min(), abs=0.04)
+        assert pair["captured_at_s"] is None
+        if "blue" in pair["players"]:
+            assert near[-1] < near[0] - 0.3
+    paths = {player["name"]: player["path_m"] for player in seen["results"]}
+    for name in ("ruby", "scarlet"):
+        assert paths[name] == pytest.approx((15.0 - 0.8) * PACE, rel=0.03)
+    assert paths["blue"] < 0.3  # it stands until one is near
+
+
+def test_an_evader_that_knows_its_pursuers_is_not_captured() -> None:
+    """Three assigned pursuers catch one of two who each know one of them."""
+    table = summary(
+        *("games", EXAMPLES / "teams.toml", "--pursuer", "assigned"),
+        *("--evader", "evasion", "--evader", "team-evasion"),
+        *("--seeds", "0:1", "--duration", 45, "--workers", 1),
+    )
+    rows = {row["evaders"]: row for row in table["rows"]}
+    caught, free = rows["evasion"], rows["team-evasion"]
+    assert caught["games"] == free["games"] == 1
+    assert caught["captured"]["number"] == 1
+    assert caught["least_closest_m"] <= 0.35
+    assert free["captured"]["number"] == 0
+    assert free["least_closest_m"] > 0.35
+
+
+def test_cyclic_pursuit_ends_on_its_polygon() -> None:
+    """R = v/ω with ω = kπ/n, and sides of 2R sin(π/n)."""
+    radius = SPEED / (GAIN * pi / 3)
+    side = 2 * radius * sin(pi / 3)
+    assert (radius, side) == pytest.approx((0.4775, 0.8270), abs=1e-4)
+    game = EXAMPLES / "cyclic-pursuit.toml"
+    seen = summary("game", game, "--level", "steps")
+    assert seen["outcome"] == "completed" and len(seen["results"]) == 3
+    for player in seen["results"]:
+        assert player["radius_m"] == pytest.approx(radius, rel=0.01)
+    for pair in seen["pairs"]:
+        assert pair["distance_m"] == pytest.approx(side, rel=0.01)
+        assert pair["angle_deg"] == pytest.approx(120.0, abs=0.5)
+
+
+def test_a_robot_crosses_a_crowd(tmp_path: Path) -> None:
+    """The summary says what its arrays say of people and the goal."""
+    (tmp_path / "crowd.toml").write_text(CROWD)
+    seen = kept_summary("game", tmp_path / "run", tmp_path / "crowd.toml")
+    (robot,) = seen["crowd"]
+    kept = trajectories(tmp_path / "run")
+    names = [f"person-{n}" for n in range(1, 5)]
+    assert robot["people"] == len(names)
+    people = [kept[f"{name}_place"] for name in names]
+    place, times = kept["robot_place"], kept["times_s"]
+    near = np.min([apart(place, each) for each in people], axis=0)
+    step = times[1] - times[0]
+    for limit, key in ((0.45, "below_0_45_m_s"), (1.2, "below_1_2_m_s")):
+        below = (near < limit).sum() * step
+        assert robot[key] == pytest.approx(below, abs=0.1)
+    assert robot["below_1_2_m_s"] > 0.5
+    assert near.min() > 0.39 and robot["collisions"] == 0
+    assert robot["success"] is True
+    there = np.hypot(*place[-1, :2])
+    assert there < 0.5 and robot["time_s"] == pytest.approx(times[-1], abs=0.1)
+    # People keep off each other and inside of the room.
+    for each in people:
+        assert abs(each[:, :2]).max() < 3.0
+    for one, other in combinations(people, 2):
+        assert apart(one, other).min() > 0.2
