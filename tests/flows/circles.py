@@ -96,7 +96,8 @@ def apart(
     Returns:
         Shape (n,).
     """
-    return np.hypot(*(pursuer - evader)[:, :2].T)
+    found: NDArray[np.float64] = np.hypot(*(pursuer - evader)[:, :2].T)
+    return found
 
 
 def closest_of_unicycles(

@@ -7,10 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import stepaside as sa
 from flows.calls import (
     configuration,
     kept_summary,
-    sa,
     stepaside,
     summary,
     trajectories,
@@ -60,7 +60,9 @@ def test_each_law_and_angle_has_its_own_circle(
     """
     goal = circle(radians(angle), saturated=saturated)
     seen = kept_summary(
-        *("duel", tmp_path / "run", *options_of(start_on(goal))),
+        "duel",
+        tmp_path / "run",
+        *options_of(start_on(goal)),
         *("--angle", f"{angle}deg", "--duration", 28),
         *("--safety-radius", 1.2),
         "--saturated" if saturated else "--no-saturated",
@@ -81,7 +83,9 @@ def test_a_hardware_body_walks_the_circle_by_feedback(tmp_path: Path) -> None:
     """Without feedback it walks 0.78 of the pace, on a wider circle."""
     goal = circle()
     seen = kept_summary(
-        *("duel", tmp_path / "run", *options_of(start_on(goal))),
+        "duel",
+        tmp_path / "run",
+        *options_of(start_on(goal)),
         *("--body", "hardware", "--safety-radius", 1.2, "--duration", 30),
     )
     assert seen["outcome"] == "completed"
@@ -99,7 +103,9 @@ def test_a_hardware_body_walks_the_circle_by_feedback(tmp_path: Path) -> None:
 def test_cameras_see_where_the_other_is(tmp_path: Path) -> None:
     """On the circle both turn the head by 45 degrees to see each other."""
     seen = kept_summary(
-        *("duel", tmp_path / "run", *options_of(start_on(circle()))),
+        "duel",
+        tmp_path / "run",
+        *options_of(start_on(circle())),
         *("--sensing", "cameras", "--duration", 4, "--safety-radius", 1.2),
     )
     assert seen["sight"]["detection_rate"] > 0.95
@@ -139,8 +145,9 @@ def test_an_evader_that_looks_ahead_touches_nobody(tmp_path: Path) -> None:
     assert blind["outcome"] == "contact"
     assert blind["touched"] == ["disc 1", "evader"]
     seen = kept_summary(
-        *("duel", tmp_path / "run", "--room", room, "--duration", 15),
-        *("--strategy", "look-ahead"),
+        "duel",
+        tmp_path / "run",
+        *("--room", room, "--duration", 15, "--strategy", "look-ahead"),
     )
     assert seen["outcome"] == "completed" and seen["touched"] == []
     kept = trajectories(tmp_path / "run")

@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+import stepaside as sa
 from flows.calls import (
     arena_duel,
     kept_summary,
     play_duel,
-    sa,
     summary,
     trajectories,
 )
@@ -48,7 +48,7 @@ def folders(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     levels = ("unicycle", "steps", "physics")
     for level in levels:
         kept_summary(
-            *("game", folder / level, folder / "two.toml", "--level", level)
+            "game", folder / level, folder / "two.toml", "--level", level
         )
     return {level: folder / level for level in levels}
 
@@ -62,6 +62,7 @@ def test_a_duel_from_python_ends_on_the_circle(duel: sa.DuelRun) -> None:
     assert duel.distance[late].mean() == pytest.approx(goal.distance, rel=0.03)
     assert duel.orientation[late].mean() == pytest.approx(90.0, abs=3.0)
     for track in (duel.pursuer, duel.evader):
+        assert track.place is not None
         radius, pace = arc(duel.times, track.place, 20.0, SECONDS - 1.0)
         assert radius == pytest.approx(goal.radius, rel=0.03)
         assert pace == pytest.approx(PACE, rel=0.03)

@@ -6,7 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from flows.calls import sa, stepaside
+import stepaside as sa
+from flows.calls import stepaside
 from flows.circles import GAIN, SPEED, STRIDE
 
 BEARING = 40.0  # [deg]

@@ -6,7 +6,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from flows.calls import sa, summary
+import stepaside as sa
+from flows.calls import summary
 from flows.circles import PACE
 
 FAST = 0.083 / (0.28 + 0.04)  # [m/s], stride over the time of a step
@@ -73,7 +74,7 @@ def test_mpc_without_a_push_walks_the_plan() -> None:
                 duration=4.0,
                 control=sa.ControlSettings(
                     method=method,
-                    feedback=True,  # type: ignore[arg-type]
+                    feedback=True,
                 ),
             )
         )
