@@ -4,8 +4,8 @@ Walks the commands of ``stepaside legs measure`` and ten minutes of random
 commands, writes the response beside the robot, and plays duels with it::
 
     stepaside robot init g1_12dof.urdf --output runs/g1_12
-    stepaside legs convert motion.pt --legs-contract legged_gym \
-        --deployment g1.yaml --output runs/g1_12dof.onnx
+    uv run tools/export_policy.py motion.pt --convention legged_gym \
+        --output runs/g1_12dof.onnx
     python tools/benchmarks/learned_legs.py runs/g1_12 runs/g1_12dof.onnx
 """
 

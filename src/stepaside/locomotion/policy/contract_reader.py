@@ -136,7 +136,7 @@ def read_contract(
 
 
 def _own_entries(network: PolicyNetwork) -> dict[str, Any]:
-    """Return the entries that ``stepaside legs convert`` wrote."""
+    """Return the entries in the metadata of the network."""
     text = network.metadata.get(OWN_ENTRY, "{}")
     try:
         return dict(json.loads(text))
