@@ -16,10 +16,8 @@ from stepaside.drivers.joint.frames import measurement_of
 from stepaside.drivers.joint.joint_map import JointMap
 from stepaside.drivers.lola.conventions import joint_frame_of, sensor_frame_of
 from stepaside.drivers.lola.nao_joints import (
-    HIGH,
     LEGS,
     LOLA_JOINTS,
-    LOW,
     NAMES,
     NAO_MOTORS,
     TICK,
@@ -37,13 +35,6 @@ def test_lola_has_25_motors_and_one_for_both_hip_yaws() -> None:
     assert NAMES[18] == "RShoulderPitch" and NAMES[23:] == ("LHand", "RHand")
     sides = [name[0] for name in NAMES[LEGS]]
     assert sides == 6 * ["L"] + 5 * ["R"]
-
-
-def test_left_and_right_ranges_mirror_each_other() -> None:
-    for name in ("HipRoll", "AnkleRoll", "ShoulderRoll", "ElbowRoll"):
-        left, right = NAMES.index(f"L{name}"), NAMES.index(f"R{name}")
-        np.testing.assert_allclose(LOW[left], -HIGH[right], atol=1e-5)
-        np.testing.assert_allclose(HIGH[left], -LOW[right], atol=1e-5)
 
 
 def test_ranges_and_speeds_are_those_of_the_description() -> None:

@@ -19,7 +19,7 @@ from stepaside.drivers.lola.lola_frames import (
 )
 from stepaside.drivers.lola.lola_server import LolaServer
 from stepaside.drivers.lola.nao_joints import TICK
-from stepaside.drivers.lola.served_joints import FADING, SETTLED, SILENT
+from stepaside.drivers.lola.served_joints import FADING, SILENT
 from stepaside.drivers.lola.sight_socket import MESSAGE, unpack_sight
 from stepaside.drivers.lola.socket_link import SocketLink, connect
 from stepaside.drivers.lola.wire import SENSOR_BYTES
@@ -84,36 +84,6 @@ def test_an_answer_moves_the_robot_in_the_same_tick(
     link.close()
 
 
-def test_the_server_waits_only_for_an_unanswered_frame(
-    served: tuple[LolaServer, MadeUpRobot], address: LolaAddress
-) -> None:
-    server, _ = served
-    server.speak()
-    assert server.hear()
-    link = call(address)
-    server.speak()
-    assert not server.hear()
-    link.send(STIFF)
-    assert server.hear()
-    link.close()
-
-
-def test_an_answer_that_is_late_is_taken_but_not_for_the_next_ones(
-    served: tuple[LolaServer, MadeUpRobot], address: LolaAddress
-) -> None:
-    """Else every answer from then on would act one tick late."""
-    server, robot = served
-    link = call(address)
-    tick(server, link, b"")
-    moved = np.concatenate([STANCE + 0.1, [0, 0]])
-    link.send(pack_actuators(ActuatorFrame(moved, np.ones(25))))
-    server.speak()
-    assert not server.hear()
-    server.act()
-    np.testing.assert_allclose(robot.angles, STANCE + 0.1, atol=1e-7)
-    link.close()
-
-
 def test_stiffness_decays_without_answers_and_not_before_100_ms(
     served: tuple[LolaServer, MadeUpRobot], address: LolaAddress
 ) -> None:
@@ -132,42 +102,6 @@ def test_stiffness_decays_without_answers_and_not_before_100_ms(
     link.close()
 
 
-def test_constant_partial_stiffness_counts_as_ready(
-    served: tuple[LolaServer, MadeUpRobot], address: LolaAddress
-) -> None:
-    """Others' code walks at a half; ours is ready at full stiffness only."""
-    server, _ = served
-    link = call(address)
-    posture = np.concatenate([STANCE, [0, 0]])
-
-    def held(stiffness: float) -> bool:
-        frame = ActuatorFrame(posture, np.full(25, stiffness))
-        tick(server, link, pack_actuators(frame))
-        link.receive()
-        return server.ready
-
-    assert not any(held(0.0) for _ in range(2 * SETTLED))
-    growing = np.linspace(0.01, 0.98, 2 * SETTLED)
-    assert not any(held(float(stiffness)) for stiffness in growing)
-    assert held(1.0)
-    ready = [held(0.5) for _ in range(SETTLED + 2)]
-    assert ready[-1] and ready.index(True) >= SETTLED - 1
-    link.close()
-
-
-def test_lights_alone_do_not_keep_the_robot_stiff(
-    served: tuple[LolaServer, MadeUpRobot], address: LolaAddress
-) -> None:
-    server, robot = served
-    link = call(address)
-    tick(server, link, STIFF)
-    blue = pack_actuators(ActuatorFrame(lights={"Chest": (0.0, 0.0, 1.0)}))
-    for _ in range(60):
-        tick(server, link, blue)
-    assert robot.stiffness.max() == 0.0
-    link.close()
-
-
 def test_a_second_client_is_refused_and_the_first_goes_on(
     served: tuple[LolaServer, MadeUpRobot], address: LolaAddress
 ) -> None:
@@ -183,21 +117,6 @@ def test_a_second_client_is_refused_and_the_first_goes_on(
     assert len(first.receive()) == 2
     first.close()
     second.close()
-
-
-def test_frames_of_the_next_client_are_numbered_from_zero(
-    served: tuple[LolaServer, MadeUpRobot], address: LolaAddress
-) -> None:
-    server, _ = served
-    for _ in range(3):
-        link = call(address)
-        for _ in range(4):
-            tick(server, link, STIFF)
-        numbers = [unpack_sensors(f).battery[3] for f in link.receive()]
-        assert numbers == [0, 1, 2, 3]
-        link.close()
-        tick(server, None, b"")
-        assert not server.connected
 
 
 @pytest.mark.parametrize("garbage", [b"\xc1", b"\x00", b"\x81\xa1x\x00"])
@@ -284,52 +203,6 @@ def test_a_file_is_not_taken_for_a_socket(address: LolaAddress) -> None:
     with pytest.raises(ConfigurationError, match="a file of that name"):
         LolaServer(address, MadeUpRobot(), JOINTS)
     assert Path(address.path).read_text() == "mine"
-
-
-@pytest.mark.parametrize(
-    "suffix", ["", ".new", ".ideal-sight", ".ideal-sight.new"]
-)
-@pytest.mark.parametrize("kind", ["file", "link", "lost link", "datagrams"])
-def test_files_of_others_are_not_removed_or_replaced(
-    address: LolaAddress, suffix: str, kind: str
-) -> None:
-    """Whether the server starts or not, and wherever something lies."""
-    theirs, aim = Path(address.path + suffix), Path(address.path + ".aim")
-    other = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
-    if kind == "file":
-        theirs.write_text("mine")
-    elif kind == "datagrams":
-        other.bind(str(theirs))
-    else:
-        theirs.symlink_to(aim)
-        if kind == "link":
-            aim.write_text("mine")
-    before = theirs.lstat().st_ino
-    try:
-        LolaServer(address, MadeUpRobot(), JOINTS).close()
-    except ConfigurationError as error:
-        assert address.path in str(error)
-    assert theirs.lstat().st_ino == before
-    found = {*Path(address.path).parent.iterdir()} - {theirs, aim}
-    assert found == set()
-    if kind in ("file", "link"):
-        assert theirs.read_text() == "mine"
-    other.close()
-
-
-@pytest.mark.parametrize("length", [40, 83])
-def test_a_socket_may_have_any_name_in_a_long_folder(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, length: int
-) -> None:
-    folder = "d" * (length - 2)
-    (tmp_path / folder).mkdir()
-    monkeypatch.chdir(tmp_path)
-    place = parse_address(f"lola:{folder}/p")
-    server = LolaServer(place, MadeUpRobot(), JOINTS)
-    link = call(place)
-    assert len([*(tmp_path / folder).iterdir()]) == 2
-    link.close()
-    server.close()
 
 
 def test_connecting_without_a_robot_fails_at_once(

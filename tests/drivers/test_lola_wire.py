@@ -1,13 +1,10 @@
 """Test LoLA's wire format: fixed vectors and invalid frames."""
 
-import struct
 from typing import Any
 
 import msgpack
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from lola_fakes import sensor_frame
 from stepaside.drivers.lola.lola_frames import (
@@ -19,7 +16,6 @@ from stepaside.drivers.lola.lola_frames import (
 )
 from stepaside.drivers.lola.lola_server import ActuatorFrameReader
 from stepaside.drivers.lola.wire import (
-    LONGEST_ANSWER,
     SENSOR_BYTES,
     WireError,
 )
@@ -132,21 +128,6 @@ def repacked(data: bytes, **changes: Any) -> bytes:
     return packed
 
 
-def test_keys_in_any_order_and_whole_numbers_are_read() -> None:
-    values = msgpack.unpackb(ACTUATOR_VECTOR)
-    backwards = dict(reversed(values.items())) | {"Position": [1] * 25}
-    answer = unpack_actuators(msgpack.packb(backwards))
-    assert answer.position is not None
-    assert answer.position.tolist() == [1.0] * 25
-
-
-def test_an_answer_may_leave_keys_out() -> None:
-    assert unpack_actuators(b"\x80") == ActuatorFrame()
-    chest = unpack_actuators(b"\x81\xa5Chest\x93" + 3 * HALF)
-    assert chest.lights == {"Chest": (0.5, 0.5, 0.5)}
-    assert pack_actuators(chest) == b"\x81\xa5Chest\x93" + 3 * HALF
-
-
 def test_garbage_in_lights_is_cut_but_garbage_in_targets_is_refused() -> None:
     nan = float("nan")
     wild = repacked(
@@ -208,20 +189,6 @@ def test_faults_that_keep_the_length_are_refused_too() -> None:
         unpack_sensors(endless)
 
 
-@pytest.mark.parametrize("key", VECTOR_FRAME._fields[:4])
-def test_values_that_are_not_finite_are_not_encoded(key: str) -> None:
-    changes: dict[str, Any] = {key: one(float("nan"))}
-    broken = VECTOR_FRAME._replace(**changes)
-    with pytest.raises(WireError, match="must be finite"):
-        pack_sensors(broken)
-
-
-def test_texts_of_the_wrong_length_are_not_encoded() -> None:
-    broken = VECTOR_FRAME._replace(robot_config=("NAO", "6", "NAO", "6"))
-    with pytest.raises(WireError, match="must have 896 bytes, got 854"):
-        pack_sensors(broken)
-
-
 def test_every_truncation_is_refused() -> None:
     for length in range(SENSOR_BYTES):
         with pytest.raises(WireError):
@@ -231,84 +198,9 @@ def test_every_truncation_is_refused() -> None:
             unpack_actuators(ACTUATOR_VECTOR[:length])
 
 
-@pytest.mark.parametrize("flip", [0x01, 0x80, 0xFF])
-def test_every_flipped_byte_is_refused_or_a_frame(flip: int) -> None:
-    for data, unpack in (
-        (SENSOR_VECTOR, unpack_sensors),
-        (ACTUATOR_VECTOR, unpack_actuators),
-    ):
-        read = 0
-        for at in range(len(data)):
-            broken = bytearray(data)
-            broken[at] ^= flip
-            try:
-                frame: Any = unpack(bytes(broken))
-            except WireError:
-                continue
-            read += 1
-            assert np.all(np.isfinite(frame.position))
-        assert 0 < read < len(data)
-
-
-@settings(max_examples=300, deadline=None)
-@given(st.binary(max_size=1000))
-def test_garbage_is_refused_with_one_error(data: bytes) -> None:
-    with pytest.raises(WireError):
-        unpack_sensors(data)
-    if data[:1] != b"\x80":
-        with pytest.raises(WireError):
-            unpack_actuators(data)
-    try:
-        ActuatorFrameReader().feed(data)
-    except WireError:
-        pass
-
-
-@settings(max_examples=200, deadline=None)
-@given(st.binary(min_size=896, max_size=896))
-def test_896_bytes_of_garbage_are_refused(data: bytes) -> None:
-    with pytest.raises(WireError):
-        unpack_sensors(b"\x8d" + data[1:])
-
-
-@pytest.mark.parametrize(
-    "bomb",
-    [
-        b"\x91" * 800 + b"\x00",  # nested arrays
-        b"\xdd\xff\xff\xff\xff",  # array of 4 billion
-        b"\xdf\xff\xff\xff\xff",  # map of 4 billion
-        b"\xdb\xff\xff\xff\xff",  # text of 4 GB
-        b"\xc9\xff\xff\xff\xff\x01",  # extension of 4 GB
-        b"\xd6\xff\x00\x00\x00\x00",  # a time stamp
-        b"\xc4\x01a",  # binary
-        b"\x81\x91\x00\x00",  # a list as a key
-        b"\xa5\xff\xfe\xfd\xfc\xfb",  # text that is none
-    ],
-)
-def test_bombs_do_not_go_off(bomb: bytes) -> None:
-    with pytest.raises(WireError):
-        unpack_actuators(bomb)
-    with pytest.raises(WireError):  # at the latest when more has come
-        ActuatorFrameReader().feed(bomb + bytes(3 * LONGEST_ANSWER))
-
-
 def test_answers_are_cut_out_of_a_stream_wherever_it_is_cut() -> None:
     stream = 3 * ACTUATOR_VECTOR
     for at in range(0, len(stream), 97):
         reader = ActuatorFrameReader()
         frames = reader.feed(stream[:at]) + reader.feed(stream[at:])
         assert [f.sonar for f in frames] == 3 * [(True, False)]
-
-
-def test_an_answer_that_never_ends_is_given_up() -> None:
-    reader = ActuatorFrameReader()
-    entry = b"\xa8Position" + MANY + 25 * HALF
-    with pytest.raises(WireError):
-        reader.feed(b"\x8f")
-        for _ in range(3 * LONGEST_ANSWER // len(entry)):
-            assert reader.feed(entry) == []
-
-
-def test_floats_are_sent_in_single_precision() -> None:
-    third = unpack_sensors(pack_sensors(sensor_frame(angles=(1 / 3, 0.0))))
-    assert third.angles[0] == struct.unpack("f", struct.pack("f", 1 / 3))[0]

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from fake_robot import FakeLegs, measure, walk_of
+from fake_robot import measure, walk_of
 from stepaside.control.scheme_builder import build_balance, build_scheme
 from stepaside.control.sight_sources import CameraSight, MeasuredSight
 from stepaside.control.turn_calibration import TurnCalibration
@@ -20,7 +20,7 @@ from stepaside.locomotion.zmp.reference_table import (
     standing_reference,
 )
 from stepaside.perception.measurement import Sighting
-from stepaside.planning import CenterState, GaitSettings
+from stepaside.planning import GaitSettings
 from stepaside.robots.description import load_robot
 from stepaside.robots.forward_kinematics import ForwardKinematics
 from stepaside.robots.leg_kinematics import LegKinematics
@@ -74,37 +74,6 @@ def resting_table() -> ReferenceTable:
     return table
 
 
-def test_the_open_loop_tracks_the_plan() -> None:
-    legs: Any = FakeLegs()
-    loop: Any = OpenLoop(legs)
-    table = resting_table()
-    targets = loop.targets(measure(1.0), table, 250, unasked)
-    body = table.at(1.0).body
-    assert legs.tracked == [body] and targets.tolist() == list(body.com)
-    landed, step = Pose(1.0, 2.0, 0.3), object()
-    made: Any = (landed, (0.1, 0.2), (0.3, 0.4))
-    assert loop.land(*made, step) == made
-    state = CenterState((0.1, 0.2), (0.3, 0.4))
-    asked: list[Any] = []
-
-    def plan_from(state: Any) -> Any:
-        asked.append(state)
-        return "plan"
-
-    plan, begun = loop.fit(plan_from, state, landed)
-    assert (plan, begun) == ("plan", state) and asked == [state]
-
-
-def test_the_open_loop_has_no_estimate_and_is_always_ready() -> None:
-    legs: Any = FakeLegs()
-    loop: Any = OpenLoop(legs)
-    assert loop.ready and loop.adapted == 0
-    assert loop.state is loop.solved is loop.tilt is None
-    assert loop.measured_heading is loop.commanded is None
-    legs.torso_heading = 0.4
-    assert loop.planned_heading == 0.4
-
-
 def test_feedback_adds_the_load_feedforward() -> None:
     """Scaled by the load fraction, for the commanded body and shifted ZMP."""
     gains = SimpleNamespace(load_share=0.5)
@@ -130,58 +99,6 @@ def test_feedback_adds_the_load_feedforward() -> None:
     np.testing.assert_allclose(found, [2.1, 2.2, 2.3])  # type: ignore[arg-type]
     ((body, zmp),) = asked
     assert body == "answer to update" and zmp == pytest.approx((0.31, 0.08))
-
-
-def test_the_closed_loop_asks_its_stabiliser_for_everything() -> None:
-    fake = stabiliser()
-    targets = np.arange(3.0)
-    legs: Any = SimpleNamespace(track=lambda body: targets)
-    loop: Any = ClosedLoop(fake, legs)
-    measurement = measure(1.25)._replace(joint_positions=np.full(3, 9.0))
-    sample: Any = SimpleNamespace(zmp=(0.0, 0.0))
-    table = SimpleNamespace(sample=lambda index: sample)
-    asked_for: list[float] = []
-
-    def step_at(now: float) -> Any:
-        asked_for.append(now)
-        return "step"
-
-    assert loop.targets(measurement, table, 7, step_at) == "answer to update"
-    assert loop.commanded == "answer to update"
-    assert asked_for == [1.25]
-    (told,) = fake.asked
-    assert told[0] == "update" and told[1] is measurement
-    assert told[2:] == (sample, "step")
-    (told,) = fake.joints.asked
-    assert told[1] is measurement.joint_positions and told[2] is targets
-    for name, given in (
-        ("land", (Pose(1.0, 2.0, 0.3), (0.1, 0.2), (0.3, 0.4), "step")),
-        ("fit", ("plan from", "state", "support")),
-    ):
-        answer = getattr(loop, name)(*given)
-        assert answer == f"answer to {name}"
-        assert fake.asked[-1] == (name, *given)
-
-
-def test_the_closed_loop_is_as_its_stabiliser_is() -> None:
-    fake = stabiliser()
-    legs: Any = SimpleNamespace(
-        track=lambda body: np.ones(3), torso_heading=0.7
-    )
-    loop: Any = ClosedLoop(fake, legs)
-    assert loop.state is None
-    assert loop.solved == "solved" and loop.adapted == 5
-    assert loop.tilt == (0.1, 0.2) and loop.measured_heading == 0.3
-    assert loop.planned_heading == 0.7
-    assert loop.ready is False
-    fake.ready = True
-    assert loop.ready is True
-    table = SimpleNamespace(sample=lambda index: None)
-    for fallen in (False, True):
-        fake.state = SimpleNamespace(has_fallen=fallen)
-        assert loop.state is fake.state
-        targets = loop.targets(measure(0.0), table, 0, lambda now: None)
-        assert (targets is None) is fallen
 
 
 def test_settings_open_or_close_the_loop() -> None:

@@ -11,7 +11,6 @@ from stepaside.core.poses import Array
 from stepaside.locomotion.zmp.state_estimator import (
     BodyState,
     StateEstimator,
-    _level,
 )
 from stepaside.perception.measurement import Measurement
 from stepaside.robots.description import load_robot
@@ -165,10 +164,6 @@ def test_a_tilt_of_the_torso_leans_the_com(tilt: tuple[float, float]) -> None:
     np.testing.assert_allclose(state.com, [1.03, 2.02], atol=1e-6)
 
 
-def test_level_is_the_rotation_of_roll_and_pitch() -> None:
-    np.testing.assert_allclose(_level(0.3, -0.4), rotation(0.3, -0.4, 0.0))
-
-
 def test_it_is_ready_after_standing() -> None:
     estimate = estimator()
     see(estimate, measured(), ticks=200)
@@ -268,35 +263,6 @@ def test_commanded_acceleration_is_not_mistaken_for_tilt() -> None:
     for _ in range(200):
         state = estimate.update(measured(felt=felt), FEET, asked)
     assert state.tilt == pytest.approx((0.0, 0.0), abs=1e-9)
-
-
-def test_defaults_of_the_filters() -> None:
-    """40 rad/s for the observer, 2 s and the like for the tilt."""
-    body = FakeKinematics()
-    estimate = estimator(body)
-    light = measured(left=1.0, right=1.0)
-    see(estimate, light)
-    body.lever = LEVER + (0.01, 0.0, 0.0)
-    gone = 1.04 - see(estimate, light).com[0]
-    assert gone / 0.01 == pytest.approx(exp(-80.0 * TICK))
-    estimate = estimator()
-    see(estimate, measured(), ticks=251)
-    assert estimate.ready
-    felt = rotation(0.01, 0.0, 0.0).T @ GRAVITY
-    state = see(estimate, measured(felt=felt))
-    assert state.tilt[0] == pytest.approx(0.5 * TICK * 0.01, rel=1e-3)
-    assert state.rate == (0.0, 0.0, 0.0)
-    state = see(estimate, measured(felt=felt))
-    drift = 0.06 * TICK * 0.01
-    assert state.rate[0] == pytest.approx(drift, rel=1e-2)
-
-
-def test_the_measured_posture_is_available() -> None:
-    estimate = estimator()
-    assert estimate.posture is None
-    see(estimate, measured())
-    assert estimate.posture is not None
-    assert estimate.posture.positions_feet_in_torso.shape == (2, 3)
 
 
 @pytest.mark.parametrize("mass", [0.5, 5.0, 500.0])

@@ -12,7 +12,6 @@ from stepaside.perception.colour_detector import (
     Appearance,
     ColourDetection,
     ColourDetector,
-    _groups,
     check_group,
     smoothed_hsv,
 )
@@ -70,43 +69,6 @@ def patch(
     return left, top, left + width, top + height, area
 
 
-@pytest.mark.parametrize(
-    ("gap", "axis", "groups"),
-    [(24, 0, 1), (26, 0, 2), (59, 1, 1), (61, 1, 2)],
-)
-def test_patches_are_grouped_by_the_size_of_the_smaller(
-    gap: int, axis: int, groups: int
-) -> None:
-    """Gaps of 2.5 sizes aside and of 6 sizes below."""
-    for size in ((10, 7), (7, 10)):
-        for first in (10, 30):  # as wide as high, or larger
-            one = patch(100, 50, first, first)
-            corner = (100 + first + gap, 52) if axis == 0 else (102, 50)
-            if axis == 1:
-                corner = (102, 50 + first + gap)
-            other = patch(*corner, *size)
-            for pair in ((one, other), (other, one)):
-                assert len(_groups(boxes(*pair))) == groups
-
-
-def test_diagonal_patches_must_be_near_in_both_directions() -> None:
-    one = patch(100, 50, 10, 10)
-    assert len(_groups(boxes(one, patch(130, 110, 10, 10)))) == 1
-    assert len(_groups(boxes(one, patch(140, 110, 10, 10)))) == 2
-    assert len(_groups(boxes(one, patch(130, 130, 10, 10)))) == 2
-
-
-def test_a_chain_of_patches_is_one_group() -> None:
-    chain = [patch(20 * i, 50, 10, 10) for i in (0, 3, 1, 5, 2, 4)]
-    (group,) = _groups(boxes(*chain, patch(300, 50, 10, 10)))[:1]
-    sizes = sorted(
-        len(g) for g in _groups(boxes(*chain, (300, 50, 310, 60, 9)))
-    )
-    assert sizes == [1, 6]
-    assert group.shape[1] == 5
-    assert _groups(boxes(*chain)[:0]) == []
-
-
 # Ears, shoulders, arms, a belt, and legs: 100 pixels high, 80 wide.
 TRIM = (
     patch(148, 40, 8, 10),
@@ -154,39 +116,11 @@ def test_large_square_patches_are_removed(
     assert (ends(judge(*TRIM, box)) == ends(judge(*TRIM))) is same
 
 
-def test_large_is_two_and_a_half_times_the_median() -> None:
-    """Of these patches the median has 75 pixels, with or without a box."""
-    trim = [
-        patch(120 + 20 * i, 60 + 25 * j, 10, 10)
-        for i in range(4)
-        for j in range(3)
-    ]
-    for area, same in ((180, False), (195, True)):
-        box = 205, 80, 219, 94, area
-        found = ends(judge(*trim, box))
-        assert (found == ends(judge(*trim))) is same
-
-
 @pytest.mark.parametrize(("tall", "same"), [(58, False), (62, True)])
 def test_tall_patches_are_removed(tall: int, same: bool) -> None:
     """It may be 0.6 of the height of all trim."""
     post = patch(204, 60, 6, tall)
     assert (ends(judge(*TRIM, post)) == ends(judge(*TRIM))) is same
-
-
-@pytest.mark.parametrize(("width", "found"), [(205, True), (215, False)])
-def test_a_group_wider_than_two_robots_is_rejected(
-    width: int, found: bool
-) -> None:
-    corners = [(50, 60), (50 + width - 20, 60), (100, 100), (150, 140)]
-    group = [patch(x, y, 20, 20) for x, y in corners]
-    assert (judge(*group) is not None) is found
-    # Cut off above, it may be taller than it looks.
-    cut = [patch(x, y - 60, 20, 20) for x, y in corners]
-    assert judge(*cut) is not None
-    # As may be one that is cut off below.
-    cut = [patch(x, y + 80, 20, 20) for x, y in corners]
-    assert judge(*cut) is not None
 
 
 def test_cut_edges_are_reported() -> None:
@@ -203,17 +137,6 @@ def test_cut_edges_are_reported() -> None:
     assert moved(-119, 0).cut_aside and not moved(-118, 0).cut_aside
     assert moved(119, 0).cut_aside and not moved(118, 0).cut_aside
     assert not moved(-119, 0).cut_above and not moved(0, 89).cut_aside
-
-
-@pytest.mark.parametrize(("area", "found"), [(430, True), (470, False)])
-def test_trim_fills_less_than_half_of_its_box(area: int, found: bool) -> None:
-    """Nine patches in a square of 90 pixels: 0.48 and 0.52 of it."""
-    grid = [
-        (100 + 30 * i, 60 + 30 * j, 130 + 30 * i, 90 + 30 * j, area)
-        for i in range(3)
-        for j in range(3)
-    ]
-    assert (judge(*grid) is not None) is found
 
 
 EAR, SHOULDER = patch(150, 60, 12, 12), patch(146, 82, 20, 20)
@@ -245,10 +168,6 @@ def test_ear_and_shoulder_are_a_profile_in_any_order() -> None:
 )
 def test_two_other_patches_are_no_robot(shoulder: Patch, found: bool) -> None:
     assert (judge(EAR, shoulder) is not None) is found
-
-
-def test_a_square_ear_is_rejected() -> None:
-    assert judge(patch(150, 60, 12, 12, 0.9), SHOULDER) is None
 
 
 def scene(*blots: tuple[int, int, int, int], wide: int = 320) -> ColourImage:

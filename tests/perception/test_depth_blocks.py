@@ -83,19 +83,6 @@ def test_the_axis_lies_half_a_depth_behind_the_front(
     assert np.hypot(x, y) - thing.nearest == pytest.approx(expected)
 
 
-def test_points_above_the_ceiling_are_no_obstacle() -> None:
-    (thing,) = draw((0, 40, 30, 40, 1.5), height=1.9).obstacles
-    assert 2.15 < thing.height < 2.2
-    assert count((0, 20, 30, 40, 1.5), height=2.2) == 0
-    assert count((0, 40, 30, 40, 1.5), height=2.2) == 1
-
-
-def test_objects_below_the_minimum_height_are_ignored() -> None:
-    """The upper row of one block is 0.158 m above the floor."""
-    assert count((46, 50, 30, 40, 1.5)) == 1
-    assert count((47, 50, 30, 40, 1.5)) == 0
-
-
 def test_points_up_to_7_cm_belong_to_the_floor() -> None:
     """Fourteen pixels make a thing: two columns of seven rows.
 
@@ -104,13 +91,6 @@ def test_points_up_to_7_cm_belong_to_the_floor() -> None:
     """
     assert count((43, 50, 30, 32, 1.5)) == 1
     assert count((44, 51, 30, 32, 1.5)) == 0
-
-
-@pytest.mark.parametrize(("share", "found"), [(0.011, 1), (0.009, 0)])
-def test_the_floor_has_a_hundredth_of_slack(share: float, found: int) -> None:
-    """The lowest row lies above the floor by 0.07 m and a share of depth."""
-    depth = 0.43 / (11.5 / FOCAL + share)
-    assert count((35, 42, 30, 32, depth)) == found
 
 
 @pytest.mark.parametrize("scale", [1, 2])
@@ -130,13 +110,6 @@ def test_a_step_of_depth_separates_components(
     above = (10, 25, 30, 40, 1.5), (25, 40, 30, 40, there)
     assert count(*beside) == things
     assert count(*above) == things
-
-
-@pytest.mark.parametrize(("hole", "things"), [(1, 1), (2, 1), (3, 2)])
-def test_small_holes_do_not_split_a_component(hole: int, things: int) -> None:
-    whole = (10, 40, 30, 50, 1.5)
-    assert count(whole, (10, 40, 38, 38 + hole, 0.0)) == things
-    assert count(whole, (24, 24 + hole, 30, 50, 0.0)) == things
 
 
 @pytest.mark.parametrize("dark", [1, 2])
@@ -172,25 +145,6 @@ def test_a_cut_component_counts_only_nearby(left: int, right: int) -> None:
     left, right = max(left, 1), min(right, 79)
     (thing,) = draw((10, 36, left, right, 1.87)).obstacles
     assert thing.whole
-
-
-def test_the_distance_is_the_nearest_tenth() -> None:
-    """Fewer pixels than that, of 400, are noise: 36 and 44 of them."""
-    body = (10, 30, 30, 50, 1.5)
-    for more, nearest in ((), 1.5), (((10, 18, 42, 43, 1.4),), 1.4):
-        (thing,) = draw(body, (10, 28, 40, 42, 1.4), *more).obstacles
-        assert thing.nearest == pytest.approx(nearest, abs=0.01)
-
-
-@pytest.mark.parametrize("sign", [-1, 1])
-def test_the_width_ignores_the_outermost_fiftieth(sign: int) -> None:
-    plain = draw((10, 30, 30, 50, 1.5)).obstacles[0]
-    for rows, same in ((3, True), (6, False)):
-        ear = (10, 10 + rows, 50, 52, 1.5)
-        if sign < 0:
-            ear = (10, 10 + rows, 28, 30, 1.5)
-        (thing,) = draw((10, 30, 30, 50, 1.5), ear).obstacles
-        assert (abs(thing.width - plain.width) < 0.01) is same
 
 
 def angle(column: int) -> float:
@@ -252,24 +206,6 @@ def test_few_pixels_without_return_are_no_shadow() -> None:
     assert len(draw(*specks).shadows) == 1
     # Lines are no shadows, however long.
     assert draw((50, 52, 10, 70, 0.0)).shadows == ()
-
-
-@pytest.mark.parametrize(("between", "shadows"), [(16, 1), (18, 2)])
-def test_shadows_close_together_are_joined(between: int, shadows: int) -> None:
-    """Gaps of 0.237 and 0.265 rad, as between the legs of a person."""
-    scene = draw(
-        (43, 60, 30, 36, 0.0), (43, 60, 36 + between, 45 + between, 0.0)
-    )
-    assert len(scene.shadows) == shadows
-    if shadows == 1:
-        ends = angle(30), angle(44 + between)
-        assert scene.shadows[0].width == pytest.approx(ends[0] - ends[1])
-
-
-def test_a_shadow_within_another_is_absorbed() -> None:
-    dark = (43, 60, 20, 60, 0.0), (50, 55, 30, 36, 1.5), (51, 54, 31, 35, 0.0)
-    (shadow,) = draw(*dark).shadows
-    assert shadow.width == pytest.approx(angle(20) - angle(59))
 
 
 @pytest.mark.parametrize(

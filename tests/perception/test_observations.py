@@ -154,16 +154,6 @@ def test_only_what_is_sure_tells_distance_by_its_height(
         assert seen.along == DEVIATION_TRACK
 
 
-def test_confidence_of_four_fifths_is_sure() -> None:
-    """Meaning of the constants, in one place."""
-    assert (MIN_CONFIDENCE, DEFAULT_DISTANCE, MIN_DISTANCE) == (0.8, 1.2, 0.35)
-    assert (DEVIATION_WIDTH, DEVIATION_TRACK, SHADOW_MARGIN) == (
-        0.35,
-        0.6,
-        0.15,
-    )
-
-
 def test_feet_out_of_view_leave_the_breadth() -> None:
     found = trim(0.6, YAW, cut_below=True, left=200.0, right=420.0)
     seen = observe(found)

@@ -28,14 +28,6 @@ def eyes() -> Eyes:
     return made
 
 
-def test_without_detections_the_head_scans(eyes: Eyes) -> None:
-    perception = eyes.perception
-    assert perception.searching and perception.sighting is None
-    assert eyes.target is None and not eyes.reports
-    fresh = Eyes().perception
-    assert fresh.body is None and fresh.sighting is None and fresh.searching
-
-
 def test_the_body_pose_follows_from_the_support_foot(eyes: Eyes) -> None:
     """Straight joints: the torso is half a hip to the right of the left."""
     x, y, heading = SUPPORT.inverse().compose(eyes.torso)
@@ -105,26 +97,6 @@ def test_the_camera_pose_follows_from_head_and_mount(eyes: Eyes) -> None:
     assert away == pytest.approx(0.25 / breadth, rel=1e-3)
 
 
-def test_reported_azimuths_are_positive_leftward(eyes: Eyes) -> None:
-    image = colour(TICK)
-    eyes.detector.found = trim(100.0)
-    eyes.see(TICK, image)
-    (report,) = eyes.reports
-    assert report.image is image and report.colour is eyes.detector.found
-    assert report.azimuths == pytest.approx((-atan2(20.0, 140.0),))
-    eyes.detector.found = None
-    eyes.see(2 * TICK, colour(2 * TICK))
-    assert eyes.reports[1].azimuths == () and not eyes.reports[1].colour
-
-
-def test_reports_cover_the_last_tick_only(eyes: Eyes) -> None:
-    images = [colour(TICK), colour(1.5 * TICK)]
-    eyes.see(2 * TICK, *images)
-    assert [r.image for r in eyes.perception.reports] == images
-    eyes.see(3 * TICK)
-    assert eyes.perception.reports == []
-
-
 def test_a_delayed_image_uses_the_pose_at_its_exposure() -> None:
     eyes = Eyes()
     for i in range(40):
@@ -141,16 +113,6 @@ def test_a_delayed_image_uses_the_pose_at_its_exposure() -> None:
     u, v = eyes.tracks[0].position_at(10 * TICK)
     angle = atan2(v - place[1], u - place[0])
     assert angle == pytest.approx(0.7 + 0.02 * 10, abs=1e-3)
-
-
-def test_poses_are_stored_for_a_second(eyes: Eyes) -> None:
-    for i in range(1, 100):
-        eyes.see(TICK * i)
-    poses = eyes.perception.poses
-    assert poses.at(0.0).time == pytest.approx(50 * TICK)
-    for i in range(50, 100):
-        assert poses.at(TICK * i - 1e-12).time == pytest.approx(TICK * i)
-    assert poses.at(9.0) is poses.latest is eyes.perception.body
 
 
 @pytest.mark.parametrize(("people", "period"), [(False, 0.1), (True, TICK)])

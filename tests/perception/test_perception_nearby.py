@@ -1,17 +1,16 @@
 """Test obstacles, shadows, echoes and missed detections."""
 
 from dataclasses import replace
-from math import cos, degrees, pi, radians, sin, sqrt
+from math import cos, degrees, radians, sin
 from typing import Any
 
 import numpy as np
 import pytest
 
 from stepaside.core.poses import Pose, wrap_angle
-from stepaside.perception.colour_detector import ColourDetection
 from stepaside.perception.depth_detector import Shadow
 from stepaside.perception.floor_map import FloorMap
-from stepaside.perception.images import ColourImage, SonarEcho
+from stepaside.perception.images import SonarEcho
 from stepaside.perception.percept_stages import (
     MAX_AGE,
     MIN_SHADOW,
@@ -19,14 +18,7 @@ from stepaside.perception.percept_stages import (
 )
 from stepaside.perception.perception_builder import FloorMapping
 from stepaside.perception.sonar import AXIS_OFFSET, HALF_CONE, MIN_AGE
-from stepaside.perception.track import (
-    PERSON_MOTION,
-    ROBOT_MOTION,
-    Observation,
-    TargetTrack,
-)
 from synthetic_cameras import (
-    CAMERA,
     HEAD,
     SUPPORT,
     TICK,
@@ -273,24 +265,6 @@ def test_a_frame_counts_a_miss_only_within_its_view(
     assert track.frames == ((True, False) if missed else (True,))
 
 
-def test_a_colour_frame_counts_no_miss_of_unidentified_tracks(
-    eyes: Eyes, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    show(monkeypatch)
-    thing = eyes.know(*eyes.beside(1.5, 0.0), identified=False)
-    eyes.see(TICK, colour(TICK))
-    assert list(thing.frames) == [True]
-    eyes.see(2 * TICK, depth(2 * TICK))
-    assert list(thing.frames) == [True, False]
-
-
-def test_a_detected_track_counts_no_miss(eyes: Eyes) -> None:
-    eyes.detector.found = trim(80.0)
-    for i in range(1, 4):
-        eyes.see(TICK * i, colour(TICK * i))
-    assert eyes.tracks[0].frames == (True,) * 3
-
-
 def test_mapped_obstacles_start_no_track(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
@@ -359,40 +333,3 @@ def test_a_track_within_the_near_limit_counts_no_miss(
     track = eyes.know(*eyes.beside(away, 0.0))
     eyes.see(TICK, image)
     assert track.frames.count(False) == missed
-
-
-def smallest_deviation(track: TargetTrack) -> float:
-    """Standard deviation of the position along its best axis, in [m]."""
-    x, y = track.position_at(track.time)
-    distances: list[float] = []
-    for angle in np.linspace(0.0, pi, 721):
-        exact = Observation(
-            *(track.time, x + cos(angle), y + sin(angle), 0.0),
-            *(0.0, 0.0, False, True),
-        )
-        distances.append(1.0 / sqrt(track.mahalanobis_squared(exact)))
-    return min(distances)
-
-
-@pytest.mark.parametrize(
-    ("maps", "people", "calm"),
-    [(False, False, False), (True, False, True), (True, True, False)],
-)
-def test_with_a_map_tracks_use_the_motion_model_of_robots(
-    maps: bool, people: bool, calm: bool
-) -> None:
-    """The part of a near robot beyond an image edge is estimated too."""
-    eyes = Eyes(FloorMapping() if maps else None, people=people)
-    right = float(CAMERA.width - 4)
-    ends = right - 2.0, 40.0, 80.0, right - 4.0, right
-    eyes.detector.found = ColourDetection(*ends, 0.5, False, False, False)
-    black = np.zeros((CAMERA.height, CAMERA.width, 3), np.uint8)
-    eyes.see(0.0, ColourImage(0.0, CAMERA, black))
-    (track,) = eyes.tracks
-    motion = ROBOT_MOTION if calm else PERSON_MOTION
-    step = 0.2
-    spread = track.deviation_at(track.time + step), track.deviation_at(0.0)
-    assert spread[0] ** 2 - spread[1] ** 2 == pytest.approx(
-        (motion.speed * step) ** 2 + 0.25 * motion.acceleration**2 * step**4
-    )
-    assert (smallest_deviation(track) > 0.05) is calm

@@ -39,31 +39,6 @@ def test_an_even_floor_is_a_plane_with_the_friction_asked_for() -> None:
     np.testing.assert_array_equal(model.geom_pos[0], 0.0)
 
 
-def test_the_floor_is_pale_and_lit_from_above() -> None:
-    """Checks of 0.25 m whose two shades hardly differ, under a sky."""
-    model = floor()
-    assert model.ntex == 2 and model.nmat == 1 and model.nlight == 1
-    checks, sky = model.texture("floor"), model.texture("sky")
-    assert checks.type == mujoco.mjtTexture.mjTEXTURE_2D
-    assert sky.type == mujoco.mjtTexture.mjTEXTURE_SKYBOX
-    shades = np.unique(checks.data.reshape(-1, 3), axis=0) / 255.0
-    assert len(shades) == 2 and np.ptp(shades, axis=0).max() < 0.07
-    np.testing.assert_allclose(shades.mean(axis=0), 0.82, atol=0.02)
-    assert (checks.width, checks.height) == (256, 256)
-    assert sky.width == 64 and sky.height == 384
-    material = model.material("floor")
-    np.testing.assert_array_equal(material.texrepeat, [2, 2])
-    assert material.texuniform and material.reflectance == pytest.approx(0.05)
-    assert model.geom_matid[0] == material.id
-    assert checks.id in material.texid and sky.id not in material.texid
-    np.testing.assert_array_equal(model.geom_size[0], [20, 20, 0.1])
-    assert model.light_castshadow[0]
-    assert model.light_type[0] == mujoco.mjtLightType.mjLIGHT_DIRECTIONAL
-    down = np.array([0.2, 0.3, -1.0])
-    np.testing.assert_allclose(model.light_dir[0], down / np.linalg.norm(down))
-    np.testing.assert_array_equal(model.light_pos[0], [0, 0, 4])
-
-
 def heights(model: mujoco.MjModel) -> np.ndarray:
     rows, columns = model.hfield_nrow[0], model.hfield_ncol[0]
     grid: np.ndarray = model.hfield_data.reshape(rows, columns)
@@ -93,12 +68,3 @@ def test_heights_depend_on_the_seed_only() -> None:
     other = floor(3, unevenness=0.01)
     np.testing.assert_array_equal(heights(one), heights(same))
     assert np.abs(heights(one) - heights(other)).max() > 0.5
-
-
-def test_each_purpose_has_an_independent_generator() -> None:
-    def draws(seed: int, name: str) -> tuple[float, ...]:
-        return tuple(named_generator(seed, name).uniform(size=4))
-
-    assert draws(1, "start") == draws(1, "start")
-    found = [draws(s, n) for s in (1, 2) for n in ("start", "floor", "tart")]
-    assert len(set(found)) == 6

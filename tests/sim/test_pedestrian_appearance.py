@@ -11,12 +11,10 @@ import pytest
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array, Pose
 from stepaside.games.duel import Duel
-from stepaside.games.duel_furnishing import scenery_of_duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.floor_player import FloorPlayer, PathSteering
 from stepaside.games.walker import SimulatedPlayer
 from stepaside.robots.head import rotation
-from stepaside.sim.ground_truth import torsos_apart
 from stepaside.sim.pedestrian_appearance import FIGURES, HIP
 from stepaside.sim.person_body import (
     PARTS,
@@ -83,26 +81,6 @@ def test_a_person_has_human_size() -> None:
     assert high[2] == pytest.approx(1.465)
     assert low[1] == pytest.approx(0.195)
     assert high[0] == pytest.approx(0.075)
-
-
-def test_a_trunk_has_a_chest_shoulders_hips_and_a_head() -> None:
-    """Each from its lower to its upper end, and half as broad as that."""
-    model, data = posed(STANDING, 0.0)
-    spans = []
-    body = model.body("her/trunk").id
-    for geom in np.flatnonzero(model.geom_bodyid == body):
-        radius, half = model.geom_size[geom, :2]
-        axis = half * data.geom_xmat[geom].reshape(3, 3)[:, 2]
-        up, aside = abs(axis[2]) + radius, abs(axis[1]) + radius
-        x, y, level = data.geom_xpos[geom]
-        spans.append((level - up, level + up, aside, x, y))
-    expected = [
-        (0.80, 1.00, 0.18, 0.0, 0.0),
-        (0.85, 1.50, 0.15, 0.0, 0.0),
-        (1.35, 1.49, 0.23, 0.0, 0.0),
-        (1.49, 1.74, 0.09, 0.01, 0.0),
-    ]
-    np.testing.assert_allclose(sorted(spans), expected, atol=1e-12)
 
 
 @pytest.mark.parametrize("way", [0.0, 0.1, 0.125, 0.3])
@@ -175,15 +153,6 @@ def test_feet_are_a_step_apart_in_the_middle_of_a_step() -> None:
     np.testing.assert_allclose(swing, expected, atol=1e-3)
 
 
-def test_arms_swing_against_the_legs_of_their_side() -> None:
-    _, data = posed(STANDING, 0.5 * STEP)
-    for side in ("left", "right"):
-        leg, arm = (data.body(f"her/{side} {p}") for p in ("leg", "arm"))
-        assert arm.xmat[2] == pytest.approx(
-            -sin(0.7 * 0.14) * np.sign(leg.xmat[2])
-        )
-
-
 @pytest.mark.parametrize("theta", [0.0, 1.0, -2.5])
 def test_a_figure_turns_and_moves_as_one(theta: float) -> None:
     frame = Pose(1.0, -2.0, theta)
@@ -197,20 +166,6 @@ def test_a_figure_turns_and_moves_as_one(theta: float) -> None:
         np.testing.assert_allclose(
             data.geom_xmat[geom], frames.reshape(-1), atol=1e-12
         )
-
-
-def test_robots_collide_with_people_and_cameras_show_them() -> None:
-    model, _ = figure()
-    assert (model.geom_contype == 1).all()
-    assert (model.geom_conaffinity == 0).all()
-    assert (model.geom_group == 2).all()
-    assert model.nmocap == 5
-    # The shirt is as red as a pursuer's trim; all else is too pale for it.
-    colours = model.geom_rgba[:, :3]
-    fullness = 1.0 - colours.min(axis=1) / colours.max(axis=1)
-    names = {model.body(b).name for b in model.geom_bodyid[fullness > 0.43]}
-    assert names == {"her/trunk", "her/left arm", "her/right arm"}
-    assert (model.geom_rgba[:, 3] == 1.0).all() and (colours < 0.9).all()
 
 
 def world_of(model: mujoco.MjModel, data: mujoco.MjData) -> Any:
@@ -266,37 +221,6 @@ def test_a_recorded_person_is_where_the_end_of_the_tick_says(
     )
 
 
-def test_the_true_state_of_a_person_is_that_of_the_walk() -> None:
-    model, data = figure()
-    motion = PersonMotion(PersonSettings("steer"), Pose(1, 2, 0.7), (4.0, 2.0))
-    person, _ = walker(world_of(model, data), motion, (4.0, 2.0))
-    truth = person.truth
-    assert truth.heading_in_world == 0.7
-    assert truth.position_com_in_world.tolist() == [1.0, 2.0, 1.0]
-    assert truth.has_fallen is False
-    other: Any = SimpleNamespace(position_torso_in_world=(4.0, -2.0))
-    assert torsos_apart(truth, other) == 5.0
-
-
-def test_a_person_has_no_robot_quantities() -> None:
-    """Quantities that only a robot has are None."""
-    model, data = figure()
-    motion = PersonMotion(PersonSettings("steer"), Pose(1, 2, 0.7), (4.0, 2.0))
-    world = world_of(model, data)
-    world.time = 1.5
-    player, _ = walker(world, motion, (4.0, 2.0))
-    seen = player.snapshot()
-    assert (seen.name, seen.time) == ("her", 1.5)
-    assert seen.torso == (1.0, 2.0, 0.7) and seen.com == (1.0, 2.0, 1.0)
-    unknown = (seen.frame, seen.walk, seen.zmp)
-    assert unknown == (None,) * 3
-    assert player.begun is None and player.reports == ()
-    assert player.is_moving is True and player.has_fallen is False
-    before = data.mocap_pos.copy()
-    player.close()
-    np.testing.assert_array_equal(data.mocap_pos, before)
-
-
 def test_a_person_cannot_be_pushed() -> None:
     model, data = figure()
     motion = PersonMotion(PersonSettings("steer"), STANDING, (4.0, 2.0))
@@ -317,20 +241,6 @@ def test_a_person_steers_at_the_current_evader_position() -> None:
         before = player.truth.heading_in_world
         player.tick()
         assert side * (player.truth.heading_in_world - before) > 0.01
-
-
-WITH = DuelSettings(pursuer="person")
-
-
-def test_only_robots_walk_by_control() -> None:
-    assert DuelSettings().robots == ("pursuer", "evader")
-    assert WITH.robots == ("evader",)
-
-
-def test_a_world_contains_all_bodies() -> None:
-    spec = mujoco.MjSpec()
-    scenery_of_duel(WITH).furnish(spec)
-    assert spec.compile().body("pursuer/trunk").mocapid[0] >= 0
 
 
 def test_a_person_starts_at_the_pursuer_pose() -> None:

@@ -118,12 +118,6 @@ def test_a_push_holds_its_initial_direction() -> None:
     np.testing.assert_allclose(bench.forces(1)[0], [10.0, 0.0, 0.0])
 
 
-def test_bounds_of_a_push_are_accepted() -> None:
-    for direction in (-2 * pi, 2 * pi):
-        Push(0.0, 0.0, direction, 1e-3)
-    Push(0.0, 86400.0, 0.0)
-
-
 @pytest.mark.parametrize(
     ("values", "name"),
     [

@@ -12,7 +12,6 @@ from stepaside.perception.camera_model import CameraModel
 from stepaside.robots.head import Mount, rotation
 from stepaside.sim.camera_settings import DepthSettings, SonarSettings
 from stepaside.sim.ray_casting import (
-    ColourCaster,
     DepthCaster,
     RayCaster,
     SonarCaster,
@@ -170,76 +169,6 @@ def test_the_shadow_of_an_edge_is_dark_in_the_image() -> None:
     near = np.flatnonzero(np.abs(image - 0.95) < 0.01)
     dark = np.flatnonzero(image == 0.0)
     assert dark.tolist() == [near[0] - 1]
-
-
-def colours(things: str, mount: Mount = AHEAD) -> np.ndarray:
-    model, caster = cast(things, CAMERA.rays().reshape(-1, 3), mount)
-    return ColourCaster(model, caster, CAMERA).take()
-
-
-def test_colours_are_shaded_geom_colours() -> None:
-    """Faces towards the viewer are turned from the light but a little."""
-    box = (
-        '<geom type="box" pos="1.5 0 0.5" size="0.4 0.4 0.3"'
-        ' rgba="1 0.5 0 1"/>'
-    )
-    image = colours(box)
-    face = 0.55 + 0.45 * 0.2 / sqrt(1.13)
-    assert image[15, 20].tolist() == [int(255 * face), int(127.5 * face), 0]
-    sky = [int(255 * c) for c in (0.78, 0.84, 0.90)]
-    assert image[0, 0].tolist() == sky
-
-
-@pytest.mark.parametrize(
-    ("yaw", "facing"), [(0, 0.2), (90, 0.3), (180, 0.0), (270, 0.0)]
-)
-def test_faces_towards_the_light_are_brighter(yaw: int, facing: float) -> None:
-    """It comes from behind the right; other sides have what is about."""
-    model, caster = cast(
-        '<geom type="box" pos="0 0 0.5" size="0.1 0.1 0.1" rgba="1 1 1 1"/>',
-        np.array([[1.0, 0.0, 0.0]]),
-        Mount(np.array([-1.0, 0.0, 0.0]), np.eye(3)),
-        f'pos="0 0 0.5" euler="0 0 {yaw}"',
-    )
-    pixel = ColourCaster(model, caster, CameraModel(1, 1, 1.0, 1.0)).take()
-    light = 0.55 + 0.45 * facing / sqrt(1.13)
-    assert pixel.ravel().tolist() == 3 * [int(255 * light)]
-
-
-def test_material_colours_override_and_walls_are_grey() -> None:
-    named = wall(1.6).replace('name="wall"', 'name="wall 1 0"')
-    face = 0.55 + 0.45 * 0.2 / sqrt(1.13)
-    expected = [int(255 * c * face) for c in (0.74, 0.75, 0.73)]
-    np.testing.assert_allclose(colours(named)[2, 20], expected, atol=1)
-    worn = named.replace('"wall 1 0"', '"box"').replace(
-        "<geom", '<geom material="paint"'
-    )
-    model = mujoco.MjModel.from_xml_string(
-        '<mujoco><asset><material name="paint" rgba="0 0 1 1"/></asset>'
-        '<worldbody><geom name="floor" type="plane" size="9 9 1"/>'
-        f'<body name="eye" pos="0 0 0.5"/>{worn}</worldbody></mujoco>'
-    )
-    data = mujoco.MjData(model)
-    mujoco.mj_kinematics(model, data)
-    rays = CAMERA.rays().reshape(-1, 3)
-    caster = RayCaster(model, data, "eye", AHEAD, rays)
-    pixel = ColourCaster(model, caster, CAMERA).take()[2, 20]
-    assert pixel.tolist() == [0, 0, int(255 * face)]
-
-
-def test_the_floor_is_a_checkerboard_of_half_a_metre() -> None:
-    """Seen from above: dark and bright where their places say so."""
-    mount = Mount(np.array([0.1, 0.0, 0.5]), rotation(0.0, radians(90.0), 0))
-    image = colours("", mount)
-    light = 0.55 + 0.45 / sqrt(1.13)
-    # Camera 1 m high at x = 0.1; up in the image is ahead.
-    rays = CAMERA.rays()
-    x, y = 0.1 + rays[..., 2], rays[..., 1]
-    dark = (np.floor(x / 0.5) + np.floor(y / 0.5)) % 2
-    for channel, tone in enumerate((1.0, 1.0, 0.98)):
-        expected = 255 * light * tone * (0.86 - 0.06 * dark)
-        np.testing.assert_allclose(image[..., channel], expected, atol=1.01)
-    assert np.unique(image[..., 0]).size == 2
 
 
 def hear(

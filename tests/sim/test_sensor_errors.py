@@ -37,20 +37,6 @@ def feet(sensors: SensorErrors, forces: Array) -> Array:
     return sensors.readings(np.zeros(3), np.zeros(3), forces)[2]
 
 
-def test_noise_is_drawn_reading_by_reading() -> None:
-    """IMU first, then feet, over many blocks of draws."""
-    sensors = errors_of(gyro_noise=0.1, accelerometer_noise=0.2, force_noise=3)
-    generator = named_generator(1, "s")
-    generator.uniform(size=6)
-    generator.uniform(size=8)
-    for _ in range(300):
-        turn, force, loads = sensors.readings(TURN, FORCE, np.full(8, 50.0))
-        drawn = generator.standard_normal(14)
-        np.testing.assert_array_equal(turn, TURN + 0.1 * drawn[:3])
-        np.testing.assert_array_equal(force, FORCE + 0.2 * drawn[3:6])
-        np.testing.assert_array_equal(loads, 50.0 + 3.0 * drawn[6:])
-
-
 def test_without_errors_sensors_are_exact() -> None:
     sensors = errors_of()
     angles, forces = np.array([0.1234, -2.0]), np.arange(8.0)
@@ -111,33 +97,6 @@ def test_the_imu_is_delayed_by_whole_cycles(delay: int) -> None:
         then = max(number - delay, 0)
         np.testing.assert_array_equal(turn, TURN * then)
         np.testing.assert_array_equal(force, FORCE * then)
-
-
-def test_the_greatest_draws_give_the_greatest_errors() -> None:
-    body = BodySettings(
-        gyro_bias=0.1,
-        gyro_noise=0.02,
-        accelerometer_bias=0.5,
-        accelerometer_noise=0.3,
-        force_gain_error=0.2,
-        force_noise=0.4,
-    )
-    generator: Any = SimpleNamespace(
-        uniform=lambda low, high, size: np.full(size, high),
-        standard_normal=np.ones,
-    )
-    sensors = SensorErrors(body, generator)
-    turn, force = imu(sensors, TURN, FORCE)
-    np.testing.assert_allclose(turn, TURN + 0.12)
-    np.testing.assert_allclose(force, FORCE + 0.8)
-    np.testing.assert_allclose(feet(sensors, np.full(8, 5.0)), 6.4)
-
-
-def test_inputs_are_not_modified() -> None:
-    turn, force = TURN.copy(), FORCE.copy()
-    imu(errors_of(gyro_bias=1.0, accelerometer_bias=1.0), turn, force)
-    np.testing.assert_array_equal(turn, TURN)
-    np.testing.assert_array_equal(force, FORCE)
 
 
 def test_encoders_round_to_their_nearest_step() -> None:

@@ -18,7 +18,6 @@ from stepaside.perception.images import (
     SonarEcho,
 )
 from stepaside.robots.description import load_robot
-from stepaside.robots.head import load_head
 from stepaside.sim.camera_settings import (
     CameraSettings,
     ColourSettings,
@@ -30,7 +29,6 @@ from stepaside.sim.sensor_suite import ImageNoise, SensorSuite
 
 TICK = 0.004
 NAO = load_robot("nao")
-HEAD = load_head(NAO)
 PLAIN = CameraSettings(
     colour=ColourSettings(width=80, height=60, noise=0.0),
     depth=DepthSettings(noise=0.0, missing=0.0),
@@ -215,20 +213,6 @@ def test_the_rear_camera_looks_backward_from_the_torso() -> None:
     assert first.depths[0].max() == 0.0
 
 
-def test_exposed_percepts_are_listed_before_their_latency() -> None:
-    settings = replace(PLAIN, added_latency=2 * TICK)
-    eyes = eyes_of(settings, depth=False)
-    exposed, arrived = [], []
-    for tick in range(30):
-        now = tick * TICK
-        arrived += [(p, now) for p in eyes.read(now)]
-        exposed += [(p, now) for p in eyes.exposed]
-        assert all(p.time == now for p in eyes.exposed)
-    assert len(exposed) == 2 and exposed[0][0] is arrived[0][0]
-    late = PLAIN.colour.latency + 2 * TICK
-    assert late <= arrived[0][1] - exposed[0][1] < late + TICK
-
-
 def test_random_draws_depend_on_the_seed_only() -> None:
     noisy = replace(
         PLAIN, colour=replace(PLAIN.colour, noise=4.0), drop_frames=0.5
@@ -270,15 +254,6 @@ def test_pixel_noise_has_the_set_deviation() -> None:
     assert grain.add_to(white).min() > 200
     still = ImageNoise(camera, 0.0, np.random.default_rng(2))
     np.testing.assert_array_equal(still.add_to(grey), grey)
-
-
-def test_pixel_noise_is_shifted_over_the_whole_tile() -> None:
-    """Every offset occurs, up to the last row and column."""
-    camera = CameraModel.of_field_of_view(10, 8, 1.0, 0.8)
-    grey = np.full((8, 10, 3), 128, dtype=np.uint8)
-    grain = ImageNoise(camera, 6.0, np.random.default_rng(2))
-    images = {grain.add_to(grey).tobytes() for _ in range(2000)}
-    assert len(images) == 80
 
 
 def test_ray_casting_reduces_the_image_to_160_columns() -> None:

@@ -1,7 +1,6 @@
 """Test a simulated robot: sensors, servos, fall and reference point."""
 
-from math import cos, pi, radians, sin
-from types import SimpleNamespace
+from math import cos, sin
 from typing import Any
 
 import mujoco
@@ -10,7 +9,7 @@ import pytest
 
 from fake_robot import walk_of
 from stepaside.control import ControlScheme
-from stepaside.control.sight_sources import CameraSight, MeasuredSight
+from stepaside.control.sight_sources import MeasuredSight
 from stepaside.core.poses import Array, Pose
 from stepaside.core.random_streams import named_generator
 from stepaside.games.walker import SimulatedPlayer
@@ -22,15 +21,11 @@ from stepaside.games.walker_factory import (
 from stepaside.locomotion.walk_snapshots import Phase
 from stepaside.locomotion.zmp.control_settings import OPEN_LOOP, STABILISED
 from stepaside.locomotion.zmp.feedback_loop import ClosedLoop, OpenLoop
-from stepaside.locomotion.zmp.stabiliser import Stabiliser
 from stepaside.perception.measurement import Sighting
 from stepaside.planning import GaitSettings
 from stepaside.robots.description import load_robot
 from stepaside.robots.description_types import FOOT_FORCES
-from stepaside.robots.leg_kinematics import LegKinematics
 from stepaside.sim.body_settings import BodySettings
-from stepaside.sim.ground_truth import TrueRobotState, torsos_apart
-from stepaside.sim.ideal_sensors import IdealLineOfSight
 from stepaside.sim.physics_settings import PhysicsSettings
 from stepaside.sim.push import Push
 from stepaside.sim.sensor_errors import SensorErrors
@@ -85,12 +80,6 @@ def command_of(robot: SimulatedRobot) -> Array:
     """Commanded joint angles, in [rad]. The robot is the second of two."""
     command: Array = robot.world.data.ctrl.copy()
     return command[command.size // 2 :]
-
-
-def stabiliser_of(scheme: ControlScheme) -> Stabiliser:
-    balance = walk_of(scheme).balance
-    assert isinstance(balance, ClosedLoop)
-    return balance.stabiliser
 
 
 def test_a_robot_starts_at_its_odometry_frame() -> None:
@@ -162,44 +151,6 @@ def test_the_zmp_is_the_centre_of_the_forces_at_the_soles() -> None:
     assert np.isnan(robot.measured_zmp()).all()
 
 
-@pytest.mark.parametrize("direction", [0.0, 1.0, pi / 2, pi, -2.0])
-def test_a_robot_has_fallen_when_it_leans_by_45_degrees(
-    direction: float,
-) -> None:
-    robot, _ = stand()
-    data = robot.world.data
-    at = robot.qpos_slice.start
-    for angle, fallen in ((44.0, False), (46.0, True), (120.0, True)):
-        half = radians(angle) / 2.0
-        axis = sin(half) * np.array([cos(direction), sin(direction), 0.0])
-        data.qpos[at + 3 : at + 7] = (cos(half), *axis)
-        mujoco.mj_kinematics(robot.world.model, data)
-        assert robot.truth.has_fallen is fallen
-
-
-def test_distance_is_level_and_the_same_from_both_sides() -> None:
-    robot, _ = stand()
-    world = robot.world
-    other = TrueRobotState(world.model, world.data, "first/torso")
-    world.data.qpos[:3] = (-2.3, 1.7, 5.0)
-    at = robot.qpos_slice.start
-    world.data.qpos[at : at + 3] = (0.7, -2.3, 0.3)
-    mujoco.mj_kinematics(world.model, world.data)
-    assert torsos_apart(robot.truth, other) == pytest.approx(5.0)
-    assert torsos_apart(other, robot.truth) == pytest.approx(5.0)
-    assert other.position_torso_in_world == (-2.3, 1.7)
-
-
-def test_truth_is_the_robots_own() -> None:
-    robot, _ = stand()
-    model, data = robot.world.model, robot.world.data
-    masses = model.body_mass.copy()
-    torso = model.body("second/torso").id
-    masses[model.body_rootid != torso] = 0.0
-    com = masses @ data.xipos / masses.sum()
-    np.testing.assert_allclose(robot.truth.position_com_in_world, com)
-
-
 @pytest.mark.parametrize(
     ("effect", "value"), [("efficiency", 0.9), ("backlash", 0.01)]
 )
@@ -265,22 +216,6 @@ def test_sensor_errors_use_the_generator_of_the_robot() -> None:
     )
 
 
-def test_without_a_generator_sensors_are_exact() -> None:
-    physics = PhysicsSettings()
-    world = World({"walker": NAO}, physics)
-    robot = SimulatedRobot(
-        world,
-        "walker",
-        NAO,
-        LegKinematics(NAO, tick=physics.tick),
-        FRAME,
-        BodySettings(gyro_bias=1.0),
-    )
-    mujoco.mj_forward(world.model, world.data)
-    np.testing.assert_allclose(robot.read().gyro, 0.0, atol=1e-9)
-    assert robot.tick == physics.tick
-
-
 def test_feedback_makes_the_imu_average() -> None:
     robot, scheme = stand(feedback=True)
     assert isinstance(walk_of(scheme).balance, ClosedLoop)
@@ -298,25 +233,6 @@ def test_feedback_makes_the_imu_average() -> None:
     assert plain.world.before_step == []
 
 
-def test_feedback_knows_the_clock_and_the_delay() -> None:
-    _, scheme = stand(feedback=True, delay_cycles=3)
-    stabiliser = stabiliser_of(scheme)
-    assert stabiliser.delay_ticks == 3
-    assert stabiliser.tick == 0.012
-    _, at_once = stand(feedback=True)
-    assert stabiliser_of(at_once).delay_ticks == 0
-
-
-def test_a_scheme_starts_from_the_first_measurement() -> None:
-    robot, scheme = stand()
-    assert scheme.phase is Phase.STANDING
-    assert isinstance(scheme.decisions.strategy, Pursuit)
-    assert isinstance(scheme.senses, MeasuredSight) and robot.eyes is None
-    assert not robot.sees_exactly
-    scheme.update(robot.read())
-    assert scheme.sighting == Sighting(0.0, 0.2, 2.0)
-
-
 def test_pushes_go_to_the_robots_own_torso() -> None:
     robot, scheme = stand()
     robot.push(Push(1.0, 0.0, 0.0))
@@ -332,76 +248,6 @@ def test_pushes_go_to_the_robots_own_torso() -> None:
     np.testing.assert_allclose(world.data.xfrc_applied, expected, atol=1e-6)
 
 
-def test_sight_and_eyes_are_read_at_the_time_of_the_world() -> None:
-    told: list[float] = []
-
-    class Sense(IdealLineOfSight):
-        is_exact = False
-
-        def __init__(self) -> None:
-            pass
-
-        def read(self, now: float) -> Any:
-            told.append(now)
-            return ("seen",)
-
-        def close(self) -> None:
-            told.append(-1.0)
-
-    sense = Sense()
-    made = walker(sights=(sense,))
-    robot = made.robot
-    robot.eyes = sense  # type: ignore[assignment]
-    robot.world.ticks = 50
-    measured = robot.read()
-    assert measured.sighting == measured.percepts == ("seen",)  # type: ignore
-    assert measured.players == (("seen",),)  # type: ignore
-    assert told == [pytest.approx(0.6)] * 2 and measured.time == told[0]
-    made.close()
-    assert told[2:] == [-1.0]
-    walker().close()  # who has no eyes has nothing to let go of
-
-
-def test_time_advances_when_all_robots_are_done() -> None:
-    robot, _ = stand()
-    robot.step()
-    assert robot.world.ticks == 0
-    robot.world.advance()
-    assert robot.world.ticks == 1
-    assert robot.world.data.time == pytest.approx(0.012)
-    robot.world.step()  # or for all at once
-    assert robot.world.ticks == 2
-    assert robot.world.data.time == pytest.approx(0.024)
-
-
-def test_settings_of_the_body_reach_the_robot() -> None:
-    robot, _ = stand(stiffness=0.5)
-    ranges = robot.world.model.actuator_forcerange
-    half = ranges.shape[0] // 2
-    np.testing.assert_allclose(ranges[half:], 0.5 * ranges[:half])
-
-
-def test_a_walker_reads_decides_and_writes() -> None:
-    """Time is advanced elsewhere."""
-    made = walker()
-    robot, scheme = made.robot, made.scheme
-    assert made.name == "second" and made.frame == FRAME
-    assert made.truth is robot.truth
-    assert not made.is_moving and made.begun is None and made.reports == ()
-    made.tick()
-    assert robot.world.ticks == 0
-    assert made.is_moving and made.begun is scheme.begun is not None
-    before = command_of(robot)
-    robot.write(scheme.joint_targets)
-    np.testing.assert_allclose(command_of(robot), scheme.joint_targets)
-    np.testing.assert_allclose(before, scheme.joint_targets, atol=0.1)
-    robot.world.step()
-    made.tick()
-    assert made.begun is None
-    made.push(Push(1.0, 0.0, 0.0))
-    assert robot.pusher is not None
-
-
 def test_a_walker_has_fallen_by_truth_or_estimate() -> None:
     made = walker()
     assert not made.has_fallen
@@ -412,29 +258,3 @@ def test_a_walker_has_fallen_by_truth_or_estimate() -> None:
     data.qpos[at + 3 : at + 7] = (0.5**0.5, 0.5**0.5, 0.0, 0.0)
     mujoco.mj_kinematics(made.robot.world.model, data)
     assert made.has_fallen
-
-
-def test_a_snapshot_holds_an_instant_of_a_walker() -> None:
-    made = walker()
-    made.tick()
-    robot, scheme = made.robot, made.scheme
-    seen = made.snapshot()
-    truth = robot.truth
-    assert (seen.name, seen.time, seen.frame) == ("second", 0.0, FRAME)
-    assert seen.torso == (
-        *truth.position_torso_in_world,
-        truth.heading_in_world,
-    )
-    assert seen.com == tuple(truth.position_com_in_world.tolist())
-    np.testing.assert_array_equal(seen.zmp, robot.measured_zmp())
-    assert seen.walk is not None and seen.walk.plan is scheme.state.plan
-    robot.world.step()
-    later = made.snapshot()
-    assert later.time == 0.012 and later.com != seen.com
-
-
-def test_a_walker_with_cameras_reports_its_frames() -> None:
-    made = walker()
-    perception: Any = SimpleNamespace(reports=["a frame"])
-    made.scheme.senses = CameraSight(perception, tick=0.012)
-    assert made.reports is perception.reports

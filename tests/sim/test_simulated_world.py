@@ -14,7 +14,6 @@ from stepaside.robots.description import load_robot
 from stepaside.sim.body_settings import BodySettings
 from stepaside.sim.physics_settings import PhysicsSettings
 from stepaside.sim.world import (
-    COLOURS,
     World,
     build_model,
     transform_free_joint,
@@ -108,23 +107,6 @@ def test_the_physics_has_its_settings(
     assert discrete.integrator == mujoco.mjtIntegrator.mjINT_DISCRETE
     assert option.solver == mujoco.mjtSolver.mjSOL_NEWTON
     assert option.cone == mujoco.mjtCone.mjCONE_PYRAMIDAL
-
-
-def test_robots_have_the_colours_of_their_roles() -> None:
-    model = build_model({"evader": NAO, "x": NAO}, PhysicsSettings())
-    accent = model.material(f"evader/{NAO.accent}").rgba
-    np.testing.assert_allclose(accent, COLOURS["evader"])
-    red, _, blue, _ = COLOURS["pursuer"]
-    assert red > 3.0 * blue and accent[2] > 3.0 * accent[0]
-    other = NAO.compile().material(NAO.accent).rgba
-    np.testing.assert_allclose(model.material(f"x/{NAO.accent}").rgba, other)
-
-
-def test_the_world_can_be_rendered_at_film_size() -> None:
-    model = build_model(TWO, PhysicsSettings())
-    assert model.vis.global_.offwidth >= 1920
-    assert model.vis.global_.offheight >= 1080
-    assert model.stat.extent == 1.0
 
 
 @pytest.mark.parametrize("effect", ["mass_error", "com_error"])
