@@ -77,7 +77,7 @@ def test_in_cyclic_pursuit_each_heads_for_the_next_name() -> None:
 
 
 @pytest.mark.parametrize("seed", range(20))
-@pytest.mark.parametrize("shape", [(3, 3), (4, 2), (2, 4), (5, 3)])
+@pytest.mark.parametrize("shape", [(3, 3), (4, 2), (2, 4), (5, 3), (4, 3)])
 def test_the_assignment_has_the_least_total_cost(
     shape: tuple[int, int], seed: int
 ) -> None:
