@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.stats import t
 
-from reference_statistics import NORMAL, is_wilson
+from reference_statistics import is_wilson
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.studies.duel_statistics import (
     VALUES,
@@ -75,7 +76,8 @@ def test_a_mean_has_the_interval_of_its_standard_error(
     rows = [{"seed": i, "x": value} for i, value in enumerate(values)]
     found = value_row("x", rows, theory, 0)
     assert found is not None
-    half = NORMAL * stdev(values) / len(values) ** 0.5
+    n = len(values)
+    half = t.ppf(0.975, n - 1) * stdev(values) / n**0.5
     low, high = found["mean_low"], found["mean_high"]
     assert low == pytest.approx(fmean(values) - half, rel=1e-3, abs=1e-3)
     assert high == pytest.approx(fmean(values) + half, rel=1e-3, abs=1e-3)

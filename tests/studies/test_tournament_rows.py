@@ -6,8 +6,9 @@ from typing import Any
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.stats import t
 
-from reference_statistics import NORMAL, is_wilson
+from reference_statistics import is_wilson
 from stepaside.studies.tournament_rows import tournament_rows
 
 OUTCOMES = ("survived", "captured", "contact", "touched", "fell")
@@ -55,7 +56,8 @@ def test_means_and_shares_are_over_all_games_of_a_pairing(
             values = [unit * r[name] for r in own]
             assert row[mean] == pytest.approx(fmean(values)), mean
             if name in HALVES and len(own) > 1:
-                half = NORMAL * stdev(values) / len(own) ** 0.5
+                n = len(own)
+                half = t.ppf(0.975, n - 1) * stdev(values) / n**0.5
                 assert row[HALVES[name]] == pytest.approx(half, rel=1e-4)
         ratio = row["mean_closest_m"] / row["mean_bound_m"]
         assert row["closest_over_bound"] == pytest.approx(ratio)

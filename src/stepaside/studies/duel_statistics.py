@@ -1,14 +1,13 @@
 """Statistics of many duels: proportions, means and worst seeds."""
 
 from collections.abc import Iterable, Sequence
-from math import sqrt
 from typing import Any
 
 import numpy as np
 
 from ..games.duel_circle import circle_of_theory
 from ..games.duel_settings import DuelSettings
-from .survival_statistics import CONFIDENCE, wilson_interval
+from .survival_statistics import half_interval, wilson_interval
 
 Record = dict[str, Any]
 BEFORE = 2.0 / 3.0  # of a duel; means are taken over the rest
@@ -112,7 +111,7 @@ def value_row(
         badness = np.abs(values - middle)
     worst = int(np.argmax(badness))
     sigma = float(values.std(ddof=1)) if len(values) > 1 else 0.0
-    half = CONFIDENCE * sigma / sqrt(len(values))
+    half = half_interval(values)
     mean = float(values.mean())
     return {
         "number": len(values),

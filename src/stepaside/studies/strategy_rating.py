@@ -16,9 +16,8 @@ from ..strategies.strategy_game import StepGame
 from .campaign import Study, code_stamp
 from .case_grid import CaseGrid
 from .records import Record
-from .survival_statistics import wilson_interval
+from .survival_statistics import half_interval, wilson_interval
 from .tournament_record import CELLS, FIELDS, play_record
-from .tournament_rows import half_interval
 from .tournament_settings import TournamentSettings
 from .tournament_strategies import EVADERS, PURSUERS, evader_of, pursuer_of
 

@@ -7,7 +7,9 @@ from math import radians, sqrt
 from typing import Any
 
 import numpy as np
+from scipy.special import stdtrit
 
+from ..core.poses import Array
 from ..games.walk_settings import WalkSettings
 from ..planning import Direction, Foot, ManeuverPlanner
 from ..planning.push_bound import FootReach, push_bound
@@ -38,6 +40,17 @@ def wilson_interval(survived: int, number: int) -> tuple[float, float]:
     half = z / (1 + z * z / n)
     half *= sqrt(share * (1 - share) / n + z * z / (4 * n * n))
     return max(0.0, middle - half), min(1.0, middle + half)
+
+
+def half_interval(values: Array) -> float:
+    """Return half of the 95 % interval of a mean, by Student's t.
+
+    It is 0 for a single value.
+    """
+    n = len(values)
+    if n < 2:
+        return 0.0
+    return float(stdtrit(n - 1, 0.975) * values.std(ddof=1) / sqrt(n))
 
 
 def survival_rows(

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from hashlib import sha256
-from math import sqrt
+from math import prod
 from pathlib import Path
 from typing import Any
 
@@ -23,13 +23,14 @@ from ..strategies.registry import file_of
 from .campaign import Study, code_stamp
 from .case_grid import CaseGrid
 from .records import Record
-from .survival_statistics import CONFIDENCE
+from .survival_statistics import half_interval
 from .sweep_games import GAMES, SweepGame
 
 MODULES = ("studies/sweep_games",)  # which play the games
 LIBRARIES = ("mujoco", "numba", "numpy", "scipy")
 SEED = "seed"
 SECTIONS = ("game", "settings", "grid", "cases")
+MOST_CASES = 10_000_000  # they take 8 bytes each
 SPACING = ("first", "last", "number")  # of evenly spaced values
 
 Case = tuple[Any, ...]
@@ -121,6 +122,11 @@ def load_sweep(file: Path) -> Sweep:
         raise ConfigurationError(
             f"{file}: grid or cases must have at least one case, got none"
         )
+    number = prod(map(len, values))
+    if number > MOST_CASES:
+        raise ConfigurationError(
+            f"{file}: there must be at most {MOST_CASES} cases, got {number}"
+        )
     base = entries.get("settings", {})
     sweep = Sweep(game, base, tuple(axes), tuple(values))
     _check(sweep)
@@ -205,10 +211,9 @@ def _statistics(values: list[float]) -> dict[str, float] | None:
     if not values:
         return None
     each = np.array(values, dtype=np.float64)
-    spread = float(each.std(ddof=1)) if len(each) > 1 else 0.0
     return {
         "mean": float(each.mean()),
-        "half_interval": CONFIDENCE * spread / sqrt(len(each)),
+        "half_interval": half_interval(each),
         "least": float(each.min()),
         "greatest": float(each.max()),
     }
@@ -236,7 +241,9 @@ def _axis(name: str, value: Any, file: Path) -> Sequence[Any]:
     if isinstance(value, dict) and set(value) == set(SPACING):
         try:
             spaced = np.linspace(
-                value["first"], value["last"], value["number"]
+                value["first"],
+                value["last"],
+                min(value["number"], MOST_CASES + 1),
             )
         except (TypeError, ValueError) as error:
             raise ConfigurationError(f"{file}: {name}: {error}") from error

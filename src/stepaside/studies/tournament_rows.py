@@ -1,14 +1,14 @@
 """Results of a tournament: one row per pairing."""
 
 from collections.abc import Sequence
-from math import pi, sqrt
+from math import pi
 from typing import Any
 
 import numpy as np
 
 from ..strategies.strategy_game import StepGame
 from ..theory.unicycle.circle_equations import find_circle
-from .survival_statistics import CONFIDENCE, wilson_interval
+from .survival_statistics import half_interval, wilson_interval
 from .tournament_strategies import gain_ratio_of
 
 Record = dict[str, Any]
@@ -121,10 +121,3 @@ def _contact_proportion(records: Sequence[Record]) -> float | None:
     if any("contact" not in r for r in records):
         return None
     return [r["contact"] for r in records].count(True) / len(records)
-
-
-def half_interval(values: Any) -> float:
-    """Return half of the 95 % interval of a mean."""
-    if len(values) < 2:
-        return 0.0
-    return CONFIDENCE * float(values.std(ddof=1)) / sqrt(len(values))
