@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from flows.calls import load_run, serve_page
-from flows.running import LONGEST, Running, until
+from flows.running import Running, until
 
 pytest.importorskip("viser")
 
@@ -143,13 +143,7 @@ def test_a_driven_robot_turns_as_it_is_told(
     [
         "as started",
         "duel",
-        pytest.param(
-            "room",
-            marks=pytest.mark.xfail(
-                strict=True,
-                reason="reset in a room is refused: it passes a distance",
-            ),
-        ),
+        "room",
         "person",
         "cameras",
     ],
@@ -164,12 +158,38 @@ def test_reset_begins_again_in_every_preset(preset: str, page: Page) -> None:
     seed = int(page.value("Seed")) + 1
     page.press("Seed", seed)
     page.press("Duel", "reset")
-    longest = 10.0 if preset == "room" else LONGEST
-    until(lambda: page.time == 0.0, longest)
+    until(lambda: page.time == 0.0)
     page.play(0.1)
     run = page.save()
     assert run.settings.seed == seed
     assert run.times[-1] < 5.0
+
+
+def test_angle_and_law_leave_another_evader_alone(page: Page) -> None:
+    page.press("Preset", "duel")
+    page.play(0.1)
+    page.press("Preset", "room")
+    until(lambda: page.time == 0.0)
+    page.press("Evasion angle [deg]", 70.0)
+    page.play(0.1)
+    assert page.save().settings.evader_strategy == "look-ahead"
+
+
+def test_a_preset_shows_its_seed_and_start(fresh: Page) -> None:
+    """A reset after it plays the same duel."""
+    fresh.press("Seed", SEED + 5)
+    fresh.press("Duel", "reset")
+    until(lambda: fresh.time == 0.0)
+    fresh.press("Preset", "duel")
+    until(lambda: fresh.time == 0.0)
+    fresh.play(0.1)
+    first = fresh.save()
+    fresh.press("Duel", "reset")
+    until(lambda: fresh.time == 0.0)
+    fresh.play(0.1)
+    again = fresh.save()
+    assert first.settings.seed == again.settings.seed == SEED
+    assert first.distance[0] == pytest.approx(again.distance[0], abs=1e-3)
 
 
 def test_every_preset_is_tested(page: Page) -> None:

@@ -161,10 +161,15 @@ class DuelPanel:
         except StepAsideError as error:
             self._notify(str(error))
             return
-        self._notify("")
         session, settings = self._session, self._settings
         if strategy == settings.strategy:
+            self._notify("")
             return
+        played = settings.resolved().evader_strategy
+        if played != EVASION:
+            self._notify(f"angle and law are those of evasion, not {played}")
+            return
+        self._notify("")
         session.adopt_settings(
             replace(settings, strategy=strategy, evader_strategy=EVASION)
         )
@@ -196,7 +201,8 @@ class DuelPanel:
         controls: list[tuple[Any, Any]] = [
             (self._angle, degrees(settings.strategy.angle)),
             (self._law, LAWS[settings.strategy.saturated]),
-            (self._distance, round(settings.start.distance or 1.0, 3)),
+            (self._seed, settings.seed),
+            *self._starts(),
             (self._speed_m_s, settings.gait.speed),
             (self._gain, settings.gait.gain),
             (self._sensing, settings.sensing),
@@ -207,6 +213,16 @@ class DuelPanel:
         self._notify("")
         return True
 
+    def _starts(self) -> list[tuple[Any, float]]:
+        """Return the controls of the start, with those of the duel."""
+        start = self._duel.settings.start
+        off = start.pursuer_offset or 0.0, start.evader_offset or 0.0
+        return [
+            (self._distance, round(start.distance or 1.0, 3)),
+            (self._pursuer_off, round(degrees(off[0]), 1)),
+            (self._evader_off, round(degrees(off[1]), 1)),
+        ]
+
     def restart(self) -> bool:
         """Start a duel with the settings of the controls.
 
@@ -214,17 +230,20 @@ class DuelPanel:
             Whether the settings were valid.
         """
         session, started = self._session, self._settings
+        start = started.start
+        if started.room.plan is None:  # rooms draw their starts
+            start = replace(
+                start,
+                distance=float(self._distance.value),
+                pursuer_offset=radians(float(self._pursuer_off.value)),
+                evader_offset=radians(float(self._evader_off.value)),
+            )
         body, control = self._bodies_by_name[self._body.value]
         try:
             settings = replace(
                 started,
                 seed=int(self._seed.value),
-                start=replace(
-                    started.start,
-                    distance=float(self._distance.value),
-                    pursuer_offset=radians(float(self._pursuer_off.value)),
-                    evader_offset=radians(float(self._evader_off.value)),
-                ),
+                start=start,
                 gait=replace(
                     started.gait,
                     speed=float(self._speed_m_s.value),
