@@ -133,7 +133,8 @@ class DuelEnv(gymnasium.Env[NDArray[np.float32], Any]):
         super().reset(seed=seed)
         if seed is not None or self._seed is None:
             drawn = int(self.np_random.integers(SEEDS))
-            self._seed, self._number = drawn if seed is None else seed, 0
+            given = drawn if seed is None else seed % SEEDS
+            self._seed, self._number = given, 0
         else:
             self._number += 1
         self.close()

@@ -268,6 +268,10 @@ def learning_players(
             f"evaders ({', '.join(able) or 'there are none'}), got "
             f"{wrong[0] if wrong else 'none'}"
         )
+    if len(set(chosen)) < len(chosen):
+        raise ConfigurationError(
+            f"learners must differ, got {', '.join(chosen)}"
+        )
     if all(p.role != "evader" for p in game.players):
         raise ConfigurationError(
             "game must have an evader, got roles "

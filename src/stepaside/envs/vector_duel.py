@@ -103,9 +103,12 @@ class VectorDuel(VectorEnv[Batch, Any, Any]):
         Args:
             seed: Seed of each game; an integer gives game i that many plus
                 i; None continues with the next episodes.
-            options: "reset_mask": the games to begin, shape (num_envs,).
+            options: "reset_mask": the games to begin, shape (num_envs,);
+                all the first time.
         """
         games = self._chosen(options)
+        if self._seeds is None:
+            games = np.arange(self.num_envs)
         if seed is not None or self._seeds is None:
             self._seeds = self._seeds_of(seed)
             self._numbers[:] = 0
@@ -199,14 +202,16 @@ class VectorDuel(VectorEnv[Batch, Any, Any]):
             return drawn.astype(np.int64)
         if isinstance(seed, int | np.integer):
             self._np_random = np.random.default_rng(int(seed))
-            return int(seed) + np.arange(self.num_envs, dtype=np.int64)
+            return (int(seed) % SEEDS + np.arange(self.num_envs)) % SEEDS
         if len(seed) != self.num_envs:
             raise PlanError(
                 f"there must be {self.num_envs} seeds, got {len(seed)}"
             )
         return np.array(
             [
-                int(self.np_random.integers(SEEDS)) if one is None else one
+                int(self.np_random.integers(SEEDS))
+                if one is None
+                else one % SEEDS
                 for one in seed
             ],
             dtype=np.int64,

@@ -1,9 +1,9 @@
 """Outcomes of games."""
 
-from enum import Enum
+from enum import StrEnum
 
 
-class Outcome(Enum):
+class Outcome(StrEnum):
     """Outcome of a duel, a walk or a play."""
 
     COMPLETED = "completed"

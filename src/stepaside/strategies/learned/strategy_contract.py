@@ -93,8 +93,8 @@ def contract_of(metadata: Mapping[str, str]) -> StrategyContract:
 
 
 def discrete_headings(number: int = HEADINGS) -> tuple[float | None, ...]:
-    """Return evenly spaced headings in [-pi, pi], in [rad], and standing."""
-    spaced = (pi * (2 * n / (number - 1) - 1.0) for n in range(number))
+    """Return evenly spaced headings, in [rad], and standing."""
+    spaced = (pi * (2 * n + 1 - number) / number for n in range(number))
     return (*spaced, None)
 
 
