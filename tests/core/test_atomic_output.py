@@ -309,7 +309,7 @@ def test_every_output_option_is_checked() -> None:
             assert not isinstance(kind, click.File), (name, param.name)
             if isinstance(kind, click.Path) and not kind.exists:
                 assert not kind.file_okay, (name, param.name)
-    assert len(options()) == 27
+    assert len(options()) == 26
 
 
 def test_a_figure_without_a_suffix_is_reported_with_one(

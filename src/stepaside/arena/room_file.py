@@ -36,7 +36,7 @@ def load_room(file: AnyPath) -> Room:
     file = as_path(file, "file")
     try:
         with file.open("rb") as stream:
-            text = stream.read(MAX_CHARACTERS + 1).decode("utf-8")
+            text = stream.read(MAX_CHARACTERS + 1).decode("utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         raise ERROR(f"room {file}: {reason.lower()}") from error

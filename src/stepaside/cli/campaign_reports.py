@@ -66,7 +66,7 @@ def finish_campaign(
 
     Raises:
         OutputError: If a record could not be written.
-        SystemExit: After Ctrl-C, with status 130.
+        SystemExit: After Ctrl-C, with the status of its signal.
     """
     if run.failure is not None:
         raise run.failure

@@ -9,7 +9,7 @@ import click
 from .. import __version__
 from ..core.errors import StepAsideError, shorten_words
 from ..core.extras import install_hint
-from ..core.signal_handling import INTERRUPTED, interruptible
+from ..core.signal_handling import interrupted_status, interruptible
 
 COMMANDS = {
     "duel": "Simulate a duel of two humanoids in physics.",
@@ -121,7 +121,7 @@ def _errors_of_executors() -> type[Exception]:
 
 def _leave() -> NoReturn:
     click.echo("stepaside: interrupted; partial output discarded", err=True)
-    sys.exit(INTERRUPTED)
+    sys.exit(interrupted_status())
 
 
 def _refuse(message: str) -> NoReturn:

@@ -357,7 +357,7 @@ def _print_all(
     stopped: bool,
     as_json: bool,
 ) -> None:
-    """Print all results; exit with status 130 after Ctrl-C."""
+    """Print all results; exit with the status of its signal after Ctrl-C."""
     people = answer.get(PERSON)
     if as_json:
         print_json(answer)

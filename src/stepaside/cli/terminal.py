@@ -15,7 +15,7 @@ from typing import Any, NoReturn, TextIO
 
 import click
 
-from ..core.signal_handling import INTERRUPTED
+from ..core.signal_handling import interrupted_status
 from ..report.text_escaping import visible
 
 NOTHING_SAVED = "nothing is saved"
@@ -99,13 +99,13 @@ def write_result(text: str) -> None:
 
 
 def exit_interrupted(message: str = NOTHING_SAVED) -> NoReturn:
-    """Report what is saved, and exit with the status of an interruption.
+    """Report what is saved, and exit with the status of its signal.
 
     Args:
         message: Sentence about what is saved.
     """
     echo(f"stepaside: interrupted; {message}", err=True)
-    raise SystemExit(INTERRUPTED)
+    raise SystemExit(interrupted_status())
 
 
 def resume_message(done: str, path: Path | None) -> str:

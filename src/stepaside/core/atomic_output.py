@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from hashlib import sha256
 from pathlib import Path
-from stat import S_ISREG
+from stat import S_IMODE, S_ISREG
 
 from .errors import ConfigurationError, OutputError
 
@@ -104,7 +104,10 @@ def atomic_draft(file: Path) -> Iterator[Path]:
         )
         os.close(handle)
         yield Path(draft)
-        os.chmod(draft, 0o666 & ~_mask())
+        mode = 0o666 & ~_mask()
+        if target.exists():
+            mode = S_IMODE(target.stat().st_mode)
+        os.chmod(draft, mode)
         os.replace(draft, target)
     except OutputError:
         raise

@@ -11,11 +11,10 @@ from typing import Any
 # Longest delay of a deferred interrupt, in [s]: far above a tick of a game
 # (a few ms), and short enough that Ctrl-C still seems to act at once.
 LONGEST_DELAY = 0.5
-INTERRUPTED = 130  # exit status of an interrupted command
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 DEFAULT_HANDLERS = (signal.default_int_handler, signal.SIG_DFL)
 
-_raised: set[int] = set()  # signals that raised KeyboardInterrupt
+_raised: list[int] = []  # signals that raised KeyboardInterrupt
 
 
 @contextmanager
@@ -39,6 +38,14 @@ def interruptible() -> Iterator[None]:
     finally:
         for number, handler in before.items():
             signal.signal(number, handler)
+
+
+def interrupted_status() -> int:
+    """Return the exit status of a command after the first signal.
+
+    It is that of a shell, 128 plus the number of the signal.
+    """
+    return 128 + (_raised[0] if _raised else signal.SIGINT)
 
 
 class DeferredInterrupt:
@@ -105,7 +112,7 @@ def interrupt(number: int, frame: FrameType | None) -> None:
     """
     if number == signal.SIGHUP and number in _raised:
         return
-    _raised.add(number)
+    _raised.append(number)
     raise KeyboardInterrupt
 
 

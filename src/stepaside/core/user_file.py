@@ -39,15 +39,17 @@ def load_user_file(path: str, where: str) -> ModuleType:
     Raises:
         ConfigurationError: If there is no such file, or it fails to run.
     """
-    file = Path(path).expanduser()
+    file = Path(path).expanduser().resolve()
     if not file.is_file():
         raise ConfigurationError(f"{where}: there is no file {path}")
     module = f"stepaside_user_{file.stem}"
+    while getattr(sys.modules.get(module), "__file__", str(file)) != str(file):
+        module += "_"  # another file of this name
     loader = _UncachedLoader(module, str(file))
     spec = spec_from_file_location(module, file, loader=loader)
     assert spec is not None and spec.loader is not None
     loaded = module_from_spec(spec)
-    folder = str(file.resolve().parent)
+    folder = str(file.parent)
     if folder not in sys.path:
         sys.path.append(folder)
     before = sys.modules.get(module)

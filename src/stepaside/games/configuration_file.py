@@ -98,7 +98,7 @@ def load_entries(path: Path) -> dict[str, Any]:
     """
     try:
         with path.open("rb") as file:
-            text = file.read(MAX_CHARACTERS + 1).decode("utf-8")
+            text = file.read(MAX_CHARACTERS + 1).decode("utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
         raise ConfigurationError(f"{path}: {error}") from error
     return read_entries(text, str(path))

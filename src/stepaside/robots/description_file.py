@@ -30,7 +30,7 @@ def read_entries(path: Path) -> Entries:
             ill-typed entries; names the first.
     """
     try:
-        entries = tomllib.loads(path.read_text(encoding="utf-8"))
+        entries = tomllib.loads(path.read_text(encoding="utf-8-sig"))
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise ModelError(f"{path}: {error}") from error
     names = ", ".join((*REQUIRED, *OPTIONAL))

@@ -116,7 +116,7 @@ def load_head(description: RobotDescription) -> HeadDescription:
     """
     path = description.folder / FILE
     try:
-        entries = tomllib.loads(path.read_text(encoding="utf-8"))
+        entries = tomllib.loads(path.read_text(encoding="utf-8-sig"))
         table = entries["coupling"]
         rear = entries.get("rear", [])
         rear = [rear] if isinstance(rear, dict) else rear

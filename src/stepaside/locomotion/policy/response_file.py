@@ -55,7 +55,7 @@ def load_response(folder: Path, network: Path) -> VelocityResponse | None:
     if not path.is_file():
         return None
     try:
-        entries = tomllib.loads(path.read_text(encoding="utf-8"))
+        entries = tomllib.loads(path.read_text(encoding="utf-8-sig"))
         if entries["network"] != digest_of(network):
             return None
         axes = [
