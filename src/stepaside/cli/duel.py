@@ -121,7 +121,7 @@ def print_duel(run: "DuelRun", unsettled: str) -> None:
         ("outcome", f"{run.outcome.value}: {run.message}"),
         ("start distance", f"{summary.start.distance_m:.3f} m"),
         ("expected", summary.theory.words or "-"),
-        *_circle_rows(summary),
+        *_circle_rows(summary, 2.0 / 3.0 * run.duration),
         ("captured", _capture_text(summary.captured_at_s)),
         (
             "on the circle",
@@ -142,9 +142,16 @@ def print_duel(run: "DuelRun", unsettled: str) -> None:
     print_table(rows)
 
 
-def _circle_rows(summary: "DuelSummary") -> list[tuple[str, str]]:
-    """Return values beside theory; those of the circle if it is reached."""
-    theory = summary.theory
+def _circle_rows(
+    summary: "DuelSummary", begin: float
+) -> list[tuple[str, str]]:
+    """Return values beside theory, marked where there was no circle yet.
+
+    Args:
+        summary: Summary of the duel.
+        begin: Time from which the values are measured, in [s].
+    """
+    theory, since = summary.theory, summary.converged_at_s
     rows = []
     for name, value, expected, unit in (
         (
@@ -163,8 +170,10 @@ def _circle_rows(summary: "DuelSummary") -> list[tuple[str, str]]:
         ),
     ):
         text = _compared(value, expected, unit)
-        if expected is not None and summary.converged_at_s is None:
+        if expected is not None and since is None:
             text += ", not converged"
+        elif expected is not None and since is not None and since > begin:
+            text += f", measured from {begin:.1f} s"
         rows.append((name, text))
     closest = _compared(summary.min_distance_m, theory.closest_approach_m, "m")
     return [*rows, ("closest approach", closest)]

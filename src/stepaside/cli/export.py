@@ -70,6 +70,10 @@ def export(
             bar.refresh()
 
         files = export_recording(folder, format_name, recording, report)
+    absent = recording.absent
+    if not FORMATS[format_name].repeats:  # it has no signals at all
+        players = tuple(f"{name}:" for name in recording.run.players)
+        absent = tuple(each for each in absent if each.startswith(players))
     sizes = {
         str(file.relative_to(folder)): file.stat().st_size for file in files
     }
@@ -79,11 +83,11 @@ def export(
                 "folder": str(folder),
                 "format": format_name,
                 "files": sizes,
-                "absent": list(recording.absent),
+                "absent": list(absent),
             }
         )
         return
-    for sentence in recording.absent:
+    for sentence in absent:
         echo(f"absent: {sentence}", err=True)
     print_table(
         [(name, f"{size / 1e6:.2f} MB") for name, size in sizes.items()]

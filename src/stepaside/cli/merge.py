@@ -45,9 +45,12 @@ def merge(outputs: tuple[Path, ...], output: Path) -> None:
     stores = [ResultStore(each / RECORDS) for each in outputs]
     if output.resolve() not in (each.resolve() for each in outputs):
         stores.append(whole)  # of an earlier merging
-    number = merge_stores(stores, whole)
+    found = any(True for store in stores for _ in store.entries())
+    number = merge_stores(stores, whole) if found else 0
     for store in stores:
         report_invalid_lines(store)
+    if not found:
+        raise ConfigurationError("OUTPUT must have a valid record, got none")
     echo(
         f"{number} records in {output}; run the command of the shards with "
         f"--output {output} and without --shard for their results"

@@ -106,6 +106,7 @@ def serve_duel(
             players,
             (exchange, recorder),
             has_things=settings.has_things,
+            networks=stage.networks,
         )
         outcome, wall = play(match, settings.duration, report)
     return ServedDuel(

@@ -7,6 +7,7 @@ torso heading equals the mean heading of the feet.
 """
 
 from collections.abc import Sequence
+from copy import copy
 from functools import cached_property
 from math import cos, inf, remainder, sin, tau
 from operator import itemgetter
@@ -207,8 +208,9 @@ class LegKinematics:
         return float(stance.com[2] - max(soles))
 
     def _heights(self, reference: BodyReference) -> ReachableHeights:
+        trial = copy(self)  # the robot itself does not move
         return ReachableHeights(
-            lambda height: self._reaches(reference, height),
+            lambda height: trial._reaches(reference, height),
             self._natural_height,
         )
 

@@ -97,7 +97,8 @@ def write_result(
     result: dict[str, Any] = _rounded({**head, **found}, file.name)
     text = json.dumps(result, indent=1, ensure_ascii=False)
     with atomic_draft(file) as draft:
-        draft.write_text(text + "\n", encoding="utf-8")
+        # Paths may have bytes that are not UTF-8.
+        draft.write_text(text + "\n", "utf-8", "backslashreplace")
     return result
 
 

@@ -223,7 +223,7 @@ def sort_ranks(ranks: Any, made: int, order: Any, firsts: Any) -> None:
 def is_new(key: int, table: Any) -> bool:
     """Note a key in a hash table; return whether it was not there."""
     last = len(table) - 1  # a power of two less one
-    place = (key * 2654435761 >> 7) & last
+    place = (int(key) * 2654435761 >> 7) & last
     while table[place] != 0:
         if table[place] == key:
             return False

@@ -1,0 +1,367 @@
+"""Test what games, strategies, environments and studies should do."""
+
+import json
+import pickle
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+from signal import SIGINT, raise_signal
+from typing import Any
+
+import gymnasium
+import numpy as np
+import pytest
+from click.testing import CliRunner, Result
+
+import stepaside as sa
+from legs_robot import nao_on_legs
+from stepaside.cli.duel import print_duel
+from stepaside.cli.main import main
+from stepaside.envs import game_v0  # registers the environments, too
+from stepaside.games.duel import run_duels
+from stepaside.games.served_duel import serve_duel
+from stepaside.studies.campaign import run_study
+from stepaside.studies.duel_campaign import duel_study
+
+SHORT = sa.DuelSettings(duration=1.2, start=sa.StartSettings(distance=0.7))
+OPEN: dict[str, Any] = {"level": "unicycle", "arenas": 4, "duration": 8.0}
+GAME = """
+level = "unicycle"
+duration = 1.0
+[[players]]
+name = "red"
+role = "pursuer"
+[[players]]
+name = "blue"
+role = "evader"
+"""
+OWN = """
+from stepaside import Direction, Intent
+class Own:
+    direction = Direction.BACKWARD
+    saturated = False
+    def __init__(self, turn={turn}):
+        self.turn = turn
+    def begin(self):
+        return None
+    def decide(self, knowledge, memory):
+        return Intent(self.turn), None
+"""
+
+
+@dataclass(frozen=True)
+class Own:
+    """Evader as a user writes it, which may press Ctrl-C."""
+
+    presses_at: float = 99.0
+    direction = sa.Direction.BACKWARD
+    saturated = False
+
+    def begin(self) -> None:
+        """Nothing to remember."""
+
+    def decide(
+        self, knowledge: sa.Knowledge, memory: None
+    ) -> tuple[sa.Intent, None]:
+        """Walk on a circle."""
+        if knowledge.time > self.presses_at:
+            raise_signal(SIGINT)
+        return sa.Intent(0.4), None
+
+
+@pytest.fixture
+def file(tmp_path: Path) -> Path:
+    made = tmp_path / "game.toml"
+    made.write_text(GAME)
+    return made
+
+
+def command(*words: object) -> Result:
+    return CliRunner().invoke(main, [str(word) for word in words])
+
+
+def answer(*words: object) -> Any:
+    done = command(*words, "--json")
+    assert done.exit_code == 0, done.output
+    return json.loads(done.stdout)
+
+
+@pytest.mark.xfail(
+    strict=True, reason="games at level steps have no walls and obstacles"
+)
+def test_a_box_ends_a_game_in_steps(tmp_path: Path) -> None:
+    file = tmp_path / "box.toml"
+    file.write_text("""
+level = "steps"
+duration = 20.0
+[room]
+width = 6.0
+depth = 6.0
+boxes = [{ x = 1.0, y = 0.0, width = 0.4, depth = 0.4, heading = 0.0 }]
+[[players]]
+name = "red"
+role = "pursuer"
+start = [-2.5, 0.0, 0.0]
+[[players]]
+name = "blue"
+role = "evader"
+strategy = "walk"
+start = [-0.5, 0.0, 3.14159]
+""")
+    assert answer("game", file)["outcome"] != "completed"
+
+
+def test_a_served_duel_moves_robots_on_learned_legs(tmp_path: Path) -> None:
+    robot = str(nao_on_legs(tmp_path / "nao", gain=0.3))
+    settings = replace(SHORT, robot=robot, body=sa.BODIES["delayed"])
+    served = serve_duel(settings, {}, lock_step=True).run
+    played = sa.run_duel(settings)
+    for name in ("pursuer", "evader"):
+        np.testing.assert_array_equal(
+            served.tracks[name].torso, played.tracks[name].torso
+        )
+
+
+def test_a_crowd_that_is_touched_is_no_success(tmp_path: Path) -> None:
+    """A person walks through a robot that stands."""
+    file = tmp_path / "crowd.toml"
+    file.write_text("""
+level = "unicycle"
+duration = 6.0
+[[players]]
+name = "blue"
+role = "evader"
+strategy = "stand"
+start = [0.0, 0.0, 0.0]
+[[players]]
+name = "guest"
+role = "pursuer"
+body = "person"
+person = { path = "straight", speed = 1.0 }
+start = [2.0, 0.0, 3.14159]
+""")
+    (robot,) = answer("game", file)["crowd"]
+    assert robot["collisions"] == 1 and not robot["success"]
+
+
+def test_the_closest_approach_of_a_team_game_is_that_of_opponents(
+    tmp_path: Path,
+) -> None:
+    file = tmp_path / "team.toml"
+    file.write_text("""
+level = "unicycle"
+duration = 0.2
+[[players]]
+name = "red"
+role = "pursuer"
+start = [0.0, 0.0, 0.0]
+[[players]]
+name = "ruby"
+role = "pursuer"
+start = [0.0, 0.4, 0.0]
+[[players]]
+name = "blue"
+role = "evader"
+start = [2.0, 0.0, 3.14159]
+""")
+    (row,) = answer("games", file, "--seeds", "0:2")["rows"]
+    assert row["least_closest_m"] > 1.9
+
+
+def test_the_outcome_of_an_environment_is_a_word() -> None:
+    """The evader stands, and the pursuer walks into it."""
+    duel = sa.DuelSettings(start=sa.StartSettings(distance=0.5))
+    env = gymnasium.make(
+        "stepaside/Evade-v0", level="physics", duel=duel, duration=20.0
+    )
+    env.reset(seed=1)
+    over = False
+    while not over:
+        *_, ended, late, info = env.step(np.zeros(2, np.float32))
+        over = ended or late
+    env.close()
+    assert info["outcome"] in ("contact", "fall")
+
+
+@pytest.mark.parametrize("seed", [2**31, 2**70])
+def test_any_seed_begins_an_episode(file: Path, seed: int) -> None:
+    single = gymnasium.make("stepaside/Evade-v0", **OPEN)
+    several: Any = gymnasium.make_vec(
+        "stepaside/Evade-v0",
+        num_envs=2,
+        vectorization_mode="vector_entry_point",
+        **OPEN,
+    )
+    first, _ = single.reset(seed=seed)
+    second, _ = single.reset(seed=seed + 1)
+    both, _ = several.reset(seed=seed)
+    np.testing.assert_array_equal(both, [first, second])
+    again, _ = several.reset(seed=[seed, seed + 1])
+    np.testing.assert_array_equal(both, again)
+    found, _ = game_v0.parallel_env(file).reset(seed=seed)
+    assert set(found) == {"red", "blue"}
+
+
+@pytest.mark.xfail(
+    strict=True, reason="compiled decisions of opponents are local functions"
+)
+def test_a_vector_environment_can_be_pickled() -> None:
+    envs = gymnasium.make_vec(
+        "stepaside/Evade-v0",
+        num_envs=2,
+        vectorization_mode="vector_entry_point",
+        **OPEN,
+    )
+    again = pickle.loads(pickle.dumps(envs))
+    np.testing.assert_array_equal(
+        envs.reset(seed=3)[0], again.reset(seed=3)[0]
+    )
+
+
+def test_the_first_reset_begins_all_games() -> None:
+    pair = [
+        gymnasium.make_vec(
+            "stepaside/Evade-v0",
+            num_envs=3,
+            vectorization_mode="vector_entry_point",
+            **OPEN,
+        )
+        for _ in range(2)
+    ]
+    mask = np.array([True, False, False])
+    found, _ = pair[0].reset(seed=3, options={"reset_mask": mask})
+    whole, _ = pair[1].reset(seed=3)
+    np.testing.assert_array_equal(found, whole)
+
+
+def test_learners_must_differ(file: Path) -> None:
+    with pytest.raises(sa.StepAsideError, match="learners must differ"):
+        game_v0.parallel_env(file, learners=["blue", "blue"])
+
+
+@pytest.mark.parametrize("number", [2, 15, 16])
+def test_discrete_headings_are_evenly_spaced_on_the_circle(
+    number: int,
+) -> None:
+    env: Any = gymnasium.make(
+        "stepaside/Evade-v0", action="discrete", headings=number, **OPEN
+    ).unwrapped
+    *headings, stand = env.settings.action_headings
+    assert stand is None and len(headings) == number
+    turns = np.diff([*headings, headings[0] + 2.0 * np.pi])
+    np.testing.assert_allclose(turns, 2.0 * np.pi / number)
+
+
+@pytest.mark.xfail(
+    strict=True,
+    raises=sa.StepAsideError,
+    reason="a study takes strategies by name only, even without a store",
+)
+def test_a_study_in_this_process_takes_a_strategy_object() -> None:
+    run = run_study(duel_study(replace(SHORT, evader_strategy=Own()), [1]))
+    assert [record["outcome"] for record in run.records()] == ["completed"]
+
+
+@pytest.mark.xfail(
+    strict=True, reason="a parameter of one's own strategy cannot be an axis"
+)
+def test_a_parameter_of_an_own_strategy_is_an_axis(tmp_path: Path) -> None:
+    own = tmp_path / "own.py"
+    own.write_text(OWN.format(turn=0.1))
+    study = tmp_path / "study.toml"
+    names = [f"{own}:Own(turn={turn})" for turn in (0.4, 0.8)]
+    study.write_text(
+        'game = "unicycles"\n[grid]\nevader_strategy = '
+        f"{json.dumps(names)}\n[settings]\nduration = 1.0\n"
+    )
+    assert len(answer("study", study)["rows"]) == 2
+
+
+def test_strategies_of_two_files_of_one_name_can_be_pickled(
+    tmp_path: Path,
+) -> None:
+    made: list[Any] = []
+    for number, folder in enumerate(("a", "b")):
+        (tmp_path / folder).mkdir()
+        mine = tmp_path / folder / "mine.py"
+        mine.write_text(OWN.format(turn=0.1 + number))
+        made.append(sa.load_strategy(f"{mine}:Own"))
+    again = [pickle.loads(pickle.dumps(each)) for each in made]
+    assert [each.turn for each in again] == [0.1, 1.1]
+
+
+@pytest.mark.xfail(
+    strict=True, reason="Ctrl-C loses the duels that had finished"
+)
+def test_duels_that_had_finished_survive_an_interruption() -> None:
+    long = replace(SHORT, duration=9.0, evader_strategy=Own(presses_at=1.5))
+    try:
+        first, second = run_duels([SHORT, long])
+    except KeyboardInterrupt:
+        pytest.fail("both duels are lost")
+    assert first.outcome is sa.Outcome.COMPLETED
+    assert second.outcome is sa.Outcome.INTERRUPTED
+
+
+@pytest.mark.xfail(
+    strict=True, reason="a study shows its progress in commands only"
+)
+def test_a_study_in_python_shows_its_progress(
+    capfd: pytest.CaptureFixture[str],
+) -> None:
+    run_study(duel_study(SHORT, [1]))
+    assert "1/1" in capfd.readouterr().err
+
+
+def test_a_study_of_too_many_cases_is_refused(tmp_path: Path) -> None:
+    file = tmp_path / "study.toml"
+    file.write_text(
+        'game = "unicycles"\n[grid]\nseed = "0:1000000"\n'
+        "duration = { first = 1.0, last = 2.0, number = 1000000000000 }\n"
+    )
+    done = command("study", file)
+    assert done.exit_code == 2 and "at most 10000000 cases" in done.stderr
+
+
+def test_a_folder_without_a_whole_record_is_not_merged(
+    file: Path, tmp_path: Path
+) -> None:
+    output = tmp_path / "out"
+    answer("games", file, "--seeds", "0:2", "--output", output)
+    (records,) = (output / "records").iterdir()
+    records.write_text(records.read_text().replace("{", "{x"))
+    done = command("merge", output, "--output", tmp_path / "whole")
+    assert done.exit_code == 2
+    assert done.stderr.splitlines()[-1] == (
+        "stepaside: OUTPUT must have a valid record, got none"
+    )
+    assert not list((tmp_path / "whole").rglob("*.jsonl"))
+
+
+def test_games_are_written_to_any_path(file: Path, tmp_path: Path) -> None:
+    output = tmp_path / "out\udcff"  # a byte that is not UTF-8
+    words = ("games", file, "--seeds", "0:2", "--output", output)
+    assert command(*words).exit_code == 0
+    assert json.loads((output / "summary.json").read_text())["rows"]
+
+
+@pytest.fixture(scope="module")
+def circled() -> Iterator[sa.DuelRun]:
+    run = sa.run_duel(replace(SHORT, duration=3.0))
+    assert run.summary.theory.radius_m is not None
+    yield run
+
+
+@pytest.mark.parametrize(("since", "marked"), [(1.0, False), (2.5, True)])
+def test_values_from_before_the_circle_are_marked(
+    circled: sa.DuelRun,
+    since: float,
+    marked: bool,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    summary = replace(circled.summary, converged_at_s=since)
+    print_duel(replace(circled, summary=summary), "")
+    rows = capsys.readouterr().out.splitlines()
+    beside = [row for row in rows if "theory" in row and "closest" not in row]
+    assert len(beside) == 4
+    assert all(("measured from 2.0 s" in row) == marked for row in beside)

@@ -1,0 +1,158 @@
+"""Test what the command line and the documents should do and say."""
+
+import re
+from pathlib import Path
+from signal import SIGHUP, SIGINT, SIGTERM
+
+import pytest
+from click.testing import CliRunner, Result
+
+from stepaside.cli.main import all_commands, main
+
+ROOT = Path(__file__).parents[2]
+DOCS = ROOT / "docs"
+BOM = b"\xef\xbb\xbf"
+SIGNALLED = """
+import signal
+from stepaside import Direction, Intent
+class Own:
+    direction = Direction.BACKWARD
+    saturated = False
+    def begin(self):
+        return None
+    def decide(self, knowledge, memory):
+        if knowledge.time > 0.5:
+            signal.raise_signal({number})
+        return Intent(0.4), None
+"""
+GAME = """
+level = "unicycle"
+duration = 1.0
+[[players]]
+name = "red"
+role = "pursuer"
+[[players]]
+name = "blue"
+role = "evader"
+"""
+
+
+def stepaside(*words: object) -> Result:
+    return CliRunner().invoke(main, [str(word) for word in words])
+
+
+def pages() -> str:
+    return "\n".join(p.read_text("utf-8") for p in sorted(DOCS.glob("*.md")))
+
+
+@pytest.mark.parametrize("number", [SIGHUP, SIGTERM, SIGINT])
+def test_the_status_of_a_command_is_that_of_its_signal(
+    number: int, tmp_path: Path
+) -> None:
+    own = tmp_path / "own.py"
+    own.write_text(SIGNALLED.format(number=int(number)))
+    words = ("--duration", "2", "--evader-strategy", f"{own}:Own")
+    assert stepaside("unicycles", *words).exit_code == 128 + number
+
+
+def test_a_file_that_is_replaced_keeps_its_mode(tmp_path: Path) -> None:
+    figure = tmp_path / "plan.svg"
+    figure.write_text("old")
+    figure.chmod(0o600)
+    words = ("--role", "evader", "--bearing", "40deg", "--overwrite")
+    done = stepaside("plan", *words, "--figure", figure)
+    assert done.exit_code == 0, done.output
+    assert figure.read_text("utf-8") != "old"
+    assert figure.stat().st_mode & 0o777 == 0o600
+
+
+@pytest.mark.parametrize("kind", ["game", "configuration", "room"])
+def test_a_file_may_begin_with_a_byte_order_mark(
+    kind: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Editors of Windows write one."""
+    text, words = {
+        "game": (GAME, ["game"]),
+        "configuration": (
+            "duration = 0.5\n",
+            ["duel", "--print-config", "--config"],
+        ),
+        "room": ("width = 3.0\ndepth = 3.0\n", ["room"]),
+    }[kind]
+    monkeypatch.chdir(tmp_path)  # games are written there
+    file = tmp_path / "file.toml"
+    file.write_bytes(BOM + text.encode())
+    done = stepaside(*words, file)
+    assert done.exit_code == 0, done.output
+
+
+def test_the_page_of_commands_says_who_takes_what() -> None:
+    text = (DOCS / "commands.md").read_text("utf-8")
+    (sentence,) = re.findall(r"Every command but (.*?) takes `--json`", text)
+    without = {
+        name
+        for name, command in all_commands().items()
+        if not any("--json" in param.opts for param in command.params)
+    }
+    assert set(re.findall(r"`(\w+)`", sentence)) == without
+
+
+def test_the_first_page_installs_what_its_commands_need() -> None:
+    text = (DOCS / "index.md").read_text("utf-8")
+    (lines,) = re.findall(r"```sh\n(.*?)```", text, re.DOTALL)
+    install, *commands = lines.splitlines()
+    assert any("stepaside view" in command for command in commands)
+    assert "[viewer]" in install
+
+
+@pytest.mark.xfail(
+    strict=True, reason="the reference lacks environments and studies"
+)
+@pytest.mark.parametrize("name", ["DuelEnv", "GameSettings", "run_study"])
+def test_the_reference_has_environments_and_studies(name: str) -> None:
+    text = (DOCS / "api.md").read_text("utf-8")
+    assert re.search(rf"^\.\. auto\w+:: .*\b{name}$", text, re.MULTILINE)
+
+
+@pytest.mark.xfail(
+    strict=True,
+    reason="no page says how a network from torch gets its metadata",
+)
+def test_a_page_says_how_a_network_gets_its_metadata() -> None:
+    assert ".metadata()" in pages()
+
+
+@pytest.mark.xfail(
+    strict=True,
+    reason="Stable-Baselines3 needs an adapter that is written nowhere",
+)
+def test_a_page_says_how_stable_baselines_learns() -> None:
+    assert "stable_baselines3" in pages()
+
+
+@pytest.mark.xfail(
+    strict=True,
+    reason="the recipe for ROS 2 does not publish the other's pose",
+)
+def test_the_recipe_for_ros_2_publishes_the_pose_of_the_other() -> None:
+    recipe = (DOCS / "robots-real.md").read_text("utf-8")
+    blocks = "".join(re.findall(r"```\w*\n(.*?)```", recipe, re.DOTALL))
+    assert re.search(r"ros2 (topic pub|run) .*(detections|odom)", blocks)
+
+
+@pytest.mark.xfail(
+    strict=True, reason="one duel installs all that developers need"
+)
+def test_one_duel_needs_no_tools_of_developers() -> None:
+    text = (ROOT / "Makefile").read_text("utf-8")
+    (needs,) = re.findall(r"^duel:(.*)$", text, re.MULTILINE)
+    assert needs.split() != ["setup"]
+
+
+@pytest.mark.xfail(
+    strict=True, reason="formulas of the tutorials are set by a remote script"
+)
+def test_formulas_need_no_network() -> None:
+    text = (DOCS / "conf.py").read_text("utf-8")
+    (path,) = re.findall(r'^mathjax_path = "(.*)"$', text, re.MULTILINE)
+    assert not path.startswith("http")
