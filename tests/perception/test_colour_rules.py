@@ -139,6 +139,32 @@ def test_cut_edges_are_reported() -> None:
     assert not moved(-119, 0).cut_above and not moved(0, 89).cut_aside
 
 
+@pytest.mark.parametrize(("width", "found"), [(205, True), (215, False)])
+def test_a_group_wider_than_two_robots_is_rejected(
+    width: int, found: bool
+) -> None:
+    corners = [(50, 60), (50 + width - 20, 60), (100, 100), (150, 140)]
+    group = [patch(x, y, 20, 20) for x, y in corners]
+    assert (judge(*group) is not None) is found
+    # Cut off above, it may be taller than it looks.
+    cut = [patch(x, y - 60, 20, 20) for x, y in corners]
+    assert judge(*cut) is not None
+    # As may be one that is cut off below.
+    cut = [patch(x, y + 80, 20, 20) for x, y in corners]
+    assert judge(*cut) is not None
+
+
+@pytest.mark.parametrize(("area", "found"), [(430, True), (470, False)])
+def test_trim_fills_less_than_half_of_its_box(area: int, found: bool) -> None:
+    """Nine patches in a square of 90 pixels: 0.48 and 0.52 of it."""
+    grid = [
+        (100 + 30 * i, 60 + 30 * j, 130 + 30 * i, 90 + 30 * j, area)
+        for i in range(3)
+        for j in range(3)
+    ]
+    assert (judge(*grid) is not None) is found
+
+
 EAR, SHOULDER = patch(150, 60, 12, 12), patch(146, 82, 20, 20)
 
 

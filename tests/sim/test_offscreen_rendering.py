@@ -1,10 +1,7 @@
 """Test the choice of a renderer."""
 
 import os
-import subprocess
 from collections.abc import Iterator
-from types import SimpleNamespace
-from typing import Any
 
 import mujoco
 import numpy as np
@@ -16,7 +13,6 @@ from stepaside.sim.offscreen_rendering import (
     BACKENDS,
     OffscreenRenderer,
     RenderQuality,
-    _works,
     choose_renderer,
 )
 
@@ -73,45 +69,6 @@ def test_a_requested_renderer_is_used_or_refused(
     known = "one of auto, egl, osmesa, raycast, got 'glfw'"
     with pytest.raises(ConfigurationError, match=known):
         choose_renderer("glfw")
-
-
-def test_a_backend_works_if_a_process_survives_it(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    asked: list[dict[str, Any]] = []
-    outcome: list[Any] = [0]
-
-    def run(command: list[str], **options: Any) -> Any:
-        asked.append({"command": command, **options})
-        if isinstance(outcome[0], Exception):
-            raise outcome[0]
-        return SimpleNamespace(returncode=outcome[0])
-
-    monkeypatch.setattr(subprocess, "run", run)
-    monkeypatch.delenv("OPENBLAS_NUM_THREADS", raising=False)
-    for end, good in (
-        (0, True),
-        (1, False),
-        (-11, False),
-        (OSError(), False),
-        (subprocess.TimeoutExpired("python", 60.0), False),
-    ):
-        outcome[0] = end
-        # Past its memory, that other tests rely on.
-        assert _works.__wrapped__("egl") is good
-    probe = asked[0]
-    program = probe["command"][-1]
-    assert "OffscreenRenderer(m, 16, 16, 'egl')" in program
-    names: dict[str, Any] = {}
-    exec(program.partition("; m =")[0], names)  # its imports
-    assert names["OffscreenRenderer"] is OffscreenRenderer
-    assert probe["env"]["MUJOCO_GL"] == "egl"
-    assert probe["env"]["PYOPENGL_PLATFORM"] == "egl"
-    assert "PATH" in probe["env"]
-    # It may fail, in silence, but not hang.
-    assert probe["check"] is False and probe["capture_output"] is True
-    assert probe["timeout"] == 60.0
-    assert probe["env"]["OPENBLAS_NUM_THREADS"] == "1"
 
 
 SCENE = """<mujoco><visual><headlight ambient="1 1 1" diffuse="0 0 0"
