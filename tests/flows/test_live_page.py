@@ -172,6 +172,9 @@ def test_angle_and_law_leave_another_evader_alone(page: Page) -> None:
     until(lambda: page.time == 0.0)
     page.press("Evasion angle [deg]", 70.0)
     page.play(0.1)
+    page.press("Duel", "reset")
+    until(lambda: page.time == 0.0)
+    page.play(0.1)
     assert page.save().settings.evader_strategy == "look-ahead"
 
 

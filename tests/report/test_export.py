@@ -220,12 +220,16 @@ def test_points_footsteps_and_strategy_are_those_of_the_run(
         apart = np.hypot(*(real - plan).mean(axis=0)[:2])
         assert 0.0 < apart < 0.01
     # The first sole covers its footstep: side, x, y, heading.
-    _, _, x, y, heading = landings[0]
+    _, side, x, y, heading = landings[0]
     away = points(planned[0][1])[:sole, :2] - (x, y)
     ahead = away @ (np.cos(heading), np.sin(heading))
     gait = run.settings.gait
     assert ahead.min() == pytest.approx(gait.sole.back, abs=1e-6)
     assert ahead.max() == pytest.approx(gait.sole.front, abs=1e-6)
+    outward = away @ (-np.sin(heading), np.cos(heading))
+    outward *= 1.0 if side > 0.5 else -1.0
+    assert outward.min() == pytest.approx(-gait.sole.inner, abs=1e-6)
+    assert outward.max() == pytest.approx(gait.sole.outer, abs=1e-6)
     bearing = bag.topics["/evader/strategy/sighting_bearing_rad"]
     assert abs(bearing[-1][1].data) < np.pi
     sides = {m.data for _, m in bag.topics["/evader/strategy/memory_side"]}

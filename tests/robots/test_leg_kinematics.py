@@ -177,6 +177,14 @@ def test_joint_limits_hold_in_every_stance() -> None:
         limited(kinematics, "LKneePitch")
 
 
+def test_the_range_of_heights_moves_nothing() -> None:
+    kinematics = LegKinematics(NAO, tick=TICK)
+    before = kinematics.stand(STANCE)
+    assert kinematics.lowest_com(STANCE) < kinematics.highest_com(STANCE)
+    np.testing.assert_array_equal(kinematics.joint_targets, before)
+    np.testing.assert_allclose(kinematics.track(STANCE), before, atol=1e-5)
+
+
 def test_a_torso_waits_for_joints_that_are_too_slow() -> None:
     """A jump of 2 cm from straight knees: soles stay flat, the CoM comes."""
     kinematics = stood()

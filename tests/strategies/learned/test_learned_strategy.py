@@ -68,8 +68,11 @@ def test_continuous_outputs_are_limited() -> None:
 
 def test_the_largest_discrete_output_decides() -> None:
     headings = discrete_headings(3)
-    assert headings == (-pi, 0.0, pi, None)
-    for chosen, expected in [(0, Intent(-pi)), (2, Intent(pi)), (3, STAND)]:
+    third = 2.0 * pi / 3.0
+    assert headings == (-third, 0.0, third, None)
+    for chosen, expected in enumerate(
+        [Intent(-third), Intent(0.0), Intent(third), STAND]
+    ):
         offsets = 1.0 * (np.arange(4) == chosen)
         strategy = linear(np.zeros((2, 4)).tolist(), offsets, headings)
         assert strategy.decide(KNOWN, None)[0] == expected
