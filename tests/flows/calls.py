@@ -6,9 +6,11 @@ here alone, so that a new name of a command changes one line.
 
 import json
 import os
+import resource
 import subprocess
 import sys
 import tomllib
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -17,6 +19,7 @@ from numpy.typing import NDArray
 
 import stepaside as sa
 
+EXAMPLES = Path(__file__).parents[2] / "examples"
 TIMEOUT = 280.0  # [s], for what hangs
 
 
@@ -38,8 +41,19 @@ def stepaside(
     status: int = 0,
     cwd: Path | None = None,
     env: dict[str, str] | None = None,
+    largest_file: int | None = None,
 ) -> Output:
-    """Run a command as a user does, and check its exit status."""
+    """Run a command as a user does, and check its exit status.
+
+    Files that would become larger than ``largest_file`` [bytes] fail, as if
+    the disk were full.
+    """
+
+    def limit() -> None:
+        if largest_file is not None:
+            size = largest_file, largest_file
+            resource.setrlimit(resource.RLIMIT_FSIZE, size)
+
     done = subprocess.run(
         [sys.executable, "-m", "stepaside", *map(str, words)],
         capture_output=True,
@@ -47,6 +61,7 @@ def stepaside(
         cwd=cwd,
         env=os.environ | (env or {}),
         timeout=TIMEOUT,
+        preexec_fn=limit,
     )
     output = Output(done.returncode, done.stdout, done.stderr)
     assert output.status == status, output
@@ -139,6 +154,189 @@ def arena_duel(**settings: Any) -> Any:
 
 
 # Games of many, levels, strategies, studies and environments.
+
+
+def unicycles_of(
+    evader: object,
+    *,
+    distance: float,
+    aim: float = 0.0,
+    bearing: float = 0.0,
+    duration: float,
+) -> Any:
+    """Let a unicycle pursue a strategy, both at 0.1 m/s and 0.2 1/s.
+
+    Both decide every 0.4 s.
+    """
+    return stepaside(
+        *("unicycles", "--speed", 0.1, "--gain", 0.2, "--distance", distance),
+        *("--sample-time", 0.4),
+        *("--aim", aim, "--bearing", bearing, "--duration", duration),
+        *("--evader-strategy", evader, "--json"),
+    ).json
+
+
+def duel_of(evader: object, *, distance: float, duration: float) -> Any:
+    """Let NAO pursue a strategy from straight ahead; return the summary."""
+    return stepaside(
+        *("duel", "--strategy", evader, "--distance", distance, "--json"),
+        *("--pursuer-offset", 0, "--evader-offset", 0),
+        *("--duration", duration),
+    ).json
+
+
+def start_duel(
+    evader: object, folder: Path, *, duration: float
+) -> "subprocess.Popen[str]":
+    """Start a duel into a run folder."""
+    return start_stepaside(
+        *("duel", "--strategy", evader, "--distance", 1, "--output", folder),
+        *("--pursuer-offset", 0, "--evader-offset", 0),
+        *("--duration", duration),
+    )
+
+
+def duel_with_person(
+    *, sensing: str, speed: float, distance: float, duration: float
+) -> Any:
+    """Let a person walk straight at a NAO with fast legs."""
+    return stepaside(
+        *("duel", "--gait", "fast", "--pursuer", "person", "--json"),
+        *("--person-path", "straight", "--person-speed", speed),
+        *("--pursuer-offset", 0, "--evader-offset", 0),
+        *("--distance", distance, "--duration", duration),
+        *("--sensing", sensing),
+    ).json
+
+
+def own_duel(evader: Any, *, distance: float, duration: float) -> Any:
+    """The same as :func:`duel_of` with a strategy object, from Python."""
+    return sa.run_duel(
+        sa.DuelSettings(
+            duration=duration,
+            start=sa.StartSettings(distance, 0.0, 0.0),
+            evader_strategy=evader,
+        )
+    )
+
+
+def rate_evaders(*evaders: object, games: int) -> Any:
+    """Rate evaders against the fixed suite."""
+    return stepaside(
+        *("rate", *evaders, "--role", "evader", "--games", games, "--json")
+    ).json
+
+
+def tournament(
+    evaders: Sequence[object],
+    pursuers: Sequence[str],
+    *,
+    room: str,
+    seeds: str,
+    duration: float,
+) -> Any:
+    """Play every evader against every pursuer; return the rows."""
+    words: list[object] = []
+    for evader in evaders:
+        words += ["--evader", evader]
+    for pursuer in pursuers:
+        words += ["--pursuer", pursuer]
+    return stepaside(
+        *("tournament", *words, "--room", room, "--seeds", seeds, "--json"),
+        *("--duration", duration, "--workers", 1),
+    ).json["rows"]
+
+
+def robustness(kind: str, *words: object, seeds: int = 1) -> Any:
+    """Measure how many walks survive a disturbance, in open loop."""
+    return stepaside(
+        *("robustness", "--kind", kind, "--seeds", seeds, "--json", *words),
+        *("--method", "open-loop", "--workers", 1),
+    ).json
+
+
+def walk_on_uneven_floor(height: float, *, seed: int) -> Any:
+    """Walk for 20 s on an uneven floor; return the summary."""
+    return stepaside(
+        *("walk", "--unevenness", height, "--seed", seed, "--json"),
+        *("--duration", 20, "--open-loop"),
+    ).json
+
+
+def game_of_file(file: Path) -> Any:
+    """Play the game that a file lists; return the summary."""
+    return stepaside("game", file, "--json").json
+
+
+def games_of_file(file: Path, seeds: str) -> Any:
+    """Play the game of a file with seeds; return the only row."""
+    (row,) = stepaside(
+        "games", file, "--seeds", seeds, "--workers", 1, "--json"
+    ).json["rows"]
+    return row
+
+
+def study(file: Path, output: Path, *words: object, **process: Any) -> Output:
+    """Run a study in one process; its output is one JSON object."""
+    kept = ("--output", output, "--workers", 1, "--json")
+    return stepaside("study", file, *kept, *words, **process)
+
+
+def start_study(file: Path, output: Path) -> "subprocess.Popen[str]":
+    """Start a study, which is ended before it has finished."""
+    words = ("study", file, "--output", output, "--workers", 2)
+    return start_stepaside(*words)
+
+
+def commands() -> list[str]:
+    """Names of all commands, as the help of the program lists them."""
+    _, _, listed = stepaside("--help").out.partition("Commands:\n")
+    return [line.split()[0] for line in listed.splitlines() if line[2:3] > " "]
+
+
+def merge(output: Path, *parts: Path) -> Output:
+    """Join the results of shards."""
+    return stepaside("merge", *parts, "--output", output)
+
+
+def frame_of_duels(settings: Any, seeds: Sequence[int]) -> Any:
+    """Play duels as a study in Python; return the data frame."""
+    from stepaside.studies.campaign import run_study
+    from stepaside.studies.duel_campaign import duel_study
+
+    return run_study(duel_study(settings, seeds)).to_frame()
+
+
+def environment(role: str, **settings: Any) -> Any:
+    """Return the Gymnasium environment of one player."""
+    import gymnasium
+
+    return gymnasium.make(f"stepaside.envs:stepaside/{role}-v0", **settings)
+
+
+def vector_environment(role: str, number: int, **settings: Any) -> Any:
+    """Return many such games as one vector environment."""
+    import gymnasium
+
+    name = f"stepaside.envs:stepaside/{role}-v0"
+    return gymnasium.make_vec(name, num_envs=number, **settings)
+
+
+def duel_environment(**settings: Any) -> Any:
+    """Return the PettingZoo environment of both players."""
+    from stepaside.envs import duel_v0
+
+    return duel_v0.parallel_env(**settings)
+
+
+def game_environment(file: Path, level: str) -> Any:
+    """Return the PettingZoo environment of a game file, by 0.4 s a step."""
+    from dataclasses import replace
+
+    from stepaside.envs import game_v0
+
+    game = game_v0.parallel_env(file).game
+    return game_v0.parallel_env(replace(game, level=level), period=0.4)
 
 
 # Robots, legs, drivers and safety.

@@ -4,17 +4,15 @@ import re
 import runpy
 import sys
 from concurrent.futures import ThreadPoolExecutor
+from math import pi, sqrt
 from pathlib import Path
 from subprocess import check_output
 
 import pytest
 
-from stepaside.strategies import load_strategy
-from stepaside.strategies.evasion import EvasionMemory
+from flows.calls import EXAMPLES
 
-EXAMPLES = Path(__file__).parents[2] / "examples"
-
-
+VALUES = ("own_strategy", "unicycle_games")  # with tests of their own
 SHORT = {  # seconds of simulation, where an example takes them
     "change_gait": "2",
     "keep_runs": "2",
@@ -70,7 +68,7 @@ def test_an_example_names_what_it_needs(file: Path) -> None:
 
 @pytest.mark.parametrize(
     "name",
-    [f.stem for f in sorted(EXAMPLES.glob("*.py")) if f.stem[:4] != "own_"],
+    [f.stem for f in sorted(EXAMPLES.glob("*.py")) if f.stem not in VALUES],
 )
 def test_an_example_runs_alone_and_says_something(
     name: str, run: Runner
@@ -99,9 +97,12 @@ def test_an_own_strategy_plays_as_unicycle_and_as_humanoid(
         assert 0.2 < own[1] < 1.0
 
 
-def test_an_own_strategy_is_about_twenty_lines() -> None:
-    strategy = load_strategy(f"{EXAMPLES / 'own_strategy.py'}:BackAndAside")
-    text = (EXAMPLES / "own_strategy.py").read_text(encoding="utf-8")
-    body = text.split("class BackAndAside")[1].split("\ndef ")[0]
-    assert len(body.strip().splitlines()) <= 25
-    assert strategy.begin() == EvasionMemory()
+def test_an_example_of_unicycles_finds_the_circle(run: Runner) -> None:
+    """At v and k of NAO: psi is 45 deg, so R = v / (k psi), 90 deg apart."""
+    text = run("unicycle_games.py")
+    radius = 0.1 / (0.2 * pi / 4)
+    apart = radius * sqrt(2.0)
+    assert f"radius {radius:.3f} m, players {apart:.3f} m and 90 deg" in text
+    words = r"(?:certified|played)\D+([0-9.]+) m"
+    certified, played = map(float, re.findall(words, text))
+    assert 0.0 < certified <= played < apart

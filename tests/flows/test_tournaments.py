@@ -1,0 +1,153 @@
+"""Tournaments, campaigns of walks and people, and games of files."""
+
+from math import sqrt
+from pathlib import Path
+
+import pytest
+
+from flows import calls
+from flows.own_strategies import FILE
+
+STRIDE, CAPTURE = 0.04, 0.35  # [m]
+STILL, STRAIGHT = f"{FILE}:Still", f"{FILE}:Straight"
+NORMAL = 1.959964  # two-sided quantile of 95 % of a normal distribution
+
+
+def wilson(number: int, of: int) -> tuple[float, float]:
+    """Return the 95 % interval of a share by Wilson's score."""
+    share, square = number / of, NORMAL**2 / of
+    middle = (share + 0.5 * square) / (1.0 + square)
+    spread = sqrt(share * (1.0 - share) * square + 0.25 * square**2)
+    half = spread / (1.0 + square)
+    return middle - half, middle + half
+
+
+def test_a_tournament_tells_how_each_game_ended() -> None:
+    """Who stands is caught, who walks straight on meets a wall."""
+    pytest.importorskip("numba")
+    rows = calls.tournament(
+        [STILL, STRAIGHT, "aside"],
+        ["pure"],
+        room="3x3",
+        seeds="0:3",
+        duration=60.0,
+    )
+    still, straight, aside = rows
+    assert [row["evader"] for row in rows] == [STILL, STRAIGHT, "aside"]
+    assert [row["captured"] for row in rows] == [1.0, 0.0, 0.0]
+    assert [row["touched_obstacle"] for row in rows] == [0.0, 1.0, 0.0]
+    assert [row["survived"] for row in rows] == [0.0, 0.0, 1.0]
+    assert CAPTURE - STRIDE <= still["mean_closest_m"] <= CAPTURE
+    assert 0.0 < straight["mean_survival_s"] < 3.0 * sqrt(2.0) / 0.1
+    assert aside["mean_survival_s"] == pytest.approx(60.0)
+    for row, survived in zip(rows, (0, 0, 3), strict=True):
+        interval = row["survived_low"], row["survived_high"]
+        assert interval == pytest.approx(wilson(survived, 3), abs=1e-6)
+
+
+def test_a_campaign_of_walks_is_those_walks() -> None:
+    """On the roughest floor; on the flattest one none falls."""
+    pytest.importorskip("numba")
+    rows = calls.robustness("unevenness", "--seed", 3)["survival"]
+    flat, rough = rows[0], rows[-1]
+    assert flat["strength"] == 0.0 < rough["strength"]
+    alone = calls.walk_on_uneven_floor(rough["strength"], seed=3)
+    assert alone["outcome"] == "fall"
+    assert (flat["survived"], rough["survived"]) == (1, 0)
+    for row in rows:
+        interval = row["low"], row["high"]
+        assert row["trials"] == 1
+        assert interval == pytest.approx(wilson(row["survived"], 1), abs=1e-6)
+
+
+def test_people_who_walk_straight_touch_a_robot_that_stands() -> None:
+    """They are aimed up to 0.6 m beside it."""
+    pytest.importorskip("numba")
+    words = ("--people", 2, "--strategy", "stand", "--sensing", "lidar")
+    person = calls.robustness("person", *words)["person"]
+    assert person["planned"] == person["done"] == 2
+    rows = person["reactions"]
+    assert [row["reaction"] for row in rows] == ["straight"] * 2
+    assert sorted(row["hard"] for row in rows) == [False, True]
+    for row in rows:
+        assert (row["number"], row["contacts"]) == (1, 1)
+        assert row["causes"] == {"did not start": 1}
+        assert 0.1 < row["closest_m"] < 0.6
+
+
+@pytest.mark.parametrize(
+    ("sensing", "range_m", "lag"),
+    [("lidar", 10.0, 0.25), ("cameras", 3.5, 0.9)],
+)
+def test_a_robot_begins_to_evade_a_person_whom_it_senses(
+    sensing: str, range_m: float, lag: float
+) -> None:
+    """When the person is 3.5 s away from 0.7 m, or once it is in range.
+
+    A depth camera needs some images of the person, and looks away
+    meanwhile.
+    """
+    pytest.importorskip("numba")
+    if sensing == "cameras":
+        pytest.importorskip("cv2")
+    speed, distance = 1.0, 6.0
+    duel = calls.duel_with_person(
+        sensing=sensing, speed=speed, distance=distance, duration=5.5
+    )
+    wanted = min(0.7 + 3.5 * speed, range_m)
+    begun = duel["triggered_at_distance_m"]
+    assert wanted - lag * speed < begun < wanted + 0.05
+    walked = distance - speed * duel["triggered_at_s"]
+    assert begun == pytest.approx(walked, abs=0.02)
+    assert duel["min_distance_m"] > 0.4  # nobody is touched
+
+
+def players(*entries: str, level: str = "steps", duration: float) -> str:
+    """Return a game file of players that are given as TOML."""
+    head = f'level = "{level}"\nduration = {duration}\n'
+    return head + "".join(f"[[players]]\n{entry}\n" for entry in entries)
+
+
+def stands(name: str, role: str, x: float, y: float) -> str:
+    """Return a player who stands."""
+    return f'name="{name}"\nrole="{role}"\nstrategy="stand"\nstart=[{x},{y},0]'
+
+
+def test_the_closest_approach_is_that_of_opponents(tmp_path: Path) -> None:
+    """Not of teammates, nor of one who stands by."""
+    file = tmp_path / "game.toml"
+    file.write_text(
+        players(
+            stands("red", "pursuer", 0.0, 0.0),
+            stands("ruby", "pursuer", 0.0, 0.5),
+            stands("blue", "evader", 2.0, 0.0),
+            stands("guest", "bystander", 2.0, 0.6),
+            duration=1.0,
+        )
+    )
+    row = calls.games_of_file(file, "0:1")
+    assert row["least_closest_m"] == row["mean_closest_m"] == 2.0
+    assert row["captured"]["number"] == 0
+
+
+@pytest.mark.parametrize("aside", [0.0, 2.0])
+def test_a_robot_that_collides_with_a_person_has_not_succeeded(
+    aside: float, tmp_path: Path
+) -> None:
+    """It reaches its goal both times; once a person walks through it."""
+    file = tmp_path / "crowd.toml"
+    robot = 'name="nao"\nrole="evader"\nstart=[0,0,0]\ngoal=[0.6,0]'
+    person = (
+        'name="guest"\nrole="bystander"\nbody="person"\n'
+        f"start=[-1,{aside},0]\ngoal=[4,{aside}]\n"
+        'crowd={speed=0.8,reaction="none"}'
+    )
+    file.write_text(players(robot, person, duration=40.0))
+    game = calls.game_of_file(file)
+    (met,) = game["crowd"]
+    (pair,) = game["pairs"]
+    touching = pair["closest_m"] < 0.25 + 0.14  # radii of person and NAO
+    assert touching == (aside == 0.0)
+    assert met["time_s"] is not None and met["people"] == 1
+    assert (met["collisions"] > 0) == touching
+    assert met["success"] != touching
