@@ -19,16 +19,9 @@ from stepaside.arena import (
 from stepaside.control.clearance.surroundings import AHEAD, KnownRoom
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Pose
-from stepaside.games.duel import Duel
-from stepaside.games.duel_settings import DuelSettings
-from stepaside.games.match import play
 from stepaside.perception.measurement import Measurement
-from stepaside.report.room_figure import room_patches
-from stepaside.report.scene import RunScene
 from stepaside.robots.leg_kinematics import BodyReference
-from stepaside.sim.camera_settings import SceneSettings
 from stepaside.sim.obstacle_geoms import add_solids, obstacle_mover
-from stepaside.studies.tournament_settings import TournamentSettings
 
 BOX = MovingBox(0.2, -0.9, 0.3, 0.2, (0.5, 0.6), 0.1, 0.4)
 ROOM = Room(
@@ -68,31 +61,6 @@ def test_swept_floor_contains_the_box_at_all_times(
     farthest = np.concatenate(corners)
     for corner in swept.points:  # the hull is tight
         assert np.hypot(*(farthest - corner).T).min() < 0.02
-
-
-@pytest.mark.parametrize(
-    ("changes", "message"),
-    [
-        ({"to": (0.2, -0.9)}, "at least 0.001"),
-        ({"to": (0.2,)}, "pair"),
-        ({"to": (0.2, float("nan"))}, "to y"),
-        ({"speed": 0.0}, "speed"),
-        ({"speed": 0.5}, "speed"),
-        ({"width": -1.0}, "width"),
-    ],
-)
-def test_invalid_moving_box_is_refused(
-    changes: dict[str, Any], message: str
-) -> None:
-    values: dict[str, Any] = {
-        "x": 0.2,
-        "y": -0.9,
-        "width": 0.3,
-        "depth": 0.2,
-        "to": (1, 1),
-    }
-    with pytest.raises(ConfigurationError, match=message):
-        MovingBox(**values | changes)
 
 
 def test_box_stays_between_the_walls_and_off_the_initial_poses() -> None:
@@ -156,34 +124,3 @@ def test_given_map_covers_the_floor_swept_in_the_near_future() -> None:
             assert known.clearance(corners).max() < 1e-9
         far = BOX.at(now + AHEAD + 8.0).points.mean(axis=0)
         assert known.clearance([far])[0] > 0.1
-
-
-def test_replay_shows_the_box_at_its_recorded_position() -> None:
-    settings = DuelSettings(duration=0.6, room=SceneSettings(plan=ROOM))
-    duel = Duel(settings)
-    run = duel.run(*play(duel, 0.6, None))
-    last = duel.world.data.mocap_pos[0, :2]
-    assert last == pytest.approx(BOX.place_at(0.6), abs=0.003)
-    stage = RunScene(run)
-    body = stage.model.body("moving box 1").id
-    for index in (0, len(run.times) - 1):
-        stage.put(index)
-        wanted = BOX.place_at(float(run.times[index]))
-        assert stage.data.xpos[body, :2] == pytest.approx(wanted)
-    assert stage.model.body("wall 4").id > 0
-
-
-def test_figure_shows_the_box_and_its_turning_points() -> None:
-    for time in (0.0, 3.0, HALF):
-        patches = room_patches(ROOM, time)
-        shown = (BOX.at(time), *BOX.ends)
-        for patch, polygon in zip(patches[-3:], shown, strict=True):
-            corners = np.asarray(patch.get_path().vertices)[:4]
-            assert corners == pytest.approx(polygon.points)
-    assert len(patches) == len(ROOM.solids) + 3
-
-
-def test_moving_boxes_need_the_physics_level() -> None:
-    with pytest.raises(ConfigurationError, match="level must be 'physics'"):
-        TournamentSettings(room=ROOM)
-    assert TournamentSettings("physics", ROOM).room is ROOM

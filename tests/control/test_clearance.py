@@ -20,11 +20,9 @@ from stepaside.arena import (
     hull,
 )
 from stepaside.control.clearance.guard import Guard, GuardDecision
-from stepaside.control.clearance.map_settings import MapSettings
 from stepaside.control.clearance.surroundings import KnownRoom
 from stepaside.control.clearance.swept_outline import BodyOutline
 from stepaside.control.scheme import ControlScheme
-from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array, Pose
 from stepaside.locomotion.walk_snapshots import Phase
 from stepaside.perception.measurement import Measurement, Sighting
@@ -296,17 +294,3 @@ def test_a_measured_pose_corrects_odometry() -> None:
     around.note(blind._replace(pose_in_room=place), body)
     found = around.pose_odometry_in_map.compose(Pose(0.3, 0.1, 0.2))
     np.testing.assert_allclose(found, place, atol=1e-12)
-
-
-@pytest.mark.parametrize(
-    ("values", "words"),
-    [
-        ({"source": "dreamt"}, "map.source must be one of given, seen, none"),
-        ({"unseen": "maybe"}, "map.unseen must be one of free, taken"),
-        ({"margin": -0.1}, "map.margin must lie in"),
-        ({"margin": float("nan")}, "map.margin must lie in"),
-    ],
-)
-def test_other_maps_are_refused(values: Any, words: str) -> None:
-    with pytest.raises(ConfigurationError, match=words):
-        MapSettings(**values)

@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from fake_robot import GAIT, FakeStrategy, Run
-from stepaside.arena import Box, Disc, ObstacleSet, Room
+from fake_robot import GAIT
+from stepaside.arena import Box, ObstacleSet, Room
 from stepaside.control.clearance.guard import (
     GAINED,
     Guard,
@@ -78,10 +78,6 @@ def test_a_step_sways_to_where_a_map_sees_a_wall() -> None:
     assert clearance.now > clearance.least > clearance.now - CELL
 
 
-def test_outside_the_margin_no_escape_is_chosen() -> None:
-    assert beside(0.021, seen(), out=True) is None
-
-
 @pytest.mark.parametrize(
     ("clearance", "escapes"),
     [
@@ -134,26 +130,3 @@ def test_an_escape_gains_clearance_or_ends_at_the_margin() -> None:
         )
     assert ManeuverClearance(0.018, 0.0, 0.0201).escapes(MARGIN, 0.05, GAINED)
     assert GAINED == 0.004
-
-
-def begun(around: Any) -> Foot | None:
-    """Return the first foot of a robot that starts to the left."""
-    guard = Guard(around, NAO, PLANNER, margin=MARGIN)
-    run = Run(FakeStrategy(heading=0.6), guard=guard)
-    plan = run.until(0.1).state.plan
-    return None if plan is None else plan.first_foot
-
-
-def test_relaxed_attempts_use_both_feet() -> None:
-    """A disc on the right: starting with the right foot sways away from it."""
-    ahead = plan_for(GuardDecision(Intent(0.0)))
-    around: Any
-    for around in (given(), seen()):
-        guard, away = Guard(around, NAO, PLANNER, margin=MARGIN), 0.1
-        while True:
-            centre = away * np.cos(-1.83), away * np.sin(-1.83)
-            around.solids = ObstacleSet((Disc(*centre, 0.1),))
-            if guard.evaluate(ahead, SUPPORT).now > 0.012:
-                break
-            away += 0.001
-        assert begun(around) is Foot.RIGHT

@@ -1,7 +1,6 @@
 """Test the control scheme of one robot with a fake body."""
 
 from dataclasses import replace
-from time import process_time
 from typing import Any
 
 import numpy as np
@@ -221,57 +220,6 @@ def test_a_sighting_is_used_until_the_next() -> None:
     run.until(TICK)
     run.until(FIRST + 0.1, distance=None)
     assert run.phase() is Phase.WALKING and run.replans == 2
-
-
-def test_steps_are_reported_when_they_begin() -> None:
-    run = Run()
-    rest = run.scheme.locomotion.step(0.0)
-    assert not rest.walking and rest.swing is Foot.LEFT
-    assert rest.support == run.scheme.state.right_foot
-    scheme = run.until(FIRST + 0.1)
-    made = scheme.locomotion.step(FIRST + 0.1)
-    assert made.walking and made.swing is Foot.RIGHT
-    assert made.support == scheme.state.left_foot == scheme.state.plan_frame
-    assert made.passed == pytest.approx(0.1)
-    assert made.remaining == pytest.approx(GAIT.single_support - 0.1)
-
-
-def test_a_started_step_reports_its_plan_and_planning_time() -> None:
-    clock = process_time()
-    run = Run(FakeStrategy(heading=0.5))
-    plans = []
-    while run.ticks * TICK < FIRST + 2.0 * STEP:
-        scheme = run.until((run.ticks + 1) * TICK)
-        if scheme.begun is not None:
-            assert scheme.begun.plan is scheme.state.plan
-            assert scheme.begun.started == scheme.state.plan_started
-            plans.append(scheme.state.plan)
-    times = [s.planning_time for s in run.steps if s.planning_time is not None]
-    assert len(plans) == len(times) == run.replans == 3
-    assert min(times) >= 0.0
-    assert sum(times) < process_time() - clock
-
-
-def test_a_step_is_reported_at_its_first_tick_only() -> None:
-    """A halt is a step too; its time of rest begins none."""
-    run = Run(FakeStrategy(heading=0.5))
-    told, replaced = [], []
-    plan = None
-    while run.ticks * TICK < FIRST + 2.0 * STEP + SETTLING + 0.5:
-        run.strategy.going = run.ticks * TICK < FIRST + 0.1
-        scheme = run.until((run.ticks + 1) * TICK)
-        if scheme.begun is not None:
-            told.append(run.ticks)
-        if scheme.state.plan is not plan and scheme.state.plan is not None:
-            replaced.append(run.ticks)
-        plan = scheme.state.plan
-    ends = FIRST + STEP * np.arange(2)
-    expected = [1, *(np.ceil(ends / TICK - 1e-6) + 1)]
-    assert told == replaced == expected
-    assert run.phase() is Phase.STANDING
-    assert [s.planning_time is None for s in run.steps] == [
-        *(False, False, True)
-    ]
 
 
 def test_the_state_matches_the_scheme() -> None:

@@ -12,14 +12,10 @@ from stepaside.core.errors import StrategyError
 from stepaside.core.poses import Pose
 from stepaside.locomotion.walk_snapshots import Phase
 from stepaside.perception.measurement import Sighting
-from stepaside.planning import Direction, Foot
+from stepaside.planning import Foot
 from stepaside.strategies import (
-    Evasion,
-    EvasionMemory,
     Intent,
     Knowledge,
-    Pursuit,
-    Walk,
 )
 
 PLACE = Pose(1.0, 2.0, 0.5)
@@ -66,17 +62,6 @@ def test_a_step_begins_beside_the_foot_that_landed() -> None:
     assert known.spread == 0.07
 
 
-def test_knowledge_contains_the_closing_speed() -> None:
-    made = decisions()
-    for i in range(4):
-        seen = Sighting(i * STEP, 0.1 * i, 1.5 - 0.02 * i)
-        made.decide(i * STEP, seen, moving=True)
-    first, *_, last = made.memory
-    assert first.bearing_rate is None and first.closing_speed is None
-    assert last.bearing_rate == pytest.approx(0.1 / STEP)
-    assert last.closing_speed == pytest.approx(0.02 / STEP)
-
-
 def test_it_tells_how_the_other_walks_in_its_own_frame() -> None:
     """On the floor, whatever line of sight and distance do."""
     made = decisions()
@@ -102,50 +87,6 @@ def test_line_of_sight_and_heading_are_of_one_instant() -> None:
             known = made.memory[-1]
             assert known.bearing == pytest.approx(torso + 0.4 - template)
             assert known.pose_in_map.theta == template
-
-
-def test_memory_of_the_starting_decision_is_discarded() -> None:
-    """The second decision uses the time and line of sight of the step."""
-
-    class Counting(FakeStrategy):
-        """Counts how often it decided."""
-
-        def begin(self) -> int:  # type: ignore[override]
-            return 0
-
-        def decide(self, knowledge, memory):  # type: ignore[no-untyped-def]
-            intent, _ = super().decide(knowledge, ())
-            return intent, memory + 1
-
-    made = decisions(Counting())
-    far, near = Sighting(0.0, 0.0, 3.0), Sighting(0.0, 0.0, 1.0)
-    assert not made.starts(0.0, far) and made.memory == 1
-    assert made.starts(0.0, near) and made.memory == 1
-    made.decide(0.0, near, moving=False)
-    assert made.memory == 2
-
-
-def test_a_strategy_of_the_same_class_keeps_the_memory() -> None:
-    made = StrategyRunner(Evasion(), GAIT, TICK)
-    made.memory = EvasionMemory(True, 1)
-    made.adopt(Evasion(angle=1.0))
-    assert made.memory == EvasionMemory(True, 1)
-    assert made.strategy == Evasion(angle=1.0)
-    made.adopt(Pursuit())
-    assert made.memory is None
-    made.adopt(Evasion())
-    assert made.memory == EvasionMemory(False, 0)
-
-
-def test_an_adopted_strategy_acts_at_the_next_step() -> None:
-    run = Run(Walk(0.5))
-    run.until(FIRST - 0.1)
-    run.scheme.decisions.adopt(Walk(-0.5, Direction.BACKWARD))
-    plan = run.scheme.state.plan
-    assert plan is not None and plan.bearing == 0.5
-    plan = run.until(FIRST + 0.1).state.plan
-    assert plan is not None and plan.bearing == -0.5
-    assert plan.direction is Direction.BACKWARD
 
 
 @pytest.mark.parametrize("factor", [1.0, 0.5, 0.2])
@@ -229,16 +170,3 @@ def test_an_unsettled_sighting_does_not_start_a_walk() -> None:
     assert not made.starts(0.0, seen._replace(settled=False))
     intent = made.decide(0.0, seen._replace(settled=False), moving=True)
     assert intent.walks
-
-
-def test_knowledge_tells_whether_the_body_walks() -> None:
-    """It stands before its first step, and again after it has halted."""
-    run = Run()
-    run.until(FIRST + 2.2 * STEP)
-    under_way = [known.moving for known in run.scheme.decisions.memory]
-    assert under_way == [False, True, True, True]
-    run.until(FIRST + 8.0 * STEP, distance=3.0)
-    assert run.phase() is Phase.STANDING
-    run.until(run.ticks * TICK + STEP)
-    known = run.scheme.decisions.memory[len(under_way)]
-    assert not known.moving and run.phase() is Phase.WALKING

@@ -106,13 +106,6 @@ def turned(now: float, rate: float) -> Measurement:
     return measure(now)._replace(gyro=np.array([0.0, 0.0, rate + BIAS]))
 
 
-def test_nan_readings_are_ignored() -> None:
-    turns = stood()
-    turns.note(nan, 0.0, stands=False)
-    turns.note(nan, 0.0, stands=True)
-    assert walked(turns, 0.9)[-1] == pytest.approx(0.9, abs=0.01)
-
-
 def test_without_a_vertical_gyro_headings_are_unchanged() -> None:
     turns = TurnCalibration(FAKE_TICK)
     for i in range(round(2.0 * BIAS_TIME / FAKE_TICK)):

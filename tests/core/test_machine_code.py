@@ -10,7 +10,6 @@ from stepaside.core.machine_code import (
     Kernel,
     bound_loop,
     chained,
-    is_enabled,
     kernel_of,
     plain_python,
 )
@@ -28,12 +27,6 @@ def kernel() -> Kernel:
     made = kernel_of("add", SOURCE, "2i0")
     assert made is not None
     return made
-
-
-def test_there_are_no_kernels_of_plain_python() -> None:
-    with plain_python():
-        assert not is_enabled()
-        assert kernel_of("add", SOURCE, "2i0") is None
 
 
 def test_a_bound_kernel_works_on_its_arrays(kernel: Kernel) -> None:

@@ -6,8 +6,7 @@ from pathlib import Path
 import pytest
 
 import stepaside
-from stepaside.studies.code_version import ROOT
-from tools.documents import gallery, notebooks, site_links
+from tools.documents import notebooks, site_links
 
 DOCS = Path(__file__).parents[2] / "docs"
 TREE = re.compile(r"```{toctree}\n(.*?)```", re.DOTALL)
@@ -57,29 +56,6 @@ def test_outputs_older_than_script_or_code_are_refused(
     assert "older than its script" in (notebooks.complaint(script) or "")
     script.write_text("# modules: planning/com\n# %%\n1 + 1\n")
     assert notebooks.complaint(script) is not None
-
-
-def test_a_script_must_name_what_it_runs(tmp_path: Path) -> None:
-    script = tmp_path / "lesson.py"
-    script.write_text("# %%\n1 + 1\n")
-    with pytest.raises(ValueError, match="# modules: "):
-        notebooks.fingerprint(script)
-
-
-def test_every_tutorial_names_modules_that_exist() -> None:
-    for script in notebooks.scripts():
-        for name in notebooks.modules_of(script):
-            module = ROOT / name
-            assert module.is_dir() or module.with_suffix(".py").is_file(), name
-
-
-def test_the_gallery_holds_the_pictures_of_its_commands() -> None:
-    """``python -m tools.documents.gallery --page`` writes the page."""
-    assert gallery.PAGE.read_text(encoding="utf-8") == gallery.page()
-    files = [gallery.file_of(n + 1) for n in range(len(gallery.ENTRIES))]
-    assert sorted(gallery.PICTURES.iterdir()) == sorted(files)
-    for entry in gallery.ENTRIES:
-        assert not entry.example or (gallery.ROOT / entry.example).exists()
 
 
 def test_broken_links_of_a_site_are_found(tmp_path: Path) -> None:

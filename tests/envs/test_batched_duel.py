@@ -19,7 +19,6 @@ from stepaside.strategies import (
     LookAhead,
     Pursuit,
     StandStill,
-    StepGame,
     Strategy,
     play_strategies,
 )
@@ -97,42 +96,11 @@ def test_many_games_are_those_of_the_rules(pair: str, level: str) -> None:
     assert pair != "standing" or (outcomes == CAPTURED).all()
 
 
-def test_arenas_are_those_of_a_tournament() -> None:
-    from stepaside.studies.tournament_settings import TournamentSettings
-
-    pool = ArenaPool.draw(ROOM, 2, 7)
-    room, starts = TournamentSettings(room=ROOM).arena(8)
-    assert (pool.rooms[1], pool.starts[1]) == (room, starts)
-
-
-def test_every_arena_comes_before_one_comes_again() -> None:
-    pool = ArenaPool.draw(None, 10)
-    found = pool.indices(np.full(10, 3), np.arange(10))
-    assert sorted(found.tolist()) == list(range(10))
-
-
 def test_a_law_that_the_kernel_does_not_know_is_refused() -> None:
     with pytest.raises(ConfigurationError, match="got a LookAhead; others"):
         law_of(LookAhead())
     with pytest.raises(ConfigurationError, match="got a Evasion"):
         law_of(replace(Evasion(), trigger="time"))
-
-
-@pytest.mark.parametrize(
-    ("change", "message"),
-    [
-        ({"level": "physics"}, "level must be unicycle or steps"),
-        ({"arenas": 0}, "arenas must lie in"),
-        ({"room": "3x3"}, "room must be a Room, a RoomRecipe or None"),
-        ({"game": StepGame(largest_turn=3.0)}, "largest_turn must be at most"),
-    ],
-)
-def test_settings_that_do_not_suit_many_games_are_refused(
-    change: dict[str, Any], message: str
-) -> None:
-    with pytest.raises(ConfigurationError, match=message):
-        settings = EnvironmentSettings(**{"level": "steps"} | change)
-        BatchedDuel(settings, 2, (Pursuit(), None))
 
 
 def test_a_given_room_is_that_of_all_games() -> None:

@@ -12,11 +12,11 @@ from gymnasium.utils.env_checker import check_env
 from pettingzoo.test import parallel_api_test, parallel_seed_test
 
 from stepaside.arena import RoomRecipe
-from stepaside.core.errors import ConfigurationError, PlanError, StepAsideError
+from stepaside.core.errors import ConfigurationError, PlanError
 from stepaside.envs import DuelEnv, VectorDuel, duel_v0
 from stepaside.envs.registration import IDS
 from stepaside.games import DuelSettings
-from stepaside.strategies import LookAhead, Pursuit, StepGame
+from stepaside.strategies import LookAhead
 from stepaside.theory.unicycle import RelativeStart
 
 ROOM = {"room": RoomRecipe(discs=2), "arenas": 8}
@@ -49,13 +49,6 @@ def test_gymnasium_finds_no_fault(name: str, settings: dict[str, Any]) -> None:
 def test_pettingzoo_finds_no_fault(settings: dict[str, Any]) -> None:
     parallel_api_test(duel_v0.parallel_env(**settings), num_cycles=60)
     parallel_seed_test(lambda: duel_v0.parallel_env(**settings), num_cycles=20)
-
-
-def test_spaces_are_the_same_objects() -> None:
-    env = duel_v0.parallel_env(**VARIANTS[0])
-    for agent in env.possible_agents:
-        assert env.observation_space(agent) is env.observation_space(agent)
-        assert env.action_space(agent) is env.action_space(agent)
 
 
 @pytest.mark.parametrize("settings", VARIANTS)
@@ -100,21 +93,6 @@ def test_vector_rates_of_unicycles_are_near_those_of_one() -> None:
         many, *_ = games.step(BACK[None])
         one, *_ = single.step(BACK)
     np.testing.assert_allclose(many[0], one, atol=0.02)
-
-
-def test_the_registered_vector_environment_is_compiled() -> None:
-    games = gymnasium.make_vec("stepaside/Evade-v0", num_envs=5, **SHORT)
-    assert isinstance(games.unwrapped, VectorDuel)
-    mode = games.metadata["autoreset_mode"]
-    assert mode is gymnasium.vector.AutoresetMode.SAME_STEP
-    seeds: Any = [4, 4, 5, 4, 6]
-    found, info = games.reset(seed=seeds)
-    assert games.observation_space.contains(found)
-    np.testing.assert_array_equal(found[0], found[1])
-    assert not np.array_equal(found[0], found[2])
-    again, _ = games.reset(seed=seeds)
-    np.testing.assert_array_equal(found, again)
-    assert info["closest_m"].shape == (5,)
 
 
 def test_a_mask_resets_some_games() -> None:
@@ -252,46 +230,6 @@ def test_images_show_the_game() -> None:
     assert (env.render() != first).any()
 
 
-BAD: list[tuple[dict[str, Any], str]] = [
-    ({"level": "unicycles"}, "level must be one of unicycle, steps, physics"),
-    ({"role": "person"}, "role must be one of pursuer, evader"),
-    ({"duration": float("nan")}, "duration must lie in"),
-    ({"action": "torque"}, "action must be one of"),
-    ({"shaping": -1.0}, "shaping must be finite and >= 0"),
-    ({"render_mode": "ascii"}, "render_mode must be one of"),
-    ({"opponent": "nobody"}, "must be one of"),
-    ({"level": "physics", "room": RoomRecipe()}, "duel.room"),
-    ({"level": "physics", "full_state": True}, "full_state must be false"),
-    ({"any_heading": True, **ROOM}, "any_heading must be false in a room"),
-    ({"game": StepGame(solid_pursuer=True)}, "solid_pursuer must be false"),
-]
-
-
-@pytest.mark.parametrize(("change", "message"), BAD)
-def test_bad_settings_are_refused_in_one_line(
-    change: dict[str, Any], message: str
-) -> None:
-    with pytest.raises(StepAsideError, match=message) as caught:
-        DuelEnv(**{"role": "evader", **change})
-    assert "\n" not in str(caught.value)
-
-
-@pytest.mark.parametrize("action", [[0.0], [0, 0, 0], "x", [np.nan, 1.0], 7])
-def test_a_bad_action_is_refused(action: Any) -> None:
-    env = DuelEnv("evader", level="steps", **SHORT)
-    env.reset(seed=0)
-    with pytest.raises(PlanError, match="an action must be"):
-        env.step(action)
-
-
-@pytest.mark.parametrize("action", [16, -1, 0.5, [1, 2], None])
-def test_a_bad_discrete_action_is_refused(action: Any) -> None:
-    env = DuelEnv("evader", level="steps", action="discrete", **SHORT)
-    env.reset(seed=0)
-    with pytest.raises(PlanError, match="integer below 16"):
-        env.step(action)
-
-
 def test_steps_need_an_episode() -> None:
     games = VectorDuel(2, role="evader", **SHORT)
     with pytest.raises(PlanError, match="reset the environment first"):
@@ -345,9 +283,3 @@ def test_a_person_is_an_opponent_in_physics() -> None:
     env.close()
     with pytest.raises(ConfigurationError, match="against a person"):
         DuelEnv("pursuer", duel=duel, level="physics")
-
-
-def test_a_strategy_is_given_as_an_object() -> None:
-    env = DuelEnv("evader", opponent=Pursuit(gain_ratio=3.0), **SHORT)
-    env.reset(seed=1)
-    assert np.isfinite(env.step(BACK)[0]).all()

@@ -6,7 +6,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.core.errors import ConfigurationError
 from stepaside.envs import VectorDuel
 from stepaside.envs.policy_optimisation import (
     OptimisationSettings,
@@ -131,14 +130,3 @@ def test_a_pursuer_learns_to_approach_a_standing_evader() -> None:
         again.network.evaluate(observation[None]),
         strategy.network.evaluate(observation[None]),
     )
-
-
-def test_games_of_another_kind_are_refused() -> None:
-    settings = OptimisationSettings(updates=1)
-    with pytest.raises(ConfigurationError, match="needs action 'discrete'"):
-        PolicyOptimiser(games(action="continuous"), settings, 1)
-    learner = PolicyOptimiser(games(), settings, 1)
-    with pytest.raises(ConfigurationError, match="the same role"):
-        learner.change_games(games(headings=5), 1)
-    with pytest.raises(ConfigurationError, match="updates must lie in"):
-        OptimisationSettings(updates=0)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from pettingzoo.test import parallel_api_test, parallel_seed_test
 
-from stepaside.core.errors import ConfigurationError, PlanError
+from stepaside.core.errors import ConfigurationError
 from stepaside.envs import game_v0
 from stepaside.games.game_file import parse_game
 from stepaside.games.game_settings import GameSettings
@@ -178,12 +178,3 @@ def test_invalid_arguments_are_refused(
     guest = {"name": "guest", "body": "person", "start": [3.0, 3.0, 0.0]}
     with pytest.raises(ConfigurationError, match=message):
         game_v0.parallel_env(with_more(guest), **change)
-
-
-def test_actions_of_all_agents_are_needed() -> None:
-    env = game_v0.parallel_env(game())
-    with pytest.raises(PlanError, match="reset the environment first"):
-        env.step({})
-    env.reset(seed=1)
-    with pytest.raises(PlanError, match="one of ruby, got those of red"):
-        env.step({"red": AHEAD})

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from legs_robot import nao_on_legs
-from stepaside.core.errors import ConfigurationError, PlanError
 from stepaside.envs import DuelEnv, VectorPhysicsDuel
 from stepaside.games import DuelSettings
 from stepaside.games.robot_settings import with_robot
@@ -49,15 +48,3 @@ def test_games_are_those_of_single_environments(
             np.testing.assert_array_equal(found[i], seen)
     assert ends >= 2
     games.close()
-
-
-def test_invalid_calls_are_refused() -> None:
-    with pytest.raises(ConfigurationError, match="num_envs must"):
-        VectorPhysicsDuel(0, role="evader", **SETTINGS)
-    games = VectorPhysicsDuel(2, role="evader", **SETTINGS)
-    with pytest.raises(PlanError, match="2 seeds, got 1"):
-        games.reset(seed=[1])
-    with pytest.raises(PlanError, match="2 actions, got 1"):
-        games.step(BACK[None])
-    with pytest.raises(PlanError, match="reset the environment first"):
-        games.step(np.stack([BACK, BACK]))

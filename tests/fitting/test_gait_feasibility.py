@@ -25,11 +25,6 @@ def slow(factor: float):  # type: ignore[no-untyped-def]
     return replace(NAO, speed_limits=limits)
 
 
-def test_nao_is_fast_enough_for_its_gait() -> None:
-    assert 0.3 < speed_ratio(NAO, GAIT) < 1.0
-    assert feasible_lengths(NAO, GAIT) == 1.0
-
-
 def test_the_speed_ratio_is_inverse_to_the_limits() -> None:
     share = speed_ratio(NAO, GAIT)
     assert speed_ratio(slow(0.5), GAIT) == pytest.approx(2.0 * share)
@@ -57,10 +52,6 @@ def test_the_hip_load_of_a_step_follows_from_the_weight() -> None:
     assert 1.0 < 10.0 * share < 5.3 * 9.81 * 0.1
     half = dict.fromkeys(NAO.legs, 5.0)
     assert step_loads(NAO, GAIT, half).usual == pytest.approx(2.0 * share)
-
-
-def test_very_slow_joints_get_the_least_step_length() -> None:
-    assert feasible_lengths(slow(0.01), GAIT) == LEAST_LENGTHS
 
 
 def test_weak_ankles_get_a_zmp_nearer_to_them() -> None:

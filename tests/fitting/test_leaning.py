@@ -2,20 +2,14 @@
 
 from dataclasses import replace
 from math import atan2
-from pathlib import Path
 
 import mujoco
 import numpy as np
 import pytest
 
-import vendor_humanoid as stranger
-from stepaside.core.errors import ModelError
 from stepaside.core.poses import Pose
 from stepaside.fitting import derivation as leaning
-from stepaside.fitting.derivation import LEAN_CANDIDATES, derive, least_lean
-from stepaside.fitting.description_edit import rewrite_description
-from stepaside.fitting.description_writer import write_description
-from stepaside.fitting.gait_candidates import Candidate
+from stepaside.fitting.derivation import LEAN_CANDIDATES, least_lean
 from stepaside.fitting.gait_feasibility import JointLoads
 from stepaside.fitting.walk_trials import WalkTrialResult
 from stepaside.games.robot_settings import settings_from_description
@@ -23,7 +17,6 @@ from stepaside.locomotion.zmp.control_settings import StabiliserSettings
 from stepaside.locomotion.zmp.joint_correction import Ankles
 from stepaside.locomotion.zmp.state_estimator import BodyState
 from stepaside.robots.description import (
-    FILE,
     RobotDescription,
     load_robot,
 )
@@ -174,22 +167,6 @@ def test_the_least_sufficient_lean_is_chosen(
     assert kept.most == shares[LEAN_CANDIDATES.index(lean)]
 
 
-def test_the_description_contains_the_lean(tmp_path: Path) -> None:
-    found = derive(stranger.mjcf(tmp_path), tmp_path, [])
-    assert found.description.lean == 0.0
-    assert "\nlean =" not in write_description(found)
-    leant = replace(found, description=leans(found.description, 0.06))
-    file = tmp_path / FILE
-    file.write_text(write_description(leant), encoding="utf-8")
-    assert load_robot(tmp_path).lean == 0.06
-    for wrong in ("-0.1", "0.4", "inf", '"far"'):
-        text = write_description(leant)
-        text = text.replace("lean = 0.06", f"lean = {wrong}")
-        file.write_text(text, encoding="utf-8")
-        with pytest.raises(ModelError, match="lean must be"):
-            load_robot(tmp_path)
-
-
 def test_a_walk_that_leans_on_purpose_may_tilt_by_that_too() -> None:
     def unsteadiness(tilt: float, lean: float) -> float:
         nothing = (0.0, 1.0, None, None)
@@ -199,23 +176,3 @@ def test_a_walk_that_leans_on_purpose_may_tilt_by_that_too() -> None:
 
     assert unsteadiness(8.0, 0.0) == pytest.approx(1.0)
     assert unsteadiness(8.0, 8.0) == pytest.approx(0.5)
-
-
-def test_a_lean_that_a_search_found_is_written(tmp_path: Path) -> None:
-    found = derive(stranger.mjcf(tmp_path), tmp_path, [])
-    file = tmp_path / FILE
-    file.write_text(write_description(found), encoding="utf-8")
-    own = load_robot(tmp_path)
-    for lean in (0.06, 0.12):  # none stood there, then one did
-        made = Candidate(1.0, lean=lean, even=1.0).applied(own)
-        assert made is not None and made.lean == lean
-        text = rewrite_description(
-            file.read_text(encoding="utf-8"), made, ["found"]
-        )
-        file.write_text(text, encoding="utf-8")
-        again = load_robot(tmp_path)
-        assert again.lean == lean and again.legs == own.legs
-        assert settings_from_description(again).gait.swing_profile == "even"
-    assert Candidate(1.0, lean=0.31).applied(own) is None
-    tried = {each.lean for each in Candidate(1.0).neighbours()}
-    assert tried == {0.0, 0.06, 0.12}

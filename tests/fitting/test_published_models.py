@@ -11,7 +11,6 @@ from stepaside.core.errors import ModelError
 from stepaside.fitting.derivation import derive
 from stepaside.fitting.description_writer import write_description
 from stepaside.fitting.model_analysis import analyse_model
-from stepaside.fitting.motor_data import plausible_torques, published_speeds
 from stepaside.robots.description import FILE, RobotDescription, load_robot
 from stepaside.robots.model_reader import read_model
 from stepaside.robots.torso_frame import rotate_torso_frame
@@ -156,25 +155,3 @@ def test_meshes_are_found_in_their_package(tmp_path: Path) -> None:
         bytes(80) + len(corners).to_bytes(4, "little") + rows
     )
     assert analyse_model(file, []).missing == ()
-
-
-def test_placeholder_torques_and_speeds_are_ignored(tmp_path: Path) -> None:
-    told = {"knee": 90.0, "hip": 5e4}
-    assert plausible_torques(told, 50.0, 0.8) == {"knee": 90.0}
-    file = tmp_path / "a.urdf"
-    limits = "".join(
-        f'<joint name="j{i}"><limit velocity="{v}"/></joint>'
-        for i, v in enumerate((4.0, 1e9, 120.0))
-    )
-    file.write_text(f"<robot>{limits}</robot>")
-    assert published_speeds(file) == {"j0": 4.0}
-
-
-def test_joints_that_prevent_standing_are_named(tmp_path: Path) -> None:
-    file = stranger.mjcf(tmp_path)
-    ankle = 'name="near_tip" axis="0 1 0" damping="0.8" range='
-    text = file.read_text()
-    assert f'{ankle}"-1.0 1.0"' in text
-    file.write_text(text.replace(f'{ankle}"-1.0', f'{ankle}"0.1'))
-    with pytest.raises(ModelError, match="no height .* ranges of near_tip,"):
-        derive(file, tmp_path, [])

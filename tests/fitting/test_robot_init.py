@@ -1,6 +1,5 @@
 """Test what is derived from a model as a vendor publishes it."""
 
-import json
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -12,7 +11,6 @@ from click.testing import CliRunner
 
 import vendor_humanoid as stranger
 from stepaside.cli.main import main
-from stepaside.core.errors import ModelError
 from stepaside.fitting.derivation import DerivedDescription, derive
 from stepaside.fitting.description_writer import write_description
 from stepaside.fitting.gait_scaling import RobotSize, gait_of, game_of_size
@@ -42,8 +40,6 @@ from stepaside.robots.description import (
 from stepaside.robots.tree_compiler import compile_tree
 from stepaside.sim.body_settings import BODIES
 from stepaside.sim.ground_truth import TrueRobotState
-from stepaside.sim.physics_settings import PhysicsSettings
-from stepaside.sim.world import COLOURS, build_model
 
 PUBLISHERS: dict[str, Callable[[Path], Path]] = {
     "mjcf": stranger.mjcf,
@@ -172,18 +168,6 @@ def test_a_weak_servo_is_no_stiffer_than_its_torque_allows(
         )
 
 
-def test_a_robot_without_an_accent_wears_the_colour_of_its_role(
-    strangers: dict[str, Described],
-) -> None:
-    _, robot = strangers["mjcf"]
-    model = build_model({"evader": robot}, PhysicsSettings())
-    chest = model.body("evader/chest")
-    first, count = int(chest.geomadr[0]), int(chest.geomnum[0])
-    worn = model.geom_rgba[first : first + count]
-    assert count == 1
-    np.testing.assert_allclose(worn, [COLOURS["evader"]], atol=1e-6)
-
-
 def test_speed_limits_are_those_of_the_urdf_or_asked_for(
     strangers: dict[str, Described],
 ) -> None:
@@ -221,13 +205,6 @@ def test_a_missing_mesh_is_removed_and_reported(
     assert "lost.stl" in write_description(found)
 
 
-def test_a_leg_that_cannot_place_its_foot_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(ModelError, match="pitch joint at hip"):
-        derive(stranger.mjcf(tmp_path, joints=4), tmp_path, [])
-    with pytest.raises(ModelError, match="at least 6 joints.*got 5"):
-        derive(stranger.mjcf(tmp_path, joints=5), tmp_path, [])
-
-
 def test_an_invalid_model_is_refused_in_one_line(tmp_path: Path) -> None:
     file = tmp_path / "nothing.xml"
     file.write_text("<mujoco><worldbody/></mujoco>")
@@ -235,18 +212,6 @@ def test_an_invalid_model_is_refused_in_one_line(tmp_path: Path) -> None:
     assert result.exit_code == 2
     assert "has no body" in result.stderr
     assert result.stderr.count("\n") == 1
-
-
-def test_the_command_writes_a_folder_once(tmp_path: Path) -> None:
-    model, folder = stranger.mjcf(tmp_path), tmp_path / "made"
-    words = ["robot", "init", str(model), "--output", str(folder)]
-    told = CliRunner().invoke(main, [*words, "--json"])
-    facts = json.loads(told.stdout)
-    assert facts["mass_kg"] == pytest.approx(25.2)
-    assert len(facts["missing_values"]["speed_limits"]) == 12
-    assert load_robot(folder).name == "stranger"
-    again = CliRunner().invoke(main, words)
-    assert again.exit_code == 2 and "--overwrite" in again.stderr
 
 
 def test_equal_shapes_walk_alike() -> None:
@@ -343,14 +308,3 @@ def test_weak_ankles_get_a_gentler_gait(tmp_path: Path) -> None:
     servos = robot.overlay.servos
     assert servos["near_tip"].stiffness < servos["near_bend"].stiffness
     assert "for the ankle torques" in write_description(found)
-
-
-def test_units_of_nao_are_one() -> None:
-    """NAO as its own reference."""
-    nao = load_robot("nao")
-    mass = float(nao.compile().body_mass.sum())
-    sole = (-0.05, 0.1, 0.04, 0.04)
-    size = RobotSize(0.268, mass, 0.1, sole, 0.2)
-    game = game_of_size(size, gait_of(size))
-    assert game["force_unit"] == pytest.approx(1.0, abs=2e-3)
-    assert game["length_unit"] == pytest.approx(1.0, abs=2e-3)

@@ -4,7 +4,6 @@ import json
 import shutil
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import pytest
 from click.testing import CliRunner
@@ -72,44 +71,6 @@ def test_a_derived_robot_meets_all_requirements(own: RobotDescription) -> None:
     }
 
 
-@pytest.mark.parametrize(
-    ("change", "name", "said"),
-    [
-        ({"com_height": 9.0}, "reach", "cannot reach CoM z"),
-        ({"com_height": 0.05}, "reach", "cannot reach"),
-        ({"torso": "near_swing_link"}, "kinematics", "must be a root"),
-    ],
-)
-def test_invalid_descriptions_fail_with_a_hint(
-    change: dict[str, Any], name: str, said: str, own: RobotDescription
-) -> None:
-    if "com_height" in change:
-        own = replace(own, gait=own.gait | change)
-    else:
-        own = replace(own, **change)
-    failed = [f for f in check_requirements(own) if f.verdict == "fail"]
-    assert [f.name for f in failed] == [name]
-    for finding in failed:
-        assert said in finding.value and finding.hint
-
-
-def test_missing_sensors_and_servos_are_reported(tmp_path: Path) -> None:
-    """NAO's model with other names: nothing crashes, each has a hint."""
-    nao = load_robot("nao")
-    text = nao.mjcf().replace('<gyro name="gyro"', '<gyro name="turning"')
-    (tmp_path / "model.xml").write_text(text)
-    toml = (nao.folder / FILE).read_text(encoding="utf-8")
-    (tmp_path / FILE).write_text(toml, encoding="utf-8")
-    found = check_requirements(load_robot(tmp_path))
-    failed = {f.name: f for f in found if f.verdict == "fail"}
-    assert set(failed) == {"sensors"}
-    assert "no gyro" in failed["sensors"].value
-    named = toml + '\n[sensors]\ngyro = "turning"\n'
-    (tmp_path / FILE).write_text(named, encoding="utf-8")
-    again = check_requirements(load_robot(tmp_path))
-    assert all(f.verdict != "fail" for f in again)
-
-
 def test_a_robot_that_walks_as_described_passes(
     own: RobotDescription, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -131,20 +92,6 @@ def test_a_robot_that_walks_as_described_passes(
     assert not check_robot(asks, InlineExecutor()).passes
     plain = checked.to_json()
     assert json.loads(json.dumps(plain)) == plain
-
-
-def test_unsteadiness_is_that_of_the_worst_measure(
-    own: RobotDescription,
-) -> None:
-    settings = settings_from_description(own)
-    trial = WalkTrial(own, settings.gait, settings.control, PATHS[0])
-    assert walked(trial, 0.5).unsteadiness == pytest.approx(0.5)
-    slow = walked(trial, 0.5)._replace(speed=0.7)
-    assert slow.unsteadiness == pytest.approx(2.0)
-    assert not slow.is_steady
-    early = walked(trial, 0.1, falls=True)
-    late = early._replace(lasted=0.9)
-    assert early.unsteadiness > late.unsteadiness > slow.unsteadiness
 
 
 def search(
@@ -203,49 +150,6 @@ def test_a_search_escapes_from_falls(
     best = found.best.candidate
     assert best.times < 1.0 and best.zmp < 0.0
     assert len(walks) < 45  # most fall in their first walk
-
-
-def test_a_candidate_that_cannot_win_is_stopped(
-    own: RobotDescription, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    begun: dict[float, int] = {}
-
-    def walk(trial: WalkTrial) -> WalkTrialResult:
-        same = trial.gait == settings_from_description(own).gait
-        part = round(
-            trial.gait.stride / settings_from_description(own).gait.stride, 2
-        )
-        begun[part] = begun.get(part, 0) + 1
-        return walked(trial, 0.3 if same else 0.5)
-
-    monkeypatch.setattr(tuning, "walk_trial", walk)
-    found = GaitSearch(own, None, None).run()
-    assert found.best == found.before
-    assert begun[0.5] == begun[0.75] == 1
-
-
-def test_a_search_continues_from_stored_results(
-    own: RobotDescription, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    kept = tmp_path / "tune"
-    first, walks = search(own, monkeypatch, kept)
-    assert walks > 20
-    files = sorted(kept.iterdir())
-    for file in files[len(files) // 2 :]:
-        file.unlink()
-    second, rest = search(own, monkeypatch, kept)
-    assert second == first
-    assert 0 < rest < walks
-    other = replace(own, gait=own.gait | {"step_height": 0.03})
-    assert search(other, monkeypatch, kept)[1] == walks
-
-
-def test_an_infeasible_candidate_is_not_walked(own: RobotDescription) -> None:
-    narrow = Candidate(0.0, spacing=0.4)
-    assert narrow.applied(own) is None and narrow.trials(own) == ()
-    assert Candidate(0.0, zmp=0.5).applied(own) is None
-    kept = Candidate(0.0).applied(own)
-    assert kept is not None and kept.overlay == own.overlay
 
 
 def test_tuned_values_are_written_with_the_previous_ones(

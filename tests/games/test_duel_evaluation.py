@@ -9,16 +9,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.core.poses import Array, Pose
+from stepaside.core.poses import Pose
 from stepaside.games import duel_evaluation as summary
 from stepaside.games.duel_evaluation import summarise
 from stepaside.games.duel_settings import DuelSettings, StartSettings
-from stepaside.games.forecast import forecast
 from stepaside.games.sight_summary import (
-    ErrorSpread,
-    PerceptionSummary,
     SightReport,
-    SightSummary,
 )
 from stepaside.games.trajectory import PlanningTimes
 from stepaside.strategies import Evasion
@@ -88,98 +84,11 @@ def test_a_summary_is_of_the_last_third() -> None:
     assert found["evader"] == {"radius_m": pytest.approx(0.4), "sight": None}
 
 
-def test_each_robot_has_its_own_radius() -> None:
-    made = Record()
-    made.places["evader"][:, :2] = 1.75 * made.places["pursuer"][:, :2]
-    found = figures(made)
-    assert found["pursuer"] == {"radius_m": pytest.approx(0.4), "sight": None}
-    assert found["evader"] == {"radius_m": pytest.approx(0.7), "sight": None}
-
-
-def test_values_of_the_last_third_are_means() -> None:
-    def swayed(times: Array) -> Array:
-        return 0.9 + np.where(times < 50.0, 0.1, -0.1)
-
-    found = figures(Record(swayed, swayed))
-    assert found["distance_m"] == pytest.approx(0.9, abs=2e-4)
-    angle = found["relative_orientation_deg"]
-    assert angle == pytest.approx(degrees(0.9), abs=0.01)
-
-
-def test_a_straight_path_has_no_radius() -> None:
-    made = Record()
-    made.places["evader"][:] = 0.25  # stands
-    found = figures(made)
-    assert found["pursuer"]["radius_m"] is not None
-    assert (found["evader"]["radius_m"] or 0.0) < 1e-6
-
-
-def test_a_summary_has_seed_duration_start_and_trigger() -> None:
-    found = figures(Record(), duration=30.0 + 1e-12)
-    assert found["seed"] == 1
-    assert found["start"] == {
-        "distance_m": 1.0,
-        "pursuer_offset_rad": 0.1,
-        "evader_offset_rad": -0.2,
-    }
-    assert found["triggered_at_s"] == 2.5
-    assert found["triggered_at_distance_m"] == 0.79
-    assert found["min_distance_m"] == 0.61
-    assert found["captured_at_s"] is None
-    assert found["converged_at_s"] == 0.0
-    assert found["replans"] == 3
-    assert found["max_com_velocity_jump_m_s"] == 1e-12
-    assert found["min_zmp_margin_m"] == 0.021
-    assert found["real_time_factor"] == pytest.approx(10.0)
-    told = forecast(SETTINGS)
-    assert told is not None
-    assert found["theory"] == {
-        "closest_approach_m": told.closest_m,
-        "exists": True,
-        "radius_m": pytest.approx(THEORY.radius_evader_m),
-        "distance_m": pytest.approx(THEORY.distance_m),
-        "relative_orientation_deg": pytest.approx(90.0),
-        "pursuer_radius_m": pytest.approx(THEORY.radius_pursuer_m),
-        "expected": "circle",
-        "circle_since_s": told.circle_since_s,
-        "words": told.words,
-    }
-
-
 def test_capture_and_contact_are_reported_separately() -> None:
     """A duel goes on after capture; contact ends it."""
     found = figures(Record(), captured_at=17.5)
     assert found["captured_at_s"] == 17.5
     assert figures(Record())["captured_at_s"] is None
-
-
-def test_planning_times_are_in_microseconds() -> None:
-    times = np.arange(1, 102)[::-1] * 1e-6
-    halves = {"pursuer": planned(times[:40]), "evader": planned(times[40:])}
-    found = figures(Record(), planning=halves)
-    assert found["plan_time_us"] == {
-        "median": pytest.approx(51.0),
-        "p99": pytest.approx(100.0),
-    }
-    nothing = dict.fromkeys(halves, planned())
-    none = figures(Record(), planning=nothing)
-    assert none["plan_time_us"] == {"median": None, "p99": None}
-    assert none["min_zmp_margin_m"] is None
-    assert figures(Record(), wall_time=0.0)["real_time_factor"] > 1e9
-
-
-def test_planning_of_both_players_is_combined() -> None:
-    """Maneuvers are added; the worst jump and margin of both count."""
-    one, other = planned([0.1, 0.2], 0.1, 0.04), planned([0.2], 0.2, 0.02)
-    for pursuer, evader in ((one, other), (other, one)):
-        both = {"pursuer": pursuer, "evader": evader}
-        found = figures(Record(), planning=both)
-        assert found["replans"] == 3
-        assert found["max_com_velocity_jump_m_s"] == 0.2
-        assert found["min_zmp_margin_m"] == 0.02
-        assert found["plan_time_us"]["median"] == pytest.approx(2e5)
-    alone = figures(Record(), planning=PLANNED)
-    assert alone["min_zmp_margin_m"] == 0.021
 
 
 @pytest.mark.parametrize("count", [1, 2])
@@ -196,17 +105,6 @@ def test_a_value_that_does_not_exist_is_none() -> None:
     assert theory["exists"] is False
     assert theory["radius_m"] is None and theory["distance_m"] is None
     assert theory["relative_orientation_deg"] is None
-
-
-def test_perception_is_summarised_for_each_robot_and_both() -> None:
-    none = ErrorSpread(None, None)
-    eyes = SightSummary(none, none, 0.9, 0, 0.0, 2.0)
-    both = PerceptionSummary("raycast", 0.8, 1, 2.0)
-    found = figures(Record(), sight=SightReport(both, {"evader": eyes}))
-    assert found["evader"]["sight"]["detection_rate"] == 0.9
-    assert found["evader"]["radius_m"] == pytest.approx(0.4)
-    assert found["pursuer"] == {"radius_m": pytest.approx(0.4), "sight": None}
-    assert found["sight"] == asdict(both)
 
 
 def test_a_person_is_compared_with_the_template_in_real_time(

@@ -1,7 +1,6 @@
 """Test that summaries of duels are written and read again."""
 
 import json
-from copy import deepcopy
 from dataclasses import asdict, replace
 from typing import Any
 
@@ -63,21 +62,6 @@ def test_a_summary_is_read_as_written(told: DuelSummary) -> None:
     assert json.dumps(asdict(found)) == json.dumps(plain)
 
 
-def test_parsing_does_not_change_the_json_object() -> None:
-    plain = asdict(SEEING)
-    before = deepcopy(plain)
-    parse_object(DuelSummary, plain, "test")
-    assert plain == before
-
-
-def test_integers_are_converted_to_floats_where_expected() -> None:
-    plain = asdict(BLIND) | {"distance_m": 1, "triggered_at_s": 2}
-    found = parse_object(DuelSummary, plain, "test")
-    assert isinstance(found.distance_m, float) and found.distance_m == 1.0
-    assert isinstance(found.triggered_at_s, float)
-    assert isinstance(found.replans, int)
-
-
 @pytest.mark.parametrize(
     ("changes", "word"),
     [
@@ -106,25 +90,3 @@ def test_a_damaged_entry_is_refused_by_name(
     message = str(refused.value)
     assert message.startswith("summary.json: ") and word in message
     assert "\n" not in message
-
-
-@pytest.mark.parametrize(
-    "name",
-    [
-        *("seed", "start", "distance_m"),
-        *("relative_orientation_deg", "min_distance_m", "replans", "theory"),
-        *("max_com_velocity_jump_m_s", "plan_time_us", "real_time_factor"),
-        *("pursuer", "evader"),
-    ],
-)
-def test_a_required_entry_may_not_be_missing(name: str) -> None:
-    plain = asdict(BLIND)
-    del plain[name]
-    with pytest.raises(ConfigurationError, match=f"^here: .*{name}"):
-        parse_object(DuelSummary, plain, "here")
-
-
-@pytest.mark.parametrize("plain", [None, 3, "text", [asdict(BLIND)]])
-def test_a_value_that_is_no_object_is_no_summary(plain: Any) -> None:
-    with pytest.raises(ConfigurationError, match="here must hold one JSON"):
-        parse_object(DuelSummary, plain, "here")

@@ -16,9 +16,7 @@ from stepaside.games.outcome import Outcome
 from stepaside.games.walker import SimulatedPlayer
 from stepaside.sim.camera_settings import RoomObject, SceneSettings
 from stepaside.sim.ground_truth import torsos_apart
-from stepaside.sim.physics_settings import SightSettings
 from stepaside.sim.simulated_robot import SimulatedRobot
-from stepaside.strategies import Evasion, Pursuit
 
 START = StartSettings(1.3, 0.4, -0.2)
 
@@ -52,21 +50,6 @@ def test_robots_begin_at_the_poses_of_the_start() -> None:
     assert duel.settings.start == START
     assert duel.min_distance == torsos_apart(pursuer, evader)
     assert duel.triggered_at is None and duel.triggered_distance is None
-
-
-def test_each_robot_has_its_own_strategy_and_sensor() -> None:
-    strategy = Evasion(angle=0.4, safety_radius=0.7)
-    pursuer, evader = walkers(begun(strategy=strategy))
-    assert evader.scheme.decisions.strategy == strategy
-    assert pursuer.scheme.decisions.strategy == Pursuit()
-    for own, bearing in ((pursuer, -0.4), (evader, 0.2)):
-        sighting = own.robot.read().sighting
-        assert sighting is not None
-        assert sighting.bearing == pytest.approx(bearing, abs=0.02)
-    noisy = begun(sight=SightSettings(bearing_noise=0.1))
-    seen = [walker.robot.read().sighting for walker in walkers(noisy)]
-    offs = [s.bearing - b for s, b in zip(seen, (-0.4, 0.2), strict=True) if s]
-    assert abs(offs[0] - offs[1]) > 1e-3  # draws of their own
 
 
 def lay_down(duel: Duel, number: int) -> None:
@@ -193,29 +176,6 @@ def test_a_duel_lasts_its_duration() -> None:
     assert result.evader.sight is None
     assert summary.min_distance_m == pytest.approx(1.3, abs=0.03)
     assert result.outcome is Outcome.COMPLETED
-
-
-def test_a_duel_without_a_record_stores_nothing() -> None:
-    duel = Duel(DuelSettings(start=START), recorded=False)
-    assert duel.observers == () and duel.sight_observer is None
-    for _ in range(11):
-        duel.tick()
-    assert duel.recorder.times.size == 0
-
-
-def test_progress_is_reported_at_most_five_times_a_second(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    clock(monkeypatch, 0.11)
-    told: list[Progress] = []
-    result = run_duel(DuelSettings(start=START, duration=0.5), told.append)
-    # Looked at every 0.1 s of the duel; every other time 0.22 s have passed.
-    np.testing.assert_allclose([p.time for p in told], [0.2, 0.4])
-    assert told[0].real_time_factor == pytest.approx(0.2 / 0.22)
-    assert told[1].real_time_factor == pytest.approx(0.4 / 0.44)
-    assert told[0].distance == pytest.approx(1.3, abs=0.03)
-    factor = result.summary.real_time_factor
-    assert factor == pytest.approx(0.5 / (0.11 * 6))
 
 
 def test_an_interrupted_duel_is_recorded_and_its_robots_closed(

@@ -1,6 +1,5 @@
 """Test the forecast of a duel against an independent integrator."""
 
-import json
 from dataclasses import replace
 from math import atan2, cos, hypot, inf, pi, radians, sin
 from pathlib import Path
@@ -9,7 +8,6 @@ from typing import Any
 import pytest
 from click.testing import CliRunner, Result
 
-from stepaside.arena import Room
 from stepaside.cli.main import main
 from stepaside.core.poses import wrap_angle
 from stepaside.games.duel_circle import (
@@ -20,8 +18,6 @@ from stepaside.games.duel_circle import (
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.forecast import ExpectedEnd, Forecast, forecast
 from stepaside.games.initial_poses import with_initial_poses
-from stepaside.games.template_game import play_template
-from stepaside.sim.camera_settings import SceneSettings
 from stepaside.sim.person_settings import PersonSettings
 from stepaside.strategies import Evasion
 
@@ -179,16 +175,6 @@ def test_only_a_person_that_keeps_steering_has_a_circle(
         assert "the person" in missing_circle_reason(settings)
 
 
-def test_other_games_have_no_forecast() -> None:
-    room = SceneSettings(plan=Room(3.0, 3.0))
-    for settings in (
-        replace(BASE, start=StartSettings(), room=room),
-        replace(BASE, evader_strategy="walk"),
-    ):
-        assert forecast(settings) is None
-        assert missing_circle_reason(settings).startswith("no circle: the ")
-
-
 def duel(folder: Path, *options: str) -> Result:
     words = ["duel", "--seed", "7", "--duration", "1", *options]
     result = CliRunner().invoke(
@@ -196,68 +182,3 @@ def duel(folder: Path, *options: str) -> Result:
     )
     assert result.exit_code == 0, result.output
     return result
-
-
-@pytest.mark.parametrize(
-    ("options", "expected"),
-    [
-        (["--trigger", "time"], "no circle"),
-        ([], "later"),
-    ],
-)
-def test_a_summary_has_the_forecast(
-    tmp_path: Path, options: list[str], expected: str
-) -> None:
-    result = duel(tmp_path, *options)
-    summary = json.loads((tmp_path / "run" / "summary.json").read_text())
-    theory = summary["theory"]
-    rows = {
-        line[2:20].strip(): line[21:].strip()
-        for line in result.stdout.split("\n")
-    }
-    assert theory["expected"] == expected
-    assert rows["expected"] == theory["words"]
-    assert "closest approach" in rows
-    none = theory["expected"] == "no circle"
-    assert theory["exists"] is not none
-    assert ("theory" in rows["distance"]) is not none
-    assert (rows["on the circle"] == "not expected") is none
-    assert ("expected outcome" in result.stderr) is none
-
-
-def test_expected_contact_is_printed_beforehand(tmp_path: Path) -> None:
-    options = ("--gain", "1.2", "--distance", "0.5", "--json")
-    words = ["duel", "--seed", "7", "--duration", "9", *options]
-    result = CliRunner().invoke(main, words)
-    summary = json.loads(result.stdout)
-    theory = summary["theory"]
-    assert theory["expected"] == "contact" and theory["exists"] is False
-    assert theory["distance_m"] is None
-    assert theory["closest_approach_m"] < 0.4
-    assert summary["min_distance_m"] < 0.6
-    assert (
-        result.stderr.strip()
-        == f"stepaside: expected outcome: {theory['words']}"
-    )
-
-
-def test_the_templates_of_a_duel_are_played_once(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    """Equal settings have one forecast; a changed one is its own."""
-    plays: list[float] = []
-
-    def count(*args: Any, duration: float, **options: Any) -> Any:
-        plays.append(duration)
-        return play_template(*args, duration=duration, **options)
-
-    monkeypatch.setattr("stepaside.games.forecast.play_template", count)
-    settings = with_initial_poses(DuelSettings(seed=77, duration=3.0))
-    first = forecast(settings)
-    assert (
-        forecast(with_initial_poses(DuelSettings(seed=77, duration=3.0)))
-        == first
-    )
-    assert plays == [3.0]
-    forecast(replace(settings, duration=4.0))
-    assert plays == [3.0, 4.0]

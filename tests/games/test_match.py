@@ -22,17 +22,6 @@ def test_three_players_act_in_turn_before_physics_advances() -> None:
     assert [player.closed for player in players] == [1, 1, 1]
 
 
-@pytest.mark.parametrize("count", [1, 2, 3, 5])
-def test_any_number_may_play(count: int) -> None:
-    match, world, players = game(*(2.0 * np.arange(count)))
-    outcome, _ = play(match, 2 * TICK)
-    assert outcome is Outcome.COMPLETED and world.ticks == 2
-    assert match.player("a") is players[0]
-    assert match.player(players[-1].name) is players[-1]
-    with pytest.raises(KeyError, match="zoe"):
-        match.player("zoe")
-
-
 @pytest.mark.parametrize(
     ("duration", "ticks"), [(0.04, 10), (0.0399, 10), (0.0401, 11)]
 )
@@ -161,27 +150,6 @@ def test_closest_approach_and_first_motion_of_the_evader_are_recorded() -> (
     assert others == [4.0, 2.0, 2.0, 1.5]
     assert match.triggered_at == 2 * TICK
     assert match.triggered_distance == 2.0
-
-
-def test_a_player_that_never_moves_is_never_triggered() -> None:
-    match, _, _ = pair(0.0, 5.0)
-    play(match, 0.1)
-    assert match.triggered_at is None and match.triggered_distance is None
-
-
-def test_progress_is_told_at_most_five_times_a_second(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    """Looked at every 0.1 s of the game; every other time 0.22 s passed."""
-    clock(monkeypatch, 0.11)
-    told: list[Progress] = []
-    match, _, _ = pair(0.0, 1.3)
-    _, wall = play(match, 0.5, told.append)
-    assert [p.time for p in told] == pytest.approx([0.2, 0.4])
-    factors = [p.real_time_factor for p in told]
-    assert factors == pytest.approx([0.2 / 0.22, 0.4 / 0.44])
-    assert {p.distance for p in told} == {1.3}
-    assert wall == pytest.approx(0.11 * 6)
 
 
 def test_a_single_player_has_no_distance(

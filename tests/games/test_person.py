@@ -1,15 +1,12 @@
 """Test a person as pursuer."""
 
-import json
 from dataclasses import replace
 from math import pi
 from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
 
-from stepaside.cli.main import main
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Pose
 from stepaside.games.duel import Duel, run_duel
@@ -129,12 +126,6 @@ def test_a_person_without_a_solid_body_walks_through_a_robot() -> None:
     assert model.body("pursuer/trunk").geomnum[0] > 0  # sensors see it
 
 
-def test_a_robots_duel_has_no_person_in_it() -> None:
-    model = Duel(DuelSettings(start=START)).world.model
-    names = {model.body(i).name for i in range(model.nbody)}
-    assert model.nmocap == 0 and "pursuer/trunk" not in names
-
-
 def test_the_template_evader_escapes_from_a_slower_pursuer() -> None:
     def approach(speed: float) -> float:
         person = PersonSettings("straight", speed)
@@ -150,26 +141,3 @@ def test_the_template_evader_escapes_from_a_slower_pursuer() -> None:
 
     assert approach(0.1) == pytest.approx(0.8, abs=0.01)
     assert approach(0.2) < 0.1 < approach(0.05)
-
-
-def test_the_command_line_accepts_a_person(tmp_path: Path) -> None:
-    folder = tmp_path / "run"
-    arguments = [
-        *("duel", "--pursuer", "person", "--person-path", "straight"),
-        *("--person-speed", "0.4", "--person-miss", "1.2", "--json"),
-        *("--duration", "3", "--seed", "1", "--output", str(folder)),
-    ]
-    result = CliRunner().invoke(main, arguments)
-    assert result.exit_code == 0, result.stderr
-    assert json.loads(result.stdout)["theory"]["closest_approach_m"] > 0.5
-    assert (folder / "duel.png").is_file()
-    again = CliRunner().invoke(
-        main,
-        [
-            *("duel", "--config", str(folder / "configuration.toml")),
-            "--json",
-        ],
-    )
-    assert json.loads(again.stdout)["min_distance_m"] == pytest.approx(
-        json.loads(result.stdout)["min_distance_m"]
-    )

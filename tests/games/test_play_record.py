@@ -1,24 +1,17 @@
 """Test replays of plays: motion of the player and its sightings."""
 
-import json
-from dataclasses import replace
-from math import atan2, hypot
+from math import hypot
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
 
-from stepaside.cli.main import main
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array, Pose, wrap_angle
 from stepaside.drivers.joint.joint_loop import JointTick
 from stepaside.drivers.joint.safety_state_machine import RobotState
 from stepaside.drivers.play_log import PlayLog
-from stepaside.drivers.row_file import read_rows
-from stepaside.drivers.velocity.velocity_body import VelocityCommand
-from stepaside.drivers.velocity.velocity_loop import DrivingState, VelocityTick
 from stepaside.games.configuration_file import dump_configuration
 from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
@@ -29,9 +22,6 @@ from stepaside.games.player import Snapshot
 from stepaside.games.run_archive import complete_play, load_run
 from stepaside.games.run_captions import describe_state
 from stepaside.games.walker import SimulatedPlayer
-from stepaside.perception.measurement import Sighting
-from stepaside.report.run_folder import draw_run
-from stepaside.report.scene import RunScene
 from stepaside.robots.description import load_robot
 from stepaside.robots.tree_cache import load_tree
 from stepaside.sim.body_settings import BODIES
@@ -189,94 +179,7 @@ def test_a_truncated_record_is_replayed_to_its_end(
         load_run(cut)
 
 
-def test_a_play_has_a_figure_and_a_summary(
-    walked: Walked, tmp_path: Path
-) -> None:
-    stage = RunScene(walked.run)
-    stage.put(50)
-    assert stage.model.body("pursuer/trunk").mocapid[0] >= 0
-    draw_run(walked.run, tmp_path / "play.png")
-    again = tmp_path / "again.png"
-    words = ["compare", str(walked.folder), "--output", str(again), "--json"]
-    said = CliRunner().invoke(main, words)
-    assert said.exit_code == 0, said.output
-    (told,) = json.loads(said.output)["runs"].values()
-    assert told["role"] == "evader" and again.exists()
-    page = tmp_path / "play.html"
-    words = ["replay", str(walked.folder), "--html", str(page)]
-    said = CliRunner().invoke(main, words)
-    assert said.exit_code == 0, said.output
-    assert page.stat().st_size > 1e5
-
-
-def circling(log: PlayLog, offset: float) -> None:
-    """Return a unicycle on a circle of 1 m around its opponent."""
-    for tick in range(200):
-        angle = 0.01 * tick
-        pose = Pose(np.cos(angle), np.sin(angle), angle + 0.5 * np.pi)
-        time = offset + 0.05 * tick
-        bearing = wrap_angle(atan2(-pose.y, -pose.x) - pose.theta)
-        seen = Sighting(time, float(bearing), 1.0) if tick > 20 else None
-        log.note(
-            VelocityTick(
-                DrivingState.WALKING,
-                "sees the other",
-                time,
-                pose,
-                seen,
-                VelocityCommand(0.3, 0.2),
-                VelocityCommand(0.2, 0.2),
-            )
-        )
-    log.close()
-
-
-def test_a_robot_with_its_own_walk_is_shown_as_a_template(
-    tmp_path: Path,
-) -> None:
-    settings = replace(EVADER, role="pursuer", language="ros2")
-    circling(log_at(tmp_path / "p", settings), 1.7e9)
-    run = complete_play(tmp_path / "p", settings, Outcome.COMPLETED, "done")
-    assert run.robots == () and run.persons == ()
-    assert run.summary.radius_m == pytest.approx(1.0, abs=0.01)
-    assert run.summary.distance_m == pytest.approx(1.0, abs=0.01)
-    assert run.summary.sighted_share == pytest.approx(179 / 199, abs=0.01)
-    np.testing.assert_allclose(run.tracks["evader"].com, 0.0, atol=1e-6)
-    assert run.pursuer.command is not None
-    command = run.pursuer.command[5]
-    np.testing.assert_array_equal(command, [0.3, 0.2, 0.0, 0.2, 0.2, 0.0])
-    draw_run(run, tmp_path / "play.png")
-    RunScene(run).put(10)
-    assert load_run(tmp_path / "p").players == ("pursuer", "evader")
-
-
-def test_without_a_sighting_a_play_has_one_player(tmp_path: Path) -> None:
-    log = log_at(tmp_path / "p", EVADER)
-    at = Pose(0.0, 0.0, 0.0)
-    rest = VelocityCommand(0.0, 0.0)
-    why = (DrivingState.WAITING, "sees no opponent")
-    for tick in range(5):
-        log.note(VelocityTick(*why, 0.05 * tick, at, None, rest, rest))
-    log.close()
-    run = complete_play(tmp_path / "p", EVADER, Outcome.INTERRUPTED, "enough")
-    assert run.players == ("evader",) and run.pair is None
-    assert run.summary.closest_m is None and run.summary.walking_s == 0.0
-    draw_run(run, tmp_path / "play.png")
-    RunScene(run).put(0)
-
-
 def test_record_time_continues_where_a_robot_clock_restarts() -> None:
     times = np.array([-0.024, -0.012, 0.0, 0.012, 900.0, 900.012, 0.0, 0.0])
     wanted = 0.012 * np.array([0, 1, 2, 3, 4, 5, 6, 6])
     np.testing.assert_allclose(monotonic_times(times), wanted, atol=1e-9)
-
-
-def test_the_planning_time_of_a_play_is_in_microseconds(
-    walked: Walked,
-) -> None:
-    """The median of all plans; a halt has no planning time."""
-    spent = read_rows(walked.folder)["begun"][:, 5]
-    spent = spent[~np.isnan(spent)]
-    assert len(spent) > 2
-    median = 1e6 * float(np.median(spent))
-    assert walked.run.summary.plan_time_us == pytest.approx(median)

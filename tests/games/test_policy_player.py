@@ -12,7 +12,6 @@ pytest.importorskip("onnxruntime")
 from legs_robot import nao_on_legs
 from stepaside.arena import Room
 from stepaside.cli.main import main
-from stepaside.core.errors import ConfigurationError, PolicyError
 from stepaside.core.poses import Pose
 from stepaside.games.duel import Duel, run_duel, run_duels
 from stepaside.games.duel_settings import DuelSettings
@@ -22,7 +21,7 @@ from stepaside.games.policy_player import PolicyPlayer
 from stepaside.games.robot_settings import with_legs, with_robot
 from stepaside.locomotion.policy.policy_walk import PolicyWalk
 from stepaside.planning import Direction, GaitSettings
-from stepaside.sim.body_settings import BODIES, BodySettings, at_tick
+from stepaside.sim.body_settings import BODIES
 from stepaside.sim.person_settings import PersonSettings
 from stepaside.strategies import Intent, Knowledge
 from stepaside.strategies.velocity_set import BodyVelocity
@@ -91,44 +90,6 @@ def test_duels_side_by_side_have_the_bits_of_each_alone(
             assert np.array_equal(found, track.qpos)
 
 
-def test_a_policy_that_falls_at_once_is_refused(tmp_path: Path) -> None:
-    folder = nao_on_legs(tmp_path / "nao", bias=(0.0, 0.9))
-    settings = with_robot(DuelSettings(duration=2.0), str(folder))
-    with pytest.raises(PolicyError, match="fell at 0.* while it was to stand"):
-        run_duel(settings)
-
-
-def test_a_period_that_the_tick_does_not_divide_is_refused(
-    tmp_path: Path,
-) -> None:
-    folder = nao_on_legs(tmp_path / "nao", period="0.021")
-    settings = with_robot(DuelSettings(duration=1.0), str(folder))
-    with pytest.raises(PolicyError, match="tick must divide .* 0.021"):
-        run_duel(settings)
-
-
-@pytest.mark.parametrize(
-    ("body", "tick"),
-    [("ideal", 0.02), ("delayed", 0.004), ("hardware", 0.004)],
-)
-def test_an_ideal_body_is_controlled_at_the_period_of_its_policy(
-    body: str, tick: float, standing: DuelSettings
-) -> None:
-    """One that delays or disturbs keeps its shorter tick."""
-    duel = Duel(replace(standing, body=BODIES[body]))
-    assert duel.world.physics.tick == pytest.approx(tick)
-    duel.close()
-
-
-def test_maps_from_cameras_are_refused_in_rooms(
-    standing: DuelSettings,
-) -> None:
-    room = replace(standing.room, plan=Room(4.0, 4.0))
-    seeing = replace(standing, sensing="cameras")
-    with pytest.raises(ConfigurationError, match="legs.network must be empty"):
-        replace(seeing, room=room)
-
-
 def test_a_robot_in_a_room_knows_it(standing: DuelSettings) -> None:
     """Distances of random starts are those of the robot, also in a room."""
     starts = Pose(-1.0, 0.0, 0.0), Pose(1.0, 0.0, np.pi)
@@ -169,12 +130,6 @@ def test_legs_whose_measured_response_cannot_be_are_refused(
     said = capsys.readouterr().err
     assert f"{file}: forward.halting must lie in [0, 100] [m]" in said
     assert f"got {bad}" in said
-
-
-def test_a_body_keeps_its_delays_at_another_tick() -> None:
-    body = at_tick(BODIES["hardware"], 0.004)
-    assert (body.cycle, body.delay_cycles, body.imu_delay_cycles) == (0, 9, 3)
-    assert at_tick(BodySettings(), 0.004) == BodySettings()
 
 
 class Sidestepper:

@@ -10,7 +10,6 @@ from stepaside.core.poses import Array, Pose
 from stepaside.games.match import Match
 from stepaside.games.outcome import Outcome
 from stepaside.games.recorder import Recorder
-from stepaside.games.trajectory import Trajectory
 from stepaside.planning import Foot
 
 FRAMES = (Pose(0.0, 0.0, 0.0), Pose(1.0, 2.0, pi / 2))
@@ -112,30 +111,11 @@ def test_headings_are_unwrapped() -> None:
     np.testing.assert_allclose(headings, expected)
 
 
-def test_an_empty_record_has_the_usual_shapes() -> None:
-    made, _, _, _ = recorder()
-    assert made.times.shape == (0,)
-    for track in made.tracks().values():
-        assert track.com.shape == track.torso.shape == (0, 3)
-        assert track.landings is not None and track.landings.shape == (0, 5)
-
-
 def test_a_player_without_odometry_has_no_landings() -> None:
     made, match, _, players = recorder()
     del players[0].seen["frame"]
     made.before(match)
     assert made.tracks()["a"].landings is None
-
-
-def test_returned_trajectories_do_not_change_later() -> None:
-    made, match, _, players = recorder()
-    made.before(match)
-    first = made.tracks()["a"]
-    tell(players[0], 1)
-    made.before(match)
-    assert isinstance(first, Trajectory) and first.com.shape == (1, 3)
-    np.testing.assert_array_equal(first.com, [[1.0, 2.0, 3.0]])
-    assert made.tracks()["a"].com.shape == (2, 3)
 
 
 def test_samples_are_taken_when_due_and_at_the_end() -> None:

@@ -96,19 +96,6 @@ def test_first_footstep_of_each_plan_is_the_recorded_landing(
     assert [p.phase for p in signals.phases][:2] == ["standing", "walking"]
 
 
-def test_strategy_numbers_say_what_the_evader_sees_and_remembers(
-    duel: DuelRun,
-) -> None:
-    signals = repeat_game(duel).robots
-    seen = signals["evader"].strategy
-    assert np.isfinite(seen["memory_side"]).all()
-    assert set(seen["memory_evading"]) <= {0.0, 1.0}
-    known = np.isfinite(seen["sighting_distance_m"])
-    apart = np.abs(seen["sighting_distance_m"] - duel.distance)[known]
-    # A sighting is as old as the last decision: at most one step.
-    assert known.sum() > 100 and apart.max() < 0.1
-
-
 def test_a_game_that_differs_gives_no_signals_but_a_reason(
     duel: DuelRun,
 ) -> None:

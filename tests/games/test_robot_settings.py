@@ -1,6 +1,5 @@
 """Test settings of gait, control and games from descriptions."""
 
-import json
 import math
 import tomllib
 from dataclasses import replace
@@ -11,7 +10,7 @@ import pytest
 from click.testing import CliRunner
 
 from stepaside.cli.main import main
-from stepaside.core.errors import ConfigurationError, ModelError, PlanError
+from stepaside.core.errors import ConfigurationError
 from stepaside.games.configuration_file import (
     dump_configuration,
     parse_settings,
@@ -21,11 +20,9 @@ from stepaside.games.duel_settings import DuelSettings, RobotSettings
 from stepaside.games.initial_poses import draw_start
 from stepaside.games.robot_settings import (
     body_of_robot,
-    settings_of_robot,
     with_players,
     with_robot,
 )
-from stepaside.games.walk_settings import WalkSettings
 from stepaside.planning import GaitSettings
 from stepaside.robots.description import load_robot
 from stepaside.sim.body_settings import BODIES
@@ -44,12 +41,6 @@ def changed_nao(folder: Path, **changes: str) -> str:
     (folder / "robot.toml").write_text(text, encoding="utf-8")
     (folder / "model.xml").write_text(NAO.mjcf(), encoding="utf-8")
     return str(folder)
-
-
-def test_nao_has_the_gait_of_the_paper() -> None:
-    assert settings_of_robot("nao") == RobotSettings()
-    assert with_robot(DuelSettings(), "nao") == DuelSettings()
-    assert with_robot(WalkSettings(), "nao") == WalkSettings()
 
 
 def test_a_description_gives_gait_control_and_distances(
@@ -76,60 +67,11 @@ def test_a_description_gives_gait_control_and_distances(
     assert drawn is not None and 1.4 <= drawn <= 1.5
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "error", "message"),
-    [
-        ("stride = 0.04", "stride = -1.0", PlanError, "stride must"),
-        ("stride = 0.04", "stryde = 1.0", ConfigurationError, "gait.*stryde"),
-        ("back = -0.05", "back = 'x'", ModelError, "sole.back must be"),
-        ("start_near = 0.6", "start_near = 9.0", ConfigurationError, "start"),
-        ("start_near = 0.6", "", ConfigurationError, "start_near"),
-        ("reach = 0.4", "reach = 0.0", ModelError, "place.reach .* > 0"),
-        ("reach = 0.4", "raech = 0.4", ModelError, "unknown entry place.rae"),
-        ("HeadYaw = 7.457", "HeadYaw = '7'", ModelError, "speed_limits.Head"),
-        ("[0.05, 2.11]", "['low', 2.11]", ModelError, "must be a finite"),
-        ("[0.05, 2.11]", "[2.11]", ModelError, "array of 2 values"),
-        ("[0.05, 2.11]", "[2.2, 2.11]", ModelError, "low < high"),
-        ("closed-form", "guess", ConfigurationError, "method"),
-    ],
-)
-def test_invalid_descriptions_are_refused_by_name(
-    old: str, new: str, error: type[Exception], message: str, tmp_path: Path
-) -> None:
-    robot = changed_nao(tmp_path, **{old: new})
-    with pytest.raises(error, match=message):
-        with_robot(DuelSettings(), robot)
-
-
 def given(*words: str) -> dict[str, Any]:
     """Return the configuration that a command would use."""
     result = CliRunner().invoke(main, [*words, "--print-config"])
     assert result.exit_code == 0, result.output
     return tomllib.loads(result.stdout)
-
-
-def test_files_and_options_take_precedence_over_the_description(
-    tmp_path: Path,
-) -> None:
-    robot = changed_nao(
-        tmp_path / "robot",
-        **{"stride = 0.04": "stride = 0.03", "gain = 0.2": "gain = 0.25"},
-    )
-    file = tmp_path / "config.toml"
-    file.write_text(f"robot = {json.dumps(robot)}\n[gait]\nstride = 0.02\n")
-    words = ["duel", "--config", str(file)]
-    assert given(*words)["gait"]["stride"] == 0.02
-    assert given(*words)["gait"]["gain"] == 0.25
-    assert given(*words, "--gain", "0.3")["gait"]["gain"] == 0.3
-    assert given("walk", "--robot", robot)["gait"]["stride"] == 0.03
-
-
-def test_a_robot_that_needs_feedback_keeps_it(tmp_path: Path) -> None:
-    robot = changed_nao(tmp_path, **{"feedback = false": "feedback = true"})
-    words = ["walk", "--robot", robot]
-    assert given(*words)["control"]["feedback"]
-    assert given(*words, "--body", "ideal")["control"]["feedback"]
-    assert not given(*words, "--no-feedback")["control"]["feedback"]
 
 
 def test_two_players_may_be_different_robots(tmp_path: Path) -> None:
@@ -214,14 +156,3 @@ def test_a_body_has_the_errors_of_its_robot(tmp_path: Path) -> None:
     )
     with pytest.raises(ConfigurationError, match="body: unknown entry delay"):
         body_of_robot(wrong, "hardware")
-
-
-def test_a_gait_of_nao_is_refused_for_a_robot_with_its_own(
-    tmp_path: Path,
-) -> None:
-    robot = changed_nao(tmp_path / "tall", **{"speed = 0.1 ": "speed = 0.2 "})
-    line = ["walk", "--robot", robot, "--gait", "fast", "--print-config"]
-    refused = CliRunner().invoke(main, line)
-    assert refused.exit_code == 2
-    assert "--gait fast requires a robot with NAO's gait" in refused.stderr
-    assert "tall" in refused.stderr

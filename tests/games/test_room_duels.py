@@ -2,13 +2,11 @@
 
 from dataclasses import replace
 from math import pi
-from pathlib import Path
 from typing import Any
 
 import mujoco
 import numpy as np
 import pytest
-from click.testing import CliRunner
 
 from stepaside.arena import (
     Box,
@@ -19,7 +17,6 @@ from stepaside.arena import (
     room_from_entries,
 )
 from stepaside.arena.room_generation import RoomRecipe
-from stepaside.cli.main import main
 from stepaside.cli.options.print_config import commented
 from stepaside.control.clearance.map_settings import MapSettings
 from stepaside.core.errors import ConfigurationError
@@ -33,7 +30,7 @@ from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.outcome import Outcome
 from stepaside.games.run_archive import results_of
 from stepaside.sim.camera_settings import SceneSettings
-from stepaside.sim.obstacle_geoms import HEIGHT, add_solids, named_solids
+from stepaside.sim.obstacle_geoms import HEIGHT, add_solids
 
 TRIANGLE = Polygon(((0.5, 0.5), (0.9, 0.5), (0.7, 0.9)))
 FULL = Room(
@@ -64,12 +61,6 @@ def test_obstacles_in_the_world_are_those_of_the_room() -> None:
         if abs(away) > 1e-4:
             wanted = 2.0 - HEIGHT if away < 0.0 else -1.0
             assert down == pytest.approx(wanted, abs=1e-6)
-
-
-def test_obstacles_are_named_by_their_kind() -> None:
-    names = [name for name, _ in named_solids(FULL)]
-    assert names[:4] == ["disc 1", "box 1", "polygon 1", "wall 1"]
-    assert len(set(names)) == len(FULL.solids) == 7
 
 
 def test_a_box_has_the_size_and_heading_of_its_file() -> None:
@@ -116,32 +107,6 @@ def test_players_begin_at_the_starts_of_the_room() -> None:
     assert again.start == told and again.room == duel.settings.room
 
 
-def test_starts_missing_in_a_room_are_drawn_from_the_seed() -> None:
-    first, second = (Duel(placed(FULL, seed=s)).frames for s in (1, 2))
-    assert first == Duel(placed(FULL, seed=1)).frames != second
-
-
-@pytest.mark.parametrize(
-    ("room", "words"),
-    [
-        (replace(FULL, starts=(Pose(-0.6, 0.0, 0.0), STARTS[1])), "at least"),
-        (replace(FULL, starts=(Pose(-1.9, 0.0, 0.0), STARTS[1])), "between"),
-        (
-            Room(
-                3.0,
-                3.0,
-                (Box(0.0, 0.0, 3.0, 0.2),),
-                starts=(Pose(0.0, -1.0, 0.0), Pose(0.0, 1.0, 0.0)),
-            ),
-            "a path",
-        ),
-    ],
-)
-def test_unplayable_rooms_are_refused(room: Room, words: str) -> None:
-    with pytest.raises(ConfigurationError, match=words):
-        Duel(placed(room))
-
-
 def test_a_room_excludes_other_starts_and_a_map_of_people() -> None:
     room = replace(FULL, starts=STARTS)
     with pytest.raises(ConfigurationError, match="start.distance must be"):
@@ -185,27 +150,3 @@ def test_contact_with_an_obstacle_ends_a_duel_and_names_it() -> None:
     assert run.outcome is Outcome.CONTACT
     assert run.message.startswith("disc 1 and evader touched at")
     assert results_of(run)["touched"] == ["disc 1", "evader"]
-
-
-def refusal(*words: str) -> str:
-    result = CliRunner().invoke(main, ["duel", *words])
-    assert result.exit_code == 2, result.output
-    return result.output
-
-
-def test_invalid_rooms_are_refused_in_one_line(tmp_path: Path) -> None:
-    file = tmp_path / "room.toml"
-    for text, words in (
-        ("polygons = [{corners = [[0,0],[1,1],[1,0],[0,1]]}]", "cross itself"),
-        ("discs = [{x = nan, y = 0, radius = 0.1}]", "disc x must be finite"),
-        (
-            "width = 3\ndepth = 3\ndiscs = [{x=-1,y=0,radius=0.1}]\n"
-            "pursuer = {x=-1,y=0}\nevader = {x=1,y=0}",
-            "the pursuer must start at least",
-        ),
-    ):
-        file.write_text(text)
-        told = refusal("--room", str(file), "--json")
-        assert words in told and "Traceback" not in told
-    assert "requires a random room (--room SEED)" in refusal("--discs", "2")
-    assert "an existing file, got 'no'" in refusal("--room", "no")

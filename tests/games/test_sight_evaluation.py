@@ -1,7 +1,7 @@
 """Test the evaluation of perception on detections of known truth."""
 
 from dataclasses import astuple
-from math import atan2, cos, hypot, inf, nan, pi, radians, sin
+from math import atan2, cos, hypot, nan, pi, radians, sin
 from types import SimpleNamespace
 from typing import Any
 
@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 from stepaside.games.sight_evaluation import FrameCounts, SightEvaluator
-from stepaside.games.sight_summary import ErrorSpread
 from stepaside.perception.camera_model import CameraModel
 from stepaside.perception.images import ColourImage, DepthImage, SonarEcho
 from stepaside.perception.measurement import Sighting
@@ -195,17 +194,6 @@ def test_errors_exclude_samples_without_a_sighting() -> None:
     assert astuple(summary.distance_error_m) == pytest.approx((0.5, 0.95))
 
 
-def test_without_samples_there_are_no_errors() -> None:
-    scene = Scene()
-    assert scene.evaluator.array().shape == (0, 6)
-    summary = scene.evaluator.summary()
-    assert summary.bearing_error_deg == ErrorSpread(None, None)
-    assert summary.misled_s == summary.lost_s == 0.0
-    assert summary.detection_rate is None
-    rows(scene, [90.0])
-    assert scene.evaluator.summary().misled_s == 0.0  # one sample lasts nil
-
-
 def test_rates_are_fractions_of_the_frames_with_the_opponent_in_view() -> None:
     assert FrameCounts().rate is None
     assert FrameCounts(in_view=8, detected=2).rate == 0.25
@@ -338,27 +326,6 @@ def test_each_tick_notes_exposed_images_and_evaluates_reports() -> None:
     scene.eyes.exposed, scene.mind.reports = [], []
     scene.evaluator.evaluate_tick()
     assert scene.evaluator.colour == FrameCounts(2, 2, 0)
-
-
-def test_without_cameras_no_image_is_noted() -> None:
-    scene = Scene()
-    scene.robot.eyes = None
-    scene.mind.reports = [FrameReport(colour(), (0.0,))]
-    scene.evaluator.evaluate_tick()
-    assert scene.evaluator.colour == FrameCounts()
-
-
-def test_stills_are_the_first_images_at_their_times() -> None:
-    scene = Scene(still_times=(0.5, 1.0))
-    scene.stand(TOP, radians(12.0), 1.0)
-    images = [colour(t) for t in (0.4, 0.5, 0.6, 1.1, inf)]
-    for image in images:
-        show(scene, image)
-    kept = scene.evaluator.stills["colour"]
-    assert [still.report.image for still in kept] == [images[1], images[3]]
-    assert kept[0].azimuth == pytest.approx(radians(12.0))
-    show(scene, depth(0.7))
-    assert len(scene.evaluator.stills["depth"]) == 1
 
 
 def test_a_person_counts_only_in_depth_images() -> None:

@@ -1,6 +1,5 @@
 """Test recorded trajectories and planning times."""
 
-from dataclasses import fields
 from math import degrees
 from types import SimpleNamespace
 from typing import Any
@@ -39,26 +38,6 @@ def arrays_of(*names: str) -> dict[str, Array]:
     return {name: generator.random(SHAPES[name]) for name in names}
 
 
-def test_arrays_of_a_trajectory_are_read_only() -> None:
-    track = Trajectory(**arrays_of(*SHAPES))
-    assert set(SHAPES) == {field.name for field in fields(Trajectory)}
-    for name in SHAPES:
-        values = getattr(track, name)
-        before = values.copy()
-        with pytest.raises(ValueError, match="read-only"):
-            values[0] = 9.0
-        np.testing.assert_array_equal(values, before)
-
-
-def test_the_reference_point_is_that_of_the_torso_if_none_is_recorded() -> (
-    None
-):
-    track = Trajectory(**arrays_of(*SHAPES))
-    assert track.unicycle is track.place
-    older = Trajectory(**arrays_of("com", "torso"))
-    assert older.unicycle is older.torso
-
-
 def test_the_distance_of_a_run_is_between_reference_points() -> None:
     there = [track_at(0.0, 0.0, 0.2), track_at(3.0, 4.0, 1.2)]
     tracks = dict(zip(("pursuer", "evader"), there, strict=True))
@@ -95,14 +74,6 @@ def test_a_trajectory_is_converted_to_arrays_and_back(
             np.testing.assert_array_equal(again, value)
         else:
             assert value is again is None
-
-
-@pytest.mark.parametrize("name", ["com", "torso"])
-def test_a_trajectory_without_required_arrays_is_refused(name: str) -> None:
-    arrays = Trajectory(**arrays_of(*SHAPES)).arrays("evader")
-    del arrays[f"evader_{name}"]
-    with pytest.raises(KeyError, match=f"evader_{name}"):
-        tracks_in(arrays, ("evader",))
 
 
 def test_margins_are_of_the_executed_parts() -> None:

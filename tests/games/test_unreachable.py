@@ -1,6 +1,5 @@
 """Test that unreachable references end a duel as an outcome."""
 
-import json
 import re
 from collections.abc import Iterator
 from dataclasses import replace
@@ -9,11 +8,7 @@ from threading import Event
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
 
-from stepaside.cli.main import main
-from stepaside.core.errors import ReachError
-from stepaside.games.configuration_file import dump_configuration
 from stepaside.games.duel import run_duel
 from stepaside.games.duel_settings import PLAYERS, DuelSettings, StartSettings
 from stepaside.games.outcome import Outcome
@@ -98,23 +93,6 @@ def test_its_run_folder_is_complete(run: DuelRun, tmp_path: Path) -> None:
     assert run.message in page.read_text(encoding="utf-8")
 
 
-def test_the_command_line_reports_it_as_an_outcome(tmp_path: Path) -> None:
-    """As after a fall: a run folder, and exit status 0."""
-    config, folder = tmp_path / "far.toml", tmp_path / "lost"
-    text = dump_configuration(settings_of("robot"))
-    config.write_text(text, encoding="utf-8")
-    options = ["--config", str(config), "--output", str(folder)]
-    result = CliRunner().invoke(main, ["duel", *options, "--json"])
-    assert result.exit_code == 0, result.output
-    told = json.loads(result.stdout)
-    assert told["outcome"] == "unreachable"
-    assert told["run_folder"] == str(folder)
-    run = load_run(folder)
-    assert run.outcome is Outcome.UNREACHABLE
-    assert run.message in result.stdout
-    assert (folder / "duel.png").is_file()
-
-
 def test_a_live_duel_ends_and_can_be_restarted() -> None:
     session = LiveSession(settings_of("robot"))
     try:
@@ -133,10 +111,3 @@ def test_a_live_duel_ends_and_can_be_restarted() -> None:
         assert done.wait(LONG) and session.outcome is None
     finally:
         session.close()
-
-
-def test_a_gait_with_an_unreachable_stance_is_refused() -> None:
-    """No game was played, so no run is written."""
-    tall = replace(settings_of("robot"), gait=GaitSettings(com_height=0.5))
-    with pytest.raises(ReachError, match="reaches at most"):
-        run_duel(tall)

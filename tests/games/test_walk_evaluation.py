@@ -13,7 +13,6 @@ from stepaside.games.support_foot_columns import COLUMNS
 from stepaside.games.walk_evaluation import StepCounts, summarise_columns
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.games.walk_summary import WalkSummary
-from stepaside.locomotion.zmp.mpc import MpcResult
 
 SETTINGS = WalkSettings(seed=4)
 CYCLE = 2.0 * SETTINGS.gait.step_duration
@@ -44,23 +43,6 @@ def figures(arrays: dict[str, Array], **changes: Any) -> dict[str, Any]:
     told = asdict(found)
     assert parse_object(WalkSummary, told, "test") == found
     return told
-
-
-def test_a_summary_has_the_settings_of_the_walk() -> None:
-    found = figures(record(), duration=12.0 + 1e-12)
-    expected = {
-        "seed": 4,
-        "steps": 20,
-        "adapted_steps": 3,
-        "method": "closed-form",
-        "feedback": False,
-        "push_impulse_n_s": (0.1, 0.2),
-        "min_zmp_margin_m": 0.02,
-        "qp": None,
-        "real_time_factor": pytest.approx(4.0),
-    }
-    assert {name: found[name] for name in expected} == expected
-    assert figures(record(), zmp_margin=None)["min_zmp_margin_m"] is None
 
 
 PAIRS = [
@@ -241,24 +223,3 @@ def test_tilt_is_the_greatest_in_any_direction() -> None:
     arrays["roll"][200], arrays["pitch"][200] = -0.03, 0.04
     arrays["roll"][300] = 0.045
     assert figures(arrays)["tilt_max_deg"] == pytest.approx(degrees(0.05))
-
-
-def answer(time: float, feasible: bool, x: float, y: float) -> MpcResult:
-    values: dict[str, Any] = dict.fromkeys(MpcResult._fields)
-    values |= {"time": time, "feasible": feasible, "excess": (x, y)}
-    values |= {"iterations": round(1e6 * time)}
-    return MpcResult(**values)
-
-
-def test_the_solver_summary_is_in_microseconds_and_metres() -> None:
-    answers = [answer(1e-6 * i, i > 2, 0.003, -0.004) for i in range(1, 101)]
-    answers.append(answer(1.01e-4, True, 0.001, 0.0))
-    found = figures(record(), answers=tuple(answers))["qp"]
-    assert found == {
-        "solves": 101,
-        "infeasible": 2,
-        "median_us": pytest.approx(51.0),
-        "p99_us": pytest.approx(100.0),
-        "iterations": pytest.approx(51.0),
-        "greatest_excess_m": pytest.approx(0.005),
-    }

@@ -1,17 +1,13 @@
 """Test walks as runs: stored, drawn, replayed and compared."""
 
 import json
-from dataclasses import replace
 from math import pi
 from pathlib import Path
 from typing import Any
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from matplotlib.colors import to_hex
-from matplotlib.figure import Figure
 
 from stepaside.cli.main import main
 from stepaside.core.errors import ConfigurationError
@@ -20,13 +16,10 @@ from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.outcome import Outcome
 from stepaside.games.run import WalkRun
 from stepaside.games.run_archive import load_run, write_run_files
-from stepaside.games.run_captions import describe_state, time_of_first_lift_off
 from stepaside.games.walk_game import run_walk
 from stepaside.games.walk_settings import WalkSettings
-from stepaside.report.figure_style import PUSHED
 from stepaside.report.run_folder import write_run
 from stepaside.report.scene import RunScene
-from stepaside.report.walk_figure import draw_walk
 from stepaside.report.walks_figure import mean_speed
 from stepaside.sim.push import Push
 from synthetic_run import check_same
@@ -72,67 +65,6 @@ def test_a_folder_of_another_game_is_refused(
     write_run_files(tmp_path, duel)
     with pytest.raises(ConfigurationError, match="a walk, got one of a duel"):
         load_run(tmp_path, "walk")
-
-
-def test_captions_of_a_walk_describe_its_state(walked: WalkRun) -> None:
-    until = time_of_first_lift_off(walked)
-    assert until == pytest.approx(walked.settings.gait.start_support)
-    for time, words in (
-        (0.0, "the robot stands"),
-        (0.9, "the robot walks"),
-        (1.0, "the robot is pushed"),
-        (1.49, "the robot is pushed"),
-    ):
-        assert describe_state(walked, walked.index_at(time)) == words
-    fell = replace(walked, outcome=Outcome.FALL, message="walker fell")
-    assert describe_state(fell, len(fell.times) - 1) == "walker fell"
-    assert describe_state(fell, 0) == "the robot stands"
-
-
-def test_an_index_is_of_the_first_sample_at_or_after_a_time(
-    walked: WalkRun,
-) -> None:
-    assert walked.index_at(0.0) == 0 and walked.index_at(0.04) == 2
-    assert walked.index_at(0.041) == 3
-    assert walked.index_at(99.0) == len(walked.times) - 1
-
-
-def test_the_figure_of_a_walk_has_its_pushes(
-    walked: WalkRun, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
-    figures: list[Figure] = []
-    monkeypatch.setattr(
-        Figure, "savefig", lambda f, *_, **__: figures.append(f)
-    )
-    monkeypatch.setattr(plt, "close", lambda figure: None)
-    monkeypatch.setattr(
-        "stepaside.report.figure_style.plt.close", lambda _: None
-    )
-    draw_walk(walked, tmp_path / "walk.png")
-    axes: Any = figures[0].axes
-    assert len(axes) == 5 and "Walk, seed 1" in figures[0].get_suptitle()
-    rows = walked.walker.pushes
-    assert rows is not None and len(rows) == 2
-    arrows = [text for text in axes[0].texts if text.arrow_patch is not None]
-    for arrow, (_, _, x, y, fx, fy) in zip(arrows, rows, strict=True):
-        tip, tail = np.array(arrow.xy), np.array(arrow.xyann)
-        np.testing.assert_allclose(tip, (x, y))
-        np.testing.assert_allclose(tip - tail, 0.2 * np.array([fx, fy]))
-    for one in axes[1:]:
-        marked = [
-            float(line.get_xdata()[0])
-            for line in one.lines
-            if to_hex(line.get_color()) == PUSHED
-        ]
-        assert marked == [1.0, 1.1]
-    roll, pitch = (
-        np.degrees(line.get_ydata()) / np.degrees(1.0)
-        for line in axes[1].lines[:2]
-    )
-    assert walked.walker.tilt is not None
-    lean = np.degrees(walked.walker.tilt)
-    np.testing.assert_allclose([roll, pitch], lean.T)
-    assert axes[3].get_xlim() == (0.0, 1.5)
 
 
 def test_a_walk_can_be_stored_compared_and_replayed(tmp_path: Path) -> None:

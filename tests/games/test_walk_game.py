@@ -1,6 +1,5 @@
 """Test walks: estimation, feedback and pushes on different bodies."""
 
-import json
 from dataclasses import replace
 from math import pi
 from typing import Any
@@ -181,35 +180,3 @@ def test_a_walk_is_repeated_to_the_bit_only_with_its_seed() -> None:
 def run(*arguments: str) -> tuple[int, str, str]:
     result = CliRunner().invoke(main, ["walk", *arguments])
     return result.exit_code, result.stdout, result.stderr
-
-
-def test_walk_prints_its_summary() -> None:
-    code, out, _ = run(
-        *("--body", "hardware", "--duration", "8", "--json"),
-        *("--push", "0.5@5:90deg", "--push", "0.3@6:0"),
-    )
-    summary = json.loads(out)
-    assert code == 0 and summary["outcome"] == "completed"
-    assert summary["feedback"] and summary["method"] == "measured"
-    x, y = summary["push_impulse_n_s"]
-    assert x == pytest.approx(0.3, abs=0.05)
-    assert y == pytest.approx(0.5, abs=0.05)
-
-
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        (("--push", "1@2"), "IMPULSE@TIME:DIRECTION"),
-        (("--push", "x@2:0"), "must be a number [N s], got 'x'"),
-        (("--push", "-1@2:0"), "push impulse must lie in"),
-        (("--method", "measured", "--open-loop"), "needs feedback"),
-        (("--friction", "0"), "friction must lie in"),
-        (("--slope", "50deg"), "slope must lie in"),
-    ],
-)
-def test_walk_reports_invalid_input_in_one_line(
-    arguments: tuple[str, ...], message: str
-) -> None:
-    code, out, err = run(*arguments)
-    assert code == 2 and out == ""
-    assert message in err and err.count("\n") == 1

@@ -1,21 +1,15 @@
 """Test that each column of a walk holds the quantity of its name."""
 
-from types import SimpleNamespace
-from typing import Any
-
 import mujoco
 import numpy as np
 import pytest
 
-from fake_players import begun
 from fake_robot import walk_of
 from stepaside.core.poses import Array, Pose
-from stepaside.games.outcome import Outcome
 from stepaside.games.recorder import Recorder
 from stepaside.games.support_foot_columns import (
     COLUMNS,
     express_in_support_foot,
-    upright_samples,
 )
 from stepaside.games.walk_game import WalkGame
 from stepaside.games.walk_settings import WalkSettings
@@ -182,97 +176,3 @@ def test_estimates_are_in_the_frame_of_the_support_foot(
     estimates = [v for n, v in last(walking).items() if "estimated" in n]
     assert len(estimates) == 8 and np.isnan(estimates).all()
     stabiliser.state = before
-
-
-def test_single_support_lasts_while_a_foot_swings() -> None:
-    """Not before the walk, and not in double support."""
-    walking = WalkGame(WalkSettings())
-    assert last(walking)["single"] == 0.0
-    gait = walking.settings.gait
-    singles, heights = [], []
-    while walking.world.time < 3.0:
-        assert walking.tick() is None
-        singles.append(last(walking)["single"])
-        feet = walking.walker.scheme.state.reference
-        heights.append(max(feet.left_foot[2], feet.right_foot[2]))
-    single, lifted = np.array(singles) > 0.5, np.array(heights) > 1e-3
-    assert single[lifted].mean() > 0.97
-    cycle = round(2.0 * gait.step_duration / 0.004)
-    share = gait.single_support / gait.step_duration
-    assert single[-cycle:].mean() == pytest.approx(share, abs=0.01)
-
-
-def test_references_and_estimates_are_placed_with_the_odometry() -> None:
-    """In the frame of the foot the origin of odometry has no effect."""
-    walking = WalkGame(WalkSettings(bearing=0.6, control=STABILISED))
-    for _ in range(700):
-        assert walking.tick() is None
-    here = last(walking)
-    frame = Pose(2.0, -1.0, 0.7)
-    walking.walker.frame = frame
-    made = recorder(walking)
-    made.every = 1
-    made.before(walking)
-    track = made.tracks()["walker"]
-    assert track.support is not None and track.estimate is not None
-    step = walking.walker.scheme.locomotion.step(walking.world.time)
-    wanted = frame.compose(step.support)
-    np.testing.assert_allclose(track.support[0, 2:], wanted)
-    there = columns(made)
-    for name in ("com_reference", "zmp_reference", "estimated_com"):
-        for axis in "xy":
-            key = f"{name}_{axis}"
-            assert there[key][0] == pytest.approx(here[key]), key
-    for key in ("estimated_velocity_x", "estimated_velocity_y"):
-        assert there[key][0] == pytest.approx(here[key]), key
-    turned = there["heading_reference"][0] - here["heading_reference"]
-    assert turned == pytest.approx(frame.theta)
-
-
-def test_a_duel_records_no_foot_states() -> None:
-    """Nor estimates of a robot without feedback."""
-    walking = WalkGame(WalkSettings())
-    tick = walking.world.physics.tick
-    plain = Recorder([walking.walker], tick=tick)
-    for made in (plain, walking.recorder):
-        made.before(walking)
-    far = plain.tracks()["walker"]
-    near = walking.recorder.tracks()["walker"]
-    assert far.sole is far.support is far.velocity is far.estimate is None
-    assert near.sole is not None and near.estimate is None
-    with pytest.raises(ValueError, match="must have sole, support and tilt"):
-        express_in_support_foot(plain.times, far)
-
-
-def test_the_last_sample_counts_if_evenly_spaced_and_upright() -> None:
-    even: Array = 0.02 * np.arange(4, dtype=float)
-    cut: Array = np.array([0.0, 0.02, 0.04, 0.044])
-    for outcome, stands in (
-        *((Outcome.COMPLETED, True), (Outcome.INTERRUPTED, True)),
-        *((Outcome.UNREACHABLE, True), (Outcome.FALL, False)),
-    ):
-        for times, due in ((even, True), (cut, False)):
-            expected = [True, True, True, stands and due]
-            assert upright_samples(times, outcome).tolist() == expected
-    assert upright_samples(even[:0], Outcome.FALL).tolist() == []
-
-
-def test_steps_and_solver_results_are_collected() -> None:
-    for keeps in (True, False):
-        walking = WalkGame(WalkSettings(), recorded=keeps)
-        walk: Any = walk_of(walking.walker.scheme)
-        answers: list[Any] = ["one", None, "two"]
-        step = begun()
-        for answer, began in zip(answers, (step, None, step), strict=True):
-            walk.balance = SimpleNamespace(
-                solved=answer,
-                state=None,
-                adapted=0,
-                commanded=None,
-                planned_heading=0.0,
-            )
-            walk.begun = began
-            walking.tally.acted(walking)
-        assert walking.tally.steps == 2
-        solved: list[Any] = list(walking.tally.solved)
-        assert solved == (["one", "two"] if keeps else [])

@@ -13,7 +13,6 @@ from hypothesis import strategies as st
 from stepaside.core.errors import PlanError
 from stepaside.core.poses import Pose
 from stepaside.planning import (
-    PRESETS,
     CenterState,
     Direction,
     Foot,
@@ -255,19 +254,6 @@ def test_impossible_gait_is_refused_by_name(name: str, value: Any) -> None:
         replace(GaitSettings(), **{name: value})
 
 
-def test_missing_state_is_refused() -> None:
-    with pytest.raises(PlanError, match="state must be given"):
-        PLANNER.plan(0.1, Direction.FORWARD, first_foot=Foot.LEFT)
-
-
-def test_presets_are_the_two_readings_of_the_text() -> None:
-    walks, printed = PRESETS["nao"], PRESETS["as-printed"]
-    assert (walks.single_support, walks.double_support) == (0.425, 0.122)
-    assert (printed.single_support, printed.double_support) == (0.122, 0.425)
-    assert walks.step_duration == pytest.approx(0.547)
-    assert walks.path_interval == pytest.approx(0.4)
-
-
 def test_planning_imports_numpy_only() -> None:
     """It must run on the robot, where there is no simulator."""
     code = (
@@ -325,16 +311,3 @@ def test_speed_factor_one_is_the_default_plan() -> None:
     )
     assert plain.placements.tobytes() == whole.placements.tobytes()
     assert plain.inputs.tobytes() == whole.inputs.tobytes()
-
-
-@pytest.mark.parametrize("factor", [-0.5, 0.0, 1.001, 2.0, float("nan")])
-def test_an_invalid_speed_factor_is_refused(factor: float) -> None:
-    """Standing still is a halt, which is another plan."""
-    with pytest.raises(PlanError, match=f"speed_factor must .*, got {factor}"):
-        PLANNER.plan(
-            0.3,
-            Direction.FORWARD,
-            first_foot=Foot.LEFT,
-            standing=True,
-            drive=TemplateDrive(speed_factor=factor),
-        )

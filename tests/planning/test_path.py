@@ -5,7 +5,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stepaside.core.errors import PlanError
 from stepaside.planning import Direction, UnicycleTrajectory
 
 SPEED, GAIN = 0.1, 0.2  # [m/s], [1/s]
@@ -69,19 +68,6 @@ def test_backward_is_the_reflection_with_the_same_heading(
     np.testing.assert_allclose(back, ahead * [-1.0, -1.0, 1.0], atol=1e-12)
 
 
-def test_the_template_turns_by_8_by_default() -> None:
-    path = UnicycleTrajectory(0.5, SPEED, GAIN, Direction.FORWARD)
-    assert path.poses([1.0])[0, 2] == pytest.approx(0.5 * GAIN)
-
-
-@pytest.mark.parametrize("bad", [0.0, -0.1, float("nan"), float("inf")])
-def test_a_template_that_does_not_move_or_turn_is_refused(bad: float) -> None:
-    with pytest.raises(PlanError, match="speed must be"):
-        UnicycleTrajectory(0.1, bad, GAIN, Direction.FORWARD)
-    with pytest.raises(PlanError, match="gain must be"):
-        UnicycleTrajectory(0.1, SPEED, bad, Direction.FORWARD)
-
-
 @pytest.mark.parametrize("bearing", [1e-300, 1e-12, 1e-6])
 def test_no_singularity_at_zero_bearing(bearing: float) -> None:
     times = np.linspace(0.0, 10.0, 11)
@@ -89,9 +75,3 @@ def test_no_singularity_at_zero_bearing(bearing: float) -> None:
     assert np.isfinite(straight).all()
     bent = make(bearing).poses(times)
     np.testing.assert_allclose(bent, straight, atol=2.0 * bearing + 1e-15)
-
-
-@pytest.mark.parametrize("bearing", [float("nan"), float("inf")])
-def test_bearing_that_is_no_number_is_refused(bearing: float) -> None:
-    with pytest.raises(PlanError, match="bearing must be finite"):
-        make(bearing)

@@ -1,7 +1,5 @@
 """Test plans as values."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -148,18 +146,6 @@ def test_a_halt_plans_a_single_step() -> None:
         assert plan.bearing == 0.0 and plan.direction is Direction.FORWARD
 
 
-@pytest.mark.parametrize("count", [0, -1])
-def test_a_plan_of_no_steps_is_refused(count: int) -> None:
-    with pytest.raises(PlanError, match="count must be finite and > 0"):
-        PLANNER.plan(
-            0.1,
-            Direction.FORWARD,
-            first_foot=Foot.LEFT,
-            standing=True,
-            count=count,
-        )
-
-
 @pytest.mark.parametrize("place", [(np.nan, 0.0), (0.0, np.inf)])
 def test_a_state_that_is_no_number_is_refused(
     place: tuple[float, float],
@@ -172,23 +158,6 @@ def test_a_state_that_is_no_number_is_refused(
             PLANNER.plan(
                 0.1, Direction.FORWARD, first_foot=Foot.LEFT, state=state
             )
-
-
-def test_schedules_are_made_once() -> None:
-    one = PLANNER.schedule(5, standing=True)
-    assert PLANNER.schedule(5, standing=True) is one
-    assert PLANNER.schedule(5, standing=False) is not one
-    assert PLANNER.schedule(4, standing=True) is not one
-    assert one.standing and one.count == 5
-
-
-def test_a_replan_looks_the_settings_horizon_ahead() -> None:
-    for horizon in (3, 5):
-        planner = ManeuverPlanner(replace(GAIT, horizon=horizon))
-        plan = planner.plan(
-            0.1, Direction.FORWARD, first_foot=Foot.LEFT, standing=True
-        )
-        assert len(plan.footsteps) == horizon
 
 
 def test_a_saturated_template_turns_at_full_rate() -> None:
@@ -244,11 +213,3 @@ def test_margin_of_all_is_the_least_of_its_parts() -> None:
     assert parts[-1] == pytest.approx(plan.margin())
     assert parts[0] > plan.margin()  # two feet hold more than one
     assert parts[0] < GAIT.foot_spacing
-
-
-@pytest.mark.parametrize(
-    "times", [[], (), [np.nan], [-1.0], [True], ["x"], 0.0, [[0.0]], [1e300]]
-)
-def test_only_a_row_of_times_is_sampled(times: object) -> None:
-    with pytest.raises(PlanError, match="times must be a row of numbers"):
-        walking().sample(times)  # type: ignore[arg-type]

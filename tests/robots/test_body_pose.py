@@ -179,16 +179,3 @@ def test_a_posture_follows_arrays_that_change_in_place() -> None:
         ).max()
         > 1e-3
     )
-
-
-def test_balance_and_perception_share_one_kinematics() -> None:
-    head = load_head(NAO)
-    one = ForwardKinematics(NAO, head.body)
-    _, _, angles = bent()
-    shared = BodyKinematics(NAO, head, one)
-    ours = shared.pose(0.0, angles, Pose(0.1, 0.2, 0.3), True, TILT)
-    own = kinematics().pose(0.0, angles, Pose(0.1, 0.2, 0.3), True, TILT)
-    np.testing.assert_array_equal(
-        ours.position_head_in_odometry, own.position_head_in_odometry
-    )
-    assert one.posture(angles) is one.posture(angles)

@@ -1,6 +1,5 @@
 """Test robot descriptions: another humanoid needs no code."""
 
-import pickle
 from pathlib import Path
 
 import pytest
@@ -36,22 +35,6 @@ def test_another_robot_is_a_folder(tmp_path: Path) -> None:
         (0.02, 0.0, 0.29), (0.0, 0.05, 0.0, 0.0), (0.0, -0.05, 0.0, 0.0)
     )
     assert LegKinematics(robot, tick=0.004).stand(stance).size == 23
-
-
-def test_a_folder_may_have_the_name_of_a_robot(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    (tmp_path / "nao").mkdir()
-    copy_of_nao(tmp_path / "nao")
-    monkeypatch.chdir(tmp_path)
-    assert load_robot("./nao").folder == tmp_path / "nao"
-    assert load_robot("nao").folder == NAO.folder
-
-
-def test_a_description_is_the_same_in_a_worker() -> None:
-    """Processes hand it on as bytes; what it compiles to does not change."""
-    sent = pickle.loads(pickle.dumps(NAO))
-    assert sent.spec().to_xml() == NAO.spec().to_xml()
 
 
 def test_unknown_robot_names_the_known_ones() -> None:
@@ -106,13 +89,6 @@ def test_joints_that_share_a_motor_must_move_alike(tmp_path: Path) -> None:
     robot = load_robot(folder)
     with pytest.raises(ModelError, match=r"RHipYawPitch and LHip.*0\.0, -1\."):
         robot.coupled_joints(robot.compile())
-
-
-def test_an_invalid_model_is_refused_by_its_file(tmp_path: Path) -> None:
-    folder = copy_of_nao(tmp_path)
-    (folder / "model.xml").write_text("<mujoco><nonsense/></mujoco>")
-    with pytest.raises(ModelError, match="model.xml is not a MuJoCo model"):
-        load_robot(folder).compile()
 
 
 def test_working_limits_are_optional(tmp_path: Path) -> None:

@@ -9,13 +9,6 @@ import tomli_w
 
 from stepaside.core.errors import ModelError
 from stepaside.robots.description_file import REQUIRED, read_entries
-from stepaside.robots.description_types import (
-    Overlay,
-    ReferencePoint,
-    SensorNames,
-    ServoGains,
-    SoleFrame,
-)
 
 FEET = [f"foot_{i}" for i in range(8)]
 TEXT = f"""
@@ -48,14 +41,8 @@ damping = 0
 torque = 7.0
 armature = 0.01
 """
-ROWS = {
-    "working_limits.knee": 2,
-    "sensors.feet": 8,
-    "overlay.turn": 4,
-    "overlay.soles": 2,
-    "overlay.soles.0.place": 3,
-    "overlay.soles.1.turn": 4,
-}
+
+
 Way = list[str | int]
 
 
@@ -82,49 +69,6 @@ def told(folder: Path, name: str, value: Any) -> str:
     with pytest.raises(ModelError) as refused:
         read(folder, entries)
     return str(refused.value)
-
-
-def test_all_entries_of_a_description_are_read(tmp_path: Path) -> None:
-    found = read(tmp_path, tomllib.loads(TEXT))
-    assert found == {
-        "name": "Toy",
-        "model": "toy.xml",
-        "torso": "trunk",
-        "left_foot": "l",
-        "right_foot": "r",
-        "legs": ("left", "right"),
-        "standing": {"knee": 0.5, "hip": -1},
-        "speed_limits": {"knee": 4.0},
-        "accent": "red",
-        "working_limits": {"knee": (-0.1, 2)},
-        "gait": {"stride": 0.05},
-        "sole": {"back": -0.05, "front": 0.1},
-        "control": {"method": "mpc"},
-        "game": {"distance": 2.0},
-        "sensors": SensorNames("g", "a", tuple(FEET)),
-        "place": ReferencePoint(-0.02, 0.9),
-        "overlay": Overlay(
-            (
-                SoleFrame("left", (1, 2, 3), (1, 0, 0, 0.5)),
-                SoleFrame("right", (1, -2, 3), (1, 0, 0, 0)),
-            ),
-            {"knee": ServoGains(50.0, 0, 7.0, 0.01)},
-            ("meshes",),
-            (0.5, 0.5, -0.5, 0.5),
-        ),
-    }
-
-
-@pytest.mark.parametrize("name", ROWS)
-def test_an_array_must_have_the_required_length(
-    name: str, tmp_path: Path
-) -> None:
-    row = at(tomllib.loads(TEXT), way_of(name))
-    assert len(row) == ROWS[name]
-    for other in (row[:-1], [*row, row[-1]], "row"):
-        said = told(tmp_path, name, other)
-        assert f"an array of {ROWS[name]} values" in said
-        assert str(name.rpartition(".")[2]) in said or "soles" in said
 
 
 @pytest.mark.parametrize(

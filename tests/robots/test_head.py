@@ -70,13 +70,6 @@ def test_the_rear_camera_looks_backward_from_the_torso() -> None:
     assert HEAD.body_of(HEAD.depth[0]) == HEAD.body_of(HEAD.top) == "head"
 
 
-def test_a_camera_that_a_robot_lacks_is_refused(tmp_path: Path) -> None:
-    head = rewritten(tmp_path, "[rear]", "[other]")
-    assert head.depth_mounts(rear=False) == head.depth
-    with pytest.raises(ModelError, match=r"no rear camera.*\[rear\]"):
-        head.depth_mounts(rear=True)
-
-
 def test_a_torso_may_carry_several_cameras(tmp_path: Path) -> None:
     more = "[[rear]]\nplace = [0.0, 0.1, 0.0]\npitch = 0\nyaw = 90\n"
     more += "housing = [0.1, 0.2, 0.3]\n[[rear]]"
@@ -97,17 +90,6 @@ def test_sonars_are_mirror_images_and_point_outward() -> None:
     np.testing.assert_allclose(turned, right.axes_in_body, atol=1e-12)
     assert left.axes_in_body[1, 0] == pytest.approx(sin(0.392441), rel=2e-3)
     assert left.axes_in_body[2, 0] == pytest.approx(-sin(0.0436497))
-
-
-def test_head_ranges_are_in_radians_and_symmetric() -> None:
-    yaws, low, high = HEAD.coupling
-    np.testing.assert_allclose(yaws, -yaws[::-1], atol=1e-12)
-    np.testing.assert_allclose(low, low[::-1])
-    np.testing.assert_allclose(high, high[::-1])
-    assert yaws[-1] == pytest.approx(radians(119.52))
-    assert (np.diff(yaws) > 0.0).all() and (low < high).all()
-    model = NAO.compile()
-    assert model.joint(HEAD.yaw).range[1] == pytest.approx(yaws[-1], abs=0.01)
 
 
 def rewritten(folder: Path, old: str, new: str) -> HeadDescription:
@@ -140,10 +122,3 @@ def test_a_wrong_head_is_refused_by_its_file(
     with pytest.raises(ModelError, match=message) as caught:
         rewritten(tmp_path, old, new)
     assert str(tmp_path / "head.toml") in str(caught.value)
-
-
-def test_a_robot_without_a_head_has_no_cameras(tmp_path: Path) -> None:
-    for name in ("robot.toml", "model.xml"):
-        (tmp_path / name).write_bytes((NAO.folder / name).read_bytes())
-    with pytest.raises(ModelError, match="NAO has no cameras.*missing"):
-        load_head(load_robot(tmp_path))

@@ -112,20 +112,6 @@ def test_a_tree_knows_masses_motors_and_ranges(
         assert (link.low, link.high) == tuple(model.joint(joint).range)
 
 
-def test_the_environment_is_not_part_of_the_tree(tmp_path: Path) -> None:
-    assert "rail" not in load_tree(synthetic_humanoid(tmp_path)).bodies
-
-
-def test_a_configuration_is_a_value() -> None:
-    tree = load_tree(load_robot("nao"))
-    ours = Configuration(tree, np.zeros(len(tree.joints)))
-    with pytest.raises(ValueError, match="read-only"):
-        ours.joints[0] = 1.0
-    np.testing.assert_array_equal(
-        ours.position_body_in_world("torso"), np.zeros(3)
-    )
-
-
 def test_missing_bodies_and_sites_are_named() -> None:
     tree = load_tree(load_robot("nao"))
     ours = Configuration(tree, np.zeros(len(tree.joints)))

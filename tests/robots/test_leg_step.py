@@ -7,12 +7,12 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.core.errors import ModelError, ReachError
+from stepaside.core.errors import ReachError
 from stepaside.core.machine_code import plain_python
 from stepaside.core.poses import Array
 from stepaside.robots.description import RobotDescription, load_robot
 from stepaside.robots.ik_solver import move_within, solver_of
-from stepaside.robots.leg_kinematics import ROWS, BodyReference, LegKinematics
+from stepaside.robots.leg_kinematics import BodyReference, LegKinematics
 from stepaside.robots.tree_cache import load_tree
 from synthetic_humanoid import synthetic_humanoid
 
@@ -195,19 +195,6 @@ def test_legs_that_are_not_plain_use_the_damped_step() -> None:
     assert np.abs(legs.error).max() < 1e-6
 
 
-def test_targets_are_in_the_order_of_the_motors() -> None:
-    """Which is not the order of the legs' joints."""
-    legs = LegKinematics(stranger(), tick=TICK)
-    targets = dict(zip(legs.joint_names, legs.stand(STANCE), strict=True))
-    names = [j for j in load_tree(stranger()).joints]
-    posture = dict(zip(names, legs.posture[7:], strict=True))
-    for name, angle in targets.items():
-        assert angle == posture[name]
-    assert targets["waist"] == 0.3
-    assert posture["mast"] == 0.05
-    assert targets["l_knee"] > 0.3
-
-
 def test_a_jump_of_the_whole_body_is_refused() -> None:
     """No joint would have to move for it."""
     legs = LegKinematics(NAO, tick=TICK)
@@ -253,23 +240,3 @@ def test_other_joints_are_optimal_with_one_at_its_limit() -> None:
     assert move == pytest.approx([0, 0, 0.08, 0, 0.1, 0.02])
     move = bounded((0, 0, 0.2, 0, 0.3, -0.4), -LIMITS, LIMITS)
     assert move == pytest.approx([0, 0, 0.2, 0, 0.1, -0.1])
-
-
-def test_a_leg_joint_without_a_motor_is_refused_by_name(
-    tmp_path: Path,
-) -> None:
-    synthetic_humanoid(tmp_path)
-    for file in ("robot.toml", "synthetic.xml"):
-        lines = (tmp_path / file).read_text()
-        lines = lines.replace("l_knee = 8.0\n", "").replace(
-            '<position name="l_knee" joint="l_knee" kp="10"/>', ""
-        )
-        (tmp_path / file).write_text(lines)
-    with pytest.raises(ModelError, match="'l_knee' has neither a motor"):
-        LegKinematics(load_robot(tmp_path), tick=TICK)
-
-
-def test_every_row_has_a_name() -> None:
-    legs = LegKinematics(stranger(), tick=TICK)
-    legs.stand(STANCE)
-    assert len(legs.error) == len(ROWS) == 16

@@ -7,7 +7,6 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.core.errors import ModelError
 from stepaside.core.poses import Array
 from stepaside.robots.description_types import (
     Overlay,
@@ -217,34 +216,6 @@ def test_a_servo_is_a_spring_a_damper_and_a_limit(target: float) -> None:
         assert data.actuator(name).force == pytest.approx(torque)
         assert data.joint(name).qfrc_actuator == pytest.approx(torque)
         assert data.joint(name).qfrc_passive == 0.0
-
-
-def test_armature_is_that_of_the_servo_or_else_of_the_model() -> None:
-    model = model_with_overlay()
-    inertias = [model.dof_armature[model.joint(n).dofadr[0]] for n in SERVOS]
-    assert inertias == [0.03, 0.2]
-
-
-@pytest.mark.parametrize(
-    ("changes", "message"),
-    [
-        ({"torso": "left"}, "torso must be a root .* rail, trunk, got 'left'"),
-        ({"sole": {"back": -0.05}}, r"entry sole\.front is missing"),
-        (
-            {"overlay": Overlay(SOLES, {"knee": SERVOS["left_bend"]})},
-            "no joint 'knee'; there are .*left_bend, right_bend",
-        ),
-        (
-            {"overlay": Overlay((SOLES[0]._replace(body="hoof"), SOLES[1]))},
-            "no body 'hoof'; there are .*trunk, left, toe, right",
-        ),
-    ],
-)
-def test_missing_elements_are_named(
-    changes: dict[str, Any], message: str
-) -> None:
-    with pytest.raises(ModelError, match=message):
-        model_with_overlay(**changes)
 
 
 @pytest.mark.parametrize(

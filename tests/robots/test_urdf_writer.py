@@ -6,7 +6,6 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.core.errors import ModelError
 from stepaside.core.poses import Array
 from stepaside.robots.description import RobotDescription, load_robot
 from stepaside.robots.description_types import SensorNames
@@ -167,21 +166,3 @@ def test_another_reader_finds_tree_limits_and_shared_motor(
     assert (first.effort, first.velocity) == (10.0, 7.0)
     assert robot.joint_map["second"].type == "continuous"
     assert robot.joint_map["third"].type == "prismatic"
-
-
-def test_a_ball_joint_is_refused(tmp_path: Path) -> None:
-    ball = ODD.replace(
-        '<joint name="second" axis="1 1 0" pos="-0.01 0 0.05"/>',
-        '<joint name="second" type="ball"/>',
-    ).replace('<joint name="first" axis="0 1 0"', '<joint name="first"')
-    robot = odd_robot(tmp_path, ball)
-    with pytest.raises(ModelError, match="second' must be a hinge or a slide"):
-        urdf_of(robot)
-
-
-def test_the_accent_of_a_robot_may_have_another_colour() -> None:
-    """As the pursuer's is red in recordings, and the evader's blue."""
-    plain = urdf_of(load_robot("nao"))
-    red = urdf_of(load_robot("nao"), (1.0, 0.0, 0.0, 1.0))
-    assert "rgb_255_0_0" in red and "rgb_255_0_0" not in plain
-    assert plain.count("<visual>") == red.count("<visual>")

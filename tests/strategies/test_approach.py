@@ -1,6 +1,5 @@
 """Test closest approach and time to contact against simulated walks."""
 
-from dataclasses import replace
 from math import asin, cos, hypot, inf, pi, radians, sin
 
 import numpy as np
@@ -181,18 +180,3 @@ def test_the_angle_refers_to_the_opponents_direction_of_approach(
     wanted = 0.02 + memory.side * angle
     turned = max(-share * MAX_HEADING, min(share * MAX_HEADING, wanted))
     assert share * intent.heading == pytest.approx(turned, abs=1e-6)
-
-
-@pytest.mark.parametrize("speed", [0.1, 1.0])
-def test_the_drawn_area_is_the_safety_area(speed: float) -> None:
-    """By time it is what counts as contact, met the earlier the faster."""
-    in_space = Evasion(safety_radius=0.9, clearance=0.6)
-    assert in_space.area == in_space.begins_at(speed) == 0.9
-    in_time = replace(in_space, trigger="time", contact_time=3.0)
-    assert in_time.area == 0.6
-    begins = in_time.begins_at(speed)
-    assert begins == pytest.approx(0.6 + 3.0 * speed)
-    for away, walks in ((begins + 0.01, False), (begins - 0.01, True)):
-        known = coming(away, speed)
-        intent, _ = in_time.decide(known, in_time.begin())
-        assert intent.walks is walks

@@ -6,7 +6,6 @@ from math import asin, atan2, cos, inf, pi, radians, sin, sqrt
 import numpy as np
 import pytest
 
-from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import ALL_AROUND, Pose, Sector
 from stepaside.games.template_game import TemplateGame, play_point
 from stepaside.planning import GaitSettings
@@ -18,7 +17,6 @@ from stepaside.strategies import (
     Knowledge,
     Limits,
     Strategy,
-    WaryEvasion,
     load_strategy,
 )
 from stepaside.strategies.velocity_set import AxisValues, VelocitySet
@@ -118,13 +116,6 @@ def test_a_wary_robot_keeps_room_for_a_turn(bearing: int) -> None:
     assert straight.closest_m > 1.0
 
 
-def test_the_weight_of_doubt_and_its_range_are_checked() -> None:
-    with pytest.raises(ConfigurationError, match="doubt"):
-        WaryEvasion(doubt=-0.1)
-    with pytest.raises(ConfigurationError, match="alertness"):
-        WaryEvasion(alertness=-0.1)
-
-
 @pytest.mark.parametrize("bearing", [0, 60, 90])
 def test_the_body_turns_its_fast_axis_along_the_dash(bearing: int) -> None:
     path = walker(bearing).evader
@@ -198,20 +189,3 @@ def test_a_unicycle_dashes_along_its_own_axis() -> None:
     assert intent.velocity.lateral == 0.0
     course = atan2(intent.velocity.lateral, intent.velocity.forward)
     assert abs(sin(course)) < 0.2
-
-
-@pytest.mark.parametrize(
-    ("wrong", "words"),
-    [
-        ({"turning_radius": 0.0}, "turning_radius must be > 0"),
-        ({"enough": -1.0}, "enough must be > 0"),
-        ({"contact_time": inf}, "contact_time must"),
-        ({"horizon": 0.1}, "horizon must lie in"),
-        ({"directions": 3}, "directions must lie in"),
-    ],
-)
-def test_invalid_settings_are_refused(
-    wrong: dict[str, float], words: str
-) -> None:
-    with pytest.raises(ConfigurationError, match=words):
-        DashEvasion(**wrong)  # type: ignore[arg-type]

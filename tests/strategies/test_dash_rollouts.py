@@ -43,14 +43,6 @@ def test_the_body_turns_the_nearer_end_of_its_faster_axis() -> None:
     assert sideways == pytest.approx(0.0)  # to the left, by its faster axis
 
 
-def test_with_both_ends_each_dash_has_its_opposite_heading() -> None:
-    dashes = make_dashes(8, HERE, AT_ONCE, 0.6, both_ends=True)
-    assert np.isinf(dashes.begins[0]) and not dashes.begins[1:17].any()
-    np.testing.assert_allclose(dashes.angles[1:9], dashes.angles[9:17])
-    across = np.abs(dashes.headings[1:9] - dashes.headings[9:17])
-    np.testing.assert_allclose(across, pi)
-
-
 def test_someone_who_passes_is_unseen_while_behind() -> None:
     """Passes a standing robot at 1 m: in view for half of the way."""
     now = np.zeros((1, 1))

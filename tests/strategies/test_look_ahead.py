@@ -9,7 +9,6 @@ import pytest
 
 from stepaside.arena import Disc, ObstacleSet, Room, RoomRecipe, generate_room
 from stepaside.core.compilation import cache_folder
-from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.strategies import (
     Evasion,
@@ -208,39 +207,6 @@ def test_the_optimal_evader_maximises_its_table() -> None:
     assert np.mean(kept) >= 0.97 * np.mean(promised)
     assert np.max(np.subtract(kept, promised)) < 0.02
     assert np.mean(aside) < 0.8 * np.mean(kept)
-
-
-def test_a_table_is_solved_once_and_cached() -> None:
-    tables.pursuit_bound.cache_clear()
-    one = tables.pursuit_bound(16)
-    tables.pursuit_bound.cache_clear()
-    again = tables.pursuit_bound(16)
-    assert one.seconds == again.seconds  # read, not solved anew
-    file = next(cache_folder().glob("pursuit-16-*.npz"))
-    file.write_bytes(b"torn")
-    tables.pursuit_bound.cache_clear()
-    np.testing.assert_allclose(
-        tables.pursuit_bound(16).values, one.values, atol=1e-5
-    )
-
-
-@pytest.mark.parametrize(
-    ("changes", "rule"),
-    [
-        ({"pieces": (1,) * 8}, "pieces must be at most 7"),
-        ({"pieces": (2, 0)}, "of >= 1 steps"),
-        ({"pieces": (), "tail": 0}, "must have 1 to 400 steps"),
-        ({"turns": 0}, r"turns must lie in \[1, 99\]"),
-        ({"enough": float("nan")}, "enough must be finite and > 0"),
-        ({"largest_error": 4.0}, "largest_error must lie in"),
-        ({"sight": 0.0}, "sight must lie in"),
-        ({"safety_radius": 0.0}, "safety_radius must be > 0"),
-        ({"cells": 8}, "cells must lie in"),
-    ],
-)
-def test_no_other_look_is_taken(changes: dict[str, object], rule: str) -> None:
-    with pytest.raises(ConfigurationError, match=rule):
-        LookAhead(**changes)  # type: ignore[arg-type]
 
 
 def test_a_step_of_the_game_turns_no_farther_than_it_may() -> None:

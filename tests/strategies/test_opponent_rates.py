@@ -1,7 +1,6 @@
 """Test the rates of the line of sight."""
 
 from math import pi, sin
-from pickle import dumps
 
 import pytest
 
@@ -54,13 +53,6 @@ def test_rates_are_unknown_after_a_gap() -> None:
     for time in (0.0, 0.5, 1.0):
         rates.note(time, time, 1.0)
     assert rates.note(9.0, 0.0, 5.0) == SightRateEstimate(None, None)
-
-
-def test_the_number_of_stored_sightings_is_bounded() -> None:
-    rates = SightRates(STEP)
-    for tick in range(5000):
-        rates.note(0.004 * tick, 0.0, 1.0)
-    assert len(dumps(rates)) < 2000
 
 
 @pytest.mark.parametrize("every", [0.004, 0.1, STEP])

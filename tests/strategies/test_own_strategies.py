@@ -2,7 +2,6 @@
 
 import os
 import sys
-from math import inf
 from pathlib import Path
 from typing import Any
 
@@ -21,15 +20,8 @@ from stepaside.games.duel_settings import StartSettings
 from stepaside.games.outcome import Outcome
 from stepaside.planning import Direction
 from stepaside.strategies import (
-    STRATEGIES,
-    Evasion,
-    HerdingPursuit,
-    Pursuit,
-    StandStill,
-    Walk,
     load_strategy,
 )
-from stepaside.strategies.registry import absolute_name, file_of
 
 OWN = '''
 from dataclasses import dataclass
@@ -120,50 +112,6 @@ def file(tmp_path: Path) -> Path:
     return path
 
 
-def test_strategies_have_names() -> None:
-    evader = Evasion(angle=0.3)
-    assert load_strategy("evasion", evader) is evader
-    assert load_strategy("evasion") == Evasion()
-    assert load_strategy("pursuit") == Pursuit()
-    assert load_strategy("stand") == StandStill()
-    assert load_strategy("walk") == Walk()
-    assert load_strategy("pursuit-x2.5") == Pursuit(gain_ratio=2.5)
-    assert load_strategy("sharp") == Pursuit(gain_ratio=inf)
-    assert load_strategy("herding") == HerdingPursuit()
-    others = {"look-ahead", "optimal", "lead", "optimal-pursuit"}
-    others |= {"robust", "noisy", "stop-and-wait"}
-    others |= {"sharp", "herding", "cyclic", "assigned"}
-    others |= {"pincer", "team-evasion", "goal"}
-    others |= {"step-aside", "matador", "wary"}
-    paper = {"evasion", "pursuit", "stand", "walk"}
-    assert set(STRATEGIES) == paper | others
-
-
-@pytest.mark.parametrize(
-    "name",
-    [
-        *("pursuit-x0", "pursuit-x1001", "pursuit-x", "pursuit-x-2"),
-        *("pursuit-xnan", "pursuit-x2 ", "sharp-x2", "Sharp"),
-    ],
-)
-def test_a_gain_that_no_pursuer_has_is_refused(name: str) -> None:
-    with pytest.raises(ConfigurationError, match="pursuit-xRATIO"):
-        load_strategy(name)
-
-
-def test_only_strategies_of_files_have_a_file(tmp_path: Path) -> None:
-    assert all(file_of(name) is None for name in STRATEGIES)
-    assert file_of(f"{tmp_path}/own.py:Timid") == tmp_path / "own.py"
-
-
-def test_a_file_without_strategies_says_so(tmp_path: Path) -> None:
-    """Imported classes do not count as its own."""
-    file = tmp_path / "empty.py"
-    file.write_text("from stepaside.strategies import Evasion, Intent\nX = 3")
-    with pytest.raises(ConfigurationError, match="but no strategy$"):
-        load_strategy(f"{file}:Nobody")
-
-
 @pytest.mark.parametrize(
     ("name", "factor"), [("Timid", 0.5), ("timid", 0.25), ("quick", 1.0)]
 )
@@ -206,35 +154,6 @@ def test_an_invalid_strategy_is_refused_in_one_line(
     assert "\n" not in str(caught.value)
 
 
-def test_a_file_that_is_not_there_or_does_not_run_is_named(
-    tmp_path: Path,
-) -> None:
-    with pytest.raises(ConfigurationError, match="there is no file .*no.py"):
-        load_strategy(f"{tmp_path}/no.py:Timid")
-    for text, message in (
-        ("1 / 0", "fails to run: ZeroDivisionError"),
-        ("def (", "fails to run: SyntaxError"),
-        ("raise SystemExit(3)", "fails to run: SystemExit: 3"),
-    ):
-        path = tmp_path / "bad.py"
-        path.write_text(text, encoding="utf-8")
-        with pytest.raises(ConfigurationError, match=message):
-            load_strategy(f"{path}:Timid")
-
-
-@pytest.mark.parametrize(
-    "name", ["evade", "own.py", "own.py:", "own.py:a b", "own.txt:Timid"]
-)
-@pytest.mark.parametrize("key", ["evader_strategy", "pursuer_strategy"])
-def test_an_invalid_name_is_refused_at_once(key: str, name: str) -> None:
-    with pytest.raises(ConfigurationError) as caught:
-        DuelSettings(**{key: name})  # type: ignore[arg-type]
-    assert str(caught.value) == (
-        f"{key} must be one of {', '.join(STRATEGIES)}, pursuit-xRATIO, "
-        f"FILE.py:NAME or FILE.onnx, got {name!r}"
-    )
-
-
 def test_settings_can_be_read_where_the_file_is_not() -> None:
     """Figures of an old run need no strategy; a duel does."""
     settings = DuelSettings(evader_strategy="gone.py:Timid")
@@ -253,23 +172,10 @@ def test_a_configuration_reproduces_the_strategies(tmp_path: Path) -> None:
     assert usual.pursuer_strategy == "pursuit"
 
 
-def test_a_person_plays_no_strategy() -> None:
-    with pytest.raises(ConfigurationError, match="pursuer_strategy.*person"):
-        DuelSettings(pursuer="person", pursuer_strategy="stand")
-
-
 def test_the_theory_is_that_of_the_strategies_of_the_paper() -> None:
     assert circle_of_theory(DuelSettings()).exists
     assert not circle_of_theory(DuelSettings(evader_strategy="walk")).exists
     assert not circle_of_theory(DuelSettings(pursuer_strategy="stand")).exists
-
-
-def test_names_of_files_are_those_of_every_folder(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    assert absolute_name("own.py:Timid") == f"{tmp_path}/own.py:Timid"
-    assert absolute_name("stand") == "stand"
 
 
 def test_own_strategies_play_in_physics(file: Path) -> None:

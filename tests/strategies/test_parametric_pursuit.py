@@ -1,10 +1,7 @@
 """Test the family of pursuers with a pull to the centre and a sway."""
 
-from math import pi
-
 import pytest
 
-from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Pose
 from stepaside.strategies import (
     HerdingPursuit,
@@ -40,10 +37,3 @@ def test_sway_adds_a_periodic_error() -> None:
     swaying = ParametricPursuit(sway=0.3, period=8.0)
     for time, error in ((0.0, 0.0), (2.0, 0.3), (4.0, 0.0), (6.0, -0.3)):
         assert heading(swaying, time) - plain == pytest.approx(error)
-
-
-def test_parameters_are_checked() -> None:
-    with pytest.raises(ConfigurationError, match="gain_ratio"):
-        ParametricPursuit(0.0)
-    with pytest.raises(ConfigurationError, match="sway"):
-        ParametricPursuit(sway=1.1 * pi)

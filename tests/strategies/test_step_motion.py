@@ -28,7 +28,6 @@ from stepaside.strategies.search import (
 )
 from stepaside.strategies.search.distance_field import (
     DistanceField,
-    clearance_at,
     distance_field,
     field_clearance,
 )
@@ -38,7 +37,6 @@ from stepaside.strategies.search.turn_search import look_ahead
 from stepaside.strategies.search.value_lookup import value_at
 from stepaside.theory.bound import Bound, Grid, fixed_pursuit_game
 
-FACED = Pose(1.0, 1.0, 3.9)
 RULES = StepRules(0.04, 0.08, 0.04, 0.08)
 ROOM = generate_room(RoomRecipe(discs=3, boxes=2, polygons=2, doors=1), 4)
 PACKED, NOTHING = ROOM.solid_set.packed, NO_OBSTACLES.packed
@@ -90,15 +88,6 @@ def test_moving_aside_in_steps_ends_on_the_circle_of_the_theory() -> None:
         both = step_both(both, *half_turn(0.5 * turn), RULES)
     apart = hypot(both.ex - both.px, both.ey - both.py)
     assert apart == pytest.approx(2 * 0.1 * 2**0.5 / (0.2 * pi / 2), rel=1e-4)
-
-
-def test_packed_clearance_is_that_of_the_room() -> None:
-    points = np.random.default_rng(1).uniform(-1.7, 1.7, (400, 2))
-    found = [clearance_at(PACKED, x, y, inf) for x, y in points.tolist()]
-    np.testing.assert_allclose(found, ROOM.clearance(points), atol=1e-12)
-    near = [clearance_at(PACKED, x, y, 0.3) for x, y in points.tolist()]
-    np.testing.assert_allclose(near, np.minimum(found, 0.3), atol=1e-12)
-    assert clearance_at(NOTHING, 0.0, 0.0, 0.3) == 0.3
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -227,18 +216,6 @@ def test_a_branch_is_left_at_the_first_step_that_is_no_better() -> None:
     assert (alone.steps, found.steps) == (12, 12 + len(turns) + 2)
 
 
-def test_a_tie_keeps_the_plan() -> None:
-    """Far from everything any maneuver is good enough."""
-    both = place(Pose(5.0, 0.0, 3.0), Pose(0.0, 0.0, 0.0))
-    plan = (0.05, -0.1, 0.07)
-    maneuvers = CandidateManeuvers(np.array([3]), np.array([0.0, 0.1]), 5)
-    found = look_ahead(
-        both, plan, maneuvers, RULES, ManeuverObjective(0.9), NOTHING, NO_VALUE
-    )
-    assert tuple(found.turns[:3]) == plan
-    assert found.steps == 5 + 5
-
-
 def test_missing_clearance_and_lost_sight_are_penalised() -> None:
     both = place(Pose(0.0, 0.0, 0.0), Pose(1.0, 1.0, 0.0))
     x, y, radius = 0.4, -0.3, 0.15
@@ -295,21 +272,3 @@ def test_it_turns_on_the_spot_first_only_if_that_is_better(seed: int) -> None:
         here = step_both(here, *half_turn(0.5 * turn), rules)
         score = judge(here, score, aims, field)
     assert score == pytest.approx(found.score, abs=1e-9)
-
-
-def test_a_search_ends_when_it_has_rolled_out_enough() -> None:
-    """The plan so far counts; at least one maneuver is complete."""
-    both, packed = (
-        place(FACED, Pose(0.3, 0.4, 0.0)),
-        PACKED,
-    )
-    turns = np.linspace(-0.25, 0.25, 7)
-    maneuvers = CandidateManeuvers(np.array([2, 4, 8]), turns, 20, spots=12)
-    aims = ManeuverObjective(9.0, tight=inf)
-    whole = look_ahead(both, (), maneuvers, RULES, aims, packed, NO_VALUE)
-    assert whole.steps > 2000
-    for most in (0, 100, 1000):
-        short = maneuvers._replace(most=most)
-        found = look_ahead(both, (), short, RULES, aims, packed, NO_VALUE)
-        assert found.steps < most + 40 + 12
-        assert found.score <= whole.score

@@ -6,7 +6,6 @@ from math import pi, sin
 import numpy as np
 import pytest
 
-from stepaside.core.errors import PlanError
 from stepaside.core.poses import wrap_angle
 from stepaside.planning import Direction
 from stepaside.strategies import (
@@ -152,12 +151,3 @@ def test_players_know_how_fast_the_line_of_sight_moves() -> None:
     assert limits.stride == pytest.approx(0.2) and limits.step_duration == 0.2
     assert [k.time for k in seen] == pytest.approx(np.arange(20) * 0.2)
     assert not any(k.moving for k in seen)
-
-
-@pytest.mark.parametrize("name", ["period", "duration", "capture"])
-def test_values_that_no_game_has_are_refused(name: str) -> None:
-    for value in (0.0, -1.0, float("nan")):
-        with pytest.raises(PlanError, match=name):
-            play(**{name: value})
-    with pytest.raises(PlanError, match="speed"):
-        play(bodies=(BODY, Unicycle(0.0, 1.0)))

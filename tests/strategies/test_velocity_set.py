@@ -4,11 +4,9 @@ from math import cos, hypot, pi, sin
 
 import pytest
 
-from stepaside.core.errors import PlanError
 from stepaside.planning import Direction
-from stepaside.strategies import STAND, Intent, Knowledge, Limits
+from stepaside.strategies import STAND, Intent, Limits
 from stepaside.strategies.nearest_unicycle_intent import unicycle_intent
-from stepaside.strategies.strategy import evaluate_strategy
 from stepaside.strategies.velocity_set import (
     STILL,
     BodyVelocity,
@@ -69,37 +67,3 @@ def test_a_unicycle_turns_on_the_spot_and_stands() -> None:
     still = Intent(velocity=STILL)
     assert not still.walks
     assert unicycle_intent(still, LIMITS, Direction.FORWARD) == STAND
-
-
-class Sidestepper:
-    """Strategy that walks to the left."""
-
-    direction = Direction.BACKWARD
-    saturated = False
-
-    def begin(self) -> None:
-        """Return no memory."""
-
-    def decide(
-        self, knowledge: Knowledge, memory: None
-    ) -> tuple[Intent, None]:
-        """Return the intent."""
-        return Intent(velocity=BodyVelocity(0.0, 0.3)), None
-
-
-def test_only_legs_with_a_velocity_set_are_given_velocities() -> None:
-    able = Limits(0.5, 0.4, 0.2, 0.4, LEGS)
-    for limits in (LIMITS, able):
-        known = Knowledge(0.0, 0.1, 2.0, limits)
-        intent, _ = evaluate_strategy(Sidestepper(), known, None)
-        assert (intent.velocity is None) == (limits is LIMITS)
-    unicycle, _ = evaluate_strategy(
-        Sidestepper(), Knowledge(0.0, 0.1, 2.0, LIMITS), None
-    )
-    assert unicycle.heading == pytest.approx(-pi / 2)
-
-
-@pytest.mark.parametrize("value", [float("nan"), float("inf"), -1e3])
-def test_an_infinite_velocity_is_refused(value: float) -> None:
-    with pytest.raises(PlanError, match=r"lateral must lie in .* \[m/s\]"):
-        Intent(velocity=BodyVelocity(0.0, value))

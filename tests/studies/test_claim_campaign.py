@@ -13,19 +13,15 @@ from click.testing import CliRunner
 from stepaside.cli import reproduce_figures
 from stepaside.cli.main import main
 from stepaside.core import worker_pool as workers
-from stepaside.report.claims_page import markdown_page
 from stepaside.studies import claim_campaign as reproduce
 from stepaside.studies.campaign import CodeStamp, code_stamp
-from stepaside.studies.claim_campaign import ClaimTrial
 from stepaside.studies.claim_jobs import JOBS
 from stepaside.studies.claims import (
     Claim,
     ClaimJob,
     ClaimRow,
     Readings,
-    most_deviating,
 )
-from stepaside.studies.paper_figures import paper_figures
 from stepaside.studies.result_store import ResultStore
 
 NAN, INF = float("nan"), float("inf")
@@ -62,25 +58,6 @@ def test_verdict(
     row = ClaimRow("a.it", claim(relation), values, "v")
     assert row.holds is holds
     assert row.to_json()["verdict"] == ("holds" if holds else "fails")
-
-
-def test_row_has_mean_spread_and_runs() -> None:
-    row = ClaimRow("a.it", claim(), (1.0, 1.02, 0.98), "v").to_json()
-    assert row["measured"] == pytest.approx(1.0)
-    assert row["spread"] == pytest.approx(0.02)
-    assert (row["least"], row["greatest"], row["runs"]) == (0.98, 1.02, 3)
-    alone = ClaimRow("a.it", claim(), (1.0,), "v").to_json()
-    assert (alone["spread"], alone["runs"], alone["version"]) == (0.0, 1, "v")
-    fallen = ClaimRow("a.it", claim(), (1.0, NAN), "v").to_json()
-    assert fallen["measured"] is fallen["spread"] is None
-    assert fallen["runs"] == 2
-
-
-def test_farthest_value_may_be_on_either_side() -> None:
-    assert most_deviating([1.0, 0.5, 1.4], 1.0) == 0.5
-    assert most_deviating([1.0, 0.9, 1.4], 1.0) == 1.4
-    assert most_deviating([1.0, INF], 1.0) == INF
-    assert most_deviating([], 1.0) != most_deviating([], 1.0)  # NaN
 
 
 # --- stored readings ---------------------------------------------------------
@@ -206,76 +183,7 @@ def test_worker_process_measures_the_same(
     assert there == here
 
 
-def test_keys_of_a_job_are_unique() -> None:
-    for name, job in JOBS.items():
-        keys = [claim.key for claim in job.claims]
-        assert len(set(keys)) == len(keys) > 0, name
-        seeds = [reproduce.key_of(ClaimTrial(name, s)) for s in (1, 2)]
-        assert seeds[0] != seeds[1]
-
-
-def test_settings_of_a_physical_job_contain_seed_and_gait() -> None:
-    for name in ("humanoids", "durations", "slip"):
-        first, second = (JOBS[name].settings(seed) for seed in (1, 2))
-        assert first != second
-        assert "single_support = 0.425" in first
-    assert "single_support = 0.122" in JOBS["durations"].settings(1)
-
-
 # --- page and command -----------------------------------------------------
-
-MADE = {
-    "seed": 1,
-    "runs": 10,
-    "jobs": {
-        "path": {"version": "abc", "libraries": {"numpy": "2"}},
-        "com": {"version": "abc", "libraries": {"numpy": "2"}},
-    },
-}
-
-
-def test_page_contains_values_runs_and_provenance() -> None:
-    rows = [
-        ClaimRow("a.it", claim(), (1.0, 1.02, 0.98), "v").to_json(),
-        ClaimRow("b.it", claim("<"), (0.5,), "v").to_json(),
-        ClaimRow("c.it", claim(), (NAN,), "v").to_json(),
-    ]
-    page = markdown_page(rows, [("2", "a|b")], [("A figure", "a.png")], MADE)
-    assert "2 of 3 hold" in page
-    assert "| 1 ± 0.1 | 1 ± 0.02 | 0.98 to 1.02 | 3 | m | **holds** |" in page
-    assert "| &lt; 1 | 0.5 |  | 1 | m | **holds** |" in page
-    assert "| none |  | 1 | m | **fails** |" in page
-    assert "| 2 | a\\|b |" in page
-    assert "![A figure](a.png)" in page
-    assert "--seed 1 --runs 10" in page
-    assert "| path, com | `abc` | numpy 2 |" in page
-
-
-def test_figures_of_the_paper_are_compared_with_measurements() -> None:
-    rows: list[dict[str, Any]] = [
-        {"name": "circle.pursuer_radius", "measured": 2.5},
-        {"name": "slip.smaller", "measured": 0.9},
-        {"name": "humanoids.orientation", "measured": None},
-    ]
-    found = {(f.figure, f.what): f for f in paper_figures(rows, 1.5, 36.0)}
-    radius = found["2", "radius of the circle"]
-    assert (radius.paper, radius.source) == (
-        "not given",
-        "neither caption nor text",
-    )
-    assert (
-        radius.ours == "2.500 m: 5.00 ticks, the circle is 10.0 ticks across"
-    )
-    assert found["2", "number of turns"].ours.startswith("1.50 of")
-    assert "0.90 times" in found["6", "circle"].ours
-    assert found["5", "relative orientation"].ours == "not measured"
-    assert found["5", "circle"].ours == "not measured"
-    one = [{"name": "humanoids.pursuer_radius", "measured": 0.65}]
-    part = {(f.figure, f.what): f for f in paper_figures(one, 1.5, 36.0)}
-    assert (
-        part["5", "circle"].ours == "not measured"
-    )  # two of three claims are missing
-    assert {figure for figure, _ in found} == {"2", "5", "6"}
 
 
 def test_command_prints_rows_and_writes_the_page(
@@ -353,27 +261,3 @@ def test_interrupt_ends_worker_processes_with_status_130(
     result = CliRunner().invoke(main, call)
     assert (result.exit_code, requests) == (130, [1])
     assert not (tmp_path / "claims.json").exists()
-
-
-def test_figures_are_drawn_once(tmp_path: Path, blank_figures: None) -> None:
-    def draw() -> list[tuple[str, str]]:
-        return reproduce_figures.draw_figures(
-            tmp_path, 3, duration=0.5, marks=2
-        )
-
-    def times() -> dict[str, int]:
-        return {name: (tmp_path / name).stat().st_mtime_ns for name in names}
-
-    names = [name for _, name in draw()]
-    assert names == ["fig2.png", "sweep.png", "duel-seed3.png"]
-    for name in names:
-        assert (tmp_path / name).read_bytes().startswith(b"\x89PNG")
-    before = times()
-    draw()
-    assert times() == before
-
-
-def test_our_fig_2_shows_more_than_one_turn() -> None:
-    turns, end = reproduce_figures.turns_shown()
-    assert 1.0 < turns < 3.0
-    assert end == pytest.approx(36.0)  # five time constants and one turn

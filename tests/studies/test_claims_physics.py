@@ -373,20 +373,6 @@ def test_claims_on_slip_hold_in_short_duels(
     assert {"slide", "slower"} <= holding("slip", read.measure_slip(1))
 
 
-def test_settings_have_the_friction_and_durations_of_the_claims() -> None:
-    grip, slip = (
-        read.slip_settings(3, slippery=slippery) for slippery in (False, True)
-    )
-    assert (grip.physics.friction, slip.physics.friction) == (0.8, 0.05)
-    assert replace(slip, physics=grip.physics) == grip
-    printed, walks = (
-        read.walk_settings(3, preset).gait for preset in ("as-printed", "nao")
-    )
-    assert (printed.single_support, printed.double_support) == (0.122, 0.425)
-    assert (walks.single_support, walks.double_support) == (0.425, 0.122)
-    assert set(PLAYERS) == {"pursuer", "evader"}
-
-
 def test_settling_is_required_before_the_last_third() -> None:
     """Radii and distance are measured over the last third."""
     third = read.circle_settings(1).duration * 2.0 / 3.0

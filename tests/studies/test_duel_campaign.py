@@ -22,7 +22,7 @@ from stepaside.strategies import Evasion
 from stepaside.studies import duel_campaign as campaign
 from stepaside.studies import duel_record
 from stepaside.studies.campaign import CodeStamp, run_study
-from stepaside.studies.duel_campaign import duel_study, versions_of
+from stepaside.studies.duel_campaign import duel_study
 from stepaside.studies.duel_record import FIELDS, play_record, settings_hash
 from stepaside.studies.duel_statistics import (
     certificate_row,
@@ -113,10 +113,6 @@ def test_only_a_certified_start_has_a_certified_distance() -> None:
         assert record["certified_m"] is None
 
 
-def key_of(settings: DuelSettings) -> str:
-    return duel_study(settings, [settings.seed]).key_of(settings.seed)
-
-
 def test_recorded_duels_are_not_repeated(quick: Here, tmp_path: Path) -> None:
     store = ResultStore(tmp_path)
     run_study(duel_study(SETTINGS, range(3)), store, quick)
@@ -141,13 +137,6 @@ def test_an_edited_strategy_file_changes_the_key(tmp_path: Path) -> None:
     assert settings_hash(pushed) != settings_hash(SETTINGS)
 
 
-def test_the_key_of_a_default_duel_is_that_of_its_records() -> None:
-    """So that committed records are found by their settings."""
-    results = Path(__file__).parents[2] / "docs" / "results"
-    keys = ResultStore(results / "duels-ideal").read().keys()
-    assert key_of(DuelSettings(seed=3)) in keys
-
-
 def test_records_of_other_settings_are_not_these(
     quick: Here, tmp_path: Path
 ) -> None:
@@ -156,13 +145,6 @@ def test_records_of_other_settings_are_not_these(
         run_study(duel_study(settings, [1]), store, quick)
     assert quick.seeds == [1, 1]
     assert len(store.read()) == 2
-
-
-def test_versions_of_records_are_one_or_a_list() -> None:
-    old = CodeStamp("old", {"mujoco": "0"})
-    records = [made(s, **old._asdict()) for s in (1, 2)]
-    assert versions_of(records)["version"] == "old"
-    assert versions_of([*records, made(3)])["version"] == ["old", "new"]
 
 
 def test_mean_interval_and_worst_seed_are_known_ones() -> None:
@@ -327,28 +309,3 @@ def test_workers_end_with_their_parent(
     if how is signal.SIGINT:
         assert parent.returncode == 130
         assert complaints == ""
-
-
-@pytest.mark.parametrize(
-    ("name", "values", "worst"),
-    [
-        ("pursuer_radius_m", [0.60, 0.64, 0.66], 0),
-        ("evader_radius_m", [0.63, 0.64, 0.70], 2),
-        ("distance_m", [0.80, 0.90, 0.95], 0),
-        ("relative_orientation_deg", [90.0, 89.0, 92.0], 2),
-        ("converged_at_s", [20.0, 50.0, 30.0], 1),
-        ("min_distance_m", [0.5, 0.4, 0.6], 1),
-        ("triggered_at_distance_m", [0.8, 0.7, 0.75], 1),
-        ("min_zmp_margin_m", [0.03, 0.02, 0.04], 1),
-        ("misled_s", [0.0, 2.0, 1.0], 1),
-        ("lost_s", [0.0, 2.0, 1.0], 1),
-        ("detection_rate", [1.0, 0.9, 0.95], 1),
-        ("false_detections", [0.0, 3.0, 1.0], 1),
-    ],
-)
-def test_the_worst_of_each_figure_is_at_its_bad_end(
-    name: str, values: list[float], worst: int
-) -> None:
-    records = [made(seed, **{name: v}) for seed, v in enumerate(values)]
-    row = summarise_duels(SETTINGS, records)["figures"][name]
-    assert row["worst_seed"] == worst and row["worst"] == values[worst]

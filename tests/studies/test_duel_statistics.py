@@ -117,10 +117,3 @@ def test_certified_distances_are_held_against_all_that_have_both(
     if over:
         assert found["least_excess_m"] == min(over)
         assert found["median_excess_m"] == pytest.approx(np.median(over))
-
-
-def test_theory_stands_in_the_units_of_the_figures() -> None:
-    theory = summarise_duels(SETTINGS, [])["theory"]
-    assert theory["relative_orientation_deg"] == pytest.approx(90.0)
-    assert theory["distance_m"] == pytest.approx(0.9003, abs=1e-3)
-    assert theory["radius_m"] == pytest.approx(0.6366, abs=1e-3)

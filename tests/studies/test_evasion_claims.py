@@ -14,7 +14,7 @@ from stepaside.studies import evasion_measurements as read
 from stepaside.studies.claim_jobs import JOBS
 from stepaside.studies.claims import Claim
 from stepaside.studies.evasion_claims import DURATION
-from stepaside.studies.evasion_measurements import GAME, PlayedGames
+from stepaside.studies.evasion_measurements import PlayedGames
 
 BEST = 1.0  # bound of all starts, in [m]
 Fault = Callable[[PlayedGames], PlayedGames]
@@ -152,28 +152,3 @@ def test_every_claim_in_rooms_holds_and_fails(key: str) -> None:
     assert claim.holds([reading(duel(), 0.02)])
     for run, least in ROOM[key]:
         assert not claim.holds([reading(run, least)])
-
-
-def test_seeds_have_disjoint_rooms(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    requests: list[tuple[str, int]] = []
-
-    def one(world: Any, pairing: tuple[str, str], seed: int) -> Any:
-        requests.append((pairing[0], seed))
-        assert world.game is GAME and pairing[1] == "pure"
-        return None, game()
-
-    monkeypatch.setattr(read, "play_track", one)
-    found = read.play(3)
-    assert {seed for _, seed in requests} == set(range(15, 20))
-    assert found.survived("aside") == 1.0
-    assert found.closest("look-ahead") == pytest.approx(0.7)
-
-
-def test_duels_in_rooms_have_the_settings_of_the_claim() -> None:
-    settings = read.room_settings(4)
-    assert settings.seed == 4 and settings.duration == DURATION
-    assert settings.map.source == "given"
-    assert settings.room.plan is not None
-    assert len(settings.room.plan.obstacles) == 3

@@ -11,8 +11,6 @@ from pathlib import Path
 
 import pytest
 
-from stepaside.core.errors import CampaignError, ConfigurationError
-from stepaside.studies import executors
 from stepaside.studies.campaign import CodeStamp, Study, run_study
 from stepaside.studies.executors import Engine, open_engine
 from stepaside.studies.records import Record
@@ -61,16 +59,6 @@ def test_dask_repeats_cases_of_a_killed_worker(
     assert squares(dask, measure) == squares(Engine.of(None))
 
 
-def test_a_scheduler_that_does_not_answer_is_named(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    pytest.importorskip("distributed")
-    monkeypatch.setattr(executors, "CONNECTION_TIME", 1.0)
-    with pytest.raises(CampaignError, match="tcp://127.0.0.1:9"):
-        with open_engine("dask:tcp://127.0.0.1:9"):
-            pass
-
-
 RANKS = """
 from test_executors import open_engine, squares
 if __name__ == "__main__":
@@ -100,25 +88,3 @@ def test_mpi_gives_the_records_of_one_process(tmp_path: Path) -> None:
         timeout=120,
     )
     assert found.stdout.split() == ["2", "40425"], found.stderr
-
-
-def test_mpi_with_one_rank_says_how_to_start_it() -> None:
-    pytest.importorskip("mpi4py")
-    if shutil.which("mpiexec", path=f"{BIN}:{os.environ['PATH']}") is None:
-        pytest.skip("no mpiexec: an MPI library is not installed")
-    with pytest.raises(ConfigurationError, match="mpiexec -n RANKS"):
-        with open_engine("mpi"):
-            pass
-
-
-def test_slurm_needs_the_number_of_jobs_and_its_commands(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    pytest.importorskip("dask_jobqueue")
-    with pytest.raises(ConfigurationError, match="workers must be given"):
-        with open_engine("slurm"):
-            pass
-    monkeypatch.setenv("PATH", "")
-    with pytest.raises(CampaignError, match="sbatch"):
-        with open_engine("slurm", 2):
-            pass

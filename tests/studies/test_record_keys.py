@@ -1,7 +1,6 @@
 """Test the keys of records: whatever decides a result changes its key."""
 
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -9,26 +8,17 @@ import pytest
 from changed_settings import changed
 from stepaside.arena import Disc, Door, Room, RoomRecipe
 from stepaside.core.poses import Pose
-from stepaside.fitting import gait_search as tuning
-from stepaside.fitting.gait_search import GaitSearch
-from stepaside.fitting.walk_trials import WalkTrialResult
 from stepaside.games.duel_settings import DuelSettings, RobotSettings
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.locomotion.zmp.control_settings import ControlSettings
 from stepaside.planning import PRESETS
-from stepaside.robots.description import load_robot
-from stepaside.sim.body_settings import BODIES
 from stepaside.sim.camera_settings import RoomObject
 from stepaside.sim.passerby_settings import Passer
 from stepaside.sim.person_settings import PersonSettings
 from stepaside.sim.push import Push
 from stepaside.studies.duel_campaign import duel_study
 from stepaside.studies.duel_record import settings_hash
-from stepaside.studies.person_encounters import base_settings, encounters
 from stepaside.studies.push_results import pushes_result
-from stepaside.studies.result_store import ResultStore
-from stepaside.studies.robustness_trial import RobustnessTrial
-from stepaside.studies.settings_diff import changed_walk, changes_of
 from stepaside.studies.tournament_campaign import tournament_study
 from stepaside.studies.tournament_settings import TournamentSettings
 
@@ -62,9 +52,6 @@ WALK = WalkSettings(control=FEEDBACK)
 # What every trial of a campaign sets itself.
 OF_TRIALS = {"seed", "duration", "pushes", "control.method"}
 OF_TRIALS |= {"control.feedback"}
-FALLEN = WalkTrialResult(
-    "", False, "", False, 0.1, None, None, None, None, None
-)
 
 
 def key_of(settings: DuelSettings) -> str:
@@ -125,22 +112,6 @@ def test_all_of_what_meets_a_duel_counts_in_its_key(one: Any) -> None:
     assert len(set(keys)) == len(keys) > 3
 
 
-def test_every_setting_of_an_encounter_changes_its_key() -> None:
-    base = next(encounters(base_settings(WALK), ("ideal",), (1,)))
-    others = {f"base.{name}": values for name, values in OTHERS.items()}
-    others |= {
-        "sensing": ["cameras"],
-        "reaction": ["turning"],
-        "base.pursuer": [],
-        "base.pursuer_strategy": [],
-        "base.room.plan": [],
-    }
-    keys = {base.key}
-    for name, made in changed(base, others):
-        assert made.key not in keys, name
-        keys.add(made.key)
-
-
 def test_the_reaction_of_a_person_changes_the_key_of_a_duel() -> None:
     keys = {
         key_of(replace(PERSON, person=PersonSettings(path, reaction=reaction)))
@@ -152,36 +123,6 @@ def test_the_reaction_of_a_person_changes_the_key_of_a_duel() -> None:
         )
     }
     assert len(keys) == 4
-
-
-def test_every_part_of_a_trial_changes_its_key() -> None:
-    trial = RobustnessTrial("push", 1.2, "left", 0.25, 5, "mpc", "ideal", "{}")
-    others = {
-        "kind": ["noise"],
-        "direction": ["right"],
-        "method": ["measured"],
-        "body": ["hardware"],
-        "changes": ['{"gait": {}}', ""],
-    }
-    keys = [trial.key, *(made.key for _, made in changed(trial, others))]
-    assert len(set(keys)) == len(keys) == 9
-
-
-def test_what_a_walk_has_otherwise_names_it_and_comes_back() -> None:
-    """All but what each trial of a campaign sets itself."""
-    seen = {changes_of(WALK)}
-    for name, walk in changed(WALK, OTHERS):
-        body, changes = changes_of(walk)
-        back = changed_walk(changes)
-        if name in OF_TRIALS:
-            assert (body, changes) == changes_of(WALK), name
-            continue
-        assert (body, changes) not in seen, name
-        seen.add((body, changes))
-        if name.startswith("body.") and body in BODIES:
-            back = replace(back, body=BODIES[body])
-        plain = replace(walk.control, method=None, feedback=None)
-        assert back == replace(walk, control=plain), name
 
 
 @pytest.mark.parametrize("level", ["steps", "physics"])
@@ -209,41 +150,6 @@ def test_every_setting_of_a_tournament_changes_its_key(level: str) -> None:
     for other in (("aside", "lead"), ("saturated", "pure")):
         assert game_key(settings, other, 1) != own
     assert game_key(settings, pairing, 2) != own
-
-
-def test_every_part_of_a_description_names_the_walks_of_a_search(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """But where it lies, its name, and what only games ask for."""
-    own = load_robot("nao")
-    monkeypatch.setattr(tuning, "walk_trial", lambda trial: FALLEN)
-    monkeypatch.setattr(tuning, "ROUNDS", 0)
-
-    def keys_of(description: Any, name: str) -> set[str]:
-        store = ResultStore(tmp_path / name)
-        GaitSearch(description, None, store).run()
-        return set(store.read())
-
-    changes: dict[str, Any] = {
-        "standing": own.standing | {"LKneePitch": 0.9},
-        "speed_limits": own.speed_limits | {"LKneePitch": 3.0},
-        "working_limits": {"LKneePitch": (0.1, 2.0)},
-        "gait": own.gait | {"stride": 0.03},
-        "sole": own.sole | {"front": 0.08},
-        "control": own.control | {"learn_turns": True},
-        "lean": 0.1,
-        "place": replace(own.place, forward=0.01),
-        "legs": own.legs[::-1],
-        "left_foot": own.right_foot,
-        "right_foot": own.left_foot,
-        "sensors": replace(own.sensors, gyro="other"),
-    }
-    known = keys_of(own, "own")
-    assert known
-    for name, value in changes.items():
-        found = keys_of(replace(own, **{name: value}), name)
-        assert found and not found & known, name
-    assert keys_of(replace(own, name="Another"), "name") == known
 
 
 def test_a_result_names_all_that_its_walks_depend_on() -> None:

@@ -41,17 +41,6 @@ def test_of_two_records_with_a_key_the_last_counts(store: ResultStore) -> None:
     assert store.read()["a"] == {"x": 3.0}
 
 
-def test_a_record_is_found_by_its_position(store: ResultStore) -> None:
-    with store.writer() as writer:
-        positions = writer.append([("c", {"x": 5}), ("d", {"x": 6})])
-    found = {entry.key: entry.position for entry in store.entries()}
-    assert [found["c"], found["d"]] == positions
-    again = ResultStore(store.folder)
-    for key, record, position in again.entries():
-        assert again.record_at(position) == record == store.read()[key]
-    again.close()
-
-
 @pytest.mark.parametrize(
     "line",
     [
@@ -100,16 +89,6 @@ def test_a_missing_folder_holds_nothing_and_is_not_made(
     with store.writer():
         pass
     assert not store.folder.exists()
-
-
-def test_a_temporary_store_is_removed_with_its_object() -> None:
-    store = ResultStore.temporary()
-    with store.writer() as writer:
-        writer.append([("a", {})])
-    folder = store.folder
-    assert set(store.read()) == {"a"}
-    del store, writer
-    assert not folder.exists()
 
 
 def test_an_index_tells_versions_apart(store: ResultStore) -> None:

@@ -8,9 +8,6 @@ from typing import Any
 
 import pytest
 
-from stepaside.core.errors import ConfigurationError
-from stepaside.locomotion.zmp.control_settings import ControlSettings
-from stepaside.planning import GaitSettings
 from stepaside.sim.body_settings import BODIES
 from stepaside.sim.physics_settings import PhysicsSettings
 from stepaside.studies import push_limits as limits
@@ -25,8 +22,6 @@ from stepaside.studies.push_limits import (
 from stepaside.studies.result_store import ResultStore
 from stepaside.studies.robustness_campaign import push_study, robustness_study
 from stepaside.studies.robustness_trial import (
-    DIRECTIONS,
-    STRENGTHS,
     RobustnessTrial,
     control_of,
     push_time,
@@ -52,13 +47,6 @@ def survives(
     monkeypatch.setattr(robustness, "run_trial", run)
     monkeypatch.setattr(limits, "run_trial", run)
     return asked
-
-
-def test_each_method_has_its_control() -> None:
-    assert control_of("open-loop") == ControlSettings("closed-form", False)
-    for method in ("closed-form", "measured", "mpc"):
-        control = control_of(method)
-        assert (control.method, control.feedback) == (method, True)
 
 
 def test_each_kind_changes_what_it_is_named_after_and_nothing_else() -> None:
@@ -101,47 +89,6 @@ def test_a_push_comes_at_its_phase_of_a_walk_under_way() -> None:
     assert (push.impulse, push.direction) == (1.2, pi / 2.0)
     assert push.time == push_time(0.25, walk.control)
     assert walk.duration == push.time + 4.0
-
-
-@pytest.mark.parametrize("method", ["open-loop", "measured"])
-def test_push_time_is_six_steps_after_the_start_and_the_phase(
-    method: str,
-) -> None:
-    """A whole cycle is two steps; feedback stands for a second first."""
-    gait, control = GaitSettings(), control_of(method)
-    begins = gait.start_support + (1.0 if method == "measured" else 0.0)
-    at = push_time(0.0, control)
-    assert at == pytest.approx(begins + 6 * gait.step_duration)
-    later = push_time(0.5, control) - at
-    assert later == pytest.approx(gait.step_duration)
-
-
-def test_an_unknown_kind_is_refused() -> None:
-    with pytest.raises(ConfigurationError, match="kind must be .*'wind'"):
-        settings_of(replace(TRIAL, kind="wind"))
-
-
-def test_grid_has_each_strength_with_each_seed_and_no_pushes() -> None:
-    grid = list(
-        trials(
-            ["push", "backlash", "noise"],
-            ["mpc"],
-            "ideal",
-            seeds=3,
-            first_seed=7,
-        )
-    )
-    number = len(STRENGTHS["backlash"]) + len(STRENGTHS["noise"])
-    assert len(grid) == 3 * number == len({trial.key for trial in grid})
-    assert {trial.seed for trial in grid} == {7, 8, 9}
-    assert {trial.kind for trial in grid} == {"backlash", "noise"}
-
-
-def test_cases_cover_methods_directions_and_phases() -> None:
-    cases = list(push_cases(["mpc", "measured"], "ideal", phases=4, seed=2))
-    assert len(cases) == len(set(cases)) == 2 * len(DIRECTIONS) * 4
-    assert {case.phase for case in cases} == {0.0, 0.25, 0.5, 0.75}
-    assert {case.strength for case in cases} == {0.0}
 
 
 def test_recorded_trials_are_not_repeated(

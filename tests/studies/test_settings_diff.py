@@ -26,7 +26,7 @@ from stepaside.studies.robustness_trial import (
     settings_of,
     trials,
 )
-from stepaside.studies.settings_diff import OWN, changed_walk, changes_of
+from stepaside.studies.settings_diff import changes_of
 from stepaside.studies.survival_statistics import (
     foot_reach,
     limit_rows,
@@ -47,24 +47,6 @@ WALK = WalkSettings(
 )
 
 
-@pytest.mark.parametrize("name", BODIES)
-def test_a_usual_walk_has_no_changes_whatever_its_body(name: str) -> None:
-    walk = WalkSettings(seed=9, body=BODIES[name], control=STABILISED)
-    assert changes_of(walk) == (name, "")
-    assert changed_walk("") == WalkSettings()
-
-
-def test_changes_name_all_that_no_trial_sets_itself() -> None:
-    body, changes = changes_of(WALK)
-    assert body == OWN
-    found = changed_walk(changes)
-    assert (found.gait, found.body, found.bearing) == (GAIT, WALK.body, 0.1)
-    assert found.control.stabiliser == GAINS
-    for name in ("seed", "duration", "pushes"):
-        assert getattr(found, name) == getattr(WalkSettings(), name)
-    assert changes_of(found) == (body, changes)
-
-
 def test_trials_walk_as_was_asked_but_for_the_disturbance() -> None:
     body, changes = changes_of(WALK)
     grid = trials(["friction"], ["mpc"], body, seeds=1, changes=changes)
@@ -74,13 +56,6 @@ def test_trials_walk_as_was_asked_but_for_the_disturbance() -> None:
     assert (walk.gait, walk.body, walk.bearing) == (GAIT, WALK.body, 0.1)
     assert walk.control == control_of("mpc", WALK.control)
     assert walk.control.stabiliser == GAINS and walk.pushes == ()
-
-
-def test_keys_of_usual_trials_are_as_ever_and_others_differ() -> None:
-    usual = RobustnessTrial("friction", 0.3, "", 0.0, 5, "mpc", "ideal")
-    assert usual.key == '["friction", 0.3, "", 0.0, 5, "mpc", "ideal"]'
-    other = replace(usual, changes=changes_of(WALK)[1])
-    assert other.key != usual.key
 
 
 def test_a_push_waits_for_the_phase_of_the_gait_that_is_walked() -> None:
@@ -178,10 +153,3 @@ def test_bound_and_reach_are_those_of_the_walk_that_is_pushed() -> None:
     assert push_bound_at("backward", 0.1, back) != pytest.approx(
         push_bound_at("backward", 0.1), rel=1e-3
     )
-
-
-def test_what_is_none_by_default_can_be_changed() -> None:
-    walk = WalkSettings(gait=GaitSettings(outer_stride=0.05))
-    body, changes = changes_of(walk)
-    assert body == "ideal"
-    assert changed_walk(changes).gait.outer_stride == 0.05

@@ -8,13 +8,10 @@ import pytest
 from click.testing import CliRunner
 
 from stepaside.cli.main import main
-from stepaside.core.errors import ConfigurationError
 from stepaside.studies.strategy_rating import (
     OPPONENTS,
     WORLDS,
     rating_rows,
-    rating_study,
-    role_of,
     score_rows,
 )
 
@@ -60,24 +57,6 @@ def test_scores_put_the_best_of_each_role_first() -> None:
     assert scores[2]["mean_regret_m"] is None
 
 
-def test_names_have_roles() -> None:
-    assert role_of("aside") == "evader"
-    assert role_of("sharp") == role_of("pure-x2.5") == "pursuer"
-    assert role_of("optimal", "pursuer") == "pursuer"
-    for name, role in (("aside", "pursuer"), ("nobody", None), ("pure", "x")):
-        with pytest.raises(ConfigurationError, match="must be one of"):
-            role_of(name, role)
-
-
-def test_a_study_has_every_world_and_opponent() -> None:
-    study = rating_study([("aside", "evader"), ("pure", "pursuer")], 3, 20.0)
-    opponents = sum(len(OPPONENTS[role]) for role in OPPONENTS)
-    assert len(study.cases) == 3 * len(WORLDS) * opponents
-    assert len({study.key_of(case) for case in study.cases}) == len(
-        study.cases
-    )
-
-
 def test_the_command_writes_a_card_and_a_figure(tmp_path: Path) -> None:
     card, figure = tmp_path / "card.json", tmp_path / "card.png"
     words = ["rate", "aside", "--games", "1", "--duration", "4", "--json"]
@@ -90,9 +69,3 @@ def test_the_command_writes_a_card_and_a_figure(tmp_path: Path) -> None:
     assert result["settings"] == {"games": 1, "duration_s": 4.0}
     assert figure.stat().st_size > 1000
     assert json.loads(done.stdout)["output"] == str(card)
-
-
-def test_a_bad_name_is_refused_in_one_line() -> None:
-    done = CliRunner().invoke(main, ["rate", "nobody"])
-    assert done.exit_code == 2
-    assert done.stderr.count("\n") == 1 and "nobody" in done.stderr

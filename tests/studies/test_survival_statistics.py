@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 from math import exp
-from statistics import median
 from typing import Any
 
 import pytest
@@ -12,8 +11,6 @@ from hypothesis import strategies as st
 from reference_statistics import coverage, is_wilson
 from stepaside.planning import GaitSettings
 from stepaside.studies.push_limits import push_cases
-from stepaside.studies.push_results import pushes_result
-from stepaside.studies.result_files import HEADER
 from stepaside.studies.robustness_trial import (
     DIRECTIONS,
     STRENGTHS,
@@ -24,7 +21,6 @@ from stepaside.studies.survival_statistics import (
     limit_rows,
     push_bound_at,
     push_survival_rows,
-    summarise_limits,
     survival_rows,
     wilson_interval,
 )
@@ -144,34 +140,6 @@ def test_a_push_that_lasts_may_be_harder_than_an_impulse_in_its_middle() -> (
             )
 
 
-def test_summary_has_median_least_and_what_lies_above() -> None:
-    rows = [row(x) for x in (0.8, 1.2, 2.2)] + [row(1.0, "measured")]
-    summary = summarise_limits(rows)
-    assert list(summary) == ["mpc", "measured"]
-    mpc = summary["mpc"]
-    assert mpc["cases"] == 3
-    assert mpc["median_of_bound"] == 0.6
-    assert mpc["least_of_bound"] == 0.4
-    assert mpc["most_of_bound"] == 1.1
-    assert mpc["above_bound"] == 1
-    assert mpc["median_of_impulse_bound"] == 1.2
-    assert mpc["least_of_impulse_bound"] == 0.8
-    assert mpc["above_impulse_bound"] == 2
-    assert mpc["least_n_s"] == 0.8
-    assert summarise_limits([]) == {}
-
-
-def test_result_says_what_made_it() -> None:
-    made = pushes_result([row(1.0)], ["mpc"], "ideal", phases=4, seed=2)
-    assert made["command"] == (
-        "stepaside robustness --kind push --method mpc --body ideal "
-        "--phases 4 --seed 2"
-    )
-    assert set(made) == {*HEADER, "summary", "rows"}
-    assert made["settings"]["reach_m"]["forward"] == 0.08
-    assert made["rows"] == [row(1.0)]
-
-
 @given(st.integers(1, 400), st.data())
 def test_wilsons_ends_are_as_unlikely_as_95_percent_says(
     number: int, data: st.DataObject
@@ -204,19 +172,3 @@ def test_a_push_is_survived_where_the_limit_reaches_it(
         assert found["survived"] == sum(reached)
         low, high = found["low"], found["high"]
         assert is_wilson(low, high, sum(reached), len(limits))
-
-
-@given(st.lists(st.floats(0.1, 4.0), min_size=1, max_size=20))
-def test_the_summary_of_limits_is_over_all_cases(limits: list[float]) -> None:
-    rows = [row(limit) for limit in limits] + [row(9.0, "open-loop")]
-    found = summarise_limits(rows)["mpc"]
-    ratios = [0.5 * limit for limit in limits]
-    assert found["cases"] == len(limits)
-    assert found["median_of_bound"] == pytest.approx(median(ratios))
-    assert found["least_of_bound"] == min(ratios)
-    assert found["most_of_bound"] == max(ratios)
-    assert found["above_bound"] == sum(ratio > 1.0 for ratio in ratios)
-    assert found["median_of_impulse_bound"] == pytest.approx(median(limits))
-    assert found["least_of_impulse_bound"] == min(limits)
-    assert found["above_impulse_bound"] == sum(x > 1.0 for x in limits)
-    assert found["least_n_s"] == min(limits)

@@ -150,27 +150,3 @@ def test_a_game_of_unicycles_reaches_its_circle(tmp_path: Path) -> None:
     (record,) = run_study(sweep_study(sweep_of(tmp_path, text))).records()
     assert record["distance_m"] == pytest.approx(0.9003, abs=1e-3)
     assert json.loads(json.dumps(record)) == record
-
-
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        ("game = 3", "game must be one of"),
-        ('game = "chess"', "game must be one of"),
-        ('game = "duel"', "at least one case"),
-        ('game = "duel"\nmore = 1', "unknown entry more"),
-        ('game = "duel"\n[grid]\nseed = []', "at least one case"),
-        ('game = "duel"\n[grid]\nseed = "5:5"', "at least one case"),
-        ('game = "duel"\n[grid]\nseed = "a:b"', "range like"),
-        ('game = "duel"\n[grid]\nnothing = [1]', "unknown entry nothing"),
-        ('game = "duel"\n[grid]\nduration = [5.0, -1.0]', "duration"),
-        ('game = "duel"\n[grid]\nduration = 5.0', "must be a list"),
-        ('game = "duel"\ngrid = 3', "must be tables"),
-        ('game = "duel"\n[[cases]]\nduration = "x"', "duration must be"),
-    ],
-)
-def test_what_is_wrong_in_a_file_is_named(
-    tmp_path: Path, text: str, message: str
-) -> None:
-    with pytest.raises(ConfigurationError, match=message):
-        sweep_of(tmp_path, text)

@@ -12,11 +12,10 @@ import numpy as np
 import pytest
 from click.testing import CliRunner, Result
 
-from stepaside.arena import Room, RoomRecipe
+from stepaside.arena import RoomRecipe
 from stepaside.cli.main import main
 from stepaside.core.convex import grown_hull_area
-from stepaside.core.errors import ConfigurationError
-from stepaside.core.poses import Pose, wrap_angles
+from stepaside.core.poses import wrap_angles
 from stepaside.games.outcome import Outcome
 from stepaside.strategies import StepGame
 from stepaside.strategies import bound_cache as tables
@@ -25,7 +24,6 @@ from stepaside.studies import tournament_record as studied
 from stepaside.studies.campaign import CodeStamp, run_study
 from stepaside.studies.result_store import ResultStore
 from stepaside.studies.tournament_campaign import tournament_study
-from stepaside.studies.tournament_physics import outcome_of, players_touched
 from stepaside.studies.tournament_record import play_record, play_track
 from stepaside.studies.tournament_rows import tournament_rows
 from stepaside.studies.tournament_settings import TournamentSettings
@@ -45,18 +43,6 @@ def coarse_table(tmp_path_factory: pytest.TempPathFactory) -> Any:
     yield
     patch.undo()
     tables.pursuit_bound.cache_clear()
-
-
-def test_floor_used_has_three_closed_forms() -> None:
-    """A point, a line and a circle, each grown by the body."""
-    assert grown_hull_area(np.zeros((5, 2)), 0.2) == pytest.approx(0.04 * pi)
-    line = np.linspace([0.0, 0.0], [3.0, 4.0], 9)
-    assert grown_hull_area(line, 0.2) == pytest.approx(2.0 + 0.04 * pi)
-    turns = np.linspace(0.0, 2 * pi, 2000)
-    ring = np.stack([0.637 * np.cos(turns), 0.637 * np.sin(turns)], axis=-1)
-    assert grown_hull_area(ring, 0.2) == pytest.approx(
-        pi * (0.637 + 0.2) ** 2, rel=1e-5
-    )
 
 
 def test_a_record_is_what_the_game_was() -> None:
@@ -161,55 +147,6 @@ def record(**changes: Any) -> dict[str, Any]:
     } | changes  # fmt: skip
 
 
-def test_rows_count_and_find_the_worst_game() -> None:
-    records = [
-        record(),
-        record(seed=1, closest_m=0.6),
-        record(seed=2, outcome="captured", survived_s=9.0, closest_m=0.34),
-        record(seed=3, outcome="touched", survived_s=5.0, closest_m=0.9),
-        record(evader="look-ahead", seed=9),
-    ]
-    row, other = tournament_rows(records)
-    assert (row["survived"], row["captured"], row["touched_obstacle"]) == (
-        *(0.5, 0.25, 0.25),
-    )
-    assert row["worst_seeds"] == [3, 2, 1, 0]
-    assert row["mean_closest_m"] == pytest.approx(0.66)
-    assert row["closest_over_bound"] == pytest.approx(0.66)
-    assert row["survived_low"] < 0.5 < row["survived_high"]
-    assert row["decision_ms"] == pytest.approx(1.0)
-    assert (other["evader"], other["games"]) == ("look-ahead", 1)
-    assert row["contact"] is None  # in steps nothing has a body
-
-
-def test_rows_of_humanoids_count_capture_and_contact_each() -> None:
-    records = [
-        record(contact=False),
-        record(seed=1, outcome="captured", contact=True),
-        record(seed=2, outcome="captured", contact=False),
-        record(seed=3, outcome="contact", contact=True),
-    ]
-    (row,) = tournament_rows(records)
-    found = row["survived"], row["captured"], row["contact"]
-    assert found == (0.25, 0.5, 0.5)
-
-
-@pytest.mark.parametrize(
-    ("pursuer", "distance"),
-    [
-        *(("pure", 0.900), ("pure-x2", 0.478), ("pure-x2.8", 0.347)),
-        *(("pure-x3", 0.325), ("sharp", None), ("herding", None)),
-    ],
-)
-def test_a_row_has_the_circle_of_its_pursuer_beside_the_capture_distance(
-    pursuer: str, distance: float | None
-) -> None:
-    (row,) = tournament_rows([record(pursuer=pursuer)], SHORT)
-    assert row["capture_distance_m"] == SHORT.capture == 0.35
-    found = row["circle_distance_m"]
-    assert found == (distance and pytest.approx(distance, abs=6e-4))
-
-
 @pytest.mark.parametrize("ratio", [0.5, 1.7, 2.9])
 def test_the_circle_of_a_gain_balances_both_players(ratio: float) -> None:
     """V cos a = v cos u, and both turn at the rate of the line of sight."""
@@ -219,18 +156,6 @@ def test_the_circle_of_a_gain_balances_both_players(ratio: float) -> None:
     a = 0.5 * pi / (1.0 + pursuer_gain / 0.7)  # a + b = alpha, kp a = ke b
     distance = 2.0 * 0.3 * sin(a) / (pursuer_gain * a)
     assert row["circle_distance_m"] == pytest.approx(distance)
-
-
-def test_unicycles_decide_more_often_than_steps() -> None:
-    """Under feedback the circle is that of the continuous game as well."""
-    floor = replace(
-        SETTINGS, room=RoomRecipe(None, None), game=StepGame(duration=120.0)
-    )
-    _, steps = play_track(floor, PAIRINGS[0], 2)
-    _, many = play_track(replace(floor, level="unicycle"), PAIRINGS[0], 2)
-    assert len(many.distances) - 1 == 8 * (len(steps.distances) - 1)
-    for track in (steps, many):
-        assert track.distances[-1] == pytest.approx(0.9003, rel=5e-3)
 
 
 def call(*words: str) -> Result:
@@ -262,21 +187,6 @@ def test_the_command_plays_draws_and_goes_on(tmp_path: Path) -> None:
     assert summary["rows"][0]["games"] == 3
 
 
-def test_every_built_in_pursuer_plays_and_stands_beside_its_result() -> None:
-    names = ("pure", "pure-x1.5", "sharp", "herding", "lead")
-    words = [word for name in names for word in ("--pursuer", name)]
-    answer = call(
-        *(*words, "--evader", "look-ahead", "--discs", "1"),
-        *("--duration", "8", "--seeds", "0:2", "--workers", "1"),
-    )
-    assert answer.exit_code == 0, answer.output
-    assert "captured: distance <= 0.350 m" in answer.stdout
-    rows = [line.split() for line in answer.stdout.splitlines()[2:]]
-    assert [row[:2] for row in rows] == [["look-ahead", n] for n in names]
-    circles = ["0.900", "0.624", "-", "-", "-"]
-    assert [row[2] for row in rows] == circles
-
-
 def test_sharp_and_herding_capture_a_survivor_of_the_papers_pursuer() -> None:
     """In rooms of 3 m, look-ahead: each survives pure, few the others."""
     settings = replace(SETTINGS, room=RoomRecipe(), game=StepGame())
@@ -291,18 +201,6 @@ def test_sharp_and_herding_capture_a_survivor_of_the_papers_pursuer() -> None:
     assert survived["sharp"] == 0 and survived["herding"] <= 1
 
 
-def test_it_says_before_it_solves_a_table(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    tables.pursuit_bound.cache_clear()
-    words = ("--evader", "aside", "--duration", "1", "--seeds", "1", "--json")
-    first, second = call(*words), call(*words)
-    assert "computing the bound table first" in first.stderr
-    assert "solves" not in second.stderr
-    assert json.loads(first.stdout)["rows"][0]["games"] == 1
-
-
 def test_a_room_from_a_file_is_played(tmp_path: Path) -> None:
     file = tmp_path / "room.toml"
     file.write_text(
@@ -313,53 +211,6 @@ def test_a_room_from_a_file_is_played(tmp_path: Path) -> None:
     answer = call(*words, "--duration", "8", "--json")
     room = json.loads(answer.stdout)["settings"]["room"]
     assert room["width"] == 4.0 and room["evader"]["theta"] == 3.0
-
-
-def test_a_room_without_starts_draws_them() -> None:
-    settings = replace(SETTINGS, room=Room(3.0, 3.0))
-    (_, one), (_, other) = settings.arena(1), settings.arena(2)
-    assert isinstance(one[0], Pose) and one != other
-
-
-@pytest.mark.parametrize(
-    "words",
-    [
-        ("--evader", "nobody"),
-        ("--pursuer", "nobody"),
-        ("--pursuer", "pure-x0"),
-        ("--pursuer", "pure-x"),
-        ("--pursuer", "sharp-x2"),
-        ("--evader", "none.py:Mind"),
-        ("--room", "2"),
-        ("--room", "none.toml"),
-        ("--room", "0.7x0.7"),
-        ("--level", "physic"),
-        ("--seeds", "3:1"),
-        ("--duration", "nan"),
-        ("--alpha", "200deg"),
-        ("--room", "1.5x1.5", "--discs", "20"),
-    ],
-)
-def test_invalid_tournament_options_are_refused_in_one_line(
-    words: tuple[str, ...], tmp_path: Path
-) -> None:
-    answer = call(*words, "--output", str(tmp_path / "games"))
-    assert answer.exit_code == 2
-    assert len(answer.output.splitlines()) == 1
-    assert not (tmp_path / "games").exists()
-
-
-def test_a_file_of_a_room_holds_all_that_stands_in_it(tmp_path: Path) -> None:
-    file = tmp_path / "room.toml"
-    file.write_text("width=4.0\ndepth=4.0\n", encoding="utf-8")
-    answer = call("--room", str(file), "--discs", "1", "--seeds", "1")
-    assert answer.exit_code == 2
-    assert "cannot be combined with a room file" in answer.output
-
-
-def test_no_other_level_is_taken() -> None:
-    with pytest.raises(ConfigurationError, match="level must be one of"):
-        TournamentSettings(level="walls")
 
 
 def test_humanoids_play_by_the_same_words() -> None:
@@ -379,34 +230,6 @@ def test_humanoids_play_by_the_same_words() -> None:
     assert tournament_rows([found])[0]["fell"] == 0.0
     assert settings.entries()["map"] == "given"
     assert "map" not in SETTINGS.entries()
-
-
-@pytest.mark.parametrize(
-    ("outcome", "touched", "told"),
-    [
-        (Outcome.COMPLETED, (), "survived"),
-        (Outcome.FALL, (), "fell"),
-        (Outcome.CONTACT, ("evader", "pursuer"), "contact"),
-        (Outcome.CONTACT, ("disc 1", "pursuer"), "touched"),
-        (Outcome.INTERRUPTED, (), "interrupted"),
-    ],
-)
-def test_a_duel_ends_in_the_words_of_a_tournament(
-    outcome: Outcome, touched: tuple[str, ...], told: str
-) -> None:
-    summary = SimpleNamespace(touched=touched, captured_at_s=None)
-    run: Any = SimpleNamespace(outcome=outcome, summary=summary)
-    assert outcome_of(run) == told
-    summary.captured_at_s = 3.0  # whatever came after
-    assert outcome_of(run) == "captured"
-    both = set(touched) == {"pursuer", "evader"}
-    assert players_touched(run) == both
-
-
-def test_only_humanoids_see_a_map() -> None:
-    with pytest.raises(ConfigurationError, match="map must be 'given'"):
-        TournamentSettings(map="seen")
-    assert TournamentSettings("physics", map="seen").map == "seen"
 
 
 def test_a_duel_that_is_stopped_is_no_game_and_stops_the_others(

@@ -8,11 +8,8 @@ import pytest
 from stepaside.core.errors import PlanError
 from stepaside.core.poses import Pose
 from stepaside.theory.unicycle.adaptive_simulation import PlayedGame, simulate
-from stepaside.theory.unicycle.certificate import certify
 from stepaside.theory.unicycle.circle_equations import circle_of
-from stepaside.theory.unicycle.ratio_map import map_ratios
 from stepaside.theory.unicycle.relative_coordinates import RelativeStart
-from stepaside.theory.unicycle.sampled_game import simulate_sampled
 from stepaside.theory.unicycle.unicycle_game import Game, make_game
 
 GAMES = [
@@ -169,33 +166,6 @@ def test_bad_values_are_refused(value: float) -> None:
         simulate(GAMES[0], RelativeStart(1.0), 1.0, capture_distance=value)
     with pytest.raises(PlanError, match="^distance must"):
         RelativeStart(value)
-
-
-@pytest.mark.parametrize("side", [2, -3, float("nan")])
-def test_sides_other_than_left_and_right_are_refused(side: int) -> None:
-    start = RelativeStart(1.0)
-    for play in (
-        lambda: simulate(GAMES[0], start, 1.0, side=side),
-        lambda: simulate_sampled(GAMES[0], start, 1.0, 0.1, side=side),
-        lambda: certify(make_game(1.0, 1.0, 1.0, 1.0), start, side=side),
-    ):
-        with pytest.raises(PlanError, match="side must be -1 or 1, got"):
-            play()
-
-
-def test_unknown_laws_and_side_rules_are_refused() -> None:
-    with pytest.raises(PlanError, match="TurningLaw must be one of"):
-        map_ratios(1.0, "x", [1.0], [1.0])
-    with pytest.raises(PlanError, match="SideRule must be one of"):
-        make_game(1.0, 1.0, 1.0, 1.0, side_rule="x")
-
-
-def test_start_names_the_angle_that_it_refuses() -> None:
-    for value in (float("nan"), float("inf")):
-        with pytest.raises(PlanError, match="^pursuer_error must"):
-            RelativeStart(1.0, value)
-        with pytest.raises(PlanError, match="^bearing must"):
-            RelativeStart(1.0, 0.0, value)
 
 
 def test_whole_turns_of_a_start_change_nothing() -> None:

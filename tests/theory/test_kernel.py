@@ -12,7 +12,6 @@ from stepaside.core.errors import PlanError
 from stepaside.theory.unicycle.adaptive_simulation import simulate
 from stepaside.theory.unicycle.compiled_batch import sine_cosine
 from stepaside.theory.unicycle.kernel import (
-    CHUNK,
     accurate_step,
     play_games,
 )
@@ -109,14 +108,6 @@ def test_settled_time_is_the_last_arrival_at_the_circle() -> None:
     assert np.abs((after[:3] - target) / scale).max() < 0.02
 
 
-@pytest.mark.parametrize(
-    "start", [[0.0, 0, 0], [np.nan, 0, 0], [1, np.inf, 0]]
-)
-def test_bad_starts_are_refused(start: list[float]) -> None:
-    with pytest.raises(PlanError, match="starts must be finite"):
-        play_games(GAMES[0], [start], 1.0)
-
-
 BACKENDS = ["numpy", *(["numba"] if load_numba() else [])]
 
 
@@ -182,16 +173,6 @@ def test_duration_is_rounded_up_to_whole_steps(backend: str) -> None:
         )
         assert out.states[0, 0] == pytest.approx(5.0 - expected)
         assert out.closest_time[0] == pytest.approx(expected)
-
-
-def test_progress_reports_every_chunk_and_chunks_change_nothing() -> None:
-    starts = random_starts(CHUNK + 7, seed=4)
-    counts: list[int] = []
-    some = play_games(GAMES[1], starts, 0.5, progress=counts.append)
-    assert counts == [CHUNK, 7]
-    rest = play_games(GAMES[1], starts[CHUNK - 5 :], 0.5)
-    np.testing.assert_array_equal(some.states[CHUNK - 5 :], rest.states)
-    np.testing.assert_array_equal(some.sides[CHUNK - 5 :], rest.sides)
 
 
 @pytest.mark.skipif(load_numba() is None, reason="Numba is not installed")

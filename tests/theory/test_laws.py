@@ -12,15 +12,6 @@ from stepaside.theory import laws
 ANGLES = st.floats(-pi, pi)
 
 
-@given(st.floats(-3.0 * pi, 3.0 * pi).filter(lambda a: abs(a) < 3.0 * pi))
-def test_wrapping_once_is_wrapping(angle: float) -> None:
-    """To the bit, so that compiled games and walkers turn alike."""
-    wrapped = laws.wrap_once(angle)
-    assert -pi <= wrapped <= pi
-    if abs(wrapped) < pi:
-        assert wrapped == wrap_angle(angle)
-
-
 def test_pursuer_heads_for_the_evader() -> None:
     """Eq. (2)."""
     assert laws.pursuit_heading(0.4) == 0.4

@@ -13,7 +13,6 @@ from stepaside.theory.unicycle.piecewise_dynamics import (
     Branch,
     Edge,
     Mode,
-    branch_from_code,
     initial_mode,
     next_mode,
     opposite_branch,
@@ -131,10 +130,3 @@ def test_sliding_ends_towards_the_line_of_sight(sign: int) -> None:
             -ANGLE + 1e-9, sign * 1.1 * GAIN, mode, edge, rules()
         )
         assert found == (-ANGLE, (1, FULL[sign < 0]))
-
-
-def test_branches_survive_a_round_trip_through_numbers() -> None:
-    assert [branch_from_code(int(branch)) for branch in Branch] == list(Branch)
-    assert [
-        opposite_branch(opposite_branch(branch)) for branch in Branch
-    ] == list(Branch)

@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.core.errors import PlanError
 from stepaside.theory.unicycle.adaptive_simulation import simulate
 from stepaside.theory.unicycle.kernel import play_games
 from stepaside.theory.unicycle.relative_coordinates import RelativeStart
@@ -75,31 +74,6 @@ def test_evader_looking_away_can_walk_into_its_pursuer() -> None:
     assert worst.captured
     run = simulate(NAO, worst.start, 40.0, capture_distance=0.3)
     assert run.captured and isinstance(worst.start, RelativeStart)
-
-
-def test_bad_boxes_are_refused() -> None:
-    with pytest.raises(PlanError, match="farthest must be >= nearest"):
-        StartBox(1.0, 0.5)
-    with pytest.raises(PlanError, match="facing must lie in"):
-        StartBox(1.0, 2.0, facing=4.0)
-
-
-@pytest.mark.parametrize(
-    ("name", "values"),
-    [
-        ("nearest", (0.0, 1.0)),
-        ("farthest", (1.0, float("inf"))),
-        ("farthest", (1.0, float("nan"))),
-        ("aim", (1.0, 2.0, 3.2)),
-        ("aim", (1.0, 2.0, -0.1)),
-        ("facing", (1.0, 2.0, 1.0, -0.1)),
-    ],
-)
-def test_refused_value_of_a_box_is_named(
-    name: str, values: tuple[float, ...]
-) -> None:
-    with pytest.raises(PlanError, match=f"^{name} must"):
-        StartBox(*values)
 
 
 def test_map_covers_its_box_from_corner_to_corner() -> None:
