@@ -165,7 +165,7 @@ def run_tracking_walk(trial: LegsTrial) -> float:
     generator = named_generator(trial.seed, "tracking walk")
     low, high = np.array(legs[:3]).T
     wanted, until, tick = STILL, STANDING, walk.world.physics.tick
-    lag = max(0.0, *legs.lags[:2])
+    lag = max(legs.lags[:2])
     template = TemplatePoint(walk.truth.position_reference_in_world)
     tube = 0.0
     while walk.world.time < TRACKING_WALK:
@@ -432,7 +432,7 @@ def _axis(axis: int, results: list[LegsTrialResult]) -> AxisResponse:
     return AxisResponse(
         tuple(result.command[axis] for result in kept),
         tuple(result.delivered for result in kept),
-        float(np.mean(lags)) if lags else 0.0,
+        max(0.0, float(np.mean(lags))) if lags else 0.0,
         max(halts),
     )
 
