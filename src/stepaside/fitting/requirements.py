@@ -16,7 +16,7 @@ from ..robots.leg_kinematics import LegKinematics
 from ..robots.tree_compiler import compile_tree
 from .gait_feasibility import step_loads
 
-GREATEST_FOOT_DIFFERENCE = 0.05  # of the foot heights, by the CoM height
+GREATEST_FOOT_DIFFERENCE = 0.05  # from mirroring each other, by the CoM height
 GREATEST_COM_OFFSET = 0.05  # lateral, by the CoM height
 LEAST_REACH_MARGIN = 0.01  # of the CoM height, by the greatest in reach
 GREATEST_LOAD = 0.95  # of a torque limit in a step
@@ -99,30 +99,17 @@ def _masses(description: RobotDescription) -> Iterator[RequirementCheck]:
         posture.position_com_in_torso[2]
         - posture.positions_feet_in_torso[:, 2].mean()
     )
-    sides = (
-        posture.positions_feet_in_torso[0]
-        + posture.positions_feet_in_torso[1]
-        - 2.0 * posture.positions_feet_in_torso.mean(axis=0)
-    )
-    uneven = (
-        abs(
-            float(
-                posture.positions_feet_in_torso[0, 2]
-                - posture.positions_feet_in_torso[1, 2]
-            )
-        )
-        / high
-    )
+    left, right = posture.positions_feet_in_torso
+    apart = float(np.abs(left * (1.0, -1.0, 1.0) - right).max())
     mirrored = (
         aside < GREATEST_COM_OFFSET * high
-        and uneven < GREATEST_FOOT_DIFFERENCE
-        and not sides.any()
+        and apart < GREATEST_FOOT_DIFFERENCE * high
     )
     yield RequirementCheck(
         "mirror symmetry",
         "pass" if mirrored else "warn",
-        f"CoM {1e3 * aside:.1f} mm off the middle of the feet, whose heights "
-        f"differ by {100.0 * uneven:.1f} % of the CoM height",
+        f"CoM {1e3 * aside:.1f} mm off the middle of the feet, which are "
+        f"{1e3 * apart:.1f} mm from mirroring each other",
         "" if mirrored else "see standing: angles of both sides must mirror",
     )
 

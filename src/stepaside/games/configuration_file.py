@@ -20,6 +20,7 @@ from ..core.errors import (
     as_path,
     shown,
 )
+from ..core.regular_files import check_regular
 from .duel_settings import DuelSettings
 from .game_settings import GameSettings, PlayerSettings
 from .walk_settings import WalkSettings
@@ -97,6 +98,7 @@ def load_entries(path: Path) -> dict[str, Any]:
         ConfigurationError: If the file cannot be read, or is not TOML.
     """
     try:
+        check_regular(path)
         with path.open("rb") as file:
             text = file.read(MAX_CHARACTERS + 1).decode("utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:

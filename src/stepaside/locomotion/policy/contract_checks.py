@@ -50,6 +50,12 @@ def examine(
             for name in reading.values.get("joints", ())
             if name not in joints
         ]
+    read = reading.convention.keys if reading.convention else {}
+    found += [
+        Finding("warning", f"metadata key {key!r} is not read")
+        for key in network.metadata
+        if read and key.startswith("observation_") and key not in read
+    ]
     return tuple(found + _implausible(reading))
 
 

@@ -33,6 +33,8 @@ ENTRIES = (
 OWN_ENTRY = "stepaside_contract"
 """Metadata entry with such entries as JSON."""
 
+MALFORMED = AttributeError, KeyError, RecursionError, TypeError, ValueError
+
 
 @dataclass
 class ContractReading:
@@ -140,7 +142,7 @@ def _own_entries(network: PolicyNetwork) -> dict[str, Any]:
     text = network.metadata.get(OWN_ENTRY, "{}")
     try:
         return dict(json.loads(text))
-    except (TypeError, ValueError) as error:
+    except (TypeError, ValueError, RecursionError) as error:
         raise PolicyError(
             f"legs: metadata entry {OWN_ENTRY!r} is malformed: {text[:60]!r}"
         ) from error
@@ -227,13 +229,13 @@ def _drop_unobserved_velocity(
 def _from_metadata(key: str, target: str, text: str) -> Any:
     """Parse a metadata entry: JSON, or values separated by commas."""
     try:
-        value = json.loads(text)
-    except ValueError:
-        value = [part.strip() for part in text.split(",")]
-        value = value[0] if len(value) == 1 else value
-    try:
+        try:
+            value = json.loads(text)
+        except ValueError:
+            value = [part.strip() for part in text.split(",")]
+            value = value[0] if len(value) == 1 else value
         return _value_of(target, value)
-    except (TypeError, ValueError, KeyError) as error:
+    except MALFORMED as error:
         raise PolicyError(
             f"legs: metadata entry {key!r} is malformed: {text[:60]!r}"
         ) from error
@@ -252,7 +254,7 @@ def _from_entry(key: str, value: Any) -> Any:
         return _value_of(key, value)
     except PolicyError:
         raise
-    except (TypeError, ValueError, KeyError) as error:
+    except MALFORMED as error:
         raise PolicyError(
             f"locomotion.{key} is malformed, got {str(value)[:60]}"
         ) from error
@@ -269,8 +271,9 @@ def _value_of(target: str, value: Any) -> Any:
     if target == "clock":
         return PhaseClock(**{k: _plain(v) for k, v in value.items()})
     if target == "history":
-        lengths = {int(x) for x in value} if isinstance(value, list) else value
-        return lengths.pop() if isinstance(lengths, set) else int(lengths)
+        lengths = set(value if isinstance(value, list) else [value])
+        (length,) = lengths  # other than all alike is malformed
+        return int(length)
     if target in PER_JOINT:
         if isinstance(value, Mapping):
             return {k: _number(v) for k, v in value.items()}

@@ -43,7 +43,7 @@ def read_deployment(path: Path, convention: Convention) -> Entries:
             f"legs: {path} is not a deployment file of {convention.name}: "
             f"it lacks {error}"
         ) from error
-    except (yaml.YAMLError, TypeError, ValueError) as error:
+    except (yaml.YAMLError, RecursionError, TypeError, ValueError) as error:
         raise PolicyError(
             f"legs: {path} is not a deployment file of {convention.name}"
         ) from error

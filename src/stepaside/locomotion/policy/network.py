@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ...core.errors import PolicyError
 from ...core.poses import Array
+from ...core.regular_files import check_regular
 
 Memory = tuple[NDArray[np.float32], ...]  # recurrent states of one walker
 LARGEST_ACTION = 1e4  # beyond, a simulation becomes unstable
@@ -69,6 +70,7 @@ class PolicyNetwork:
         """
         self.path = path
         try:
+            check_regular(path)
             content = path.read_bytes()
         except OSError as error:
             raise PolicyError(
@@ -78,7 +80,8 @@ class PolicyNetwork:
             self._session = _session_of(content)
         except Exception as error:  # no common base in ONNX Runtime
             raise PolicyError(
-                f"legs: {path} is not an ONNX network"
+                f"legs: {path} is not an ONNX network: "
+                + " ".join(str(error).split())
             ) from error
         inputs = [_shape_of(x) for x in self._session.get_inputs()]
         outputs = [_shape_of(x) for x in self._session.get_outputs()]

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from ...core.atomic_output import atomic_draft
 from ...core.errors import AnyPath, PolicyError, as_path
+from ...core.regular_files import check_regular
 from .protobuf_wire import (
     blobs,
     decode_fields,
@@ -153,6 +154,7 @@ def read_network(path: Path) -> NetworkGraph:
         PolicyError: If it is not a network of supported operators.
     """
     try:
+        check_regular(path)
         model = decode_fields(path.read_bytes())
     except OSError as error:
         raise PolicyError(f"cannot read {path}: {error.strerror}") from error

@@ -1,0 +1,144 @@
+"""What was once wrong with learned legs, and what still is.
+
+Each that still is wrong is expected to fail until it is mended.
+"""
+
+import os
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+pytest.importorskip("onnxruntime")
+onnx = pytest.importorskip("onnx")
+
+import stepaside as sa  # noqa: E402
+from flows.calls import Output, stepaside  # noqa: E402
+from small_policies import (  # noqa: E402
+    JOINTS,
+    constant_policy,
+    write_policy,
+)
+
+NAO = Path(sa.__file__).parent / "robots" / "nao"
+MJLAB = {
+    "joint_names": "hip,knee,ankle",
+    "joint_stiffness": "40.0,50.0,20.0",
+    "joint_damping": "2.0,3.0,1.0",
+    "default_joint_pos": "-0.3,0.6,-0.3",
+    "action_scale": "0.5,0.4,0.3",
+    "observation_names": "base_ang_vel,projected_gravity,joint_pos,"
+    "joint_vel,actions,command",
+}
+
+
+def mjlab(path: Path, **more: str) -> Path:
+    shape = len(JOINTS), 18
+    return write_policy(
+        path, np.zeros(shape), np.zeros(len(JOINTS)), MJLAB | more
+    )
+
+
+def refused(*words: object) -> Output:
+    """Run a command that refuses its input in one line."""
+    answer = stepaside(*words, status=2)
+    assert "Traceback" not in answer.err
+    return answer
+
+
+@pytest.mark.parametrize(
+    "key",
+    ["scale", "history_length", "clip", "flatten_history_dim"],
+)
+def test_metadata_of_observations_that_are_not_read_are_named(
+    key: str, tmp_path: Path
+) -> None:
+    name = f"observation_terms_{key}"
+    network = mjlab(tmp_path / "a.onnx", **{name: "1,1,1,1,1,1"})
+    facts = stepaside("legs", "inspect", network, "--json").json
+    (finding,) = facts["findings"]
+    assert finding["text"] == f"metadata key '{name}' is not read"
+
+
+@pytest.mark.xfail(
+    strict=True,
+    raises=AssertionError,
+    reason="the scales of mjlab's present key are not applied",
+)
+def test_scales_of_observations_are_those_of_the_metadata(
+    tmp_path: Path,
+) -> None:
+    network = mjlab(
+        tmp_path / "a.onnx", observation_terms_scale="0.25,1,1,0.05,1,1"
+    )
+    facts = stepaside("legs", "inspect", network, "--json").json
+    scales = [term["scale"] for term in facts["contract"]["terms"]]
+    assert scales == [[0.25], [1.0], [1.0], [0.05], [1.0], [1.0]]
+
+
+def test_unequal_histories_are_refused_by_name(tmp_path: Path) -> None:
+    network = mjlab(
+        tmp_path / "a.onnx", observation_history_lengths="1,1,1,5,1,1"
+    )
+    assert "observation_history_lengths" in (
+        refused("legs", "inspect", network).err
+    )
+
+
+def test_nested_metadata_are_refused_in_one_line(tmp_path: Path) -> None:
+    deep = "[" * 100_000 + "]" * 100_000
+    network = constant_policy(tmp_path / "a.onnx", kp=deep)
+    assert "'kp'" in refused("legs", "inspect", network).err
+
+
+def test_a_nested_deployment_file_is_refused_in_one_line(
+    tmp_path: Path,
+) -> None:
+    network = constant_policy(tmp_path / "a.onnx")
+    deep = "[" * 5000 + "]" * 5000
+    (tmp_path / "a.yaml").write_text(deep, encoding="utf-8")
+    answer = refused(
+        "legs", "inspect", network, "--legs-contract", "legged_gym"
+    )
+    assert "a.yaml" in answer.err
+
+
+def test_a_clock_that_is_a_number_is_refused_by_name(tmp_path: Path) -> None:
+    folder = tmp_path / "nao"
+    shutil.copytree(NAO, folder)
+    with (folder / "robot.toml").open("a", encoding="utf-8") as file:
+        file.write("\n[locomotion]\nclock = 7\n")
+    network = constant_policy(tmp_path / "a.onnx")
+    answer = refused("legs", "inspect", network, "--robot", folder)
+    assert "locomotion.clock" in answer.err
+
+
+def test_the_reason_why_a_network_cannot_be_read_is_passed_on(
+    tmp_path: Path,
+) -> None:
+    """Of a network whose weights beside it are missing."""
+    network = constant_policy(tmp_path / "a.onnx")
+    model = onnx.load(network)
+    onnx.save(
+        model,
+        network,
+        save_as_external_data=True,
+        location="a.onnx.data",
+        size_threshold=0,
+    )
+    (tmp_path / "a.onnx.data").unlink()
+    answer = refused("legs", "inspect", network)
+    assert "a.onnx.data" in answer.err or "external" in answer.err
+
+
+@pytest.mark.parametrize("words", [("legs", "inspect"), ("game",)])
+@pytest.mark.parametrize("kind", ["pipe", "zeros"])
+def test_only_regular_files_are_read(
+    words: tuple[str, ...], kind: str, tmp_path: Path
+) -> None:
+    file = Path("/dev/zero")
+    if kind == "pipe":
+        file = tmp_path / "pipe"
+        os.mkfifo(file)
+    assert "not a regular file" in refused(*words, file).err
