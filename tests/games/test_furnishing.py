@@ -8,14 +8,12 @@ import pytest
 from stepaside.arena import Disc, Room
 from stepaside.games import DuelSettings
 from stepaside.games.duel_furnishing import scenery_of_duel
-from stepaside.sim.passerby_settings import Passer
 
 ALONE = DuelSettings()
 INSIDE = replace(
     ALONE, room=replace(ALONE.room, plan=Room(3.0, 3.0, (Disc(0, 0, 0.2),)))
 )
 PERSON = DuelSettings(pursuer="person")
-PASSED = replace(PERSON, passers=(Passer(0.8, 3.0), Passer(0.0, 4.0)))
 
 
 @pytest.mark.parametrize(
@@ -24,13 +22,6 @@ PASSED = replace(PERSON, passers=(Passer(0.8, 3.0), Passer(0.0, 4.0)))
         (ALONE, set()),
         (INSIDE, {"disc 1", "wall 1"}),
         (PERSON, {"pursuer/trunk", "pursuer/left leg"}),
-        (
-            PASSED,
-            {
-                *("pursuer/trunk", "pursuer/left leg"),
-                *("passer 1/trunk", "passer 2/trunk"),
-            },
-        ),
     ],
 )
 def test_a_world_has_the_objects_of_its_duel(

@@ -316,7 +316,6 @@ PATH_OF_PERSON: dict[str, dict[str, Any]] = {
     "steer": {"person": {"speed": 0.5}},
     "straight": {"person": {"path": "straight", "speed": 0.5}},
     "aside": {"person": {"path": "straight", "speed": 0.5, "miss": 1.2}},
-    "visits": {"person": {"path": "visits", "speed": 0.5}},
     "reacting": {
         "person": {"path": "straight", "speed": 0.5, "reaction": "regular"}
     },

@@ -152,7 +152,7 @@ def test_paths_are_read_as_rows(tmp_path: Path) -> None:
         ("0,0,0\n0,1,1\n", "finite, and times must increase"),
         ("0,0,nan\n1,1,1\n", "finite, and times must increase"),
         ("0,0,0\n1,inf,1\n", "finite, and times must increase"),
-        ("0,0,0\n1,1\n", "must be steer, straight, visits or a CSV file"),
+        ("0,0,0\n1,1\n", "must be steer, straight or a CSV file"),
     ],
 )
 def test_invalid_rows_are_refused(
@@ -356,38 +356,3 @@ def test_a_backward_walk_follows_the_same_path_facing_away(
         assert other[:2] == pytest.approx(one[:2])
         off = wrap_angle(other.theta - one.theta)
         assert abs(off) == pytest.approx(pi)
-
-
-def test_visits_cover_all_directions_and_pass_at_their_offset() -> None:
-    """Round the evader, which has moved meanwhile, from 4.5 m away."""
-    motion = PersonMotion(
-        PersonSettings("visits", 1.0, miss=0.5),
-        Pose(-4.5, 0.0, 0.0),
-        (0.0, 0.0),
-    )
-    evader = (0.0, 0.0)
-    nearest: dict[int, float] = {}
-    aims: dict[int, float] = {}
-    entered: dict[int, float] = {}
-    visits = motion.visits
-    for i in range(12000):
-        motion.advance(0.02 * (i + 1), 0.02, evader)
-        away = hypot(motion.pose.x - evader[0], motion.pose.y - evader[1])
-        number = visits.number
-        if visits.crossing:
-            entered.setdefault(
-                number,
-                atan2(motion.pose.y - evader[1], motion.pose.x - evader[0]),
-            )
-            aims[number] = visits.miss
-            nearest[number] = min(nearest.get(number, 9.0), away)
-        else:
-            assert 3.9 < away < 5.5
-            evader = (0.3 * number, -0.2 * number)
-    assert visits.number >= 6 and nearest.keys() == aims.keys()
-    for number in list(aims)[:-1]:
-        assert nearest[number] <= abs(aims[number]) + 0.02
-        assert nearest[number] == pytest.approx(abs(aims[number]), rel=0.1)
-    assert max(map(abs, aims.values())) <= 1.5
-    sides = np.sort([entered[number] for number in aims])
-    assert np.diff(sides).max() < 2.5

@@ -1,12 +1,11 @@
-"""Test recorded walks and repeated visits."""
+"""Test recorded walks."""
 
-from math import cos, hypot, pi, sin
+from math import cos, pi, sin
 from pathlib import Path
 
 import pytest
 
 from stepaside.core.poses import Pose, wrap_angle
-from stepaside.sim.person_crossings import RADIUS, RepeatedCrossings
 from stepaside.sim.person_motion import PersonMotion
 from stepaside.sim.person_settings import PersonSettings
 
@@ -29,25 +28,3 @@ def test_a_recorded_person_heads_along_the_path(
     for time in (0.0, 1.0, 3.3):
         motion.advance(time, 0.02, (9.0, 9.0))
         assert wrap_angle(motion.pose.theta - course) == pytest.approx(0.0)
-
-
-def test_visit_offsets_follow_the_golden_ratio() -> None:
-    """Crossing k aims 1.5 m (2 frac(k / 1.618) - 1) to the left."""
-    visits, evader = RepeatedCrossings(0.4), (0.7, -0.3)
-    x, y, course, step = evader[0] - RADIUS, evader[1] + 0.4, 0.0, 0.02
-    aims: dict[int, float] = {}
-    passed: dict[int, float] = {}
-    while visits.number < 8:
-        course = visits.course((x, y), course, evader)
-        x, y = x + step * cos(course), y + step * sin(course)
-        if visits.crossing:
-            aims[visits.number] = visits.miss
-            u, v = x - evader[0], y - evader[1]
-            if hypot(u, v) < 1.6:
-                # How far to the left of the evader, seen along the course.
-                aside = -u * sin(course) + v * cos(course)
-                passed[visits.number] = aside
-    for number in range(2, 8):
-        wanted = 1.5 * (2.0 * (number * GOLDEN % 1.0) - 1.0)
-        assert aims[number] == pytest.approx(wanted, abs=1e-4)
-        assert passed[number] == pytest.approx(wanted, rel=0.08)

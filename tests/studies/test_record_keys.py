@@ -13,7 +13,6 @@ from stepaside.games.walk_settings import WalkSettings
 from stepaside.locomotion.zmp.control_settings import ControlSettings
 from stepaside.planning import PRESETS
 from stepaside.sim.camera_settings import RoomObject
-from stepaside.sim.passerby_settings import Passer
 from stepaside.sim.person_settings import PersonSettings
 from stepaside.sim.push import Push
 from stepaside.studies.duel_campaign import duel_study
@@ -38,13 +37,12 @@ OTHERS: dict[str, Any] = {
     "pursuer_robot": [RobotSettings(gait=PRESETS["fast"])],
     "evader_robot": [RobotSettings(gait=PRESETS["fast"])],
     "pushes": [(Push(1.0, 2.0, 0.0),)],
-    "passers": [(Passer(1.0, 4.0),)],
     "room.things": [[RoomObject("red box", 1.0, 1.0)]],
     "room.plan": [ROOM],
     "map.source": ["none", "seen"],
     "map.unseen": ["free"],
     "physics.integrator": ["discrete"],
-    "person.path": ["circle", "straight", "visits"],
+    "person.path": ["circle", "straight"],
     "person.figure": ["child"],
     "person.reaction": [],  # needs a straight path
 }
@@ -68,14 +66,13 @@ def game_key(
 @pytest.mark.parametrize(
     ("settings", "others"),
     [
-        (DuelSettings(control=FEEDBACK), {"passers": []}),
+        (DuelSettings(control=FEEDBACK), {}),
         (
-            replace(PERSON, passers=(Passer(1.0, 4.0), Passer(0.5, 2.0))),
+            PERSON,
             {
                 "pursuer": [],
                 "pursuer_strategy": [],
                 "room.plan": [],
-                "passers": [(Passer(1.0, 4.0),), (Passer(0.5, 2.0),) * 2],
             },
         ),
     ],
@@ -94,16 +91,14 @@ def test_every_setting_of_a_duel_changes_its_key(
 
 @pytest.mark.parametrize(
     "one",
-    [Push(1.0, 2.0, 0.1), Passer(1.0, 4.0), Disc(0.5, 0.0, 0.2)],
-    ids=["push", "passer", "disc"],
+    [Push(1.0, 2.0, 0.1), Disc(0.5, 0.0, 0.2)],
+    ids=["push", "disc"],
 )
 def test_all_of_what_meets_a_duel_counts_in_its_key(one: Any) -> None:
     def key(each: Any) -> str:
         match each:
             case Push():
                 return key_of(DuelSettings(pushes=(each,)))
-            case Passer():
-                return key_of(replace(PERSON, passers=(each,)))
         room = replace(DuelSettings().room, plan=Room(3.0, 3.0, (each,)))
         return key_of(DuelSettings(room=room))
 

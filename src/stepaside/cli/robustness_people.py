@@ -103,7 +103,7 @@ def meet_people(
         "done": run.finished,
         "clearance_m": base.strategy.clearance,
         "people": people_rows(found),
-        "passers_by": passing_rows(found),
+        "passing": passing_rows(found),
         "reactions": reaction_rows(found),
         "origins": origin_rows(found),
     }, run
@@ -152,7 +152,7 @@ def print_people(answer: dict[str, Any]) -> None:
                 for row in answer["people"]
             ],
         )
-    for row in answer.get("passers_by", ()):
+    for row in answer.get("passing", ()):
         echo(
             f"{row['sensing']}: {row['false_triggers']} false triggers with "
             f"{row['number']} passing pedestrians, "

@@ -152,8 +152,6 @@ def template_closest_approach(settings: DuelSettings) -> float | None:
     gait, legs = own.gait, own.legs
     if settings.pursuer == "robot" or start.distance is None:
         return None
-    if settings.person.path == "visits":
-        return None
     if not (settings.is_of_the_paper or legs.walks):
         return None
     initial = (

@@ -5,13 +5,12 @@ from functools import partial
 from ..robots.description import load_robot
 from ..robots.head import load_head
 from ..sim.obstacle_geoms import add_solids, obstacle_mover
-from ..sim.passerby_bodies import add_passers, passer_mover
 from ..sim.pedestrian_appearance import FIGURES
 from ..sim.person_body import add_person
 from ..sim.room_furnishing import Furnish, furnisher
-from .duel_settings import EVADER, PLAYERS, PURSUER, DuelSettings
+from .duel_settings import EVADER, PURSUER, DuelSettings
 from .game_furnishing import MakeMover, Scenery
-from .initial_poses import initial_poses, wall_distance
+from .initial_poses import wall_distance
 
 
 def scenery_of_duel(settings: DuelSettings) -> Scenery:
@@ -42,19 +41,9 @@ def scenery_of_duel(settings: DuelSettings) -> Scenery:
         if plan.moving:
             movers.append(partial(obstacle_mover, room=plan))
     if settings.pursuer == "person":
-        figure, passers = FIGURES[settings.person.figure], settings.passers
+        figure = FIGURES[settings.person.figure]
         solid = settings.person.solid
-        furnishings += [
-            lambda spec: add_person(spec, PURSUER, figure, solid=solid),
-            lambda spec: add_passers(spec, passers),
-        ]
-        if passers:
-            movers.append(
-                lambda model, data: passer_mover(
-                    model,
-                    data,
-                    passers,
-                    initial_poses(settings)[PLAYERS.index(EVADER)],
-                )
-            )
+        furnishings.append(
+            lambda spec: add_person(spec, PURSUER, figure, solid=solid)
+        )
     return Scenery(tuple(furnishings), tuple(movers))

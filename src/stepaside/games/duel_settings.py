@@ -23,7 +23,6 @@ from ..sim.camera_settings import (
     LidarSettings,
     SceneSettings,
 )
-from ..sim.passerby_settings import MOST_PASSERS, Passer
 from ..sim.person_settings import PURSUERS, PersonSettings
 from ..sim.physics_settings import PhysicsSettings, SightSettings
 from ..sim.push import MOST_PUSHES, Push, check_pushes
@@ -258,18 +257,6 @@ class DuelSettings:
             "pushes the pursuer. none removes those of the configuration"
         ),
     )
-    passers: tuple[Passer, ...] = setting(
-        (),
-        "People who walk past, with a person as pursuer; ideal sensing "
-        "reports only the pursuer to the evader",
-        option="--passer",
-        option_help=(
-            "Add a passing pedestrian; repeatable. "
-            "0.8@3:90deg:1.5 walks at 0.8 m/s, starts 3 m to the left of the "
-            "evader and passes it at a lateral offset of 1.5 m. none removes "
-            "those of the configuration"
-        ),
-    )
 
     def __post_init__(self) -> None:
         """Validate ranges, strategies and combinations of settings."""
@@ -319,12 +306,6 @@ class DuelSettings:
             )
         check_count(self.pushes, MOST_PUSHES, "pushes")
         check_pushes(self.pushes, self.robots)
-        check_count(self.passers, MOST_PASSERS, "passers")
-        if self.passers and self.pursuer != "person":
-            raise ConfigurationError(
-                "passers need a person as pursuer, got pursuer "
-                f"{self.pursuer!r}"
-            )
 
     def robot_of(self, player: str) -> RobotSettings:
         """Return robot, gait and control of a player.
@@ -420,8 +401,8 @@ class DuelSettings:
 
     @property
     def has_things(self) -> bool:
-        """Whether there are obstacles or people besides the players."""
-        return bool(self.room.things or self.room.plan or self.passers)
+        """Whether there are obstacles besides the players."""
+        return bool(self.room.things or self.room.plan)
 
     @property
     def both(self) -> str:

@@ -1,4 +1,4 @@
-"""Walks of a person: steering, straight, repeated or recorded."""
+"""Walks of a person: steering, straight or recorded."""
 
 from collections.abc import Callable
 from math import atan2, copysign, cos, hypot, inf, pi, sin
@@ -12,7 +12,6 @@ from ..core.poses import Array, Pose, wrap_angle
 from ..theory import laws
 from ..theory.unicycle.unicycle_game import Unicycle
 from .crowd_motion import RADIUS, CrowdMotion, CrowdSettings, Neighbour
-from .person_crossings import RepeatedCrossings
 from .person_settings import PATHS, PersonSettings
 
 Place = tuple[float, float]
@@ -24,7 +23,6 @@ class PersonMotion:
 
     Attributes:
         pose: Pose of the person in the world.
-        visits: State of repeated visits.
     """
 
     def __init__(
@@ -49,7 +47,7 @@ class PersonMotion:
         self._settings, self._obstacles = settings, obstacles
         self._recorded: Array | None = None
         heading = start.theta
-        if settings.path in ("straight", "visits"):
+        if settings.path == "straight":
             sight = atan2(evader[1] - start.y, evader[0] - start.x)
             aim = (
                 evader[0] - settings.miss * sin(sight),
@@ -57,7 +55,6 @@ class PersonMotion:
             )
             heading = atan2(aim[1] - start.y, aim[0] - start.x)
         self._course = heading
-        self.visits = RepeatedCrossings(settings.miss)
         self._walked, self._has_turned = 0.0, False
         self._was_near, self._feints_until = False, -inf
         self._reacting: CrowdMotion | None = None
@@ -101,8 +98,6 @@ class PersonMotion:
         ):
             self._has_turned = True
             self._course += settings.turn
-        if settings.path == "visits":
-            self._course = self.visits.course((x, y), self._course, evader)
         if settings.path == "steer":
             # (1)-(2) of the paper, held over one tick.
             aim = laws.pursuit_heading(self._bearing(time, evader))

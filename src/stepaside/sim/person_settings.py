@@ -9,7 +9,7 @@ from ..core.setting import check_settings, setting
 from .crowd_motion import REACTIONS
 from .pedestrian_appearance import FIGURES
 
-PATHS = ("steer", "straight", "visits")
+PATHS = ("steer", "straight")
 PURSUERS = ("robot", "person")
 
 
@@ -20,8 +20,7 @@ class PersonSettings:
     path: str = setting(
         "steer",
         "Path of the person: steer (towards the evader by eqs. (1)-(2)), "
-        "straight, visits (crosses the room repeatedly in changing "
-        "directions), or a CSV file with columns time,x,y [s, m, m]",
+        "straight, or a CSV file with columns time,x,y [s, m, m]",
         option="--person-path",
     )
     speed: float = setting(
@@ -39,7 +38,7 @@ class PersonSettings:
     miss: float = setting(
         0.0,
         "Lateral offset to the left of the evader at which a straight path "
-        "or the first visit aims",
+        "aims",
         Range(-10.0, 10.0, "m", "beyond, out of sight"),
         option="--person-miss",
     )

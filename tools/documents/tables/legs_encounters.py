@@ -81,7 +81,7 @@ def passers_by(*results: Mapping[str, Any]) -> str:
                 counted(row["contacts"], row["number"]),
             )
             for result in results
-            for row in result["passers_by"]
+            for row in result["passing"]
         ],
     )
 

@@ -60,7 +60,7 @@ def passers_by(*results: Mapping[str, Any]) -> str:
                 number(row["false_triggers_per_hour"], 1),
             )
             for result in results
-            for row in result["passers_by"]
+            for row in result["passing"]
         ],
     )
 

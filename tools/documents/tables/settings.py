@@ -18,7 +18,6 @@ from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.game_settings import GameSettings, PlayerSettings
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.sim.camera_settings import RoomObject
-from stepaside.sim.passerby_settings import Passer
 from stepaside.sim.push import Push
 
 from .markdown import table
@@ -33,7 +32,6 @@ LISTS: Mapping[str, type[Any]] = {
     "players": PlayerSettings,
     "room.things": RoomObject,
     "pushes": Push,
-    "passers": Passer,
 }
 
 

@@ -39,7 +39,6 @@ DUEL = (
         "Cameras (--sensing cameras)", ("cameras", "room.things", "room.walls")
     ),
     OptionGroup("Pursuing person", ("pursuer", "person")),
-    OptionGroup("Passing pedestrians", ("passers",)),
     OptionGroup("Pushes", ("pushes",)),
 )
 WALK = (

@@ -2,7 +2,6 @@
 
 import re
 from collections.abc import Callable, Collection, Mapping
-from dataclasses import replace
 from math import isfinite, radians, tau
 from pathlib import Path
 from typing import Any, TypeVar
@@ -11,7 +10,6 @@ import click
 
 from ...core.errors import StepAsideError, shown
 from ...core.ranges import Range
-from ...sim.passerby_settings import Passer
 from ...sim.push import Push
 from ...strategies.registry import absolute_name, check_strategy_name
 
@@ -305,41 +303,7 @@ class PushType(TextType[Push | None]):
         )
 
 
-class PasserType(TextType[Passer | None]):
-    """Passing pedestrian: ``0.8@3:90deg:1.5``, or ``none``.
-
-    The example walks at 0.8 m/s, starts 3 m to the left of the evader, and
-    passes it at a lateral offset of 1.5 m.
-    """
-
-    name = "SPEED@DISTANCE:BEARING[:MISS]"
-    syntax = re.compile(
-        r"(?P<speed>[^@]+)@(?P<distance>[^:]+):(?P<bearing>[^:]+)"
-        r"(?::(?P<miss>.+))?"
-    )
-
-    def parse(self, value: Any) -> Passer | None:
-        """Parse a pedestrian."""
-        if value == NO_VALUE:
-            return None
-        parts = self.syntax.fullmatch(str(value))
-        if parts is None:
-            raise click.BadParameter(
-                "must be SPEED@DISTANCE:BEARING[:MISS] [m/s, m, angle, m] "
-                f"like 0.8@3:90deg:1.5, got {value!r}"
-            )
-        passer = Passer(
-            SPEED.parse(parts["speed"]),
-            LENGTH.parse(parts["distance"]),
-            ANGLE.parse(parts["bearing"]),
-        )
-        if parts["miss"] is None:
-            return passer
-        miss = LENGTH.parse(parts["miss"])
-        return replace(passer, miss=miss)
-
-
-# Numbers in pushes and pedestrians, whose settings check the ranges.
+# Numbers in pushes, whose settings check the ranges.
 IMPULSE = NumberType("N s", bounded=False)
 TIME = NumberType("s", bounded=False)
 SPEED = NumberType("m/s", bounded=False)

@@ -12,14 +12,12 @@ from click.core import ParameterSource
 
 from ...arena import Room
 from ...core.setting import REQUIRED, Setting, settings_of
-from ...sim.passerby_settings import Passer
 from ...sim.push import Push
 from ...strategies import Strategy
 from .parameter_types import (
     ANGLE,
     NameType,
     NumberType,
-    PasserType,
     PushType,
     RoomType,
     SizeType,
@@ -32,7 +30,6 @@ Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
 # Types of options, by type of the field.
 TYPES: dict[Any, click.ParamType[Any]] = {
     tuple[Push, ...]: PushType(),
-    tuple[Passer, ...]: PasserType(),
     Room | None: RoomType(),
     str | Strategy: StrategyType(),
     tuple[float, float] | None: SizeType(),

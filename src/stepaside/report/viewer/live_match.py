@@ -123,6 +123,5 @@ def stage_of(settings: LiveSettings) -> tuple[Any, ...]:
         settings.room,
         settings.pursuer,
         settings.person.figure,
-        settings.passers,
         *(settings.robot_of(player).robot for player in PLAYERS),
     )
