@@ -111,7 +111,7 @@ def test_a_full_disk_is_told_in_one_line(
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_film_strip_is_there_if_they_saw(
+def test_what_the_cameras_saw_is_there(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, result: DuelRun
 ) -> None:
     monkeypatch.setattr(sight_figure, "draw_sight", draw_nothing)

@@ -40,7 +40,6 @@ RINGS = {"safety radius": 63, "theoretical circle": 27}
 RING_LABEL_SCALE = 0.85  # relative to the players' labels
 HEIGHTS = {name: 0.002 + 0.001 * i for i, name in enumerate(LAYERS)}
 MAX_FOOTPRINTS = 60  # past footsteps that are drawn
-FOOTPRINT_LEAD = 0.5  # time before landing at which one appears, in [s]
 PUSH_HEIGHT = 0.3  # of an arrow over the floor, in [m]
 PUSH_LENGTH = 0.25  # of an arrow, in [m] per [N s]
 PUSH_SHOWN = 1.0  # time for which an arrow is shown, in [s]
