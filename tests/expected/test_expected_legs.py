@@ -142,3 +142,24 @@ def test_only_regular_files_are_read(
         file = tmp_path / "pipe"
         os.mkfifo(file)
     assert "not a regular file" in refused(*words, file).err
+
+
+@pytest.mark.xfail(
+    strict=True,
+    raises=AssertionError,
+    reason="only the number of inputs is looked at, not their type",
+)
+def test_a_network_of_doubles_is_no_network_that_can_run(
+    tmp_path: Path,
+) -> None:
+    network = mjlab(tmp_path / "a.onnx")
+    model = onnx.load(network)
+    for port in (*model.graph.input, *model.graph.output):
+        port.type.tensor_type.elem_type = onnx.TensorProto.DOUBLE
+    for i, tensor in enumerate(model.graph.initializer):
+        values = onnx.numpy_helper.to_array(tensor).astype(np.float64)
+        model.graph.initializer[i].CopyFrom(
+            onnx.numpy_helper.from_array(values, tensor.name)
+        )
+    onnx.save(model, network)
+    refused("legs", "inspect", network)
