@@ -87,11 +87,11 @@ def test_mpc_without_a_push_walks_the_plan() -> None:
 
 
 def test_the_fast_gait_walks_at_its_pace() -> None:
-    seen = summary("walk", "--gait", "fast", "--duration", 8)
+    seen = summary("walk", "--gait", "fast", "--duration", 6)
     assert seen["outcome"] == "completed"
     assert seen["feedback"] is True
     assert seen["speed_m_s"] == pytest.approx(FAST, rel=0.03)
-    assert seen["steps"] == pytest.approx((8.0 - 1.0 - 0.44) / 0.32, abs=3)
+    assert seen["steps"] == pytest.approx((6.0 - 1.0 - 0.44) / 0.32, abs=3)
 
 
 PERSON = (
