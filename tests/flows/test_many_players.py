@@ -1,13 +1,13 @@
 """Games of more than two: pursuers, teams, a polygon, a crowd."""
 
 from itertools import combinations
-from math import pi, sin
+from math import atan2, pi, sin
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from flows.calls import kept_summary, summary, trajectories
+from flows.calls import Arrays, kept_summary, summary, trajectories
 from flows.circles import GAIN, PACE, SPEED, apart
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -61,7 +61,7 @@ def test_an_evader_that_knows_its_pursuers_is_not_captured() -> None:
     table = summary(
         *("games", EXAMPLES / "teams.toml", "--pursuer", "assigned"),
         *("--evader", "evasion", "--evader", "team-evasion"),
-        *("--seeds", "0:1", "--duration", 45, "--workers", 1),
+        *("--seeds", "2:3", "--duration", 45, "--workers", 1),
     )
     rows = {row["evaders"]: row for row in table["rows"]}
     caught, free = rows["evasion"], rows["team-evasion"]
@@ -70,6 +70,58 @@ def test_an_evader_that_knows_its_pursuers_is_not_captured() -> None:
     assert caught["least_closest_m"] <= 0.35
     assert free["captured"]["number"] == 0
     assert free["least_closest_m"] > 0.35
+
+
+def pursuit_of_standing(
+    folder: Path, strategy: str, *evaders: tuple[float, float]
+) -> Arrays:
+    """Two pursuers, 1 m apart at x = 0, walk 16 s at evaders that stand."""
+    players = [
+        ("red", "pursuer", strategy, (0.0, 0.0)),
+        ("ruby", "pursuer", strategy, (0.0, 1.0)),
+        *(
+            (f"evader-{n}", "evader", "stand", at)
+            for n, at in enumerate(evaders)
+        ),
+    ]
+    text = 'duration = 16.0\nlevel = "steps"\n'
+    for name, role, plays, (x, y) in players:
+        text += f"""
+[[players]]
+name = "{name}"
+role = "{role}"
+strategy = "{plays}"
+start = [{x}, {y}, 0.0]
+"""
+    folder.mkdir()
+    (folder / "game.toml").write_text(text)
+    kept_summary("game", folder / "run", folder / "game.toml")
+    return trajectories(folder / "run")
+
+
+def test_assigned_pursuers_take_the_evaders_of_least_total_distance(
+    tmp_path: Path,
+) -> None:
+    """Crosswise by name: the first evader is before the second pursuer."""
+    kept = pursuit_of_standing(
+        tmp_path / "assigned", "assigned", (2.0, 1.0), (2.0, 0.0)
+    )
+    assert kept["red_place"][-1, 0] > 0.9 and kept["ruby_place"][-1, 0] > 0.9
+    assert abs(kept["red_place"][:, 1]).max() < 0.05
+    assert abs(kept["ruby_place"][:, 1] - 1.0).max() < 0.05
+
+
+def test_pursuers_of_a_pincer_come_from_two_sides(tmp_path: Path) -> None:
+    """Their directions from the evader part by more than straight on.
+
+    Those of the paper's pursuers grow by 0.2 rad, as they turn slowly.
+    """
+    kept = pursuit_of_standing(tmp_path / "pincer", "pincer", (2.0, 0.5))
+    x, y = np.transpose(
+        [kept[f"{name}_place"][-1, :2] for name in ("red", "ruby")]
+    )
+    low, high = np.arctan2(y - 0.5, 2.0 - x)
+    assert high - low > 2 * atan2(0.5, 2.0) + 0.45
 
 
 def test_cyclic_pursuit_ends_on_its_polygon() -> None:

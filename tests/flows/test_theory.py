@@ -139,8 +139,8 @@ def grazing_starts() -> list[tuple[float, float, float]]:
     Distance, bearing of the evader, bearing of the pursuer from the evader.
     """
     found = []
-    for side in np.linspace(0.15, 1.2, 8):
-        for time in (0.2, 0.4, 0.6):
+    for side in np.linspace(0.3, 1.2, 7):
+        for time in (0.5, 1.0):
             x, y, theta = cos(side), sin(side), 2 * side
             for _ in range(400):
                 step = -time / 400
@@ -168,7 +168,7 @@ def test_optimal_evasion_of_a_car_has_merzs_barrier(tmp_path: Path) -> None:
     )
     starts = np.array(grazing_starts())
     values = load_bound(table).value(*starts.T)
-    assert np.median(abs(values - 1.0)) < 0.03
+    assert abs(values - 1.0).max() < 0.04
     mirrored = load_bound(table).value(*(starts * [1, -1, -1]).T)
     np.testing.assert_allclose(mirrored, values, atol=1e-9)
 
