@@ -117,22 +117,24 @@ def test_a_vector_of_64_games_is_64_games() -> None:
 def test_a_game_that_ends_when_its_time_is_up_has_ended_only(
     kind: str, tmp_path: Any
 ) -> None:
-    """Capture in the very last step is an end, not a lack of time.
+    """Capture at the very end is an end, not a lack of time.
 
-    First without a limit that counts, then with that many steps.
+    First without a limit that counts, then with that time, and then with
+    one decision less.
     """
-    long = _steps_and_end(kind, 60.0, tmp_path)
-    assert long[1:] == (True, False)
-    exact = _steps_and_end(kind, PERIOD * long[0], tmp_path)
-    assert exact == (long[0], True, False)
-    short = _steps_and_end(kind, PERIOD * (long[0] - 1), tmp_path)
-    assert short == (long[0] - 1, False, True)
+    steps, time, *end = _play_to_the_end(kind, 60.0, tmp_path)
+    assert end == [True, False]
+    exact = _play_to_the_end(kind, time, tmp_path)
+    assert exact == (steps, pytest.approx(time), True, False)
+    less = PERIOD * (steps - 1)
+    short = _play_to_the_end(kind, less, tmp_path)
+    assert short == (steps - 1, pytest.approx(less), False, True)
 
 
-def _steps_and_end(
+def _play_to_the_end(
     kind: str, duration: float, folder: Any
-) -> tuple[int, bool, bool]:
-    """Walk straight up to an evader who stands, until the game is over."""
+) -> tuple[int, float, bool, bool]:
+    """Walk up to an evader who stands; steps, time [s], and how it ended."""
     settings = SHORT | {"duration": duration}
     if kind == "single":
         env = calls.environment("Evade", **settings)
@@ -147,20 +149,23 @@ def _steps_and_end(
     seen, _ = env.reset(seed=3)
     steps = 0
     while True:
+        steps += 1
         if kind in ("single", "vector"):
             action = STILL if kind == "single" else STILL[None]
             seen, _, ended, late, _ = env.step(action)
+            time = steps * PERIOD
         else:
             _, cos, sin = seen["pursuer"][_bearing(kind)]
             turn = np.array([np.arctan2(sin, cos), 1.0], np.float32)
-            seen, _, ends, lates, _ = env.step(
+            seen, rewards, ends, lates, infos = env.step(
                 {"pursuer": turn, "evader": STILL}
             )
+            assert rewards["pursuer"] == -rewards["evader"] >= 0.0
             assert len(set(ends.values())) == len(set(lates.values())) == 1
             ended, late = ends["evader"], lates["evader"]
-        steps += 1
+            time = infos["evader"]["time_s"]
         if np.any(ended) or np.any(late):
-            return steps, bool(np.all(ended)), bool(np.all(late))
+            return steps, time, bool(np.all(ended)), bool(np.all(late))
 
 
 def _bearing(kind: str) -> slice:
