@@ -58,7 +58,9 @@ def duel(pursuer: Trajectory, **changes: Any) -> DuelRun:
     return run_of(
         TIMES,
         {"pursuer": pursuer, "evader": robot(2.0, sees=True)},
-        settings=DuelSettings(seed=9, start=StartSettings(1.3, 0.4, -0.2)),
+        settings=DuelSettings(
+            seed=9, start=StartSettings(1.3, 0.4, -0.2)
+        ).resolved(),
         name="run",
         **changes,
     )

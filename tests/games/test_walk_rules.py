@@ -156,7 +156,7 @@ def test_steps_and_pushes_of_a_walk_are_counted() -> None:
     for time, _, x, y, *_ in rows:
         at = result.walker.torso[result.index_at(time)]
         np.testing.assert_allclose((x, y), at[:2], atol=2e-3)
-    assert result.settings is settings
+    assert result.settings == settings.resolved()
 
 
 def solved(iterations: int) -> MpcResult:
