@@ -124,11 +124,13 @@ def test_a_game_that_ends_when_its_time_is_up_has_ended_only(
     """
     steps, time, *end = _play_to_the_end(kind, 60.0, tmp_path)
     assert end == [True, False]
-    exact = _play_to_the_end(kind, time, tmp_path)
-    assert exact == (steps, pytest.approx(time), True, False)
+    exact, until, *end = _play_to_the_end(kind, time, tmp_path)
+    assert (exact, *end) == (steps, True, False)
+    assert until == pytest.approx(time)
     less = PERIOD * (steps - 1)
-    short = _play_to_the_end(kind, less, tmp_path)
-    assert short == (steps - 1, pytest.approx(less), False, True)
+    short, until, *end = _play_to_the_end(kind, less, tmp_path)
+    assert (short, *end) == (steps - 1, False, True)
+    assert until == pytest.approx(less)
 
 
 def _play_to_the_end(
