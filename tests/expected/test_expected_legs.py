@@ -149,17 +149,120 @@ def test_only_regular_files_are_read(
     raises=AssertionError,
     reason="only the number of inputs is looked at, not their type",
 )
-def test_a_network_of_doubles_is_no_network_that_can_run(
-    tmp_path: Path,
+@pytest.mark.parametrize("kind", ["FLOAT16", "DOUBLE"])
+def test_a_network_of_other_numbers_is_no_network_that_can_run(
+    kind: str, tmp_path: Path
 ) -> None:
     network = mjlab(tmp_path / "a.onnx")
     model = onnx.load(network)
+    number = getattr(onnx.TensorProto, kind)
     for port in (*model.graph.input, *model.graph.output):
-        port.type.tensor_type.elem_type = onnx.TensorProto.DOUBLE
+        port.type.tensor_type.elem_type = number
     for i, tensor in enumerate(model.graph.initializer):
-        values = onnx.numpy_helper.to_array(tensor).astype(np.float64)
+        values = onnx.numpy_helper.to_array(tensor)
+        values = values.astype(onnx.helper.tensor_dtype_to_np_dtype(number))
         model.graph.initializer[i].CopyFrom(
             onnx.numpy_helper.from_array(values, tensor.name)
         )
     onnx.save(model, network)
     refused("legs", "inspect", network)
+
+
+@pytest.mark.xfail(
+    strict=True,
+    raises=AssertionError,
+    reason="random generators in a network are not looked for",
+)
+def test_a_network_that_draws_is_named(tmp_path: Path) -> None:
+    network = mjlab(tmp_path / "a.onnx")
+    model = onnx.load(network)
+    nodes, node = model.graph.node, onnx.helper.make_node
+    nodes[0].output[0] = "plain"
+    nodes.append(node("RandomNormalLike", ["plain"], ["noise"], dtype=1))
+    nodes.append(node("Add", ["plain", "noise"], ["actions"]))
+    onnx.save(model, network)
+    assert stepaside("legs", "inspect", network, "--json").json["findings"]
+
+
+@pytest.mark.parametrize(
+    ("change", "reason"),
+    [
+        ("opset", "opset"),
+        ("operator", "acme:Own"),
+        ("cut", "parsing failed"),
+        ("rank", "rank"),
+    ],
+)
+def test_the_reason_of_the_runtime_is_passed_on(
+    change: str, reason: str, tmp_path: Path
+) -> None:
+    network = mjlab(tmp_path / "a.onnx")
+    model = onnx.load(network)
+    match change:
+        case "opset":
+            model.opset_import[0].version = 99
+        case "operator":
+            model.graph.node[0].op_type = "Own"
+            model.graph.node[0].domain = "acme"
+            model.opset_import.append(onnx.helper.make_opsetid("acme", 1))
+        case "rank":
+            for port in (*model.graph.input, *model.graph.output):
+                port.type.tensor_type.shape.dim.add().dim_value = 1
+    onnx.save(model, network)
+    if change == "cut":
+        network.write_bytes(network.read_bytes()[:200])
+    assert reason in refused("legs", "inspect", network).err
+
+
+def two_states(network: Path, order: str) -> Path:
+    """Write a network of two recurrent states, h counting, c at rest.
+
+    Args:
+        network: File to write.
+        order: Of its inputs and outputs: "as usual", "actions last" or
+            "states first".
+    """
+    write_policy(
+        network,
+        np.zeros((len(JOINTS), 18)),
+        np.zeros(len(JOINTS)),
+        MJLAB,
+        states=2,
+    )
+    model = onnx.load(network)
+    graph, tensor = model.graph, onnx.helper.make_tensor_value_info
+    graph.input.append(tensor("c_in", onnx.TensorProto.FLOAT, [1, 2]))
+    graph.output.append(tensor("c_out", onnx.TensorProto.FLOAT, [1, 2]))
+    graph.node.append(onnx.helper.make_node("Identity", ["c_in"], ["c_out"]))
+    for ports, last in (
+        (graph.output, order == "actions last"),
+        (graph.input, order == "states first"),
+    ):
+        if last:
+            kept = list(ports)
+            del ports[:]
+            ports.extend(kept[1:] + kept[:1])
+    onnx.save(model, network)
+    return network
+
+
+@pytest.mark.parametrize(
+    "order",
+    [
+        "as usual",
+        *(
+            pytest.param(
+                order,
+                marks=pytest.mark.xfail(
+                    strict=True,
+                    raises=AssertionError,
+                    reason="inputs and outputs are told by their order",
+                ),
+            )
+            for order in ("actions last", "states first")
+        ),
+    ],
+)
+def test_recurrent_states_are_told_by_name(order: str, tmp_path: Path) -> None:
+    network = two_states(tmp_path / "a.onnx", order)
+    stepaside("legs", "inspect", network)

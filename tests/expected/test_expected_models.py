@@ -3,9 +3,11 @@
 Each that still is wrong is expected to fail until it is mended.
 """
 
+import re
 from dataclasses import replace
 from pathlib import Path
 
+import mujoco
 import pytest
 
 import vendor_humanoid as stranger
@@ -55,3 +57,51 @@ def test_impossible_values_of_a_model_are_refused_by_name(
     model.write_text(text.replace(*change), encoding="utf-8")
     answer = stepaside("robot", "init", model, status=2, cwd=tmp_path)
     assert word in answer.err and "Traceback" not in answer.err
+
+
+@pytest.mark.parametrize("change", ["banner", "late", "ampersand", "comma"])
+@pytest.mark.xfail(
+    strict=True,
+    raises=AssertionError,
+    reason="the file is read before MuJoCo reads it, and less tolerantly",
+)
+def test_a_model_that_mujoco_compiles_is_read(
+    change: str, tmp_path: Path
+) -> None:
+    """A banner as a comment, or a declaration after a blank line."""
+    model = stranger.urdf(tmp_path)
+    text = model.read_text(encoding="utf-8")
+    match change:
+        case "banner":
+            text = text.replace("<link", "<!------ LEGS ------><link", 1)
+        case "late":
+            text = '\n<?xml version="1.0"?>\n' + text
+        case "ampersand":
+            text = text.replace('name="stranger"', 'name="A & B"', 1)
+        case "comma":
+            text = re.sub('velocity="[^"]*"', 'velocity="12,5"', text, count=1)
+    model.write_text(text, encoding="utf-8")
+    mujoco.MjModel.from_xml_path(str(model))
+    answer = stepaside("robot", "init", model, cwd=tmp_path)
+    assert "Traceback" not in answer.err
+
+
+@pytest.mark.parametrize(
+    "limits", ['lower="0" upper="0"', 'lower="-52" upper="52"']
+)
+@pytest.mark.xfail(
+    strict=True,
+    raises=AssertionError,
+    reason="limits of 0 and in degrees are taken without a word",
+)
+def test_limits_that_no_joint_has_are_named(
+    limits: str, tmp_path: Path
+) -> None:
+    model = stranger.urdf(tmp_path)
+    text = model.read_text(encoding="utf-8")
+    changed = text.replace('lower="-0.9" upper="0.9"', limits)
+    if changed == text:
+        raise ValueError("no limits to change in the model")
+    model.write_text(changed, encoding="utf-8")
+    answer = stepaside("robot", "init", model, status=2, cwd=tmp_path)
+    assert "limit" in answer.err
