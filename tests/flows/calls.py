@@ -282,10 +282,12 @@ def study(file: Path, output: Path, *words: object, **process: Any) -> Output:
     return stepaside("study", file, *kept, *words, **process)
 
 
-def start_study(file: Path, output: Path) -> "subprocess.Popen[str]":
+def start_study(
+    file: Path, output: Path, **environment: str
+) -> "subprocess.Popen[str]":
     """Start a study, which is ended before it has finished."""
     words = ("study", file, "--output", output, "--workers", 2)
-    return start_stepaside(*words)
+    return start_stepaside(*words, env=environment)
 
 
 def commands() -> list[str]:

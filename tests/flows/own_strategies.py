@@ -3,6 +3,7 @@
 import os
 from math import sin
 from pathlib import Path
+from time import sleep
 from typing import Any
 
 from stepaside import Evasion, Intent, Knowledge
@@ -47,12 +48,16 @@ class Straight(Evasion):
 
 
 class Counted(Evasion):
-    """The paper's evader; adds a line to a file when a game begins."""
+    """The paper's evader; adds a line to a file when a game begins.
+
+    Where games are to be slow, it takes its time for that.
+    """
 
     def begin(self) -> Any:
         """Return the memory of a game that begins."""
         with open(os.environ["GAMES_BEGUN"], "a", encoding="ascii") as file:
             file.write("x\n")
+        sleep(float(os.environ.get("GAMES_PAUSE", 0.0)))
         return super().begin()
 
 

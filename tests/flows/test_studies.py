@@ -121,7 +121,7 @@ def test_a_study_that_was_ended_goes_on_where_it_was(
 ) -> None:
     """When it was killed, and by Ctrl-C."""
     output = tmp_path / "ended"
-    process = calls.start_study(games.file, output)
+    process = calls.start_study(games.file, output, GAMES_PAUSE="0.4")
     until(lambda: any(f.stat().st_size for f in output.glob("records/*")))
     process.send_signal(number)
     _, said = process.communicate()
