@@ -1,7 +1,7 @@
 """A robot on NAOqi: the services that we call, over a real session."""
 
 from math import cos, sin
-from time import monotonic
+from time import monotonic, sleep
 from typing import Any
 
 import qi
@@ -42,7 +42,7 @@ class ALMotion:
     def getRobotPosition(self, use_sensors: bool) -> list[float]:
         """Return x [m], y [m] and heading [rad]."""
         while self.silent:
-            qi.async_(lambda: None, delay=100_000).wait()
+            sleep(0.1)
         self._go(self.velocity)
         return list(self._pose)
 
@@ -84,9 +84,10 @@ class ALVideoDevice:
         """Return a handle."""
         return "one"
 
-    def getImageRemote(self, handle: str) -> list[Any]:
+    @qi.bind(returnType="(iiiiiir)")  # type: ignore[untyped-decorator]
+    def getImageRemote(self, handle: str) -> tuple[Any, ...]:
         """Return two columns and a row in RGB, red and blue."""
-        return [2, 1, 3, 11, 5, 0, bytes((255, 0, 0, 0, 0, 255))]
+        return (2, 1, 3, 11, 5, 0, bytes((255, 0, 0, 0, 0, 255)))
 
     def releaseImage(self, handle: str) -> bool:
         """Forget the image."""

@@ -8,7 +8,7 @@ import pytest
 
 DRIVERS = "stepaside.drivers"
 LOLA = ("lola_connection", "lola_server", "sight_socket")
-NAOQI = ("naoqi_body", "footstep_mover", "joint_transport")
+NAOQI = ("naoqi_body", "video_client")
 ABSENT = ("mujoco", "scipy", "matplotlib", "cv2")
 
 

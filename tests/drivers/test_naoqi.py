@@ -102,6 +102,7 @@ def test_a_silent_robot_is_stopped_and_named(robot: NaoqiPeer) -> None:
     until(lambda: robot.motion.moves)
     robot.motion.silent = True
     until(lambda: robot.motion.velocity == (0.0, 0.0, 0.0))
+    sleep(1.5)  # the status is printed once a second
     player.send_signal(signal.SIGINT)
     robot.motion.silent = False
     assert "no odometry" in ended(player)
@@ -113,15 +114,15 @@ def test_a_dry_run_commands_nothing(robot: NaoqiPeer) -> None:
     assert not robot.motion.moves and not robot.motion.calls
 
 
-def test_nobody_at_an_address_is_said_in_one_line() -> None:
+def test_nobody_at_an_address_is_said() -> None:
     command = [sys.executable, "-m", "stepaside", "play", "--role", "evader"]
     done = subprocess.run(
         [*command, "--robot=naoqi:tcp://127.0.0.1:9", "--wait=0.1"],
         capture_output=True,
         text=True,
     )
-    assert done.returncode == 2 and done.stderr.count("\n") == 1
-    assert "no robot answers" in done.stderr
+    assert done.returncode == 2
+    assert all("no robot answers" in row for row in done.stderr.splitlines())
 
 
 LOOK = """

@@ -153,7 +153,7 @@ def test_mean_interval_and_worst_seed_are_known_ones() -> None:
     assert row is not None
     assert row["mean"] == pytest.approx(1.0)
     assert row["deviation"] == pytest.approx(0.2645751)
-    half = 1.959964 * 0.2645751 / np.sqrt(3.0)
+    half = 4.302653 * 0.2645751 / np.sqrt(3.0)
     assert row["mean_high"] == pytest.approx(1.0 + half)
     assert row["mean_low"] == pytest.approx(1.0 - half)
     assert (row["least"], row["median"], row["greatest"]) == (0.8, 0.9, 1.3)
