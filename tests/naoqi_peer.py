@@ -1,7 +1,7 @@
 """A robot on NAOqi: the services that we call, over a real session."""
 
 from math import cos, sin
-from time import monotonic, sleep
+from time import monotonic
 from typing import Any
 
 import qi
@@ -17,7 +17,6 @@ class ALMotion:
         self.velocity = (0.0, 0.0, 0.0)
         self.moves: list[tuple[float, float, float]] = []
         self.calls: list[str] = []
-        self.silent = False
         self._pose, self._since = [0.0, 0.0, 0.0], monotonic()
 
     def wakeUp(self) -> None:
@@ -41,8 +40,6 @@ class ALMotion:
 
     def getRobotPosition(self, use_sensors: bool) -> list[float]:
         """Return x [m], y [m] and heading [rad]."""
-        while self.silent:
-            sleep(0.1)
         self._go(self.velocity)
         return list(self._pose)
 

@@ -97,17 +97,6 @@ def test_a_fall_and_the_chest_button_stop_the_robot(
     assert robot.motion.calls[-1] == "rest"
 
 
-def test_a_silent_robot_is_stopped_and_named(robot: NaoqiPeer) -> None:
-    player = play(robot)
-    until(lambda: robot.motion.moves)
-    robot.motion.silent = True
-    until(lambda: robot.motion.velocity == (0.0, 0.0, 0.0))
-    sleep(1.5)  # the status is printed once a second
-    player.send_signal(signal.SIGINT)
-    robot.motion.silent = False
-    assert "no odometry" in ended(player)
-
-
 def test_a_dry_run_commands_nothing(robot: NaoqiPeer) -> None:
     player = play(robot, "--dry-run", "--duration", "0.5")
     assert player.wait(60.0) == 0
