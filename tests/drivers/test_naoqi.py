@@ -30,7 +30,6 @@ def robot() -> Iterator[NaoqiPeer]:
     peer = NaoqiPeer()
     peer.memory.values[SIGHT] = [0.0, 0.5, 2.0]
     yield peer
-    peer.motion.silent = False
     peer.session.close()
 
 
