@@ -7,15 +7,19 @@ from stepaside.core.poses import Array
 from stepaside.games.duel import Duel, run_duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.run import DuelRun
+from stepaside.locomotion.zmp.control_settings import ControlSettings
 from stepaside.planning import Foot
 from stepaside.report.landed_footsteps import footsteps_in
 from stepaside.report.scene import RunScene
 from stepaside.report.viewer.plot_history import PlotHistory
 from stepaside.sim.body_settings import BODIES
 
-# The odometry of a pursuer that turns drifts by centimetres.
+# Without feedback, the odometry of a pursuer that turns drifts by centimetres.
 SETTINGS = DuelSettings(
-    start=StartSettings(1.2, 1.4, 0.0), body=BODIES["hardware"], duration=12.0
+    start=StartSettings(1.2, 1.4, 0.0),
+    body=BODIES["hardware"],
+    control=ControlSettings(feedback=False),
+    duration=12.0,
 )
 
 
@@ -46,7 +50,7 @@ def test_footsteps_of_a_run_are_where_the_soles_landed(run: DuelRun) -> None:
     assert away.max() < 5e-3
     # Those of the plan, in odometry, are elsewhere.
     wrong = planned[: len(inside), 2:4] - soles(run, inside)
-    assert np.linalg.norm(wrong, axis=1).max() > 3.0 * 5e-3
+    assert np.linalg.norm(wrong, axis=1).max() > 0.03
 
 
 def test_footsteps_that_have_not_landed_are_left_out(run: DuelRun) -> None:
