@@ -75,16 +75,27 @@ class ALRobotPosture:
 
 
 class ALVideoDevice:
-    """One camera; its newest image is always the same."""
+    """One camera, whose images differ by their stamps only."""
+
+    def __init__(self) -> None:
+        self.taken, self.frozen, self.watched = 0, False, False
 
     def subscribeCamera(self, *_: Any) -> str:
         """Return a handle."""
+        self.watched = True
         return "one"
+
+    def unsubscribe(self, handle: str) -> bool:
+        """Take a handle back."""
+        self.watched = False
+        return True
 
     @qi.bind(returnType="(iiiiiir)")  # type: ignore[untyped-decorator]
     def getImageRemote(self, handle: str) -> tuple[Any, ...]:
         """Return two columns and a row in RGB, red and blue."""
-        return (2, 1, 3, 11, 5, 0, bytes((255, 0, 0, 0, 0, 255)))
+        self.taken += not self.frozen
+        stamp = divmod(self.taken * 66_667, 1_000_000)
+        return (2, 1, 3, 11, *stamp, bytes((255, 0, 0, 0, 0, 255)))
 
     def releaseImage(self, handle: str) -> bool:
         """Forget the image."""
@@ -97,13 +108,14 @@ class NaoqiPeer:
     def __init__(self) -> None:
         qi.logging.setLevel(qi.logging.FATAL)
         self.motion, self.memory = ALMotion(), ALMemory()
+        self.video = ALVideoDevice()
         self.session = qi.Session()
         self.session.listenStandalone("tcp://127.0.0.1:0")
         for service in (
             self.motion,
             self.memory,
             ALRobotPosture(),
-            ALVideoDevice(),
+            self.video,
         ):
             self.session.registerService(type(service).__name__, service)
         self.url = str(self.session.endpoints()[0])

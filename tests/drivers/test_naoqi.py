@@ -114,23 +114,39 @@ def test_nobody_at_an_address_is_said() -> None:
 
 
 LOOK = """
-import sys, time
+import logging, sys, time
 from stepaside.drivers.naoqi.video_client import open_video
 from stepaside.sim.camera_settings import ColourSettings
+logging.basicConfig()
 camera = open_video(sys.argv[1], ColourSettings().model(), rate=15, latency=0)
 while not (found := camera.percepts(3.0)):
     time.sleep(0.01)
 print(found[0].pixels.tolist())
+time.sleep(float(sys.argv[2]))
 camera.close()
 """
 
 
-def test_images_of_the_camera_are_rgb(robot: NaoqiPeer) -> None:
+def look(robot: NaoqiPeer, rest: float) -> tuple[str, str]:
+    """Take an image, rest, in [s], and end; return what was said."""
     done = subprocess.run(
-        [sys.executable, "-c", LOOK, robot.url],
+        [sys.executable, "-c", LOOK, robot.url, str(rest)],
         capture_output=True,
         text=True,
         timeout=60.0,
         check=True,
     )
-    assert done.stdout.strip() == "[[[255, 0, 0], [0, 0, 255]]]"
+    return done.stdout.strip(), done.stderr
+
+
+def test_images_of_the_camera_are_rgb(robot: NaoqiPeer) -> None:
+    image, said = look(robot, 0.0)
+    assert image == "[[[255, 0, 0], [0, 0, 255]]]"
+    assert not said and not robot.video.watched
+
+
+def test_a_camera_that_freezes_is_named(robot: NaoqiPeer) -> None:
+    """Its thread ends, as the process could not end beside it."""
+    robot.video.frozen = True
+    _, said = look(robot, 2.5)
+    assert "no new image within 2 s" in said

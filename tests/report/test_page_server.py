@@ -36,7 +36,7 @@ def answer(server: Any, *headers: str) -> str:
     ]
     with socket.create_connection(("127.0.0.1", port), timeout=60) as link:
         link.sendall("\r\n".join([*lines, "", ""]).encode())
-        return link.recv(4096).decode().partition("\r\n")[0]
+        return link.recv(4096).decode("latin-1").partition("\r\n")[0]
 
 
 def test_only_pages_of_this_address_connect(server: Any) -> None:

@@ -65,12 +65,12 @@ def reproduce(
     campaign = campaign.with_default(Path("runs/reproduce"))
     assert campaign.output is not None
     output = campaign.output
+    study = claim_study(range(seed, seed + runs), legs_robot)
     announce_effort(
         f"every claim of the paper, {runs} runs of those in physics",
         campaign.share(60 + 120 * runs),
         campaign.workers,
     )
-    study = claim_study(range(seed, seed + runs), legs_robot)
     run = run_campaign(study, campaign, "runs")
     finish_campaign(run, campaign, "runs")
     if not campaign.is_whole:

@@ -9,7 +9,7 @@ from typing import NamedTuple, Protocol
 from ...perception.camera_model import CameraModel
 from ...perception.images import ColourImage, Percept, Pixels
 
-JOIN_TIMEOUT = 2.0  # for the camera's thread to end, in [s]
+JOIN_TIMEOUT = 5.0  # for the camera's thread to end, in [s]
 MAX_AGE = 1.0  # age at which an image is discarded, in [s]
 log = logging.getLogger(__name__)
 

@@ -1,6 +1,6 @@
 """Client of ALVideoDevice, the camera service of NAOqi."""
 
-from time import sleep
+from time import monotonic, sleep
 from typing import Any
 
 import numpy as np
@@ -20,7 +20,7 @@ RESOLUTIONS = {  # index of each size (columns, rows)
     (1280, 960): 3,
 }
 NAME = "stepaside"  # of the subscriber; a robot accepts six of a name
-TIMEOUT = 2.0  # for the answer with an image, in [s]
+TIMEOUT = 2.0  # for an answer, and for an image that is new, in [s]
 POLL = 0.01  # between two polls for a new image, in [s]
 # Fields of an image.
 WIDTH, HEIGHT, LAYERS, SPACE, SECONDS, MICROS, DATA = range(7)
@@ -100,7 +100,8 @@ def open_video(
 
     def grab() -> Pixels | None:
         nonlocal newest
-        while True:
+        end = monotonic() + TIMEOUT
+        while monotonic() < end:
             image = ask(device, "getImageRemote", handle, within=TIMEOUT)
             ask(device, "releaseImage", handle, within=TIMEOUT)
             if image and image[WIDTH]:
@@ -109,6 +110,7 @@ def open_video(
                     newest = stamp
                     return pixels_of(image)
             sleep(POLL)
+        raise SessionLost(f"no new image within {TIMEOUT:g} s")
 
     def let_go() -> None:
         try:

@@ -230,16 +230,16 @@ class DuelPanel:
             Whether the settings were valid.
         """
         session, started = self._session, self._settings
-        start = started.start
-        if started.room.plan is None:  # rooms draw their starts
-            start = replace(
-                start,
-                distance=float(self._distance.value),
-                pursuer_offset=radians(float(self._pursuer_off.value)),
-                evader_offset=radians(float(self._evader_off.value)),
-            )
         body, control = self._bodies_by_name[self._body.value]
         try:
+            start = started.start
+            if started.room.plan is None:  # rooms draw their starts
+                start = replace(
+                    start,
+                    distance=float(self._distance.value),
+                    pursuer_offset=radians(float(self._pursuer_off.value)),
+                    evader_offset=radians(float(self._evader_off.value)),
+                )
             settings = replace(
                 started,
                 seed=int(self._seed.value),
