@@ -12,8 +12,8 @@ from stepaside.drivers.lola.lola_frames import (
     ActuatorFrame,
     SensorFrame,
     pack_sensors,
-    unpack_actuators,
 )
+from stepaside.drivers.lola.lola_server import ActuatorFrameReader
 from stepaside.drivers.lola.nao_joints import NAMES, TICK
 from stepaside.perception.measurement import Measurement, Sighting
 
@@ -120,7 +120,7 @@ class FakeLink:
         """Note what is sent."""
         if self.broken:
             raise SessionLost("broken")
-        self.sent.append(unpack_actuators(data))
+        self.sent += ActuatorFrameReader().feed(data)
         if self.follow is not None:
             self.follow(self.sent[-1])
 

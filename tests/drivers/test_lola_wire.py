@@ -11,7 +11,6 @@ from stepaside.drivers.lola.lola_frames import (
     ActuatorFrame,
     pack_actuators,
     pack_sensors,
-    unpack_actuators,
     unpack_sensors,
 )
 from stepaside.drivers.lola.lola_server import ActuatorFrameReader
@@ -113,10 +112,15 @@ def test_reading_returns_what_was_written() -> None:
             np.testing.assert_array_equal(got, np.float32(sent))  # type: ignore[arg-type]
         else:
             assert got == sent
-    answer = unpack_actuators(ACTUATOR_VECTOR)
+    answer = read(ACTUATOR_VECTOR)
     np.testing.assert_array_equal(answer.position, VECTOR_ANSWER.position)
     np.testing.assert_array_equal(answer.stiffness, VECTOR_ANSWER.stiffness)
     assert answer[2:] == VECTOR_ANSWER[2:]
+
+
+def read(data: bytes) -> ActuatorFrame:
+    (frame,) = ActuatorFrameReader().feed(data)
+    return frame
 
 
 def repacked(data: bytes, **changes: Any) -> bytes:
@@ -133,12 +137,12 @@ def test_garbage_in_lights_is_cut_but_garbage_in_targets_is_refused() -> None:
     wild = repacked(
         ACTUATOR_VECTOR, Chest=[nan, -1e30, 7.0], Stiffness=[2] * 25
     )
-    answer = unpack_actuators(wild)
+    answer = read(wild)
     assert answer.lights["Chest"] == (0.0, 0.0, 1.0)
     assert answer.stiffness is not None and answer.stiffness.max() == 1.0
     for key in ("Position", "Stiffness"):
         with pytest.raises(WireError, match=f"{key} must be finite"):
-            unpack_actuators(repacked(ACTUATOR_VECTOR, **{key: [nan] * 25}))
+            read(repacked(ACTUATOR_VECTOR, **{key: [nan] * 25}))
 
 
 @pytest.mark.parametrize(
@@ -151,7 +155,7 @@ def test_garbage_in_lights_is_cut_but_garbage_in_targets_is_refused() -> None:
         ({"Sonar": [1.0, 0.0]}, "Sonar must hold bool values, got float"),
         ({"Torque": [1.0]}, "unknown key 'Torque'"),
         ({"Chest": ["red"] * 3}, "Chest must hold numbers, got str"),
-        ({"Position": [1e39] + [0] * 24}, "cannot decode MessagePack|finite"),
+        ({"Position": [1e39] + [0] * 24}, "cannot decode|finite"),
     ],
 )
 def test_an_answer_with_a_fault_is_refused_by_name(
@@ -159,7 +163,7 @@ def test_an_answer_with_a_fault_is_refused_by_name(
 ) -> None:
     values = msgpack.unpackb(ACTUATOR_VECTOR) | changes
     with pytest.raises(WireError, match=said):
-        unpack_actuators(msgpack.packb(values))
+        read(msgpack.packb(values))
 
 
 @pytest.mark.parametrize(
@@ -189,13 +193,12 @@ def test_faults_that_keep_the_length_are_refused_too() -> None:
         unpack_sensors(endless)
 
 
-def test_every_truncation_is_refused() -> None:
+def test_no_truncated_frame_is_read() -> None:
     for length in range(SENSOR_BYTES):
         with pytest.raises(WireError):
             unpack_sensors(SENSOR_VECTOR[:length])
     for length in range(len(ACTUATOR_VECTOR)):
-        with pytest.raises(WireError):
-            unpack_actuators(ACTUATOR_VECTOR[:length])
+        assert not ActuatorFrameReader().feed(ACTUATOR_VECTOR[:length])
 
 
 def test_answers_are_cut_out_of_a_stream_wherever_it_is_cut() -> None:

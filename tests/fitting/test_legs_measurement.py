@@ -82,8 +82,9 @@ def test_linear_legs_are_measured_exactly(robot: RobotDescription) -> None:
     np.testing.assert_allclose(result.gains(), GAINS, atol=1e-12)
     assert result.response.odometry_ratio == pytest.approx((1.05, 1.1))
     assert result.combined_error == pytest.approx((0.0, 0.0), abs=1e-12)
-    wanted = BodyVelocity(0.4, 0.1, -0.3)
-    found = result.response.deliver(result.response.command_for(wanted))
+    wanted, command = np.array([0.4, 0.1, -0.3]), np.zeros(3)
+    result.response.inverse(wanted, command)()
+    found = result.response.deliver(BodyVelocity(*command))
     assert found == pytest.approx(wanted)
     assert [axis.lag for axis in result.response.axes] == [0.3] * 3
     assert result.response.velocities.tube == pytest.approx(0.3)  # the widest

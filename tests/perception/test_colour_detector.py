@@ -58,8 +58,8 @@ def draw_box(pixels: Pixels, colour: str, at: int, tall: int) -> None:
 
 def look_for(appearance: Appearance, pixels: Pixels) -> float | None:
     image = ColourImage(0.0, CAMERA, pixels)
-    found = ColourDetector(appearance).detect(image)
-    return None if found is None else found.column
+    found = ColourDetector(appearance).detect_all(image, most=1)
+    return found[0].column if found else None
 
 
 @pytest.mark.parametrize("colour", PAINT)
@@ -83,7 +83,6 @@ def test_several_robots_are_detected_the_tallest_first(colour: str) -> None:
     found = detector.detect_all(image, most=2)
     assert [d.column for d in found] == pytest.approx([160, 250], abs=2.0)
     assert len(detector.detect_all(image, most=8)) == 3
-    assert detector.detect(image) == found[0]
 
 
 def test_a_mirrored_image_mirrors_the_detection() -> None:
@@ -124,8 +123,8 @@ def test_an_empty_room_gives_no_detection() -> None:
 def test_a_cut_by_an_image_edge_is_reported() -> None:
     pixels = empty()
     draw_robot(pixels, "blue", 160, 260)
-    found = ColourDetector(BLUE).detect(ColourImage(0.0, CAMERA, pixels))
-    assert found is not None
+    image = ColourImage(0.0, CAMERA, pixels)
+    (found,) = ColourDetector(BLUE).detect_all(image, most=1)
     assert found.cut_below
     assert not found.cut_aside
 
@@ -145,14 +144,14 @@ def draw_ears(pixels: Pixels, paint: tuple[int, ...], at: int) -> None:
 @pytest.mark.parametrize("colour", PAINT)
 def test_one_pixel_wide_ears_are_the_upper_end(colour: str) -> None:
     """Otherwise such a robot appears a seventh farther away."""
-    find = ColourDetector(LOOKS[colour]).detect
+    detector = ColourDetector(LOOKS[colour])
     tops = []
     for paint in (PAINT[colour], pale(colour), (240, 240, 238)):
         pixels = empty()
         draw_robot(pixels, colour, 160, 100)
         draw_ears(pixels, paint, 160)
-        found = find(ColourImage(0.0, CAMERA, pixels))
-        assert found is not None
+        image = ColourImage(0.0, CAMERA, pixels)
+        (found,) = detector.detect_all(image, most=1)
         tops.append(found.top)
     strong, faint, absent = tops
     assert faint == pytest.approx(strong, abs=2.0)
@@ -164,12 +163,14 @@ def test_faint_patches_away_from_the_ears_are_ignored(colour: str) -> None:
     """A poster on the wall behind it, and its own arm beside it."""
     pixels = empty()
     draw_robot(pixels, colour, 160, 100)
-    find = ColourDetector(LOOKS[colour]).detect
-    plain = find(ColourImage(0.0, CAMERA, pixels))
+    detector = ColourDetector(LOOKS[colour])
+    plain = detector.detect_all(ColourImage(0.0, CAMERA, pixels), most=1)
+    assert plain
     for left, top, right, bottom in ((100, 10, 220, 90), (190, 90, 200, 96)):
         behind = pixels.copy()
         behind[top:bottom, left:right] = pale(colour)
-        assert find(ColourImage(0.0, CAMERA, behind)) == plain
+        image = ColourImage(0.0, CAMERA, behind)
+        assert detector.detect_all(image, most=1) == plain
 
 
 @pytest.mark.parametrize(
@@ -198,5 +199,5 @@ def test_small_specks_are_no_patches(
 
         monkeypatch.setattr(detector, "mask", marked)
         empty = np.zeros((*mask.shape, 3), np.uint8)
-        found = detector.detect(ColourImage(0.0, camera, empty))
-        assert (found is not None) is (count == least)
+        image = ColourImage(0.0, camera, empty)
+        assert bool(detector.detect_all(image, most=1)) is (count == least)

@@ -215,10 +215,9 @@ def test_specks_below_the_minimum_area_are_ignored(
     width: int, height: int, counts: bool
 ) -> None:
     """Blurred, six pixels of the one pass as red and five of the other."""
-    plain = ColourDetector(RED).detect(scene(*SPREAD))
-    speck = 185, 66, width, height
-    found = ColourDetector(RED).detect(scene(*SPREAD, speck))
-    assert plain is not None and found is not None
+    (plain,) = ColourDetector(RED).detect_all(scene(*SPREAD), most=1)
+    image = scene(*SPREAD, (185, 66, width, height))
+    (found,) = ColourDetector(RED).detect_all(image, most=1)
     assert plain.right == pytest.approx(180, abs=1)
     assert (found.right > plain.right) is counts
 
@@ -227,8 +226,8 @@ def test_the_tallest_of_several_robots_is_detected() -> None:
     small = [(x // 2 + 200, y // 2 + 10, 10, 10) for x, y, _, _ in SPREAD]
     large = [(x - 95, y + 60, a, b) for x, y, a, b in SPREAD]
     for blots in (small + large, large + small):
-        found = ColourDetector(RED).detect(scene(*blots))
-        assert found is not None and found.right < 100
+        (found,) = ColourDetector(RED).detect_all(scene(*blots), most=1)
+        assert found.right < 100
     upside = [(x, 230 - y, a, b) for x, y, a, b in small + large]
-    found = ColourDetector(RED).detect(scene(*upside))
-    assert found is not None and found.right < 100
+    (found,) = ColourDetector(RED).detect_all(scene(*upside), most=1)
+    assert found.right < 100

@@ -206,11 +206,12 @@ def test_columns_beside_a_blocked_one_start_at_the_near_limit() -> None:
             c, s = np.cos(turned), np.sin(turned)
             axes = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
             seen.take(image, CameraPose(eye, axes, (0.0, 0.0)), None)
-    shown = seen.known_cells()
-    assert near.clearance(shown).min() > -0.5 * CELL
+    grid = np.mgrid[0.3:1.2:0.02, -0.5:0.5:0.02].reshape(2, -1).T
+    inside = grid[near.clearance(grid) < -0.5 * CELL]
     beyond = np.array([[0.6, 0.35], [0.6, -0.35], [1.2, 0.5]])
-    gaps = np.hypot(*(shown[:, None] - beyond).transpose(2, 0, 1))
-    assert gaps.min(axis=0).max() < CELL  # and what is clear of it does
+    for places, hidden in ((inside, True), (beyond, False)):
+        parts = [p.clearance(places) for p in seen.unknown((0.0, 0.0))]
+        assert ((np.min(parts, axis=0) <= 0.0) == hidden).all()
 
 
 @pytest.mark.parametrize("width", [8, 21])

@@ -96,11 +96,6 @@ class ColourDetector:
         """Set the appearance to detect."""
         self.appearance = appearance
 
-    def detect(self, image: ColourImage) -> ColourDetection | None:
-        """Detect the robot; the tallest group if there are several."""
-        found = self.detect_all(image, most=1)
-        return found[0] if found else None
-
     def detect_all(
         self, image: ColourImage, *, most: int
     ) -> list[ColourDetection]:

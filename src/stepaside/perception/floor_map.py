@@ -231,10 +231,6 @@ class FloorMap:
         """Return the centres of occupied cells in odometry. Shape (n, 2)."""
         return _centres(self._evidence > OCCUPIED)
 
-    def known_cells(self) -> Array:
-        """Return the centres of known cells in odometry. Shape (n, 2)."""
-        return _centres(self._known)
-
     def occupied(self) -> tuple[Polygon, ...]:
         """Return the occupied cells as polygons in odometry."""
         return cover(self.occupied_cells(), CELL)

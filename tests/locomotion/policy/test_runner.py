@@ -283,7 +283,6 @@ def test_walkers_evaluated_together_have_the_bits_of_each_alone(
     pool = NetworkPool()
     network = pool.load(file)
     assert pool.load(file) is network
-    assert network.is_batched
     seen = rng.normal(size=(7, 3))
     memories = [network.initial_memory() for _ in seen]
     for _ in range(3):
@@ -306,7 +305,6 @@ def test_a_network_for_one_walker_serves_each_in_turn(tmp_path: Path) -> None:
     """Its graph contains the shape of one observation."""
     file = write_policy(tmp_path / "a.onnx", np.eye(3), np.zeros(3), one=True)
     network = PolicyNetwork(file)
-    assert not network.is_batched
     seen = [np.arange(3.0), np.arange(3.0, 6.0)]
     found = network.evaluate(seen, [(), ()])
     np.testing.assert_array_equal([action for action, _ in found], seen)

@@ -36,6 +36,12 @@ MEASURED = VelocityResponse(
 )
 
 
+def command_for(response: VelocityResponse, velocity: V) -> V:
+    command = np.zeros(3)
+    response.inverse(np.array(velocity), command)()
+    return V(*command.tolist())
+
+
 @pytest.mark.parametrize("forward", [-0.5, -0.1, 0.0, 0.3, 0.6])
 @pytest.mark.parametrize("lateral", [-0.2, 0.0, 0.2])
 @pytest.mark.parametrize("turn", [-0.6, 0.0, 0.3])
@@ -43,7 +49,7 @@ def test_a_deliverable_velocity_is_delivered(
     forward: float, lateral: float, turn: float
 ) -> None:
     wanted = V(forward, lateral, turn)
-    command = MEASURED.command_for(wanted)
+    command = command_for(MEASURED, wanted)
     np.testing.assert_allclose(
         MEASURED.deliver(command), wanted, rtol=0.0, atol=1e-9
     )
@@ -53,10 +59,10 @@ def test_machine_code_has_the_bits_of_python() -> None:
     generator = np.random.default_rng(2)
     with plain_python():
         plain = VelocityResponse(MEASURED.axes)
-        plain.command_for(V())
+        command_for(plain, V())
     for _ in range(50):
         wanted = V(*(0.6 * generator.normal(size=3)).tolist())
-        assert plain.command_for(wanted) == MEASURED.command_for(wanted)
+        assert command_for(plain, wanted) == command_for(MEASURED, wanted)
 
 
 def test_the_nearest_velocity_keeps_the_path() -> None:
@@ -70,7 +76,7 @@ def test_the_nearest_velocity_keeps_the_path() -> None:
 def test_ideal_legs_deliver_commands() -> None:
     legs = VelocityResponse.ideal(CommandRanges(forward=(-0.5, 2.0)))
     velocity = V(1.2, -0.3, 0.4)
-    assert legs.command_for(velocity) == pytest.approx(velocity)
+    assert command_for(legs, velocity) == pytest.approx(velocity)
     assert legs.velocities.forward == (-0.5, 2.0)
 
 

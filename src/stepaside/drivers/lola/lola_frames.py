@@ -10,7 +10,6 @@ from ...core.poses import Array
 from .wire import (
     ACTUATOR_FIELDS,
     LIGHTS,
-    LONGEST_ANSWER,
     SENSOR_BYTES,
     SENSOR_FIELDS,
     WireError,
@@ -153,16 +152,6 @@ def pack_actuators(frame: ActuatorFrame) -> bytes:
     if frame.sonar is not None:
         values["Sonar"] = frame.sonar
     return encode(values, ACTUATOR_FIELDS)
-
-
-def unpack_actuators(data: bytes) -> ActuatorFrame:
-    """Decode an actuator frame; see :func:`clip_actuators`."""
-    if len(data) > LONGEST_ANSWER:
-        raise WireError(
-            f"an actuator frame has at most {LONGEST_ANSWER} bytes, "
-            f"got {len(data)}"
-        )
-    return clip_actuators(decode(data))
 
 
 def clip_actuators(decoded: object) -> ActuatorFrame:

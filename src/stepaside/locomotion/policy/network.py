@@ -131,11 +131,6 @@ class PolicyNetwork:
                 return batched
         return None
 
-    @property
-    def is_batched(self) -> bool:
-        """Whether several walkers are evaluated at once."""
-        return self._batched is not None
-
     def _run(
         self,
         session: Any,

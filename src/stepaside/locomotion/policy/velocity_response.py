@@ -170,16 +170,6 @@ class VelocityResponse:
         effects = [self._effect(i, c) for i, c in enumerate(command)]
         return BodyVelocity(*np.sum(effects, axis=0).tolist())
 
-    def command_for(self, velocity: BodyVelocity) -> BodyVelocity:
-        """Return the command whose delivered velocity is nearest to one.
-
-        Each axis in turn is solved for what the others leave; the cross terms
-        of walking policies are small.
-        """
-        command = np.zeros(3)
-        self.inverse(np.array(velocity), command)()
-        return BodyVelocity(*command.tolist())
-
     @property
     def tables(self) -> tuple[NDArray[np.int_], Array, Array]:
         """Number of commands of each axis, the commands, and their effects.
@@ -196,6 +186,10 @@ class VelocityResponse:
 
     def inverse(self, velocity: Array, command: Array) -> Callable[[], int]:
         """Return the loop that sets the command for a velocity.
+
+        The velocity that the command delivers is nearest to it. Each axis in
+        turn is solved for what the others leave; the cross terms of walking
+        policies are small.
 
         Args:
             velocity: Velocity that is read. Shape (3,).
