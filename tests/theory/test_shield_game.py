@@ -11,6 +11,7 @@ from stepaside.core.poses import Array
 from stepaside.theory.chauffeur.chauffeur_game import guaranteed_distance
 from stepaside.theory.shield import (
     PersonModel,
+    PoseGrid,
     ShieldGame,
     ShieldTable,
     solve_shield,
@@ -188,6 +189,22 @@ def test_values_hold_against_every_walk_and_displacement() -> None:
         check("halt", table.halting_value(pose, 0.6, 0.1), value, way)
     for name, each in excess.items():
         assert max(each) < cells[name] * table.grid.spacing, name
+
+
+def test_a_start_pays_for_every_place_within_its_loss() -> None:
+    """A cliff of the values is charged five cells before it, not six."""
+    still, motion = PersonModel(1e-6, 1.0), sub_poses([(0.0, 0.0, 0.0)], 1.0)
+    game = ShieldGame(still, motion, 1.0, loss=0.5)
+    grid = PoseGrid(5.0, 0.1, (41, 11, 8))
+    values = np.ones(grid.shape)
+    values[20:] = 0.0  # from x = 7 m on
+    starts = np.zeros((0, *grid.whole().shape))
+    table = ShieldTable(
+        game, grid, values, values, values, starts, 1.0, 1.0, 0.0, 0.0
+    )
+    for x, least in ((6.4, 1.0), (6.5, 0.0), (6.9, 0.0)):
+        (found,) = table.start_outcomes((x, 0.3, 0.5), motion, 1.0)
+        assert (found > 0.5) == (least > 0.5), (x, found)
 
 
 @pytest.mark.parametrize("least", [0.0, -0.2, float("nan")])
