@@ -1,7 +1,7 @@
 """A robot on NAOqi: the services that we call, over a real session."""
 
 from math import cos, sin
-from time import monotonic
+from time import monotonic, sleep
 from typing import Any
 
 import qi
@@ -10,10 +10,15 @@ FALLEN, BUTTON = "robotHasFallen", "ChestButtonPressed"
 SIGHT = "Stepaside/IdealSight"  # age [s], bearing [rad], distance [m]
 
 
+@qi.multiThreaded()  # type: ignore[untyped-decorator]
 class ALMotion:
-    """Walk by ``move``, as long as nothing else is said."""
+    """Walk by ``move``, as long as nothing else is said.
+
+    While it is silent it takes commands, but does not say where it is.
+    """
 
     def __init__(self) -> None:
+        self.silent = False
         self.velocity = (0.0, 0.0, 0.0)
         self.moves: list[tuple[float, float, float]] = []
         self.calls: list[str] = []
@@ -40,6 +45,8 @@ class ALMotion:
 
     def getRobotPosition(self, use_sensors: bool) -> list[float]:
         """Return x [m], y [m] and heading [rad]."""
+        while self.silent:
+            sleep(0.02)
         self._go(self.velocity)
         return list(self._pose)
 

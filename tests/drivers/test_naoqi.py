@@ -4,15 +4,15 @@ import os
 import signal
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
-from time import monotonic, sleep
 
 import pytest
 
 pytest.importorskip("qi")
 import qi  # noqa: E402
 
+from flows.running import Running, until  # noqa: E402
 from naoqi_peer import BUTTON, FALLEN, SIGHT, NaoqiPeer  # noqa: E402
 from stepaside import Outcome, load_run  # noqa: E402
 
@@ -30,6 +30,7 @@ def robot() -> Iterator[NaoqiPeer]:
     peer = NaoqiPeer()
     peer.memory.values[SIGHT] = [0.0, 0.5, 2.0]
     yield peer
+    peer.motion.silent = False
     peer.session.close()
 
 
@@ -38,17 +39,10 @@ def play(robot: NaoqiPeer, *words: str) -> subprocess.Popen[str]:
     command = [sys.executable, "-m", "stepaside", "play", "--role", "pursuer"]
     return subprocess.Popen(
         [*command, f"--robot=naoqi:{robot.url}", *words],
+        stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
     )
-
-
-def until(holds: Callable[[], object]) -> None:
-    """Wait until something holds; the limit is for what hangs."""
-    end = monotonic() + 60.0
-    while not holds():
-        assert monotonic() < end
-        sleep(0.01)
 
 
 def ended(player: subprocess.Popen[str]) -> str:
@@ -94,6 +88,18 @@ def test_a_fall_and_the_chest_button_stop_the_robot(
     player.send_signal(signal.SIGINT)
     ended(player)
     assert robot.motion.calls[-1] == "rest"
+
+
+def test_a_silent_robot_is_stopped_and_named(robot: NaoqiPeer) -> None:
+    player = Running(play(robot))
+    until(lambda: any(robot.motion.velocity))
+    assert "no odometry" not in player.said
+    robot.motion.silent = True
+    until(lambda: not any(robot.motion.velocity))
+    player.until_said("no odometry")
+    robot.motion.silent = False
+    until(lambda: any(robot.motion.velocity))  # and on again
+    assert player.interrupt() == 0
 
 
 def test_a_dry_run_commands_nothing(robot: NaoqiPeer) -> None:
