@@ -24,8 +24,8 @@ from stepaside.perception.perception_builder import (
     build_perception,
 )
 from stepaside.perception.track import Observation, TargetTrack
-from stepaside.robots.description import load_robot
-from stepaside.robots.head import load_head
+from stepaside.robots.description import RobotDescription, load_robot
+from stepaside.robots.head import HeadDescription, load_head
 
 TICK = 0.02
 
@@ -67,12 +67,17 @@ class Eyes:
     """Perception of a robot that stands somewhere, turned."""
 
     def __init__(
-        self, mapping: FloorMapping | None = None, *, people: bool = False
+        self,
+        mapping: FloorMapping | None = None,
+        *,
+        people: bool = False,
+        robot: RobotDescription = NAO,
+        head: HeadDescription = HEAD,
     ) -> None:
         self.detector = FakeDetector()
         detector: Any = self.detector
         self.perception = build_perception(
-            NAO, HEAD, detector, tick=TICK, mapping=mapping, people=people
+            robot, head, detector, tick=TICK, mapping=mapping, people=people
         )
         self.reports: list[FrameReport] = []  # of all ticks so far
         self.support = SUPPORT

@@ -17,7 +17,7 @@ from stepaside.perception.percept_stages import (
     NEAR_MARGIN,
 )
 from stepaside.perception.perception_builder import FloorMapping
-from stepaside.perception.sonar import AXIS_OFFSET, HALF_CONE, MIN_AGE
+from stepaside.perception.sonar import HALF_CONE, MIN_AGE
 from synthetic_cameras import (
     HEAD,
     SUPPORT,
@@ -152,13 +152,26 @@ def test_an_echo_without_track_starts_one_nearby(
     (track,) = eyes.tracks
     x, y, heading = eyes.torso
     away = track.distance_from(x, y, 3 * TICK)
-    assert away == pytest.approx(0.59 + AXIS_OFFSET)
+    assert away == pytest.approx(0.69, abs=5e-4)
     turned = track.bearing_from(x, y, 3 * TICK)
     assert turned == pytest.approx(axis_of(eyes, sonar))
     assert (turned > heading) == (sonar == "left")
     assert track.identified_at == -np.inf and track.ranged_at == 3 * TICK
     assert track.deviation_at(3 * TICK) == pytest.approx(0.25)
-    assert AXIS_OFFSET == 0.10
+
+
+def test_an_echo_counts_from_the_sonar() -> None:
+    """On a deeper robot it is farther ahead of the axis."""
+    distances = []
+    for ahead in (0.0, 0.2):
+        mount = HEAD.sonars["left"]
+        position = mount.position_in_body + ahead * mount.axes_in_body[:, 0]
+        sonars = {"left": replace(mount, position_in_body=position)}
+        eyes = Eyes(head=replace(HEAD, sonars=sonars))
+        eyes.see(TICK, SonarEcho(TICK, "left", 0.4))
+        (track,) = eyes.tracks
+        distances.append(track.distance_from(*eyes.torso[:2], TICK))
+    assert distances[1] - distances[0] == pytest.approx(0.2)
 
 
 def test_a_cut_obstacle_updates_but_starts_no_track(
@@ -287,7 +300,7 @@ def test_an_echo_near_a_mapped_obstacle_is_ignored(
     gap: float, heard: bool
 ) -> None:
     eyes, floor = mapping()
-    floor.wall = 0.5 + AXIS_OFFSET + gap
+    floor.wall = 0.6 + gap
     facing = axis_of(eyes, "left") - eyes.torso.theta
     track = eyes.know(*eyes.beside(0.75, facing), time=-1.0)
     eyes.see(TICK, SonarEcho(TICK, "left", 0.5))

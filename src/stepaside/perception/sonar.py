@@ -10,9 +10,7 @@ from .images import SonarEcho
 from .track import Observation, TargetTrack
 
 MIN_AGE = 0.25  # of the last measured distance before an echo counts, in [s]
-# From the sonar to the own axis plus from the surface of the opponent to its
-# axis, in [m].
-AXIS_OFFSET = 0.10
+BODY_DEPTH = 0.09  # from the surface of the opponent to its axis, in [m]
 MIN_ECHO = 0.25  # shorter echoes may come from the own arms, in [m]
 MAX_NEW = 0.6  # longest echo that starts a track, in [m]
 HALF_CONE = radians(50.0)  # within which an opponent gives an echo
@@ -44,7 +42,7 @@ def observe_echo(
     assert echo.distance is not None
     x, y, heading = body.pose_torso_in_odometry
     facing = _facing(mount, body)
-    distance = echo.distance + AXIS_OFFSET
+    distance = _between_axes(echo.distance, mount)
     if track is None:
         if echo.distance > MAX_NEW:
             return None
@@ -84,7 +82,13 @@ def may_be_mapped(
     x, y, _ = body.pose_torso_in_odometry
     facing = _facing(mount, body)
     mapped = floor.distance_in_cone(x, y, facing, HALF_CONE)
-    return mapped < echo.distance + AXIS_OFFSET + MAP_MARGIN
+    return mapped < _between_axes(echo.distance, mount) + MAP_MARGIN
+
+
+def _between_axes(distance: float, mount: Mount) -> float:
+    """Return the distance from the own axis to that of the opponent."""
+    ahead = float(mount.position_in_body @ mount.axes_in_body[:, 0])
+    return ahead + distance + BODY_DEPTH
 
 
 def _facing(mount: Mount, body: BodyPose) -> float:
