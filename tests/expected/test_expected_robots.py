@@ -117,7 +117,7 @@ def mapped(robot: Path, away: float, heights: tuple[float, float]) -> bool:
     return len(mapping.floor.occupied_cells()) > 0
 
 
-def of_robots(part: str, reason: str) -> Any:
+def of_robots(part: str, reason: str) -> pytest.MarkDecorator:
     """Parametrize over a plain NAO and one with a part, which fails."""
     mark = pytest.mark.xfail(strict=True, raises=AssertionError, reason=reason)
     values = ["", pytest.param(part, marks=mark)]

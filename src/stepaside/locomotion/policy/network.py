@@ -1,5 +1,6 @@
 """Network of a walking policy, evaluated by ONNX Runtime on one thread."""
 
+import re
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from functools import cached_property
@@ -15,6 +16,7 @@ from ...core.regular_files import check_regular
 
 Memory = tuple[NDArray[np.float32], ...]  # recurrent states of one walker
 LARGEST_ACTION = 1e4  # beyond, a simulation becomes unstable
+DIRECTIONS = {"in", "out", "input", "output", "prev", "next", "new", "old"}
 BATCHES = 2, 5, 16, 33  # numbers of rows in which bits are compared
 
 
@@ -43,8 +45,9 @@ class TensorShape(NamedTuple):
 class PolicyNetwork:
     """Network that maps observations to actions, of one walker or of many.
 
-    Inputs after the first are recurrent states: each is fed back from the
-    output of the same shape, in order, and is zero at the start.
+    Inputs beside the observation are recurrent states: each is fed back from
+    the output of its name and shape, see :func:`_stem`, and is zero at the
+    start.
 
     Networks are exported for one walker. Their batch axis is freed, and
     several walkers are evaluated at once where this gives the same bits;
@@ -52,8 +55,8 @@ class PolicyNetwork:
 
     Attributes:
         path: File of the network.
-        observation: First input.
-        action: First output.
+        observation: Input that is no recurrent state.
+        action: First output that is none.
         states: Recurrent states, as pairs of input and output.
         metadata: Text entries that the exporter wrote.
     """
@@ -71,27 +74,38 @@ class PolicyNetwork:
         self.path = path
         try:
             check_regular(path)
-            content = path.read_bytes()
+            path.open("rb").close()
         except OSError as error:
             raise PolicyError(
                 f"legs: cannot read {path}: {error.strerror}"
             ) from error
         try:
-            self._session = _session_of(content)
+            self._session = _session_of(str(path))
         except Exception as error:  # no common base in ONNX Runtime
             raise PolicyError(
                 f"legs: {path} is not an ONNX network: "
                 + " ".join(str(error).split())
             ) from error
-        inputs = [_shape_of(x) for x in self._session.get_inputs()]
-        outputs = [_shape_of(x) for x in self._session.get_outputs()]
+        ports = self._session.get_inputs(), self._session.get_outputs()
         self.metadata: Mapping[str, str] = dict(
             self._session.get_modelmeta().custom_metadata_map
         )
-        self.observation, self.action = inputs[0], outputs[0]
-        self.states = _pair_states(path, inputs[1:], outputs[1:])
-        names = [self.action.name, *(out.name for _, out in self.states)]
-        self._outputs = names
+        pairs = _pair_ports(path, *([_shape_of(x) for x in p] for p in ports))
+        (self.observation, self.action), *self.states = pairs
+        self._outputs = [out.name for _, out in pairs]
+        named = {name for pair in pairs for name, _ in pair}
+        for port in (*ports[0], *ports[1]):
+            if port.name in named and port.type != "tensor(float)":
+                raise PolicyError(
+                    f"legs: {port.name} of {path} must be a tensor(float), "
+                    f"got a {port.type}"
+                )
+        for shape in (self.observation, self.action):
+            if len(shape.shape) != 2:
+                raise PolicyError(
+                    f"legs: {shape} of {path} must have one row of values for "
+                    "each walker"
+                )
         self._bindings: dict[int, _BoundArrays] = {}
 
     def initial_memory(self) -> Memory:
@@ -126,7 +140,7 @@ class PolicyNetwork:
     def _batched(self) -> Any:
         """Session for many walkers; None if it would give other bits."""
         with suppress(Exception):
-            batched = _session_of(_with_free_batch(self.path.read_bytes()))
+            batched = _session_of(_with_free_batch(self.path))
             if self._gives_equal_bits(batched):
                 return batched
         return None
@@ -182,8 +196,8 @@ class PolicyNetwork:
 
     def _gives_equal_bits(self, batched: Any) -> bool:
         """Compare a session with a free batch axis to that for one walker."""
-        names = [node.name for node in self._session.get_inputs()]
         shapes = [self.observation, *(given for given, _ in self.states)]
+        names = [shape.name for shape in shapes]
         draw = np.random.default_rng(0).standard_normal
         axes = [_batch_axis(shape) for shape in shapes]
         for count in BATCHES:
@@ -250,15 +264,19 @@ def _sizes(shape: TensorShape, count: int) -> list[int]:
     return sizes
 
 
-def _session_of(content: bytes) -> Any:
-    """Return a session of ONNX Runtime on one thread."""
+def _session_of(network: str | bytes) -> Any:
+    """Return a session of ONNX Runtime on one thread.
+
+    Args:
+        network: Path or content of the file.
+    """
     import onnxruntime
 
     options = onnxruntime.SessionOptions()
     options.intra_op_num_threads = options.inter_op_num_threads = 1
     options.log_severity_level = 4  # errors are raised, not printed
     return onnxruntime.InferenceSession(
-        content, options, providers=["CPUExecutionProvider"]
+        network, options, providers=["CPUExecutionProvider"]
     )
 
 
@@ -267,11 +285,11 @@ def _batch_axis(shape: TensorShape) -> int:
     return 1 if len(shape.shape) == 3 else 0
 
 
-def _with_free_batch(content: bytes) -> bytes:
+def _with_free_batch(path: Path) -> bytes:
     """Return an ONNX network whose inputs may have any number of rows."""
     import onnx
 
-    model = onnx.load_from_string(content)
+    model = onnx.load(path)
     for node in (*model.graph.input, *model.graph.output):
         sizes = node.type.tensor_type.shape.dim
         size = sizes[1 if len(sizes) == 3 else 0]
@@ -287,18 +305,52 @@ def _shape_of(node: Any) -> TensorShape:
     return TensorShape(node.name, tuple(sizes))
 
 
-def _pair_states(
+def _stem(port: TensorShape) -> str:
+    """Return what the names of a state's input and output share.
+
+    They are like "h_in" and "h_out", or "h0" and "hn".
+    """
+    words = re.split(r"[^a-z0-9]+", port.name.lower())
+    return "_".join(w for w in words if w not in DIRECTIONS).rstrip("0n")
+
+
+def _fit(one: TensorShape, other: TensorShape) -> bool:
+    """Return whether two shapes may be the same."""
+    return len(one.shape) == len(other.shape) and all(
+        a == b or None in (a, b)
+        for a, b in zip(one.shape, other.shape, strict=True)
+    )
+
+
+def _pair_ports(
     path: Path, inputs: list[TensorShape], outputs: list[TensorShape]
-) -> tuple[tuple[TensorShape, TensorShape], ...]:
-    """Pair each further input with the next output of its shape."""
-    pairs, free = [], list(outputs)
-    for given in inputs:
-        fits = [out for out in free if out.shape == given.shape]
-        if not fits:
+) -> list[tuple[TensorShape, TensorShape]]:
+    """Pair the observation with the action, then states with their outputs.
+
+    A state whose name tells nothing has the only output of its shape.
+    """
+    named = [
+        (given, out)
+        for given in inputs
+        for out in outputs
+        if _stem(given) == _stem(out) != "" and _fit(given, out)
+    ]
+    rest = [x for x in inputs if x not in [given for given, _ in named]]
+    free = [x for x in outputs if x not in [out for _, out in named]]
+    if not (rest and free):
+        raise PolicyError(
+            f"legs: {path} must have an observation and an action beside its "
+            "recurrent states"
+        )
+    pairs = [(rest[0], free[0])]
+    for given in rest[1:]:
+        fits = [out for out in free[1:] if _fit(given, out)]
+        if len(fits) != 1:
+            names = ", ".join(map(str, free[1:])) or "none"
             raise PolicyError(
-                f"legs: input {given} of {path} is not a recurrent state: no "
-                "output has its shape"
+                f"legs: input {given} of {path} must be fed back from one "
+                f"output of its name, like h_in from h_out, or of its shape, "
+                f"got {names}"
             )
-        free.remove(fits[0])
         pairs.append((given, fits[0]))
-    return tuple(pairs)
+    return pairs + named

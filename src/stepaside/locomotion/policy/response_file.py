@@ -16,8 +16,15 @@ def response_path(folder: Path, network: Path) -> Path:
 
 
 def digest_of(network: Path) -> str:
-    """Return the SHA-256 digest of a network, to tell networks apart."""
-    return hashlib.sha256(network.read_bytes()).hexdigest()
+    """Return the SHA-256 digest of a network, to tell networks apart.
+
+    Weights in a file beside it, as PyTorch writes them, belong to it.
+    """
+    weights = network.with_name(f"{network.name}.data")
+    content = network.read_bytes()
+    if weights.exists():
+        content += weights.read_bytes()
+    return hashlib.sha256(content).hexdigest()
 
 
 def response_entries(

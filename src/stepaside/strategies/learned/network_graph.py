@@ -341,6 +341,10 @@ def _decode_tensor(data: bytes) -> tuple[str, Tensor]:
     code = (integers(fields, 2) or [0])[0]
     if code not in ELEMENTS:
         raise PolicyError(f"element type {code} of {name} is not supported")
+    if 1 in integers(fields, 14):
+        raise PolicyError(
+            f"{name} must be in the file of the network, not in one beside it"
+        )
     raw = blobs(fields, 9)
     if raw:
         values = np.frombuffer(raw[0], dtype=ELEMENTS[code])
