@@ -152,7 +152,6 @@ mutate: setup
 bench: setup
 	$(BIN)/python $(INSTALL) --editable ".[bench]"
 	$(BIN)/python tools/benchmarks/benchmark.py
-	$(BIN)/python tools/benchmarks/kernel.py
 	$(BIN)/python -m tools.documents
 
 # Tables, numbers and figures of README and docs/, from docs/results/.

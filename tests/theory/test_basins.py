@@ -14,7 +14,7 @@ from stepaside.theory.unicycle.basins import (
     random_starts,
     settled_fractions,
 )
-from stepaside.theory.unicycle.kernel import Outcomes, play_games
+from stepaside.theory.unicycle.batch import Outcomes, play_games
 from stepaside.theory.unicycle.relative_coordinates import RelativeStart
 from stepaside.theory.unicycle.unicycle_game import Game, make_game
 

@@ -97,9 +97,7 @@ def test_simulated_games_agree_with_the_kernel(pursuit: Bound) -> None:
         free, starts, fixed_angle_evader(pursuit, pi / 2), duration=4.0
     )
     game = make_game(1.0, 1.0, 1.0, 1.0)
-    out = play_games(  # NumPy plays these few sooner than Numba compiles
-        game, starts, 4.0, capture_distance=GRID.near, backend="numpy"
-    )
+    out = play_games(game, starts, 4.0, capture_distance=GRID.near)
     there = np.maximum(out.closest_distance, GRID.near)
     off = np.abs(here - there)
     assert np.quantile(off, 0.95) < 0.01

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from stepaside.theory.unicycle.adaptive_simulation import simulate
-from stepaside.theory.unicycle.kernel import play_games
+from stepaside.theory.unicycle.batch import play_games
 from stepaside.theory.unicycle.relative_coordinates import RelativeStart
 from stepaside.theory.unicycle.start_maps import (
     StartBox,

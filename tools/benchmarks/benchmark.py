@@ -16,7 +16,6 @@ os.environ.setdefault("NUMBA_NUM_THREADS", "1")
 from benchmark_options import ask, machine
 from duel import measure_camera_duel, measure_duel
 from history import append_run, changes_since_last
-from kernel import measure_kernel
 from map_decisions import RECIPES, measure
 from mpc import measure_mpc
 from planner import measure_planner
@@ -48,7 +47,7 @@ def main() -> None:
     arguments = asked.parse_args()
     figures = measure_planner() | measure_mpc()
     figures |= measure_duel(arguments.duration) | measure_camera_duel()
-    figures |= measure_decisions() | measure_kernel(16_384, 1000)
+    figures |= measure_decisions()
     for suffix in ("", "_with_samples"):
         drake = "drake_zmp_planner_us" if not suffix else f"drake{suffix}_us"
         if drake in figures:

@@ -90,7 +90,7 @@ def map(  # noqa: A001 (the command's name)
     as_json: bool,
 ) -> None:
     """Simulate games over a grid of initial poses and find the worst one."""
-    from ..theory.unicycle.kernel import accurate_step
+    from ..theory.unicycle.batch import accurate_step
     from ..theory.unicycle.start_maps import StartBox, find_worst_start
 
     for name, value in (("--aim", aim), ("--facing", facing)):

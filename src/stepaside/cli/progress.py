@@ -14,7 +14,7 @@ ANNOUNCED = 60.0  # work longer than this is announced, in [s]
 LONGEST = 30 * 86400.0  # work longer than this is refused, in [s]
 # Rough rates of one laptop core; docs/benchmark.md has measured ones.
 SIMULATED = 6.0  # seconds simulated per second
-STEPS = 2e7  # unicycle steps per second
+STEPS = 1e7  # unicycle steps per second
 IMAGES = 10.0  # images of 640x480 per second
 CELLS = 2e7  # steps of one grid cell per second
 SAMPLES = 2500.0  # samples of a game with sampled turning rates per second

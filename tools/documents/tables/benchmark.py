@@ -90,11 +90,6 @@ ROWS = {
         "",
     ),
     "pursuit_decision_p99_ms": ("the same, 99th percentile", "ms", ""),
-    "compiled_steps_per_s": (
-        "steps of games of unicycles in the compiled kernel",
-        "1/s",
-        "",
-    ),
 }
 
 

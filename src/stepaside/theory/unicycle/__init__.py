@@ -2,8 +2,8 @@
 
 from .adaptive_simulation import PlayedGame, simulate
 from .all_circles import circles_of, find_circles
+from .batch import Outcomes, play_games
 from .circle_equations import Circle, circle_of, find_circle
-from .kernel import Outcomes, play_games
 from .relative_coordinates import RelativeStart
 from .sampled_game import simulate_sampled
 from .unicycle_game import (

@@ -1,15 +1,14 @@
 """Adaptive simulation of one game, smooth piece by smooth piece.
 
-The integrator is SciPy's DOP853 with dense output. The end of each smooth
-piece (see :mod:`.piecewise_dynamics`), the capture and the closest approach
-are located on the dense output. A saturated evader that slides on zero error
-turns with the line of sight, by Filippov's rule, so there is no chattering.
+SciPy's DOP853 integrates each piece (:mod:`.relative_motion`); its edges, the
+capture and the closest approach are located on the dense output. A saturated
+evader that slides on zero error turns with the line of sight, by Filippov's
+rule, so there is no chattering.
 """
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import partial
-from math import cos, sin
 from typing import Any
 
 import numpy as np
@@ -18,30 +17,24 @@ from numpy.typing import ArrayLike, NDArray
 from ...core.brief_repr import brief_repr
 from ...core.errors import StepAsideError, check_positive
 from ...core.poses import Pose
-from .event_location import EDGES, Event, StateView, cross, margin
-from .game_parameters import FlatParameters, flat_parameters
-from .piecewise_dynamics import (
-    Branch,
-    Mode,
-    SmoothPiece,
-    initial_mode,
-    piece_of,
-)
 from .relative_coordinates import RelativeStart, world_poses
 from .relative_motion import (
+    SLACK,
+    Mode,
+    Rates,
     RelativeState,
-    derivative,
-    geometry_of,
-    geometry_of_arrays,
+    Rules,
+    cross,
+    edge_margin,
+    initial_mode,
+    piece_of,
+    rates_of,
+    rules_of,
 )
 from .unicycle_game import Game, check_side
 
 Array = NDArray[np.float64]
-_EVENTS = (Event.CAPTURE, *EDGES)
-_PROBES = np.linspace(0.0, 1.0, 9)  # fractions of a step probed for events
-# Fractions of an interval at which a positive margin is searched.
-_FRACTIONS = (0.0, *(0.5**k for k in range(1, 49)))
-_SLACK = 1e-12  # margin below which an edge has been crossed
+_PROBES = np.linspace(0.0, 1.0, 9)[1:]  # of a step, at which events are seen
 
 
 @dataclass(frozen=True)
@@ -50,7 +43,6 @@ class PlayedGame:
 
     Attributes:
         game: Parameters of the game.
-        times: Knots of the integration, increasing, in [s]. Shape (n + 1,).
         captured: Whether the distance fell to the capture distance.
         end_time: Time of capture or end of the game, in [s].
         closest_distance: Closest approach, in [m].
@@ -62,14 +54,13 @@ class PlayedGame:
     __repr__ = brief_repr
 
     game: Game
-    times: Array
     captured: bool
     end_time: float
     closest_distance: float
     closest_time: float
     switches: tuple[float, ...]
     sides: tuple[int, ...]
-    _pieces: tuple[Callable[[float], Array], ...] = field(repr=False)
+    _pieces: tuple[Callable[[Array], Array], ...] = field(repr=False)
 
     def states(self, times: ArrayLike) -> Array:
         """Evaluate the states.
@@ -83,11 +74,11 @@ class PlayedGame:
             [-pi, pi] by less than a turn.
         """
         queries = np.atleast_1d(np.asarray(times, dtype=np.float64))
-        last = len(self._pieces) - 1
-        index = np.searchsorted(self.times, queries, side="right") - 1
-        index = np.clip(index, 0, last)
-        pairs = zip(queries, index, strict=True)
-        return np.array([self._pieces[i](t) for t, i in pairs])
+        index = np.searchsorted(self.switches, queries, side="right")
+        found = np.empty((len(queries), 6))
+        for i in np.unique(index).tolist():
+            found[index == i] = self._pieces[i](queries[index == i]).T
+        return found
 
     def poses(self, times: ArrayLike) -> tuple[Array, Array]:
         """Evaluate the poses of pursuer and evader.
@@ -101,120 +92,87 @@ class PlayedGame:
         return world_poses(self.states(times))
 
 
-@dataclass
-class _PiecewiseGame:
-    """Game on its current smooth piece."""
+@dataclass(frozen=True)
+class _Piece:
+    """Integration of a game on one smooth piece."""
 
-    rules: FlatParameters
+    rules: Rules
     mode: Mode
-    piece: SmoothPiece
+    tolerance: float
 
-    def rates(self, _: float, state: Array) -> list[float]:
+    def rates(self, states: Array) -> Rates:
+        """Return the rates of one or many states."""
+        piece = piece_of(self.mode, self.rules)
+        return rates_of(RelativeState(*states[:3]), piece, self.rules)
+
+    def derivative(self, _: float, state: Array) -> list[float]:
         """Return the rates of (r, a, psi, line of sight, x, y)."""
-        r, a, psi, sight, _x, _y = state.tolist()
-        here = RelativeState(r, a, psi)
-        geometry = geometry_of(here, self.rules)
-        heading, speed = sight - a, self.rules.pursuer_speed
-        return [
-            *derivative(here, geometry, self.piece, self.rules),
-            geometry.sight,
-            speed * cos(heading),
-            speed * sin(heading),
-        ]
+        heading, speed = state[3] - state[1], self.rules.pursuer_speed
+        velocity = speed * np.cos(heading), speed * np.sin(heading)
+        return [*self.rates(state), *velocity]
 
-    def margins(self, states: Array) -> Array:
-        """Return the margins of states to each event, in order of _EVENTS."""
-        here = RelativeState(*states[:3])
-        now = StateView(here, geometry_of_arrays(here, self.rules))
-        found = [margin(e, now, self.piece, self.rules) for e in _EVENTS]
-        if self.mode.branch != Branch.SLIDING:
-            found[_EVENTS.index(Event.RELEASE)] = np.full_like(here.r, np.inf)
-        return np.stack(found)
+    def margin(self, _: Any, states: Array) -> Any:
+        """Return the margin of states to an edge or to the capture."""
+        here, rules = RelativeState(*states[:3]), self.rules
+        piece = piece_of(self.mode, rules)
+        edge = edge_margin(here, self.rates(states), piece, rules)
+        return np.minimum(edge + SLACK, here.r - rules.capture_distance)
 
-    def first_event(
-        self, dense: Any, begin: float, end: float
-    ) -> tuple[Event, float]:
-        """Return the first event of a step and its time, or none and end."""
+    def solve(
+        self, begin: float, state: Array, end: float
+    ) -> tuple[Any, Array, bool]:
+        """Integrate until an edge, the capture or the end of the game.
+
+        Returns:
+            Dense output; times from the begin to the end of the piece, at
+            which the distance was checked, in [s]; whether it ended early.
+        """
+        from scipy.integrate import solve_ivp
         from scipy.optimize import brentq
 
-        probes = begin + (end - begin) * _PROBES
-        margins = self.margins(dense(probes))
-        left = margins < -_SLACK
-        event = Event.NONE
-        if not left.any():
-            return event, end
-        i = int(np.argmax(left.any(axis=0)))
-        for e in np.flatnonzero(left[:, i]).tolist():
-            hit, out = float(probes[max(i - 1, 0)]), float(probes[i])
-
-            def margin_at(time: float, e: int = e) -> float:
-                return float(self.margins(dense(time))[e])
-
-            # A game that starts on an edge may enter the piece and leave it.
-            trials = (hit + (out - hit) * part for part in _FRACTIONS)
-            inside = next((t for t in trials if margin_at(t) > 0.0), None)
-            if inside is not None:
-                xtol = 1e-14 * max(1.0, end)
-                hit = brentq(margin_at, inside, out, xtol=xtol)
-            if event == Event.NONE or hit < end:
-                event, end = _EVENTS[e], hit
-        return event, end
-
-    def closest(
-        self, dense: Any, begin: float, step_end: float, end: float
-    ) -> tuple[float, float]:
-        """Return the closest approach of a step before end, and its time."""
-        from scipy.optimize import brentq
-
-        def opening(times: Any) -> Any:
-            return geometry_of_arrays(
-                RelativeState(*dense(times)[:3]), self.rules
-            ).opening
-
-        probes = begin + (step_end - begin) * _PROBES
-        times = np.append(probes[probes < end], end)
-        best = (float(dense(times)[0, -1]), float(end))
-        speeds = opening(times)
-        turns = (speeds[:-1] < 0.0) & (speeds[1:] > 0.0)
-        for i in np.flatnonzero(turns).tolist():
-            when = brentq(opening, times[i], times[i + 1])
-            best = min(best, (float(dense(when)[0]), float(when)))
-        return best
-
-    def switch(self, state: Array, event: Event) -> Array:
-        """Cross an edge; return the state on the next piece."""
-        here = RelativeState(*state[:3].tolist())
-        here, self.mode = cross(event, here, self.mode, self.rules)
-        self.piece = piece_of(self.mode, self.rules)
-        return np.array([*here, *state[3:]])
-
-
-@dataclass
-class _GameRecord:
-    """Record of a running game; see :class:`PlayedGame`."""
-
-    best: tuple[float, float]
-    times: list[float]
-    sides: list[int]
-    switches: list[float] = field(default_factory=list)
-    pieces: list[Callable[[float], Array]] = field(default_factory=list)
-
-    def run(self, game: Game, state: Array, captured: bool) -> PlayedGame:
-        """Return the finished game."""
-        times, pieces = list(self.times), list(self.pieces)
-        if not pieces:
-            pieces.append(lambda _: state)
-            times.append(times[-1])
-        return PlayedGame(
-            game,
-            np.array(times),
-            captured,
-            times[-1],
-            *self.best,
-            tuple(self.switches),
-            tuple(self.sides),
-            tuple(pieces),
+        leaves: Any = partial(self.margin)
+        leaves.terminal, leaves.direction = True, -1.0
+        gain = max(self.rules.pursuer_gain, self.rules.evader_gain)
+        run = solve_ivp(
+            self.derivative,
+            (begin, end),
+            state,
+            method="DOP853",
+            dense_output=True,
+            events=leaves,
+            rtol=self.tolerance,
+            atol=0.1 * self.tolerance,
+            max_step=4.0 / gain,
         )
+        if run.status < 0:
+            raise StepAsideError(
+                f"integration stopped at {run.t[-1]} s: {run.message}"
+            )
+        parts = run.t[:-1, None] + np.diff(run.t)[:, None] * _PROBES
+        times = np.concatenate([run.t[:1], parts.ravel()])
+        # A step that left the piece and came back has no event.
+        out = np.flatnonzero(self.margin(times, run.sol(times)) < 0.0)
+        if len(out) == 0 or out[0] == len(times) - 1:
+            return run.sol, times, run.status == 1
+        first, found = int(out[0]), begin  # a given side may be forbidden
+        if first > 0:
+            between = times[first - 1], times[first]
+            found = brentq(
+                lambda t: self.margin(t, run.sol(t)), *between, xtol=1e-14
+            )
+        return run.sol, np.append(times[:first], found), True
+
+    def closest(self, dense: Any, times: Array) -> tuple[float, float]:
+        """Return the closest approach of a piece, and its time."""
+        from scipy.optimize import brentq
+
+        def opening(time: Any) -> Any:
+            return self.rates(dense(time)).r
+
+        speeds = opening(times)
+        turns = np.flatnonzero((speeds[:-1] < 0.0) & (speeds[1:] > 0.0))
+        found = [brentq(opening, times[i], times[i + 1]) for i in turns]
+        return min((float(dense(t)[0]), t) for t in (*found, times[-1]))
 
 
 def simulate(
@@ -249,52 +207,35 @@ def simulate(
     check_positive(duration, "duration", "s")
     check_positive(capture_distance, "capture_distance", "m")
     check_side(side or 0)
-    rules = flat_parameters(game, capture_distance)
-    r, a, psi = start.wrapped()
-    sight = geometry_of(RelativeState(r, a, psi), rules).sight
-    psi, mode = initial_mode(psi, sight, side or 0, rules)
-    play = _PiecewiseGame(rules, mode, piece_of(mode, rules))
-    state = np.array([r, a, psi, pursuer.theta + a, pursuer.x, pursuer.y])
-    return _integrate(play, game, state, duration, tolerance)
-
-
-def _integrate(
-    play: _PiecewiseGame,
-    game: Game,
-    state: Array,
-    duration: float,
-    tolerance: float,
-) -> PlayedGame:
-    """Integrate a game from a state, piece by piece, until it ends."""
-    from scipy.integrate import DOP853
-
-    solve = partial(
-        DOP853,
-        play.rates,
-        t_bound=duration,
-        rtol=tolerance,
-        atol=0.1 * tolerance,
-        max_step=4.0 / max(game.pursuer.gain, game.evader.gain),
+    rules = rules_of(game, capture_distance)
+    here, mode = initial_mode(
+        RelativeState(*start.wrapped()), side or 0, rules
     )
-    time, distance = 0.0, float(state[0])
-    record = _GameRecord((distance, time), [time], [play.mode.side])
-    captured = distance <= play.rules.capture_distance
-    steps = solve(time, state)
+    state = np.array([*here, pursuer.theta + here.a, pursuer.x, pursuer.y])
+    time, best = 0.0, (float(here.r), 0.0)
+    captured = best[0] <= capture_distance
+    switches, sides, pieces = [], [mode.side], []
+    if captured:
+        pieces.append(lambda times: np.tile(state[:, None], len(times)))
     while not captured and time < duration:
-        message = steps.step()
-        if message:
-            raise StepAsideError(f"integration stopped at {time} s: {message}")
-        dense = steps.dense_output()
-        event, end = play.first_event(dense, time, steps.t)
-        state = steps.y if event == Event.NONE else dense(end)
-        record.best = min(record.best, play.closest(dense, time, steps.t, end))
-        time = end
-        record.times.append(time)
-        record.pieces.append(dense)
-        captured = event == Event.CAPTURE
-        if event in EDGES:
-            state = play.switch(state, event)
-            record.switches.append(time)
-            record.sides.append(play.mode.side)
-            steps = solve(time, state)
-    return record.run(game, state, captured)
+        piece = _Piece(rules, mode, tolerance)
+        dense, times, early = piece.solve(time, state, duration)
+        pieces.append(dense)
+        best = min(best, piece.closest(dense, times))
+        time = float(times[-1])
+        state = dense(time)
+        captured = early and bool(state[0] - capture_distance < SLACK)
+        if early and not captured:
+            here, mode = cross(RelativeState(*state[:3]), mode, rules)
+            state[:3] = here
+            switches.append(time)
+            sides.append(mode.side)
+    return PlayedGame(
+        game,
+        captured,
+        time,
+        *best,
+        tuple(switches),
+        tuple(sides),
+        tuple(pieces),
+    )

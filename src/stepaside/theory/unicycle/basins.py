@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .all_circles import circles_of
+from .batch import Outcomes, play_games
 from .circle_equations import Circle
-from .kernel import Outcomes, play_games
 from .unicycle_game import Game
 
 Array = NDArray[np.float64]

@@ -1,31 +1,102 @@
-r"""Relative motion of two unicycles on a smooth piece.
+r"""Relative motion of two unicycles, smooth piece by smooth piece.
 
 .. math::
     \dot r = v_e \cos\psi - v_p \cos a, \qquad
     \Omega = (v_p \sin a - v_e \sin\psi) / r, \qquad
     \dot a = \Omega - \omega_p, \qquad \dot\psi = \Omega - \omega_e
 
-The functions take numbers, or arrays of one shape, and can be compiled.
+The laws are discontinuous where a wrapped error passes :math:`\pm\pi`, where
+the evader changes side, and, saturated, where its error changes sign. Between
+these edges
+
+.. math:: \dot\psi = f \Omega - c_1 \psi - c_0,
+    \qquad \psi \in [\text{low}, \text{high}].
+
+Numba can compile the functions; those of a state also take arrays of states.
 """
 
-from collections.abc import Callable
-from math import cos, sin
+from math import inf, pi
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from ...core.compilation import inlined
 from .. import laws
-from .game_parameters import FlatParameters
-from .piecewise_dynamics import SmoothPiece, proportional_rate
+from .unicycle_game import Game
 
-pursuit_heading = inlined(laws.pursuit_heading)
+inlined(laws.wrap_once)  # called by evasion_heading
+evasion_heading = inlined(laws.evasion_heading)
+side_behind = inlined(laws.side_behind)
 
-SIXTH = 1.0 / 6.0
+# Branches of the evader's turning law.
+PROPORTIONAL = 2  # eq. (4)
+LEFT, RIGHT = 1, -1  # eq. (6), full rate
+SLIDING = 0  # eq. (6), zero error by Filippov's rule
+_SIXTH = 1.0 / 6.0
+SLACK = 1e-12  # margin below which an edge has been crossed
+NEAR = 0.02  # tolerance of being on a circle: 2 % and 0.02 rad
+
+
+class Rules(NamedTuple):
+    """Parameters of a game as plain numbers; see :class:`.Game`.
+
+    Attributes:
+        pursuer_speed: Speed of the pursuer, in [m/s].
+        evader_speed: Speed of the evader, in [m/s].
+        pursuer_gain: Gain of the pursuer, in [1/s].
+        evader_gain: Gain of the evader, in [1/s]; saturated, its turning
+            rate, in [rad/s].
+        angle: Evasion angle, in [rad].
+        hysteresis: Angle of the pursuer beyond the evader's axis at which
+            the side changes, in [rad].
+        keeps_side: Whether the side never changes.
+        saturated: Whether the evader turns by (6) rather than by (4).
+        capture_distance: Distance at which a game ends, in [m].
+    """
+
+    pursuer_speed: float
+    evader_speed: float
+    pursuer_gain: float
+    evader_gain: float
+    angle: float
+    hysteresis: float
+    keeps_side: bool
+    saturated: bool
+    capture_distance: float
+
+
+class Mode(NamedTuple):
+    """Discrete state that identifies a smooth piece.
+
+    Attributes:
+        side: Side of the line of sight that the evader takes, +1 or -1.
+        branch: Branch of its turning law.
+    """
+
+    side: int
+    branch: int
+
+
+class SmoothPiece(NamedTuple):
+    """Coefficients of a smooth piece.
+
+    Attributes:
+        low: Least bearing, in [rad].
+        high: Largest bearing, in [rad].
+        constant: Turning rate of the evader at bearing zero, in [rad/s].
+        slope: Derivative of the turning rate by the bearing, in [1/s].
+        free: 0 if the evader turns with the line of sight, else 1.
+    """
+
+    low: float
+    high: float
+    constant: float
+    slope: float
+    free: float
 
 
 class RelativeState(NamedTuple):
-    """Relative coordinates of one game, or of many.
+    """Relative coordinates.
 
     Attributes:
         r: Distance, in [m].
@@ -38,140 +109,215 @@ class RelativeState(NamedTuple):
     psi: Any
 
 
-class SightGeometry(NamedTuple):
-    """Sines of the bearings and motion of the line of sight.
+class Rates(NamedTuple):
+    """Rates of a state.
 
     Attributes:
-        sin_a: Sine of the bearing of the evader.
-        cos_a: Cosine of the bearing of the evader.
-        sin_psi: Sine of the bearing of the pursuer.
-        cos_psi: Cosine of the bearing of the pursuer.
-        opening: Rate of the distance, in [m/s].
+        r: Rate of the distance, in [m/s].
+        a: Rate of the bearing of the evader, in [rad/s].
+        psi: Rate of the bearing of the pursuer, in [rad/s].
         sight: Turning rate of the line of sight, in [rad/s].
     """
 
-    sin_a: Any
-    cos_a: Any
-    sin_psi: Any
-    cos_psi: Any
-    opening: Any
+    r: Any
+    a: Any
+    psi: Any
     sight: Any
 
 
-GeometryFunction = Callable[[RelativeState, FlatParameters], SightGeometry]
-"""Returns the geometry of a state."""
-NearbyGeometry = Callable[
-    [RelativeState, RelativeState, SightGeometry, FlatParameters],
-    SightGeometry,
-]
-"""Returns the geometry of a state near another one with known geometry."""
+def rules_of(game: Game, capture_distance: float) -> Rules:
+    """Return the parameters of a game and its capture distance as numbers."""
+    return Rules(
+        float(game.pursuer.speed),
+        float(game.evader.speed),
+        float(game.pursuer.gain),
+        float(game.evader.gain),
+        float(game.angle),
+        float(game.hysteresis),
+        game.keeps_side,
+        game.saturated,
+        float(capture_distance),
+    )
 
 
 @inlined
-def geometry_from_sines(
-    r: Any,
-    sin_a: Any,
-    cos_a: Any,
-    sin_psi: Any,
-    cos_psi: Any,
-    rules: FlatParameters,
-) -> SightGeometry:
-    """Return the geometry from distance, sines and cosines of bearings."""
+def rates_of(state: RelativeState, piece: SmoothPiece, rules: Rules) -> Rates:
+    """Return the rates of a state on a smooth piece, extended beyond it."""
     vp, ve = rules.pursuer_speed, rules.evader_speed
-    opening = ve * cos_psi - vp * cos_a
-    sight = (vp * sin_a - ve * sin_psi) / r
-    return SightGeometry(sin_a, cos_a, sin_psi, cos_psi, opening, sight)
-
-
-@inlined
-def geometry_of(state: RelativeState, rules: FlatParameters) -> SightGeometry:
-    """Return the geometry of one state."""
-    r, a, psi = state
-    return geometry_from_sines(r, sin(a), cos(a), sin(psi), cos(psi), rules)
-
-
-def geometry_of_arrays(
-    state: RelativeState, rules: FlatParameters
-) -> SightGeometry:
-    """Return the geometry of states in arrays."""
-    r, a, psi = state
-    return geometry_from_sines(
-        r, np.sin(a), np.cos(a), np.sin(psi), np.cos(psi), rules
+    along = ve * np.cos(state.psi) - vp * np.cos(state.a)
+    across = vp * np.sin(state.a) - ve * np.sin(state.psi)
+    sight = across / state.r
+    return Rates(
+        along,
+        sight - rules.pursuer_gain * state.a,
+        piece.free * sight - piece.slope * state.psi - piece.constant,
+        sight,
     )
 
 
 @inlined
-def recomputed_geometry(
-    state: RelativeState,
-    near: RelativeState,
-    geometry: SightGeometry,
-    rules: FlatParameters,
-) -> SightGeometry:
-    """Return the geometry of one state, ignoring the nearby one."""
-    return geometry_of(state, rules)
-
-
-@inlined
-def derivative(
-    state: RelativeState,
-    geometry: SightGeometry,
-    piece: SmoothPiece,
-    rules: FlatParameters,
-) -> RelativeState:
-    """Return the rates of the three coordinates on a smooth piece."""
-    error = pursuit_heading(state.a)
-    return RelativeState(
-        geometry.opening,
-        geometry.sight - proportional_rate(error, rules.pursuer_gain),
-        piece.free * geometry.sight - piece.slope * state.psi - piece.constant,
-    )
-
-
-@inlined
-def moved(
-    state: RelativeState, slope: RelativeState, time: Any
-) -> RelativeState:
+def moved(state: RelativeState, rates: Rates, time: float) -> RelativeState:
     """Return the state after a time in [s] at constant rates."""
     return RelativeState(
-        state.r + time * slope.r,
-        state.a + time * slope.a,
-        state.psi + time * slope.psi,
+        state.r + time * rates.r,
+        state.a + time * rates.a,
+        state.psi + time * rates.psi,
     )
 
 
 @inlined
 def rk4(
-    nearby_geometry: NearbyGeometry,
     state: RelativeState,
-    geometry: SightGeometry,
-    step: Any,
+    first: Rates,
+    step: float,
     piece: SmoothPiece,
-    rules: FlatParameters,
+    rules: Rules,
 ) -> RelativeState:
     """Advance by one Runge-Kutta step of fourth order.
 
     Args:
-        nearby_geometry: Computes the geometry of the stages.
         state: State at the begin of the step.
-        geometry: Geometry of that state.
+        first: Rates of that state.
         step: Step size, in [s].
         piece: Smooth piece; its law is extended beyond its edges.
         rules: Rules of the game.
     """
     half = 0.5 * step
-    first = derivative(state, geometry, piece, rules)
-    stage = moved(state, first, half)
-    stage_geometry = nearby_geometry(stage, state, geometry, rules)
-    second = derivative(stage, stage_geometry, piece, rules)
-    stage = moved(state, second, half)
-    stage_geometry = nearby_geometry(stage, state, geometry, rules)
-    third = derivative(stage, stage_geometry, piece, rules)
-    stage = moved(state, third, step)
-    stage_geometry = nearby_geometry(stage, state, geometry, rules)
-    fourth = derivative(stage, stage_geometry, piece, rules)
-    mean = RelativeState(
+    second = rates_of(moved(state, first, half), piece, rules)
+    third = rates_of(moved(state, second, half), piece, rules)
+    fourth = rates_of(moved(state, third, step), piece, rules)
+    mean = Rates(
         first.r + 2.0 * (second.r + third.r) + fourth.r,
         first.a + 2.0 * (second.a + third.a) + fourth.a,
         first.psi + 2.0 * (second.psi + third.psi) + fourth.psi,
+        0.0,
     )
-    return moved(state, mean, step * SIXTH)
+    return moved(state, mean, step * _SIXTH)
+
+
+@inlined
+def piece_of(mode: Mode, rules: Rules) -> SmoothPiece:
+    """Return the coefficients of a smooth piece."""
+    gain, width = rules.evader_gain, rules.hysteresis
+    zero = -mode.side * rules.angle  # bearing of zero error
+    if mode.branch == SLIDING:
+        return SmoothPiece(-inf, inf, 0.0, 0.0, 0.0)
+    if rules.keeps_side:
+        low, high = zero - pi, zero + pi
+    elif mode.side < 0:
+        low, high = -width, pi + width
+    else:
+        low, high = -pi - width, width
+    if mode.branch == PROPORTIONAL:
+        return SmoothPiece(low, high, -gain * zero, gain, 1.0)
+    if mode.branch == LEFT:
+        return SmoothPiece(zero, high, gain, 0.0, 1.0)
+    return SmoothPiece(low, zero, -gain, 0.0, 1.0)
+
+
+@inlined
+def branch_at(error: float, sight: float, rules: Rules) -> int:
+    """Return the branch for an error and a rate of the line of sight."""
+    if not rules.saturated:
+        return PROPORTIONAL
+    if error == 0.0:
+        if abs(sight) <= rules.evader_gain:
+            return SLIDING
+        error = sight
+    return LEFT if error > 0.0 else RIGHT
+
+
+@inlined
+def sight_rate(state: RelativeState, rules: Rules) -> float:
+    """Return the turning rate of the line of sight, in [rad/s]."""
+    piece = SmoothPiece(0.0, 0.0, 0.0, 0.0, 0.0)
+    return float(rates_of(state, piece, rules).sight)
+
+
+@inlined
+def initial_mode(
+    state: RelativeState, side: int, rules: Rules
+) -> tuple[RelativeState, Mode]:
+    """Return state and mode at the start of a game.
+
+    Args:
+        state: State with both bearings in [-pi, pi].
+        side: +1 or -1, or 0 for the side behind the evader.
+        rules: Rules of the game.
+
+    Returns:
+        State, its bearing up to a whole turn away from the given one, and
+        mode.
+    """
+    if side == 0:
+        side = side_behind(state.psi)
+    error = state.psi + side * rules.angle
+    if rules.keeps_side:
+        error = evasion_heading(state.psi, side, rules.angle)
+    branch = branch_at(error, sight_rate(state, rules), rules)
+    psi = error - side * rules.angle
+    return RelativeState(state.r, state.a, psi), Mode(side, branch)
+
+
+@inlined
+def edge_margin(
+    state: RelativeState, rates: Rates, piece: SmoothPiece, rules: Rules
+) -> Any:
+    """Return the margin of a state to the next edge; negative beyond it."""
+    margin = np.minimum(state.psi - piece.low, piece.high - state.psi)
+    if piece.free == 0.0:  # the line of sight may outrun a sliding evader
+        margin = rules.evader_gain - abs(rates.sight)
+    return np.minimum(margin, pi - abs(state.a))
+
+
+@inlined
+def cross(
+    state: RelativeState, mode: Mode, rules: Rules
+) -> tuple[RelativeState, Mode]:
+    """Return state and mode on the other side of the nearest edge."""
+    r, a, psi = state
+    side, branch = mode.side, mode.branch
+    piece = piece_of(mode, rules)
+    low, high = psi - piece.low, piece.high - psi
+    sight = sight_rate(state, rules)
+    margin = min(low, high)
+    if branch == SLIDING:
+        margin = rules.evader_gain - abs(sight)
+    if pi - abs(a) < margin:  # the pursuer's error wraps
+        a += -2.0 * pi if a > 0.0 else 2.0 * pi
+        return RelativeState(r, a, psi), mode
+    zero = -side * rules.angle
+    if branch == SLIDING:
+        towards = LEFT if sight > 0.0 else RIGHT
+        return RelativeState(r, a, zero), Mode(side, towards)
+    if branch == (LEFT if low < high else RIGHT):  # its error is zero
+        slides = abs(sight) <= rules.evader_gain
+        after = SLIDING if slides else -branch
+        return RelativeState(r, a, zero), Mode(side, after)
+    turned = psi - (2.0 * pi if high < low else -2.0 * pi)
+    if rules.keeps_side:
+        after = branch if branch == PROPORTIONAL else -branch
+        return RelativeState(r, a, turned), Mode(side, after)
+    if (high < low) == (side < 0):
+        psi = turned  # the pursuer passes behind the evader's back
+    after = branch_at(psi - side * rules.angle, sight, rules)
+    return RelativeState(r, a, psi), Mode(-side, after)
+
+
+@inlined
+def deviation(state: RelativeState, side: Any, circle: RelativeState) -> Any:
+    """Return the largest deviation of a state from a circle.
+
+    Args:
+        state: State of a game.
+        side: Its side.
+        circle: State on the circle at side +1.
+
+    Returns:
+        The largest of the deviations of r, relative to the circle's, and of
+        a and psi, in [rad].
+    """
+    angles = np.maximum(
+        abs(side * state.a - circle.a), abs(side * state.psi - circle.psi)
+    )
+    return np.maximum(angles, abs(state.r / circle.r - 1.0))

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.errors import PlanError, check_positive, check_within
-from .kernel import Outcomes, play_games
+from .batch import Outcomes, play_games
 from .relative_coordinates import RelativeStart
 from .unicycle_game import Game
 
@@ -126,7 +126,7 @@ def map_starts(
         duration: Duration of each game, in [s].
         shape: Points along distance, pursuer error and bearing.
         step: Step size of the integration, in [s]; see
-            :func:`.kernel.play_games`.
+            :func:`.batch.play_games`.
         capture_distance: Distance at which a game ends, in [m].
         progress: Called with the number of games finished since the last
             call.
@@ -170,7 +170,7 @@ def find_worst_start(
         box: Box of initial states.
         duration: Duration of each game, in [s].
         step: Step size of the integration, in [s]; see
-            :func:`.kernel.play_games`.
+            :func:`.batch.play_games`.
         capture_distance: Distance at which a game ends, in [m].
 
     Returns:

@@ -1,4 +1,4 @@
-"""Simulation of many games at once, by Numba if installed, else by NumPy."""
+"""Simulation of many games, from arrays of initial states."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -8,28 +8,22 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...core.brief_repr import brief_repr
-from ...core.compilation import load_numba
 from ...core.errors import PlanError, check_positive, shown
 from ...core.poses import wrap_angles
 from .all_circles import circles_of
 from .circle_equations import Circle
-from .game_batch import Array, BatchTiming, deviations
-from .game_parameters import flat_parameters
 from .relative_coordinates import check_bearings
-from .relative_motion import RelativeState
+from .relative_motion import RelativeState, deviation, rules_of
 from .unicycle_game import Game, check_side
 
-# Step size times the larger gain, in [rad]: 0.05 s at 0.5 /s. Six games of
-# 4,096 starts have the outcomes of a step of 0.0025 s, and closest approaches
-# within 1.2e-7 m; twice the step gives 5e-5 m, half of it takes 1.6 times as
-# long.
+Array = NDArray[np.float64]
+
+# Step size times the larger gain, in [rad]: 0.05 s at 0.5 /s. Eight games of
+# 2,000 starts have the outcomes of a step of 0.0025 s, and closest approaches
+# within 1e-7 m; twice the step gives 9e-7 m.
 STEP_TIMES_GAIN = 0.025
 CHUNK = 16_384  # games between two reports of progress
 MAX_STEPS = 1e8  # of one game: some seconds of computing time
-_RESULTS = (
-    *RelativeState._fields,
-    *("side", "closest", "closest_time", "capture_time", "settled"),
-)
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +63,6 @@ def play_games(
     step: float | None = None,
     capture_distance: float = 1e-6,
     side: int = 0,
-    backend: str = "auto",
     progress: Callable[[int], None] | None = None,
 ) -> Outcomes:
     """Simulate one game from each of many initial states.
@@ -84,7 +77,6 @@ def play_games(
             near an edge, a capture or a close pass are divided further.
         capture_distance: Distance at which a game ends, in [m].
         side: Initial side, +1 or -1; 0 for the one behind the evader.
-        backend: "numba", "numpy", or "auto" for the first one available.
         progress: Called with the number of games of each finished chunk of
             16,384.
 
@@ -92,10 +84,9 @@ def play_games(
         Outcomes of the games, in the order of the initial states.
 
     Raises:
-        PlanError: If a value is out of range, or the backend is missing.
+        PlanError: If a value is out of range.
     """
-    from . import compiled_batch, numpy_batch  # lazily: they import Numba
-    from .block_layout import make_blocks
+    from .batch_kernel import play_all  # imports Numba
 
     check_positive(duration, "duration", "s")
     if step is None:
@@ -108,24 +99,18 @@ def play_games(
             f"duration must be at most {MAX_STEPS:g} steps of {step:g} [s], "
             f"got {duration:g} [s]"
         )
-    fast = _is_compiled(backend)
-    play = compiled_batch.play_blocks if fast else numpy_batch.play_blocks
     states = _wrapped(starts)
-    circles = circles_of(game)
-    rows = circle_states(circles)
-    clock = BatchTiming(ceil(duration / step - 1e-9), float(step))
-    rules = flat_parameters(game, capture_distance)
-    played = np.empty((len(_RESULTS), len(states)))
+    circles = circle_states(circles_of(game))
+    steps = ceil(duration / step - 1e-9)
+    rules = rules_of(game, capture_distance)
+    played = np.zeros((len(states), 8))
+    played[:, :3] = states
     for first in range(0, len(states), CHUNK):
-        part = states[first : first + CHUNK]
-        size = compiled_batch.SIZE if fast else len(part)
-        blocks = make_blocks(part, side, size, clock.step, rules)
-        play(blocks, rows, clock, rules)
-        for row, name in zip(played, _RESULTS, strict=True):
-            row[first : first + CHUNK] = blocks[name].ravel()[: len(part)]
+        part = played[first : first + CHUNK]
+        play_all(part, side, circles, steps, float(step), rules)
         if progress is not None:
             progress(len(part))
-    return _outcomes(played, rows, clock)
+    return _outcomes(played, circles, steps * step)
 
 
 def accurate_step(game: Game) -> float:
@@ -159,20 +144,10 @@ def circle_deviations(
         The largest of the three deviations. Shape (n, m).
     """
     circle = RelativeState(*circles.T[..., None])
-    errors = deviations(RelativeState(*states.T), np.asarray(sides), circle)
-    largest: Array = np.max(errors, axis=0)
-    return largest
-
-
-def _is_compiled(backend: str) -> bool:
-    """Return whether a backend is the compiled one."""
-    if backend not in ("auto", "numba", "numpy"):
-        raise PlanError(f"backend must be auto, numba or numpy, got {backend}")
-    if backend == "numba" and load_numba() is None:
-        raise PlanError(
-            "backend numba needs numba: pip install 'stepaside[fast]'"
-        )
-    return backend != "numpy" and load_numba() is not None
+    found: Array = deviation(
+        RelativeState(*states.T), np.asarray(sides), circle
+    )
+    return found
 
 
 def _wrapped(starts: ArrayLike) -> Array:
@@ -193,22 +168,20 @@ def _wrapped(starts: ArrayLike) -> Array:
     return states
 
 
-def _outcomes(played: Array, circles: Array, clock: BatchTiming) -> Outcomes:
-    """Return the outcomes of games from their final blocks."""
-    r, a, psi, side, closest, closest_time, capture_time, settled = played
-    end = clock.steps * clock.step
-    ends = r < closest
-    captured = capture_time >= 0.0
+def _outcomes(played: Array, circles: Array, end: float) -> Outcomes:
+    """Return the outcomes of rows of :func:`.batch_kernel.play_all`."""
+    states = played[:, :3].copy()
+    side, closest, when, capture, settled = played[:, 3:].T
+    captured = capture >= 0.0
     unsettled = captured | (settled >= end * (1.0 - 1e-12))
-    states = np.stack([r, a, psi], axis=-1)
-    nearest = np.zeros(len(r), dtype=np.int64)
+    nearest = np.zeros(len(states), dtype=np.int64)
     if len(circles):
         nearest = circle_deviations(circles, states, side).argmin(axis=0)
     return Outcomes(
-        np.where(ends, r, closest),
-        np.where(ends, end, closest_time),
+        closest.copy(),
+        when.copy(),
         captured,
-        np.where(captured, capture_time, np.nan),
+        np.where(captured, capture, np.nan),
         np.where(unsettled, inf, settled),
         np.where(unsettled, -1, nearest),
         states,

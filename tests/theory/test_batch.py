@@ -1,0 +1,229 @@
+"""Many games at once: against the adaptive integrator and closed forms."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from stepaside.core.errors import PlanError
+from stepaside.theory.unicycle.adaptive_simulation import PlayedGame, simulate
+from stepaside.theory.unicycle.all_circles import circles_of
+from stepaside.theory.unicycle.batch import accurate_step, play_games
+from stepaside.theory.unicycle.relative_coordinates import RelativeStart
+from stepaside.theory.unicycle.unicycle_game import Game, make_game
+
+GAMES = [
+    make_game(1.0, 1.0, 0.5, 0.5),
+    make_game(1.0, 1.1, 0.5, 0.7, np.pi / 2, "saturated"),
+    make_game(1.0, 1.0, 0.5, 0.5, 0.3, "saturated"),
+    make_game(1.1, 1.0, 0.5, 0.4, 1.0, side_rule="latched"),
+    make_game(1.0, 1.0, 0.5, 0.5, 1.2, hysteresis=0.2),
+    make_game(1.0, 1.0, 0.5, 0.5, 0.0),
+    make_game(1.2, 1.0, 0.7, 0.4, 2.8, "saturated", side_rule="latched"),
+    make_game(1.4, 1.0, 0.3, 0.8, 1.5, "saturated", hysteresis=0.05),
+]
+# A start; distances that it stays between, after the transient.
+NO_CIRCLE = make_game(1.7651, 0.43, 2.0897, 1.0674, 1.3004)
+ONE_CIRCLE = make_game(0.8831, 0.7117, 0.4482, 0.7551, 2.1371)
+COUNTEREXAMPLES = [
+    (NO_CIRCLE, (0.6049, -0.4196, 1.4271), (0.1506, 0.9964)),
+    (ONE_CIRCLE, (0.943, -1.911, -0.219), (0.1614, 0.8259)),
+]
+
+
+def random_starts(count: int, seed: int = 1) -> np.ndarray:
+    rng = np.random.default_rng(seed)
+    angles = rng.uniform(-np.pi, np.pi, (count, 2))
+    return np.column_stack([rng.uniform(0.3, 6.0, count), angles])
+
+
+def side_changes(run: PlayedGame) -> np.ndarray:
+    """Times of changes of side."""
+    times: np.ndarray = np.array(run.switches)[np.diff(run.sides) != 0]
+    return times
+
+
+@pytest.mark.parametrize("game", GAMES)
+def test_every_game_agrees_with_the_adaptive_integrator(game: Game) -> None:
+    starts = random_starts(12)
+    many = play_games(game, starts, 60.0, capture_distance=0.05)
+    for i, start in enumerate(starts):
+        one = simulate(
+            game, RelativeStart(*start), 60.0, capture_distance=0.05
+        )
+        assert one.captured == many.captured[i]
+        assert many.closest_distance[i] == pytest.approx(
+            one.closest_distance, abs=1e-6
+        )
+        then = one.states([many.closest_time[i]])[0, 0]
+        assert then == pytest.approx(one.closest_distance, abs=1e-6)
+        assert many.sides[i] == one.sides[-1]
+        if one.captured:
+            assert many.capture_time[i] == pytest.approx(one.end_time)
+        last = one.states([one.end_time])[0, :2]
+        np.testing.assert_allclose(many.states[i, :2], last, atol=1e-6)
+
+
+@pytest.mark.parametrize(("game", "start", "between"), COUNTEREXAMPLES)
+def test_side_may_change_without_end_against_a_faster_pursuer(
+    game: Game,
+    start: tuple[float, float, float],
+    between: tuple[float, float],
+) -> None:
+    """As a motion between two distances, which neither end nor settle."""
+    out = play_games(game, [start], 120.0, step=0.02)
+    assert not out.captured[0] and out.circle[0] == -1
+    run = simulate(game, RelativeStart(*start), 120.0)
+    late = run.states(np.linspace(60.0, 120.0, 30_001))[:, 0]
+    assert (late.min(), late.max()) == pytest.approx(between, abs=2e-4)
+    changes = side_changes(run)
+    gaps = np.diff(changes[changes > 60.0])
+    assert len(gaps) > 15 and gaps.max() < 6.0
+
+
+def test_without_a_stable_circle_the_side_changes_without_end() -> None:
+    """Games of the parameter box of docs/unicycles.md."""
+    rng = np.random.default_rng(5)
+    found = 0
+    while found < 5:
+        vp, ve, kp, ke = np.exp(rng.uniform(-0.9, 0.9, 4)).tolist()
+        game = make_game(vp, ve, kp, ke, float(rng.uniform(0.05, 3.0)))
+        held = any(circle.stable for circle in circles_of(game))
+        if vp < ve or held:
+            continue
+        found += 1
+        slow, unit = min(kp, ke), ve / min(kp, ke)
+        starts = random_starts(2, seed=found) * [unit, 1.0, 1.0]
+        out = play_games(game, starts, 100.0 / slow, capture_distance=1e-9)
+        assert not out.captured.any() and (out.circle == -1).all()
+        for state in out.states.tolist():
+            run = simulate(game, RelativeStart(*state), 20.0 / slow)
+            changes = side_changes(run)
+            assert len(changes) > 2 and changes[-1] > 10.0 / slow
+
+
+def test_a_stable_circle_does_not_draw_every_game() -> None:
+    assert not circles_of(NO_CIRCLE)
+    (circle,) = circles_of(ONE_CIRCLE)
+    assert circle.stable and circle.behind
+    near = (circle.distance_m, circle.pursuer_error_rad, circle.bearing_rad)
+    assert play_games(ONE_CIRCLE, [near], 20.0).circle[0] == 0
+
+
+def test_pursuer_that_drives_past_is_closest_at_the_perpendicular() -> None:
+    """Both hardly turn; the evader hardly moves: a straight line."""
+    game = make_game(1.0, 1e-9, 1e-9, 1e-9)
+    a, r = np.arctan2(0.3, 0.5), np.hypot(0.3, 0.5)
+    out = play_games(game, [[r, a, -a]], 2.0, step=2.0)
+    assert out.closest_distance[0] == pytest.approx(0.3)
+    assert out.closest_time[0] == pytest.approx(0.5)
+    assert out.states[0, 0] == pytest.approx(np.hypot(0.3, 1.5))
+    out = play_games(game, [[r, a, -a]], 2.0, step=2.0, capture_distance=0.5)
+    assert out.capture_time[0] == pytest.approx(0.1)
+    out = play_games(game, [[r, np.pi - a, -a]], 0.5)
+    assert (out.closest_distance[0], out.closest_time[0]) == (r, 0.0)
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+def test_return_to_an_edge_within_a_step_is_located(sign: int) -> None:
+    """The line of sight outruns the evader for some milliseconds only."""
+    game = make_game(1.0, 1.0, 0.5, 0.5, law="saturated")
+    start = (1.2787314540990418, -sign * 2.7776696801482905, -sign * np.pi / 2)
+    out = play_games(game, [start], 0.01, step=0.01)
+    assert out.states[0, 2] == start[2]
+    run = simulate(game, RelativeStart(*start), 0.01)
+    assert 0.003 < run.switches[0] < 0.005
+    assert run.states([0.01])[0, 2] == start[2]
+
+
+def test_settled_time_is_the_last_arrival_at_the_circle() -> None:
+    out = play_games(GAMES[0], [[5.0, 0.2, 0.4], [3.6, 0.0, 0.0]], 60.0)
+    run = simulate(GAMES[0], RelativeStart(5.0, 0.2, 0.4), 60.0)
+    before, after = run.states(out.settled_time[0] + [-0.05, 0.05])
+    target = np.array([3.6012652646, -np.pi / 4, np.pi / 4])
+    scale = np.array([3.6012652646, 1.0, 1.0])
+    assert np.abs((before[:3] - target) / scale).max() > 0.02
+    assert np.abs((after[:3] - target) / scale).max() < 0.02
+
+
+@pytest.mark.parametrize("game", [GAMES[0], GAMES[2], GAMES[3]])
+def test_whole_turns_of_a_start_change_nothing(game: Game) -> None:
+    """Nor where the game is over at once: its state is wrapped too."""
+    starts = np.array([[2.0, 0.5, 2.0], [1.0, -2.0, -3.0], [0.04, 1, -1]])
+    turns = 2.0 * np.pi * np.array([[0, -1, -1], [0, 1, 1], [0, -1, 1]])
+    plain, turned = (
+        play_games(game, s, 2.0, capture_distance=0.05)
+        for s in (starts, starts + turns)
+    )
+    np.testing.assert_allclose(turned.states, plain.states, atol=1e-9)
+    np.testing.assert_allclose(
+        turned.closest_distance, plain.closest_distance, atol=1e-12
+    )
+    assert turned.sides.tolist() == plain.sides.tolist()
+    assert np.abs(turned.states[2, 1:]).max() <= np.pi
+
+
+def test_pursuer_straight_behind_is_not_turned_round() -> None:
+    """At pi the side is -1, at -pi it is +1."""
+    out = play_games(GAMES[3], [[1.0, 0, np.pi], [1.0, 0, -np.pi]], 0.01)
+    assert out.sides.tolist() == [-1, 1]
+
+
+def test_start_within_the_capture_distance_is_captured_immediately() -> None:
+    """Also where it would be out of reach after one step."""
+    starts = [[0.399, 3.0, 0.0], [0.4, 0.0, 0.0], [3.6012652646, 0, 0]]
+    out = play_games(GAMES[0], starts, 1.0, capture_distance=0.4)
+    assert out.captured.tolist() == [True, True, False]
+    assert out.closest_distance[:2].tolist() == [0.399, 0.4]
+    np.testing.assert_array_equal(out.capture_time, [0.0, 0.0, np.nan])
+    np.testing.assert_array_equal(out.states[:2], starts[:2])
+    assert np.isinf(out.settled_time).all()
+    assert out.circle.tolist() == [-1, -1, -1]
+
+
+@pytest.mark.parametrize(
+    ("duration", "expected"), [(0.3, 0.3), (0.31, 0.4), (0.05, 0.1)]
+)
+def test_duration_is_rounded_up_to_whole_steps(
+    duration: float, expected: float
+) -> None:
+    """Straight on at two speeds, the distance tells the time."""
+    game = make_game(2.0, 1.0, 0.5, 0.5, 0.0)
+    out = play_games(game, [[5.0, 0.0, 0.0]], duration, step=0.1)
+    assert out.states[0, 0] == pytest.approx(5.0 - expected)
+    assert out.closest_time[0] == pytest.approx(expected)
+
+
+@pytest.mark.parametrize("game", GAMES)
+def test_the_default_step_has_the_outcomes_of_a_tenth(game: Game) -> None:
+    starts = random_starts(300, seed=3)
+    step = accurate_step(game)
+    fine = play_games(game, starts, 40.0, step=0.1 * step)
+    found = play_games(game, starts, 40.0)
+    assert found.captured.tolist() == fine.captured.tolist()
+    assert found.circle.tolist() == fine.circle.tolist()
+    np.testing.assert_allclose(
+        found.closest_distance, fine.closest_distance, atol=1.5e-7
+    )
+
+
+@pytest.mark.parametrize("side", [1, -1])
+def test_given_side_is_kept_by_the_latched_rule(side: int) -> None:
+    out = play_games(GAMES[3], random_starts(5), 0.5, side=side)
+    assert out.sides.tolist() == [side] * 5
+
+
+@pytest.mark.parametrize(
+    ("name", "options"),
+    [
+        ("duration", {"duration": 0.0}),
+        ("step", {"duration": 1.0, "step": -0.1}),
+        ("capture_distance", {"duration": 1.0, "capture_distance": 0.0}),
+        ("side", {"duration": 1.0, "side": 2}),
+    ],
+)
+def test_values_out_of_range_are_refused_by_name(
+    name: str, options: dict[str, Any]
+) -> None:
+    with pytest.raises(PlanError, match=f"^{name} must"):
+        play_games(GAMES[0], [[1.0, 0.0, 0.0]], **options)
