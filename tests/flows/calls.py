@@ -6,7 +6,6 @@ here alone, so that a new name of a command changes one line.
 
 import json
 import os
-import resource
 import subprocess
 import sys
 import tomllib
@@ -18,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import stepaside as sa
+from flows.forking import run_forked
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 TIMEOUT = 280.0  # [s], for what hangs
@@ -42,28 +42,29 @@ def stepaside(
     cwd: Path | None = None,
     env: dict[str, str] | None = None,
     largest_file: int | None = None,
+    anew: bool = False,
 ) -> Output:
     """Run a command as a user does, and check its exit status.
 
     Files that would become larger than ``largest_file`` [bytes] fail, as if
-    the disk were full.
+    the disk were full. ``anew``, it imports what it needs itself.
     """
-
-    def limit() -> None:
-        if largest_file is not None:
-            size = largest_file, largest_file
-            resource.setrlimit(resource.RLIMIT_FSIZE, size)
-
-    done = subprocess.run(
-        [sys.executable, "-m", "stepaside", *map(str, words)],
-        capture_output=True,
-        text=True,
-        cwd=cwd,
-        env=os.environ | (env or {}),
-        timeout=TIMEOUT,
-        preexec_fn=limit,
-    )
-    output = Output(done.returncode, done.stdout, done.stderr)
+    texts, environment = list(map(str, words)), os.environ | (env or {})
+    if anew:
+        done = subprocess.run(
+            [sys.executable, "-m", "stepaside", *texts],
+            capture_output=True,
+            text=True,
+            cwd=cwd,
+            env=environment,
+            timeout=TIMEOUT,
+        )
+        output = Output(done.returncode, done.stdout, done.stderr)
+    else:
+        folder = cwd or Path.cwd()
+        output = Output(
+            *run_forked(texts, folder, environment, largest_file, TIMEOUT)
+        )
     assert output.status == status, output
     return output
 

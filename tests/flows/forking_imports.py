@@ -1,0 +1,16 @@
+"""Everything that a command may import, for :mod:`flows.forking`."""
+
+import os
+
+for name in ("OPENBLAS", "OMP", "NUMBA"):
+    os.environ.setdefault(f"{name}_NUM_THREADS", "1")
+
+import matplotlib.backends.backend_agg  # noqa: E402, F401
+import matplotlib.figure  # noqa: E402, F401
+
+import stepaside  # noqa: E402
+from stepaside.cli.main import all_commands  # noqa: E402
+
+all_commands()
+for name in stepaside.__all__:
+    getattr(stepaside, name)
