@@ -434,12 +434,13 @@ def describe_robot(model: Path, folder: Path) -> Any:
 
 def check_robot(folder: Path, status: int = 0) -> Any:
     """Check whether a robot can play."""
-    return stepaside("robot", "check", folder, "--json", status=status).json
+    words = ("robot", "check", folder, "--workers", 1, "--json")
+    return stepaside(*words, status=status).json
 
 
 def tune_robot(folder: Path) -> Any:
     """Search for a steadier gait of a robot."""
-    return stepaside("robot", "tune", folder, "--json").json
+    return stepaside("robot", "tune", folder, "--workers", 1, "--json").json
 
 
 def duel_of_robot(folder: Path, distance: float, *, duration: float) -> Any:
@@ -463,7 +464,7 @@ def inspect_legs(
 
 def measure_legs(robot: Path) -> Any:
     """Measure what the learned legs of a robot deliver."""
-    return stepaside("legs", "measure", robot, "--json").json
+    return stepaside("legs", "measure", robot, "--workers", 1, "--json").json
 
 
 def duel_on_legs(
