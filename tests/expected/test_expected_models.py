@@ -16,15 +16,19 @@ from stepaside.fitting.requirements import check_requirements
 from stepaside.robots.description import RobotDescription, load_robot
 
 
-def verdict(description: RobotDescription) -> str:
-    """Return the verdict on the mirror symmetry of a robot."""
+def checked(description: RobotDescription, name: str) -> tuple[str, str]:
+    """Return verdict and value of a check of a robot."""
     found = check_requirements(description)
-    (check,) = [each for each in found if each.name == "mirror symmetry"]
-    return check.verdict
+    (check,) = [each for each in found if each.name == name]
+    return check.verdict, check.value
+
+
+def symmetry(description: RobotDescription) -> str:
+    return checked(description, "mirror symmetry")[0]
 
 
 def test_a_symmetric_robot_mirrors_itself() -> None:
-    assert verdict(load_robot("nao")) == "pass"
+    assert symmetry(load_robot("nao")) == "pass"
 
 
 def test_a_foot_ahead_of_the_other_does_not_mirror_it() -> None:
@@ -32,7 +36,7 @@ def test_a_foot_ahead_of_the_other_does_not_mirror_it() -> None:
     nao = load_robot("nao")
     pitch = nao.standing.get("LHipPitch", 0.0)
     angles = {"LHipPitch": pitch + 0.2, "RHipPitch": pitch - 0.2}
-    assert verdict(replace(nao, standing=nao.standing | angles)) == "warn"
+    assert symmetry(replace(nao, standing=nao.standing | angles)) == "warn"
 
 
 @pytest.mark.parametrize(
@@ -105,3 +109,73 @@ def test_limits_that_no_joint_has_are_named(
     model.write_text(changed, encoding="utf-8")
     answer = stepaside("robot", "init", model, status=2, cwd=tmp_path)
     assert "limit" in answer.err
+
+
+COUPLING = (
+    '</worldbody><equality><joint joint1="near_spin" joint2="far_spin"/>'
+    "</equality>"
+)
+ARM = (
+    '<body name="{0}_a" pos="0 {1} 0.2"><joint name="{0}_1" axis="0 1 0"/>'
+    '<geom size="0.05"/><body name="{0}_b" pos="0 0 -0.3"><joint '
+    'name="{0}_2" axis="0 1 0"/><geom size="0.05"/></body></body>'
+)
+
+
+def turned(text: str) -> str:
+    """Return a model whose y axis points up, as z did before."""
+
+    def turn(found: re.Match[str]) -> str:
+        name, values = found[1], found[2].split()
+        if len(values) == 3:
+            x, y, z = values
+            values = [x, z, y if "pos" not in name else f"{-float(y)}"]
+        return f'{name}="{" ".join(values)}"'
+
+    names = "pos|axis|size|diaginertia"
+    text = re.sub(r'<geom name="floor"[^>]*>', "", text)
+    return re.sub(rf'({names})="([^"]*)"', turn, text)
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ("one name", "the joint of 'near_spin_link' must have a name"),
+        ("no names", "the joint of 'near_spin_link' must have a name"),
+        ("coupled yaws", "must not turn about parallel axes"),
+        ("y up", "stands along the y axis"),
+        ("upper body", "no leg found on the left"),
+    ],
+)
+def test_models_that_cannot_walk_are_refused_by_name(
+    change: str, said: str, tmp_path: Path
+) -> None:
+    """MuJoCo compiles all of them."""
+    model = stranger.mjcf(tmp_path, motors=False)
+    text = re.sub("<asset>.*|<keyf.*|<geom.*mesh.*", "", model.read_text())
+    match change:
+        case "one name":
+            text = text.replace('joint name="near_spin"', "joint")
+        case "no names":
+            text = re.sub('joint name="[^"]*"', "joint", text)
+        case "coupled yaws":
+            text = text.replace("</worldbody>", COUPLING)
+        case "y up":
+            text = turned(text)
+        case "upper body":
+            arms = ARM.format("l", 0.2) + ARM.format("r", -0.2)
+            text = re.sub('<body name="near_spin.*', arms, text)
+    model.write_text(text)
+    mujoco.MjModel.from_xml_path(str(model))
+    answer = stepaside("robot", "init", model, status=2, cwd=tmp_path)
+    assert said in answer.err and len(answer.err.splitlines()) == 1
+
+
+def test_estimates_are_named_where_they_are_judged(tmp_path: Path) -> None:
+    """The model has no limits of speeds and torques."""
+    model = stranger.mjcf(tmp_path, motors=False)
+    stepaside("robot", "init", model, "--output", tmp_path / "robot")
+    tables = "speed_limits, overlay.servos"
+    made = load_robot(tmp_path / "robot")
+    assert checked(made, "estimates") == ("warn", tables)
+    assert checked(load_robot("nao"), "estimates") == ("pass", "none")

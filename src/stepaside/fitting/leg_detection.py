@@ -77,7 +77,9 @@ def find_legs(
         if any(side * e.y > 0.0 for e in ends)
     ]
     if len(feet) < 2:
-        raise NoLegsError(f"{path} does not have two legs: {_sides(ends)}")
+        raise NoLegsError(
+            f"{path} does not have two legs: {_sides(data, ends)}"
+        )
     chains = [_chain(model, end.body) for end in feet]
     own = [
         [j for j in chain if j not in chains[1 - side]]
@@ -90,12 +92,18 @@ def find_legs(
     return left, right
 
 
-def _sides(ends: "list[_End]") -> str:
+def _sides(data: mujoco.MjData, ends: "list[_End]") -> str:
     """Return the explanation of missing legs."""
     if not ends:
         return (
             "no body below its torso has a hinge or a slide; the torso must "
             "be the root body with the most descendants"
+        )
+    below = np.abs(data.xpos[[end.body for end in ends]].mean(axis=0))
+    if below.argmax() != 2:
+        return (
+            f"it stands along the {'xy'[below.argmax()]} axis of its torso, "
+            "whose z axis must point up"
         )
     left = sum(end.y > 0.0 for end in ends)
     right = sum(end.y < 0.0 for end in ends)
@@ -209,8 +217,8 @@ def _leg(
     names = ", ".join(model.joint(j).name for j in chain)
     if len(pitches) != 3:
         raise ModelError(
-            f"the lowest chain of joints on the {side} ends in {name!r} and "
-            "is not a leg: a leg must have a pitch joint at hip, knee and "
+            f"no leg found on the {side}: the lowest chain of joints ends in "
+            f"{name!r}; a leg must have a pitch joint at hip, knee and "
             f"ankle, got {len(chain)} joints of which {len(pitches)} turn "
             f"about the axis to the left: {names}"
         )

@@ -98,6 +98,10 @@ def analyse_model(path: Path, folders: Sequence[Path]) -> ModelAnalysis:
         if isinstance(error, ModelError):
             raise
         raise ModelError(f"{path} cannot be compiled: {error}") from error
+    for i in range(model.njnt):
+        if model.jnt_type[i] in JOINT_TYPES and not model.joint(i).name:
+            body = model.body(int(model.jnt_bodyid[i])).name
+            raise ModelError(f"{path}: the joint of {body!r} must have a name")
     data, turn, legs = _legs(model, path)
     leg_joints = {*legs[0].joints, *legs[1].joints}
     for name, leader in couplings:

@@ -1,5 +1,6 @@
 """Static requirements of a robot for walking, checked one by one."""
 
+import re
 from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
@@ -10,7 +11,7 @@ from ..core.errors import StepAsideError
 from ..core.poses import Pose
 from ..games.robot_settings import settings_from_description
 from ..locomotion.zmp.reference_table import standing_reference
-from ..robots.description import REMEDY, RobotDescription
+from ..robots.description import FILE, REMEDY, RobotDescription
 from ..robots.forward_kinematics import ForwardKinematics
 from ..robots.leg_kinematics import LegKinematics
 from ..robots.tree_compiler import compile_tree
@@ -66,6 +67,18 @@ def _kinematics(description: RobotDescription) -> Iterator[RequirementCheck]:
     legs = len(description.legs)
     yield RequirementCheck(
         "joints", "pass", f"{len(tree.joints)}, of which {legs} in the legs"
+    )
+
+
+def _estimates(description: RobotDescription) -> Iterator[RequirementCheck]:
+    """Name the tables that ``robot init`` marked as estimates."""
+    text = (description.folder / FILE).read_text(encoding="utf-8-sig")
+    tables = re.findall(r"ASK:.*?\n\[([\w.]+)\]", text, re.DOTALL)
+    yield RequirementCheck(
+        "estimates",
+        "warn" if tables else "pass",
+        ", ".join(tables) or "none",
+        "replace values marked by ASK by measured ones" if tables else "",
     )
 
 
@@ -209,6 +222,7 @@ def _strength(description: RobotDescription) -> Iterator[RequirementCheck]:
 
 CHECKS: dict[str, Callable[[RobotDescription], Iterator[RequirementCheck]]] = {
     "kinematics": _kinematics,
+    "estimates": _estimates,
     "masses": _masses,
     "sensors": _sensors,
     "actuators": _actuators,
@@ -217,6 +231,7 @@ CHECKS: dict[str, Callable[[RobotDescription], Iterator[RequirementCheck]]] = {
 }
 HINTS = {
     "kinematics": REMEDY,
+    "estimates": "",
     "masses": "give links an inertial",
     "sensors": REMEDY,
     "actuators": REMEDY,

@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..core.errors import ModelError
 from ..core.machine_code import Kernel, is_enabled
 from ..core.poses import Array
 from .description import RobotDescription
@@ -67,7 +68,14 @@ def solver_of(description: RobotDescription, tree: RobotTree) -> LegSolver:
             _cache.clear()
         step = kernel = None
         if legs.is_plain:
-            formula = kept_formula("leg_step", legs, trace_step, hints)
+            try:
+                formula = kept_formula("leg_step", legs, trace_step, hints)
+            except ZeroDivisionError as error:
+                raise ModelError(
+                    f"the legs of {description.name} cannot place both feet: "
+                    "joints that follow each other must not turn about "
+                    "parallel axes"
+                ) from error
             kernel = step_kernel(formula, legs)
             step = formula.function() if kernel is None else None
         rows = kept_formula("leg_rows", legs, trace_residuals, hints)
