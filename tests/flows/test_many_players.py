@@ -72,26 +72,48 @@ def test_an_evader_that_knows_its_pursuers_is_not_captured() -> None:
     assert free["least_closest_m"] > 0.35
 
 
+def test_an_evader_leaves_between_pursuers_at_a_right_angle(
+    tmp_path: Path,
+) -> None:
+    """Away from both, along the bisector, and not away from one."""
+    kept = played(
+        tmp_path / "gap",
+        ("red", "pursuer", "pursuit", 1.0, 0.0, pi),
+        ("ruby", "pursuer", "pursuit", 0.0, 1.0, -pi / 2),
+        ("blue", "evader", "team-evasion", 0.0, 0.0, 0.0),
+    )
+    x, y, heading = kept["blue_place"][-1]
+    assert atan2(-y, -x) == pytest.approx(pi / 4, abs=0.1)
+    assert heading == pytest.approx(pi / 4, abs=0.1)
+
+
 def pursuit_of_standing(
     folder: Path, strategy: str, *evaders: tuple[float, float]
 ) -> Arrays:
     """Two pursuers, 1 m apart at x = 0, walk 16 s at evaders that stand."""
-    players = [
-        ("red", "pursuer", strategy, (0.0, 0.0)),
-        ("ruby", "pursuer", strategy, (0.0, 1.0)),
+    return played(
+        folder,
+        ("red", "pursuer", strategy, 0.0, 0.0, 0.0),
+        ("ruby", "pursuer", strategy, 0.0, 1.0, 0.0),
         *(
-            (f"evader-{n}", "evader", "stand", at)
+            (f"evader-{n}", "evader", "stand", *at, 0.0)
             for n, at in enumerate(evaders)
         ),
-    ]
+    )
+
+
+def played(
+    folder: Path, *players: tuple[str, str, str, float, float, float]
+) -> Arrays:
+    """Play 16 s of steps; name, role, strategy and start of each."""
     text = 'duration = 16.0\nlevel = "steps"\n'
-    for name, role, plays, (x, y) in players:
+    for name, role, plays, *start in players:
         text += f"""
 [[players]]
 name = "{name}"
 role = "{role}"
 strategy = "{plays}"
-start = [{x}, {y}, 0.0]
+start = {start}
 """
     folder.mkdir()
     (folder / "game.toml").write_text(text)
