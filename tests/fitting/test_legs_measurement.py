@@ -48,8 +48,11 @@ class FormulaExecutor(Executor):
             delivered = BodyVelocity(*(GAINS @ np.array(trial.command)))
             fell = 2.0 if self._falls(trial.command) else None
             seen = (delivered.forward / 1.05, delivered.lateral / 1.1)
+            lag, halting = (
+                (0.4, 0.25) if min(trial.command) < 0 else (0.2, 0.1)
+            )
             yield LegsTrialResult(
-                trial.command, delivered, 0.3, 0.1, fell, seen
+                trial.command, delivered, lag, halting, fell, seen
             )
 
 
@@ -86,7 +89,9 @@ def test_linear_legs_are_measured_exactly(robot: RobotDescription) -> None:
     result.response.inverse(wanted, command)()
     found = result.response.deliver(BodyVelocity(*command))
     assert found == pytest.approx(wanted)
-    assert [axis.lag for axis in result.response.axes] == [0.3] * 3
+    legs = result.response.velocities  # of the mean lag, and the worst halt
+    assert legs.lags == pytest.approx([0.3] * 3)
+    assert legs.halting == (0.25,) * 3
     assert result.response.velocities.tube == pytest.approx(0.3)  # the widest
 
 
