@@ -225,6 +225,14 @@ def test_frames_of_a_bag_are_those_of_ros(
         assert sign * planar(foot)[0] > 0.05
         torso = frames[f"{player}/base_link"]
         assert torso.header.frame_id == f"{player}/base_footprint"
+        move = torso.transform.translation
+        c, s = cos(last[2]), sin(last[2])
+        x, y = c * move.x - s * move.y, s * move.x + c * move.y
+        base = table.of(f"{player}/base_link", "x_m", "y_m", "z_m")[row]
+        np.testing.assert_allclose((last[0] + x, last[1] + y, move.z), base)
+        knee = frames[f"{player}/r_tibia"].transform.rotation
+        bend = table.columns[f"{player}/joint_position/RKneePitch_rad"][row]
+        assert 2.0 * np.arctan2(knee.y, knee.w) == pytest.approx(bend)
         pose = bag[f"/{player}/pose"][row][1]
         assert pose.header.frame_id == "map"
         np.testing.assert_allclose(
@@ -249,26 +257,33 @@ def test_signals_of_a_bag_are_those_of_the_tables(
         com = table.of(f"{player}/com", "x_m", "y_m", "z_m")[row]
         np.testing.assert_allclose((place.x, place.y, place.z), com)
         state = bag[f"/{player}/joint_states"][row][1]
-        for name, angle, effort in zip(
-            state.name, state.position, state.effort, strict=True
+        for kind, unit, values in (
+            ("position", "rad", state.position),
+            ("velocity", "rad_s", state.velocity),
+            ("effort", "n_m", state.effort),
         ):
-            columns = f"{player}/joint_position", f"{player}/joint_effort"
-            assert angle == table.columns[f"{columns[0]}/{name}_rad"][row]
-            assert effort == table.columns[f"{columns[1]}/{name}_n_m"][row]
+            names = (f"joint_{kind}/{name}_{unit}" for name in state.name)
+            found = [table.columns[f"{player}/{name}"][row] for name in names]
+            assert found == list(values)
         imu = bag[f"/{player}/imu"][row][1]
         assert imu.header.frame_id == f"{player}/imu_link"
         assert imu.orientation_covariance[0] == -1.0  # none, says ROS
         gyro = table.of(f"{player}/gyro", *(f"{p}_rad_s" for p in "xyz"))[row]
         rate = imu.angular_velocity
         np.testing.assert_allclose((rate.x, rate.y, rate.z), gyro)
-        loads = [
-            np.mean(
-                [m.wrench.force.z for _, m in bag[f"/{player}/{s}/wrench"]]
-            )
-            for s in ("l_sole", "r_sole")
+        wrenches = [
+            m.wrench
+            for sole in ("l_sole", "r_sole")
+            for _, m in bag[f"/{player}/{sole}/wrench"]
         ]
+        load = sum(w.force.z for w in wrenches)
         weight = GRAVITY * sa.load_tree(sa.load_robot("nao")).mass
-        assert sum(loads) == pytest.approx(weight, rel=0.05)
+        samples = len(bag[f"/{player}/imu"])
+        assert load / samples == pytest.approx(weight, rel=0.05)
+        # The centre of pressure is that much ahead of the ankles.
+        ahead = -sum(w.torque.y for w in wrenches) / load
+        gait = sa.GaitSettings()
+        assert ahead == pytest.approx(gait.zmp_forward, abs=0.01)
 
 
 def test_mujoco_reads_the_model_with_its_masses_and_ranges(
@@ -320,11 +335,16 @@ def test_a_page_from_disk_holds_the_run(
     np.testing.assert_allclose(page["distance"], run.distance[rows], atol=2e-3)
     raw = np.frombuffer(b64decode(page["positions"]), "<f4")
     bodies = raw.reshape(len(times), -1, 3)
+    raw = np.frombuffer(b64decode(page["quaternions"]), "<i2")
+    turns = raw.reshape(len(times), -1, 4) / 32767.0
     listed = list(page["bodies"])
     for player in page["players"]:
         torso = run.tracks[player["name"]].qpos[rows, :3]
         shown = bodies[:, listed.index(player["torso"])]
         np.testing.assert_allclose(shown, torso, atol=1e-5)
+        turn = turns[:, listed.index(player["torso"])]
+        quaternion = run.tracks[player["name"]].qpos[rows, 3:7]
+        np.testing.assert_allclose(turn, quaternion, atol=1e-4)
 
 
 def test_a_film_shows_the_duel(folder: Path, tmp_path: Path) -> None:
