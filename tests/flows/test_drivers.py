@@ -66,6 +66,8 @@ def test_a_robot_on_ros2_walks_as_the_laws_say_and_is_recorded(
     assert seen == pytest.approx(1.0, abs=1e-3)
     ahead = np.arctan2(opponent[1] - y, opponent[0] - x) - heading
     assert np.sin(ahead - BEARING) == pytest.approx(0.0, abs=1e-3)
+    faces = run.tracks["pursuer"].torso[-1, 2] - heading - BEARING
+    assert np.cos(faces) == pytest.approx(-1.0, abs=1e-3)
     page = write_page_of(folder, tmp_path / "page.html")
     assert "evader" in page.read_text(encoding="utf-8")
 
@@ -82,8 +84,10 @@ def test_a_served_robot_goes_where_its_peer_on_ros2_commands(
     )
     node = Node()
     odometry = node.reader("/served/odom", "nav_msgs/Odometry")
+    sight = node.reader("/served/ideal_sight", "geometry_msgs/PointStamped")
     commands = node.writer("/served/cmd_vel", "geometry_msgs/Twist")
     poses: list[tuple[float, float, float]] = []
+    seen, speeds = [(0.0, 0.0)], [(0.0, 0.0)]
 
     def answer() -> bool:
         for message in odometry.take(10):
@@ -92,12 +96,18 @@ def test_a_served_robot_goes_where_its_peer_on_ros2_commands(
                 pose = message.pose.pose
                 turn = 2.0 * np.arctan2(pose.orientation.z, pose.orientation.w)
                 poses.append((pose.position.x, pose.position.y, turn))
+                own = message.twist.twist
+                speeds.append((own.linear.x, own.angular.z))
                 commands.write(twist(forward, rate))
+        for message in sight.take(10):
+            if hasattr(message, "point"):
+                seen.append((message.point.x, message.point.y))
         return serve.process.poll() is not None
 
     until(answer)
     assert serve.end() == 0, serve.said
-    first, *_, last = load_run(folder).tracks["pursuer"].place
+    tracks = load_run(folder).tracks
+    first, *_, last = tracks["pursuer"].place
     heading = last[2] - first[2]
     assert 0.4 < heading < 8.0 * rate
     arc = forward / rate * np.array([sin(heading), 1.0 - cos(heading)])
@@ -107,6 +117,12 @@ def test_a_served_robot_goes_where_its_peer_on_ros2_commands(
     np.testing.assert_allclose(back @ (last - first)[:2], arc, atol=0.04)
     np.testing.assert_allclose(poses[-1][:2], arc, atol=0.02)
     assert poses[-1][2] == pytest.approx(heading, abs=0.05)
+    assert speeds[-1] == pytest.approx((forward, rate))
+    x, y = tracks["evader"].place[-1, :2] - last[:2]
+    bearing = np.arctan2(y, x) - last[2]
+    assert abs(bearing) > 0.3
+    assert np.arctan2(*seen[-1][::-1]) == pytest.approx(bearing, abs=0.05)
+    assert np.hypot(*seen[-1]) == pytest.approx(np.hypot(x, y), abs=0.05)
 
 
 def test_an_own_robot_keeps_its_limits_along_the_same_curve(
@@ -258,7 +274,10 @@ def test_a_served_robot_is_held_by_its_client_on_lola(
 
 
 def test_motion_that_others_recorded_is_measured(tmp_path: Path) -> None:
-    """Two robots on one circle: one on tf, one on a topic, in one map."""
+    """Two robots on one circle: one on tf, one on a topic, in one map.
+
+    They were recorded later, and at half the pace, from another bag.
+    """
     rosbag = pytest.importorskip("rosbags.rosbag2")
     typesys = pytest.importorskip("rosbags.typesys")
     store = typesys.get_typestore(typesys.Stores.ROS2_HUMBLE)
@@ -297,7 +316,7 @@ def test_motion_that_others_recorded_is_measured(tmp_path: Path) -> None:
 
             def write(time: float, message: Any) -> None:
                 raw = store.serialize_cdr(message, name)
-                writer.write(made, round(1e9 * time), raw)
+                writer.write(made, round(1e9 * (5.0 + 2.0 * time)), raw)
 
             return write
 
