@@ -25,7 +25,7 @@ from stepaside.sim.body_settings import BODIES
 from stepaside.sim.person_settings import PersonSettings
 from stepaside.strategies import Intent, Knowledge
 from stepaside.strategies.velocity_set import BodyVelocity
-from stepaside.theory.unicycle.circle_equations import find_circle
+from stepaside.theory.unicycle.circles import find_circle
 
 
 @pytest.fixture(scope="module")

@@ -26,7 +26,7 @@ from stepaside.games.robot_settings import (
 from stepaside.planning import GaitSettings
 from stepaside.robots.description import load_robot
 from stepaside.sim.body_settings import BODIES
-from stepaside.theory.unicycle.circle_equations import find_circle
+from stepaside.theory.unicycle.circles import find_circle
 
 NAO = load_robot("nao")
 

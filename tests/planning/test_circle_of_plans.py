@@ -15,8 +15,8 @@ from stepaside.core.poses import Array, Pose, wrap_angle
 from stepaside.perception.measurement import Measurement, Sighting
 from stepaside.planning import Foot, GaitSettings
 from stepaside.strategies import Evasion, Pursuit
-from stepaside.theory.unicycle.circle_equations import Circle, find_circle
 from stepaside.theory.unicycle.circle_fit import fit_circle
+from stepaside.theory.unicycle.circles import Circle, find_circle
 from stepaside.theory.unicycle.relative_coordinates import RelativeStart
 from stepaside.theory.unicycle.sampled_game import simulate_sampled
 from stepaside.theory.unicycle.unicycle_game import Unicycle, make_game

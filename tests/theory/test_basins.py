@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from stepaside.theory.unicycle.adaptive_simulation import simulate
-from stepaside.theory.unicycle.all_circles import circles_of
 from stepaside.theory.unicycle.basins import (
     duration_and_step,
     find_basins,
@@ -15,6 +14,7 @@ from stepaside.theory.unicycle.basins import (
     settled_fractions,
 )
 from stepaside.theory.unicycle.batch import Outcomes, play_games
+from stepaside.theory.unicycle.circles import circles_of
 from stepaside.theory.unicycle.relative_coordinates import RelativeStart
 from stepaside.theory.unicycle.unicycle_game import Game, make_game
 

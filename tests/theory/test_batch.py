@@ -7,8 +7,8 @@ import pytest
 
 from stepaside.core.errors import PlanError
 from stepaside.theory.unicycle.adaptive_simulation import PlayedGame, simulate
-from stepaside.theory.unicycle.all_circles import circles_of
 from stepaside.theory.unicycle.batch import accurate_step, play_games
+from stepaside.theory.unicycle.circles import circles_of
 from stepaside.theory.unicycle.relative_coordinates import RelativeStart
 from stepaside.theory.unicycle.unicycle_game import Game, make_game
 

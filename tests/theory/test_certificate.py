@@ -12,7 +12,7 @@ from stepaside.theory.unicycle.certificate import (
     certify,
     largest_change,
 )
-from stepaside.theory.unicycle.circle_equations import circle_of
+from stepaside.theory.unicycle.circles import circle_of
 from stepaside.theory.unicycle.relative_coordinates import RelativeStart
 from stepaside.theory.unicycle.unicycle_game import Game, make_game
 

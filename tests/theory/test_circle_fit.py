@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from stepaside.theory.unicycle.adaptive_simulation import simulate
-from stepaside.theory.unicycle.all_circles import circles_of
 from stepaside.theory.unicycle.circle_fit import (
     circle_at,
     fit_circle,
     measure,
     settling_time,
 )
+from stepaside.theory.unicycle.circles import circles_of
 from stepaside.theory.unicycle.relative_coordinates import RelativeStart
 from stepaside.theory.unicycle.unicycle_game import make_game
 

@@ -7,9 +7,9 @@ import pytest
 
 from stepaside.core.errors import PlanError
 from stepaside.theory.unicycle.adaptive_simulation import simulate
-from stepaside.theory.unicycle.all_circles import circles_of
 from stepaside.theory.unicycle.batch import play_games
 from stepaside.theory.unicycle.circle_fit import circle_at
+from stepaside.theory.unicycle.circles import circles_of
 from stepaside.theory.unicycle.invariant_set import (
     distance_lower_bound,
     stays_unwrapped,

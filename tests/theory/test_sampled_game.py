@@ -6,7 +6,7 @@ import pytest
 from stepaside.core.errors import PlanError
 from stepaside.core.poses import Pose
 from stepaside.theory.unicycle.adaptive_simulation import simulate
-from stepaside.theory.unicycle.circle_equations import circle_of
+from stepaside.theory.unicycle.circles import circle_of
 from stepaside.theory.unicycle.relative_coordinates import RelativeStart
 from stepaside.theory.unicycle.sampled_game import (
     choose_turning,

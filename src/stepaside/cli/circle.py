@@ -95,7 +95,7 @@ def describe_circle(
     game: Game, sample_time: float = 0.0, delay: float = 0.0
 ) -> dict[str, Any]:
     """Return the main circle of a game for JSON, None where undefined."""
-    from ..theory.unicycle.circle_equations import circle_of
+    from ..theory.unicycle.circles import circle_of
 
     found = circle_of(game)
     names = (

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
-from ..theory.unicycle.circle_equations import Circle
+from ..theory.unicycle.circles import Circle
 from ..theory.unicycle.unicycle_game import Game
 from .tables import format_value, print_columns, print_table, table_rows
 from .terminal import echo
@@ -31,8 +31,8 @@ def describe_circles(
     Returns:
         Values for JSON; fractions are None without simulation.
     """
-    from ..theory.unicycle.all_circles import circles_of
     from ..theory.unicycle.basins import find_basins, random_starts
+    from ..theory.unicycle.circles import circles_of
 
     if starts == 0:
         found = [describe_one(c, None) for c in circles_of(game)]

@@ -124,7 +124,7 @@ def map(  # noqa: A001 (the command's name)
     result = _result(game, box, rules, found, worst)
     if figure is not None:
         from ..report.unicycle_map import draw_map
-        from ..theory.unicycle.all_circles import circles_of
+        from ..theory.unicycle.circles import circles_of
 
         circles = circles_of(game)
         if attempt(
@@ -226,8 +226,8 @@ def _print(result: dict[str, Any]) -> None:
 
 def _circles(game: Game, outcomes: Any) -> list[dict[str, Any]]:
     """Return every circle with the fraction of games that end on it."""
-    from ..theory.unicycle.all_circles import circles_of
     from ..theory.unicycle.basins import settled_fractions
+    from ..theory.unicycle.circles import circles_of
 
     circles = circles_of(game)
     return [

@@ -219,8 +219,8 @@ def _certify(game: Game, start: Any) -> dict[str, Any] | None:
 
 def _ended_on(game: Game, state: Any, side: int) -> dict[str, Any] | None:
     """Return the circle of the final state; None if it is on none."""
-    from ..theory.unicycle.all_circles import circles_of
     from ..theory.unicycle.circle_fit import circle_at
+    from ..theory.unicycle.circles import circles_of
 
     circle = circle_at(circles_of(game), state, side)
     if circle is None:

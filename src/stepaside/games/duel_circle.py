@@ -6,7 +6,7 @@ import numpy as np
 
 from ..core.poses import Array
 from ..planning import GaitSettings
-from ..theory.unicycle.circle_equations import Circle, find_circle
+from ..theory.unicycle.circles import Circle, find_circle
 from .duel_settings import EVADER, PURSUER, DuelSettings
 
 DISTANCE_BAND = 0.05  # relative to the distance on the circle

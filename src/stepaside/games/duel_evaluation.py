@@ -8,8 +8,8 @@ import numpy as np
 from ..core.poses import Array, Pose
 from ..robots.description import load_robot
 from ..sim.person_motion import PersonMotion, template_approach
-from ..theory.unicycle.circle_equations import Circle
 from ..theory.unicycle.circle_fit import fit_circle
+from ..theory.unicycle.circles import Circle
 from ..theory.unicycle.unicycle_game import Unicycle
 from .duel_circle import (
     angle_between,

@@ -6,7 +6,7 @@ import numpy as np
 
 from ..core.poses import Array
 from ..theory.unicycle.adaptive_simulation import PlayedGame
-from ..theory.unicycle.circle_equations import circle_of
+from ..theory.unicycle.circles import circle_of
 from .figure_style import EVADER, PURSUER, new_figure, save
 
 TICK = 0.5  # [m], as in Fig. 2

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 from matplotlib.colors import ListedColormap
 
-from ..theory.unicycle.circle_equations import Circle
+from ..theory.unicycle.circles import Circle
 from ..theory.unicycle.start_maps import StartMap
 from .figure_style import new_figure, save
 

@@ -7,8 +7,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..theory.unicycle.adaptive_simulation import simulate
-from ..theory.unicycle.circle_equations import circle_of
 from ..theory.unicycle.circle_fit import FittedCircle, measure, settling_time
+from ..theory.unicycle.circles import circle_of
 from ..theory.unicycle.relative_coordinates import RelativeStart
 from ..theory.unicycle.unicycle_game import Game, SideRule, TurningLaw
 from .figure_sizes import sheet

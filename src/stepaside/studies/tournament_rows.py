@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from ..strategies.strategy_game import StepGame
-from ..theory.unicycle.circle_equations import find_circle
+from ..theory.unicycle.circles import find_circle
 from .survival_statistics import half_interval, wilson_interval
 from .tournament_strategies import gain_ratio_of
 

@@ -1,9 +1,8 @@
 """Pursuit and evasion of two unicycles (paper, Sec. II)."""
 
 from .adaptive_simulation import PlayedGame, simulate
-from .all_circles import circles_of, find_circles
 from .batch import Outcomes, play_games
-from .circle_equations import Circle, circle_of, find_circle
+from .circles import Circle, circle_of, circles_of, find_circle
 from .relative_coordinates import RelativeStart
 from .sampled_game import simulate_sampled
 from .unicycle_game import (
@@ -28,7 +27,6 @@ __all__ = [
     "circle_of",
     "circles_of",
     "find_circle",
-    "find_circles",
     "make_game",
     "play_games",
     "simulate",

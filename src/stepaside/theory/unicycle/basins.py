@@ -6,9 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .all_circles import circles_of
 from .batch import Outcomes, play_games
-from .circle_equations import Circle
+from .circles import Circle, circles_of
 from .unicycle_game import Game
 
 Array = NDArray[np.float64]

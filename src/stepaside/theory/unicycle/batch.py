@@ -10,8 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from ...core.brief_repr import brief_repr
 from ...core.errors import PlanError, check_positive, shown
 from ...core.poses import wrap_angles
-from .all_circles import circles_of
-from .circle_equations import Circle
+from .circles import Circle, circles_of
 from .relative_coordinates import check_bearings
 from .relative_motion import RelativeState, deviation, rules_of
 from .unicycle_game import Game, check_side

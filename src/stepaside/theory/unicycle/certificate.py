@@ -31,7 +31,7 @@ import numpy as np
 
 from ...core.errors import PlanError
 from ..laws import evasion_heading, side_behind
-from .circle_equations import circle_of
+from .circles import circle_of
 from .invariant_set import stays_unwrapped
 from .relative_coordinates import RelativeStart
 from .unicycle_game import Game, check_side

@@ -8,9 +8,8 @@ from numpy.typing import NDArray
 
 from ...core.poses import wrap_angle
 from .adaptive_simulation import PlayedGame
-from .all_circles import circles_of
 from .batch import circle_deviations, circle_states
-from .circle_equations import Circle
+from .circles import Circle, circles_of
 from .relative_motion import NEAR
 from .unicycle_game import Game
 

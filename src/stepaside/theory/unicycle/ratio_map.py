@@ -6,7 +6,7 @@ from math import pi
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .equilibria import GameParameters, find_equilibria, growth_rates
+from .circles import GameParameters, find_equilibria
 from .unicycle_game import TurningLaw
 
 Array = NDArray[np.float64]
@@ -62,7 +62,8 @@ def map_ratios(
     games = GameParameters.of(vp, 1.0, 1.0, ke, angle)
     saturated = TurningLaw(law) is TurningLaw.SATURATED
     equilibria = find_equilibria(games, saturated=saturated)
-    growth = growth_rates(equilibria, games, saturated=saturated)
+    modes = equilibria.eigenvalues(games, saturated=saturated)
+    growth = modes.real.max(axis=-1)
     bearing = equilibria.evader_error - angle
     behind = (bearing > -pi) & (bearing < 0.0)
 

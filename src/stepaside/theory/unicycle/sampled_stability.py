@@ -11,9 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.errors import PlanError, check_not_negative, check_positive
-from .circle_equations import Circle, circle_of
-from .root_finding import bisect
-from .stability import feedback_matrix, geometry_jacobian, sorted_eigenvalues
+from .circles import (
+    Circle,
+    circle_of,
+    relative_jacobian,
+    sorted_eigenvalues,
+)
 from .unicycle_game import Game
 
 Array = NDArray[np.float64]
@@ -42,10 +45,26 @@ def smooth_circle(game: Game) -> Circle:
 
 
 def _geometry(game: Game, circle: Circle) -> tuple[Array, Array]:
-    bearing = circle.evader_error_rad - game.angle
-    return geometry_jacobian(
-        game, circle.distance_m, circle.pursuer_error_rad, bearing
+    """Linearise the relative motion with the turning rates held.
+
+    Returns:
+        Derivative of the rates of (r, a, psi) by the state, shape (3, 3),
+        and by the turning rates of pursuer and evader, shape (3, 2).
+    """
+    by_state = relative_jacobian(
+        game.pursuer.speed,
+        game.evader.speed,
+        circle.distance_m,
+        circle.pursuer_error_rad,
+        circle.bearing_rad,
     )
+    return by_state, np.array([[0.0, 0.0], [-1.0, 0.0], [0.0, -1.0]])
+
+
+def _feedback(game: Game) -> Array:
+    """Return the derivative of the turning rates by (r, a, psi), (2, 3)."""
+    evader = 0.0 if game.saturated else game.evader.gain
+    return np.array([[0.0, game.pursuer.gain, 0.0], [0.0, 0.0, evader]])
 
 
 def _held_transition(
@@ -81,7 +100,7 @@ def step_map(game: Game, sample_time: float, delay: float = 0.0) -> Array:
     check_positive(sample_time, "sample_time", "s")
     check_not_negative(delay, "delay", "s")
     state, turning = _geometry(game, smooth_circle(game))
-    feedback = feedback_matrix(game)
+    feedback = _feedback(game)
     whole = floor(delay / sample_time + 1e-12)
     if whole > MAX_DEPTH:
         raise PlanError(
@@ -145,8 +164,8 @@ def delayed_eigenvalues(
     full = np.kron(d * (2.0 / delay), np.eye(3))
     full[:3] = 0.0
     full[:3, :3] = state
-    full[:3, -3:] += turning @ feedback_matrix(game)
-    return sorted_eigenvalues(full)[:count]
+    full[:3, -3:] += turning @ _feedback(game)
+    return sorted_eigenvalues(np.linalg.eigvals(full))[:count]
 
 
 def largest_stable_sample_time(game: Game, delay: float = 0.0) -> float:
@@ -199,11 +218,13 @@ def _first_crossing(
     excess: Callable[[float], float], low: float, step: float, count: int
 ) -> float:
     """Return the least argument with a positive excess; inf if none."""
+    from scipy.optimize import brentq
+
     if excess(low) >= 0.0:
         return 0.0
     for _ in range(count):
         if excess(low + step) >= 0.0:
-            return bisect(excess, low, low + step)
+            return float(brentq(excess, low, low + step))
         low += step
         step *= 1.02
     return float("inf")

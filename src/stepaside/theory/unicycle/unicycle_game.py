@@ -1,17 +1,11 @@
 """Parameters of the game of two unicycles, eqs. (1)-(6) of the paper."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
-from functools import wraps
-from inspect import signature
 from math import pi
-from typing import Any, Never, ParamSpec, TypeVar
+from typing import Never
 
 from ...core.errors import PlanError, check_positive, check_within, shown
-
-Values = ParamSpec("Values")
-Found = TypeVar("Found")
 
 MOVE_BACK = 0.0
 """Evasion angle of "move back", in [rad]."""
@@ -143,31 +137,3 @@ def make_game(
         SideRule(side_rule),
         hysteresis,
     )
-
-
-def with_values(
-    name: str, make: Callable[Values, Game], find: Callable[[Game], Found]
-) -> Callable[Values, Found]:
-    """Return a variant of a function of a game that takes plain values.
-
-    Args:
-        name: Name of the variant.
-        make: Builds a game from values, as :func:`make_game` does.
-        find: Function of a game.
-    """
-
-    @wraps(make, assigned=())
-    def found(*values: Values.args, **named: Values.kwargs) -> Found:
-        return find(make(*values, **named))
-
-    made: Any = found
-    given = signature(find).return_annotation
-    made.__signature__ = signature(make).replace(return_annotation=given)
-    first = (find.__doc__ or "").partition("\n")[0]
-    found.__name__ = found.__qualname__ = name
-    found.__module__ = find.__module__
-    found.__doc__ = (
-        f"{first}\n\nSee :func:`{find.__name__}`; the game is built by "
-        f":func:`.unicycle_game.{make.__name__}` from the values."
-    )
-    return found

@@ -1,34 +1,31 @@
-"""Test that every circle of a game is found, and nothing else."""
+"""Test the circles of games: closed forms, a dense search, simulation."""
 
-from math import cos, pi, sin
+from math import cos, inf, nan, pi, sin
 
 import numpy as np
 import pytest
 
+from stepaside.core.errors import PlanError
 from stepaside.core.poses import wrap_angle
 from stepaside.theory.unicycle.adaptive_simulation import simulate
-from stepaside.theory.unicycle.all_circles import (
-    agrees,
-    circles_of,
-    find_circles,
-)
 from stepaside.theory.unicycle.basins import find_basins, random_starts
 from stepaside.theory.unicycle.batch import play_games
-from stepaside.theory.unicycle.circle_equations import Circle, circle_of
 from stepaside.theory.unicycle.circle_fit import (
     circle_at,
     measure,
     settling_time,
 )
-from stepaside.theory.unicycle.equilibria import (
-    GameParameters,
-    find_equilibria,
-    growth_rates,
+from stepaside.theory.unicycle.circles import (
+    Circle,
+    circle_of,
+    circles_of,
+    find_circle,
 )
 from stepaside.theory.unicycle.ratio_map import map_ratios
 from stepaside.theory.unicycle.relative_coordinates import RelativeStart
 from stepaside.theory.unicycle.unicycle_game import Game, TurningLaw, make_game
 
+SATURATED = TurningLaw.SATURATED
 FAST = make_game(2.0, 1.0, 1.0, 4.0)
 FAST_6 = make_game(2.0, 1.0, 1.0, 4.0, pi / 2, "saturated")
 
@@ -73,13 +70,13 @@ def state_of(circle: Circle) -> np.ndarray:
 
 
 def test_faster_pursuer_has_a_close_reversed_circle_too() -> None:
-    main, other = find_circles(2.0, 1.0, 1.0, 4.0)
+    main, other = circles_of(FAST)
     assert (main.direction, other.direction) == (1, -1)
     assert main.distance_m == pytest.approx(2.0805, abs=1e-4)
     assert other.distance_m == pytest.approx(0.5876, abs=1e-4)
     assert main.behind and other.behind
     assert main.stable and other.stable
-    near = find_circles(1.01, 1.0, 1.0, 4.0)[1]
+    near = circles_of(make_game(1.01, 1.0, 1.0, 4.0))[1]
     assert near.stable and near.distance_m < 0.03
 
 
@@ -183,41 +180,28 @@ def test_reversed_circle_is_behind_only_where_the_pursuer_is_faster() -> None:
 def test_eigenvalues_are_those_of_the_printed_law(law: TurningLaw) -> None:
     """Finite differences of the rates, of the sliding motion if it slides."""
     h = 1e-6
-    values = random_games(25)
-    games, saturated = (
-        GameParameters.of(*values.T),
-        law is TurningLaw.SATURATED,
-    )
-    rests = find_equilibria(games, saturated=saturated)
-    growth = growth_rates(rests, games, saturated=saturated)
-    assert set(np.unique(rests.game)) <= set(range(25))
-    for i, number in enumerate(rests.game):
-        game = game_of(values[number], law, "latched")
-        rate = rests.turning_rate[i]
-        circle = next(
-            c
-            for c in circles_of(game)
-            if c.turning_rate_rad_s == pytest.approx(rate, rel=1e-9)
-            and c.distance_m == pytest.approx(rests.distance[i], rel=1e-6)
-        )
-        rest = state_of(circle)
-        columns = []
-        for j in range(3):
-            step = h * np.eye(3)[j]
-            ends = [
-                rates(game, s, evader_rate(game, circle, s[2]))
-                for s in (rest + step, rest - step)
-            ]
-            columns.append((ends[0] - ends[1]) / (2.0 * h))
-        size = 2 if circle.sliding else 3
-        matrix = np.array(columns).T[:size, :size]
-        expected = np.linalg.eigvals(matrix)
-        np.testing.assert_allclose(
-            np.poly(np.array(circle.eigenvalues)), np.poly(expected), atol=1e-5
-        )
-        slowest = float(expected.real.max())
-        assert growth[i] == pytest.approx(slowest, abs=1e-4)
-        assert circle.stable == (growth[i] < 0.0)
+    for values in random_games(25):
+        game = game_of(values, law, "latched")
+        for circle in circles_of(game):
+            rest = state_of(circle)
+            columns = []
+            for j in range(3):
+                step = h * np.eye(3)[j]
+                ends = [
+                    rates(game, s, evader_rate(game, circle, s[2]))
+                    for s in (rest + step, rest - step)
+                ]
+                columns.append((ends[0] - ends[1]) / (2.0 * h))
+            size = 2 if circle.sliding else 3
+            matrix = np.array(columns).T[:size, :size]
+            expected = np.linalg.eigvals(matrix)
+            np.testing.assert_allclose(
+                np.poly(np.array(circle.eigenvalues)),
+                np.poly(expected),
+                atol=1e-5,
+            )
+            slowest = float(expected.real.max())
+            assert circle.stable == (slowest < 0.0)
 
 
 def test_main_circle_comes_first_and_only_once() -> None:
@@ -239,12 +223,11 @@ def test_main_circle_comes_first_and_only_once() -> None:
 def test_hysteresis_lets_circles_beyond_the_axis_stay() -> None:
     game = make_game(1.3, 1.0, 1.0, 1.0, 1.2, hysteresis=1.0)
     inside = circle_of(game)
-    assert agrees(game, inside)
+    assert inside in circles_of(game)
     kept = circles_of(make_game(1.0, 1.0, 0.5, 0.5, 1.2, side_rule="latched"))
     reversed_one = kept[1]  # at the bearing -pi - 0.6
     for width, expected in ((0.0, False), (0.59, False), (0.61, True)):
         behind = make_game(1.0, 1.0, 0.5, 0.5, 1.2, hysteresis=width)
-        assert agrees(behind, reversed_one) == expected
         assert (reversed_one in circles_of(behind)) == expected
 
 
@@ -304,7 +287,7 @@ def test_map_over_ratios_agrees_with_the_circles_of_each_game(
     found = map_ratios(1.4, law, speeds, gains)
     for i, ratio in enumerate(speeds):
         for j, gain in enumerate(gains):
-            circles = find_circles(ratio, 1.0, 1.0, gain, 1.4, law)
+            circles = circles_of(make_game(ratio, 1.0, 1.0, gain, 1.4, law))
             onward = [c.distance_m for c in circles if c.direction > 0]
             back = [c for c in circles if c.direction < 0]
             firm = [c.distance_m for c in back if c.stable]
@@ -324,3 +307,133 @@ def test_side_of_the_smaller_error_is_the_side_behind() -> None:
             errors = {s: abs(wrap_angle(psi + s * angle)) for s in (-1, 1)}
             smaller = min(errors, key=lambda s: errors[s])
             assert smaller == (-1 if psi > 0.0 else 1) or psi == 0.0
+
+
+def test_circle_of_figure_2() -> None:
+    circle = find_circle(1.0, 1.0, 0.5, 0.5, pi / 2)
+    assert circle.radius_pursuer_m == pytest.approx(8.0 / pi, rel=1e-12)
+    assert circle.distance_m == pytest.approx(3.6012652646, abs=1e-9)
+    assert circle.headings_apart_rad == pytest.approx(pi / 2)
+    assert circle.time_constant_s == pytest.approx(4.0)
+
+
+def test_circle_of_the_humanoids() -> None:
+    circle = find_circle(0.1, 0.1, 0.2, 0.2)
+    assert circle.radius_evader_m == pytest.approx(0.6366197724, abs=1e-9)
+    assert circle.distance_m == pytest.approx(0.9003163162, abs=1e-9)
+    assert circle.time_constant_s == pytest.approx(10.0)
+
+
+@pytest.mark.parametrize("alpha", [1e-6, 0.1, 0.9, pi / 2, 2.5, pi])
+def test_equal_players_follow_the_closed_form(alpha: float) -> None:
+    v, k = 0.7, 0.3
+    circle = find_circle(v, v, k, k, alpha)
+    assert circle.radius_evader_m == pytest.approx(2 * v / (k * alpha))
+    assert circle.distance_m == pytest.approx(
+        4 * v * sin(alpha / 2) / (k * alpha), rel=1e-10
+    )
+    assert circle.motions_apart_rad == pytest.approx(alpha)
+    assert circle.headings_apart_rad == pytest.approx(pi - alpha)
+    root = np.emath.sqrt(1 - alpha**2)
+    expected = [-k, k / 2 * (-1 + root), k / 2 * (-1 - root)]
+    np.testing.assert_allclose(
+        np.poly(np.array(circle.eigenvalues)),  # coefficients: no order
+        np.poly(np.array(expected)),
+        atol=1e-9,
+    )
+    assert circle.stable
+
+
+def test_radius_grows_without_bound_towards_move_back() -> None:
+    angles = np.linspace(pi, 1e-3, 50)
+    radii = [find_circle(1, 1, 1, 1, a).radius_pursuer_m for a in angles]
+    assert np.all(np.diff(radii) > 0.0)
+    assert not find_circle(1, 1, 1, 1, 0.0).exists
+
+
+def test_saturated_circle_at_full_rate() -> None:
+    circle = find_circle(1, 1, 1, 1, pi / 2, SATURATED)
+    assert circle.radius_pursuer_m == pytest.approx(1.0)
+    assert circle.distance_m == pytest.approx(2 * sin(1.0))
+    assert circle.headings_apart_rad == pytest.approx(pi - 2.0)
+    np.testing.assert_allclose(
+        circle.eigenvalues,
+        [-0.2668 + 1.0005j, -0.2668 - 1.0005j, -0.4663],
+        atol=1e-4,
+    )
+    assert not circle.sliding
+
+
+@pytest.mark.parametrize("alpha", [0.05, 0.3, 0.99])
+def test_saturated_circle_slides_below_one_radian(alpha: float) -> None:
+    v, k = 0.4, 0.6
+    circle = find_circle(v, v, k, k, alpha, "saturated")
+    assert circle.sliding and circle.stable
+    assert circle.radius_pursuer_m == pytest.approx(v / (k * alpha))
+    assert circle.distance_m == pytest.approx(2 * v * sin(alpha) / (k * alpha))
+
+
+def test_saturated_radius_is_smaller() -> None:
+    for alpha in np.linspace(0.1, 1.9, 19):
+        slow = find_circle(1, 1, 1, 1, alpha).radius_pursuer_m
+        fast = find_circle(1, 1, 1, 1, alpha, SATURATED).radius_pursuer_m
+        assert fast < slow
+
+
+def test_closed_forms_of_equal_speeds_and_of_equal_gains() -> None:
+    for vp, ve, kp, ke, alpha in random_games(200):
+        circle = find_circle(vp, vp, kp, ke, alpha)
+        rate = alpha / (1.0 / kp + 1.0 / ke)
+        if rate < pi * min(kp, ke):
+            assert circle.turning_rate_rad_s == pytest.approx(rate)
+        circle = find_circle(vp, ve, kp, kp, alpha)
+        rate = kp * float(np.arctan2(vp - ve * cos(alpha), ve * sin(alpha)))
+        assert circle.exists == (0.0 < rate < kp * alpha)
+        if circle.exists:
+            assert circle.turning_rate_rad_s == pytest.approx(rate)
+
+
+def test_every_circle_balances() -> None:
+    """Closing speed is zero, the line of sight turns with the players."""
+    found = 0
+    for vp, ve, kp, ke, alpha in random_games(300):
+        for law in TurningLaw:
+            circle = find_circle(vp, ve, kp, ke, alpha, law)
+            if not circle.exists:
+                continue
+            found += 1
+            a, b = circle.pursuer_error_rad, circle.evader_error_rad
+            u = alpha - b
+            omega = circle.turning_rate_rad_s
+            assert ve * cos(u) == pytest.approx(vp * cos(a), abs=1e-12)
+            sight = (ve * sin(u) + vp * sin(a)) / circle.distance_m
+            assert sight == pytest.approx(omega)
+            assert omega == pytest.approx(kp * a)
+            assert 0 <= b < alpha + 1e-12
+            if law is TurningLaw.PROPORTIONAL:
+                assert omega == pytest.approx(ke * b)
+            else:
+                assert omega <= ke * (1 + 1e-12)
+                # Equal to rounding is the full rate, not sliding.
+                assert circle.sliding == (omega < ke * (1 - 1e-12))
+    assert found > 300
+
+
+def test_faster_pursuer_still_circles() -> None:
+    circle = find_circle(1.2, 1.0, 1.0, 1.0, pi / 2)
+    assert circle.stable
+    assert circle.turning_rate_rad_s == pytest.approx(np.arctan(1.2))
+
+
+def test_much_slower_pursuer_never_circles() -> None:
+    assert not find_circle(0.5, 1.0, 1.0, 1.0, 0.3).exists
+    assert not find_circle(0.5, 1.0, 1.0, 1.0, 0.3, SATURATED).exists
+
+
+@pytest.mark.parametrize("value", [0.0, -1.0, nan, inf])
+@pytest.mark.parametrize("place", range(4))
+def test_bad_values_are_refused(place: int, value: float) -> None:
+    values = [1.0, 1.0, 1.0, 1.0]
+    values[place] = value
+    with pytest.raises(PlanError, match=f"must be finite and > 0 .*{value}"):
+        find_circle(values[0], values[1], values[2], values[3])
