@@ -1,13 +1,10 @@
 """Test what exports should say and hold."""
 
-import json
 from dataclasses import replace
 from pathlib import Path
 
-from click.testing import CliRunner
-
 import stepaside as sa
-from stepaside.cli.main import main
+from expected.asking import answer
 
 
 def test_no_signal_is_missing_in_a_model(tmp_path: Path) -> None:
@@ -19,8 +16,5 @@ def test_no_signal_is_missing_in_a_model(tmp_path: Path) -> None:
     )
     folder = tmp_path / "run"
     sa.write_run(folder, sa.run_duel(settings))
-    words = ["export", str(folder), "--to", "urdf", "--json"]
-    done = CliRunner().invoke(main, words, catch_exceptions=False)
-    assert json.loads(done.stdout)["absent"] == [
-        "pursuer: no joints, as it is no robot"
-    ]
+    exported = answer("export", folder, "--to", "urdf")
+    assert exported["absent"] == ["pursuer: no joints, as it is no robot"]

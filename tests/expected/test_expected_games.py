@@ -11,12 +11,11 @@ from typing import Any
 import gymnasium
 import numpy as np
 import pytest
-from click.testing import CliRunner, Result
 
 import stepaside as sa
+from expected.asking import GAME, answer, command, own_evader
 from legs_robot import nao_on_legs
 from stepaside.cli.duel import print_duel
-from stepaside.cli.main import main
 from stepaside.envs import game_v0  # registers the environments, too
 from stepaside.games.duel import run_duels
 from stepaside.games.served_duel import serve_duel
@@ -25,28 +24,6 @@ from stepaside.studies.duel_campaign import duel_study
 
 SHORT = sa.DuelSettings(duration=1.2, start=sa.StartSettings(distance=0.7))
 OPEN: dict[str, Any] = {"level": "unicycle", "arenas": 4, "duration": 8.0}
-GAME = """
-level = "unicycle"
-duration = 1.0
-[[players]]
-name = "red"
-role = "pursuer"
-[[players]]
-name = "blue"
-role = "evader"
-"""
-OWN = """
-from stepaside import Direction, Intent
-class Own:
-    direction = Direction.BACKWARD
-    saturated = False
-    def __init__(self, turn={turn}):
-        self.turn = turn
-    def begin(self):
-        return None
-    def decide(self, knowledge, memory):
-        return Intent(self.turn), None
-"""
 
 
 @dataclass(frozen=True)
@@ -74,16 +51,6 @@ def file(tmp_path: Path) -> Path:
     made = tmp_path / "game.toml"
     made.write_text(GAME)
     return made
-
-
-def command(*words: object) -> Result:
-    return CliRunner().invoke(main, [str(word) for word in words])
-
-
-def answer(*words: object) -> Any:
-    done = command(*words, "--json")
-    assert done.exit_code == 0, done.output
-    return json.loads(done.stdout)
 
 
 @pytest.mark.xfail(
@@ -119,14 +86,13 @@ start = [-0.5, 0.0, 3.14159]
 def test_a_step_takes_the_same_time_in_games_and_tournaments(
     file: Path, tmp_path: Path
 ) -> None:
-    own = tmp_path / "own.py"
-    own.write_text(OWN.format(turn=0.0))
-    words = ("--room", "open", "--seeds", "0:1", "--duration", 10)
-    words += ("--workers", 1, "--output", tmp_path / "out")
-    command("tournament", "--evader", f"{own}:Own", *words)
-    (records,) = (tmp_path / "out" / "records").iterdir()
+    output = tmp_path / "out"
+    own = own_evader(tmp_path / "own.py", turn=0.0)
+    words = ("tournament", "--evader", own, "--room", "open", "--workers", 1)
+    command(*words, "--seeds", "0:1", "--duration", 10, "--output", output)
+    (records,) = (output / "records").iterdir()
     record = json.loads(records.read_text())["record"]
-    file.write_text(GAME.replace("1.0", "10.0") + f'strategy = "{own}:Own"')
+    file.write_text(GAME.replace("1.0", "10.0") + f'strategy = "{own}"')
     blue = answer("game", file, "--level", "steps")["results"][1]
     speed = blue["path_m"] / (10.0 - blue["moved_at_s"])
     assert speed == pytest.approx(
@@ -289,10 +255,9 @@ def test_a_study_in_this_process_takes_a_strategy_object() -> None:
     strict=True, reason="a parameter of one's own strategy cannot be an axis"
 )
 def test_a_parameter_of_an_own_strategy_is_an_axis(tmp_path: Path) -> None:
-    own = tmp_path / "own.py"
-    own.write_text(OWN.format(turn=0.1))
+    own = own_evader(tmp_path / "own.py")
     study = tmp_path / "study.toml"
-    names = [f"{own}:Own(turn={turn})" for turn in (0.4, 0.8)]
+    names = [f"{own}(turn={turn})" for turn in (0.4, 0.8)]
     study.write_text(
         'game = "unicycles"\n[grid]\nevader_strategy = '
         f"{json.dumps(names)}\n[settings]\nduration = 1.0\n"
@@ -307,8 +272,7 @@ def test_strategies_of_two_files_of_one_name_can_be_pickled(
     for number, folder in enumerate(("a", "b")):
         (tmp_path / folder).mkdir()
         mine = tmp_path / folder / "mine.py"
-        mine.write_text(OWN.format(turn=0.1 + number))
-        made.append(sa.load_strategy(f"{mine}:Own"))
+        made.append(sa.load_strategy(own_evader(mine, 0.1 + number)))
     again = [pickle.loads(pickle.dumps(each)) for each in made]
     assert [each.turn for each in again] == [0.1, 1.1]
 

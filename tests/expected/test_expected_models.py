@@ -11,6 +11,7 @@ import mujoco
 import pytest
 
 import vendor_humanoid as stranger
+from expected.asking import refused
 from flows.calls import stepaside
 from stepaside.fitting.requirements import check_requirements
 from stepaside.robots.description import RobotDescription, load_robot
@@ -59,8 +60,7 @@ def test_impossible_values_of_a_model_are_refused_by_name(
     if change[0] not in text:
         raise ValueError(f"{change[0]} is not in the model")
     model.write_text(text.replace(*change), encoding="utf-8")
-    answer = stepaside("robot", "init", model, status=2, cwd=tmp_path)
-    assert word in answer.err and "Traceback" not in answer.err
+    assert word in refused("robot", "init", model, cwd=tmp_path)
 
 
 @pytest.mark.parametrize("change", ["banner", "late", "ampersand", "comma"])
@@ -86,8 +86,7 @@ def test_a_model_that_mujoco_compiles_is_read(
             text = re.sub('velocity="[^"]*"', 'velocity="12,5"', text, count=1)
     model.write_text(text, encoding="utf-8")
     mujoco.MjModel.from_xml_path(str(model))
-    answer = stepaside("robot", "init", model, cwd=tmp_path)
-    assert "Traceback" not in answer.err
+    stepaside("robot", "init", model, cwd=tmp_path)
 
 
 @pytest.mark.parametrize(
@@ -107,8 +106,7 @@ def test_limits_that_no_joint_has_are_named(
     if changed == text:
         raise ValueError("no limits to change in the model")
     model.write_text(changed, encoding="utf-8")
-    answer = stepaside("robot", "init", model, status=2, cwd=tmp_path)
-    assert "limit" in answer.err
+    assert "limit" in refused("robot", "init", model, cwd=tmp_path)
 
 
 COUPLING = (
@@ -167,8 +165,7 @@ def test_models_that_cannot_walk_are_refused_by_name(
             text = re.sub('<body name="near_spin.*', arms, text)
     model.write_text(text)
     mujoco.MjModel.from_xml_path(str(model))
-    answer = stepaside("robot", "init", model, status=2, cwd=tmp_path)
-    assert said in answer.err and len(answer.err.splitlines()) == 1
+    assert said in refused("robot", "init", model, cwd=tmp_path)
 
 
 def test_estimates_are_named_where_they_are_judged(tmp_path: Path) -> None:

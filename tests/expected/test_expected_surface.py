@@ -5,40 +5,13 @@ from pathlib import Path
 from signal import SIG_IGN, SIGHUP, SIGINT, SIGTERM, getsignal
 
 import pytest
-from click.testing import CliRunner, Result
 
-from stepaside.cli.main import all_commands, main
+from expected.asking import GAME, command, own_evader
+from stepaside.cli.main import all_commands
 
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
 BOM = b"\xef\xbb\xbf"
-SIGNALLED = """
-import signal
-from stepaside import Direction, Intent
-class Own:
-    direction = Direction.BACKWARD
-    saturated = False
-    def begin(self):
-        return None
-    def decide(self, knowledge, memory):
-        if knowledge.time > 0.5:
-            signal.raise_signal({number})
-        return Intent(0.4), None
-"""
-GAME = """
-level = "unicycle"
-duration = 1.0
-[[players]]
-name = "red"
-role = "pursuer"
-[[players]]
-name = "blue"
-role = "evader"
-"""
-
-
-def stepaside(*words: object) -> Result:
-    return CliRunner().invoke(main, [str(word) for word in words])
 
 
 def pages() -> str:
@@ -51,10 +24,9 @@ def test_the_status_of_a_command_is_that_of_its_signal(
 ) -> None:
     if getsignal(number) == SIG_IGN:
         pytest.skip("this signal is ignored here, as under nohup")
-    own = tmp_path / "own.py"
-    own.write_text(SIGNALLED.format(number=int(number)))
-    words = ("--duration", "2", "--evader-strategy", f"{own}:Own")
-    assert stepaside("unicycles", *words).exit_code == 128 + number
+    own = own_evader(tmp_path / "own.py", number=int(number))
+    words = ("unicycles", "--duration", 2, "--evader-strategy", own)
+    assert command(*words).exit_code == 128 + number
 
 
 def test_a_file_that_is_replaced_keeps_its_mode(tmp_path: Path) -> None:
@@ -62,7 +34,7 @@ def test_a_file_that_is_replaced_keeps_its_mode(tmp_path: Path) -> None:
     figure.write_text("old")
     figure.chmod(0o600)
     words = ("--role", "evader", "--bearing", "40deg", "--overwrite")
-    done = stepaside("plan", *words, "--figure", figure)
+    done = command("plan", *words, "--figure", figure)
     assert done.exit_code == 0, done.output
     assert figure.read_text("utf-8") != "old"
     assert figure.stat().st_mode & 0o777 == 0o600
@@ -84,7 +56,7 @@ def test_a_file_may_begin_with_a_byte_order_mark(
     monkeypatch.chdir(tmp_path)  # games are written there
     file = tmp_path / "file.toml"
     file.write_bytes(BOM + text.encode())
-    done = stepaside(*words, file)
+    done = command(*words, file)
     assert done.exit_code == 0, done.output
 
 

@@ -1,6 +1,6 @@
 """Robots outside the simulator, against peers that are not ours."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from math import cos, pi, sin
 from pathlib import Path
 from typing import Any
@@ -25,20 +25,6 @@ SPEED, GAIN = 0.2, 0.5  # of the template, in [m/s] and [1/s]
 BEARING = 0.4  # of the opponent, in [rad]
 OPPONENT = (cos(BEARING), sin(BEARING))  # in the robot's frame, in [m]
 EVASION = BEARING - 0.5 * pi  # error of the evader by (4) and (5), in [rad]
-
-
-@pytest.fixture
-def start() -> Iterator[Callable[..., Running]]:
-    """Function that watches over a command."""
-    made: list[Running] = []
-
-    def watch(process: Any) -> Running:
-        made.append(Running(process))
-        return made[-1]
-
-    yield watch
-    for each in made:
-        each.close()
 
 
 def test_a_robot_on_ros2_walks_as_the_laws_say_and_is_recorded(

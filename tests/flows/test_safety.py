@@ -19,20 +19,6 @@ FATES = {"killed": signal.SIGKILL, "frozen": signal.SIGSTOP}
 
 
 @pytest.fixture
-def start() -> Iterator[Callable[..., Running]]:
-    """Function that watches over a command."""
-    made: list[Running] = []
-
-    def watch(process: Any) -> Running:
-        made.append(Running(process))
-        return made[-1]
-
-    yield watch
-    for each in made:
-        each.close()
-
-
-@pytest.fixture
 def robot() -> Iterator[Any]:
     """Robot that walks on at its last command, on ROS 2 topics."""
     from flows.ros2_peer import Ros2Robot
