@@ -118,9 +118,7 @@ def bound() -> Bound:
     grid = Grid.cube(0.3, 3.0, 16)
     values = np.random.default_rng(2).uniform(0.1, 0.3, grid.shape)
     game = fixed_pursuit_game(1.0, 1.0, 1.0)
-    return Bound(
-        game, grid, values.astype(np.float32), 6.0, "weno", 0.0, 0.0, 0.0
-    )
+    return Bound(game, grid, values.astype(np.float32), 6.0, 0.0, 0.0, 0.0)
 
 
 def test_the_value_in_loops_is_that_of_the_table(bound: Bound) -> None:

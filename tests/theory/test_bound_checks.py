@@ -21,7 +21,6 @@ from stepaside.theory.bound.relative_game import (
 )
 from stepaside.theory.bound.state_grid import Grid
 from stepaside.theory.bound.value_solver import (
-    DiscretisationScheme,
     march,
     solve_bound,
 )
@@ -36,7 +35,7 @@ def table(grid: Grid, offset: float = 0.0, rise: float = 0.0) -> Bound:
     a, r, psi = grid.axes()
     values = 0.5 * r[:, None] + rise * np.abs(a)[:, None, None] + 0.0 * psi
     plain = (values + offset).astype(np.float32)
-    return Bound(GAME, grid, plain, 10.0, "weno", 0.0, 0.0, 1.0)
+    return Bound(GAME, grid, plain, 10.0, 0.0, 0.0, 1.0)
 
 
 def test_errors_of_simulated_games_are_over_all_games(
@@ -111,24 +110,15 @@ def test_refinement_measures_differences_at_every_node(
         at = int(0.95 * (len(apart) - 1))
         assert apart[at] - 1e-9 <= row.most <= apart[at + 1] + 1e-9
         assert apart[int(0.93 * len(apart))] < row.most
-    assert rows[0].order is None
-    ratio = rows[0].mean / rows[1].mean
-    assert rows[1].order == pytest.approx(np.log2(ratio))
 
 
-@pytest.mark.parametrize(
-    "scheme", [DiscretisationScheme.FIRST, DiscretisationScheme.WENO]
-)
-def test_table_holds_the_final_values_of_the_march(
-    scheme: DiscretisationScheme,
-) -> None:
+def test_table_holds_the_final_values_of_the_march() -> None:
     """Late decrease: the change over the last tenth of the horizon."""
     horizon = 8.0
-    found = solve_bound(GAME, SMALL, horizon=horizon, scheme=scheme)
+    found = solve_bound(GAME, SMALL, horizon=horizon)
     before = found.values.copy()
     steps = [
-        (now, values.copy())
-        for now, values in march(GAME, SMALL, horizon, scheme)
+        (now, values.copy()) for now, values in march(GAME, SMALL, horizon)
     ]
     assert steps[-1][0] == pytest.approx(horizon)
     np.testing.assert_array_equal(found.values, steps[-1][1])
@@ -137,7 +127,7 @@ def test_table_holds_the_final_values_of_the_march(
     assert found.falling_mean == pytest.approx(float(fell.mean()), abs=1e-9)
     assert found.falling_worst == pytest.approx(float(fell.max()), abs=1e-9)
     assert found.falling_worst > 0.0
-    solve_bound(GAME, SMALL, horizon=0.5 * horizon, scheme=scheme)
+    solve_bound(GAME, SMALL, horizon=0.5 * horizon)
     np.testing.assert_array_equal(found.values, before)
     with pytest.raises(ValueError, match="read-only"):
         found.values[0, 0, 0] = 9.0

@@ -14,33 +14,19 @@ from .bound_tables import (
     print_bound,
 )
 from .options.common_options import figure_option, figure_width, json_option
-from .options.parameter_types import NameType, OutputFile
+from .options.parameter_types import OutputFile
 from .options.setting_options import takes
 from .output_files import attempt, writes_files
 from .progress import CELLS, announce_effort, show_progress
 from .terminal import print_json
 
 if TYPE_CHECKING:
-    from ..theory.bound import Bound, BoundGame, DiscretisationScheme, Grid
+    from ..theory.bound import Bound, BoundGame, Grid
     from ..theory.bound.grid_refinement import Refinement
-
-
-def _schemes() -> tuple[str, ...]:
-    from ..theory.bound import DiscretisationScheme
-
-    return tuple(scheme.value for scheme in DiscretisationScheme)
 
 
 @click.command("bound")
 @takes(BoundOptions, "options")
-@click.option(
-    "--scheme",
-    type=NameType(_schemes),
-    default="weno",
-    show_default=True,
-    help="Scheme of the solver: fifth order (weno, lax) or first order "
-    "(first, first-lax), with Godunov or Lax-Friedrichs flux.",
-)
 @click.option(
     "--output", type=OutputFile(".npz"), help="Write the table (.npz)."
 )
@@ -50,7 +36,6 @@ def _schemes() -> tuple[str, ...]:
 @writes_files
 def bound(
     options: BoundOptions,
-    scheme: str,
     output: str | None,
     figure: str | None,
     as_json: bool,
@@ -63,17 +48,10 @@ def bound(
         report = person_report(options, figure, quiet=as_json)
         print_json(report) if as_json else print_person_bound(report)
         return
-    from ..theory.bound import DiscretisationScheme
-
     capture = options.capture
     if capture is None:
         capture = 0.7 * options.evader_speed / options.pursuer_gain
-    problem = _BoundProblem(
-        options.game(),
-        capture,
-        DiscretisationScheme(scheme),
-        options.horizon,
-    )
+    problem = _BoundProblem(options.game(), capture, options.horizon)
     grid = problem.grid(options.nearest, options.farthest, options.grid)
     table, rows = problem.solve(grid, options.refine, quiet=as_json)
     result = describe(table, capture) | describe_refinement(rows)
@@ -98,13 +76,11 @@ class _BoundProblem(NamedTuple):
     Attributes:
         game: Game to solve.
         capture: Capture distance of the barrier, in [m].
-        scheme: Scheme of the solver.
         horizon: Time horizon, in [s]; one full turn if None.
     """
 
     game: "BoundGame"
     capture: float
-    scheme: "DiscretisationScheme"
     horizon: float | None
 
     def grid(
@@ -129,7 +105,7 @@ class _BoundProblem(NamedTuple):
         from ..theory.bound import count_steps
         from ..theory.bound.grid_refinement import refine_bound
 
-        steps = count_steps(self.game, grid, self.horizon, self.scheme)
+        steps = count_steps(self.game, grid, self.horizon)
         total = prod(grid.shape)
         announce_effort(
             f"a table of {total} cells over {steps} steps",
@@ -142,7 +118,6 @@ class _BoundProblem(NamedTuple):
                 grid,
                 refine,
                 horizon=self.horizon,
-                scheme=self.scheme,
                 progress=bar.update,
             )
 

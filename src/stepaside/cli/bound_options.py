@@ -20,7 +20,6 @@ OF_CARS = {
     "nearest",
     "horizon",
     "games",
-    "scheme",
     "output",
 }
 OF_PERSON = {

@@ -21,7 +21,6 @@ def describe(table: "Bound", capture: float) -> dict[str, Any]:
     result: dict[str, Any] = {
         "game": asdict(table.game),
         "grid": asdict(table.grid),
-        "scheme": table.scheme,
         "horizon_s": table.horizon,
         "seconds": table.seconds,
         "falling_mean_m": table.falling_mean,
@@ -88,7 +87,6 @@ def describe_refinement(rows: "Sequence[Refinement]") -> dict[str, Any]:
                 "most_difference_m": row.most,
                 "worst_difference_m": row.worst,
                 "above_mean_share": row.above_mean,
-                "order": row.order,
             }
             for row in rows
         ],

@@ -37,7 +37,6 @@ TABLES: dict[str, Callable[..., str]] = {
     "barrier": bounds.barrier,
     "bound-evaders": bounds.evaders,
     "bound-refinement": bounds.refinement,
-    "bound-speed": bounds.speed,
     "campaign-costs": campaigns.costs,
     "campaign-parents": campaigns.parents,
     "certified": many_duels.certified,

@@ -9,37 +9,9 @@ Result = Mapping[str, Any]
 GAMES = {"pursuit": "against eqs. (1)-(2)", "cars": "two identical cars"}
 
 
-def speed(result: Result) -> str:
-    """Compare both solvers on one core."""
-    head = (
-        "scheme",
-        "precision",
-        "stepaside [s]",
-        "hj_reachability [s]",
-        "ratio",
-        "greatest difference",
-        "mean difference",
-        "share within 5e-4",
-    )
-    rows = [
-        (
-            row["scheme"],
-            "double" if row["double"] else "single",
-            number(row["bound_s"], 2),
-            number(row["hj_reachability_s"], 1),
-            number(row["ratio"], 0),
-            f"{row['greatest_difference']:.1e}",
-            f"{row['mean_difference']:.1e}",
-            f"{100.0 * row['share_within']:.4f} %",
-        )
-        for row in result["rows"]
-    ]
-    return table(head, rows)
-
-
 def refinement(result: Result) -> str:
-    """List differences between grids, and the order of convergence."""
-    head = ("game", "cells", "mean", "above it", "95 %", "worst", "order")
+    """List differences between grids."""
+    head = ("game", "cells", "mean", "above it", "95 %", "worst")
     rows = [
         (
             words,
@@ -48,7 +20,6 @@ def refinement(result: Result) -> str:
             f"{100.0 * row['above_mean']:.0f} %",
             number(row["most"], 4),
             number(row["worst"], 2),
-            NONE if row["order"] is None else number(row["order"], 1),
         )
         for game, words in GAMES.items()
         for row in result[game]["refinement"]

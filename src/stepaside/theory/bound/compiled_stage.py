@@ -15,9 +15,9 @@ from ...core.compilation import (
     copy_values,
     parallel_range,
 )
-from .upwind_scheme import lax_friedrichs, upwind, weno5
+from .upwind_scheme import upwind, weno5
 
-FIRST, FIFTH = 1, 5
+REACH = 3 * 3  # rows along a and r that a step reaches: three stages
 prange = parallel_range()
 
 
@@ -36,8 +36,6 @@ class StageParameters(NamedTuple):
         scale: One over the spacings along r, a and psi. Shape (3,).
         smooth: Twelve times the squares of differences that count as smooth.
             Shape (3,).
-        order: FIRST or FIFTH.
-        godunov: Whether the flux is Godunov's rather than Lax-Friedrichs'.
     """
 
     pursuer: Any
@@ -48,8 +46,6 @@ class StageParameters(NamedTuple):
     reach: Any
     scale: Any
     smooth: Any
-    order: int
-    godunov: bool
 
 
 class RowStates(NamedTuple):
@@ -67,32 +63,21 @@ class RowStates(NamedTuple):
 
 
 @compiled
-def first_slopes(
-    v: Any, at: int, stride: int, scale: Any, left: Any, right: Any
-) -> None:
-    """Compute one-sided slopes of first order of one row.
+def row_slopes(
+    v: Any, at: int, stride: int, scale: Any, smooth: Any, left: Any,
+    right: Any,
+) -> None:  # fmt: skip
+    """Compute one-sided slopes of one row.
 
     Args:
         v: All values, flat.
         at: Index of the first value of the row.
         stride: Index distance of neighbours along the axis.
         scale: One over the spacing.
+        smooth: See :class:`StageParameters`.
         left: Output: slopes to the left.
         right: Output: slopes to the right.
     """
-    n = left.shape[0]
-    a, b = v[at - stride : at - stride + n], v[at : at + n]
-    c = v[at + stride : at + stride + n]
-    for k in range(n):
-        left[k], right[k] = scale * (b[k] - a[k]), scale * (c[k] - b[k])
-
-
-@compiled
-def fifth_slopes(
-    v: Any, at: int, stride: int, scale: Any, smooth: Any, left: Any,
-    right: Any,
-) -> None:  # fmt: skip
-    """Compute one-sided slopes of fifth order; see :func:`first_slopes`."""
     n = left.shape[0]
     begin = at - 3 * stride
     a, b = v[begin : begin + n], v[begin + stride : begin + stride + n]
@@ -109,24 +94,16 @@ def fifth_slopes(
 @compiled
 def row_rates(
     s: Any, pursuer: Any, inverse: Any, forward: Any, sideways: Any,
-    reach: Any, godunov: bool, out: Any,
+    reach: Any, out: Any,
 ) -> None:  # fmt: skip
     """Compute the rates of the values of one row."""
     ahead, across, turn, freedom = pursuer
-    if godunov:
-        for k in range(out.shape[0]):
-            out[k] = upwind(
-                forward[k] - ahead, (across - sideways[k]) * inverse, turn,
-                freedom, reach,
-                (s[0, k], s[1, k], s[2, k], s[3, k], s[4, k], s[5, k]),
-            )  # fmt: skip
-    else:
-        for k in range(out.shape[0]):
-            out[k] = lax_friedrichs(
-                forward[k] - ahead, (across - sideways[k]) * inverse, turn,
-                freedom, reach,
-                (s[0, k], s[1, k], s[2, k], s[3, k], s[4, k], s[5, k]),
-            )  # fmt: skip
+    for k in range(out.shape[0]):
+        out[k] = upwind(
+            forward[k] - ahead, (across - sideways[k]) * inverse, turn,
+            freedom, reach,
+            (s[0, k], s[1, k], s[2, k], s[3, k], s[4, k], s[5, k]),
+        )  # fmt: skip
 
 
 @compiled
@@ -200,14 +177,11 @@ def stage_blocks(
             for axis in range(3):
                 left, right = s[2 * axis], s[2 * axis + 1]
                 stride, scale = strides[axis], setting.scale[axis]
-                if setting.order == FIFTH:
-                    smooth = setting.smooth[axis]
-                    fifth_slopes(flat, at, stride, scale, smooth, left, right)
-                else:
-                    first_slopes(flat, at, stride, scale, left, right)
+                smooth = setting.smooth[axis]
+                row_slopes(flat, at, stride, scale, smooth, left, right)
             row_rates(
                 s, pursuer, setting.inverse[j], setting.forward,
-                setting.sideways, setting.reach, setting.godunov, rate,
+                setting.sideways, setting.reach, rate,
             )  # fmt: skip
             blend(before, now[i + 3, j + 3], rate, keep, step, after)
             if last:
@@ -217,28 +191,22 @@ def stage_blocks(
                 )  # fmt: skip
 
 
-def mark_active_rows(changed: Any, active: Any, arm: int, times: int) -> bool:
+def mark_active_rows(changed: Any, active: Any) -> bool:
     """Find the rows that a step may change, from those of the last step.
 
-    The stencil of a stage reaches ``arm`` rows along a and r, and a step has
-    ``times`` stages. The mirror image beyond the edges of a reaches no
-    further row.
+    The mirror image beyond the edges of a reaches no further row.
 
     Args:
         changed: Rows that changed in the previous step. Shape (a, r).
         active: Output: rows that may change in this step. Shape (a, r).
-        arm: Reach of the stencil, in rows.
-        times: Stages of a step.
 
     Returns:
         Whether any row is active.
     """
     active[:] = changed
-    for _ in range(times):
-        reached = active.copy()
-        for n in range(1, arm + 1):
-            active[n:] |= reached[:-n]
-            active[:-n] |= reached[n:]
-            active[:, n:] |= reached[:, :-n]
-            active[:, :-n] |= reached[:, n:]
+    for axis in (active, active.T):
+        reached = axis.copy()
+        for n in range(1, min(REACH + 1, len(axis))):
+            axis[n:] |= reached[:-n]
+            axis[:-n] |= reached[n:]
     return bool(active.any())

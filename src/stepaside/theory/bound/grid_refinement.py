@@ -2,14 +2,14 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import log2, prod
+from math import prod
 
 import numpy as np
 
 from ...core.errors import PlanError
 from .relative_game import BoundGame
 from .state_grid import Grid
-from .value_solver import DiscretisationScheme, default_horizon, solve_bound
+from .value_solver import default_horizon, solve_bound
 from .value_table import Array, Bound
 
 Progress = Callable[[float], object]
@@ -27,8 +27,6 @@ class Refinement:
         worst: Largest absolute difference, in [m].
         above_mean: Fraction of the nodes that differ by more than the mean,
             in [1].
-        order: Order of convergence of the mean, from this grid and the next
-            coarser one; None for the coarsest.
     """
 
     grid: Grid
@@ -37,7 +35,6 @@ class Refinement:
     most: float
     worst: float
     above_mean: float
-    order: float | None
 
 
 def refine_bound(
@@ -46,7 +43,6 @@ def refine_bound(
     levels: int = 1,
     *,
     horizon: float | None = None,
-    scheme: DiscretisationScheme = DiscretisationScheme.WENO,
     progress: Progress | None = None,
 ) -> tuple[Bound, tuple[Refinement, ...]]:
     """Solve a game on a grid and on coarser ones.
@@ -62,7 +58,6 @@ def refine_bound(
         grid: The finest grid.
         levels: Number of coarser grids, each with half as many cells.
         horizon: Duration of the game, in [s].
-        scheme: Discretisation of the equation.
         progress: Called with the fraction of the work done since the last
             call.
 
@@ -83,26 +78,19 @@ def refine_bound(
         part = None
         if progress is not None:
             part = _scaled(progress, share / sum(work), game, horizon)
-        solved.append(
-            solve_bound(game, g, horizon=horizon, scheme=scheme, progress=part)
-        )
+        solved.append(solve_bound(game, g, horizon=horizon, progress=part))
     rows: list[Refinement] = []
     for coarse, fine in zip(solved, solved[1:], strict=False):
         errors = differences(coarse, fine)
-        mean, most = float(errors.mean()), float(np.quantile(errors, 0.95))
-        order = None
-        if rows and mean > 0.0 and rows[-1].mean > 0.0:
-            order = log2(rows[-1].mean / mean)
-        worst = float(errors.max())
+        mean = float(errors.mean())
         rows.append(
             Refinement(
                 coarse.grid,
                 coarse.seconds,
                 mean,
-                most,
-                worst,
+                float(np.quantile(errors, 0.95)),
+                float(errors.max()),
                 float((errors > mean).mean()),
-                order,
             )
         )
     return solved[-1], tuple(rows)

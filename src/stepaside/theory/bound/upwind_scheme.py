@@ -130,22 +130,3 @@ def upwind(
     evade = maximum(upwind_product(low, pl, pr), upwind_product(high, pl, pr))
     evade = maximum(evade, upwind_product(stall, pl, pr))
     return upwind_product(closing, rl, rr) + chase + evade
-
-
-@inlined
-def lax_friedrichs(
-    closing: Any,
-    swing: Any,
-    turn: Any,
-    reach_p: Any,
-    reach_e: Any,
-    slopes: tuple[Any, Any, Any, Any, Any, Any],
-) -> Any:
-    """Return the local Lax-Friedrichs Hamiltonian; see :func:`upwind`."""
-    rl, rr, al, ar, pl, pr = slopes
-    drift = swing - turn
-    value = closing * (rl + rr) + abs(closing) * (rr - rl)
-    value = value + drift * (al + ar) - reach_p * abs(al + ar)
-    value = value + (abs(drift) + reach_p) * (ar - al)
-    value = value + swing * (pl + pr) + reach_e * abs(pl + pr)
-    return HALF * (value + (abs(swing) + reach_e) * (pr - pl))

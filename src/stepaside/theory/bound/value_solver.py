@@ -1,18 +1,13 @@
 """Solver of the value, marching backwards in time from the distance."""
 
 from collections.abc import Callable, Iterator
-from enum import StrEnum
 from math import ceil, tau
 from time import perf_counter
-from typing import Any
 
 import numpy as np
 
-from ...core.compilation import load_numba
 from ...core.errors import PlanError, check_positive
 from .compiled_stage import (
-    FIFTH,
-    FIRST,
     RowStates,
     StageParameters,
     mark_active_rows,
@@ -20,7 +15,6 @@ from .compiled_stage import (
 )
 from .relative_game import BoundGame
 from .state_grid import PAD, Grid, Values, fill_ghosts
-from .upwind_scheme import lax_friedrichs, upwind, weno5
 from .value_table import Bound
 
 MAX_STEPS = 1_000_000  # in time
@@ -30,51 +24,23 @@ STILL = 2e-3  # rate of the value that counts as none, in evader speeds
 INNER = (slice(PAD, -PAD),) * 3
 
 
-class DiscretisationScheme(StrEnum):
-    """Discretisation of the equation.
-
-    ``WENO`` has slopes of fifth order, Godunov's flux and Runge-Kutta steps
-    of third order; ``LAX`` has the local Lax-Friedrichs flux instead;
-    ``FIRST`` and ``FIRST_LAX`` have slopes and steps of first order.
-    """
-
-    WENO = "weno"
-    LAX = "lax"
-    FIRST = "first"
-    FIRST_LAX = "first-lax"
-
-    @property
-    def first_order(self) -> bool:
-        """Whether slopes and steps are of first order."""
-        return self in (
-            DiscretisationScheme.FIRST,
-            DiscretisationScheme.FIRST_LAX,
-        )
-
-    @property
-    def godunov(self) -> bool:
-        """Whether the flux is Godunov's."""
-        return self in (DiscretisationScheme.WENO, DiscretisationScheme.FIRST)
-
-
 def solve_bound(
     game: BoundGame,
     grid: Grid,
     *,
     horizon: float | None = None,
-    scheme: DiscretisationScheme = DiscretisationScheme.WENO,
-    double: bool = False,
     progress: Callable[[float], object] | None = None,
 ) -> Bound:
     """Compute the value: the optimal closest approach of every state.
+
+    Slopes are of fifth order, the flux is Godunov's, and steps are those of
+    Runge and Kutta of third order.
 
     Args:
         game: Speeds and turning limits of the players.
         grid: Grid of relative states.
         horizon: Duration of the game, in [s]; :func:`default_horizon` by
             default. ``Bound.falling_mean`` measures the remaining decrease.
-        scheme: Discretisation of the equation.
-        double: Whether to compute in double precision, half as fast.
         progress: Called with the duration solved since the last call, in
             [s].
 
@@ -88,8 +54,7 @@ def solve_bound(
     check_positive(horizon, "horizon", "s")
     begin, done = perf_counter(), 0.0
     late = values = None
-    precision = np.float64 if double else np.float32
-    for now, values in march(game, grid, horizon, scheme, precision):
+    for now, values in march(game, grid, horizon):
         if progress is not None:
             progress(now - done)
         done = now
@@ -102,7 +67,6 @@ def solve_bound(
         grid,
         values.copy(),
         horizon=horizon,
-        scheme=scheme.value,
         falling_mean=float(falling.mean()),
         falling_worst=float(falling.max()),
         seconds=perf_counter() - begin,
@@ -115,51 +79,39 @@ def default_horizon(game: BoundGame) -> float:
 
 
 def march(
-    game: BoundGame,
-    grid: Grid,
-    horizon: float,
-    scheme: DiscretisationScheme,
-    precision: type[Any] = np.float32,
+    game: BoundGame, grid: Grid, horizon: float
 ) -> Iterator[tuple[float, Values]]:
     """Yield time [s] and values after every step.
 
     Rows that no change can have reached are skipped. The values are a view,
     shape (a, r, psi), in [m], that the next step overwrites.
     """
-    setting, rate = make_stage_parameters(game, grid, scheme, precision)
-    stage = stage_blocks if load_numba() is not None else stage_arrays
+    setting, rate = make_stage_parameters(game, grid)
     count = _count(horizon, rate)
-    stable = precision(COURANT / rate)
-    times = 1 if scheme.first_order else 3
-    arm = 3 if setting.order == FIFTH else 1
-    still = precision(STILL * game.evader_speed * float(stable))
+    stable = np.float32(COURANT / rate)
+    still = np.float32(STILL * game.evader_speed * float(stable))
     changed = np.ones(grid.shape[:2], bool)
     rows = RowStates(np.empty_like(changed), changed, still)
-    v, w1, w2 = np.zeros((3, *(n + 2 * PAD for n in grid.shape)), precision)
+    shape = 3, *(n + 2 * PAD for n in grid.shape)
+    v, w1, w2 = np.zeros(shape, np.float32)
     v[INNER] = setting.distance[:, None]
 
-    def advance(
-        first: Values, now: Values, out: Values, keep: float, last: bool
-    ) -> None:
+    def advance(now: Values, out: Values, keep: float, last: bool) -> None:
         fill_ghosts(now)
-        stage(first, now, out, precision(keep), step, last, setting, rows)
+        stage_blocks(v, now, out, np.float32(keep), step, last, setting, rows)
 
     for n in range(1, count + 1):
-        step = stable if n < count else precision(horizon - (n - 1) * stable)
-        if mark_active_rows(rows.changed, rows.active, arm, times):
-            advance(v, v, w1, 0.0, times == 1)
-            if times == 3:
-                advance(v, w1, w2, 0.75, False)
-                advance(v, w2, w1, 1.0 / 3.0, True)
+        step = stable if n < count else np.float32(horizon - (n - 1) * stable)
+        if mark_active_rows(rows.changed, rows.active):
+            advance(v, w1, 0.0, False)
+            advance(w1, w2, 0.75, False)
+            advance(w2, w1, 1.0 / 3.0, True)
             v, w1 = w1, v
         yield (n * float(stable) if n < count else horizon), v[INNER]
 
 
 def count_steps(
-    game: BoundGame,
-    grid: Grid,
-    horizon: float | None = None,
-    scheme: DiscretisationScheme = DiscretisationScheme.WENO,
+    game: BoundGame, grid: Grid, horizon: float | None = None
 ) -> int:
     """Return the number of time steps of :func:`solve_bound`.
 
@@ -168,9 +120,7 @@ def count_steps(
     """
     horizon = default_horizon(game) if horizon is None else horizon
     check_positive(horizon, "horizon", "s")
-    return _count(
-        horizon, make_stage_parameters(game, grid, scheme, np.float64)[1]
-    )
+    return _count(horizon, make_stage_parameters(game, grid)[1])
 
 
 def _count(horizon: float, rate: float) -> int:
@@ -185,10 +135,7 @@ def _count(horizon: float, rate: float) -> int:
 
 
 def make_stage_parameters(
-    game: BoundGame,
-    grid: Grid,
-    scheme: DiscretisationScheme,
-    precision: type[Any],
+    game: BoundGame, grid: Grid
 ) -> tuple[StageParameters, float]:
     """Compute the parameters of the stages.
 
@@ -215,66 +162,15 @@ def make_stage_parameters(
     rate = rate + (np.abs(swing - turn) + freedom) / steps[1]
     rate = rate + (np.abs(swing) + game.evader_turn) / steps[2]
     lengths = np.array([1.0, game.unit, game.unit])  # of a slope of one
+    smooth = 12.0 * SMOOTH * (lengths * steps) ** 2
     setting = StageParameters(
-        pursuer.astype(precision),
-        r.astype(precision),
-        (1.0 / r).astype(precision),
-        forward.astype(precision),
-        sideways.astype(precision),
-        precision(game.evader_turn),
-        (1.0 / steps).astype(precision),
-        (12.0 * SMOOTH * (lengths * steps) ** 2).astype(precision),
-        FIRST if scheme.first_order else FIFTH,
-        scheme.godunov,
+        pursuer.astype(np.float32),
+        r.astype(np.float32),
+        (1.0 / r).astype(np.float32),
+        forward.astype(np.float32),
+        sideways.astype(np.float32),
+        np.float32(game.evader_turn),
+        (1.0 / steps).astype(np.float32),
+        smooth.astype(np.float32),
     )
     return setting, float(rate.max())
-
-
-def stage_arrays(
-    first: Any,
-    now: Any,
-    out: Any,
-    keep: Any,
-    step: Any,
-    last: bool,
-    setting: StageParameters,
-    rows: RowStates,
-) -> None:
-    """Compute one stage in NumPy, without Numba.
-
-    See :func:`.compiled_stage.stage_blocks`.
-    """
-    inner = (slice(3, -3),) * 3
-    slopes: list[Any] = []
-    for axis, number in ((1, 0), (0, 1), (2, 2)):
-        a, b, c, d, e, f, g = (_shifted(now, axis, n) for n in range(-3, 4))
-        if setting.order == FIFTH:
-            pair = weno5(a, b, c, d, e, f, g, setting.smooth[number])
-        else:
-            pair = d - c, e - d
-        slopes += [setting.scale[number] * slope for slope in pair]
-    ahead, across, turn, freedom = setting.pursuer.T[:, :, None, None]
-    rate = (upwind if setting.godunov else lax_friedrichs)(
-        setting.forward - ahead,
-        (across - setting.sideways) * setting.inverse[:, None],
-        turn,
-        freedom,
-        setting.reach,
-        tuple(slopes),
-    )
-    gain = np.float32(1.0) - keep
-    made = keep * first[inner] + gain * (now[inner] + step * rate)
-    if last:
-        high = setting.distance[:, None]
-        made = np.maximum(np.minimum(made, high), setting.distance[0])
-        moved = (np.abs(made - first[inner]) > rows.still).any(axis=2)
-        rows.changed[:] = rows.active & moved
-    out[inner] = np.where(rows.active[:, :, None], made, first[inner])
-
-
-def _shifted(v: Any, axis: int, by: int) -> Any:
-    """Return the view without ghosts, shifted along one axis."""
-    window = [slice(3, -3)] * 3
-    end = v.shape[axis] - 3 + by
-    window[axis] = slice(3 + by, end)
-    return v[tuple(window)]

@@ -18,7 +18,7 @@ from .relative_game import BoundGame
 from .state_grid import Grid, Values
 
 Array = NDArray[np.float64]
-FORMAT = 1  # of the files
+FORMAT = 2  # of the files
 FLAT = 1e-3  # slope that counts as zero, in game units per radian
 
 
@@ -35,8 +35,6 @@ class Bound:
         values: Closest approach of the optimal evader, in [m]. Shape
             ``grid.shape``.
         horizon: Duration of the game, in [s].
-        scheme: Discretisation; see
-            :class:`.value_solver.DiscretisationScheme`.
         falling_mean: Mean decrease of the value over the last tenth of the
             horizon, in [m].
         falling_worst: Largest decrease over the last tenth, in [m].
@@ -47,7 +45,6 @@ class Bound:
     grid: Grid
     values: Values
     horizon: float
-    scheme: str
     falling_mean: float
     falling_worst: float
     seconds: float
@@ -172,7 +169,6 @@ class Bound:
             "game": asdict(self.game),
             "grid": asdict(self.grid),
             "horizon": self.horizon,
-            "scheme": self.scheme,
             "falling_mean": self.falling_mean,
             "falling_worst": self.falling_worst,
             "seconds": self.seconds,
