@@ -10,7 +10,7 @@ FALLEN, BUTTON = "robotHasFallen", "ChestButtonPressed"
 SIGHT = "Stepaside/IdealSight"  # age [s], bearing [rad], distance [m]
 
 
-@qi.multiThreaded()  # type: ignore[untyped-decorator]
+@qi.multiThreaded()
 class ALMotion:
     """Walk by ``move``, as long as nothing else is said.
 

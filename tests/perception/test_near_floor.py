@@ -5,6 +5,7 @@ from math import atan2, cos, pi, radians, sin
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from stepaside.core.poses import Array
 from stepaside.perception.bottom_camera import NearFloorMapping
@@ -71,10 +72,11 @@ def lower_of(floor: FloorMap) -> BottomCameraStage:
     return BottomCameraStage(HEAD.bottom, [use], tracker)
 
 
-def unseen(floor: FloorMap, places: Array) -> Array:
+def unseen(floor: FloorMap, places: Array) -> NDArray[np.bool_]:
     """Whether places count as unseen."""
     parts = [part.clearance(places) for part in floor.unknown(HERE)]
-    return np.min(parts, axis=0, initial=1.0) <= 0.0
+    clear: Array = np.min(parts, axis=0, initial=1.0)
+    return clear <= 0.0
 
 
 def hidden(floor: FloorMap, place: tuple[float, float]) -> bool:
