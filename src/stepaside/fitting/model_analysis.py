@@ -16,6 +16,7 @@ from .leg_detection import JOINT_TYPES, DetectedLeg, NoLegsError, find_legs
 
 LEAST_ASYMMETRY = 0.1  # of a sole about its ankle, by its length
 KNEE_WEIGHT = 0.3  # of a knee that bends one way, by the asymmetry of a sole
+WIDEST = 4.0 * np.pi  # range of a leg joint; a wider one is in [deg]
 Quaternion = tuple[float, float, float, float]
 
 
@@ -88,6 +89,12 @@ def analyse_model(path: Path, folders: Sequence[Path]) -> ModelAnalysis:
     """
     try:
         spec = read_model(path)
+        for body in spec.bodies:
+            if body.mass < 0.0:
+                raise ModelError(
+                    f"{path}: the mass of {body.name!r} must be positive, got "
+                    f"{body.mass:g} kg"
+                )
         torso = _root_of(spec, path)
         couplings = [
             (each.name1, each.name2) for each in scaled_couplings(spec)
@@ -104,6 +111,13 @@ def analyse_model(path: Path, folders: Sequence[Path]) -> ModelAnalysis:
             raise ModelError(f"{path}: the joint of {body!r} must have a name")
     data, turn, legs = _legs(model, path)
     leg_joints = {*legs[0].joints, *legs[1].joints}
+    for name in sorted(leg_joints):
+        low, high = model.joint(name).range
+        if not low <= high < low + WIDEST:
+            raise ModelError(
+                f"{path}: the upper limit of {name!r} must be above the lower "
+                f"one, both in rad, got {low:g} to {high:g}"
+            )
     for name, leader in couplings:
         if name in leg_joints and leader in leg_joints:
             raise ModelError(
