@@ -72,11 +72,6 @@ def test_impossible_values_of_a_model_are_refused_by_name(
 
 
 @pytest.mark.parametrize("change", ["banner", "late", "ampersand", "comma"])
-@pytest.mark.xfail(
-    strict=True,
-    raises=AssertionError,
-    reason="the file is read before MuJoCo reads it, and less tolerantly",
-)
 def test_a_model_that_mujoco_compiles_is_read(
     change: str, tmp_path: Path
 ) -> None:

@@ -1,8 +1,8 @@
 """Torques, speeds and servo gains of a published model's joints."""
 
+import re
 from collections.abc import Mapping
 from pathlib import Path
-from xml.etree import ElementTree
 
 import mujoco
 import numpy as np
@@ -29,6 +29,8 @@ DEFAULT_TORQUE = 1.5  # unpublished torque limit, by m g z
 IMPLAUSIBLE_TORQUE = 10.0  # by m g times the length of the legs
 IMPLAUSIBLE_SPEED = 100.0  # in [rad/s]
 DEFAULT_SPEED = 12.0  # unpublished speed limit, in [rad/s]
+NAME = re.compile(r"""\bname\s*=\s*["']([^"']*)["']""")
+SPEED = re.compile(r"""\bvelocity\s*=\s*["']\s*(\d+\.?\d*|\.\d+)\s*["']""")
 
 
 def published_torques(spec: mujoco.MjSpec) -> dict[str, float]:
@@ -69,16 +71,17 @@ def plausible_torques(
 
 
 def published_speeds(path: Path) -> dict[str, float]:
-    """Return the plausible speed limits in a URDF, by joint, in [rad/s]."""
-    root = ElementTree.parse(path).getroot()
-    if root.tag != "robot":
-        return {}
+    """Return the plausible speed limits in a URDF, by joint, in [rad/s].
+
+    MuJoCo reads more than XML allows, so the file is not parsed as XML.
+    """
+    text = path.read_text(encoding="utf-8", errors="replace")
+    text = re.sub(r"<!--.*?-->", "", text, flags=re.DOTALL)
     found = {}
-    for joint in root.iter("joint"):
-        limit = joint.find("limit")
-        speed = 0.0 if limit is None else float(limit.get("velocity", 0.0))
-        if 0.0 < speed < IMPLAUSIBLE_SPEED:
-            found[str(joint.get("name"))] = speed
+    for joint in re.findall(r"<joint\b[^>]*[^/]>.*?</joint>", text, re.DOTALL):
+        name, speed = NAME.search(joint), SPEED.search(joint)
+        if name and speed and 0.0 < float(speed[1]) < IMPLAUSIBLE_SPEED:
+            found[name[1]] = float(speed[1])
     return found
 
 
