@@ -58,6 +58,9 @@ def test_init_reads_a_model(
     text = (tmp_path / "own" / "robot.toml").read_text(encoding="utf-8")
     own = tomllib.loads(text)
     assert own["gait"] == gait and own["torso"] == "chest"
+    # A push of one unit gives as much of the pendulum's speed as for NAO.
+    push = 0.12 * MASS * sqrt(GRAVITY * height)
+    assert own["game"]["push_unit"] == pytest.approx(push, rel=0.01)
     for joint, servo in own["overlay"]["servos"].items():
         assert servo["torque"] == vendor.TORQUE, joint
     # The MJCF has no speed limits, and says where to fill them in.
