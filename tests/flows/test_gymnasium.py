@@ -65,30 +65,46 @@ def test_pettingzoo_finds_no_fault_in_games_of_a_file() -> None:
     )
 
 
-def test_rewards_add_up_to_the_closest_approach() -> None:
-    """Of an evader who stands, to a pursuer who walks up to it."""
-    env = calls.environment("Evade", **SHORT | {"duration": 3.2})
+@pytest.mark.parametrize(
+    ("duration", "still", "more"),
+    [
+        (3.2, STILL, {}),
+        (3.2, 7, {"action": "discrete", "headings": 7}),
+        (60.0, STILL, {"shaping": 0.5}),
+    ],
+)
+def test_rewards_add_up_to_the_closest_approach(
+    duration: float, still: Any, more: dict[str, Any]
+) -> None:
+    """Of an evader who stands, to a pursuer who walks up to it.
+
+    Shaping adds half the change of the distance, which is 0 after the end.
+    """
+    env = calls.environment("Evade", **SHORT | more | {"duration": duration})
     _, first = env.reset(seed=3)
     total, steps = 0.0, 0
     while True:
-        _, reward, ended, late, info = env.step(STILL)
+        _, reward, ended, late, info = env.step(still)
         total, steps = total + reward, steps + 1
         if ended or late:
             break
-    assert late and steps == 8  # steps of 0.4 s
+    assert late == (duration < 4.0) and (not late or steps == 8)  # of 0.4 s
     nearer = first["distance_m"] - info["distance_m"]
-    assert 4 * STRIDE < nearer <= 8 * STRIDE + 1e-6  # it also turns
+    assert steps / 2 * STRIDE < nearer <= steps * STRIDE + 1e-6  # it turns
     assert info["closest_m"] == pytest.approx(info["distance_m"])
-    assert UNIT * total == pytest.approx(-nearer)
+    change = (0.0 if ended else info["distance_m"]) - first["distance_m"]
+    shaped = more.get("shaping", 0.0) * change
+    assert UNIT * total == pytest.approx(shaped - nearer)
 
 
 def test_a_vector_of_64_games_is_64_games() -> None:
     """Game i of seed s is the single environment with seed s + i."""
     number, seed = 64, 5
-    games = calls.vector_environment("Evade", number, **SHORT)
+    settings = SHORT | {"full_state": True}
+    games = calls.vector_environment("Evade", number, **settings)
     seen, info = games.reset(seed=seed)
     assert seen.shape[0] == number
-    singles = [calls.environment("Evade", **SHORT) for _ in range(number)]
+    singles = [calls.environment("Evade", **settings) for _ in range(number)]
     firsts = [env.reset(seed=seed + i) for i, env in enumerate(singles)]
     np.testing.assert_allclose(seen, [first[0] for first in firsts], atol=1e-6)
     rng, ends = np.random.default_rng(1), 0
@@ -208,7 +224,12 @@ def test_only_opponents_come_close_to_an_evader(tmp_path: Any) -> None:
     file = tmp_path / "game.toml"
     file.write_text(CROWDED.format(duration=2.0))
     env = calls.game_environment(file, "steps")
-    _, infos = env.reset(seed=1)
+    seen, infos = env.reset(seed=1)
+    others = seen["evader"][1:].reshape(3, -1)  # guest, mate, pursuer
+    apart = UNIT * others[:, 3]
+    np.testing.assert_allclose(apart, [0.4, 0.5, 1.0], rtol=1e-6)
+    opposed, allied = others[:, -2:].T
+    assert list(opposed) == [0, 0, 1] and list(allied) == [0, 1, 0]
     closest = infos["evader"]["closest_m"]
     assert closest["evader"] == pytest.approx(1.0)
     assert closest["mate"] == pytest.approx(np.hypot(1.0, 0.5))
