@@ -125,17 +125,31 @@ def test_a_push_has_its_size_and_direction(fresh: Page) -> None:
 
 
 @pytest.mark.parametrize(("way", "sign"), [("left", 1.0), ("right", -1.0)])
-def test_a_driven_robot_turns_as_it_is_told(
+def test_a_driven_robot_turns_and_halts_as_it_is_told(
     way: str, sign: float, fresh: Page
 ) -> None:
+    fresh.play(2.0)
+    began = fresh.time
     fresh.press("Turn", way)
     fresh.play(4.0)
     assert f"Driven by hand**: the pursuer walks to the {way}" in fresh.texts
-    run = fresh.save()
-    heading = run.tracks["pursuer"].torso[:, 2]
+    driven = fresh.save()
+    heading = driven.tracks["pursuer"].torso[:, 2]
     assert sign * (heading[-1] - heading[0]) > 0.2
+    fresh.press("Walk", "halt")
+    fresh.play(2.0)
+    assert "Driven by hand**: the pursuer halts" in fresh.texts
     fresh.press("Stop driving")
+    passed = fresh.time - began
     assert "Not driven: the pursuer follows its own" in fresh.texts
+    fresh.play(3.0)
+    *_, score = re.findall(r"([\d.]+) s \| .* \| released", fresh.texts)
+    assert float(score) == pytest.approx(passed, abs=0.9)
+    run = fresh.save()
+    path = run.tracks["pursuer"].torso
+    rest, released = len(heading) + 75, len(heading) + 100
+    assert np.ptp(path[rest:released, :2], axis=0).max() < 0.01
+    assert sign * (path[-1, 2] - path[released, 2]) < -0.05  # back, and on
 
 
 @pytest.mark.parametrize(
