@@ -162,7 +162,7 @@ def test_rerun_draws_robots_footsteps_room_com_and_zmp(tmp_path: Path) -> None:
     if rerun is None:
         pytest.skip("Rerun is not installed")
     settings = DuelSettings(
-        duration=5.0,
+        duration=10.0,
         room=SceneSettings(
             plan=Room(
                 obstacles=(Disc(0.6, 1.4, 0.1),),
