@@ -1,54 +1,17 @@
 """Test the files after a command was ended in any way."""
 
-import os
-import platform
 import signal
 import subprocess
 import sys
 import threading
 from collections.abc import Callable
-from hashlib import sha256
 from pathlib import Path
 
 import pytest
 
 from stepaside.cli import reproduce_figures
-from stepaside.core.atomic_output import (
-    DRAFT,
-    atomic_draft,
-    draft_prefix,
-    remove_stale_drafts,
-)
 from stepaside.core.signal_handling import interruptible
 from stepaside.core.worker_pool import worker_pool
-
-HERE = sha256(platform.node().encode()).hexdigest()[:8]
-
-
-def ended() -> int:
-    """Number of a process that is no more."""
-    process = subprocess.Popen([sys.executable, "-c", ""])
-    process.wait()
-    return process.pid
-
-
-def test_drafts_of_the_dead_are_swept_and_no_others(tmp_path: Path) -> None:
-    dead = ended()
-    gone = [f"{DRAFT}{HERE}-{dead}-a", f"{DRAFT}{HERE}-{dead}-b.png"]
-    kept = [
-        *(f"{DRAFT}{HERE}-{os.getpid()}-a", f"{DRAFT}elsewhere-{dead}-a"),
-        *(f"{DRAFT}{HERE}-1-a", f"{DRAFT}{HERE}-x-a", f"{DRAFT}x", "mine"),
-    ]
-    for name in [gone[1], *kept]:
-        (tmp_path / name).write_text("")
-    (tmp_path / gone[0]).mkdir()
-    (tmp_path / gone[0] / "part").write_text("")
-    assert draft_prefix() == f"{DRAFT}{HERE}-{os.getpid()}-"
-    with atomic_draft(tmp_path / "new") as draft:
-        draft.write_text("whole")
-    assert {f.name for f in tmp_path.iterdir()} == {*kept, "new"}
-    remove_stale_drafts(tmp_path)
-    assert {f.name for f in tmp_path.iterdir()} == {*kept, "new"}
 
 
 def test_sigterm_is_ctrl_c_while_a_command_runs() -> None:

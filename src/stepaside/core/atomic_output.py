@@ -1,12 +1,10 @@
 """Output files: checked before the work begins, replaced atomically."""
 
 import os
-import platform
 import shutil
 import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
-from hashlib import sha256
 from pathlib import Path
 from stat import S_IMODE, S_ISREG
 
@@ -14,7 +12,6 @@ from .errors import ConfigurationError, OutputError
 
 FIGURES = (".png", ".svg", ".pdf")
 DRAFT = ".draft-"  # prefix of unfinished output
-MIN_FREE_SPACE = 2**20  # free space that a result needs, in [bytes]
 
 
 def check_file(
@@ -51,7 +48,7 @@ def check_file(
             f"{name} must be a file that does not exist yet, got "
             f"{str(file)!r}; --overwrite replaces it"
         )
-    _check_space(_target(file).parent, file, name)
+    _check_writable(_target(file).parent, file, name)
 
 
 def check_folder(folder: Path, name: str = "output", *, new: bool) -> None:
@@ -67,12 +64,12 @@ def check_folder(folder: Path, name: str = "output", *, new: bool) -> None:
     """
     there = _existing(folder, name)
     if there is None:
-        _check_space(folder.absolute().parent, folder, name)
+        _check_writable(folder.absolute().parent, folder, name)
         return
     if not folder.is_dir() or (new and any(folder.iterdir())):
         kind = "a new or an empty folder" if new else "a folder"
         raise ConfigurationError(f"{name} must be {kind}, got {folder}")
-    _check_space(folder, folder, name)
+    _check_writable(folder, folder, name)
 
 
 def free_file(file: Path) -> Path:
@@ -98,9 +95,8 @@ def atomic_draft(file: Path) -> Iterator[Path]:
     try:
         target = _target(file)
         target.parent.mkdir(parents=True, exist_ok=True)
-        remove_stale_drafts(target.parent)
         handle, draft = tempfile.mkstemp(
-            prefix=draft_prefix(), suffix=file.suffix, dir=target.parent
+            prefix=DRAFT, suffix=file.suffix, dir=target.parent
         )
         os.close(handle)
         yield Path(draft)
@@ -136,10 +132,7 @@ def folder_draft(folder: Path) -> Iterator[Path]:
     draft = None
     try:
         folder.parent.mkdir(parents=True, exist_ok=True)
-        remove_stale_drafts(folder.parent)
-        draft = Path(
-            tempfile.mkdtemp(prefix=draft_prefix(), dir=folder.parent)
-        )
+        draft = Path(tempfile.mkdtemp(prefix=DRAFT, dir=folder.parent))
         draft.chmod(0o777 & ~_mask())
         yield draft
     except OutputError:
@@ -151,42 +144,6 @@ def folder_draft(folder: Path) -> Iterator[Path]:
     finally:
         if draft is not None:
             shutil.rmtree(draft, ignore_errors=True)
-
-
-def draft_prefix() -> str:
-    """Return the prefix of drafts of this process on this machine."""
-    return f"{DRAFT}{_machine()}-{os.getpid()}-"
-
-
-def remove_stale_drafts(folder: Path) -> None:
-    """Remove drafts of killed processes of this machine from a folder."""
-    mine = f"{DRAFT}{_machine()}-"
-    for entry in os.scandir(folder):
-        number = entry.name.removeprefix(mine).partition("-")[0]
-        if not entry.name.startswith(mine) or not number.isdigit():
-            continue
-        if _is_running(int(number)):
-            continue
-        if entry.is_dir(follow_symlinks=False):
-            shutil.rmtree(entry.path, ignore_errors=True)
-        else:
-            with suppress(OSError):
-                os.unlink(entry.path)
-
-
-def _machine() -> str:
-    """Return a short hash of the host name."""
-    return sha256(platform.node().encode()).hexdigest()[:8]
-
-
-def _is_running(process: int) -> bool:
-    try:
-        os.kill(process, 0)
-    except (ProcessLookupError, OverflowError):
-        return False
-    except OSError:  # it belongs to another user
-        return True
-    return True
 
 
 def reason_of(error: BaseException) -> str:
@@ -228,21 +185,15 @@ def _short(path: Path) -> str:
     return text if len(text) < 120 else f"{text[:100]}...'"
 
 
-def _check_space(folder: Path, output: Path, name: str) -> None:
-    """Write a temporary file to a folder, and check the free space."""
+def _check_writable(folder: Path, output: Path, name: str) -> None:
+    """Write a temporary file: only then a read-only mount shows."""
     while not os.path.lexists(folder):
         folder = folder.parent
     try:
-        # A quota or a read-only mount shows only when writing.
         with tempfile.TemporaryFile(prefix=DRAFT, dir=folder):
-            free = shutil.disk_usage(folder).free
+            pass
     except OSError as error:
         raise ConfigurationError(
             f"{name} must lie in a folder that can be written, got "
             f"{_short(output)}: {reason_of(error)}"
         ) from error
-    if free < MIN_FREE_SPACE:
-        raise ConfigurationError(
-            f"{name} must lie where {MIN_FREE_SPACE} bytes are free, got "
-            f"{_short(output)} with {free} bytes"
-        )
