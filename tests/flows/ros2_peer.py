@@ -133,7 +133,9 @@ class Ros2Robot:
         self._opponent = opponent
         self.pose = (0.0, 0.0, 0.0)
         self.velocity = (0.0, 0.0)
+        self.obeyed = [self.velocity]  # all that were commanded
         self.frozen = False  # its sensors
+        self.sight_age = 0.0  # [s]
         self.told: list[tuple[float, float, float]] = []  # its poses
         self._ends = Event()
         self._thread = Thread(target=self._run, daemon=True)
@@ -151,6 +153,7 @@ class Ros2Robot:
             for message in self._commands.take(10):
                 if isinstance(message, kind("geometry_msgs/msg/Twist")):
                     self.velocity = (message.linear.x, message.angular.z)
+                    self.obeyed.append(self.velocity)
             now = monotonic()
             self._move(now - last)
             last = now
@@ -193,7 +196,7 @@ class Ros2Robot:
             )
         )
         other = make("geometry_msgs/Point", *self._opponent, 0.0)
-        seen = header(stamp, "base_link")
+        seen = header(stamp - self.sight_age, "base_link")
         self._other.write(make("geometry_msgs/PointStamped", seen, other))
 
     def close(self) -> None:

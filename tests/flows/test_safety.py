@@ -84,15 +84,27 @@ def test_a_walk_stops_when_another_commands_the_robot(
     until(lambda: robot.moves)
 
 
-def test_a_walk_stops_when_its_odometry_freezes(
-    robot: Any, start: Callable[..., Running]
+@pytest.mark.parametrize(
+    ("name", "value", "words"),
+    [
+        ("frozen", True, "no odometry for"),  # the last message goes on
+        ("pose", (50.0, 0.0, 0.0), "the position jumped by"),
+        ("sight_age", 0.7, "the sighting is 0."),
+    ],
+)
+def test_a_walk_stops_when_its_sensors_fail(
+    name: str,
+    value: Any,
+    words: str,
+    robot: Any,
+    start: Callable[..., Running],
 ) -> None:
-    """Messages go on, with the last stamp and the last pose."""
     play = played(start)
     until(lambda: robot.moves)
-    robot.frozen = True
-    until(lambda: not robot.moves)
-    play.until_said("odometry")
+    before = len(robot.obeyed)
+    setattr(robot, name, value)
+    until(lambda: (0.0, 0.0) in robot.obeyed[before:])
+    play.until_said(words)
 
 
 JOINT_ROBOT = '''
