@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stepaside.core.poses import Pose, wrap_angle, wrap_angles
+from stepaside.core.poses import Pose, arc, rotate, wrap_angle, wrap_angles
 
 NUMBERS = st.floats(-10.0, 10.0)
 POSES = st.builds(Pose, NUMBERS, NUMBERS, NUMBERS)
@@ -57,3 +57,24 @@ def test_half_turns_wrap_to_minus_pi_in_arrays() -> None:
     assert abs(wrap_angle(pi)) == pi
     assert wrap_angle(1.5 * pi) == pytest.approx(-0.5 * pi)
     assert wrap_angle(-1.5 * pi) == pytest.approx(0.5 * pi)
+
+
+def test_arc_has_the_radius_speed_over_turning_rate() -> None:
+    here = Pose(1.0, 2.0, np.pi / 2)
+    there = here.compose(Pose(*arc(0.2 * np.pi, 0.0, -0.1 * np.pi)))
+    assert there.theta == pytest.approx(0.4 * np.pi)
+    centre = here.compose(Pose(0.0, -2.0, 0.0))
+    apart = np.hypot(there.x - centre.x, there.y - centre.y)
+    assert apart == pytest.approx(2.0)
+    back = there.compose(Pose(*arc(-0.2 * np.pi, 0.0, 0.1 * np.pi)))
+    np.testing.assert_allclose(back, here, atol=1e-12)
+    np.testing.assert_allclose(arc(1.0, 0.5, 0.0), (1.0, 0.5, 0.0))
+
+
+def test_arcs_follow_one_another_as_their_sum() -> None:
+    """Also sideways: along a circle, all parts of it compose."""
+    half = Pose(*arc(0.3, -0.2, 0.7))
+    np.testing.assert_allclose(half.compose(half), arc(0.6, -0.4, 1.4))
+    many = arc(np.zeros(3), [0.1, 0.2, 0.3], np.zeros((4, 1)))
+    assert many.shape == (4, 3, 3)
+    np.testing.assert_allclose(rotate(1.0, 0.0, np.pi / 2), (0, 1), atol=1e-15)

@@ -4,13 +4,11 @@ import numpy as np
 import pytest
 
 from stepaside.core.errors import PlanError
-from stepaside.core.poses import Pose
 from stepaside.theory.unicycle.adaptive_simulation import simulate
 from stepaside.theory.unicycle.circles import circle_of
 from stepaside.theory.unicycle.relative_coordinates import RelativeStart
 from stepaside.theory.unicycle.sampled_game import (
     choose_turning,
-    drive_along_arc,
     simulate_sampled,
 )
 from stepaside.theory.unicycle.sampled_stability import (
@@ -215,16 +213,6 @@ def test_perception_takes_effect_when_its_delay_is_over() -> None:
         assert heading == pytest.approx(rate_p * turned)
         heading = run.evader[done + 1, 2] - run.evader[0, 2]
         assert heading == pytest.approx(rate_e * turned)
-
-
-def test_arc_has_the_radius_speed_over_turning_rate() -> None:
-    arc = drive_along_arc(Pose(1.0, 2.0, np.pi / 2), 0.6, -0.3, np.pi / 0.6)
-    np.testing.assert_allclose(arc, (3.0, 4.0, 0.0), atol=1e-12)
-    back = drive_along_arc(arc, -0.6, 0.3, np.pi / 0.6)
-    np.testing.assert_allclose(back, (1.0, 2.0, np.pi / 2), atol=1e-12)
-    np.testing.assert_allclose(
-        drive_along_arc(Pose(0, 0, 0), 0.5, 0.0, 2.0), (1.0, 0.0, 0.0)
-    )
 
 
 def test_held_rates_are_those_of_the_laws() -> None:

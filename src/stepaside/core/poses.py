@@ -55,6 +55,40 @@ def wrap_angles(angles: ArrayLike) -> Array:
     return wrapped
 
 
+def rotate(x: ArrayLike, y: ArrayLike, angle: ArrayLike) -> Array:
+    """Turn vectors to the left by angles, in [rad].
+
+    Args:
+        x: First components.
+        y: Second components. All arguments are broadcast.
+        angle: Angles.
+
+    Returns:
+        Both components. Shape (2, ...).
+    """
+    c, s = np.cos(angle), np.sin(angle)
+    return np.stack([c * x - s * y, s * x + c * y])
+
+
+def arc(ahead: ArrayLike, left: ArrayLike, turn: ArrayLike) -> Array:
+    """Return the poses after arcs of circles, eq. (9).
+
+    A chord of an arc has length sinc(turn / 2) of the arc's and points along
+    turn / 2; this form has no singularity at zero.
+
+    Args:
+        ahead: Distances driven ahead in the own frame, in [m].
+        left: Distances driven to the left, in [m]. All are broadcast.
+        turn: Angles turned meanwhile, in [rad].
+
+    Returns:
+        Poses in the initial frame, in [m] and [rad]. Shape (..., 3).
+    """
+    half = 0.5 * np.asarray(turn, dtype=np.float64)
+    x, y = np.sinc(half / pi) * rotate(ahead, left, half)
+    return np.stack([x, y, np.broadcast_to(2.0 * half, x.shape)], axis=-1)
+
+
 def rotation_of_quaternion(x: float, y: float, z: float, w: float) -> Array:
     """Return the rotation of a quaternion of any length. Shape (3, 3).
 

@@ -4,7 +4,7 @@ from math import degrees, isfinite
 
 import numpy as np
 
-from ..core.poses import Array
+from ..core.poses import Array, wrap_angles
 from ..planning import GaitSettings
 from ..theory.unicycle.circles import Circle, find_circle
 from .duel_settings import EVADER, PURSUER, DuelSettings
@@ -126,7 +126,7 @@ def angle_between(first: Array, second: Array) -> Array:
         Angle in [0, pi], in [rad]. Shape (n,).
     """
     difference = second[:, 2] - first[:, 2]
-    angle: Array = np.abs((difference + np.pi) % (2.0 * np.pi) - np.pi)
+    angle: Array = np.abs(wrap_angles(difference))
     return angle
 
 

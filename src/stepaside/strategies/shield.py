@@ -1,13 +1,13 @@
 """Shield: a least-restrictive filter around the strategy of a robot."""
 
 from dataclasses import dataclass, replace
-from math import cos, inf, pi, sin, tau
+from math import cos, inf, pi, sin
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..core.errors import StrategyError
-from ..core.poses import Array, Pose
+from ..core.poses import Array, Pose, wrap_angle
 from ..planning import Direction
 from .knowledge import STAND, Intent, Knowledge
 from .shield_course import Course, Trace, observed_course
@@ -239,7 +239,7 @@ def relative_poses(
     for heading in course.headings(model.heading_error):
         c, s = cos(heading), sin(heading)
         u, v = own.x - seen[1], own.y - seen[2]
-        turned = (own.theta - heading + pi) % tau - pi
+        turned = wrap_angle(own.theta - heading)
         rows.append((c * u + s * v, c * v - s * u, turned))
     return np.array(rows)
 

@@ -1,7 +1,9 @@
 """Heading of the opponent of a shield, from where it was seen."""
 
-from math import asin, atan2, ceil, hypot, pi, tau
+from math import asin, atan2, ceil, hypot, pi
 from typing import NamedTuple
+
+from ..core.poses import wrap_angle
 
 LEAST_MOTION = 0.002  # between two sightings that show a heading, in [m]
 SPACING = 0.25  # of the headings of an opponent who stands, in [rad]
@@ -78,7 +80,7 @@ def observed_course(
         return Course(last[0], direction, error)
     if error > before.error + turned:  # the chord shows less than is known
         return Course(last[0], before.heading, before.error + turned)
-    off = (direction - before.heading + pi) % tau - pi
+    off = wrap_angle(direction - before.heading)
     if error < before.error:
         return Course(last[0], direction, error)
     heading = before.heading + min(max(off, -turned), turned)

@@ -8,7 +8,7 @@ trajectory of Sec. III-B.
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from math import atan2, ceil, cos, hypot, inf, pi, sin, tau
+from math import atan2, ceil, hypot, inf, pi, tau
 from time import thread_time
 from typing import ClassVar, NamedTuple
 
@@ -19,7 +19,7 @@ from ..arena.obstacles import PackedObstacles
 from ..core.brief_repr import brief_repr
 from ..core.constants import CAPTURE_DISTANCE
 from ..core.errors import check_bearing, check_positive, check_within
-from ..core.poses import Array, Pose, wrap_angle
+from ..core.poses import Array, Pose, arc, wrap_angle
 from ..planning import Direction
 from ..planning.path import UnicycleTrajectory
 from ..theory.unicycle.unicycle_game import Unicycle
@@ -136,23 +136,11 @@ class StepGame:
         else:
             turn, most = self.share * intent.heading, self.turn
         turn = min(max(turn, -most), most) / self.decisions
-        half = 0.5 * turn
-        way = (
-            player.limits.stride
-            / self.decisions
-            * intent.speed_factor
-            * float(np.sinc(half / pi))
-        )
+        way = player.limits.stride / self.decisions * intent.speed_factor
         if player.strategy.direction is Direction.BACKWARD:
             way = -way
-        x, y, theta = player.pose
-        return [
-            Pose(
-                x + way * cos(theta + half),
-                y + way * sin(theta + half),
-                (theta + turn) % tau,
-            )
-        ]
+        x, y, theta = player.pose.compose(Pose(*arc(way, 0.0, turn).tolist()))
+        return [Pose(x, y, theta % tau)]
 
 
 @dataclass(frozen=True, slots=True)

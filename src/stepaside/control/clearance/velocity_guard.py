@@ -4,7 +4,7 @@ from math import cos, radians, sin
 
 import numpy as np
 
-from ...core.poses import Array, Pose
+from ...core.poses import Array, Pose, arc, rotate
 from ...strategies.velocity_set import STILL, BodyVelocity, VelocitySet
 from .surroundings import Surroundings
 
@@ -111,10 +111,8 @@ class VelocityGuard:
         """
         times = np.linspace(0.0, duration, SAMPLES)
         ahead, left, turn = tried.T[:, :, None]
-        # Chords of arcs: their directions, and lengths relative to the arcs.
-        half = 0.5 * turn * times
-        along = times * np.sinc(half / np.pi)
-        x, y = _turned(ahead * along, left * along, here.theta + half)
+        arcs = arc(ahead * times, left * times, turn * times)
+        x, y = rotate(arcs[..., 0], arcs[..., 1], here.theta)
         halts = [
             part * halting / max(-low, high, 1e-9)
             for part, (low, high), halting in zip(
@@ -125,7 +123,7 @@ class VelocityGuard:
             )
         ]
         end = here.theta + turn * duration
-        u, v = _turned(halts[0], halts[1], end)
+        u, v = rotate(halts[0], halts[1], end)
         x = np.concatenate([x, x[:, -1:] + u], axis=1)
         y = np.concatenate([y, y[:, -1:] + v], axis=1)
         return np.stack([here.x + x, here.y + y], axis=-1)
@@ -138,9 +136,3 @@ def _changed(
     c, s = share * cos(angle), share * sin(angle)
     ahead, left, turn = velocity
     return BodyVelocity(c * ahead - s * left, s * ahead + c * left, turn)
-
-
-def _turned(x: Array, y: Array, angle: Array) -> tuple[Array, Array]:
-    """Return vectors turned by angles, in [rad]."""
-    c, s = np.cos(angle), np.sin(angle)
-    return c * x - s * y, s * x + c * y

@@ -22,6 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.errors import PlanError, check_positive
+from ...core.poses import rotate, wrap_angles
 from .relative_game import BoundGame
 
 Array = NDArray[np.float64]
@@ -48,8 +49,8 @@ def turn_back(
     y = y + np.sin(theta) * forward + np.cos(theta) * aside
     forward, aside = _car_ago(pursuer, t)
     x, y, heading = x - forward, y - aside, -pursuer * t
-    c, s = np.cos(heading), np.sin(heading)
-    return c * x + s * y, c * y - s * x, theta + (pursuer - evader) * t
+    x, y = rotate(x, y, -heading)
+    return x, y, theta + (pursuer - evader) * t
 
 
 def left_half(
@@ -137,7 +138,7 @@ def barrier_states(
         points, pieces = barrier_slice(capture / unit, float(theta), count)
         x, y = unit * points.T
         a = np.arctan2(y, x)
-        psi = (a - theta + pi) % tau - pi
+        psi = wrap_angles(a - theta)
         states.append(np.column_stack([np.hypot(x, y), a, psi]))
         numbers.append(pieces)
     return np.concatenate(states), np.concatenate(numbers)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.poses import wrap_angles
+from ...core.poses import arc, rotate, wrap_angles
 from ..unicycle.unicycle_game import MOVE_ASIDE, MOVE_BACK
 from .barrier import barrier_states
 from .value_table import Bound
@@ -128,11 +128,9 @@ def draw_starts(bound: Bound, count: int, seed: int) -> Array:
 
 def _drive(poses: Array, speed: float, turn: Array, step: float) -> None:
     """Move poses along arcs, in place."""
-    half = 0.5 * turn * step
-    along = speed * step * np.sinc(half / np.pi)
-    poses[:, 0] += along * np.cos(poses[:, 2] + half)
-    poses[:, 1] += along * np.sin(poses[:, 2] + half)
-    poses[:, 2] += 2.0 * half
+    x, y, turned = arc(speed * step, 0.0, turn * step).T
+    poses[:, :2] += rotate(x, y, poses[:, 2]).T
+    poses[:, 2] += turned
 
 
 PIECES = {1: "both turn in", 2: "straight last", 3: "same turn first"}

@@ -3,7 +3,7 @@
 from dataclasses import asdict, dataclass
 from functools import cached_property
 from json import dumps, loads
-from math import pi, tau
+from math import pi
 from typing import Any
 from zipfile import BadZipFile
 
@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from ...core.atomic_output import atomic_draft
 from ...core.brief_repr import brief_repr
 from ...core.errors import AnyPath, PlanError, as_path, check_within
+from ...core.poses import wrap_angles
 from ..unicycle.relative_coordinates import check_bearings
 from .relative_game import BoundGame
 from .state_grid import Grid, Values
@@ -99,7 +100,7 @@ class Bound:
         )
         swing = self._swing(r, a, psi)
         limit = self.game.evader_turn
-        habit = limit * np.clip(_wrapped(psi) / step, -1.0, 1.0)
+        habit = limit * np.clip(wrap_angles(psi) / step, -1.0, 1.0)
         flat = FLAT * step * self.game.unit
         return _steer(before, here, after, swing, limit, habit, flat)
 
@@ -115,7 +116,7 @@ class Bound:
             Turning rates, in [rad/s].
         """
         r, a, psi = np.broadcast_arrays(*_checked(distance, error, bearing))
-        law = self.game.pursuer_gain * _wrapped(a)
+        law = self.game.pursuer_gain * wrap_angles(a)
         if self.game.pursuer_turn == 0.0:
             return law
         step = self.grid.spacings[1]
@@ -124,7 +125,7 @@ class Bound:
         )
         swing = self._swing(r, a, psi) - law
         limit = self.game.pursuer_turn
-        habit = limit * np.clip(_wrapped(a) / step, -1.0, 1.0)
+        habit = limit * np.clip(wrap_angles(a) / step, -1.0, 1.0)
         flat = FLAT * step * self.game.unit
         return law + _steer(-before, -here, -after, swing, limit, habit, flat)
 
@@ -203,13 +204,13 @@ class Bound:
         grid, (step_r, step_a, step_psi) = self.grid, self.grid.spacings
         table = self._around
         indices = (
-            (error + pi) % tau / step_a + 0.5,
+            (wrap_angles(error) + pi) / step_a + 0.5,
             np.clip(
                 (distance - grid.near) / step_r,
                 0.0,
                 grid.distances - 1.0,
             ),
-            (bearing + pi) % tau / step_psi + 0.5,
+            (wrap_angles(bearing) + pi) / step_psi + 0.5,
         )
         found: Any = 0.0
         cells = [
@@ -270,12 +271,6 @@ def _checked(
     check_bearings(angles[0], "error")
     check_bearings(angles[1], "bearing")
     return np.asarray(distance, np.float64), *angles
-
-
-def _wrapped(angle: Array) -> Array:
-    """Return angles wrapped to [-pi, pi), in [rad]."""
-    wrapped: Array = (angle + pi) % tau - pi
-    return wrapped
 
 
 def _steer(

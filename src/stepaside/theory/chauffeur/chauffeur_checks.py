@@ -1,11 +1,11 @@
 """Verification of a chauffeur table: closed forms and simulated games."""
 
 from dataclasses import dataclass
-from math import pi
 
 import numpy as np
 
 from ...core.errors import PlanError
+from ...core.poses import arc, rotate
 from .chauffeur_game import Array, chauffeur_barrier
 from .chauffeur_table import ChauffeurTable
 from .sampled_value import decide
@@ -100,19 +100,9 @@ def play_chauffeur(
                 aim = np.arctan2(position[:, 1], position[:, 0])
                 turn = np.clip(aim / step, -game.turn, game.turn)
             angle = turn * step
-            way = game.pursuer_speed * step
-            position = position + velocity * step
-            position[:, 0] -= way * np.sinc(angle / pi)
-            half = np.sinc(0.5 * angle / pi)
-            position[:, 1] -= 0.5 * way * angle * half**2
-            position = _turned(position, -angle)
-            velocity = _turned(velocity, -angle)
+            way = arc(game.pursuer_speed * step, 0.0, angle)
+            x, y = (position + velocity * step - way[:, :2]).T
+            position = rotate(x, y, -angle).T
+            velocity = rotate(velocity[:, 0], velocity[:, 1], -angle).T
             least = np.minimum(least, np.hypot(*position.T))
     return least
-
-
-def _turned(vectors: Array, angle: Array) -> Array:
-    """Return vectors turned to the left by angles. Shape (n, 2)."""
-    c, s = np.cos(angle), np.sin(angle)
-    x, y = vectors.T
-    return np.column_stack([c * x - s * y, s * x + c * y])

@@ -4,7 +4,8 @@ from math import ceil, cos, pi, sqrt
 
 import numpy as np
 
-from .shield_game import Array, PoseGrid, mirrored
+from ...core.poses import Array
+from .shield_game import PoseGrid, mirrored
 
 
 def eroded_values(v: Array, grid: PoseGrid, loss: float) -> Array:

@@ -8,15 +8,15 @@ is displaced by up to a disturbance. See docs/shield.md.
 """
 
 from dataclasses import dataclass
-from math import pi, tau
+from math import tau
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from ...core.errors import check_positive, check_within
+from ...core.poses import Array, arc
 
-Array = NDArray[np.float64]
 PARTS = 4  # of a period, in which the distance is measured
 TURNS = 11  # of a person who walks at full speed
 CELLS = 10  # in the required distance
@@ -78,13 +78,7 @@ def sub_poses(twists: ArrayLike, duration: float) -> Array:
     """
     rates = np.atleast_2d(np.asarray(twists, dtype=np.float64))
     times = duration * np.arange(1, PARTS + 1) / PARTS
-    angle = rates[:, 2:] * times
-    along = times * np.sinc(angle / pi)
-    across = 0.5 * angle * times * np.sinc(0.5 * angle / pi) ** 2
-    u, v = rates[:, :1], rates[:, 1:2]
-    return np.stack(
-        [u * along - v * across, u * across + v * along, angle], axis=2
-    )
+    return arc(*(rates.T[:, :, None] * times))
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -21,12 +21,12 @@ import numpy as np
 
 from ...core.compilation import compiled
 from ...core.errors import check_positive, check_within
+from ...core.poses import Array
 from ..chauffeur.chauffeur_game import guaranteed_distance
 from .shield_erosion import eroded_values
 from .shield_game import (
     CELLS,
     SEGMENTS,
-    Array,
     OutcomeRules,
     PoseGrid,
     ShieldGame,

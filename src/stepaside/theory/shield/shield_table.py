@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...core.brief_repr import brief_repr
+from ...core.poses import Array
 from .shield_erosion import eroded_values
-from .shield_game import SEGMENTS, Array, OutcomeRules, PoseGrid, ShieldGame
+from .shield_game import SEGMENTS, OutcomeRules, PoseGrid, ShieldGame
 from .shield_outcomes import evaluate_motions, look_up_all
 
 NEAR = 1.1  # value over that outside, from which starts are not looked at

@@ -7,14 +7,14 @@ Perception may be delayed. The arcs between samples have a closed form.
 
 from collections import deque
 from dataclasses import dataclass
-from math import ceil, floor, inf
+from math import ceil, floor
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...core.brief_repr import brief_repr
 from ...core.errors import check_not_negative, check_positive
-from ...core.poses import Pose
+from ...core.poses import Pose, arc
 from .. import laws
 from .relative_coordinates import RelativeStart
 from .unicycle_game import Game, check_side
@@ -53,23 +53,6 @@ class SampledRun:
     captured: bool
 
 
-def drive_along_arc(
-    pose: Pose, speed: float, turning: float, time: float
-) -> Pose:
-    """Move along an arc at constant speed (negative: backward), eq. (9).
-
-    Args:
-        pose: Initial pose in the world.
-        speed: Driving velocity, in [m/s].
-        turning: Turning rate, in [rad/s].
-        time: Duration, in [s].
-    """
-    half = 0.5 * turning * time
-    chord = speed * time * float(np.sinc(half / np.pi))
-    step = Pose(chord * np.cos(half), chord * np.sin(half), 2.0 * half)
-    return pose.compose(step)
-
-
 def choose_turning(
     game: Game, start: RelativeStart, side: int
 ) -> tuple[float, float, int]:
@@ -101,12 +84,19 @@ def _drive(
     span: float,
 ) -> tuple[Pose, Pose, float]:
     """Move both players along arcs; also return the least distance [m]."""
-    closest = inf
-    for time in (span * np.arange(1, _PARTS + 1) / _PARTS).tolist():
-        p = drive_along_arc(pursuer, game.pursuer.speed, turns[0], time)
-        e = drive_along_arc(evader, -game.evader.speed, turns[1], time)
-        closest = min(closest, float(np.hypot(e.x - p.x, e.y - p.y)))
-    return p, e, closest
+    times = span * np.arange(1, _PARTS + 1) / _PARTS
+    speeds = game.pursuer.speed, -game.evader.speed
+    arcs = [
+        arc(speed * times, 0.0, turn * times)
+        for speed, turn in zip(speeds, turns, strict=True)
+    ]
+    ends = [Pose(*part[-1].tolist()) for part in arcs]
+    p, e = (
+        pose.transform_points(part[:, :2])
+        for pose, part in zip((pursuer, evader), arcs, strict=True)
+    )
+    closest = float(np.hypot(*(e - p).T).min())
+    return pursuer.compose(ends[0]), evader.compose(ends[1]), closest
 
 
 def simulate_sampled(
