@@ -4,7 +4,6 @@ from dataclasses import asdict, dataclass
 from functools import cached_property
 from json import dumps, loads
 from math import pi
-from typing import Any
 from zipfile import BadZipFile
 
 import numpy as np
@@ -201,32 +200,20 @@ class Bound:
         return swing
 
     def _look_up(self, distance: Array, error: Array, bearing: Array) -> Array:
-        grid, (step_r, step_a, step_psi) = self.grid, self.grid.spacings
-        table = self._around
-        indices = (
+        """Interpolate linearly, with distances clipped to the grid."""
+        from scipy.ndimage import map_coordinates
+
+        step_r, step_a, step_psi = self.grid.spacings
+        places = np.broadcast_arrays(
             (wrap_angles(error) + pi) / step_a + 0.5,
-            np.clip(
-                (distance - grid.near) / step_r,
-                0.0,
-                grid.distances - 1.0,
-            ),
+            (distance - self.grid.near) / step_r,
             (wrap_angles(bearing) + pi) / step_psi + 0.5,
         )
-        found: Any = 0.0
-        cells = [
-            np.minimum(position.astype(np.int64), length - 2)
-            for position, length in zip(indices, table.shape, strict=True)
-        ]
-        weights = [p - c for p, c in zip(indices, cells, strict=True)]
-        for corner in range(8):
-            weight: Any = 1.0
-            index = []
-            for axis in range(3):
-                up = corner >> axis & 1
-                weight = weight * (weights[axis] if up else 1 - weights[axis])
-                index.append(cells[axis] + up)
-            found = found + weight * table[tuple(index)]
-        return np.asarray(found, dtype=np.float64)
+        rows = np.reshape(places, (3, -1))
+        found: Array = map_coordinates(
+            self._around, rows, np.float64, order=1, mode="nearest"
+        )
+        return found.reshape(places[0].shape)
 
 
 def load_bound(path: AnyPath) -> Bound:

@@ -84,20 +84,19 @@ class ChauffeurTable:
             Values, in [m], of the broadcast shape; outside the table the
             distance that is guaranteed from afar.
         """
+        from scipy.ndimage import map_coordinates
+
         radius, plane = self.game.turning_radius, self.plane
         x, y = np.broadcast_arrays(
             np.asarray(x, np.float64), np.asarray(y, np.float64)
         )
-        u = (x / radius + plane.behind) / plane.spacing
-        w = np.abs(y) / radius / plane.spacing
-        last = np.array(plane.shape) - 1
-        inside = (u >= 0.0) & (u <= last[0]) & (w <= last[1])
-        i = np.clip(u.astype(np.int64), 0, last[0] - 1)
-        j = np.clip(w.astype(np.int64), 0, last[1] - 1)
-        s, t = np.clip(u - i, 0.0, 1.0), np.clip(w - j, 0.0, 1.0)
-        v = self.values
-        found = (1.0 - t) * ((1.0 - s) * v[i, j] + s * v[i + 1, j])
-        found += t * ((1.0 - s) * v[i, j + 1] + s * v[i + 1, j + 1])
-        found = radius * np.where(inside, found, v[-1, 0])
+        places = x / radius + plane.behind, np.abs(y) / radius
+        found = map_coordinates(
+            self.values,
+            np.reshape(places, (2, -1)) / plane.spacing,
+            order=1,
+            cval=self.values[-1, 0],
+        )
+        found = radius * found.reshape(x.shape)
         value: Array = np.minimum(found, np.hypot(x, y))
         return value
