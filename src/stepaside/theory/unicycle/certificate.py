@@ -19,7 +19,14 @@ so that, :math:`\Delta = |c(d) - c(0)|`,
 
 Integrated over the known decay of :math:`d` this bounds :math:`\rho`, and
 :math:`r \ge r^* - \rho`. No error wraps in a game that starts in the diamond
-:math:`|a| + |\psi| < \pi`, which no game leaves (:mod:`.invariant_set`).
+:math:`|a| + |\psi| < \pi`, which no game leaves, for any sequence of sides,
+as long as the evader's error does not wrap: with :math:`x = (a + \psi) / 2`,
+:math:`e = a - \psi` and :math:`p = r \cos x`,
+
+.. math::
+    \dot e = -k (e - \sigma\alpha), \qquad
+    \dot p = k (x + \sigma\alpha / 2) \, p \tan x \ge -k p.
+
 Proofs in ``docs/unicycles.md``.
 """
 
@@ -32,7 +39,6 @@ import numpy as np
 from ...core.errors import PlanError
 from ..laws import evasion_heading, side_behind
 from .circles import circle_of
-from .invariant_set import stays_unwrapped
 from .relative_coordinates import RelativeStart
 from .unicycle_game import Game, check_side
 
@@ -101,6 +107,29 @@ def certify(game: Game, start: RelativeStart, *, side: int = 0) -> Certificate:
     if bound > 0.0 and unwrapped and _keeps_side(game, bound, radius):
         return Certificate(True, bound, plain)
     return Certificate(False)
+
+
+def stays_unwrapped(game: Game, pursuer_error: float, bearing: float) -> bool:
+    """Return whether no error of a game between equal players ever wraps.
+
+    Args:
+        game: Parameters, with equal speeds and gains, proportional law.
+        pursuer_error: Pursuer's error, mirrored to side +1, in [-pi, pi], in
+            [rad].
+        bearing: Bearing of the pursuer, mirrored to side +1, in [-pi, pi],
+            in [rad].
+
+    Returns:
+        True where it is proved: inside the diamond, for an evader with the
+        side rule "behind" (its error never exceeds the angle), or for one
+        that keeps its side at an angle of at most pi / 2 and whose initial
+        error is below pi.
+    """
+    if not abs(pursuer_error) + abs(bearing) < pi:
+        return False
+    if not game.keeps_side:
+        return True
+    return game.angle <= 0.5 * pi and bearing < pi - game.angle
 
 
 def _largest_spread(
