@@ -54,6 +54,11 @@ def test_a_robot_on_ros2_walks_as_the_laws_say_and_is_recorded(
     assert np.sin(ahead - BEARING) == pytest.approx(0.0, abs=1e-3)
     faces = run.tracks["pursuer"].torso[-1, 2] - heading - BEARING
     assert np.cos(faces) == pytest.approx(-1.0, abs=1e-3)
+    told = run.summary
+    assert told.closest_m == pytest.approx(1.0, abs=1e-3)
+    # Of the last second, at whose end the mean of a cycle is cut off.
+    assert told.radius_m == pytest.approx(SPEED / abs(command[1]), rel=0.2)
+    assert told.path_length_m == pytest.approx(3.0 * SPEED, rel=0.25)
     page = write_page_of(folder, tmp_path / "page.html")
     assert "evader" in page.read_text(encoding="utf-8")
 

@@ -250,6 +250,12 @@ def test_signals_of_a_bag_are_those_of_the_tables(
     bag: dict[str, list[tuple[float, Any]]], table: Table
 ) -> None:
     row = 200
+    for topic, column in (
+        ("/distance_m", "distance/m"),
+        ("/angle_rad", "angle_between_headings/rad"),
+    ):
+        value = bag[topic][row][1].data
+        assert value == pytest.approx(table.columns[column][row])
     for player in PLAYERS:
         point = bag[f"/{player}/com"][row][1]
         assert point.header.frame_id == "map"
