@@ -15,7 +15,7 @@ def until(done: Callable[[], Any], longest: float = LONGEST) -> Any:
     end = monotonic() + longest
     while not (found := done()):
         assert monotonic() < end, "waited in vain"
-        sleep(0.01)
+        sleep(0.05)
     return found
 
 

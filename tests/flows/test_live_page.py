@@ -5,6 +5,7 @@ import re
 from collections.abc import Iterator
 from math import pi
 from pathlib import Path
+from time import sleep
 from typing import Any
 
 import numpy as np
@@ -66,6 +67,13 @@ class Page:
         self.press("Start")
         until(lambda: self.time >= end)
         self.press("Start")
+        until(self._is_still)
+
+    def _is_still(self) -> bool:
+        """Whether the page, which tells the time now and then, knows it."""
+        before = self.time
+        sleep(0.5)
+        return self.time == before
 
     def save(self, group: str = "Duel") -> Any:
         """Save the game so far, and read it."""

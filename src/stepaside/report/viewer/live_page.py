@@ -294,12 +294,15 @@ class Page:
     def refresh(self) -> None:
         """Show the present state of the session."""
         session = self.session
-        if session.generation != self._generation:
+        with session.lock:  # another game may begin meanwhile
+            is_new = session.generation != self._generation
             self._generation = session.generation
+            snapshot = session.snapshot()
+            if is_new:
+                self._renew_stage()
+        if is_new:
             self.layers.clear()
             self._reset_cameras()
-            self._renew_stage()
-        snapshot = session.snapshot()
         past = self._past(snapshot.time)
         with self.server.atomic():
             if past is not None:
