@@ -122,7 +122,6 @@ def test_a_network_of_two_outputs_is_the_file_of_the_same_law(
 
 def test_a_rating_compares_by_the_same_games() -> None:
     """Who stands is caught; the best possible is that of the starts."""
-    pytest.importorskip("numba")
     card = calls.rate_evaders(own("Still"), "aside", games=2)
     rows = {
         (row["strategy"], row["world"], row["opponent"]): row

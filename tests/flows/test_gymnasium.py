@@ -9,7 +9,7 @@ import pytest
 
 from flows import calls
 
-for library in ("gymnasium", "pettingzoo", "numba"):
+for library in ("gymnasium", "pettingzoo"):
     pytest.importorskip(library)
 
 STRIDE, UNIT = 0.04, 0.5  # [m]: stride and v/k of NAO

@@ -137,7 +137,6 @@ def test_an_episode_is_the_game_of_the_tournament() -> None:
     """Arena and start are those of its seed; the evader is the paper's."""
     pytest.importorskip("gymnasium")
     pytest.importorskip("pettingzoo")
-    pytest.importorskip("numba")
     table = summary(
         *("tournament", "--level", "steps", "--room", "open"),
         *("--evader", "aside", "--pursuer", "pure", "--seeds", "3:4"),

@@ -162,7 +162,6 @@ def grazing_starts() -> list[tuple[float, float, float]]:
 
 
 def test_optimal_evasion_of_a_car_has_merzs_barrier(tmp_path: Path) -> None:
-    pytest.importorskip("numba")
     from stepaside.theory.bound import load_bound
 
     table = tmp_path / "cars.npz"
@@ -180,7 +179,6 @@ def test_optimal_evasion_of_a_car_has_merzs_barrier(tmp_path: Path) -> None:
 
 def test_a_person_is_escaped_as_isaacs_says() -> None:
     """The homicidal chauffeur: c*/R = sqrt(1 - γ²) + γ asin γ - 1."""
-    pytest.importorskip("numba")
     person, robot, radius = 1.4, 0.9, 4.0
     ratio = robot / person
     closed = radius * (sqrt(1 - ratio**2) + ratio * asin(ratio) - 1)

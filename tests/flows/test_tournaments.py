@@ -24,7 +24,6 @@ def wilson(number: int, of: int) -> tuple[float, float]:
 
 def test_a_tournament_tells_how_each_game_ended() -> None:
     """Who stands is caught, who walks straight on meets a wall."""
-    pytest.importorskip("numba")
     rows = calls.tournament(
         [STILL, STRAIGHT, "aside"],
         ["pure"],
@@ -47,7 +46,6 @@ def test_a_tournament_tells_how_each_game_ended() -> None:
 
 def test_a_campaign_of_walks_is_those_walks() -> None:
     """On the roughest floor; on the flattest one none falls."""
-    pytest.importorskip("numba")
     rows = calls.robustness("unevenness", "--seed", 3)["survival"]
     flat, rough = rows[0], rows[-1]
     assert flat["strength"] == 0.0 < rough["strength"]
@@ -62,7 +60,6 @@ def test_a_campaign_of_walks_is_those_walks() -> None:
 
 def test_people_who_walk_straight_touch_a_robot_that_stands() -> None:
     """They are aimed up to 0.6 m beside it."""
-    pytest.importorskip("numba")
     words = ("--people", 2, "--strategy", "stand", "--sensing", "lidar")
     person = calls.robustness("person", *words)["person"]
     assert person["planned"] == person["done"] == 2
@@ -87,7 +84,6 @@ def test_a_robot_begins_to_evade_a_person_whom_it_senses(
     A depth camera needs some images of the person, and looks away
     meanwhile.
     """
-    pytest.importorskip("numba")
     if sensing == "cameras":
         pytest.importorskip("cv2")
     speed, distance = 1.0, 6.0

@@ -11,7 +11,7 @@ from stepaside.planning import GaitSettings
 
 CODE = """
 import sys
-for missing in ("mujoco", "scipy", "matplotlib", "numba"):
+for missing in ("mujoco", "scipy", "matplotlib"):
     sys.modules[missing] = None
 from onboard_session import main
 main()

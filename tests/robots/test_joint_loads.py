@@ -11,7 +11,6 @@ from stepaside.core.constants import GRAVITY
 from stepaside.core.poses import Array
 from stepaside.locomotion.zmp.feedforward import LoadFeedforward
 from stepaside.planning import GaitSettings
-from stepaside.robots.body_reference import Posture
 from stepaside.robots.description import load_robot
 from stepaside.robots.joint_loads import LegLoads
 from stepaside.robots.leg_kinematics import BodyReference, LegKinematics
@@ -90,8 +89,12 @@ def test_at_rest_the_torques_are_those_of_mujoco() -> None:
         kinematics, loads = loads_of(reference)
         zmp = (reference.com[0], reference.com[1])
         found = loads.torques(reference, zmp)
-        share = loads.ground_contact(reference, zmp)[-1]
-        assert (share == 1.0) is (lift > 0.0)
+        left, right = (
+            np.array([x + AHEAD * cos(yaw), y + AHEAD * sin(yaw)])
+            for x, y, _, yaw in (reference.left_foot, reference.right_foot)
+        )
+        line = left - right
+        share = (zmp - right) @ line / (line @ line) if lift == 0.0 else 1.0
         wanted = by_mujoco(kinematics, reference, share)
         np.testing.assert_allclose(found, wanted, atol=2e-4)
         assert 0.5 < np.abs(found).max() < 6.0
@@ -121,11 +124,12 @@ class Moved:
         self.by = np.zeros(3)
 
     @property
-    def stance(self) -> Posture:
-        """The stance, somewhere else."""
-        stance = self._kinematics.stance
-        x, y, z = (np.array(stance.position) + self.by).tolist()
-        return stance._replace(position=(x, y, z))
+    def state(self) -> Array:
+        """The posture, somewhere else."""
+        state = np.array(self._kinematics.state)
+        at = len(self.legs.free)
+        state[at : at + 3] += self.by
+        return state
 
 
 @pytest.mark.parametrize("rise", [0.0, 2.0, -3.0])

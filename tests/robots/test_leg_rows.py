@@ -1,12 +1,8 @@
 """Test that rows of ticks have the bits of single ticks."""
 
-from collections.abc import Iterator
-from contextlib import nullcontext
-
 import numpy as np
 import pytest
 
-from stepaside.core.machine_code import plain_python
 from stepaside.core.poses import Array
 from stepaside.locomotion.zmp.feedforward import LoadFeedforward
 from stepaside.robots.description import load_robot
@@ -15,15 +11,6 @@ from stepaside.robots.leg_kinematics import BodyReference, LegKinematics
 NAO = load_robot("nao")
 TICK = 0.004
 TICKS = 150
-
-
-@pytest.fixture(params=["plain", "compiled"])
-def execution(request: pytest.FixtureRequest) -> Iterator[str]:
-    """Run as plain Python, then as machine code."""
-    if request.param == "compiled":
-        pytest.importorskip("llvmlite")
-    with plain_python() if request.param == "plain" else nullcontext():
-        yield request.param
 
 
 def references(seed: int, jump: float) -> list[BodyReference]:
@@ -94,7 +81,7 @@ def row_by_row(
 @pytest.mark.parametrize("used", [TICKS, 7])
 @pytest.mark.parametrize(("seed", "jump"), [(1, 0.0), (2, 0.02), (3, -0.03)])
 def test_rows_have_the_bits_of_single_ticks(
-    execution: str, seed: int, jump: float, used: int
+    seed: int, jump: float, used: int
 ) -> None:
     """Also where joint limits act, and after a return to an earlier tick."""
     bodies = references(seed, jump)
@@ -105,13 +92,3 @@ def test_rows_have_the_bits_of_single_ticks(
     found, limited = row_by_row(bodies, zmp, used=used)
     np.testing.assert_array_equal(found, expected)
     assert (limited > 0) is (jump != 0.0)
-
-
-def test_machine_code_has_the_bits_of_python() -> None:
-    pytest.importorskip("llvmlite")
-    bodies = references(4, 0.01)
-    zmp = np.array([body.com[:2] for body in bodies])
-    compiled = row_by_row(bodies, zmp, used=TICKS)[0]
-    with plain_python():
-        plain = row_by_row(bodies, zmp, used=TICKS)[0]
-    np.testing.assert_array_equal(compiled, plain)

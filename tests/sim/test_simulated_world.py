@@ -8,7 +8,6 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.core.machine_code import kernel_of
 from stepaside.core.poses import Pose
 from stepaside.robots.description import load_robot
 from stepaside.sim.body_settings import BodySettings
@@ -190,35 +189,6 @@ def test_sensors_are_those_of_the_last_physics_step(
     np.testing.assert_array_equal(found.qpos, expected.qpos)
     world.update_sensors()
     np.testing.assert_array_equal(found.sensordata, expected.sensordata)
-
-
-ADD = """
-def count(calls):
-    calls[0] += 1.0
-"""
-
-
-def test_machine_code_is_called_in_the_steps_of_its_own_world() -> None:
-    add = kernel_of("count", ADD, "1")
-    if add is None:
-        pytest.skip("needs the extra fast")
-    world, other = fallen(), fallen()
-    calls = np.zeros(1)
-    told: list[float] = []
-
-    def step_other(time: float) -> None:
-        told.append(time)
-        mujoco.mj_step(other.model, other.data)
-
-    world.call_before_step(lambda time: None, add.bind(calls))
-    world.advance()
-    assert calls[0] == 3.0
-    world.call_before_step(step_other)
-    world.advance()
-    assert calls[0] == 6.0 and len(told) == 3
-    other.advance()
-    mujoco.mj_step(world.model, world.data)
-    assert calls[0] == 6.0
 
 
 def rotation(quaternion: Any) -> np.ndarray:

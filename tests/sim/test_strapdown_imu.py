@@ -4,7 +4,6 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.core.machine_code import plain_python
 from stepaside.sim.sensor_errors import (
     AveragedImu,
     StrapdownImu,
@@ -105,16 +104,3 @@ def test_the_mean_rate_turns_one_orientation_into_the_next(
     mujoco.mju_quat2Mat(axes, second)
     found = axes_of(second.tolist()).reshape(-1)
     np.testing.assert_allclose(found, axes, atol=1e-15)
-
-
-def test_machine_code_has_the_bits_of_python(
-    world: tuple[mujoco.MjModel, mujoco.MjData],
-) -> None:
-    model, data = world
-    compiled = imu_of(world)
-    with plain_python():
-        plain = imu_of(world)
-    for _ in range(20):
-        mujoco.mj_step(model, data, nstep=STEPS)
-        found = zip(compiled.read(), plain.read(), strict=True)
-        assert all(np.array_equal(one, other) for one, other in found)

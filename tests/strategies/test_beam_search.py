@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from stepaside.arena import NO_OBSTACLES, Room, RoomRecipe
-from stepaside.core.compilation import load_numba
 from stepaside.core.poses import Pose
 from stepaside.strategies import (
     HerdingPursuit,
@@ -32,9 +31,6 @@ from stepaside.strategies.search.pursuer_model import (
 )
 from stepaside.studies.tournament_settings import TournamentSettings
 
-pytestmark = pytest.mark.skipif(
-    load_numba() is None, reason='needs the extra "fast"'
-)
 RULES = BeamRules(0.04, 0.08, 0.08 * pi, 0.35, 0.2, 60, 50)
 MODEL, SHARP = PursuerModel(), PursuerModel(12.5)
 START = np.array([0.5, 0.2, 0.3, -0.5, -0.1, 0.9])

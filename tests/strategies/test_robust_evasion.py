@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from stepaside.arena import Disc, Room, RoomRecipe
-from stepaside.core.compilation import load_numba
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.strategies import (
@@ -43,9 +42,6 @@ from stepaside.strategies.search.pursuer_model import (
 from stepaside.studies.tournament_settings import TournamentSettings
 from stepaside.studies.tournament_strategies import pursuer_of, speed_ratio_of
 
-pytestmark = pytest.mark.skipif(
-    load_numba() is None, reason='needs the extra "fast"'
-)
 RULES = BeamRules(0.04, 0.08, 0.08 * pi, 0.35, 0.2, 1, 1)
 LIMITS = Limits(0.1, 0.2, 0.04, 0.4)
 ROOMS = TournamentSettings(room=RoomRecipe())

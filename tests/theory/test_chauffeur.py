@@ -6,7 +6,6 @@ from math import asin, cos, pi, sqrt
 import numpy as np
 import pytest
 
-from stepaside.core.compilation import load_numba
 from stepaside.core.errors import PlanError
 from stepaside.theory.chauffeur import (
     ChauffeurGame,
@@ -24,9 +23,6 @@ from stepaside.theory.chauffeur.chauffeur_game import (
 )
 from stepaside.theory.chauffeur.sampled_value import decide, standing_table
 
-pytestmark = pytest.mark.skipif(
-    load_numba() is None, reason='needs the extra "fast"'
-)
 RATIO = 0.643
 CELLS = 60
 

@@ -13,34 +13,23 @@ import mujoco
 import numpy as np
 
 from stepaside.core.errors import ConfigurationError
-from stepaside.core.machine_code import plain_python
 from stepaside.core.poses import Array
 from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.locomotion.zmp.control_settings import STABILISED
 from stepaside.sim.body_settings import BODIES
 
-MACHINE_CODE = (
-    "real_time_factor",
-    "duel_over_bare_physics",
-    "control_tick_us",
-)
 CAMERA_DUEL = 5.0  # simulated time of a duel with cameras, in [s]
 
 
 def measure_duel(duration: float = 60.0, rounds: int = 3) -> dict[str, float]:
-    """Return the times of a duel in Python and as machine code.
+    """Return the times of duels with ideal and hardware-like bodies.
 
     Args:
         duration: Simulated time, in [s].
         rounds: Interleaved repetitions, of which the fastest counts.
     """
-    with plain_python():
-        plain = _measure_duel(duration, rounds)
-    compiled = _measure_duel(duration, rounds)
-    figures = plain | {
-        f"{name}_machine_code": compiled[name] for name in MACHINE_CODE
-    }
+    figures = _measure_duel(duration, rounds)
     hardware = DuelSettings(
         seed=1, body=BODIES["hardware"], control=STABILISED, duration=duration
     )

@@ -31,7 +31,7 @@ SECONDS = 20.0
 SEED = 7
 ROLES = ("pursuer", "evader")
 TICK = 0.012
-ABSENT = ("mujoco", "scipy", "matplotlib", "cv2", "numba")
+ABSENT = ("mujoco", "scipy", "matplotlib", "cv2")
 AMONG_TICKS = 0.99  # percentile of the tick times that is reported
 
 
@@ -57,7 +57,7 @@ def record(file: Path) -> None:
             m = player.robot.read()
             targets = player.scheme.update(m).copy()
             player.robot.write(targets)
-            seen = (np.nan,) * 3 if m.sighting is None else m.sighting
+            seen = (np.nan,) * 3 if m.sighting is None else m.sighting[:3]
             sensed = (m.joint_positions, m.gyro, m.accelerometer)
             row = [m.time], *sensed, m.foot_forces, seen, targets
             rows[player.name].append(np.concatenate(row))

@@ -1,38 +1,45 @@
-"""Optional compilation by Numba, which is imported at its first use only.
+"""Compilation by Numba at the first call, kept in the cache folder.
 
-Importing Numba takes longer than importing everything else. So functions
-that compiled code may call are only registered (:func:`shared`,
-:func:`inlined`), and Numba is imported when a function is compiled; without
-Numba :func:`compiled` does nothing.
-
-Loops of a robot's tick do not wait for Numba: see :mod:`.machine_code`.
+Importing Numba takes longer than importing everything else, so that it is
+imported when a function is first compiled. With ``NUMBA_DISABLE_JIT=1`` the
+same functions run as Python.
 """
 
+import gc
 import os
+import sys
 from collections.abc import Callable
 from contextlib import suppress
-from functools import cache
+from functools import cache, cached_property, partial, update_wrapper
+from hashlib import sha256
 from pathlib import Path
-from typing import Any, TypeVar
+from tempfile import TemporaryFile
+from types import CodeType, FunctionType, ModuleType
+from typing import Any, TypeVar, cast
 
 F = TypeVar("F", bound=Callable[..., Any])
+R = TypeVar("R")
 _OPTIONS: dict[str, Any] = {
     "error_model": "numpy",
     "fastmath": {"contract"},
     "no_cfunc_wrapper": True,  # nothing takes a function as a value
 }
 _marked: list[tuple[Callable[..., Any], bool]] = []
-_folders: set[Path] = set()  # of functions registered or compiled
 
 
 @cache
 def load_numba() -> Any:
-    """Return the module numba, or None without the extra "fast"."""
-    try:
-        import numba
-        import numba.extending
-    except ImportError:
-        return None
+    """Return the module numba."""
+    collects = gc.isenabled()
+    gc.disable()  # it makes a million objects to stay: a third of the time
+    import numba
+    import numba.extending
+    from numba.core.registry import cpu_target
+
+    cpu_target.typing_context.refresh()
+    cpu_target.target_context.refresh()
+    if collects:
+        gc.enable()
     return numba
 
 
@@ -41,30 +48,21 @@ def shared(function: F) -> F:
 
     One definition then serves numbers in compiled loops and arrays in NumPy.
     """
-    _register(function, inline=False)
+    _marked.append((function, False))
     return function
 
 
 def inlined(function: F) -> F:
     """Register a function (:func:`shared`) to be inlined in compiled code."""
-    _register(function, inline=True)
+    _marked.append((function, True))
     return function
 
 
 def compiled(function: F, **options: Any) -> F:
     """Compile a function of numbers and arrays at its first call."""
-    numba = load_numba()
-    if numba is None:
+    if os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0"):
         return function
-    folder = Path(function.__code__.co_filename).parent
-    _folders.add(folder)
-    _forget_stale(folder)
-    while _marked:
-        marked, inline = _marked.pop()
-        register = numba.extending.register_jitable
-        register(forceinline=inline, **_OPTIONS)(marked)
-    made: F = numba.njit(cache=True, **options, **_OPTIONS)(function)
-    return made
+    return cast(F, _Compiled(cast(FunctionType, function), options))
 
 
 def compiled_loop(function: F) -> F:
@@ -83,29 +81,157 @@ def compiled_parallel(function: F) -> F:
 
 def parallel_range() -> Any:
     """Return the parallel range of :func:`compiled_parallel` functions."""
-    numba = load_numba()
-    return range if numba is None else numba.prange
+    return load_numba().prange
+
+
+def bound(function: Callable[..., R], *arguments: Any) -> Callable[[], R]:
+    """Return a function of fixed arguments, compiled for them at once.
+
+    Args:
+        function: A :func:`compiled` function.
+        arguments: Arrays, whose memory must stay where it is, and numbers.
+    """
+    if not isinstance(function, _Compiled):
+        return partial(function, *arguments)
+    typeof = load_numba().typeof
+    function.dispatcher.compile(tuple(map(typeof, arguments)))
+    return partial(function.dispatcher, *arguments)
+
+
+class _Compiled:
+    """Function that is compiled for the types of its arguments."""
+
+    def __init__(self, function: FunctionType, options: dict[str, Any]):
+        self.function, self._options = function, options
+        update_wrapper(self, function)
+
+    def __call__(self, *arguments: Any, **named: Any) -> Any:
+        return self.dispatcher(*arguments, **named)
+
+    @cached_property
+    def dispatcher(self) -> Any:
+        """Dispatcher of Numba."""
+        numba = load_numba()
+        while _marked:
+            marked, inline = _marked.pop()
+            register = numba.extending.register_jitable
+            register(forceinline=inline, **_OPTIONS)(marked)
+        made = numba.njit(**self._options, **_OPTIONS)(self.function)
+        if _keeps():
+            made._cache = _disk_cache()(self.function)
+        return made
+
+    @property
+    def _numba_type_(self) -> Any:
+        """Type of the function where compiled code calls it."""
+        return self.dispatcher._numba_type_
 
 
 @cache
-def _forget_stale(folder: Path) -> None:
-    """Delete cached machine code of a folder, older than any source file.
+def _disk_cache() -> Any:
+    """Return the class of Numba's cache, in our folder."""
+    from numba.core import caching
 
-    Numba only checks the file of a function, not the files of the functions
-    that it calls.
-    """
-    with suppress(OSError):
-        sources = [file for each in _folders for file in each.glob("*.py")]
-        newest = max(file.stat().st_mtime for file in sources)
-        for index in (folder / "__pycache__").glob("*.nbi"):
-            if index.stat().st_mtime < newest:
-                index.unlink()
+    class Locator(caching._CacheLocator):
+        def __init__(self, function: FunctionType) -> None:
+            self._function = function
+
+        def get_cache_path(self) -> str:
+            return str(_folder())
+
+        def get_source_stamp(self) -> str:
+            return _digest(self._function)
+
+        def get_disambiguator(self) -> str:
+            code = self._function.__code__
+            return sha256(code.co_filename.encode()).hexdigest()[:16]
+
+        @classmethod
+        def from_function(cls, function: Any, file: str) -> "Locator":
+            return cls(function)
+
+    class Implementation(caching.CompileResultCacheImpl):
+        _locator_classes: Any = [Locator]
+
+    class DiskCache(caching.FunctionCache):
+        _impl_class = Implementation
+
+        def load_overload(self, signature: Any, context: Any) -> Any:
+            load: Any = super().load_overload
+            found = load(signature, context)
+            if found is None:
+                _tell_once("compiling for this machine, once: some seconds")
+            return found
+
+        def save_overload(self, signature: Any, data: Any) -> None:
+            save: Any = super().save_overload
+            with suppress(OSError):  # it only saves time
+                save(signature, data)
+
+    return DiskCache
 
 
-def _register(function: Callable[..., Any], *, inline: bool) -> None:
-    """Note a function that compiled code may call."""
-    _marked.append((function, inline))
-    _folders.add(Path(function.__code__.co_filename).parent)
+def _digest(function: FunctionType) -> str:
+    """Return a digest of a function, and of all that it refers to."""
+    seen: set[int] = set()
+    parts: list[str] = []
+
+    def add(value: Any) -> None:
+        if isinstance(value, _Compiled):
+            value = value.function
+        if isinstance(value, FunctionType):
+            if id(value) not in seen:
+                seen.add(id(value))
+                add_code(value.__code__, value.__globals__)
+        elif isinstance(value, type):
+            parts.append(repr(getattr(value, "__members__", value.__name__)))
+            parts.append(repr(getattr(value, "_fields", ())))
+        elif not isinstance(value, ModuleType):
+            parts.append(repr(value))
+
+    def add_code(code: CodeType, names: dict[str, Any]) -> None:
+        parts.append(code.co_code.hex())
+        parts.append(str((code.co_names, code.co_varnames)))
+        for constant in code.co_consts:
+            if isinstance(constant, CodeType):
+                add_code(constant, names)
+            else:
+                parts.append(repr(constant))
+        for name in code.co_names:
+            if name in names:
+                add(names[name])
+
+    add(function)
+    return sha256("\n".join(parts).encode()).hexdigest()
+
+
+def cache_folder() -> Path:
+    """Return the cache folder; ``XDG_CACHE_HOME`` is respected."""
+    base = os.environ.get("XDG_CACHE_HOME") or "~/.cache"
+    return Path(base).expanduser() / "stepaside"
+
+
+def _folder() -> Path:
+    chosen = os.environ.get("NUMBA_CACHE_DIR")
+    return Path(chosen) if chosen else cache_folder() / "compiled"
+
+
+@cache
+def _keeps() -> bool:
+    """Return whether the cache folder can be written; say if not."""
+    try:
+        _folder().mkdir(parents=True, exist_ok=True)
+        with TemporaryFile(dir=_folder()):
+            return True
+    except (OSError, RuntimeError):  # the latter without a home
+        _tell_once("compiling; the cache folder cannot be written, so that "
+                   "each start does; set XDG_CACHE_HOME")  # fmt: skip
+        return False
+
+
+@cache
+def _tell_once(what: str) -> None:
+    print(what, file=sys.stderr, flush=True)
 
 
 @inlined
@@ -117,9 +243,3 @@ def copy_values(source: Any, target: Any) -> None:
     """
     for i in range(len(source)):
         target[i] = source[i]
-
-
-def cache_folder() -> Path:
-    """Return the cache folder; ``XDG_CACHE_HOME`` is respected."""
-    base = os.environ.get("XDG_CACHE_HOME") or "~/.cache"
-    return Path(base).expanduser() / "stepaside"

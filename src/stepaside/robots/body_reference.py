@@ -65,19 +65,3 @@ class BodyReference(NamedTuple):
         aside = c * (y - 0.5 * (v + q)) - s * (x - 0.5 * (u + p))
         apart = c * (v - q) - s * (u - p)
         return -2.0 * lean * aside / apart
-
-
-class Posture(NamedTuple):
-    """Torso pose and leg joint angles solved by inverse kinematics.
-
-    Attributes:
-        position: Torso origin in the frame of the reference, in [m].
-        heading: Heading of the torso, in [rad].
-        free: Angles of the independent leg joints, in [rad].
-        roll: Roll of the torso, in [rad].
-    """
-
-    position: tuple[float, float, float]
-    heading: float
-    free: tuple[float, ...]
-    roll: float = 0.0

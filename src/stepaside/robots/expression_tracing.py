@@ -11,16 +11,13 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Callable, Sequence
+from hashlib import sha256
 from math import cos, sin
 from typing import Any, NamedTuple
 
-import numpy as np
-
-from ..core.machine_code import Kernel, kernel_of
-from ..core.poses import Array
+from ..core.compilation import compiled, shared
 
 Function = Callable[..., tuple[float, ...]]
-RowFunction = Callable[..., tuple[Array | float, ...]]
 DEPTH = 12  # nesting of an expression before it is assigned to a variable
 
 
@@ -159,42 +156,30 @@ class Formula(NamedTuple):
 
     def function(self) -> Function:
         """Return the function in Python."""
-        function: Function = self._function_with(sin, cos)
+        function: Function = self._names()[self.name]
         return function
 
-    def row_function(self) -> RowFunction:
-        """Return the function for arguments that are columns of rows.
-
-        It computes each row with the bits of :meth:`function`: NumPy rounds
-        sums, products and quotients as Python does, but not its sines.
-        """
-        function: RowFunction = self._function_with(sines, cosines)
-        return function
-
-    def kernel(self, name: str, loop: str, arguments: str) -> Kernel | None:
-        """Compile a loop over rows that calls the function.
+    def loop(self, name: str, text: str) -> Any:
+        """Return a compiled loop over rows that calls the function.
 
         Args:
             name: Name of the loop.
-            loop: Its definition.
-            arguments: See :func:`.machine_code.kernel_of`.
+            text: Its definition.
         """
-        return kernel_of(name, f"{self.text}\n\n{loop}", arguments)
+        names = self._names(text)
+        # Symbols of kept machine code: those of several robots must differ.
+        digest = sha256(f"{self.text}{text}".encode()).hexdigest()[:16]
+        for each in (self.name, name):
+            names[each].__qualname__ = f"{each}_{digest}"
+        shared(names[self.name])
+        return compiled(names[name])
 
-    def _function_with(self, sine: Any, cosine: Any) -> Any:
-        namespace: dict[str, Any] = {"sin": sine, "cos": cosine}
-        exec(compile(self.text, f"<{self.name}>", "exec"), namespace)
-        return namespace[self.name]
-
-
-def sines(angles: Array) -> Array:
-    """Return the sines of angles, in [rad], with the bits of ``math.sin``."""
-    return np.array([sin(angle) for angle in angles.tolist()])
-
-
-def cosines(angles: Array) -> Array:
-    """Return their cosines with the bits of ``math.cos``."""
-    return np.array([cos(angle) for angle in angles.tolist()])
+    def _names(self, loop: str = "") -> dict[str, Any]:
+        """Return the names that the definition, and a loop, define."""
+        names: dict[str, Any] = {"sin": sin, "cos": cos, "__name__": __name__}
+        text = f"{self.text}\n\n{loop}"
+        exec(compile(text, f"<{self.name}>", "exec"), names)
+        return names
 
 
 class ExpressionTrace:

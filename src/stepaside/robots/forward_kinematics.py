@@ -6,11 +6,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..core.compilation import bound
 from ..core.errors import ModelError
-from ..core.machine_code import BoundKernel, Kernel, is_enabled
 from ..core.poses import Array
 from .description import REMEDY, RobotDescription
-from .expression_tracing import ExpressionTrace, Formula, Function, Number
+from .expression_tracing import ExpressionTrace, Number
 from .link_poses import gather_moments, place_links
 from .robot_tree import RobotTree
 from .tree_cache import load_tree
@@ -76,21 +76,11 @@ class ForwardKinematics:
         self.tree = tree = load_tree(description)
         self.mass = tree.mass
         feet = (description.left_foot, description.right_foot)
-        formula, kernel = _trace_posture(
-            tree,
-            feet,
-            head,
-            tuple(sorted(description.standing.items())),
-            is_enabled(),
-        )
+        standing = tuple(sorted(description.standing.items()))
+        posture_row = _trace_posture(tree, feet, head, standing)
         self.numbers = np.empty(HEAD_OFFSET + (0 if head is None else 12))
         self.angles = np.empty(len(tree.motors))
-        self._function: Function | None = None
-        if kernel is None:
-            self._function = formula.function()
-        self.run: Callable[[], object] = self._run_plainly
-        if kernel is not None:
-            self.run = kernel.bind(self.angles, self.numbers)
+        self.run = bound(posture_row, self.angles, self.numbers)
         self._feet = [tree.sites[name] for name in feet]
         self._cache_key = b""
         self._posture: MeasuredPosture
@@ -124,20 +114,10 @@ class ForwardKinematics:
             self._cache_key = key
         return self._posture
 
-    @property
-    def compiled(self) -> BoundKernel | None:
-        """Kernel from :attr:`angles` to :attr:`numbers`, if it is used."""
-        return self.run if isinstance(self.run, BoundKernel) else None
-
     def evaluate(self, angles: Array) -> None:
         """Set :attr:`numbers` to the results at angles, in [rad]."""
         self.angles[:] = angles
         self.run()
-
-    def _run_plainly(self) -> None:
-        """Evaluate the formulas in Python."""
-        assert self._function is not None
-        self.numbers[:] = self._function(*self.angles.tolist())
 
     def force_sensors(self) -> Array:
         """Return the positions of the foot force sensors.
@@ -163,27 +143,20 @@ class ForwardKinematics:
         return np.array(corners)
 
 
-def _row_loop(count: int) -> str:
-    """Return the loop that evaluates the formulas at some angles."""
-    return LOOP.format(", ".join(f"angles[{i}]" for i in range(count)))
-
-
 @lru_cache(maxsize=16)
 def _trace_posture(
     tree: RobotTree,
     feet: tuple[str, str],
     head: str | None,
     standing: tuple[tuple[str, float], ...],
-    compiled: bool,
-) -> tuple[Formula, Kernel | None]:
-    """Generate the formulas of CoM, feet and head, also as machine code.
+) -> Callable[[Array, Array], None]:
+    """Generate the formulas of CoM, feet and head.
 
     Args:
         tree: Kinematic tree.
         feet: Sites of the soles, left and right.
         head: Body that carries the cameras, if any.
         standing: Angles of joints without a motor, by name, in [rad].
-        compiled: Whether machine code is used; a key of the cache.
     """
     trace = ExpressionTrace()
     angles: dict[str, Number] = dict(standing)
@@ -206,6 +179,8 @@ def _trace_posture(
         results += links.position_of(frames[2])
         results += [x for row in axes[2] for x in row]
     formula = trace.formula("posture", results)
-    loop = _row_loop(len(tree.motors))
-    kernel = formula.kernel("posture_row", loop, "11")
-    return formula, kernel
+    arguments = ", ".join(f"angles[{i}]" for i in range(len(tree.motors)))
+    run: Callable[[Array, Array], None] = formula.loop(
+        "posture_row", LOOP.format(arguments)
+    )
+    return run

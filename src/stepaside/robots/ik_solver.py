@@ -5,12 +5,11 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.errors import ModelError
-from ..core.machine_code import Kernel, is_enabled
 from ..core.poses import Array
 from .description import RobotDescription
 from .expression_tracing import Function
 from .ik_residuals import trace_residuals
-from .ik_step import step_kernel, trace_step
+from .ik_step import Steps, compile_steps, trace_step
 from .kept_formulas import kept_formula
 from .leg_joints import BASE, FIXED_ROWS, LegJoints
 from .robot_tree import RobotTree
@@ -26,16 +25,14 @@ class LegSolver(NamedTuple):
         legs: Leg joints.
         residuals: Residuals and Jacobian; see
             :func:`.ik_residuals.trace_residuals`.
-        newton_step: Undamped Newton step; see :func:`.ik_step.trace_step`.
-            None for legs other than six hinges each, and with ``track_rows``.
-        track_rows: Steps of many ticks as machine code, if it is used; see
-            :func:`.ik_step.step_kernel`.
+        track_rows: Undamped Newton steps of many ticks; see
+            :func:`.ik_step.compile_steps`. None for legs other than six
+            hinges each.
     """
 
     legs: LegJoints
     residuals: Function
-    newton_step: Function | None
-    track_rows: Kernel | None
+    track_rows: Steps | None
 
     def linearise(self, *arguments: float) -> tuple[Array, Array]:
         """Evaluate residuals and Jacobian in the level torso frame.
@@ -54,7 +51,7 @@ class LegSolver(NamedTuple):
         return numbers[:rows], numbers[rows:].reshape(rows, -1)
 
 
-_Formulas = tuple[Function, Function | None, Kernel | None]
+_Formulas = tuple[Function, Steps | None]
 _cache: dict[tuple[object, ...], _Formulas] = {}
 
 
@@ -62,11 +59,11 @@ def solver_of(description: RobotDescription, tree: RobotTree) -> LegSolver:
     """Return the solver of a robot; formulas are cached by tree."""
     legs = LegJoints.of(description, tree)
     hints = description.standing
-    key = (*legs.key, tuple(hints.items()), is_enabled())
+    key = (*legs.key, tuple(hints.items()))
     if key not in _cache:
         if len(_cache) >= CACHE_SIZE:
             _cache.clear()
-        step = kernel = None
+        steps = None
         if legs.is_plain:
             try:
                 formula = kept_formula("leg_step", legs, trace_step, hints)
@@ -76,10 +73,9 @@ def solver_of(description: RobotDescription, tree: RobotTree) -> LegSolver:
                     "joints that follow each other must not turn about "
                     "parallel axes"
                 ) from error
-            kernel = step_kernel(formula, legs)
-            step = formula.function() if kernel is None else None
+            steps = compile_steps(formula, legs)
         rows = kept_formula("leg_rows", legs, trace_residuals, hints)
-        _cache[key] = rows.function(), step, kernel
+        _cache[key] = rows.function(), steps
     return LegSolver(legs, *_cache[key])
 
 

@@ -6,9 +6,10 @@ rows: the CoM, and equality of the joint that both legs share or, without
 such a joint, the torso heading.
 """
 
+from collections.abc import Callable
 from typing import NamedTuple
 
-from ..core.machine_code import Kernel
+from ..core.poses import Array
 from .expression_tracing import Formula, Number
 from .ik_residuals import HEADING, UP, TracedLegs
 from .leg_joints import BASE, LegJoints
@@ -27,6 +28,7 @@ from .scalar_algebra import (
 # Motion of the torso in a tick beyond which the undamped step is rejected,
 # in [m] or [rad].
 GREATEST_MOVE = 0.1
+Steps = Callable[[Array, Array, Array, float], int]
 LOOP = """\
 def track_rows(references, states, limits, slowest):
     n = limits.shape[0]
@@ -129,7 +131,7 @@ def trace_step(legs: LegJoints, hints: dict[str, float]) -> Formula:
     return traced.trace.formula("leg_step", [*torso, *moves, *after])
 
 
-def step_kernel(formula: Formula, legs: LegJoints) -> Kernel | None:
+def compile_steps(formula: Formula, legs: LegJoints) -> Steps:
     """Compile the steps of many ticks, up to one that meets a limit.
 
     Args:
@@ -141,14 +143,14 @@ def step_kernel(formula: Formula, legs: LegJoints) -> Kernel | None:
         the roll of the torso; the states, rows of :class:`.LegStates` of
         which the first is given; reach in a tick, lower and upper limit of
         the free joints, shape (free, 3); and the least reach. It fills the
-        states and returns how many ticks keep to all limits. None without
-        machine code.
+        states and returns how many ticks keep to all limits.
     """
-    return formula.kernel("track_rows", step_loop(legs), "2220")
+    steps: Steps = formula.loop("track_rows", step_loop(legs))
+    return steps
 
 
 def step_loop(legs: LegJoints) -> str:
-    """Return the source of the loop of :func:`step_kernel`."""
+    """Return the source of the loop of :func:`compile_steps`."""
     n = len(legs.free)
     states = [f"states[i, {j}]" for j in range(n + BASE)]
     columns = 15 + (legs.lean > 0.0)

@@ -5,24 +5,18 @@ the plan: a force at the anchor of each foot, and the remaining moment. The
 torques follow from the link positions at three consecutive ticks.
 """
 
-from functools import cached_property
-from math import cos, sin
 from typing import NamedTuple
 
 import numpy as np
 
+from ..core.compilation import bound
 from ..core.constants import GRAVITY
-from ..core.machine_code import Kernel, is_enabled
 from ..core.poses import Array
 from .body_reference import BodyReference
 from .expression_tracing import (
     ExpressionTrace,
     Formula,
-    Function,
     Number,
-    RowFunction,
-    cosines,
-    sines,
 )
 from .kept_formulas import kept_formula
 from .leg_joints import LegJoints
@@ -53,55 +47,26 @@ class LoadFormulas:
     """Generated torque formulas of one robot.
 
     Attributes:
-        tick_formula: Formula of :attr:`loads`.
-        kernel: Torques of the leg motors and mass positions of many ticks,
-            as machine code, if it is used.
         coordinates: Number of coordinates of the masses.
+        rows: Function that sets torques of the leg motors and mass positions
+            of many ticks; see :data:`LOOP`.
     """
 
     def __init__(self, legs: LegJoints) -> None:
         """Generate the formulas."""
-        self._legs = legs
-        self.coordinates = 3 * len(_lumped_masses(legs)[1])
-        self.tick_formula = kept_formula("loads", legs, trace_loads)
-        self.kernel: Kernel | None = self.tick_formula.kernel(
-            "load_rows", self.loop, "222200"
-        )
-
-    @property
-    def loop(self) -> str:
-        """Source of the loop of :attr:`kernel`."""
-        legs, masses = self._legs, self.coordinates
-        n = len(legs.free)
+        n, self.coordinates = len(legs.free), 3 * len(_lumped_masses(legs)[1])
+        formula = kept_formula("loads", legs, trace_loads)
         arguments = [
             *(f"states[i + 1, {j}]" for j in range(n + 3)),
             *("c", "s"),
-            *(f"points[i, {j}]" for j in range(masses)),
-            *(f"points[i + 1, {j}]" for j in range(masses)),
+            *(f"points[i, {j}]" for j in range(self.coordinates)),
+            *(f"points[i + 1, {j}]" for j in range(self.coordinates)),
             "factor",
             *(f"contacts[i, {j}]" for j in range(7)),
             *([f"states[i + 1, {n + 6}]"] if legs.lean > 0.0 else []),
         ]
-        return LOOP.format(arguments=", ".join(arguments))
-
-    @cached_property
-    def loads(self) -> Function:
-        """Torques and mass positions of one tick, in Python."""
-        return self.tick_formula.function()
-
-    @cached_property
-    def points(self) -> RowFunction:
-        """Mass positions of many ticks, from columns."""
-        # Without the variables of the loads, which these do not depend on.
-        alone = TracedMasses.of(self._legs, loaded=False)
-        return alone.trace.formula("mass_points", alone.points).row_function()
-
-    @cached_property
-    def rows(self) -> RowFunction:
-        """Torques of many ticks, from columns."""
-        traced = TracedMasses.of(self._legs)
-        formula = traced.trace.formula("load_columns", traced.torques())
-        return formula.row_function()
+        loop = LOOP.format(arguments=", ".join(arguments))
+        self.rows = formula.loop("load_rows", loop)
 
 
 class LegLoads:
@@ -134,6 +99,8 @@ class LegLoads:
         self.formulas = _load_formulas(legs)
         # Mass positions two ticks ago and one tick ago, then of the last rows.
         self._points = np.zeros((2, self.formulas.coordinates))
+        some = np.zeros((1, 1))
+        bound(self.formulas.rows, *4 * (some,), self._rate, 0.0)  # compiles
         self._calls = 0
 
     def torques(
@@ -151,24 +118,9 @@ class LegLoads:
         Returns:
             Torques of all motors, in [N m]. Shape (joints,).
         """
-        position, heading, free, roll = self._kinematics.stance
-        before, last = self._points[-2:].tolist()
-        results = self.formulas.loads(
-            *free,
-            *position,
-            cos(heading),
-            sin(heading),
-            *before,
-            *last,
-            self._rate if self._calls > 1 else 0.0,
-            *self.ground_contact(reference, zmp),
-            *self._kinematics.legs.roll_argument(roll),
-        )
-        count = len(self.leg_motors)
-        self._points = np.array([last, results[count:]])
-        self._calls += 1
-        torques = np.zeros(self._number_of_motors)
-        torques[self.leg_motors] = results[:count]
+        states = np.array([self._kinematics.state] * 2)
+        row = np.array([reference.row()])
+        torques: Array = self.torque_rows(states, row, np.array([zmp]))[0]
         return torques
 
     def torque_rows(
@@ -186,39 +138,13 @@ class LegLoads:
         Returns:
             Torques of all motors, in [N m]. Shape (ticks, joints).
         """
-        ticks, n = len(references), states.shape[1] - 7
+        ticks = len(references)
         points = np.empty((ticks + 2, self._points.shape[1]))
         points[:2] = self._points[-2:]
         contacts = self._ground_contacts(references, zmp)
         legs = np.empty((ticks, len(self.leg_motors)))
-        kernel = self.formulas.kernel
-        if kernel is not None:
-            calls = float(self._calls)
-            kernel(states, contacts, points, legs, self._rate, calls)
-        else:
-            after = states[1:].T
-            headings = after[n + 3].tolist()
-            posture = [
-                *after[: n + 3],
-                np.array([cos(heading) for heading in headings]),
-                np.array([sin(heading) for heading in headings]),
-            ]
-            roll = self._kinematics.legs.roll_arguments(after[n + 6])
-            results = self.formulas.points(*posture, *roll)
-            points[2:] = np.column_stack(results)
-            rate = np.where(
-                self._calls + np.arange(ticks) > 1, self._rate, 0.0
-            )
-            results = self.formulas.rows(
-                *posture,
-                *points[:-2].T,
-                *points[1:-1].T,
-                rate,
-                *contacts.T,
-                *roll,
-            )
-            for column, result in zip(legs.T, results, strict=True):
-                column[:] = result
+        calls = float(self._calls)
+        self.formulas.rows(states, contacts, points, legs, self._rate, calls)
         self._points = points
         self._calls += ticks
         torques = np.zeros((ticks, self._number_of_motors))
@@ -230,25 +156,15 @@ class LegLoads:
         self._calls -= len(self._points) - 2 - ticks
         self._points = self._points[ticks : ticks + 2]
 
-    def ground_contact(
-        self, reference: BodyReference, zmp: tuple[float, float]
-    ) -> list[float]:
-        """Return the anchors of both feet and the load fraction of the left.
-
-        Anchors are in the frame of the reference, in [m].
-        """
-        row = np.array([reference.row()])
-        contact: list[float] = self._ground_contacts(row, np.array([zmp]))[
-            0
-        ].tolist()
-        return contact
-
     def _ground_contacts(self, references: Array, zmp: Array) -> Array:
-        """Return :meth:`ground_contact` of rows. Shape (ticks, 7)."""
+        """Return anchors of both feet, in [m], and load fraction of the left.
+
+        Anchors are in the frame of the reference. Shape (ticks, 7).
+        """
         x, y, z, yaw, u, v, w, turned = references[:, 3:11].T
         forward = self._zmp_forward
-        x, y = x + forward * cosines(yaw), y + forward * sines(yaw)
-        u, v = u + forward * cosines(turned), v + forward * sines(turned)
+        x, y = x + forward * np.cos(yaw), y + forward * np.sin(yaw)
+        u, v = u + forward * np.cos(turned), v + forward * np.sin(turned)
         fraction = (zmp[:, 0] - u) * (x - u) + (zmp[:, 1] - v) * (y - v)
         fraction /= (x - u) * (x - u) + (y - v) * (y - v)
         fraction = np.where(fraction < 0.0, 0.0, fraction)
@@ -289,7 +205,7 @@ _cache: dict[tuple[object, ...], LoadFormulas] = {}
 
 def _load_formulas(legs: LegJoints) -> LoadFormulas:
     """Return the torque formulas of a robot, cached by tree."""
-    key = (*legs.key, is_enabled())
+    key = legs.key
     if key not in _cache:
         if len(_cache) >= CACHE_SIZE:
             _cache.clear()

@@ -115,14 +115,6 @@ class LegJoints:
             return LEVEL
         return rotation_about((1.0, 0.0, 0.0), trace.variable("roll"))
 
-    def roll_argument(self, roll: float) -> tuple[float, ...]:
-        """Return the argument of that variable: a roll, in [rad], or none."""
-        return (roll,) if self.lean > 0.0 else ()
-
-    def roll_arguments(self, rolls: Array) -> tuple[Array, ...]:
-        """Return the same of rolls, in [rad]. Shape (n,)."""
-        return (rolls,) if self.lean > 0.0 else ()
-
     def chain(self, side: int) -> list[int]:
         """Return the links of the left (0) or right (1) leg."""
         return [

@@ -9,19 +9,19 @@ torso heading equals the mean heading of the feet.
 from collections.abc import Sequence
 from copy import copy
 from functools import cached_property
-from math import cos, inf, remainder, sin, tau
+from math import cos, remainder, sin, tau
 from operator import itemgetter
 from typing import NamedTuple
 
 import numpy as np
 
+from ..core.compilation import bound
 from ..core.errors import ReachError
 from ..core.poses import Array
-from .body_reference import BodyReference, Posture
+from .body_reference import BodyReference
 from .com_reach import ReachableHeights
 from .description import RobotDescription
 from .ik_solver import move_within, solver_of
-from .ik_step import GREATEST_MOVE
 from .joint_configuration import Configuration
 from .leg_joints import BASE, FIXED_ROWS
 from .tree_cache import load_tree
@@ -88,7 +88,6 @@ class LegKinematics:
         self.legs = legs = self._solver.legs
         self._reach = legs.speeds * tick
         self._limits = np.column_stack([self._reach, legs.low, legs.high])
-        self._limit_rows = self._limits.tolist()
         self._slowest = float(self._reach.min())
         self._range_margin = 0.0  # lower bound of the distance to any limit
         self._start = tuple(
@@ -120,7 +119,8 @@ class LegKinematics:
         self._state_rows = np.zeros((2, len(self._start) + 7))
         self._track_row = None
         if self._solver.track_rows is not None:
-            self._track_row = self._solver.track_rows.bind(
+            self._track_row = bound(
+                self._solver.track_rows,
                 *(self._reference_row, self._state_rows),
                 *(self._limits, self._slowest),
             )
@@ -143,12 +143,6 @@ class LegKinematics:
         turned = (c * r, c * t + 0.0, s * t + 0.0, s * r)
         joints = self.legs.angles(self._free)
         return np.array([*self._position, *turned, *joints], dtype=np.float64)
-
-    @property
-    def stance(self) -> Posture:
-        """Torso pose and free joints of the present targets."""
-        x, y, z = self._position
-        return Posture((x, y, z), self._heading, self._free, self._roll)
 
     @property
     def torso_heading(self) -> float:
@@ -276,17 +270,10 @@ class LegKinematics:
         references = np.column_stack([references, rolls])
         rows = np.empty((len(references) + 1, len(self._free) + 7))
         rows[0] = self.state
-        kernel = self._solver.track_rows
-        count = 0
-        if kernel is not None:
-            count = kernel(references, rows, self._limits, self._slowest)
+        count, steps = 0, self._solver.track_rows
+        if steps is not None:
+            count = steps(references, rows, self._limits, self._slowest)
             self._resume(rows[count])
-        else:
-            for row in references.tolist():
-                if not self._step_freely(row):
-                    break
-                count += 1
-                rows[count] = self.state
         targets = np.tile(self._fixed_targets, (count, 1))
         targets[:, self._leg_motors] = rows[1 : count + 1, self._leg_columns]
         self._states = LegStates(rows[: count + 1], targets)
@@ -325,51 +312,13 @@ class LegKinematics:
         Near singularities it is too long and rejected: there the damped
         step is used.
         """
-        if self._track_row is not None:
-            self._state_rows[0] = self.state
-            self._reference_row[0] = reference
-            if self._track_row() == 0:
-                return False
-            self._resume(self._state_rows[1])
-            return True
-        newton_step, n = self._solver.newton_step, BASE + len(self._free)
-        if newton_step is None:
+        if self._track_row is None:
             return False
-        try:
-            step = newton_step(*self._arguments(reference))
-        except ZeroDivisionError:
+        self._state_rows[0] = self.state
+        self._reference_row[0] = reference
+        if self._track_row() == 0:
             return False
-        if not max(map(abs, step[:BASE])) < GREATEST_MOVE:
-            return False
-        moved = step[n + BASE :]
-        if not self._allows(step[BASE:n], moved):
-            return False
-        self._free = moved
-        self._position = step[n : n + 3]
-        self._last_heading = self._heading
-        self._heading = step[n + 3]
-        return True
-
-    def _allows(
-        self, moves: tuple[float, ...], moved: tuple[float, ...]
-    ) -> bool:
-        """Return whether a step keeps to the speeds and ranges of all joints.
-
-        While all joints are far from their limits, the greatest move alone
-        decides.
-        """
-        greatest = max(max(moves), -min(moves))
-        self._range_margin -= greatest
-        if greatest <= self._slowest and self._range_margin >= 0.0:
-            return True
-        margin = inf
-        for angle, move, (reach, low, high) in zip(
-            moved, moves, self._limit_rows, strict=True
-        ):
-            if not (-reach <= move <= reach and low <= angle <= high):
-                return False
-            margin = min(margin, angle - low, high - angle)
-        self._range_margin = margin
+        self._resume(self._state_rows[1])
         return True
 
     def _arguments(self, reference: Sequence[float]) -> tuple[float, ...]:

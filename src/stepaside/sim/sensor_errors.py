@@ -2,27 +2,29 @@
 
 from collections import deque
 from collections.abc import Iterator
+from math import atan2, sqrt
 
 import mujoco
 import numpy as np
 
-from ..core.machine_code import BoundKernel, bound_loop, kernel_of
+from ..core.compilation import bound, compiled
 from ..core.poses import Array
 from .body_settings import BodySettings
 
-LOOP = """\
-def add_readings(gyro, accelerometer, last, sums):
-    for i in range(3):
-        sums[i] += last[i] if last[3] > 0.0 else gyro[i]
-        sums[3 + i] += accelerometer[i]
-        last[i] = gyro[i]
-    last[3] = 1.0
-    sums[6] += 1.0
-"""
 
-STRAPDOWN = """\
-def strapdown(quaternion, velocity, spin, place, mount, gravity, clock, last,
-              out):
+@compiled
+def strapdown(
+    quaternion: Array,
+    velocity: Array,
+    spin: Array,
+    place: Array,
+    mount: Array,
+    gravity: Array,
+    clock: Array,
+    last: Array,
+    out: Array,
+) -> None:
+    """Set mean rate, mean specific force and rate of a strapdown IMU."""
     w, x, y, z = quaternion[0], quaternion[1], quaternion[2], quaternion[3]
     axx, axy = 1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z)
     axz, ayx = 2.0 * (x * z + w * y), 2.0 * (x * y + w * z)
@@ -56,12 +58,17 @@ def strapdown(quaternion, velocity, spin, place, mount, gravity, clock, last,
         u0 = (u - last[14]) / passed - gx
         v0 = (v - last[15]) / passed - gy
         h0 = (h - last[16]) / passed - gz
-        fx = 0.5 * (u0 * (last[5] + axx) + v0 * (last[8] + ayx)
-                    + h0 * (last[11] + azx))
-        fy = 0.5 * (u0 * (last[6] + axy) + v0 * (last[9] + ayy)
-                    + h0 * (last[12] + azy))
-        fz = 0.5 * (u0 * (last[7] + axz) + v0 * (last[10] + ayz)
-                    + h0 * (last[13] + azz))
+        fx = 0.5 * (
+            u0 * (last[5] + axx) + v0 * (last[8] + ayx) + h0 * (last[11] + azx)
+        )
+        fy = 0.5 * (
+            u0 * (last[6] + axy) + v0 * (last[9] + ayy) + h0 * (last[12] + azy)
+        )
+        fz = 0.5 * (
+            u0 * (last[7] + axz)
+            + v0 * (last[10] + ayz)
+            + h0 * (last[13] + azz)
+        )
     last[0] = clock[0]
     last[1], last[2], last[3], last[4] = w, x, y, z
     last[5], last[6], last[7] = axx, axy, axz
@@ -72,7 +79,6 @@ def strapdown(quaternion, velocity, spin, place, mount, gravity, clock, last,
         out[i] = mx * mount[0, i] + my * mount[1, i] + mz * mount[2, i]
         out[3 + i] = fx * mount[0, i] + fy * mount[1, i] + fz * mount[2, i]
         out[6 + i] = p * mount[0, i] + q * mount[1, i] + r * mount[2, i]
-"""
 
 
 class AveragedImu:
@@ -80,10 +86,6 @@ class AveragedImu:
 
     One sample per control tick would alias landing impacts, which causes an
     error of half a degree in the estimated tilt.
-
-    Attributes:
-        kernel: :meth:`before_step` as machine code, if it is used, to be
-            called after the gyro of the present step is known.
     """
 
     def __init__(
@@ -94,14 +96,6 @@ class AveragedImu:
         self._accelerometer: Array = data.sensordata[accelerometer]
         # Sums of gyro and accelerometer, and their number.
         self._sums = np.zeros(7)
-        # Gyro of the last physics step, and whether there was one.
-        self._last = np.zeros(4)
-        self.kernel: BoundKernel | None = None
-        average = kernel_of("add_readings", LOOP, "1111")
-        if average is not None:
-            self.kernel = average.bind(
-                *(self._gyro, self._accelerometer, self._last, self._sums)
-            )
 
     def before_step(self, time: float) -> None:
         """Add the readings of the last physics step."""
@@ -143,8 +137,8 @@ class StrapdownImu:
         self._clock, self._out = np.zeros(1), np.zeros(9)
         self._last = np.zeros(17)  # time, quaternion, axes, velocity
         self._last[0] = -1.0
-        self._integrate = bound_loop(
-            *("strapdown", STRAPDOWN, "111121111"),
+        self._integrate = bound(
+            strapdown,
             data.qpos[at + 3 : at + 7],  # views
             data.qvel[dof : dof + 3],
             data.qvel[dof + 3 : dof + 6],

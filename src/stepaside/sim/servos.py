@@ -5,8 +5,9 @@ from collections.abc import Mapping, Sequence
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
-from ..core.machine_code import BoundKernel, kernel_of
+from ..core.compilation import bound, compiled
 from ..core.poses import Array
 from .body_settings import BodySettings
 
@@ -38,17 +39,34 @@ def set_joint_gains(
             model.actuator_biasprm[actuator, 1:3] = -stiffness, -damping
 
 
-WRITE_LOOP = """\
-def write_targets(targets, target, reach, lead, sent):
+@compiled
+def write_targets(
+    targets: Array, target: Array, reach: Array, lead: Array, sent: Array
+) -> None:
+    """Send targets, limited in speed, with their velocity fed forward."""
     for j in range(targets.shape[0]):
-        change = targets[j] - target[j]
-        change = max(min(change, reach[j]), -reach[j])
+        change = max(min(targets[j] - target[j], reach[j]), -reach[j])
         target[j] += change
         sent[j] = change * lead[j] + target[j]
-"""
-STEP_LOOP = """\
-def servo_step(qpos, qvel, angles, rates, change, target, lead, half, stall,
-               slope, clock, sent, limits):
+
+
+@compiled
+def servo_step(
+    qpos: Array,
+    qvel: Array,
+    angles: NDArray[np.int64],
+    rates: NDArray[np.int64],
+    change: Array,
+    target: Array,
+    lead: Array,
+    half: Array,
+    stall: Array,
+    slope: Array,
+    clock: Array,
+    sent: Array,
+    limits: Array,
+) -> None:
+    """Set control and torque limits of :class:`RealisticServos`."""
     clock[0] = min(clock[0] + clock[1], clock[2])
     share = clock[0] / clock[2]
     for j in range(target.shape[0]):
@@ -59,7 +77,6 @@ def servo_step(qpos, qvel, angles, rates, change, target, lead, half, stall,
         loss = slope[j] * qvel[rates[j]]
         limits[j, 1] = min(max(stall[j] - loss, 0.0), stall[j])
         limits[j, 0] = max(min(-stall[j] - loss, 0.0), -stall[j])
-"""
 
 
 class IdealServos:
@@ -108,13 +125,11 @@ class IdealServos:
         self._range = model.actuator_forcerange[self._ctrl]
         self._full = self._range[:, 1].copy()
         self._wanted = np.zeros(actuators.size)
-        self._write: BoundKernel | None = None
-        write = kernel_of("write_targets", WRITE_LOOP, "11111")
-        if write is not None:
-            self._write = write.bind(
-                *(self._wanted, self._target, self.reach),
-                *(self.lead, self._sent),
-            )
+        self._write = bound(
+            write_targets,
+            *(self._wanted, self._target, self.reach),
+            *(self.lead, self._sent),
+        )
 
     def soften(self, stiffness: Array) -> None:
         """Limit the torques to fractions of their maximum, 0 to 1."""
@@ -128,14 +143,8 @@ class IdealServos:
 
     def write(self, targets: Array) -> None:
         """Set new targets, in [rad]. Shape (joints,)."""
-        if self._write is not None:
-            self._wanted[:] = targets
-            self._write()
-            return
-        change = self._limited(targets)
-        self._target += change
-        change *= self.lead
-        np.add(change, self._target, out=self._sent)
+        self._wanted[:] = targets
+        self._write()
 
     def _limited(self, targets: Array) -> Array:
         change = targets - self._target
@@ -151,9 +160,6 @@ class RealisticServos(IdealServos):
     in one cycle. Within the backlash the motor turns without the joint. The
     torque limit falls linearly with the speed of the joint, to zero at the
     no-load speed.
-
-    Attributes:
-        kernel: :meth:`before_step` as machine code, if it is used.
     """
 
     def __init__(
@@ -191,38 +197,32 @@ class RealisticServos(IdealServos):
             feedforward=feedforward,
         )
         joints = model.actuator_trnid[actuators, 0]
-        self._qpos = model.jnt_qposadr[joints].astype(np.int64)
-        self._dofs = model.jnt_dofadr[joints].astype(np.int64)
-        self._half_backlash = 0.5 * backlash
+        qpos = model.jnt_qposadr[joints].astype(np.int64)
+        dofs = model.jnt_dofadr[joints].astype(np.int64)
         fraction = body.efficiency * body.stiffness
         self._stall = model.actuator_forcerange[actuators, 1] * fraction
         self._full = self._stall.copy()
         self._range[:, 0], self._range[:, 1] = -self._stall, self._stall
-        self._no_load = speed_limits if body.torque_speed else None
-        self._slope = (
-            None if self._no_load is None else self._stall / speed_limits
-        )
+        self._no_load = speed_limits if body.torque_speed else np.inf
+        self._slope = self._stall / self._no_load
         self._pending: deque[Array] = deque()
         self._delay = body.delay_cycles
         self._change = np.zeros(actuators.size)
         # Time since the targets, period of the physics, control period.
         self._clock = np.array([0.0, model.opt.timestep, cycle])
-        self.kernel: BoundKernel | None = None
-        step = kernel_of("servo_step", STEP_LOOP, "11ii111111112")
-        if step is not None and self._slope is not None:
-            self.kernel = step.bind(
-                *(data.qpos, data.qvel, self._qpos, self._dofs),
-                *(self._change, self._target, self.lead),
-                *(self._half_backlash, self._stall, self._slope),
-                *(self._clock, self._sent, self._range),
-            )
+        self._step = bound(
+            servo_step,
+            *(data.qpos, data.qvel, qpos, dofs),
+            *(self._change, self._target, self.lead),
+            *(0.5 * backlash, self._stall, self._slope),
+            *(self._clock, self._sent, self._range),
+        )
 
     def soften(self, stiffness: Array) -> None:
         """Limit the torques to fractions of their maximum, 0 to 1."""
         super().soften(stiffness)
         self._stall[:] = self._full * stiffness
-        if self._slope is not None:
-            self._slope[:] = self._stall / self._no_load
+        self._slope[:] = self._stall / self._no_load
 
     def reset(self, targets: Array) -> None:
         """Set targets, in [rad], without motion towards them."""
@@ -239,25 +239,4 @@ class RealisticServos(IdealServos):
 
     def before_step(self, time: float) -> None:
         """Set control and torque limits for one physics step."""
-        if self.kernel is not None:
-            self.kernel()
-            return
-        elapsed, step, cycle = self._clock.tolist()
-        self._clock[0] = elapsed = min(elapsed + step, cycle)
-        data, share = self._data, elapsed / cycle
-        ramp = self._target + self._change * share
-        angle = data.qpos[self._qpos]
-        error = ramp - angle
-        half = self._half_backlash
-        error -= np.minimum(np.maximum(error, -half), half)
-        error += angle
-        error += self.lead * self._change
-        self._sent[:] = error
-        if self._slope is not None:
-            loss = self._slope * data.qvel[self._dofs]
-            stall = self._stall
-            high, low = self._range[:, 1], self._range[:, 0]
-            np.subtract(stall, loss, out=high)
-            np.minimum(np.maximum(high, 0.0, out=high), stall, out=high)
-            np.subtract(-stall, loss, out=low)
-            np.maximum(np.minimum(low, 0.0, out=low), -stall, out=low)
+        self._step()

@@ -182,7 +182,7 @@ class SimulatedRobot:
             self._strapdown = StrapdownImu(model, data, root.id, site)
         elif setup.averages_imu:
             self._imu = AveragedImu(data, self._gyro, self._accelerometer)
-            world.call_before_step(self._imu.before_step, self._imu.kernel)
+            world.before_step.append(self._imu.before_step)
 
     def _make_servos(
         self,
@@ -216,7 +216,7 @@ class SimulatedRobot:
             body.backlash * legs,
             feedforward=feedforward,
         )
-        world.call_before_step(servos.before_step, servos.kernel)
+        world.before_step.append(servos.before_step)
         return servos
 
     def _find_sensors(self, description: RobotDescription) -> None:

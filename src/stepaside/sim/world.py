@@ -3,14 +3,11 @@
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import combinations
 from math import cos, sin
-from threading import Lock
-from typing import Any
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.machine_code import BoundKernel, callback_of
 from ..core.player_colours import Colour
 from ..core.poses import Pose
 from ..core.random_streams import named_generator
@@ -24,7 +21,6 @@ from .sensor_errors import perturb_masses
 FLOOR_BIT = 1
 NO_SENSORS = int(mujoco.mjtDisableBit.mjDSBL_SENSOR)
 CONTACT_BITS = 0x7FFFFFFF  # of MuJoCo's contact masks, without the sign
-_control_lock = Lock()
 COLOURS: Mapping[str, Colour] = {
     "pursuer": (0.80, 0.16, 0.14, 1.0),
     "evader": (0.10, 0.36, 0.75, 1.0),
@@ -125,7 +121,7 @@ class World:
         physics: Time step and control period.
         ticks: Number of control ticks so far.
         before_step: Functions called with the time, in [s], before each
-            physics step; see :meth:`call_before_step`.
+            physics step.
         measures_always: Whether sensors are read at each control tick: then
             the last physics step computes them.
     """
@@ -168,8 +164,6 @@ class World:
         self._option = self.model.opt
         self._lacks_sensors = False
         self.measures_always = False
-        self._kernels: dict[Callable[[float], None], BoundKernel] = {}
-        self._control: Any = None  # runs the kernels within MuJoCo
         self.ticks = 0
         self._waiting = self._robots = len(robots)
         roots = [
@@ -237,49 +231,11 @@ class World:
         mujoco.mj_sensorAcc(model, data)
         qpos[:], qvel[:] = now
 
-    def call_before_step(
-        self,
-        function: Callable[[float], None],
-        kernel: BoundKernel | None = None,
-    ) -> None:
-        """Call a function with the time, in [s], before each physics step.
-
-        Args:
-            function: The function.
-            kernel: The same as machine code, if it exists. MuJoCo calls it
-                within the step, when positions and velocities are known.
-        """
-        self.before_step.append(function)
-        if kernel is not None:
-            self._kernels[function] = kernel
-            self._control = None
-
     def _step_singly(self, steps: int) -> None:
         """Advance by physics steps, with the functions before each."""
-        kernels = self._kernels
-        calls = [call for call in self.before_step if call not in kernels]
-        if not kernels:
-            self._call_and_step(steps, calls)
-            return
-        if self._control is None:
-            owner = self.data._address
-            self._control = callback_of(tuple(kernels.values()), owner)
-        with _control_lock:  # MuJoCo has one such function in a process
-            mujoco.set_mjcb_control(self._control)
-            try:
-                if calls:
-                    self._call_and_step(steps, calls)
-                else:
-                    mujoco.mj_step(self.model, self.data, nstep=steps)
-            finally:
-                mujoco.set_mjcb_control(None)
-
-    def _call_and_step(
-        self, steps: int, calls: Sequence[Callable[[float], None]]
-    ) -> None:
         now, time_step = self.time, self.physics.time_step
         for step in range(steps):
-            for call in calls:
+            for call in self.before_step:
                 call(now + step * time_step)
             mujoco.mj_step(self.model, self.data)
 

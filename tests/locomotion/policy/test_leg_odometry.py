@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.core.machine_code import plain_python
 from stepaside.core.poses import Array, Pose
 from stepaside.locomotion.policy.leg_odometry import LegOdometry
 from stepaside.perception.measurement import Measurement
@@ -179,20 +178,3 @@ def test_a_foot_that_just_landed_counts_a_tenth(stands: bool) -> None:
         run(odometry)
     share = 0.1 / 1.1 if stands else 1.0
     assert odometry.pose.x == pytest.approx(-0.01 * share)
-
-
-def test_machine_code_has_the_bits_of_python() -> None:
-    generator = np.random.default_rng(3)
-    angles = generator.normal(size=(30, 24))
-    compiled = begun_with(angles[0])
-    with plain_python():
-        plain = begun_with(angles[0])
-    for row in angles:
-        forces = generator.normal(size=8)
-        given = (0.1, -0.2), 0.03 * generator.normal(), PERIOD
-        for odometry in (compiled, plain):
-            odometry.take(sensed(row, forces), *given)
-            run(odometry)
-        assert compiled.pose == plain.pose
-        assert np.array_equal(compiled.velocity, plain.velocity)
-        assert np.array_equal(compiled.moved, plain.moved)

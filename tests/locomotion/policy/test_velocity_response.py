@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from stepaside.core.errors import PolicyError
-from stepaside.core.machine_code import plain_python
 from stepaside.locomotion.policy.contract import CommandRanges
 from stepaside.locomotion.policy.velocity_response import (
     AxisResponse,
@@ -53,16 +52,6 @@ def test_a_deliverable_velocity_is_delivered(
     np.testing.assert_allclose(
         MEASURED.deliver(command), wanted, rtol=0.0, atol=1e-9
     )
-
-
-def test_machine_code_has_the_bits_of_python() -> None:
-    generator = np.random.default_rng(2)
-    with plain_python():
-        plain = VelocityResponse(MEASURED.axes)
-        command_for(plain, V())
-    for _ in range(50):
-        wanted = V(*(0.6 * generator.normal(size=3)).tolist())
-        assert command_for(plain, wanted) == command_for(MEASURED, wanted)
 
 
 def test_the_nearest_velocity_keeps_the_path() -> None:

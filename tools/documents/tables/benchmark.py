@@ -51,11 +51,6 @@ ROWS = {
     "duel_over_bare_physics": (
         "cost of the duel over bare mj_step",
         "times",
-        "<= 2.5",
-    ),
-    "duel_over_bare_physics_machine_code": (
-        "the same, with the legs as machine code",
-        "times",
         "<= 1.7",
     ),
     "physics_over_bare_physics": (
@@ -63,13 +58,8 @@ ROWS = {
         "times",
         "",
     ),
-    "control_tick_us_machine_code": (
-        "control tick of one robot, as machine code",
-        "us",
-        "",
-    ),
     "hardware_real_time_factor": (
-        "whole duel, hardware body with feedback, as machine code",
+        "whole duel, hardware body with feedback",
         "x real time",
         "",
     ),

@@ -1,11 +1,11 @@
 """Direction of gravity in the torso frame, from gyro and accelerometer."""
 
-from math import asin, atan2, cos, sin
+from math import asin, atan2, cos, sin, sqrt
 
 import numpy as np
 
+from ...core.compilation import bound, compiled
 from ...core.constants import GRAVITY
-from ...core.machine_code import bound_loop
 from ...core.poses import Array
 
 CALIBRATION = 1.0  # of standing, until the direction is known, in [s]
@@ -19,12 +19,21 @@ CORRECTION = 0.25
 BIAS_CORRECTION = 0.0125  # of the gyro, in [1/s^2]: damped beyond critical
 
 
-FOLLOW = f"""\
-def follow_gravity(up, turning, bias, gyro, force, velocity, given):
+@compiled
+def follow_gravity(
+    up: Array,
+    turning: Array,
+    bias: Array,
+    gyro: Array,
+    force: Array,
+    velocity: Array,
+    given: Array,
+) -> None:
+    """Update the direction with one reading; see :class:`GravityFilter`."""
     x, y, z = up[0], up[1], up[2]
-    fx = (force[0] + velocity[1] * turning[0]) / {GRAVITY}
-    fy = (force[1] - velocity[0] * turning[0]) / {GRAVITY}
-    fz = force[2] / {GRAVITY}
+    fx = (force[0] + velocity[1] * turning[0]) / GRAVITY
+    fy = (force[1] - velocity[0] * turning[0]) / GRAVITY
+    fz = force[2] / GRAVITY
     ex, ey, ez = fy * z - fz * y, fz * x - fx * z, fx * y - fy * x
     r = gyro[2] if gyro[2] == gyro[2] else 0.0
     p, q = gyro[0] - bias[0], gyro[1] - bias[1]
@@ -39,7 +48,6 @@ def follow_gravity(up, turning, bias, gyro, force, velocity, given):
     up[0], up[1], up[2] = u / length, v / length, w / length
     y, z = 0.5 * (y + up[1]), 0.5 * (z + up[2])
     turning[0] = (q * y + r * z) / (y * y + z * z)
-"""
 
 
 class GravityFilter:
@@ -75,9 +83,14 @@ class GravityFilter:
         self.up, self.turning = np.array([0.0, 0.0, 1.0]), np.zeros(1)
         self._given, self._time = np.array([duration, FIRST, 0.0]), 0.0
         self._readings = np.zeros(3), np.zeros(3)
-        self._follow = bound_loop(
-            *("follow_gravity", FOLLOW, "1111111"),
-            *(self.up, self.turning, np.zeros(2), *self._readings),
+        self._follow = bound(
+            *(
+                follow_gravity,
+                self.up,
+                self.turning,
+                np.zeros(2),
+                *self._readings,
+            ),
             *(velocity, self._given),
         )
 

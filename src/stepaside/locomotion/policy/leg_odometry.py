@@ -4,7 +4,7 @@ from math import atan2, cos, isnan, sin
 
 import numpy as np
 
-from ...core.machine_code import bound_loop
+from ...core.compilation import bound, compiled
 from ...core.poses import Array, Pose
 from ...perception.measurement import Measurement
 from ...planning import Foot
@@ -19,9 +19,22 @@ CONTACT = 0.001
 # odometry on the circles of G1, T1 and K1, with it 0.2 % (0: 0.2 % too).
 LANDED = 0.1
 
-NOTE = f"""\
-def note(com, feet, axes, corners, forces, given, points, loads, velocity,
-         pose, moved):
+
+@compiled
+def note(
+    com: Array,
+    feet: Array,
+    axes: Array,
+    corners: Array,
+    forces: Array,
+    given: Array,
+    points: Array,
+    loads: Array,
+    velocity: Array,
+    pose: Array,
+    moved: Array,
+) -> None:
+    """Advance the odometry by one reading; see :class:`LegOdometry`."""
     roll, pitch, turn, duration = given[0], given[1], given[2], given[3]
     sr, cr, sp, cp = sin(roll), cos(roll), sin(pitch), cos(pitch)
     c, s = cos(0.5 * turn), sin(0.5 * turn)
@@ -45,7 +58,7 @@ def note(com, feet, axes, corners, forces, given, points, loads, velocity,
         if k < 8:
             force = max(forces[k], 0.0)
             weight = min(loads[0, k], force)
-            weight = min(weight, loads[1, k] + {LANDED} * weight)
+            weight = min(weight, loads[1, k] + LANDED * weight)
             load += weight
             u += weight * dx
             v += weight * dy
@@ -70,7 +83,6 @@ def note(com, feet, axes, corners, forces, given, points, loads, velocity,
     pose[1] += s * moved[0] + c * moved[1]
     pose[2] += turn
     moved[2] = turn
-"""
 
 
 class LegOdometry:
@@ -121,14 +133,13 @@ class LegOdometry:
         # Roll, pitch, turn, duration, smoothing of the velocity, ratio.
         self._given = np.array([0.0, 0.0, 0.0, 0.0, SMOOTHING, *ratio])
         self._corners = np.ascontiguousarray(forward.force_sensors())
-        note = bound_loop(
-            *("note", NOTE, "12221122111"),
-            *(self._com, self._feet, self._axes),
+        noted = bound(
+            *(note, self._com, self._feet, self._axes),
             *(self._corners, self._forces, self._given),
             *(np.zeros((9, 3)), self._loads),
             *(self.velocity, self._pose, self.moved),
         )
-        self.loops = forward.run, note
+        self.loops = forward.run, noted
 
     @property
     def pose(self) -> Pose:

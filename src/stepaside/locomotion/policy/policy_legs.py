@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from ...core.compilation import bound, compiled
 from ...core.errors import PolicyError
 from ...core.index_span import span_of
-from ...core.machine_code import bound_loop, chained
 from ...core.poses import Array, Pose
 from ...perception.measurement import Measurement
 from ...robots.description import RobotDescription
@@ -21,14 +21,22 @@ from .velocity_response import VelocityResponse
 
 LEARNING = 0.2  # integral gain of each velocity, in [1/s]: some gait cycles
 BOUND = 0.15  # greatest learned correction, in [m/s] and [rad/s]
-LEARN = f"""\
-def learn(intended, moved, learning, correction, wanted):
+
+
+@compiled
+def learn(
+    intended: Array,
+    moved: Array,
+    learning: Array,
+    correction: Array,
+    wanted: Array,
+) -> None:
+    """Correct the intended velocity by what is missing of it."""
     for i in range(3):
         missing = intended[i] * learning[1] - moved[i]
         learned = correction[i] + learning[0] * missing
-        correction[i] = min(max(learned, -{BOUND}), {BOUND})
+        correction[i] = min(max(learned, -BOUND), BOUND)
         wanted[i] = intended[i] + correction[i]
-"""
 
 
 class PolicyLegs:
@@ -113,15 +121,14 @@ class PolicyLegs:
         )
         self._runner = PolicyRunner(contract, network, motion, joints)
         gain = LEARNING if learns else 0.0
-        learn = bound_loop(
-            *("learn", LEARN, "11111"),
-            *(self._intended, odometry.moved),
+        learned = bound(
+            *(learn, self._intended, odometry.moved),
             *(np.array([gain, contract.period]), np.zeros(3), wanted),
         )
         invert = self.response.inverse(wanted, motion.command)
         observe, noted = self._runner.loop, odometry.loops
-        self._stand = chained(*noted, observe)
-        self._walk = chained(*noted, learn, invert, observe)
+        self._stand = (*noted, observe)
+        self._walk = (*noted, learned, invert, observe)
         self._turned, self._ticks = 0.0, 0
 
     @property
@@ -191,11 +198,11 @@ class PolicyLegs:
             spin = measurement.latest_gyro
         motion.joint_velocities[:] = velocities
         motion.angular_velocity[:] = spin
-        if self.intended == STILL:
+        stands = self.intended == STILL
+        if stands:
             motion.command.fill(0.0)
-            self._stand()
-        else:
-            self._walk()
+        for loop in self._stand if stands else self._walk:
+            loop()
         runner, network = self._runner, self._network
         seen = runner.observation()
         if self._pool is not None:

@@ -1,27 +1,46 @@
 """Evaluation of a walking policy at its control period."""
 
 from collections.abc import Sequence
-from math import pi
+from math import cos, pi, sin
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.machine_code import bound_loop
+from ...core.compilation import bound, compiled
 from ...core.poses import Array
 from .contract import PolicyContract
 from .network import Memory, PolicyNetwork
 
 STANDS_BELOW = 0.01  # magnitude of a command that counts as zero
-OBSERVE = f"""\
-def observe(positions, rates, spin, up, velocity, wanted, joints, posture,
-            values, phases, offsets, clock, order, clips, scales, frame):
+
+
+@compiled
+def observe(
+    positions: Array,
+    rates: Array,
+    spin: Array,
+    up: Array,
+    velocity: Array,
+    wanted: Array,
+    joints: NDArray[np.int_],
+    posture: Array,
+    values: Array,
+    phases: Array,
+    offsets: Array,
+    clock: Array,
+    order: NDArray[np.int_],
+    clips: Array,
+    scales: Array,
+    frame: Array,
+) -> None:
+    """Set the frame that a network observes, and its clock."""
     still = 1.0
     for i in range(3):
         values[i], values[3 + i], values[6 + i] = velocity[i], spin[i], -up[i]
         change = wanted[i] - values[9 + i]
         values[9 + i] += min(max(change, -clock[0]), clock[0])
-        still = still if abs(values[9 + i]) < {STANDS_BELOW} else 0.0
+        still = still if abs(values[9 + i]) < STANDS_BELOW else 0.0
     clock[5] = still * (clock[5] + 1.0)
     stands = 1.0 if clock[5] > clock[6] else 0.0
     seen = 1.0 - clock[3] * stands
@@ -30,11 +49,11 @@ def observe(positions, rates, spin, up, velocity, wanted, joints, posture,
         values[12 + j] = positions[joints[j]] - posture[j]
         values[12 + n + j] = rates[joints[j]]
     for k in range(phases.shape[0]):
-        phase = phases[k] + clock[1] + {pi}
-        phase = phase if phase < {2.0 * pi} else phase - {2.0 * pi}
-        phase -= {pi}
+        phase = phases[k] + clock[1] + pi
+        phase = phase if phase < 2.0 * pi else phase - 2.0 * pi
+        phase -= pi
         if clock[2] > 0.0 and stands > 0.0:
-            phase = {pi}
+            phase = pi
         elif clock[2] > 0.0 and clock[4] > 0.0:
             phase = offsets[k]
         phases[k] = phase
@@ -45,11 +64,20 @@ def observe(positions, rates, spin, up, velocity, wanted, joints, posture,
     for i in range(order.shape[0]):
         value = values[order[i]]
         frame[i] = min(max(value, -clips[i]), clips[i]) * scales[i]
-"""
 
 
-ACT = """\
-def act(raw, posture, scales, limits, actions, targets, frequency, clock):
+@compiled
+def act(
+    raw: Array,
+    posture: Array,
+    scales: Array,
+    limits: Array,
+    actions: Array,
+    targets: Array,
+    frequency: Array,
+    clock: Array,
+) -> None:
+    """Set the targets by the output of a network, and its clock."""
     n = posture.shape[0]
     for j in range(n):
         clipped = min(max(raw[j], -limits[0]), limits[0])
@@ -61,7 +89,6 @@ def act(raw, posture, scales, limits, actions, targets, frequency, clock):
         frequency[0] = min(max(raw[n], -limits[0]), limits[0])
         change = min(max(frequency[0], -limits[3]), limits[3])
         clock[1] = limits[4] + limits[5] * change
-"""
 
 
 class BodyMotion(NamedTuple):
@@ -123,16 +150,15 @@ class PolicyRunner:
         self._history: Array | None = None
         self._flat, self._frame = layout.flat, np.zeros(layout.order.size)
         offsets = np.array(() if clock is None else clock.offsets, dtype=float)
-        self.loop = bound_loop(
-            *("observe", OBSERVE, "111111i11111i111"),
-            *(*motion, np.array(joints, dtype=np.int64), posture),
+        self.loop = bound(
+            *(observe, *motion, np.array(joints, dtype=np.int64), posture),
             *(values, offsets.copy(), offsets),
             gait,
             *(layout.order, layout.clips, layout.scales, self._frame),
         )
-        self._act = bound_loop(
-            *("act", ACT, "11111111"),
+        self._act = bound(
             *(
+                act,
                 self._raw,
                 posture,
                 np.array(contract.action_scale, dtype=float),
@@ -173,7 +199,7 @@ class PolicyRunner:
 
 
 def action_limits(contract: PolicyContract) -> list[float]:
-    """Return the ``limits`` of :data:`ACT`.
+    """Return the ``limits`` of :func:`act`.
 
     They are the greatest magnitude of an action, the share of the previous
     targets, whether clipped actions are observed, the greatest change of the
@@ -189,7 +215,7 @@ def action_limits(contract: PolicyContract) -> list[float]:
 
 
 def clock_values(contract: PolicyContract) -> list[float]:
-    """Return the ``clock`` of :data:`OBSERVE`, at the start.
+    """Return the ``clock`` of :func:`observe`, at the start.
 
     They are the greatest change of a command and the step of the phases per
     period, whether the clock waits while the robot stands, whether it is

@@ -10,8 +10,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.compilation import bound, compiled
 from ...core.errors import PolicyError, check_positive, check_within
-from ...core.machine_code import bound_loop
 from ...core.poses import Array
 from ...strategies.velocity_set import (
     STILL,
@@ -26,13 +26,23 @@ TOLERANCE = 1e-9  # of the share of an interval
 LARGEST = 100.0  # of each number, in its unit
 SWEEPS = 12  # over the axes of the inverse; it converges before
 
-INVERT = f"""\
-def invert(velocity, sizes, commands, effects, found, sums, command):
+
+@compiled
+def invert(
+    velocity: Array,
+    sizes: NDArray[np.int_],
+    commands: Array,
+    effects: Array,
+    found: Array,
+    sums: Array,
+    command: Array,
+) -> None:
+    """Set the command for a velocity; see :meth:`VelocityResponse.inverse`."""
     columns = commands.shape[1]
     for i in range(3):
         found[i] = -1.0
         sums[i, 0], sums[i, 1], sums[i, 2] = 0.0, 0.0, 0.0
-    for sweep in range({SWEEPS}):
+    for _ in range(SWEEPS):
         change = 0.0
         for i in range(3):
             wanted = velocity[i]
@@ -53,9 +63,8 @@ def invert(velocity, sizes, commands, effects, found, sums, command):
             first = commands[i, k - i * columns]
             step = commands[i, k - i * columns + 1] - first
             command[i] = first + share * step
-        if change <= {TOLERANCE}:
+        if change <= TOLERANCE:
             return
-"""
 
 
 class AxisResponse(NamedTuple):
@@ -174,7 +183,7 @@ class VelocityResponse:
     def tables(self) -> tuple[NDArray[np.int_], Array, Array]:
         """Number of commands of each axis, the commands, and their effects.
 
-        Shapes (3,), (3, n) and (3 n, 3); arguments of :data:`INVERT`.
+        Shapes (3,), (3, n) and (3 n, 3); arguments of :func:`invert`.
         """
         sizes = np.array([len(axis.commands) for axis in self.axes])
         commands = np.zeros((3, sizes.max()))
@@ -184,7 +193,7 @@ class VelocityResponse:
             effects[i, : sizes[i]] = self._effects[i]
         return sizes, commands, effects.reshape(-1, 3)
 
-    def inverse(self, velocity: Array, command: Array) -> Callable[[], int]:
+    def inverse(self, velocity: Array, command: Array) -> Callable[[], None]:
         """Return the loop that sets the command for a velocity.
 
         The velocity that the command delivers is nearest to it. Each axis in
@@ -195,9 +204,8 @@ class VelocityResponse:
             velocity: Velocity that is read. Shape (3,).
             command: Command that is written. Shape (3,).
         """
-        return bound_loop(
-            *("invert", INVERT, "1i22121"),
-            *(velocity, *self.tables),
+        return bound(
+            *(invert, velocity, *self.tables),
             *(np.zeros(3), np.zeros((3, 3)), command),
         )
 

@@ -1,32 +1,30 @@
-"""State estimation at one tick as machine code, with the bits of NumPy.
+"""State estimation at one tick."""
 
-Small matrix products of NumPy are fused on processors with fused
-multiply-add, in an order that depends on its linear algebra library. The
-kernel is used where a trial shows that order.
-"""
+from math import atan2, cos, isnan, sin, tan
 
-import ctypes
-from collections.abc import Callable
-from functools import cache
-
-import numpy as np
-
-from ...core.machine_code import Kernel, kernel_of
+from ...core.compilation import compiled, inlined
 from ...core.poses import Array
 
 # Columns of ``values``: gyro, accelerometer, foot forces, then x, y, z and yaw
-# of the left and the right foot, and acceleration and reaction of the command.
-VALUES = 26
-# Columns of ``state``: CoM, velocity, DCM, ZMP, roll and pitch, rate, fraction
-# on the left foot, weight, heading, and bias of the gyro.
+# of the left and the right foot, acceleration and reaction of the command, and
+# whether the attitude is calibrated.
+VALUES = 27
+# Columns of ``state``: CoM, which is NaN at first, velocity, DCM, ZMP, roll
+# and pitch, rate, fraction on the left foot, weight, heading, and bias of the
+# gyro.
 STATE = 18
-ARGUMENTS = "1121" + "0" * 9
-LOOP = """\
-def estimate(
-    values, numbers, sensors, state,
-    tick, eta, correction, bias_correction, gravity,
-    position_gain, velocity_gain, touches, stands,
-):
+
+
+@inlined
+def _follow_attitude(
+    values: Array,
+    state: Array,
+    tick: float,
+    correction: float,
+    bias_correction: float,
+    gravity: float,
+) -> None:
+    """Update tilt and rate, as :class:`.AttitudeFilter` does."""
     c = cos(state[15])
     s = sin(state[15])
     ax = c * values[22] + s * values[23]
@@ -57,6 +55,46 @@ def estimate(
         state[17] -= step * error_pitch
     state[8], state[9] = roll, pitch
     state[10], state[11], state[12] = wx, wy, wz
+
+
+@compiled
+def estimate(
+    values: Array,
+    numbers: Array,
+    sensors: Array,
+    state: Array,
+    tick: float,
+    eta: float,
+    correction: float,
+    bias_correction: float,
+    gravity: float,
+    position_gain: float,
+    velocity_gain: float,
+    touches: float,
+    stands: float,
+) -> None:
+    """Update the state by the values of one tick.
+
+    Args:
+        values: See :data:`VALUES`.
+        numbers: Results of :class:`.ForwardKinematics`.
+        sensors: Positions of the force sensors in the foot frames, in [m].
+            Shape (8, 2).
+        state: See :data:`STATE`; changed in place.
+        tick: Control period, in [s].
+        eta: Rate of the pendulum, in [1/s].
+        correction: Gain of the accelerometer, in [1/s].
+        bias_correction: Its gain on the bias of the gyro, in [1/s^2].
+        gravity: Acceleration of gravity, in [m/s^2].
+        position_gain: Gain of the observer.
+        velocity_gain: Gain of the observer, in [1/s].
+        touches: Weight above which the load fraction is known, in [N].
+        stands: Weight above which the floor supports the robot, in [N].
+    """
+    if values[26] > 0.0:
+        _follow_attitude(
+            values, state, tick, correction, bias_correction, gravity
+        )
     left = values[6] + values[7] + values[8] + values[9]
     right = values[10] + values[11] + values[12] + values[13]
     weight = left + right
@@ -66,10 +104,10 @@ def estimate(
         if share > 0.98:
             state[13] = 1.0
     state[14] = weight
-    sr = sin(roll)
-    cr = cos(roll)
-    sp = sin(pitch)
-    cp = cos(pitch)
+    sr = sin(state[8])
+    cr = cos(state[8])
+    sp = sin(state[9])
+    cp = cos(state[9])
     com_x = 0.0
     com_y = 0.0
     zmp_x = 0.0
@@ -82,12 +120,9 @@ def estimate(
             y = values[at + 1]
             yaw = values[at + 3]
             k = 9 + 9 * side
-            across = fma(0.0, numbers[k], 0.0)
-            across = fma(cr, numbers[k + 3], across)
-            across = fma(-sr, numbers[k + 6], across)
-            along = fma(cp, numbers[k], 0.0)
-            along = fma(sp * sr, numbers[k + 3], along)
-            along = fma(sp * cr, numbers[k + 6], along)
+            a, b, h = numbers[k], numbers[k + 3], numbers[k + 6]
+            across = cr * b - sr * h
+            along = cp * a + sp * (sr * b + cr * h)
             turn = yaw - atan2(across, along)
             if load >= 0.5:
                 state[15] = turn
@@ -97,26 +132,18 @@ def estimate(
             a = numbers[0] - numbers[k]
             b = numbers[1] - numbers[k + 1]
             h = numbers[2] - numbers[k + 2]
-            u = fma(sp * cr, h, fma(cp, a, sp * sr * b))
-            v = fma(-sr, h, fma(0.0, a, cr * b))
+            u = cp * a + sp * (sr * b + cr * h)
+            v = cr * b - sr * h
             com_x += load * (x + c * u - s * v)
             com_y += load * (y + s * u + c * v)
             total = left if side == 0 else right
             if total > 0.0:
-                f = 6 + 4 * side
-                k = 4 * side
-                u = (
-                    fma(values[f], sensors[k, 0],
-                        values[f + 1] * sensors[k + 1, 0])
-                    + fma(values[f + 2], sensors[k + 2, 0],
-                          values[f + 3] * sensors[k + 3, 0])
-                ) / total
-                v = (
-                    fma(values[f], sensors[k, 1],
-                        values[f + 1] * sensors[k + 1, 1])
-                    + fma(values[f + 2], sensors[k + 2, 1],
-                          values[f + 3] * sensors[k + 3, 1])
-                ) / total
+                u = 0.0
+                v = 0.0
+                for corner in range(4 * side, 4 * side + 4):
+                    force = values[6 + corner] / total
+                    u += force * sensors[corner, 0]
+                    v += force * sensors[corner, 1]
                 c = cos(yaw)
                 s = sin(yaw)
                 zmp_x += load * (x + c * u - s * v)
@@ -125,6 +152,8 @@ def estimate(
     for i in range(2):
         pivot = state[6 + i] - values[24 + i]
         found = com_x if i == 0 else com_y
+        if isnan(state[i]):
+            state[i] = found
         pull = eta * eta * (state[i] - pivot) if weight >= stands else 0.0
         predicted = state[i] + tick * state[2 + i]
         predicted += 0.5 * tick * tick * pull
@@ -132,49 +161,3 @@ def estimate(
         state[i] = predicted + position_gain * error
         state[2 + i] = state[2 + i] + tick * pull + velocity_gain * error
         state[4 + i] = state[i] + state[2 + i] / eta
-"""
-
-
-@cache
-def estimator_kernel() -> Kernel | None:
-    """Return the loop, if it has the bits of NumPy on this machine."""
-    kernel = kernel_of("estimate", LOOP, ARGUMENTS)
-    return kernel if kernel is not None and _fuses_as_kernel() else None
-
-
-def _fuses_as_kernel() -> bool:
-    """Return whether small products of NumPy have the bits of the kernel."""
-    try:
-        fma = ctypes.CDLL(None).fma
-    except (AttributeError, OSError, TypeError):
-        return False
-    fma.restype, fma.argtypes = ctypes.c_double, [ctypes.c_double] * 3
-    draws = np.random.default_rng(1)
-    return all(
-        _agree(fma, draws.normal(size=(3, 3)), draws.normal(size=(8, 3)))
-        for _ in range(20)
-    )
-
-
-def _agree(
-    fma: Callable[[float, float, float], float], level: Array, drawn: Array
-) -> bool:
-    """Return whether the products of one trial have the same bits."""
-    axes, (force, *corners) = drawn[:3].copy(), drawn[3:].tolist()
-    force.append(corners[0][2])
-    soles = np.array([corner[:2] for corner in corners])
-    product, lever = level @ axes, level @ axes[0]
-    weighted = np.array(force) @ soles
-    a, b, c, d = force
-    for i, (p, q, r) in enumerate(level.tolist()):
-        x, y, z = axes[0].tolist()
-        if fma(r, z, fma(p, x, q * y)) != lever[i]:
-            return False
-        for j in range(3):
-            x, y, z = axes[:, j].tolist()
-            if fma(r, z, fma(q, y, fma(p, x, 0.0))) != product[i, j]:
-                return False
-    return all(
-        fma(a, x, b * y) + fma(c, z, d * w) == weighted[j]
-        for j, (x, y, z, w) in enumerate(soles.T.tolist())
-    )

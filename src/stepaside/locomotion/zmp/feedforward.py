@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ...core.machine_code import kernel_of
+from ...core.compilation import bound, compiled
 from ...core.poses import Array
 from ...robots.joint_loads import LegLoads
 from ...robots.leg_kinematics import BodyReference, LegKinematics
@@ -10,13 +10,15 @@ from ...robots.leg_kinematics import BodyReference, LegKinematics
 BOUND = 0.03  # of the feedforward, in [rad]: a lost leg reference jumps
 
 
-LOOP = """\
-def offset_rows(soon, offsets, gain, memory):
+@compiled
+def offset_rows(
+    soon: Array, offsets: Array, gain: Array, memory: Array
+) -> None:
+    """Set the offsets of all ticks but the first from it."""
     for i in range(soon.shape[0]):
         for j in range(soon.shape[1]):
             held = memory[j] * offsets[i, j]
             offsets[i + 1, j] = gain[j] * soon[i, j] + held
-"""
 
 
 class LoadFeedforward:
@@ -55,7 +57,8 @@ class LoadFeedforward:
         # Before the present tick, then of the last rows.
         self._offsets = np.zeros((1, stiffness.size))
         self._deflections: Array | None = None
-        self._kernel = kernel_of("offset_rows", LOOP, "2211")
+        one = self._offsets
+        bound(offset_rows, one, one, self.gain, self.memory)  # compiles
 
     def added(
         self, reference: BodyReference, zmp: tuple[float, float]
@@ -104,10 +107,6 @@ class LoadFeedforward:
         soon.clip(-BOUND, BOUND, out=soon)
         offsets = np.empty((len(soon) + 1, soon.shape[1]))
         offsets[0] = self._offsets[-1]
-        if self._kernel is not None:
-            self._kernel(soon, offsets, self.gain, self.memory)
-        else:
-            for i, row in enumerate(self.gain * soon):
-                offsets[i + 1] = row + self.memory * offsets[i]
+        offset_rows(soon, offsets, self.gain, self.memory)
         self._offsets, self._deflections = offsets, deflections
         return offsets[1:]

@@ -4,19 +4,28 @@ from collections import deque
 
 import numpy as np
 
-from ...core.machine_code import BoundKernel, kernel_of
+from ...core.compilation import bound, compiled
 from ...core.poses import Array
 from .control_settings import StabiliserSettings
 from .state_estimator import BodyState
 
 Tilt = tuple[float, float]
-LOOP = """\
-def correct(measured, past, correction, gain, keep, bound):
+
+
+@compiled
+def correct(
+    measured: Array,
+    past: Array,
+    correction: Array,
+    gain: float,
+    keep: float,
+    most: float,
+) -> None:
+    """Integrate the joint errors of one tick."""
     for i in range(measured.shape[0]):
         error = (past[i] - measured[i]) * gain
         error += keep * correction[i]
-        correction[i] = max(min(error, bound), -bound)
-"""
+        correction[i] = max(min(error, most), -most)
 
 
 class Ankles:
@@ -93,7 +102,7 @@ class JointCorrection:
         # The servo ramps to a target over one more tick.
         self._targets: deque[Array] = deque(maxlen=round(delay / tick) + 2)
         self._correction: Array | None = None
-        self._correct: BoundKernel | None = None
+        self._bind(1)  # compiles
 
     def update(self, measured: Array, targets: Array) -> Array:
         """Return the corrected targets of one tick.
@@ -103,29 +112,19 @@ class JointCorrection:
             targets: Joint targets, in [rad]. Shape (joints,).
         """
         if self._correction is None:
-            self._correction = np.zeros(len(targets))
-            self._bind(self._correction)
+            self._correction = self._bind(len(targets))
         if len(self._targets) == self._targets.maxlen:
-            if self._correct is not None:
-                self._measured[:], self._past[:] = measured, self._targets[0]
-                self._correct()
-            else:
-                error = self._targets[0] - measured
-                error *= self._gain
-                error += self._keep * self._correction
-                np.minimum(error, self._bound, out=error)
-                np.maximum(error, -self._bound, out=self._correction)
+            self._measured[:], self._past[:] = measured, self._targets[0]
+            self._correct()
         self._targets.append(targets)
         corrected: Array = targets + self._correction
         return corrected
 
-    def _bind(self, correction: Array) -> None:
-        """Prepare the integral as machine code, if it is used."""
-        loop = kernel_of("correct", LOOP, "111000")
-        if loop is not None:
-            self._measured = np.zeros_like(correction)
-            self._past = np.zeros_like(correction)
-            self._correct = loop.bind(
-                *(self._measured, self._past, correction),
-                *(self._gain, self._keep, self._bound),
-            )
+    def _bind(self, count: int) -> Array:
+        """Prepare the integral for a number of joints; return it."""
+        self._measured, self._past, correction = np.zeros((3, count))
+        self._correct = bound(
+            *(correct, self._measured, self._past, correction),
+            *(self._gain, self._keep, self._bound),
+        )
+        return correction
