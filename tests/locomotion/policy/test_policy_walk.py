@@ -1,12 +1,19 @@
 """Test learned legs behind the interface of locomotion."""
 
 from math import pi
+from pathlib import Path
 
+import numpy as np
 import pytest
 
+from stepaside.core.constants import GRAVITY
 from stepaside.locomotion.locomotion import MotionRequest, template_velocity
+from stepaside.locomotion.policy.legs_settings import LegsSettings
+from stepaside.perception.measurement import Measurement
 from stepaside.planning import Direction, GaitSettings
+from stepaside.robots.description import load_robot
 from stepaside.strategies import STAND, Intent
+from stepaside.strategies.velocity_set import STILL
 
 GAIT = GaitSettings(speed=0.5, gain=0.4, stride=0.2)
 
@@ -45,3 +52,32 @@ def test_a_turn_on_the_spot_turns() -> None:
     assert template_velocity(request, GAIT) == pytest.approx(
         (0.025, 0.0, 0.4 * pi)
     )
+
+
+def test_the_heading_follows_the_gyro_between_decisions(
+    tmp_path: Path,
+) -> None:
+    """The robot stands for 1.5 s, and is then turned by 0.5 rad/s."""
+    pytest.importorskip("onnxruntime")
+    from small_policies import write_policy
+    from stepaside.locomotion.policy.legs_loader import load_policy
+    from stepaside.locomotion.policy.policy_legs import PolicyLegs
+
+    path = write_policy(tmp_path / "a.onnx", np.zeros((12, 47)), np.zeros(12))
+    nao = load_robot("nao")
+    contract, network = load_policy(LegsSettings(str(path), "bhuman"), nao)
+    tick, headings = contract.period / 4, []
+    legs = PolicyLegs(contract, network, nao, tick=tick)
+    angles, up = legs.joint_targets.copy(), np.array([0.0, 0.0, GRAVITY])
+    for time in tick * np.arange(round(2.5 / tick)):
+        gyro = np.array([0.0, 0.0, 0.5 if time > 1.5 else 0.0])
+        legs.update(
+            Measurement(
+                *(time, angles, gyro, up, np.ones(8), None),
+                joint_velocities=np.zeros_like(angles),
+            ),
+            STILL,
+        )
+        headings.append(legs.pose.theta)
+    late = np.diff(headings)[round(1.6 / tick) :]
+    np.testing.assert_allclose(late, 0.5 * tick, rtol=1e-6)
