@@ -10,7 +10,9 @@ import matplotlib.figure  # noqa: E402, F401
 
 import stepaside  # noqa: E402
 from stepaside.cli.main import all_commands  # noqa: E402
+from stepaside.core.compilation import load_numba  # noqa: E402
 
 all_commands()
+load_numba()
 for name in stepaside.__all__:
     getattr(stepaside, name)
