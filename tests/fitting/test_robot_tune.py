@@ -65,7 +65,8 @@ def walked(
 
 def test_a_derived_robot_meets_all_requirements(own: RobotDescription) -> None:
     found = check_requirements(own)
-    assert {f.verdict for f in found} == {"pass"}, found
+    warned = [f.name for f in found if f.verdict != "pass"]
+    assert warned == ["estimates"], found
     assert {"free joint", "sensors", "actuators", "reach"} <= {
         f.name for f in found
     }
