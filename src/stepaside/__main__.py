@@ -2,10 +2,12 @@
 
 import gc
 import os
+import sys
 
 # Containers made between two searches for garbage in cycles: imports and the
 # start of a game make about a hundred thousand, and none of them is garbage.
 GARBAGE = 300_000
+SIGNALLED = 128  # exit statuses above are those of a signal
 
 
 def main() -> None:
@@ -21,6 +23,13 @@ def main() -> None:
     except KeyboardInterrupt:
         os.write(2, b"stepaside: interrupted; nothing is kept\n")
         raise SystemExit(130) from None
+    except SystemExit as ended:
+        if isinstance(ended.code, int) and ended.code > SIGNALLED:
+            # Threads that wait for a lock which Ctrl-C left taken never end.
+            sys.stdout.flush()
+            sys.stderr.flush()
+            os._exit(ended.code)
+        raise
 
 
 if __name__ == "__main__":

@@ -6,6 +6,7 @@ import sys
 import threading
 from collections.abc import Callable
 from pathlib import Path
+from time import sleep
 
 import pytest
 
@@ -77,6 +78,14 @@ def test_a_task_that_fails_ends_the_others_and_nothing_else(
     with pytest.raises(ValueError), worker_pool(1) as pool:
         list(pool.map(fail, range(9)))
     assert not shown
+
+
+def test_ctrl_c_that_leaves_a_lock_taken_ends_the_pool() -> None:
+    with pytest.raises(KeyboardInterrupt), worker_pool(1) as pool:
+        waiting = pool.submit(sleep, 60.0)
+        waiting._condition.acquire()  # before the pool's thread ends the task
+        raise KeyboardInterrupt
+    waiting._condition.release()
 
 
 def test_the_package_is_a_command_too() -> None:

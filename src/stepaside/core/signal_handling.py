@@ -27,7 +27,6 @@ def interruptible() -> Iterator[None]:
     if threading.current_thread() is not threading.main_thread():
         yield
         return
-    _raised.clear()
     before = {}
     for number in SIGNALS:
         handler = signal.getsignal(number)
@@ -36,6 +35,7 @@ def interruptible() -> Iterator[None]:
     try:
         yield
     finally:
+        _raised.clear()
         for number, handler in before.items():
             signal.signal(number, handler)
 

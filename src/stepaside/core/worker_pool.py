@@ -2,6 +2,7 @@
 
 import os
 import signal
+import sys
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Executor, Future, ProcessPoolExecutor
 from multiprocessing import connection, get_context, parent_process
@@ -39,10 +40,15 @@ class WorkerPool(ProcessPoolExecutor):
         return (future.result(timeout) for future in futures)
 
     def __exit__(self, *error: Any) -> None:
-        """Terminate the workers; unfinished tasks were given up."""
+        """Terminate the workers; unfinished tasks were given up.
+
+        After an error nobody waits for the pool's own thread: Ctrl-C may have
+        come while this thread held a lock that the other needs.
+        """
         for process in list((self._processes or {}).values()):
             process.terminate()
-        super().__exit__(*error)
+        failed = sys.exc_info()[0] is not None
+        self.shutdown(wait=not failed, cancel_futures=failed)
 
 
 def cancel_pending(executor: Executor, futures: Iterable[Future[Any]]) -> None:
