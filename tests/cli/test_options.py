@@ -130,7 +130,7 @@ def test_commands_are_declared_without_heavy_imports() -> None:
 
 
 def test_duel_without_figure_imports_no_plotting() -> None:
-    """They would double the import time; Numba needs SciPy for linear algebra."""
+    """They would double the import time; Numba needs a part of SciPy."""
     code = """if True:
         import sys
         from stepaside.cli.main import main
