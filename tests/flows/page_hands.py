@@ -14,6 +14,7 @@ from typing import Any
 import viser
 
 from stepaside.__main__ import main
+from stepaside.report.figure_style import plt
 
 CONTROLS: dict[str, Any] = {}
 TEXTS: list[Any] = []
@@ -52,6 +53,10 @@ def serve_hands() -> None:
 for each in dir(viser.GuiApi):
     if each.startswith("add_"):
         record(each)
+# Small figures without layout, as everywhere in the tests.
+plt.rcParams.update(
+    {"savefig.dpi": 30, "figure.constrained_layout.use": False}
+)
 ANSWERS = sys.stdout
 sys.stdout = sys.stderr
 Thread(target=serve_hands, daemon=True).start()
