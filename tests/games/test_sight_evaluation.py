@@ -20,9 +20,7 @@ CAMERA = CameraModel.of_field_of_view(80, 60, radians(60.0), radians(45.0))
 PERIOD = 0.1
 TOP = Mount(np.array([0.05, 0.01, 0.06]), rotation(0.0, radians(3.0), 0.0))
 DEPTH = Mount(np.array([0.03, -0.02, 0.14]), rotation(0.0, radians(9.0), 0.0))
-HEAD = SimpleNamespace(
-    top=TOP, bottom=None, depth=(DEPTH,), body_of=lambda mount: "head"
-)
+HEAD = SimpleNamespace(top=TOP, depth=(DEPTH,), body_of=lambda mount: "head")
 
 
 class Truth:
@@ -295,18 +293,6 @@ def test_each_noted_image_is_evaluated_once() -> None:
     scene.evaluator.evaluate(FrameReport(image, (0.0,)))
     assert scene.evaluator.colour == FrameCounts(1, 1, 0)
     scene.evaluator.record_truth(SonarEcho(0.0, "left", 0.5))
-
-
-def test_an_image_without_a_search_is_not_evaluated() -> None:
-    scene = Scene()
-    scene.stand(TOP, 0.0, 1.0)
-    image = colour()
-    scene.evaluator.record_truth(image)
-    scene.evaluator.evaluate(FrameReport(image, (), sought=False))
-    assert scene.evaluator.colour == FrameCounts()
-    assert not scene.evaluator.stills["colour"]
-    scene.evaluator.evaluate(FrameReport(image, (0.0,)))  # it is forgotten
-    assert scene.evaluator.colour == FrameCounts()
 
 
 def test_each_tick_notes_exposed_images_and_evaluates_reports() -> None:

@@ -164,7 +164,6 @@ def test_obstacles_beside_the_opponent_stay() -> None:
         facing = pi if place is None else 0.0  # a glance away
         seen.take(*view_at(both, facing), place)
         assert np.array_equal(seen.occupied_cells(), cells)
-    assert not seen.is_free(np.array([[1.42, 0.0]])).any()
 
 
 def test_the_map_tells_what_belongs_to_the_room() -> None:

@@ -7,19 +7,19 @@ import pytest
 from stepaside.robots.description import load_robot
 from stepaside.robots.head import load_head
 from stepaside.sim.camera_settings import RoomObject, SceneSettings
-from stepaside.sim.room_furnishing import LOWER, furnisher
+from stepaside.sim.room_furnishing import furnisher
 
 HEAD = load_head(load_robot("nao"))
 
 
 def furnished(
-    room: SceneSettings, *, lower: tuple[str, ...] = ()
+    room: SceneSettings, *, upper: tuple[str, ...] = ()
 ) -> tuple[mujoco.MjModel, mujoco.MjData]:
     spec = mujoco.MjSpec()
     spec.worldbody.add_body(name="me/head", pos=[1.0, 2.0, 0.5]).add_geom(
         type=mujoco.mjtGeom.mjGEOM_SPHERE, size=[0.05, 0, 0], mass=0.6
     )
-    furnisher(room, HEAD, walls=room.walls, housings=["me"], lower=lower)(spec)
+    furnisher(room, HEAD, walls=room.walls, housings=["me"], upper=upper)(spec)
     model = spec.compile()
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
@@ -84,12 +84,11 @@ def test_the_housing_is_massless_and_behind_the_lens() -> None:
     np.testing.assert_allclose(model.geom_rgba[housing], black, rtol=1e-6)
 
 
-def test_the_bottom_camera_has_the_axes_of_its_mount() -> None:
+def test_an_added_camera_has_the_axes_of_its_mount() -> None:
     """It looks along -z with x to the right, and exists on request only."""
-    model, data = furnished(SceneSettings(walls=0.0), lower=("me",))
+    model, data = furnished(SceneSettings(walls=0.0), upper=("me",))
     mujoco.mj_camlight(model, data)
-    camera, mount = model.camera(f"me/{LOWER}").id, HEAD.bottom
-    assert mount is not None
+    camera, mount = model.camera(f"me/{HEAD.camera}").id, HEAD.top
     place = np.array([1.0, 2.0, 0.5]) + mount.position_in_body
     np.testing.assert_allclose(data.cam_xpos[camera], place, atol=1e-9)
     right, up, back = data.cam_xmat[camera].reshape(3, 3).T
@@ -97,5 +96,5 @@ def test_the_bottom_camera_has_the_axes_of_its_mount() -> None:
     np.testing.assert_allclose(back, -forward, atol=1e-9)
     np.testing.assert_allclose(right, -left, atol=1e-9)
     np.testing.assert_allclose(up, upward, atol=1e-9)
-    assert forward[2] == pytest.approx(-np.sin(np.radians(39.7)))
+    assert forward[2] == pytest.approx(-np.sin(np.radians(1.2)))
     assert furnished(SceneSettings(walls=0.0))[0].ncam == 0

@@ -31,7 +31,6 @@ from ..sim.offscreen_rendering import (
 from ..sim.sensor_suite import SensorSuite
 from ..sim.simulated_robot import SimulatedRobot
 from ..sim.world import World
-from .game_furnishing import uses_lower_camera
 from .game_settings import GameSettings, PlayerSettings
 from .match import Match
 from .outcome import Outcome
@@ -131,7 +130,6 @@ class CameraSenses:
 
     def eyes_of(self, world: World, name: str) -> SensorSuite:
         """Return the cameras and sonars of a robot of a world."""
-        perception = self.perceptions.get(name)
         own = self._settings.player(name)
         return SensorSuite(
             world,
@@ -141,10 +139,6 @@ class CameraSenses:
             self._shared_screen(world),
             self._settings.seed,
             with_depth=self._has_depth(own),
-            looks_low=perception.looks_low
-            if perception is not None
-            and uses_lower_camera(self._settings, own)
-            else None,
         )
 
     def _shared_screen(self, world: World) -> OffscreenRenderer | None:

@@ -23,8 +23,6 @@ def scenery_of_duel(settings: DuelSettings) -> Scenery:
     movers: list[MakeMover] = []
     plan = settings.room.plan
     if settings.sensing == "cameras":
-        maps = plan is not None and settings.map.source == "seen"
-        looks_low = maps or settings.pursuer == "person"
         furnishings.append(
             furnisher(
                 settings.room,
@@ -33,7 +31,6 @@ def scenery_of_duel(settings: DuelSettings) -> Scenery:
                 housings=(EVADER,),
                 rear=settings.cameras.rear_camera,
                 upper=settings.robots,
-                lower=settings.robots if looks_low else (),
             )
         )
     if plan is not None:

@@ -17,7 +17,7 @@ from ..sim.person_body import add_person
 from ..sim.room_furnishing import Furnish, furnisher
 from ..sim.template_body import add_template
 from ..sim.world import COLOURS
-from .game_settings import GameSettings, PlayerSettings
+from .game_settings import GameSettings
 
 Mover = Callable[[float], None]  # moves bodies to where they are at a time [s]
 MakeMover = Callable[[mujoco.MjModel, mujoco.MjData], Mover]
@@ -107,9 +107,6 @@ def scenery_of_game(
                 housings=[p.name for p in seeing if p.role == "evader"],
                 rear=settings.cameras.rear_camera,
                 upper=[p.name for p in seeing],
-                lower=[
-                    p.name for p in seeing if uses_lower_camera(settings, p)
-                ],
             )
         )
 
@@ -126,12 +123,3 @@ def scenery_of_game(
                 add_template(spec, player.name, colours[player.name])
 
     return Scenery((*furnishings, furnish_players), tuple(movers), colours)
-
-
-def uses_lower_camera(settings: GameSettings, own: PlayerSettings) -> bool:
-    """Return whether a robot uses the lower camera of its head.
-
-    It serves to detect people and to map the floor.
-    """
-    opponents = settings.sensed_opponents(own)
-    return settings.maps_room or any(p.body == "person" for p in opponents)

@@ -127,7 +127,7 @@ class SightEvaluator:
         if isinstance(percept, DepthImage):
             mount = head.depth[percept.number]
         else:
-            mount = (head.bottom if percept.low else None) or head.top
+            mount = head.top
         position, axes = self._camera(mount)
         target = np.array(
             [*self._other.position_torso_in_world, self._height()]
@@ -147,7 +147,7 @@ class SightEvaluator:
     def evaluate(self, report: FrameReport) -> None:
         """Compare the detections of an image with the truth."""
         truth = self._true.pop(report.image, None)
-        if truth is None or not report.sought:
+        if truth is None:
             return
         azimuth, in_view, others = truth
         kind = "colour" if isinstance(report.image, ColourImage) else "depth"

@@ -39,8 +39,6 @@ NEARBY = 1.2  # distance within which unknown floor is reported, in [m]
 WINDOW = round(NEARBY / CELL) + 2  # half side of that area, in [cells]
 TOLERANCE = 0.2  # from a measured point to its obstacle on the map, in [m]
 SECTOR = np.pi / 8  # angle spanned by a polygon of unknown floor, in [rad]
-MIN_PIXELS = 3  # of floor that make a cell known
-MAX_MIXED = 0.25  # fraction of other pixels from which a cell is not floor
 # Offsets from a cell to all cells around it.
 STENCIL = np.argwhere(np.ones((17, 17))) - 8
 
@@ -57,8 +55,8 @@ class FloorMap:
     erased. The floor around the start is free, so that the robot can turn.
 
     Floor nearer than the range of the depth camera, or out of its view,
-    stays unknown until a ray passes over it, or until the bottom camera
-    shows it: an obstacle also keeps the floor in front of it unknown.
+    stays unknown until a ray passes over it: an obstacle also keeps the floor
+    in front of it unknown.
 
     Attributes:
         version: Number of changes.
@@ -188,37 +186,6 @@ class FloorMap:
         chosen = cells[:, 0], cells[:, 1]
         self._evidence[chosen] = np.minimum(self._evidence[chosen], 0.0)
         return chosen
-
-    def show(self, floor: Array, other: Array) -> None:
-        """Add floor that the bottom camera shows.
-
-        A cell beside one that shows anything else is left unchanged, for the
-        pose of the camera is known to a few centimetres only.
-
-        Args:
-            floor: Points with the floor's colours in odometry, in [m]. Shape
-                (n, 2).
-            other: Points with other colours, in [m]. Shape (m, 2).
-        """
-        bare = self._counts(floor)
-        covered = self._counts(other)
-        limit = np.maximum(1.0, MAX_MIXED * (bare + covered))
-        mixed = np.pad(covered >= limit, 1)
-        beside = sliding_window_view(mixed, (3, 3)).any(axis=(2, 3))
-        self._known |= (bare >= MIN_PIXELS) & ~beside
-        self.version += 1
-
-    def is_free(self, points: Array) -> NDArray[np.bool_]:
-        """Return whether the cells of points are free.
-
-        Args:
-            points: Points in odometry, in [m]. Shape (n, 2).
-        """
-        inside = np.abs(points).max(axis=1, initial=0.0) < HALF_SIDE
-        found = np.zeros(len(points), dtype=np.bool_)
-        cells = self._cells(points[inside])
-        found[inside] = self._evidence[cells[:, 0], cells[:, 1]] <= PASS
-        return found
 
     def _counts(self, points: Array) -> NDArray[np.int64]:
         """Return the number of points in each cell."""

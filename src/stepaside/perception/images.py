@@ -20,13 +20,11 @@ class ColourImage:
         time: Middle of its exposure, in [s].
         camera: Camera that took it.
         pixels: Red, green and blue. Shape (height, width, 3).
-        low: Whether the bottom camera of a head with two took it.
     """
 
     time: float
     camera: CameraModel
     pixels: Pixels
-    low: bool = False
 
 
 @dataclass(frozen=True, slots=True, eq=False)

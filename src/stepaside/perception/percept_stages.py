@@ -7,7 +7,6 @@ from typing import Protocol
 from ..core.poses import wrap_angle
 from ..robots.body_pose import BodyPose
 from ..robots.head import Mount
-from .bottom_camera import BottomCameraUse
 from .camera_pose import CameraPose, camera_pose
 from .colour_detector import ColourDetection, ColourDetector
 from .depth_detector import DepthScene, detect_obstacles
@@ -41,14 +40,12 @@ class FrameReport:
             [rad], positive leftward.
         colour: Detection in a colour image, if any; that of the tallest.
         depth: Obstacles and shadows in a depth image.
-        sought: Whether the opponent was searched for in it.
     """
 
     image: ColourImage | DepthImage
     azimuths: tuple[float, ...]
     colour: ColourDetection | None = None
     depth: DepthScene | None = None
-    sought: bool = True
 
     @property
     def camera(self) -> str:
@@ -100,7 +97,6 @@ class TopCameraStage:
         mount: Mount,
         detector: ColourDetector,
         tracker: Tracker,
-        learners: Sequence[BottomCameraUse],
         *,
         near: bool,
         most: int = 1,
@@ -111,14 +107,12 @@ class TopCameraStage:
             mount: Mount of the camera on the head.
             detector: Detector of the opponent.
             tracker: Tracker.
-            learners: Parts that learn the colours of the floor.
             most: Greatest number of opponents in an image.
             near: Whether an image edge may hide a part of the opponent
                 without cutting a patch, see :func:`observe_trim`.
         """
         self._mount, self._detector, self._tracker = mount, detector, tracker
-        self._learners, self._near = learners, near
-        self._most = most
+        self._near, self._most = near, most
 
     def process(self, image: ColourImage, body: BodyPose) -> FrameReport:
         """Update the tracks with an image.
@@ -128,8 +122,6 @@ class TopCameraStage:
             body: Pose of the body at its exposure.
         """
         camera, tracker = camera_pose(body, self._mount), self._tracker
-        for learner in self._learners:
-            learner.learn(image, camera)
         detected = self._detector.detect_all(image, most=self._most)
         azimuths = tuple(-angle_of(image, found.column) for found in detected)
         observations = [
@@ -149,48 +141,6 @@ class TopCameraStage:
         )
         tallest = detected[0] if detected else None
         return FrameReport(image, azimuths, colour=tallest)
-
-
-class BottomCameraStage:
-    """Colour images of the bottom camera: feet, and floor close by."""
-
-    def __init__(
-        self, mount: Mount, uses: Sequence[BottomCameraUse], tracker: Tracker
-    ) -> None:
-        """Combine the parts.
-
-        Args:
-            mount: Mount of the camera on the head.
-            uses: Uses of its images.
-            tracker: Tracker.
-        """
-        self._mount, self._uses, self._tracker = mount, uses, tracker
-        self._sought = any(use.seeks_opponent for use in uses)
-
-    def wanted(self, body: BodyPose, *, lost: bool) -> bool:
-        """Return whether the next image should come from this camera.
-
-        Args:
-            body: Pose of the body.
-            lost: Whether the head searches, which needs the top camera.
-        """
-        return any(use.wanted(body, lost=lost) for use in self._uses)
-
-    def process(self, image: ColourImage, body: BodyPose) -> FrameReport:
-        """Update map and tracks with an image.
-
-        Args:
-            image: The image.
-            body: Pose of the body at its exposure.
-        """
-        camera = camera_pose(body, self._mount)
-        found = [o for use in self._uses for o in use.observe(image, camera)]
-        self._tracker.observe(found, may_start=False, walked_only=True)
-        azimuths = tuple(
-            wrap_angle(each.bearing - camera.heading_in_odometry)
-            for each in found
-        )
-        return FrameReport(image, azimuths, sought=self._sought)
 
 
 class DepthUse(Protocol):

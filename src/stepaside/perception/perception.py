@@ -18,7 +18,6 @@ from .images import (
 )
 from .measurement import Measurement, Sighting
 from .percept_stages import (
-    BottomCameraStage,
     DepthCameraStage,
     FrameReport,
     SonarStage,
@@ -35,13 +34,11 @@ class PerceptStages:
 
     Attributes:
         top: Colour images of the top camera.
-        bottom: Colour images of the bottom camera.
         depth: Depth images.
         sonar: Echoes.
     """
 
     top: TopCameraStage
-    bottom: BottomCameraStage
     depth: DepthCameraStage
     sonar: SonarStage
 
@@ -56,8 +53,7 @@ class PerceptStages:
             Detections in an image; None for an echo.
         """
         if isinstance(percept, ColourImage):
-            stage = self.bottom if percept.low else self.top
-            return stage.process(percept, body)
+            return self.top.process(percept, body)
         if isinstance(percept, DepthImage):
             return self.depth.process(percept, body)
         self.sonar.process(percept, body)
@@ -148,14 +144,6 @@ class PosedPerception:
         """
         self.poses.add_pose(body)
         return self._process(body.time, percepts)
-
-    def looks_low(self) -> bool:
-        """Return whether the next image should be from the bottom camera."""
-        if self.body is None:
-            return False
-        # A search for the opponent needs all images of the top camera.
-        lost = self.sighting is None and not self.head.scans
-        return self._stages.bottom.wanted(self.body, lost=lost)
 
     def _process(
         self, now: float, percepts: Sequence[AnyPercept]

@@ -8,17 +8,13 @@ from ..core.poses import Array, Sector
 from ..robots.body_pose import BodyKinematics
 from ..robots.description import RobotDescription
 from ..robots.head import HeadDescription, Mount
-from .bottom_camera import BottomCameraUse, FootTracking, NearFloorMapping
 from .camera_pose import BodyPoseHistory, PoseHistory
 from .colour_detector import ColourDetector
 from .floor_map import FloorMap
-from .foot_tracking import FootDetector
 from .gaze import Gaze, Glances, NoGlances
 from .head_motion import HeadControl
-from .near_floor import NearFloorMapper
 from .people_selection import PeopleSelection
 from .percept_stages import (
-    BottomCameraStage,
     DepthCameraStage,
     DepthUse,
     MappedFloorDepth,
@@ -95,28 +91,21 @@ def build_perception(
         selection = PeopleSelection(tracker)
     elif unnamed:
         selection = UnnamedSelection(tracker, unnamed)
-    uses: list[BottomCameraUse] = []
     depth: DepthUse = OpenFloorDepth(tracker, near_walls=people)
     sonar = SonarStage(head.sonars, tracker, selection)
     if mapping is not None:
         floor = mapping.floor
-        uses.append(NearFloorMapping(NearFloorMapper(floor), selection))
         depth = MappedFloorDepth(tracker, selection, floor, walked_only=people)
         sonar = MappedSonarStage(head.sonars, tracker, selection, floor)
-    if people:
-        uses.append(FootTracking(FootDetector(), tracker, selection))
-    if head.bottom is None:
-        uses = []
     used = mapping or FloorMapping()
     return Perception(
         BodyPoseHistory(BodyKinematics(description, head), tick),
         PerceptStages(
             TopCameraStage(
-                *(head.top, detector, tracker, uses),
+                *(head.top, detector, tracker),
                 near=calm,
                 most=max(1, unnamed),
             ),
-            BottomCameraStage(head.bottom or head.top, uses, tracker),
             DepthCameraStage(head.depth, depth),
             sonar,
         ),
@@ -157,8 +146,7 @@ def build_posed_perception(
     return PosedPerception(
         PoseHistory(tick),
         PerceptStages(
-            TopCameraStage(at_head, detector, tracker, [], near=False),
-            BottomCameraStage(at_head, [], tracker),
+            TopCameraStage(at_head, detector, tracker, near=False),
             DepthCameraStage(
                 [at_head], OpenFloorDepth(tracker, near_walls=False)
             ),

@@ -69,8 +69,6 @@ class HeadDescription:
             on the torso.
         housings: Depth, width and height of each depth camera, in [m].
         sonars: Mounts of the sonars on the torso, by name.
-        bottom: Mount of a second colour camera, which looks down; None if
-            there is none.
     """
 
     body: str
@@ -83,7 +81,6 @@ class HeadDescription:
     depth: tuple[Mount, ...]
     housings: tuple[tuple[float, float, float], ...]
     sonars: dict[str, Mount]
-    bottom: Mount | None = None
 
     def body_of(self, mount: Mount) -> str:
         """Return the name of the body of a mount."""
@@ -137,7 +134,6 @@ def load_head(description: RobotDescription) -> HeadDescription:
                 name: Mount(_vector(s["place"]), rotation(*s["turn"]), True)
                 for name, s in entries.get("sonar", {}).items()
             },
-            _camera(entries["bottom"]) if "bottom" in entries else None,
         )
     except OSError as error:
         raise ModelError(

@@ -12,7 +12,7 @@ import numpy as np
 from ..core.errors import ModelError
 from ..core.poses import Array
 from .description import RobotDescription
-from .head import Mount, depth_camera_name, load_head
+from .head import depth_camera_name, load_head
 
 BASE = "base_link"
 SOLES = ("l_sole", "r_sole")  # as in REP 120
@@ -141,17 +141,12 @@ def _frames_of(
         head = load_head(description)
     except ModelError:
         return frames  # it has no cameras
-    mounts: dict[str, Mount | None] = {
-        "camera": head.top,
-        "bottom_camera": head.bottom,
-    }
+    mounts = {"camera": head.top}
     for i, lens in enumerate(head.depth):
         mounts[depth_camera_name(i)] = lens
     for name, mount in mounts.items():
-        if mount is not None:
-            position, axes = mount.position_in_body, mount.axes_in_body
-            body = head.body_of(mount)
-            frames.append(_fixed(body, name, position, axes))
+        position, axes = mount.position_in_body, mount.axes_in_body
+        frames.append(_fixed(head.body_of(mount), name, position, axes))
     return frames
 
 

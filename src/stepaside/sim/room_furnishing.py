@@ -10,7 +10,6 @@ from ..robots.head import HeadDescription, Mount
 from .camera_settings import SceneSettings
 
 FLOOR_BIT = 1  # contact type of the floor, with which robots collide
-LOWER = "lower_camera"  # name of the bottom camera of a head in the model
 HIDDEN = 3  # geom group that only the cameras of robots render
 HALF_WALL_HEIGHT = 1.2  # in [m]
 SIDES = ((1, 0), (-1, 0), (0, 1), (0, -1))
@@ -40,7 +39,6 @@ def furnisher(
     housings: Sequence[str] = (),
     rear: bool = False,
     upper: Sequence[str] = (),
-    lower: Sequence[str] = (),
 ) -> Furnish:
     """Return the function that adds walls, objects and cameras to a world.
 
@@ -52,7 +50,6 @@ def furnisher(
         rear: Whether these have cameras on the torso, too.
         upper: Names of robots that use the top camera of their heads; it is
             added to models without one.
-        lower: Names of robots that use the bottom camera.
     """
 
     def furnish(spec: mujoco.MjSpec) -> None:
@@ -71,28 +68,22 @@ def furnisher(
                 _add_housing(body, mount, size)
         for name in upper:
             if spec.camera(f"{name}/{head.camera}") is None:
-                _add_camera(spec, name, head, head.camera, head.top)
-        for name in lower:
-            if head.bottom is not None:
-                _add_camera(spec, name, head, LOWER, head.bottom)
+                _add_camera(spec, name, head)
 
     return furnish
 
 
 def _add_camera(
-    spec: mujoco.MjSpec,
-    wearer: str,
-    head: HeadDescription,
-    camera: str,
-    mount: Mount,
+    spec: mujoco.MjSpec, wearer: str, head: HeadDescription
 ) -> None:
-    """Add a camera to a head; MuJoCo cameras look along -z."""
+    """Add the colour camera to a head; MuJoCo cameras look along -z."""
+    mount = head.top
     forward, left, up = mount.axes_in_body.T
     axes = np.column_stack([-left, up, -forward])
     turn = np.zeros(4)
     mujoco.mju_mat2Quat(turn, axes.ravel())
     spec.body(f"{wearer}/{head.body}").add_camera(
-        name=f"{wearer}/{camera}",
+        name=f"{wearer}/{head.camera}",
         pos=mount.position_in_body.tolist(),
         quat=turn.tolist(),
     )

@@ -28,7 +28,6 @@ from .ray_casting import (
     SonarCaster,
     cone,
 )
-from .room_furnishing import LOWER
 from .sensor_stream import SensorStream
 from .view_cone import geoms_in_cone
 from .world import World
@@ -54,7 +53,6 @@ class SensorSuite:
         seed: int,
         *,
         with_depth: bool,
-        looks_low: Callable[[], bool] | None = None,
     ) -> None:
         """Create the sensors of a robot.
 
@@ -67,10 +65,7 @@ class SensorSuite:
                 for ray casting.
             seed: Seed of the run.
             with_depth: Whether it has a depth camera and sonars.
-            looks_low: Function that returns whether the next colour image is
-                from the bottom camera; None for always the top camera.
         """
-        self._looks_low = looks_low
         self._world, self._name = world, name
         self._settings, self._seed = settings, seed
         self._head = load_head(description)
@@ -132,17 +127,11 @@ class SensorSuite:
 
     def _colour(self) -> SensorStream[Percept]:
         settings, camera = self._settings.colour, self.camera
-        head, low = self._head, self._looks_low
-        upper = self._pixels(head.top, head.camera)
-        lower = None
-        if low is not None and head.bottom is not None:
-            lower = self._pixels(head.bottom, LOWER)
+        draw = self._pixels(self._head.top, self._head.camera)
         noise = ImageNoise(camera, settings.noise, self._generator("grain"))
 
         def take(now: float) -> Percept:
-            if lower is not None and low is not None and low():
-                return ColourImage(now, camera, noise.add_to(lower()), True)
-            return ColourImage(now, camera, noise.add_to(upper()))
+            return ColourImage(now, camera, noise.add_to(draw()))
 
         return self._stream("colour", take, settings.rate, settings.latency)
 

@@ -418,7 +418,7 @@ class PlayerTopics:
         make = self._factory
         for image in self._signals.images:
             if isinstance(image, ColourImage):
-                name = "bottom_camera" if image.low else "camera"
+                name = "camera"
                 kind = "sensor_msgs/msg/CompressedImage"
                 topic = self._topic(f"{name}/image_raw/compressed")
             else:
