@@ -20,7 +20,7 @@ from stepaside.locomotion.walk_snapshots import Phase
 from stepaside.locomotion.zmp.control_settings import ControlSettings
 from stepaside.perception.colour_detector import RED, ColourDetector
 from stepaside.perception.images import SonarEcho
-from stepaside.perception.perception_builder import build_perception
+from stepaside.perception.pipeline import build_perception
 from stepaside.planning import GaitSettings
 from stepaside.robots.description import load_robot
 from stepaside.robots.forward_kinematics import ForwardKinematics

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import Pose
-from stepaside.perception import percept_stages as module
+from stepaside.perception import pipeline as module
 from stepaside.perception.camera_model import CameraModel
 from stepaside.perception.colour_detector import RED, ColourDetection
 from stepaside.perception.depth_detector import (
@@ -15,12 +15,12 @@ from stepaside.perception.depth_detector import (
     DetectedObstacle,
     Shadow,
 )
-from stepaside.perception.head_motion import GazeTarget
+from stepaside.perception.gaze import GazeTarget
 from stepaside.perception.images import ColourImage, DepthImage, SonarEcho
 from stepaside.perception.measurement import Measurement
-from stepaside.perception.percept_stages import FrameReport
-from stepaside.perception.perception_builder import (
+from stepaside.perception.pipeline import (
     FloorMapping,
+    FrameReport,
     build_perception,
 )
 from stepaside.perception.track import Observation, TargetTrack

@@ -135,6 +135,7 @@ def test_code_on_board_imports_no_simulator(package: str) -> None:
     assert files
     # Where a model is compiled and given to the simulator.
     compiling = [
+        "geom_points",
         "tree_compiler",
         "description",
         "torso_frame",

@@ -9,7 +9,7 @@ import pytest
 from fake_robot import GAIT, STEP, TICK, FakeStrategy, Run, measure
 from memory_size import reachable_values
 from stepaside.control.sight_sources import CameraSight
-from stepaside.control.state_history import DURATION
+from stepaside.control.strategy_runner import MEMORY as DURATION
 from stepaside.locomotion.walk_snapshots import Phase
 from stepaside.locomotion.zmp.control_settings import (
     ControlSettings,

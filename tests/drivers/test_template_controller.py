@@ -122,11 +122,10 @@ class Remembering:
     head = SimpleNamespace(yaw=0.0, pitch=0.0)
 
     def __init__(self) -> None:
-        self.poses = self
         self.recalled: list[tuple[float, Any, Pose]] = []
         self.frames: list[Pose] = []
 
-    def add_level(self, time: float, joints: Any, frame: Pose) -> None:
+    def note_level(self, time: float, joints: Any, frame: Pose) -> None:
         """Note it."""
         self.recalled.append((time, joints, frame))
 

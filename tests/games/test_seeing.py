@@ -22,7 +22,7 @@ from stepaside.games.run_archive import results_of
 from stepaside.games.walker import SimulatedPlayer
 from stepaside.perception.gaze import MAX_YAW, SCAN_SPEED
 from stepaside.perception.images import ColourImage, DepthImage, SonarEcho
-from stepaside.perception.perception import Perception
+from stepaside.perception.pipeline import Perception
 from stepaside.sim.camera_settings import (
     CLUTTER,
     CameraSettings,

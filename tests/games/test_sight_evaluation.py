@@ -13,7 +13,7 @@ from stepaside.games.sight_evaluation import FrameCounts, SightEvaluator
 from stepaside.perception.camera_model import CameraModel
 from stepaside.perception.images import ColourImage, DepthImage, SonarEcho
 from stepaside.perception.measurement import Sighting
-from stepaside.perception.percept_stages import FrameReport
+from stepaside.perception.pipeline import FrameReport
 from stepaside.robots.head import Mount, rotation
 
 CAMERA = CameraModel.of_field_of_view(80, 60, radians(60.0), radians(45.0))

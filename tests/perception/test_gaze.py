@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from stepaside.perception.gaze import (
-    CAMERA_HEIGHT,
     FOLLOW_SPEED,
     GLANCE_DURATION,
     MAX_TURN,
@@ -14,16 +13,23 @@ from stepaside.perception.gaze import (
     MAX_YAW,
     MIN_DISTANCE,
     PERSON_TOP,
+    ROBOT_MIDDLE,
     SCAN_PITCH,
     SCAN_SPEED,
     Gaze,
+    GazeTarget,
     Glances,
 )
 from stepaside.robots.description import load_robot
 from stepaside.robots.head import load_head
 
 TICK = 0.004
+CAMERA_HEIGHT, ROBOT = 0.46, 0.54  # of a NAO, in [m]
 COUPLING = load_head(load_robot("nao")).coupling
+
+
+def at(bearing: float, distance: float, height: float = 0.0) -> GazeTarget:
+    return GazeTarget(bearing, distance, height, CAMERA_HEIGHT)
 
 
 def within(gaze: Gaze) -> bool:
@@ -36,9 +42,9 @@ def within(gaze: Gaze) -> bool:
 
 
 def test_it_reaches_what_it_follows() -> None:
-    gaze = Gaze(COUPLING, TICK)
+    gaze = Gaze(COUPLING, TICK, ROBOT)
     for _ in range(250):
-        gaze.follow(radians(-45.0), 0.9)
+        gaze.follow(at(radians(-45.0), 0.9))
     assert degrees(gaze.yaw) == pytest.approx(-45.0, abs=0.1)
     assert degrees(gaze.pitch) == pytest.approx(11.3, abs=0.2)
     assert not gaze.searching
@@ -47,10 +53,10 @@ def test_it_reaches_what_it_follows() -> None:
 @pytest.mark.parametrize("bearing", [-170.0, -100.0, 0.0, 88.0, 150.0])
 def test_it_keeps_to_ranges_and_speed(bearing: float) -> None:
     """Close by it would nod beyond what the shells allow at that yaw."""
-    gaze = Gaze(COUPLING, TICK)
+    gaze = Gaze(COUPLING, TICK, ROBOT)
     for _ in range(500):
         yaw, pitch = gaze.yaw, gaze.pitch
-        gaze.follow(radians(bearing), 0.2)
+        gaze.follow(at(radians(bearing), 0.2))
         assert within(gaze)
         assert (
             hypot(gaze.yaw - yaw, gaze.pitch - pitch)
@@ -59,7 +65,7 @@ def test_it_keeps_to_ranges_and_speed(bearing: float) -> None:
 
 
 def test_a_search_looks_everywhere_it_can() -> None:
-    gaze = Gaze(COUPLING, TICK)
+    gaze = Gaze(COUPLING, TICK, ROBOT)
     seen = []
     for _ in range(round(8.0 / TICK)):
         gaze.search()
@@ -72,37 +78,37 @@ def test_a_search_looks_everywhere_it_can() -> None:
 
 def test_a_search_begins_where_the_other_left() -> None:
     for side in (1.0, -1.0):
-        gaze = Gaze(COUPLING, TICK)
+        gaze = Gaze(COUPLING, TICK, ROBOT)
         for _ in range(20):
-            gaze.follow(side * 1.0, 1.0)
+            gaze.follow(at(side * 1.0, 1.0))
         before = gaze.yaw
         gaze.search()
         assert side * (gaze.yaw - before) > 0.0
 
 
 def test_it_turns_at_the_speed_of_a_following_head() -> None:
-    gaze = Gaze(COUPLING, TICK)
+    gaze = Gaze(COUPLING, TICK, ROBOT)
     before = gaze.yaw, gaze.pitch
-    gaze.follow(1.0, 1.0)
+    gaze.follow(at(1.0, 1.0))
     assert hypot(
         gaze.yaw - before[0], gaze.pitch - before[1]
     ) == pytest.approx(3.0 * TICK)
-    gaze = Gaze(COUPLING, TICK)
+    gaze = Gaze(COUPLING, TICK, ROBOT)
     gaze.search()
     moved = hypot(gaze.yaw - before[0], gaze.pitch - before[1])
     assert moved == pytest.approx(3.0 * TICK)
 
 
 def test_it_begins_ahead_a_little_down_and_searching() -> None:
-    gaze = Gaze(COUPLING, TICK)
+    gaze = Gaze(COUPLING, TICK, ROBOT)
     assert (gaze.yaw, gaze.pitch) == (0.0, radians(8.0))
     assert gaze.searching
 
 
 def settled(bearing: float, distance: float) -> Gaze:
-    gaze = Gaze(COUPLING, TICK)
+    gaze = Gaze(COUPLING, TICK, ROBOT)
     for _ in range(500):
-        gaze.follow(bearing, distance)
+        gaze.follow(at(bearing, distance))
     return gaze
 
 
@@ -111,7 +117,9 @@ def test_it_looks_at_the_middle_of_a_body_and_keeps_the_crown_in_view() -> (
 ):
     for distance in (1.0, 1.5, 3.0):
         gaze = settled(0.2, distance)
-        assert gaze.pitch == pytest.approx(atan2(0.46 - 0.28, distance))
+        assert gaze.pitch == pytest.approx(
+            atan2(0.46 - ROBOT_MIDDLE * 0.54, distance)
+        )
     # What trim there is stands 0.06 m nearer, and never nearer than 0.1 m.
     for distance, away in ((0.36, 0.3), (0.17, 0.11), (0.12, 0.1)):
         crown = atan2(0.54 - 0.46, away)
@@ -122,15 +130,15 @@ def test_it_looks_at_the_middle_of_a_body_and_keeps_the_crown_in_view() -> (
 def test_what_it_reaches_it_keeps_without_overshoot() -> None:
     gaze = settled(0.5, 1.0)
     assert gaze.yaw == 0.5
-    gaze.follow(0.5 + 0.5 * FOLLOW_SPEED * TICK, 1.0)
+    gaze.follow(at(0.5 + 0.5 * FOLLOW_SPEED * TICK, 1.0))
     assert gaze.yaw == 0.5 + 0.5 * FOLLOW_SPEED * TICK
 
 
 def test_bearings_are_taken_the_short_way() -> None:
-    wrapped, plain = Gaze(COUPLING, TICK), Gaze(COUPLING, TICK)
+    wrapped, plain = Gaze(COUPLING, TICK, ROBOT), Gaze(COUPLING, TICK, ROBOT)
     for _ in range(100):
-        wrapped.follow(-0.6 + 2.0 * pi, 1.0)
-        plain.follow(-0.6, 1.0)
+        wrapped.follow(at(-0.6 + 2.0 * pi, 1.0))
+        plain.follow(at(-0.6, 1.0))
     assert wrapped.yaw == pytest.approx(plain.yaw)
 
 
@@ -150,7 +158,7 @@ def test_a_search_after_another_goes_on_to_the_same_side() -> None:
 
 def test_a_neck_that_turns_less_searches_as_far_as_it_can() -> None:
     short = np.array([[-1.0, 0.0, 1.0], [-0.5, -0.5, -0.5], [0.5, 0.5, 0.5]])
-    gaze = Gaze(short, TICK)
+    gaze = Gaze(short, TICK, ROBOT)
     yaws = []
     for _ in range(1500):
         gaze.search()
@@ -164,18 +172,18 @@ def test_a_neck_that_turns_less_searches_as_far_as_it_can() -> None:
 def test_pitch_keeps_to_either_limit_at_its_yaw(shift: float) -> None:
     yaws = np.array([-1.0, 0.0, 1.0])
     low, high = np.array([-0.1, 0.0, -0.1]), np.array([0.1, 0.2, 0.1])
-    gaze = Gaze(np.stack([yaws, low + shift, high + shift]), TICK)
+    gaze = Gaze(np.stack([yaws, low + shift, high + shift]), TICK, ROBOT)
     for _ in range(2000):
-        gaze.follow(0.5, 1.0)
+        gaze.follow(at(0.5, 1.0))
     limit = 0.15 + shift if shift < 0.0 else -0.05 + shift
     assert gaze.pitch == pytest.approx(limit, abs=1e-4)
 
 
 def pitch_at(distance: float, height: float) -> float:
     """Pitch towards something after a second, in [deg]."""
-    gaze = Gaze(COUPLING, TICK)
+    gaze = Gaze(COUPLING, TICK, ROBOT)
     for _ in range(250):
-        gaze.follow(0.0, distance, height)
+        gaze.follow(at(0.0, distance, height))
     return degrees(gaze.pitch)
 
 

@@ -13,11 +13,11 @@ from stepaside.perception.camera_pose import camera_pose
 from stepaside.perception.colour_detector import RED, ColourDetector
 from stepaside.perception.images import Percept, SonarEcho
 from stepaside.perception.measurement import Measurement, Sighting
-from stepaside.perception.people_selection import (
+from stepaside.perception.pipeline import build_perception
+from stepaside.perception.target_selection import (
     PeopleSelection,
     closest_approach,
 )
-from stepaside.perception.perception_builder import build_perception
 from stepaside.perception.track import Observation, TargetTrack
 from stepaside.perception.tracker import Tracker
 from synthetic_cameras import HEAD, JOINTS, NAO, UP

@@ -104,7 +104,7 @@ def test_a_delayed_image_uses_the_pose_at_its_exposure() -> None:
         eyes.see(TICK * i)
     eyes.detector.found = trim(80.0)
     eyes.see(40 * TICK, colour(10 * TICK + 0.4 * TICK))
-    body = eyes.perception.poses.at(10 * TICK)
+    body = eyes.perception.poses.at(10 * TICK)()
     assert body.time == pytest.approx(10 * TICK)
     place = (
         body.position_head_in_odometry

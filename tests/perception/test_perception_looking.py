@@ -6,10 +6,9 @@ from typing import Any
 import pytest
 
 from stepaside.core.poses import Pose
-from stepaside.perception.gaze import MAX_YAW, SCAN_SPEED
+from stepaside.perception.gaze import MAX_YAW, SCAN_SPEED, RoomScan
 from stepaside.perception.measurement import Sighting
-from stepaside.perception.perception_builder import FloorMapping
-from stepaside.perception.room_scan import RoomScan
+from stepaside.perception.pipeline import FloorMapping
 from stepaside.perception.target_selection import GAZE_RADIUS, MAX_GAZE_AGE
 from synthetic_cameras import TICK, Eyes
 

@@ -11,12 +11,12 @@ from stepaside.core.poses import Pose, wrap_angle
 from stepaside.perception.depth_detector import Shadow
 from stepaside.perception.floor_map import FloorMap
 from stepaside.perception.images import SonarEcho
-from stepaside.perception.percept_stages import (
+from stepaside.perception.pipeline import (
     MAX_AGE,
     MIN_SHADOW,
     NEAR_MARGIN,
+    FloorMapping,
 )
-from stepaside.perception.perception_builder import FloorMapping
 from stepaside.perception.sonar import HALF_CONE, MIN_AGE
 from synthetic_cameras import (
     HEAD,
@@ -61,7 +61,7 @@ class NoFloor(FloorMap):
 
     def take(self, *arguments: Any) -> None:
         """Record the position of the opponent."""
-        self.others.append(arguments[-1])
+        self.others.append(arguments[2])
 
 
 def mapping() -> tuple[Eyes, NoFloor]:
@@ -92,7 +92,7 @@ def test_obstacles_start_unidentified_tracks(
     (report,) = eyes.reports
     assert report.azimuths == (0.2, -0.3)
     assert report.depth is not None and report.image is image
-    taken, (place, axes, own) = given[0]
+    taken, (place, axes, own), _ = given[0]
     body = eyes.perception.body
     assert body is not None and taken is image
     np.testing.assert_allclose(

@@ -80,6 +80,7 @@ def open_camera_body(
     from ..drivers.velocity.head_control import PERIOD, CameraBody
     from ..robots.description import load_robot
     from ..robots.head import load_head
+    from ..robots.tree_cache import load_tree
 
     description = load_robot(connection.description)
     head = load_head(description)
@@ -88,7 +89,7 @@ def open_camera_body(
     body = NaoqiBody(
         url,
         dry_run=dry_run,
-        joint_names=perception.poses.kinematics.forward.tree.motors,
+        joint_names=load_tree(description).motors,
         head=(head.yaw, head.pitch),
     )
     connection = connection.with_images(url)

@@ -112,7 +112,8 @@ def build_scheme(
     """
     forward = None
     if isinstance(senses, CameraSight):
-        forward = senses.perception.poses.kinematics.forward
+        body = senses.perception.kinematics
+        forward = None if body is None else body.forward
     walk = build_walk(
         description,
         gait,

@@ -13,7 +13,7 @@ from ..strategies.opponent_choice import choose_opponent
 
 if TYPE_CHECKING:
     from ..perception.lidar_perception import LidarPerception
-    from ..perception.perception import Perception
+    from ..perception.pipeline import Perception
 
 StepAt = Callable[[float], CurrentStep]
 CORRECTION = 0.5  # of the attitude filter by the accelerometer, in [1/s]

@@ -3,6 +3,7 @@
 from dataclasses import replace
 from math import atan2, cos, hypot, pi, sin
 
+from ..core.history import History
 from ..core.poses import ALL_AROUND, Pose, Sector
 from ..perception.measurement import Measurement, Sighting
 from ..planning import Foot, GaitSettings
@@ -20,10 +21,10 @@ from ..strategies.strategy import Strategy
 from ..strategies.velocity_set import VelocitySet
 from .clearance.surroundings import OpenFloor, Surroundings
 from .sight_sources import PlayersInSight
-from .state_history import StateHistory
 from .turn_calibration import TurnCalibration
 
 MAX_PACE_CHANGE = 0.25  # from step to step
+MEMORY = 2.0  # how long past states are stored, in [s]
 RECENT = 1.0  # age up to which the own pose at a sighting is known, in [s]
 
 
@@ -82,8 +83,8 @@ class StrategyRunner(DecisionMaker):
         super().__init__(strategy, limits_of(gait, velocities, views))
         self._surroundings = surroundings or OpenFloor()
         self.pace = 1.0
-        self.headings: StateHistory[float] = StateHistory(tick)
-        self.templates: StateHistory[Pose] = StateHistory(tick)
+        self.headings: History[float] = History(MEMORY)
+        self.templates: History[Pose] = History(MEMORY)
         self.turns = turns
         self._spacing = gait.foot_spacing
         self._target_id = 0

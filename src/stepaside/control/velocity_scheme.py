@@ -1,11 +1,12 @@
 """Control of a robot that walks at commanded velocities."""
 
+from ..core.history import History
 from ..core.poses import Array, Pose
 from ..locomotion.locomotion import MotionRequest, PlannedLocomotion
 from ..locomotion.walk_snapshots import Phase
 from ..perception.measurement import Measurement
 from ..planning import Direction, Foot
-from .state_history import StateHistory
+from .strategy_runner import MEMORY
 from .turn_calibration import TurnCalibration
 from .velocity_walk import limit_velocity, request_at_velocity
 
@@ -29,9 +30,9 @@ class VelocityScheme:
             tick: Control period, in [s].
         """
         self.locomotion = locomotion
-        self.headings: StateHistory[float] = StateHistory(tick)
+        self.headings: History[float] = History(MEMORY)
         self.headings.note(0.0, locomotion.torso_heading)
-        self.templates: StateHistory[Pose] = StateHistory(tick)
+        self.templates: History[Pose] = History(MEMORY)
         self.templates.note(0.0, locomotion.pose)
         self._commanded = (0.0, 0.0)
         self._turns = TurnCalibration(tick)

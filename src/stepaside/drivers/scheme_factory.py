@@ -28,7 +28,7 @@ from .joint.frames import MotorGains
 from .joint.joint_map import JointMap, MotorTable
 
 if TYPE_CHECKING:
-    from ..perception.perception import Perception, PosedPerception
+    from ..perception.pipeline import Perception
 
 # Of a camera that is fixed on the robot: its head is not commanded.
 FIXED_HEAD = HeadLimits(1.0, 1.0, 1.0, 1.0)
@@ -153,7 +153,7 @@ def perception_factory(
     """
     _one_thread()
     from ..perception.colour_detector import LOOKS, ColourDetector
-    from ..perception.perception_builder import build_perception
+    from ..perception.pipeline import build_perception
     from ..robots.head import load_head
 
     def make(description: RobotDescription, tick: float) -> "Perception":
@@ -165,7 +165,7 @@ def perception_factory(
 
 def posed_perception_factory(
     role: str,
-) -> "Callable[[HeadLimits | None, float], PosedPerception]":
+) -> "Callable[[HeadLimits | None, float], Perception]":
     """Return a factory of perception from the range of a head and a period.
 
     For robots that give the poses of their cameras.
@@ -178,14 +178,13 @@ def posed_perception_factory(
     """
     _one_thread()
     from ..perception.colour_detector import LOOKS, ColourDetector
-    from ..perception.perception_builder import build_posed_perception
+    from ..perception.pipeline import build_posed_perception
 
-    def make(head: HeadLimits | None, tick: float) -> "PosedPerception":
-        yaw, up, down, height = head or FIXED_HEAD
+    def make(head: HeadLimits | None, tick: float) -> "Perception":
+        yaw, up, down, _ = head or FIXED_HEAD
         return build_posed_perception(
             ColourDetector(LOOKS[role]),
             np.array([[-yaw, yaw], [-up, -up], [down, down]]),
-            camera_height=height,
             tick=tick,
         )
 

@@ -13,7 +13,7 @@ from scipy.spatial import ConvexHull, QhullError
 
 from ..core.errors import ModelError
 from ..core.poses import Array
-from ..sim.geom_points import geom_points_in_world
+from ..robots.geom_points import geom_points_in_world
 
 SOLE_THICKNESS = 0.012  # of the points of a sole, by the length of the leg
 GREATEST_TILT = np.cos(np.radians(40.0))  # of a sole in the zero posture

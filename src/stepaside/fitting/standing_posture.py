@@ -3,7 +3,7 @@
 import mujoco
 import numpy as np
 
-from ..sim.geom_points import geom_points_in_world
+from ..robots.geom_points import geom_points_in_world
 from .leg_detection import ALIGNED, JOINT_TYPES, DetectedLeg
 from .model_analysis import ModelAnalysis
 from .standing_angles import STRAIGHT_MARGIN, bend_of, straight_of

@@ -14,10 +14,8 @@ except ImportError as error:
 
 from ..core.poses import Array, Sector
 from ..perception.colour_detector import RED, TRIMS, ColourDetector
-from ..perception.gaze import OFTEN, SELDOM, Glances
-from ..perception.perception import Perception
-from ..perception.perception_builder import FloorMapping, build_perception
-from ..perception.room_scan import RoomScan
+from ..perception.gaze import OFTEN, SELDOM, Glances, RoomScan
+from ..perception.pipeline import FloorMapping, Perception, build_perception
 from ..planning import Direction
 from ..robots.description import RobotDescription
 from ..robots.head import load_head

@@ -24,7 +24,7 @@ from .recorded_motion import RecordedMotion
 from .template_level import PERIOD, FloorBulk, UnicycleMotion
 
 if TYPE_CHECKING:
-    from ..perception.percept_stages import FrameReport
+    from ..perception.pipeline import FrameReport
 
 MARKER_HEIGHT = 0.27  # that stands for the CoM of a marker, in [m]
 MARKER_REACH = 0.1  # of a marker, which touches nothing, in [m]

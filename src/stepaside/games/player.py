@@ -11,7 +11,7 @@ from ..sim.ground_truth import GroundTruth
 from ..sim.push import Push, ScheduledPush
 
 if TYPE_CHECKING:
-    from ..perception.percept_stages import FrameReport
+    from ..perception.pipeline import FrameReport
     from ..sim.simulated_robot import SimulatedRobot
 
 

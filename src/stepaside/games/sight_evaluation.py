@@ -15,8 +15,7 @@ from ..perception.images import (
     SonarEcho,
 )
 from ..perception.measurement import Sighting
-from ..perception.percept_stages import FrameReport
-from ..perception.perception import Perception
+from ..perception.pipeline import FrameReport, Perception
 from ..robots.head import HeadDescription, Mount
 from ..sim.ground_truth import GroundTruth, torsos_apart
 from ..sim.simulated_robot import SimulatedRobot

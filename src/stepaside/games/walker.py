@@ -13,8 +13,7 @@ from .player import PhysicalPlayer, Snapshot, snapshot_of
 from .walker_log import WalkerLog
 
 if TYPE_CHECKING:
-    from ..perception.percept_stages import FrameReport
-    from ..perception.perception import Perception
+    from ..perception.pipeline import FrameReport, Perception
 
 
 class RobotPlayer(PhysicalPlayer):

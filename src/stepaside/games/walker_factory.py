@@ -29,7 +29,7 @@ from ..strategies import Strategy
 from .walker import SimulatedPlayer
 
 if TYPE_CHECKING:
-    from ..perception.perception import Perception
+    from ..perception.pipeline import Perception
     from ..sim.lidar import Lidar
     from ..sim.sensor_suite import SensorSuite
 

@@ -1,20 +1,14 @@
-"""Poses of body and cameras in odometry at the time of an image."""
+"""Poses of cameras in odometry."""
 
-from bisect import insort
-from collections import deque
-from collections.abc import Callable
-from functools import partial
 from math import atan2
 from typing import NamedTuple
 
 import numpy as np
 
-from ..core.poses import Array, Pose
-from ..robots.body_pose import BodyKinematics, BodyPose
+from ..core.poses import Array
+from ..robots.body_pose import BodyPose
 from ..robots.head import Mount
 from .camera_model import CameraModel
-
-POSE_MEMORY = 1.0  # how long past poses are stored, in [s]
 
 
 class CameraPose(NamedTuple):
@@ -88,125 +82,3 @@ def camera_pose(body: BodyPose, mount: Mount) -> CameraPose:
         axes @ mount.axes_in_body,
         body.pose_torso_in_odometry[:2],
     )
-
-
-class _DeferredPose:
-    """Body pose that is computed when it is first used."""
-
-    __slots__ = ("_compute", "_pose", "time")
-
-    def __init__(self, time: float, compute: Callable[[], BodyPose]) -> None:
-        self.time, self._compute = time, compute
-        self._pose: BodyPose | None = None
-
-    @property
-    def pose(self) -> BodyPose:
-        if self._pose is None:
-            self._pose = self._compute()
-        return self._pose
-
-
-class PoseHistory:
-    """Body poses of the last second.
-
-    Images arrive with latency; each is evaluated with the pose of the body
-    at its exposure.
-    """
-
-    def __init__(self, tick: float) -> None:
-        """Begin empty.
-
-        Args:
-            tick: Time between two poses, in [s].
-        """
-        self._poses: deque[_DeferredPose] = deque(
-            maxlen=round(POSE_MEMORY / tick)
-        )
-
-    def add_pose(self, pose: BodyPose) -> None:
-        """Store a pose; its time may be earlier than the latest."""
-        self._insert(pose.time, lambda: pose)
-
-    @property
-    def latest(self) -> BodyPose | None:
-        """Latest pose; None before the first measurement."""
-        return self._poses[-1].pose if self._poses else None
-
-    def at(self, time: float) -> BodyPose:
-        """Return the pose at a time, in [s], or else the oldest one."""
-        for past in reversed(self._poses):
-            if past.time <= time + 1e-9:
-                return past.pose
-        return self._poses[0].pose
-
-    def _insert(self, time: float, compute: Callable[[], BodyPose]) -> None:
-        if len(self._poses) == self._poses.maxlen:
-            self._poses.popleft()
-        entry = _DeferredPose(time, compute)
-        if self._poses and time < self._poses[-1].time:
-            insort(self._poses, entry, key=lambda past: past.time)
-        else:
-            self._poses.append(entry)
-
-
-class BodyPoseHistory(PoseHistory):
-    """Body poses by kinematics, computed only where an image needs one.
-
-    Attributes:
-        kinematics: Kinematics of the body.
-    """
-
-    def __init__(self, kinematics: BodyKinematics, tick: float) -> None:
-        """Begin empty.
-
-        Args:
-            kinematics: Kinematics of the body.
-            tick: Time between two poses, in [s].
-        """
-        super().__init__(tick)
-        self.kinematics = kinematics
-
-    def add(
-        self,
-        time: float,
-        joints: Array,
-        pose_support_in_odometry: Pose,
-        left_supports: bool,
-        tilt: tuple[float, float],
-    ) -> None:
-        """Store the state of a body that stands on one foot.
-
-        Args:
-            time: Time of the measurement, in [s].
-            joints: Joint angles, in [rad]. Shape (joints,).
-            pose_support_in_odometry: Pose of the stance foot.
-            left_supports: Whether the stance foot is the left one.
-            tilt: Roll and pitch of the torso, in [rad].
-        """
-        self._insert(
-            time,
-            partial(
-                self.kinematics.pose,
-                time,
-                joints,
-                pose_support_in_odometry,
-                left_supports,
-                tilt,
-            ),
-        )
-
-    def add_level(
-        self, time: float, joints: Array, pose_in_odometry: Pose
-    ) -> None:
-        """Store the state of a level body, midway between its feet.
-
-        Args:
-            time: Time of the measurement, in [s]; it may be earlier than the
-                latest.
-            joints: Joint angles, in [rad]. Shape (joints,).
-            pose_in_odometry: Planar pose of the robot.
-        """
-        self._insert(
-            time,
-            partial(self.kinematics.level, time, joints, pose_in_odometry),
-        )

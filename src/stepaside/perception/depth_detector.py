@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core.poses import Array, wrap_angles
+from ..robots.robot_tree import NAO_SIZE, OWN_MARGIN, BodySize
 from .camera_pose import CameraPose
 from .images import DepthImage
 
@@ -61,7 +62,6 @@ def segment_depth(
 
 FLOOR = 0.07  # points below belong to the floor, in [m]
 CEILING = 2.2  # points above are no obstacle, in [m]
-SELF = 0.22  # points nearer to the own axis are the robot itself, in [m]
 MAX_WIDTH = 1.1  # wider components are walls, in [m]
 MIN_HEIGHT = 0.15  # of an obstacle, in [m]
 TRUSTED = 0.95  # fraction of the far limit within which depth is complete
@@ -158,18 +158,21 @@ class DepthScene:
     shadows: tuple[Shadow, ...]
 
 
-def detect_obstacles(image: DepthImage, camera: CameraPose) -> DepthScene:
+def detect_obstacles(
+    image: DepthImage, camera: CameraPose, size: BodySize = NAO_SIZE
+) -> DepthScene:
     """Detect obstacles: remove floor and own body, segment the rest.
 
     Args:
         image: Depth image.
         camera: Pose of the camera at its exposure.
+        size: Measures of the own robot.
     """
     rays = camera.rays(image.camera)
     no_return = _shadows(image, camera, rays)
     whole: list[DetectedObstacle] = []
     near = list(no_return)
-    for obstacle in _obstacles(image, camera, rays):
+    for obstacle in _obstacles(image, camera, rays, size):
         half = 0.5 * obstacle.width / obstacle.nearest
         low, high = obstacle.azimuth - half, obstacle.azimuth + half
         # Missing floor beside it may be a nearer part of the same object.
@@ -188,7 +191,7 @@ def detect_obstacles(image: DepthImage, camera: CameraPose) -> DepthScene:
 
 
 def _obstacles(
-    image: DepthImage, camera: CameraPose, rays: Array
+    image: DepthImage, camera: CameraPose, rays: Array, size: BodySize
 ) -> list[DetectedObstacle]:
     """Return the obstacles of an image, nearest first."""
     depths = image.depths.astype(np.float64)
@@ -198,7 +201,7 @@ def _obstacles(
     # An error of the tilt lifts the far floor.
     slack = FLOOR + 0.01 * depths
     solid = valid & (heights > slack) & (heights < CEILING)
-    solid &= camera.distances(points) > SELF
+    solid &= camera.distances(points) > size.radius + OWN_MARGIN
     measured = [
         _measure(points[part], part, camera)
         for part in segment_depth(solid, depths)

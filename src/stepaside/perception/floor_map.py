@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from ..arena import Polygon
 from ..arena.polygon_cover import cover
 from ..core.poses import Array, wrap_angles
+from ..robots.robot_tree import NAO_SIZE, OWN_MARGIN, BodySize
 from .camera_pose import CameraPose
 from .images import DepthImage
 
@@ -16,9 +17,8 @@ CELL = 0.05  # side of a cell, in [m]
 HALF_SIDE = 6.0  # of the map around the start, in [m]
 SIDE = round(2.0 * HALF_SIDE / CELL)
 LOW = 0.07  # lowest point of an obstacle, in [m]
-HIGH = 0.7  # highest point that a body can run into, in [m]
+HIGHER = 0.13  # than the standing robot a walking one is, at most, in [m]
 MAX_RAY_HEIGHT = 0.5  # below it a ray shows that the floor is free, in [m]
-SELF = 0.22  # points nearer to the own axis are the robot itself, in [m]
 OPPONENT = 0.32  # points nearer to the opponent belong to it, in [m]
 BEARING_ERROR = 0.05  # largest error of the direction of a column, in [rad]
 EVIDENCE_MARGIN = 0.1  # from the end of free evidence to the hit, in [m]
@@ -74,6 +74,7 @@ class FloorMap:
         image: DepthImage,
         camera: CameraPose,
         position_opponent_in_odometry: tuple[float, float] | None,
+        size: BodySize = NAO_SIZE,
     ) -> None:
         """Add a depth image.
 
@@ -82,6 +83,7 @@ class FloorMap:
             camera: Pose of the camera at its exposure.
             position_opponent_in_odometry: Position of the opponent, in [m];
                 None if it is not tracked.
+            size: Measures of the own robot.
         """
         depths = image.depths.astype(np.float64)
         points = camera.position_in_odometry + depths[..., None] * (
@@ -93,10 +95,10 @@ class FloorMap:
         slack = LOW + 0.01 * depths
         if not self.version:
             self._free_around(own, FREE_AT_START)
-        hits = valid & (heights > slack) & (heights < HIGH)
+        hits = valid & (heights > slack) & (heights < size.height + HIGHER)
         flat = points[..., :2] - np.array(own)
         distances = np.hypot(flat[..., 0], flat[..., 1])
-        hits &= distances > SELF
+        hits &= distances > size.radius + OWN_MARGIN
         opponents = np.zeros_like(hits)
         if position_opponent_in_odometry is not None:
             apart = points[..., :2] - np.array(position_opponent_in_odometry)

@@ -1,7 +1,8 @@
-"""Gaze control: follow a target, scan for it, glance aside."""
+"""Motion of the head: scan, follow a target, glance aside, search."""
 
 from bisect import bisect_right
-from math import atan2, hypot, radians
+from math import atan2, copysign, hypot, radians
+from typing import NamedTuple
 
 from ..core.poses import Array, wrap_angle
 from .tracker import TALL
@@ -10,10 +11,8 @@ FOLLOW_SPEED = 3.0  # of the head while it follows, in [rad/s]
 SCAN_SPEED = 3.0  # of the head during a scan, in [rad/s]
 SCAN_PITCH = radians(8.0)  # of the head during a scan, downward
 MAX_YAW = radians(115.0)  # of the head during a scan and a glance
-ROBOT_MIDDLE = 0.28  # height of a robot at which the head looks, in [m]
-ROBOT_TOP = 0.54  # height of the upper end of a robot's trim, in [m]
+ROBOT_MIDDLE = 0.52  # of the height of a robot, at which the head looks
 HALF_VIEW = radians(20.0)  # from the image centre to its usable upper edge
-CAMERA_HEIGHT = 0.46  # of a NAO, in [m]
 PERSON_TOP = 1.05  # height up to which a person is held in view, in [m]
 MAX_UPWARD = radians(13.0)  # pitch for a person: the floor stays in view
 OFTEN = 2.0  # between glances of a robot that walks backward, in [s]
@@ -21,6 +20,29 @@ SELDOM = 4.0  # between glances of a robot that walks forward, in [s]
 GLANCE_DURATION = 0.9  # including the motion of the head, in [s]
 MIN_DISTANCE = 0.8  # of the target of a glance: nearer, depth is lost, in [m]
 MAX_TURN = 2.3  # from the target during a glance, in [rad]
+SCAN_ENDS = 2
+RIGHT = -1.0  # the body turns away from the first side of the scan
+# Turn of the body that brings the floor behind into view: the head yaws 115
+# degrees to either side, and its camera sees 29 degrees more, in [rad].
+BODY_TURN = 1.3
+HEADING_TOLERANCE = 0.15  # of the turn back to the first heading, in [rad]
+MAX_DURATION = 10.0  # of a scan, in [s]
+
+
+class GazeTarget(NamedTuple):
+    """Target of the gaze.
+
+    Attributes:
+        bearing: Direction from the heading of the torso, in [rad].
+        distance: Distance from the torso, in [m].
+        height: Observed height, in [m].
+        camera_height: Height of the own camera, in [m].
+    """
+
+    bearing: float
+    distance: float
+    height: float
+    camera_height: float
 
 
 class Gaze:
@@ -34,21 +56,16 @@ class Gaze:
         reach: Greatest yaw to either side, in [rad].
     """
 
-    def __init__(
-        self,
-        coupling: Array,
-        tick: float,
-        camera_height: float = CAMERA_HEIGHT,
-    ) -> None:
+    def __init__(self, coupling: Array, tick: float, robot_top: float) -> None:
         """Start straight ahead at the pitch of a scan.
 
         Args:
             coupling: Rows of yaw, minimum and maximum pitch, in [rad]. Shape
                 (3, n).
             tick: Control period, in [s].
-            camera_height: Height of the camera, in [m].
+            robot_top: Height of the upper end of a robot's trim, in [m].
         """
-        self._camera_height = camera_height
+        self._robot_top = robot_top
         self._yaws, self._low, self._high = coupling.tolist()
         self.reach: float = self._yaws[-1]
         self._tick = tick
@@ -57,29 +74,20 @@ class Gaze:
         self.searching = True
         self.scan_ends = 0
 
-    def follow(
-        self, bearing: float, distance: float, height: float = 0.0
-    ) -> None:
-        """Turn towards a target, and upward for a person nearby.
-
-        Args:
-            bearing: Direction of the target from the heading of the torso,
-                in [rad].
-            distance: Distance of the target, in [m].
-            height: Observed height of the target, in [m].
-        """
-        if self.searching:
-            self.searching = False
+    def follow(self, target: GazeTarget) -> None:
+        """Turn towards a target, and upward for a person nearby."""
+        bearing, distance, height, height_camera = target
+        self.searching = False
         bearing = wrap_angle(bearing)
         # A scan after losing it starts on its side.
         self._side = 1.0 if bearing >= self.yaw else -1.0
         # Nearby not all fits in the image: the head matters most.
         tall = height > TALL
-        top = PERSON_TOP if tall else ROBOT_TOP
-        height_camera = self._camera_height
+        top = PERSON_TOP if tall else self._robot_top
         elevation_top = atan2(top - height_camera, max(distance - 0.06, 0.1))
+        middle = ROBOT_MIDDLE * self._robot_top
         pitch = min(
-            atan2(height_camera - ROBOT_MIDDLE, distance),
+            atan2(height_camera - middle, distance),
             HALF_VIEW - elevation_top,
         )
         pitch = max(pitch, -MAX_UPWARD) if tall else pitch
@@ -118,14 +126,6 @@ class Gaze:
             (low[i + 1] - low[i]) / width * along + low[i],
             (high[i + 1] - high[i]) / width * along + high[i],
         )
-
-
-class NoGlances:
-    """Gaze that stays on its target."""
-
-    def direction(self, bearing: float, distance: float) -> float:
-        """Return the bearing of the target, in [rad]."""
-        return bearing
 
 
 class Glances:
@@ -169,3 +169,135 @@ class Glances:
     def _is_in_reach(self, bearing: float) -> bool:
         """Return whether a glance to the current side is short enough."""
         return abs(self._side * MAX_YAW - wrap_angle(bearing)) < MAX_TURN
+
+
+class RoomScan:
+    """Scan of the head to both sides, and optionally behind the body.
+
+    A robot that walks backward also turns on the spot, away from the first
+    side of the scan, and holds the head at the second end until the floor
+    behind is visible or half of the time has passed. It then turns back to
+    its first heading, from which the game begins.
+
+    Attributes:
+        turning: Requested turn on the spot: 1 left, -1 right, 0 none.
+    """
+
+    def __init__(self, *, behind: bool) -> None:
+        """Start a scan that has not begun.
+
+        Args:
+            behind: Whether to turn the body and scan behind.
+        """
+        self._behind = behind
+        self.turning = 0.0
+        self._start: tuple[float, float] | None = None
+
+    def lasts(self, gaze: Gaze) -> bool:
+        """Return whether the scan is incomplete."""
+        return gaze.scan_ends < SCAN_ENDS or self.turning != 0.0
+
+    def look(self, gaze: Gaze, now: float, heading: float) -> None:
+        """Advance the scan by one tick.
+
+        Args:
+            gaze: Gaze of the head, which is moved.
+            now: Time, in [s].
+            heading: Heading of the torso in odometry, in [rad].
+        """
+        if self._start is None:
+            self._start = now, heading
+        time, before = self._start
+        turned = wrap_angle(heading - before)
+        timed_out = now - time >= MAX_DURATION
+        half_time = now - time >= 0.5 * MAX_DURATION
+        done = not self._behind or abs(turned) >= BODY_TURN or half_time
+        gaze.search(stay=not done and gaze.scan_ends == SCAN_ENDS - 1)
+        if not self._behind or timed_out:
+            self.turning = 0.0
+        elif gaze.scan_ends < SCAN_ENDS:
+            self.turning = RIGHT
+        else:
+            back = abs(turned) > HEADING_TOLERANCE
+            self.turning = -copysign(1.0, turned) if back else 0.0
+
+
+class HeadControl:
+    """Head motion of a robot before and during a game."""
+
+    def __init__(
+        self,
+        gaze: Gaze,
+        *,
+        glances: Glances | None = None,
+        scan: RoomScan | None = None,
+        awaits_start: bool = False,
+    ) -> None:
+        """Combine the parts.
+
+        Args:
+            gaze: Motion of the head at a limited speed.
+            glances: Glances aside of a target, if any.
+            scan: Scan of the room before the game, if any.
+            awaits_start: Whether a signal starts the game; otherwise it
+                begins with the end of the scan.
+        """
+        self._gaze, self._glances, self._scan = gaze, glances, scan
+        self._started = not awaits_start
+
+    @property
+    def yaw(self) -> float:
+        """Target of the head yaw, in [rad]."""
+        return self._gaze.yaw
+
+    @property
+    def pitch(self) -> float:
+        """Target of the head pitch, in [rad]."""
+        return self._gaze.pitch
+
+    @property
+    def reach(self) -> float:
+        """Greatest yaw to either side, in [rad]."""
+        return self._gaze.reach
+
+    @property
+    def turning(self) -> float:
+        """Turn on the spot for the scan: 1 left, -1 right, 0 none."""
+        return 0.0 if self._scan is None else self._scan.turning
+
+    @property
+    def is_ready(self) -> bool:
+        """Whether the scan of the room, if any, is complete."""
+        return self._scan is None or not self._scan.lasts(self._gaze)
+
+    @property
+    def scans(self) -> bool:
+        """Whether the scan lasts, or the robot waits for the game to start."""
+        return not (self._started and self.is_ready)
+
+    def start(self) -> None:
+        """Receive the signal that the game begins."""
+        self._started = True
+
+    def move(
+        self,
+        now: float,
+        heading_in_odometry: float,
+        target: GazeTarget | None,
+    ) -> None:
+        """Move the head by one tick.
+
+        Args:
+            now: Time, in [s].
+            heading_in_odometry: Heading of the torso, in [rad].
+            target: Target to follow; None to search.
+        """
+        if self.scans and self._scan is not None:
+            self._scan.look(self._gaze, now, heading_in_odometry)
+        elif self.scans or target is None:
+            self._gaze.search()
+        else:
+            if self._glances is not None:
+                bearing = self._glances.direction(*target[:2])
+                target = target._replace(bearing=bearing)
+            self._gaze.follow(target)

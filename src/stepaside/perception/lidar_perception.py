@@ -4,17 +4,18 @@ from math import atan2, cos, hypot, pi, sin
 
 import numpy as np
 
+from ..core.history import History
 from ..core.poses import Array, Pose, wrap_angle
 from ..robots.body_pose import SpatialTorsoPose, torso_pose_on_foot
 from ..robots.description import RobotDescription
 from ..robots.forward_kinematics import ForwardKinematics
-from .camera_pose import POSE_MEMORY
 from .images import LidarScan
 from .measurement import Measurement, Sighting
-from .people_selection import PeopleSelection
+from .target_selection import PeopleSelection
 from .track import Observation, TargetTrack
 from .tracker import Tracker
 
+POSE_MEMORY = 1.0  # how long past poses are stored, in [s]
 BINS = 360  # of bearings around the robot
 FLOOR = 0.12  # height up to which returns are those of the floor, in [m]
 TILT = 0.08  # error of the tilt of a torso that walks, in [rad]
@@ -45,7 +46,7 @@ class LidarPerception:
         """
         self._kinematics = ForwardKinematics(description)
         self._far = far
-        self._poses: list[tuple[float, SpatialTorsoPose]] = []
+        self._poses: History[SpatialTorsoPose] = History(POSE_MEMORY)
         self.tracker = Tracker()
         self._selection = PeopleSelection(self.tracker)
 
@@ -73,9 +74,7 @@ class LidarPerception:
         torso = torso_pose_on_foot(
             posture, foot, pose_support_in_odometry, tilt
         )
-        self._poses.append((now, torso))
-        while self._poses[0][0] < now - POSE_MEMORY:
-            self._poses.pop(0)
+        self._poses.note(now, torso)
         for percept in measurement.percepts:
             if isinstance(percept, LidarScan):
                 self._process(percept)
@@ -95,10 +94,7 @@ class LidarPerception:
 
     def _process(self, scan: LidarScan) -> None:
         """Update the tracks with a scan."""
-        torso = self._poses[0][1]
-        for time, pose in self._poses:
-            if time <= scan.time + 1e-9:
-                torso = pose
+        torso = self._poses.at(scan.time)
         position, axes = torso.position_in_odometry, torso.axes_in_odometry
         points = position + scan.points_in_torso @ axes.T
         x, y = position[:2].tolist()

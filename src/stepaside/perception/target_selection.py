@@ -2,65 +2,85 @@
 
 from collections.abc import Sequence
 from math import hypot
-from typing import Protocol
 
-from .track import TargetTrack
+from .track import MAX_GAP, TargetTrack
 from .tracker import Tracker
 
+# Of every selection.
 MAX_GAZE_AGE = 1.0  # of a track at which the head looks, in [s]
 GAZE_RADIUS = 1.2  # within which the head looks at any track, in [m]
+# Of robots.
 MOVING = 0.08  # speed of a moving track, in [m/s]
 NEARER = 0.9  # relative distance from which another opponent is taken
 RECOGNISED = 2.5  # how long an unnamed track stays without trim, in [s]
-GLANCE = 0.6  # duration of a glance at an unseen opponent, in [s]
+GLANCE = 0.6  # duration of a glance at another track, in [s]
 GLANCE_PAUSE = 1.2  # between two glances, in [s]
 UNSEEN = 0.5  # age of the last image from which an opponent is unseen, in [s]
+# Of people.
+HORIZON = 4.0  # of the prediction at constant velocity, in [s]
+APPROACHING = 1.0  # predicted distance below which the gaze stays, in [m]
+HYSTERESIS = 0.3  # by which another track must pass nearer to win, in [m]
+PAUSE_RESTING = 3.0  # between glances at a track that rests, in [s]
+PAUSE_WALKING = 1.0  # between glances at a track that walks, in [s]
+SETTLING = 0.6  # observation of an approaching person before moving, in [s]
+SETTLING_PASSING = 1.1  # the same of a person who may pass by, in [s]
+STRAIGHT = 0.45  # predicted distance below which a person does not pass, [m]
+NEW = 1.0  # age of a new track, in [s]
+SOON = 1.6  # time to reach NEAR below which a new track settles, in [s]
+NEAR = 0.7  # distance of a near person, in [m]
 
 
-class TargetSelection(Protocol):
-    """Selection of tracks of a tracker as targets."""
+class TargetSelection:
+    """Selection of tracks of a tracker as targets.
+
+    Arguments ``now``, ``x`` and ``y`` are the time, in [s], and the own
+    position in odometry, in [m].
+    """
+
+    def __init__(self, tracker: Tracker) -> None:
+        """Select among the tracks of a tracker."""
+        self.tracker = tracker
 
     def main(self, now: float, x: float, y: float) -> TargetTrack | None:
-        """Return the main track: that of the opponent, if any.
+        """Return the main track, that of the opponent, if any, after pruning.
 
-        The tracker is pruned before.
-
-        Args:
-            now: Time, in [s].
-            x: Own x in odometry, in [m].
-            y: Own y in odometry, in [m].
+        It is the one recognised recently, else the nearest.
         """
+        return self.tracker.main(now, x, y)
 
     def look(
         self, main: TargetTrack | None, now: float, x: float, y: float
     ) -> TargetTrack | None:
-        """Return the track to look at; None to scan.
+        """Return the track to look at, given the main one; None to scan.
 
-        Args:
-            main: Main track.
-            now: Time, in [s].
-            x: Own x in odometry, in [m].
-            y: Own y in odometry, in [m].
+        It is a recognised track, else one that is near or moves.
         """
+        for track in recent_tracks(self.tracker.tracks, main, now):
+            recognised = now - track.identified_at < MAX_GAZE_AGE
+            moves = hypot(*track.velocity) > MOVING and track.confirmed
+            if (
+                recognised
+                or track.distance_from(x, y, now) < GAZE_RADIUS
+                or moves
+            ):
+                return track
+        return None
 
     def settled(
         self, track: TargetTrack, now: float, x: float, y: float
     ) -> bool:
         """Return whether a track is reliable enough to start moving.
 
-        Args:
-            track: Main track.
-            now: Time, in [s].
-            x: Own x in odometry, in [m].
-            y: Own y in odometry, in [m].
+        The position of a robot in odometry is.
         """
+        return True
 
     def target_id(self, track: TargetTrack) -> int:
         """Return the number by which sightings tell opponents apart.
 
-        Args:
-            track: Main track.
+        It is 0 where there is one opponent.
         """
+        return 0
 
 
 def recent_tracks(
@@ -80,7 +100,7 @@ def recent_tracks(
     ]
 
 
-class UnnamedSelection:
+class UnnamedSelection(TargetSelection):
     """Target selection among robots of one trim, which have no names.
 
     Recognised tracks are opponents, as many as there are; of more, where
@@ -97,29 +117,23 @@ class UnnamedSelection:
             tracker: The tracker.
             most: Number of opponents.
         """
-        self._tracker, self._most = tracker, most
+        super().__init__(tracker)
+        self._most = most
         self._present = 0  # number of the main track
 
     def recognised(self, now: float) -> list[TargetTrack]:
-        """Return the confirmed tracks recognised by their trim.
-
-        Args:
-            now: Time, in [s].
-        """
-        self._tracker.prune(now)
+        """Return the confirmed tracks recognised by their trim."""
+        self.tracker.prune(now)
         recognised = [
             track
-            for track in self._tracker.tracks
+            for track in self.tracker.tracks
             if track.confirmed and now - track.identified_at < RECOGNISED
         ]
         recognised.sort(key=lambda track: track.deviation_at(now))
         return recognised[: self._most]
 
     def main(self, now: float, x: float, y: float) -> TargetTrack | None:
-        """Return the nearest recognised track, with hysteresis.
-
-        ``x`` and ``y`` are the own position in odometry, in [m].
-        """
+        """Return the nearest recognised track, with hysteresis."""
         chosen = min(
             self.recognised(now),
             key=lambda t: (
@@ -134,10 +148,7 @@ class UnnamedSelection:
     def look(
         self, main: TargetTrack | None, now: float, x: float, y: float
     ) -> TargetTrack | None:
-        """Return the main track, or another one that is due for a glance.
-
-        ``x`` and ``y`` are the own position in odometry, in [m].
-        """
+        """Return the main track, or another one that is due for a glance."""
         if main is None or now - main.observed_at > MAX_GAZE_AGE:
             return None
         unseen = [
@@ -149,55 +160,132 @@ class UnnamedSelection:
             return min(unseen, key=lambda t: t.imaged_at)
         return main
 
-    def settled(
-        self, track: TargetTrack, now: float, x: float, y: float
-    ) -> bool:
-        """Return true: the position of a robot in odometry is enough."""
-        return True
-
     def target_id(self, track: TargetTrack) -> int:
         """Return the number of the track."""
         return track.number
 
 
-class RobotSelection:
-    """Target selection of a robot that is recognised by its trim."""
+class PeopleSelection(TargetSelection):
+    """Target selection that prefers approaching people to objects at rest.
+
+    A wall may be nearer than any person and would hold the gaze. Tracks that
+    have walked therefore come first, and among them the one with the
+    smallest predicted distance. The gaze follows a track that will come near
+    or is too near to be measured precisely; the head only glances at all
+    others, long enough to detect whether they walk.
+    """
 
     def __init__(self, tracker: Tracker) -> None:
-        """Select among the tracks of a tracker."""
-        self._tracker = tracker
+        """Select among the tracks of a tracker, without a main track yet."""
+        super().__init__(tracker)
+        self._main: TargetTrack | None = None
+        # Start of the last glance at each track, in [s].
+        self._glanced: dict[TargetTrack, float] = {}
 
     def main(self, now: float, x: float, y: float) -> TargetTrack | None:
-        """Return the track recognised recently, else the nearest.
-
-        ``x`` and ``y`` are the own position in odometry, in [m].
-        """
-        return self._tracker.main(now, x, y)
+        """Return the walking track that will be nearest, else the nearest."""
+        self.tracker.prune(now)
+        confirmed = [t for t in self.tracker.tracks if t.confirmed]
+        walkers = [track for track in confirmed if track.has_walked]
+        self._main = min(
+            walkers or confirmed,
+            key=lambda t: (
+                closest_approach(t, now, x, y) - HYSTERESIS * (t is self._main)
+            ),
+            default=None,
+        )
+        return self._main
 
     def look(
         self, main: TargetTrack | None, now: float, x: float, y: float
     ) -> TargetTrack | None:
-        """Return the recognised track, else one that is near or moves.
+        """Return an approaching track, else one that is due for a glance.
 
-        ``x`` and ``y`` are the own position in odometry, in [m].
+        Tracks that a camera on the torso shows do not need the head.
         """
-        for track in recent_tracks(self._tracker.tracks, main, now):
-            recognised = now - track.identified_at < MAX_GAZE_AGE
-            moves = hypot(*track.velocity) > MOVING and track.confirmed
+        tracks = self.tracker.tracks
+        candidates = [
+            track
+            for track in recent_tracks(tracks, main, now)
+            if not track.is_watched(now)
+        ]
+        for track in candidates:
             if (
-                recognised
-                or track.distance_from(x, y, now) < GAZE_RADIUS
-                or moves
+                track.has_walked
+                and closest_approach(track, now, x, y) < APPROACHING
             ):
+                return track
+        for track in candidates:
+            near = track.distance_from(x, y, now) < GAZE_RADIUS
+            seen = now - track.imaged_at <= MAX_GAZE_AGE
+            if (
+                near
+                and seen
+                and not (track.has_walked or track.has_velocity(now))
+            ):
+                return track
+        begun = self._glanced
+        self._glanced = {t: begun[t] for t in tracks if t in begun}
+        for track in candidates:
+            if not (
+                track.confirmed or track.distance_from(x, y, now) < GAZE_RADIUS
+            ):
+                continue
+            since = now - self._glanced.setdefault(track, now)
+            pause = PAUSE_WALKING if track.has_walked else PAUSE_RESTING
+            if since > GLANCE + pause:
+                self._glanced[track], since = now, 0.0
+            if since < GLANCE:
                 return track
         return None
 
     def settled(
         self, track: TargetTrack, now: float, x: float, y: float
     ) -> bool:
-        """Return true: the position of a robot in odometry is enough."""
-        return True
+        """Return whether a track was observed for long enough.
+
+        While the head sweeps over a person, parts are detected whose middle
+        seems to move, and the first steps do not show the direction of the
+        walk. The distance at which a person passes takes longer to estimate
+        than the approach itself. A new track nearby settles at once, for
+        there is no time left.
+        """
+        if now - track.observed_at > MAX_GAP:
+            return False
+        watched = now - track.observed_since
+        if watched >= SETTLING_PASSING:
+            return True
+        least = closest_approach(track, now, x, y)
+        if watched >= SETTLING and least < STRAIGHT:
+            return True
+        away, speed = track.distance_from(x, y, now), hypot(*track.velocity)
+        soon = away - NEAR < SOON * speed
+        return now - track.started_at < NEW and soon and least < NEAR
 
     def target_id(self, track: TargetTrack) -> int:
-        """Return 0: there is one opponent."""
-        return 0
+        """Return the number of the track."""
+        return track.number
+
+
+def closest_approach(
+    track: TargetTrack, now: float, x: float, y: float
+) -> float:
+    """Return the predicted closest approach of a track to a position.
+
+    Args:
+        track: Track, at constant velocity over the horizon.
+        now: Time, in [s].
+        x: Position, x in odometry, in [m].
+        y: Position, y in odometry, in [m].
+
+    Returns:
+        Distance, in [m].
+    """
+    u, v = track.position_at(now)
+    dx, dy = u - x, v - y
+    vx, vy = track.drift
+    square = vx * vx + vy * vy
+    ahead = 0.0
+    if square > 0.0:
+        ahead = min(max(-(dx * vx + dy * vy) / square, 0.0), HORIZON)
+    return hypot(dx + ahead * vx, dy + ahead * vy)

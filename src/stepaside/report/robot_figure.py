@@ -12,8 +12,8 @@ from ..core.poses import Array, Pose
 from ..games.robot_settings import settings_from_description
 from ..locomotion.zmp.reference_table import standing_reference
 from ..robots.description import RobotDescription
+from ..robots.geom_points import geom_points_in_world
 from ..robots.leg_kinematics import LegKinematics
-from ..sim.geom_points import geom_points_in_world
 from .figure_style import plt, save
 
 VIEWS = (("from the front", 1, "y [m]"), ("from the left", 0, "x [m]"))

@@ -14,6 +14,8 @@ from ..core.errors import ModelError
 
 HINGE, SLIDE = "hinge", "slide"
 Triple = tuple[float, float, float]
+# Beyond its radius points are still of a moving robot itself, in [m].
+OWN_MARGIN = 0.06
 
 
 class Link(NamedTuple):
@@ -71,6 +73,24 @@ class LinkFrame(NamedTuple):
     axes: tuple[Triple, Triple, Triple]
 
 
+class BodySize(NamedTuple):
+    """Measures of the standing robot, in [m]; by default those of a NAO.
+
+    Attributes:
+        height: Height of its highest point.
+        radius: Radius around the axis of the torso that contains it.
+        trim: Heights of the lower and upper end of what is painted to tell
+            robots apart.
+    """
+
+    height: float = 0.5725
+    radius: float = 0.1614
+    trim: tuple[float, float] = (0.0495, 0.5385)
+
+
+NAO_SIZE = BodySize()
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class RobotTree:
     """Links, frames and motors of one robot.
@@ -82,6 +102,7 @@ class RobotTree:
         motors: Actuated joints, in the order of the actuators.
         servos: Servo gains, in the same order.
         followers: Joints that share a motor, as follower to leader.
+        size: Measures of the standing robot.
     """
 
     __repr__ = brief_repr
@@ -92,6 +113,7 @@ class RobotTree:
     motors: tuple[str, ...]
     servos: tuple[Servo, ...]
     followers: dict[str, str]
+    size: BodySize = NAO_SIZE
 
     @property
     def joints(self) -> tuple[str, ...]:
@@ -133,6 +155,7 @@ class RobotTree:
             "motors": list(self.motors),
             "servos": [list(servo) for servo in self.servos],
             "followers": self.followers,
+            "size": list(self.size),
         }
 
     @classmethod
@@ -156,6 +179,8 @@ class RobotTree:
             values["servos"] = tuple(
                 Servo(float(s), float(d)) for s, d in values["servos"]
             )
+            height, radius, (low, high) = values["size"]
+            values["size"] = BodySize(height, radius, (low, high))
             return cls(**values)
         except (KeyError, TypeError, ValueError, AttributeError) as error:
             raise ModelError(f"not a robot tree: {error!r}") from error
@@ -187,5 +212,6 @@ def write_tree(tree: RobotTree, digest: str, version: int) -> str:
         lines.append(f' "{kind}": {{\n  {rows}}},')
     lines.append(f' "motors": {json.dumps(entries["motors"])},')
     lines.append(f' "servos": {json.dumps(entries["servos"])},')
-    lines.append(f' "followers": {json.dumps(entries["followers"])}}}')
+    lines.append(f' "followers": {json.dumps(entries["followers"])},')
+    lines.append(f' "size": {json.dumps(entries["size"])}}}')
     return "\n".join(lines) + "\n"

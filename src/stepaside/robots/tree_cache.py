@@ -10,7 +10,7 @@ from .description_types import NO_OVERLAY
 from .robot_tree import RobotTree, write_tree
 
 FILE = "tree.json"
-VERSION = 2  # of the file format
+VERSION = 3  # of the file format
 CACHE_SIZE = 16  # trees that are cached
 _cache: dict[tuple[Path, str], RobotTree] = {}
 
@@ -61,10 +61,11 @@ def digest_of(description: RobotDescription) -> str:
     """Return a digest of all inputs of the compilation of a tree.
 
     These are the MJCF files of the folder with their names, the name of the
-    torso, and the overlay with the model that it refers to. The content of
-    meshes is not included.
+    torso, the standing posture and the accent, and the overlay with the model
+    that it refers to. The content of meshes is not included.
     """
-    digest = sha256(f"{description.model} {description.torso}\n".encode())
+    named = description.model, description.torso, description.accent
+    digest = sha256(f"{named} {description.standing}\n".encode())
     for path in sorted(description.folder.rglob("*.xml")):
         name = path.relative_to(description.folder).as_posix()
         digest.update(name.encode())

@@ -8,7 +8,17 @@ import numpy as np
 from ..core.errors import ModelError
 from ..core.poses import Array
 from .description import RobotDescription
-from .robot_tree import HINGE, SLIDE, Link, LinkFrame, RobotTree, Servo, Triple
+from .geom_points import geom_points_in_world
+from .robot_tree import (
+    HINGE,
+    SLIDE,
+    BodySize,
+    Link,
+    LinkFrame,
+    RobotTree,
+    Servo,
+    Triple,
+)
 
 KINDS = {
     int(mujoco.mjtJoint.mjJNT_HINGE): HINGE,
@@ -88,6 +98,7 @@ class _TreeExtractor:
             motors,
             tuple(self._servo(i) for i in range(model.nu)),
             self._description.coupled_joints(model),
+            _size_of(model, self._description),
         )
 
     def _servo(self, actuator: int) -> Servo:
@@ -167,6 +178,35 @@ class _TreeExtractor:
     def _to_torso(self, position: Array) -> Array:
         in_torso: Array = self._axes.T @ (position - self._origin)
         return in_torso
+
+
+def _size_of(model: Any, description: RobotDescription) -> BodySize:
+    """Measure the shapes of a standing robot."""
+    data, torso = mujoco.MjData(model), model.body(description.torso).id
+    for joint, angle in description.standing.items():
+        data.joint(joint).qpos[0] = angle
+    mujoco.mj_kinematics(model, data)
+    feet = (description.left_foot, description.right_foot)
+    floor = min(data.site(foot).xpos[2] for foot in feet)
+    parts = [
+        geom_points_in_world(model, data, geom)
+        - (*data.xpos[torso, :2], floor)
+        for geom in range(model.ngeom)
+    ]
+    x, y, z = np.concatenate([np.zeros((1, 3)), *parts]).T
+    height, radius = float(z.max()), float(np.hypot(x, y).max())
+    painted = [
+        part[:, 2]
+        for part, material in zip(parts, model.geom_matid, strict=True)
+        if material >= 0
+        and model.material(material).name == description.accent
+    ]
+    size = BodySize(round(height, 4), round(radius, 4))
+    if not painted:
+        return size
+    ends = np.concatenate(painted)
+    trim = round(float(ends.min()), 4), round(float(ends.max()), 4)
+    return size._replace(trim=trim)
 
 
 def _clean(numbers: Array) -> Triple:

@@ -7,9 +7,9 @@ import numpy as np
 
 from ..core.random_streams import named_generator
 from ..perception.images import LidarScan
+from ..robots.geom_points import geom_points_in_world
 from ..robots.head import Mount
 from .camera_settings import LidarSettings
-from .geom_points import geom_points_in_world
 from .ray_casting import RayCaster
 from .sensor_stream import SensorStream
 from .world import World

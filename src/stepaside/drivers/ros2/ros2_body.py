@@ -7,7 +7,7 @@ from math import atan2, hypot, inf, isnan
 from time import monotonic, sleep
 from typing import Any
 
-from ...control.state_history import StateHistory
+from ...core.history import History
 from ...core.poses import Pose
 from ...perception.measurement import Sighting
 from ..guardian_process import SessionLost
@@ -43,7 +43,7 @@ STOP_COUNT = 5  # commands of zero velocity at the end of a session
 STOP_PAUSE = 0.02  # between two of them, in [s]
 GUARDIAN_DURATION = 3.0  # of zero commands by the guardian, in [s]
 HINT_AFTER = 3.0  # without any publisher of odometry, in [s]
-POSE_TICK = 0.01  # between stored poses, in [s]
+POSE_MEMORY = 2.0  # how long past poses are stored, in [s]
 FAULT_AGE = 0.5  # at which invalid detections no longer count, in [s]
 UNSTAMPED = Header(Time(0, 0), "")  # robots read it as now, or reject it
 log = logging.getLogger(__name__)
@@ -104,7 +104,7 @@ class Ros2Body:
         if not dry_run:
             self._commands = CommandWriter(dds, namespace, remapping)
         self._header = UNSTAMPED
-        self._poses: StateHistory[Pose] = StateHistory(POSE_TICK)
+        self._poses: History[Pose] = History(POSE_MEMORY)
         self._sighting: Sighting | None = None
         self._is_ideal_logged = False
 

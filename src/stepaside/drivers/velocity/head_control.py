@@ -8,7 +8,7 @@ import numpy as np
 
 from ...core.poses import Array, Pose, wrap_angle
 from ...perception.measurement import Measurement
-from ...perception.perception import Perception
+from ...perception.pipeline import Perception
 from ..cameras.image_source import ImageSource
 from .velocity_body import VelocityBody, VelocityCommand, VelocityReport
 
@@ -114,7 +114,7 @@ class CameraBody:
             heading + fraction * turn,
         )
         joints = earlier.joints + fraction * (later.joints - earlier.joints)
-        self._perception.poses.add_level(time, joints, pose)
+        self._perception.note_level(time, joints, pose)
 
     def command(self, velocity: VelocityCommand) -> None:
         """Send a velocity command."""

@@ -6,7 +6,7 @@ from itertools import pairwise
 import numpy as np
 
 from ...core.poses import Pose, wrap_angle
-from ...perception.perception import PosedPerception
+from ...perception.pipeline import Perception
 from ...robots.body_pose import BodyPose
 from ...robots.head import rotation
 from ..cameras.robot_camera import CameraMount, PosedCamera, colour_image
@@ -45,7 +45,7 @@ class RobotCameraBody:
         self,
         body: AdapterBody,
         camera: PosedCamera,
-        perception: PosedPerception,
+        perception: Perception,
         *,
         turns_head: bool,
     ) -> None:
@@ -80,7 +80,7 @@ class RobotCameraBody:
             assert image.mount is not None  # as the camera has checked
             self._mount = image.mount
             pose = self._pose_at(image.time)
-            self._perception.poses.add_pose(
+            self._perception.note_pose(
                 pose_of_camera(image.time, pose, image.mount)
             )
             percepts.append(colour_image(image, image.time))

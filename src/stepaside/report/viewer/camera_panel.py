@@ -9,7 +9,7 @@ import viser
 from ...perception.images import ColourImage, Pixels
 
 if TYPE_CHECKING:
-    from ...perception.percept_stages import FrameReport
+    from ...perception.pipeline import FrameReport
 
 WIDTH = 240  # of an image on the page, in [pixels]
 DETECTION_COLOUR = (40, 200, 90)

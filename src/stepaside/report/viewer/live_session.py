@@ -33,7 +33,7 @@ from .run_saving import LiveRecording, RunSaver
 from .status_text import phases_of
 
 if TYPE_CHECKING:
-    from ...perception.percept_stages import FrameReport
+    from ...perception.pipeline import FrameReport
 
 LOG = logging.getLogger(__name__)
 MAX_COMMANDS = 10_000  # of teleoperation that are recorded

@@ -20,7 +20,7 @@ from ...planning import Foot
 from .true_odometry import true_odometry
 
 if TYPE_CHECKING:
-    from ...perception.percept_stages import FrameReport
+    from ...perception.pipeline import FrameReport
 
 PERIOD = 0.1  # between samples, in [s]
 MAX_SAMPLES = 6000  # of the plots

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import Array
-from stepaside.sim.geom_points import geom_points_in_world
+from stepaside.robots.geom_points import geom_points_in_world
 
 SIZE = np.array([0.3, 0.2, 0.1])
 QUAT = "0.8 0.3 -0.4 0.2"

@@ -1,0 +1,578 @@
+"""Perception: from images and echoes to sightings and motion of the head.
+
+Each image or echo is evaluated with the pose of the body at its exposure:
+detections become observations, and these update tracks and map. Then the
+opponent is selected among the tracks. This happens when an image or echo
+arrives, or an update period ends; at other ticks only the head moves.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cache
+
+import numpy as np
+
+from ..core.history import History
+from ..core.poses import Array, Pose, Sector, wrap_angle
+from ..robots.body_pose import BodyKinematics, BodyPose
+from ..robots.description import RobotDescription
+from ..robots.head import HeadDescription, Mount
+from ..robots.robot_tree import NAO_SIZE, BodySize
+from .camera_pose import CameraPose, camera_pose
+from .colour_detector import ColourDetection, ColourDetector
+from .depth_detector import DepthScene, detect_obstacles
+from .floor_map import FloorMap
+from .gaze import Gaze, GazeTarget, Glances, HeadControl, RoomScan
+from .images import (
+    AnyPercept,
+    ColourImage,
+    DepthImage,
+    LidarScan,
+    Percept,
+    SonarEcho,
+)
+from .measurement import Measurement, Sighting
+from .observations import (
+    angle_of,
+    is_opponent,
+    observe_obstacle,
+    observe_shadow,
+    observe_trim,
+)
+from .sonar import is_valid_echo, may_be_mapped, observe_echo
+from .target_selection import (
+    MAX_GAZE_AGE,
+    PeopleSelection,
+    TargetSelection,
+    UnnamedSelection,
+)
+from .track import PERSON_MOTION, ROBOT_MOTION, Observation, TargetTrack
+from .tracker import Tracker
+
+POSE_MEMORY = 1.0  # how long past poses are stored, in [s]
+MAX_AGE = 0.5  # of the opponent's position when the map is updated, in [s]
+NEAR_MARGIN = 0.1  # beyond the near limit: measured in part only, in [m]
+MIN_SHADOW = 0.12  # width of a shadow that starts a track, in [rad]
+TRIM_TIP = 0.0105  # lowest part of trim, too narrow to be seen, in [m]
+USABLE_VIEW = 0.85  # fraction of the half view in which a track must appear
+# Longest time between updates when no image or echo arrives, so that tracks
+# age and the head searches, in [s].
+UPDATE_PERIOD = 0.1
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FrameReport:
+    """Detections in one image.
+
+    Attributes:
+        image: The image.
+        azimuths: Directions of the detections from the camera axis, in
+            [rad], positive leftward.
+        colour: Detection in a colour image, if any; that of the tallest.
+        depth: Obstacles and shadows in a depth image.
+    """
+
+    image: ColourImage | DepthImage
+    azimuths: tuple[float, ...]
+    colour: ColourDetection | None = None
+    depth: DepthScene | None = None
+
+    @property
+    def camera(self) -> str:
+        """Name of the camera: ``colour``, ``depth``, ``depth 1`` and on."""
+        if isinstance(self.image, ColourImage):
+            return "colour"
+        number = self.image.number
+        return f"depth {number}" if number else "depth"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FloorMapping:
+    """Parts of a robot that maps the floor.
+
+    Attributes:
+        floor: Map to fill.
+        scan: Scan of the room before the game, if any.
+        glances: Glances over the shoulders at the floor behind, if any.
+        awaits_start: Whether a signal starts the game; otherwise it begins
+            with the end of the scan.
+    """
+
+    floor: FloorMap = field(default_factory=FloorMap)
+    scan: RoomScan | None = None
+    glances: Glances | None = None
+    awaits_start: bool = False
+
+
+@dataclass(slots=True, eq=False)
+class Perception:
+    """Perception of one robot: its parts, and what it knows.
+
+    Attributes:
+        detector: Detector of the opponent in colour images.
+        selection: Selection of the opponent among the tracks.
+        head: Motion of the head.
+        top: Mount of the colour camera.
+        depth: Mounts of the depth cameras, by number.
+        sonars: Mounts of the sonars on the torso, by name.
+        size: Measures of the robot.
+        kinematics: Kinematics of the body; None for a robot that gives the
+            poses of its camera.
+        floor: Map of the floor; None on an open floor, where every object
+            may be an opponent.
+        people: Whether people may approach.
+        most: Greatest number of opponents in an image.
+        fixed_views: Bearings that cameras on the torso show.
+        poses: Functions that give the pose of the body, of the last second.
+        sighting: Estimate of the opponent at the last update; None if lost.
+        unnamed: Sightings of all recognised robots by their numbers, where
+            several wear one trim; else empty.
+        gaze_target: Target of the gaze; None while the head searches.
+        reports: Detections in the images that arrived at the last tick.
+    """
+
+    detector: ColourDetector
+    selection: TargetSelection
+    head: HeadControl
+    top: Mount
+    depth: Sequence[Mount]
+    sonars: Mapping[str, Mount] = field(default_factory=dict)
+    size: BodySize = NAO_SIZE
+    kinematics: BodyKinematics | None = None
+    floor: FloorMap | None = None
+    people: bool = False
+    most: int = 1
+    fixed_views: tuple[Sector, ...] = ()
+    poses: History[Callable[[], BodyPose]] = field(
+        default_factory=lambda: History(POSE_MEMORY)
+    )
+    sighting: Sighting | None = None
+    unnamed: tuple[Sighting, ...] = ()
+    gaze_target: GazeTarget | None = None
+    reports: list[FrameReport] = field(default_factory=list)
+    _next_update: float = 0.0
+    _heading: float = 0.0
+    _watched: bool = False
+
+    @property
+    def tracker(self) -> Tracker:
+        """Tracks of all objects."""
+        return self.selection.tracker
+
+    @property
+    def body(self) -> BodyPose | None:
+        """Latest pose of the body; None before the first measurement."""
+        pose = self.poses.latest
+        return None if pose is None else pose()
+
+    @property
+    def views(self) -> tuple[Sector, ...]:
+        """Range of the head, and bearings that cameras on the torso show."""
+        return (Sector(0.0, self.head.reach), *self.fixed_views)
+
+    @property
+    def searching(self) -> bool:
+        """Whether the head searches, and no camera on the torso watches."""
+        return self.gaze_target is None and not self._watched
+
+    def see(
+        self,
+        measurement: Measurement,
+        pose_support_in_odometry: Pose,
+        left_supports: bool,
+        tilt: tuple[float, float],
+    ) -> Sighting | None:
+        """Process the measurement of one tick.
+
+        Args:
+            measurement: Values of the sensors.
+            pose_support_in_odometry: Pose of the support foot.
+            left_supports: Whether that is the left foot.
+            tilt: Roll and pitch of the torso, in [rad].
+
+        Returns:
+            Latest sighting of the opponent; None if it is lost.
+        """
+        assert self.kinematics is not None
+        place, time = self.kinematics.pose, measurement.time
+        given = measurement.joint_positions, pose_support_in_odometry
+        self.poses.note(
+            time, cache(lambda: place(time, *given, left_supports, tilt))
+        )
+        return self._process(time, measurement.percepts)
+
+    def see_level(
+        self, measurement: Measurement, pose_in_odometry: Pose
+    ) -> Sighting | None:
+        """Process a measurement of a level robot with its own walk.
+
+        Args:
+            measurement: Values of its sensors.
+            pose_in_odometry: Pose of the robot.
+
+        Returns:
+            Latest sighting of the opponent; None if it is lost.
+        """
+        time, joints = measurement.time, measurement.joint_positions
+        self.note_level(time, joints, pose_in_odometry)
+        return self._process(time, measurement.percepts)
+
+    def see_from(
+        self, body: BodyPose, percepts: Sequence[AnyPercept]
+    ) -> Sighting | None:
+        """Process the images of a robot whose pose is known.
+
+        Args:
+            body: Pose of the body now; those of the exposures have been
+                noted.
+            percepts: Images and echoes that have arrived.
+
+        Returns:
+            Latest sighting of the opponent; None if it is lost.
+        """
+        self.note_pose(body)
+        return self._process(body.time, percepts)
+
+    def note_pose(self, body: BodyPose) -> None:
+        """Store a pose of the body, which may be earlier than the latest."""
+        self.poses.note(body.time, lambda: body)
+
+    def note_level(
+        self, time: float, joints: Array, pose_in_odometry: Pose
+    ) -> None:
+        """Store a state of a level body, midway between its feet.
+
+        Args:
+            time: Time of the measurement, in [s]; it may be earlier than the
+                latest.
+            joints: Joint angles, in [rad]. Shape (joints,).
+            pose_in_odometry: Planar pose of the robot.
+        """
+        assert self.kinematics is not None
+        level = self.kinematics.level
+        self.poses.note(
+            time, cache(lambda: level(time, joints, pose_in_odometry))
+        )
+
+    def aim(self, joint_targets: Array) -> None:
+        """Write the targets of the head joints, in [rad], in place."""
+        assert self.kinematics is not None
+        joint_targets[self.kinematics.yaw] = self.head.yaw
+        joint_targets[self.kinematics.pitch] = self.head.pitch
+
+    def _process(
+        self, now: float, percepts: Sequence[AnyPercept]
+    ) -> Sighting | None:
+        self.reports.clear()
+        # A LoLA frame brings a value of each sonar, though most often none.
+        arrived = [
+            percept
+            for percept in percepts
+            if not isinstance(percept, LidarScan) and not _is_empty(percept)
+        ]
+        # A person at 1 m/s needs a decision before the next image arrives.
+        if arrived or self.people or now >= self._next_update:
+            self._next_update = now + UPDATE_PERIOD - 1e-9
+            for percept in arrived:
+                report = take(percept, self.poses.at(percept.time)(), self)
+                if report is not None:
+                    self.reports.append(report)
+            self._select(now, self.poses.at(now)())
+        self.head.move(now, self._heading, self.gaze_target)
+        return self.sighting
+
+    def _select(self, now: float, body: BodyPose) -> None:
+        """Select the opponent, and the target of the gaze."""
+        x, y, heading = body.pose_torso_in_odometry
+        self._heading = heading
+        main = self.selection.main(now, x, y)
+        self.sighting = self.gaze_target = None
+        self._watched = main is not None and main.is_watched(now)
+        self.unnamed = ()
+        if self.head.scans:
+            return
+        chosen = self.selection.look(main, now, x, y)
+        if chosen is not None:
+            seen = self._sighting_of(chosen, body, now)
+            camera = camera_pose(body, self.top).position_in_odometry
+            self.gaze_target = GazeTarget(
+                seen.bearing, seen.distance, chosen.height, float(camera[2])
+            )
+        if main is not None:
+            self.sighting = self._sighting_of(main, body, now)
+        if isinstance(self.selection, UnnamedSelection):
+            self.unnamed = tuple(
+                self._sighting_of(track, body, now)
+                for track in self.selection.recognised(now)
+            )
+
+    def _sighting_of(
+        self, track: TargetTrack, body: BodyPose, now: float
+    ) -> Sighting:
+        """Return the sighting of a track at a time, in [s]."""
+        x, y, heading = body.pose_torso_in_odometry
+        return Sighting(
+            now,
+            wrap_angle(track.bearing_from(x, y, now) - heading),
+            track.distance_from(x, y, now),
+            self.selection.target_id(track),
+            self.selection.settled(track, now, x, y),
+            track.deviation_at(now),
+        )
+
+
+def take(
+    percept: Percept, body: BodyPose, state: Perception
+) -> FrameReport | None:
+    """Update tracks and map with an image or echo.
+
+    Args:
+        percept: The image or echo.
+        body: Pose of the body at its time.
+        state: Perception, which is updated.
+
+    Returns:
+        Detections in an image; None for an echo.
+    """
+    if isinstance(percept, ColourImage):
+        return _take_colour(percept, body, state)
+    if isinstance(percept, DepthImage):
+        return _take_depth(percept, body, state)
+    _take_echo(percept, body, state)
+    return None
+
+
+def _take_colour(
+    image: ColourImage, body: BodyPose, state: Perception
+) -> FrameReport:
+    """Detect the opponent's trim."""
+    camera, tracker = camera_pose(body, state.top), state.tracker
+    detected = state.detector.detect_all(image, most=state.most)
+    # In a room a robot may be so near that an image edge hides a part.
+    near = state.floor is not None and not state.people
+    observations = [
+        observe_trim(
+            *(image, found, camera, state.detector.appearance),
+            tracker.tracks,
+            near=near,
+        )
+        for found in detected
+    ]
+    updated = tracker.observe(observations)
+    record_misses(
+        tracker, updated, image, camera, max_identity_age=MAX_GAZE_AGE
+    )
+    azimuths = tuple(-angle_of(image, found.column) for found in detected)
+    return FrameReport(
+        image, azimuths, colour=detected[0] if detected else None
+    )
+
+
+def _take_depth(
+    image: DepthImage, body: BodyPose, state: Perception
+) -> FrameReport:
+    """Detect obstacles and shadows, on an open or on a mapped floor."""
+    mount = state.depth[image.number]
+    camera = camera_pose(body, mount)
+    scene = detect_obstacles(image, camera, state.size)
+    on_floor = _on_open_floor if state.floor is None else _on_mapped_floor
+    updated = on_floor(image, scene, camera, state)
+    if mount.on_torso:
+        for track in updated:
+            track.watched_at = image.time
+    azimuths = tuple(o.azimuth for o in scene.obstacles)
+    azimuths += tuple(s.azimuth for s in scene.shadows)
+    return FrameReport(image, azimuths, depth=scene)
+
+
+def _on_open_floor(
+    image: DepthImage, scene: DepthScene, camera: CameraPose, state: Perception
+) -> list[TargetTrack]:
+    """Update tracks where every object may be an opponent.
+
+    An object that an image edge cuts may be a piece of a wall, and starts no
+    track; where people may approach, it updates only tracks that have walked.
+    """
+    tracker = state.tracker
+    parts: dict[bool, list[Observation]] = {True: [], False: []}
+    for obstacle in scene.obstacles:
+        parts[obstacle.whole].append(observe_obstacle(image, obstacle))
+    updated = tracker.observe(parts[True])
+    updated += tracker.observe(
+        parts[False], may_start=False, walked_only=state.people
+    )
+    record_misses(tracker, updated, image, camera)
+    for shadow in scene.shadows:
+        # A wide shadow without any track may be an unnoticed opponent.
+        may_start = shadow.width > MIN_SHADOW and not any(
+            track.confirmed for track in tracker.tracks
+        )
+        wall = state.people and not shadow.whole
+        updated += tracker.observe(
+            [observe_shadow(image, shadow, camera, tracker.tracks)],
+            may_start=may_start and not wall,
+            walked_only=wall,
+        )
+    return updated
+
+
+def _on_mapped_floor(
+    image: DepthImage, scene: DepthScene, camera: CameraPose, state: Perception
+) -> list[TargetTrack]:
+    """Update the map, then the track of the opponent.
+
+    Only trim starts a track. An object updates the track of the opponent if
+    it is near its predicted position and not on the map.
+    """
+    floor, tracker, time = state.floor, state.tracker, image.time
+    assert floor is not None
+    main = state.selection.main(time, *camera.position_torso_in_odometry)
+    opponent = None if main is None else main.position_at(time)
+    sure = main is not None and time - main.observed_at < MAX_AGE
+    floor.take(image, camera, opponent if sure else None, state.size)
+    observations = [
+        observe_obstacle(image, obstacle)
+        for obstacle in scene.obstacles
+        if is_opponent(obstacle, floor, opponent)
+    ]
+    updated = tracker.observe(
+        observations, may_start=False, walked_only=state.people
+    )
+    blind = image.near + NEAR_MARGIN
+    record_misses(tracker, updated, image, camera, blind_distance=blind)
+    return updated
+
+
+def _take_echo(echo: SonarEcho, body: BodyPose, state: Perception) -> None:
+    """Update the track of the opponent, where no camera gives a distance.
+
+    Walls and obstacles of a map give echoes, too.
+    """
+    if not is_valid_echo(echo):
+        return
+    mount, floor = state.sonars[echo.sonar], state.floor
+    track = state.selection.main(echo.time, *body.pose_torso_in_odometry[:2])
+    if floor is not None:
+        if track is None or may_be_mapped(echo, mount, body, floor):
+            return
+    observation = observe_echo(echo, mount, body, track)
+    if observation is not None:
+        state.tracker.observe([observation], may_start=track is None)
+
+
+def record_misses(
+    tracker: Tracker,
+    updated: Sequence[object],
+    image: ColourImage | DepthImage,
+    camera: CameraPose,
+    *,
+    max_identity_age: float = float("inf"),
+    blind_distance: float = 0.0,
+) -> None:
+    """Count a miss for each track that a frame should show and does not.
+
+    Args:
+        tracker: Tracker.
+        updated: Tracks that the frame has updated.
+        image: The image.
+        camera: Pose of the camera at its exposure.
+        max_identity_age: Time since a track last had the opponent's
+            appearance up to which the frame should show it, in [s].
+        blind_distance: Distance from the camera up to which the frame shows
+            nothing, in [m].
+    """
+    half = USABLE_VIEW * abs(angle_of(image, 0.0))
+    x, y = camera.position_in_odometry[:2].tolist()
+    ahead, time = camera.heading_in_odometry, image.time
+    for track in tracker.tracks:
+        if track in updated or time - track.identified_at > max_identity_age:
+            continue
+        if track.distance_from(x, y, time) < blind_distance:
+            continue
+        if abs(wrap_angle(track.bearing_from(x, y, time) - ahead)) < half:
+            track.record_frame(False)
+
+
+def _is_empty(percept: Percept) -> bool:
+    """Return whether a percept is the absence of an echo."""
+    return isinstance(percept, SonarEcho) and percept.distance is None
+
+
+def build_perception(
+    description: RobotDescription,
+    head: HeadDescription,
+    detector: ColourDetector,
+    *,
+    tick: float,
+    mapping: FloorMapping | None = None,
+    people: bool = False,
+    unnamed: int = 0,
+    fixed_views: tuple[Sector, ...] = (),
+) -> Perception:
+    """Build the perception of a robot, whose opponents are of its model.
+
+    Args:
+        description: Description of the robot.
+        head: Description of its head.
+        detector: Detector of the opponent in colour images.
+        tick: Control period, in [s].
+        mapping: Parts of a robot that maps the floor; None on an open floor.
+        people: Whether people, who wear no trim, may approach.
+        unnamed: Number of opponents if there are more robots than one
+            opponent, which all wear the trim and are not told apart; else 0.
+        fixed_views: Bearings that cameras on the torso show.
+    """
+    # Walls and obstacles of a map rest, so a robot's motion may be smooth.
+    calm = (mapping is not None and not people) or unnamed > 0
+    motion = ROBOT_MOTION if calm else PERSON_MOTION
+    tracker = Tracker(motion, several=unnamed > 0)
+    selection = TargetSelection(tracker)
+    if people:
+        selection = PeopleSelection(tracker)
+    elif unnamed:
+        selection = UnnamedSelection(tracker, unnamed)
+    kinematics = BodyKinematics(description, head)
+    size = kinematics.forward.tree.size
+    low, high = size.trim
+    detector.appearance = replace(
+        detector.appearance, top=high, bottom=low + TRIM_TIP
+    )
+    used = mapping or FloorMapping()
+    return Perception(
+        detector,
+        selection,
+        HeadControl(
+            Gaze(head.coupling, tick, high),
+            glances=used.glances,
+            scan=used.scan,
+            awaits_start=used.awaits_start,
+        ),
+        head.top,
+        head.depth,
+        head.sonars,
+        size,
+        kinematics,
+        None if mapping is None else mapping.floor,
+        people=people,
+        most=max(1, unnamed),
+        fixed_views=fixed_views,
+    )
+
+
+def build_posed_perception(
+    detector: ColourDetector, coupling: Array, *, tick: float
+) -> Perception:
+    """Build the perception of a robot that gives the poses of its camera.
+
+    Args:
+        detector: Detector of the opponent in colour images.
+        coupling: Rows of yaw, minimum and maximum pitch of the head, in
+            [rad]. Shape (3, n).
+        tick: Period of the updates, in [s].
+    """
+    at_head = Mount(np.zeros(3), np.eye(3))
+    gaze = Gaze(coupling, tick, detector.appearance.top)
+    selection = TargetSelection(Tracker(PERSON_MOTION))
+    return Perception(
+        detector, selection, HeadControl(gaze), at_head, [at_head]
+    )
