@@ -7,8 +7,8 @@
 # across the line of approach.
 
 # %% language="bash"
-# stepaside duel --gait fast --pursuer person --person-path straight \
-#     --person-speed 1 --duration 12 --seed 3 --output person
+# stepaside duel --gait fast --pursuer person --set person.path=straight \
+#     --set person.speed=1 --duration 12 --seed 3 --output person
 
 # %%
 from IPython.display import Image
@@ -26,8 +26,8 @@ Image("person/duel.png", width=720)
 
 # %% language="bash"
 # for speed in 0.4 0.7 1.0 1.3; do
-#     stepaside duel --gait fast --pursuer person --person-path straight \
-#         --person-speed $speed --duration 25 --seed 3 --json \
+#     stepaside duel --gait fast --pursuer person --set person.path=straight \
+#         --set person.speed=$speed --duration 25 --seed 3 --json \
 #         > speed-$speed.json
 # done
 

@@ -10,7 +10,7 @@ import pytest
 from click.testing import CliRunner, Result
 
 from stepaside.cli.main import main
-from stepaside.cli.options.settings_command import changed
+from stepaside.cli.options.settings_options import changed
 from stepaside.cli.plan import PlanSettings
 from stepaside.games.configuration_file import (
     dump_configuration,
@@ -90,7 +90,10 @@ def test_printed_configuration_has_a_comment_for_each_entry(name: str) -> None:
 
 
 def test_printed_configuration_repeats_the_run(tmp_path: Path) -> None:
-    line = "duel --seed 3 --duration 0.2 --clutter --angle 45deg --gain 0.25"
+    line = (
+        "duel --seed 3 --duration 0.2 --set room.things=clutter "
+        "--set strategy.angle=45deg --set gait.gain=0.25"
+    )
     made = tmp_path / "duel.toml"
     made.write_text(run(f"{line} --print-config").stdout, encoding="utf-8")
     first, again = (
@@ -105,9 +108,10 @@ def test_printed_configuration_repeats_the_run(tmp_path: Path) -> None:
 @pytest.mark.parametrize("name", ["duel", "view", "walk", "robustness"])
 def test_every_command_takes_gait_body_and_floor(name: str) -> None:
     found = settings(
-        f"{name} --preset as-printed --single-support 0.2 --stride 0.03 "
-        "--com-height 0.26 --body delayed --backlash 2deg --friction 0.5 "
-        "--method mpc --mpc-steps 3 --seed 0"
+        f"{name} --gait as-printed --set gait.single_support=0.2 "
+        "--set gait.stride=0.03 --set gait.com_height=0.26 --body delayed "
+        "--set body.backlash=2deg --set physics.friction=0.5 "
+        "--method mpc --set control.mpc.steps=3 --seed 0"
     )
     gait = changed(
         PRESETS["as-printed"],
@@ -122,7 +126,10 @@ def test_every_command_takes_gait_body_and_floor(name: str) -> None:
 
 def test_safety_radius_and_release_distance_change_together() -> None:
     """Each alone would be invalid with the default of the other."""
-    line = "--safety-radius 1.2 --release-distance 1.5 --side-hysteresis 5deg"
+    line = (
+        "--set strategy.safety_radius=1.2 --set strategy.release_distance=1.5 "
+        "--set strategy.side_hysteresis=5deg"
+    )
     for name in ("duel", "duels", "view"):
         strategy = settings(f"{name} {line}").strategy
         assert (strategy.safety_radius, strategy.release_distance) == (
@@ -130,7 +137,10 @@ def test_safety_radius_and_release_distance_change_together() -> None:
             1.5,
         )
         assert strategy.side_hysteresis == pytest.approx(radians(5.0))
-    refused = run("duel --safety-radius 2 --release-distance 1.5")
+    refused = run(
+        "duel --set strategy.safety_radius=2 "
+        "--set strategy.release_distance=1.5"
+    )
     assert refused.exit_code == 2
     assert "release_distance must exceed safety_radius" in refused.stderr
 
@@ -141,7 +151,9 @@ def test_options_override_the_file_and_the_file_the_defaults(
     given = settings(f"duel --config {file}")
     assert given.strategy.saturated and given.body.torque_speed
     assert given.sight.rate == 10.0 and given.start.distance == 1.0
-    beside = settings(f"duel --config {file} --rate 20 --slope 1deg")
+    beside = settings(
+        f"duel --config {file} --set sight.rate=20 --set physics.slope=1deg"
+    )
     assert beside.sight.rate == 20.0
     assert beside.strategy == given.strategy
     assert beside.physics.slope == pytest.approx(pi / 180.0)
@@ -151,19 +163,27 @@ def test_options_override_presets_and_presets_the_file(
     file: Path,
 ) -> None:
     """The file of a run has every entry, so presets must override it."""
-    found = settings(f"duel --config {file} --body delayed --delay-cycles 5")
+    found = settings(
+        f"duel --config {file} --body delayed --set body.delay_cycles=5"
+    )
     assert found.body == changed(BODIES["delayed"], {"delay_cycles": 5})
 
 
 def test_options_switch_off_flags_of_a_file(file: Path) -> None:
     found = settings(
-        f"duel --config {file} --no-saturated --no-torque-speed "
-        "--no-feedback --no-clutter --release-distance never "
-        "--distance drawn --rate every-tick"
+        f"duel --config {file} --set strategy.saturated=false "
+        "--set body.torque_speed=false "
+        "--set control.feedback=false --set room.things=none "
+        "--set strategy.release_distance=never "
+        "--distance drawn --set sight.rate=every-tick"
     )
     assert found == DuelSettings().resolved()
-    assert not settings(f"duel --config {file} --open-loop").control.feedback
-    clutter = settings(f"duel --config {file} --clutter").room.things
+    assert not settings(
+        f"duel --config {file} --set control.feedback=false"
+    ).control.feedback
+    clutter = settings(
+        f"duel --config {file} --set room.things=clutter"
+    ).room.things
     assert clutter == list(CLUTTER)
 
 
@@ -178,11 +198,26 @@ def test_feedback_option_keeps_other_control_settings_of_the_file(
     file: Path,
 ) -> None:
     for told, words, method, feedback in (
-        ('method = "closed-form"', "--feedback", "closed-form", True),
+        (
+            'method = "closed-form"',
+            "--set control.feedback=true",
+            "closed-form",
+            True,
+        ),
         ('method = "closed-form"', "--body hardware", "measured", True),
-        ('method = "mpc"\nfeedback = true', "--feedback", "mpc", True),
-        ('method = "mpc"\nfeedback = true', "--open-loop", "closed-form", 0),
-        ("feedback = false", "--feedback", "measured", True),
+        (
+            'method = "mpc"\nfeedback = true',
+            "--set control.feedback=true",
+            "mpc",
+            True,
+        ),
+        (
+            'method = "mpc"\nfeedback = true',
+            "--set control.feedback=false",
+            "closed-form",
+            0,
+        ),
+        ("feedback = false", "--set control.feedback=true", "measured", True),
     ):
         text = f"seed = 3\n[control]\n{told}\n[control.mpc]\nsteps = 3\n"
         file.write_text(text, encoding="utf-8")
@@ -202,7 +237,9 @@ def test_walk_file_has_its_own_entries(tmp_path: Path) -> None:
     file = tmp_path / "walk.toml"
     file.write_text(dump_configuration(walk), encoding="utf-8")
     assert settings(f"walk --config {file}") == walk.resolved()
-    ahead = settings(f"walk --config {file} --forward --push 1@2:90deg")
+    ahead = settings(
+        f"walk --config {file} --set backward=false --push 1@2:90deg"
+    )
     assert not ahead.backward
     assert ahead.pushes == (Push(1.0, 2.0, pi / 2),)
     refused = run(f"duel --config {file}")
@@ -264,15 +301,21 @@ def test_a_file_that_lacks_what_it_must_say_is_refused(
 @pytest.mark.parametrize(
     ("line", "message"),
     [
-        ("walk --stride 0", r"stride must lie in [0.0001, 10] [m], got 0.0"),
-        ("walk --foot-spacing 0.05", "foot_spacing must exceed"),
-        ("duel --efficiency nan", "must be a number [1], got 'nan'"),
-        ("duel --safety-radius wide", "must be a number [m], got 'wide'"),
-        ("duel --renderer paint", "'paint' is not one of"),
+        (
+            "walk --set gait.stride=0",
+            r"stride must lie in [0.0001, 10] [m], got 0.0",
+        ),
+        ("walk --set gait.foot_spacing=0.05", "foot_spacing must exceed"),
+        ("duel --set body.efficiency=nan", "must be a number [1], got 'nan'"),
+        (
+            "duel --set strategy.safety_radius=wide",
+            "must be a number [m], got 'wide'",
+        ),
+        ("duel --set cameras.colour.renderer=paint", "'paint' is not one of"),
         ("plan --role evader", "Missing option '--bearing'"),
         ("plan --bearing 1", "Missing option '--role'"),
         ("robustness --kind wind", "'wind' is not one of 'push'"),
-        ("view --walls 0.5", "walls must lie in"),
+        ("view --set room.walls=0.5", "walls must lie in"),
     ],
 )
 def test_invalid_settings_are_refused_in_one_line(
@@ -286,19 +329,32 @@ def test_invalid_settings_are_refused_in_one_line(
 @pytest.mark.parametrize(
     ("line", "message"),
     [
-        ("duel --person-speed 1", "--person-speed requires --pursuer person"),
-        ("duel --optics v6", "--optics requires --sensing cameras, got ideal"),
-        ("duel --contact-time 2", "--contact-time requires --trigger time"),
-        ("walk --mpc-steps 3", "--mpc-steps requires --method mpc"),
-        ("duel --map none", "--map requires --room"),
-        ("duel --strategy look-ahead --angle 1", "requires the strategy"),
         (
-            "play --robot lola:x --role pursuer --safety-radius 2",
-            "--safety-radius requires the strategy evasion",
+            "duel --set person.speed=1",
+            "person.speed requires --pursuer person",
+        ),
+        (
+            "duel --set cameras.colour.optics=v6",
+            "optics requires --sensing cameras, got ideal",
+        ),
+        (
+            "duel --set strategy.contact_time=2",
+            "contact_time requires strategy.trigger time",
+        ),
+        ("walk --set control.mpc.steps=3", "mpc.steps requires --method mpc"),
+        ("duel --set map.source=none", "map.source requires --room"),
+        (
+            "duel --strategy look-ahead --set strategy.angle=1",
+            "requires the strategy",
+        ),
+        (
+            "play --robot lola:x --role pursuer "
+            "--set strategy.safety_radius=2",
+            "strategy.safety_radius requires the strategy evasion",
         ),
         (
             "play --robot lola:x --role pursuer --strategy look-ahead",
-            "--strategy requires --role evader",
+            "evader_strategy requires --role evader",
         ),
         (
             "play --robot ros2:/x --role evader --reconnect 2",
@@ -331,7 +387,7 @@ def test_plan_uses_the_requested_gait() -> None:
     line = "plan --role pursuer --bearing 0 --steps 4 --json"
     usual, long = (
         json.loads(run(f"{line}{more}").stdout)
-        for more in ("", " --stride 0.06")
+        for more in ("", " --set gait.stride=0.06")
     )
     assert (usual["preset"], long["preset"]) == ("nao", None)
     apart = [
@@ -340,8 +396,8 @@ def test_plan_uses_the_requested_gait() -> None:
     ]
     assert apart == pytest.approx([0.04, 0.06])
     for more, preset in (
-        ("--profile cubic", "nao"),
-        ("--preset as-printed", "as-printed"),
+        ("--set gait.zmp_profile=cubic", "nao"),
+        ("--gait as-printed", "as-printed"),
     ):
         assert json.loads(run(f"{line} {more}").stdout)["preset"] == preset
 
@@ -362,9 +418,12 @@ def test_inner_sections_change_after_outer_ones() -> None:
 
 @pytest.mark.parametrize("command", ["duel", "duels", "view"])
 def test_map_seen_implies_cameras(command: str, tmp_path: Path) -> None:
-    room = f"{command} --room 3 --map seen"
+    room = f"{command} --room 3 --set map.source=seen"
     assert printed(room)["sensing"] == "cameras"
-    assert printed(f"{command} --room 3 --map given")["sensing"] == "ideal"
+    assert (
+        printed(f"{command} --room 3 --set map.source=given")["sensing"]
+        == "ideal"
+    )
     refused = run(f"{room} --sensing ideal --print-config")
     assert refused.exit_code == 2
     assert (

@@ -35,8 +35,8 @@ def test_every_command_has_help(command: str) -> None:
 def test_help_shows_defaults() -> None:
     for command in ("duel", "duels"):
         text = " ".join(run(command, "--help").stdout.split())
-        assert "which evasion ends [m]. [default: never]" in text
-        assert "between soles and floor [1]. [default: 0.8]" in text
+        assert "Simulated time [s]. [default: 120]" in text
+        assert "Imperfections of the body. [default: ideal]" in text
 
 
 def test_plan_prints_footsteps_and_a_10_ms_grid() -> None:
@@ -124,11 +124,14 @@ BAD = [
     ("duel --duration -3", "duration must lie.*-3"),
     ("duel --seed -1", "seed.*-1"),
     ("duel --distance 0.1", "distance must lie in.*m.*0.1"),
-    ("duel --angle 200deg", "angle must lie in.*rad.*3.49"),
-    ("duel --angle up", "angle.*'up'"),
-    ("duel --pursuer-offset inf", "pursuer-offset.*inf"),
-    ("duel --delay 3", "delay must lie in.*3"),
-    ("duel --release-distance 0.5", "release_distance must exceed.*0.5"),
+    ("duel --set strategy.angle=200deg", "angle must lie in.*rad.*3.49"),
+    ("duel --set strategy.angle=up", "angle.*'up'"),
+    ("duel --set start.pursuer_offset=inf", "pursuer_offset.*inf"),
+    ("duel --set sight.delay=3", "delay must lie in.*3"),
+    (
+        "duel --set strategy.release_distance=0.5",
+        "release_distance must exceed.*0.5",
+    ),
     ("duel --robot talos", "robot must be one of nao.*talos"),
     ("duel --gait quick", "gait.*quick"),
     ("plan --role pursuer --bearing nan", "bearing.*nan"),
@@ -221,7 +224,7 @@ def test_interrupted_duel_reports_its_run(
 def test_zero_is_a_given_value() -> None:
     """Seed 0 and evasion angle 0 differ from missing options."""
     found = run_json(
-        "duel", "--seed", "0", "--angle", "0", "--duration", "0.2"
+        "duel", "--seed", "0", "--set", "strategy.angle=0", "--duration", "0.2"
     )
     assert found["seed"] == 0
     assert found["theory"]["exists"] is False

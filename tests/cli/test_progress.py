@@ -111,7 +111,7 @@ def test_campaigns_announce_their_size(
         "tournament --seeds 0:100000 --duration 1e6 --workers 1",
         "rate look-ahead --games 10000 --duration 1e6 --workers 1",
         "replay RUN --video film.mp4 --rate 1e9",
-        "replay RUN --gif film.gif --speed 1e-9 --slow-motion",
+        "replay RUN --gif film.gif --speed 1e-9",
     ],
 )
 def test_endless_work_is_refused(

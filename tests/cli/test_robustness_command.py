@@ -136,7 +136,6 @@ def test_help_explains_the_seeds_of_walks() -> None:
         "Random seed of the first walk; later walks increment it. Pushes use "
         "this seed only. [default: 1" in text
     )
-    assert "or those of real hardware. [default: ideal]" in text
 
 
 def test_gait_and_robot_are_part_of_the_trial_key(tmp_path: Path) -> None:
@@ -144,12 +143,12 @@ def test_gait_and_robot_are_part_of_the_trial_key(tmp_path: Path) -> None:
     asked = ("--kind", "push", "--method", "mpc", "--phases", "1")
     usual, low = (
         json.loads(run(*asked, *more, "--json"))
-        for more in ((), ("--com-height", "0.2"))
+        for more in ((), ("--set", "gait.com_height=0.2"))
     )
     assert usual["limits"][0]["limit_n_s"] == low["limits"][0]["limit_n_s"]
     bounds = [found["limits"][0]["bound_n_s"] for found in (usual, low)]
     assert bounds[1] != pytest.approx(bounds[0], rel=1e-3)
-    run(*asked, "--com-height", "0.2", "--output", str(tmp_path))
+    run(*asked, "--set", "gait.com_height=0.2", "--output", str(tmp_path))
     made = read_result(tmp_path / "survival.json")
     changes = json.loads(made["settings"]["changes"])
     assert changes == {"gait": {"com_height": 0.2}}
@@ -160,7 +159,7 @@ def test_gait_and_robot_are_part_of_the_trial_key(tmp_path: Path) -> None:
 
 def test_changed_body_is_called_own() -> None:
     asked = ("--kind", "backlash", "--method", "mpc", "--seeds", "1", "--json")
-    own = json.loads(run(*asked, "--stiffness", "0.5"))
+    own = json.loads(run(*asked, "--set", "body.stiffness=0.5"))
     assert own["body"] == "own"
     assert json.loads(run(*asked, "--body", "hardware"))["body"] == "hardware"
 

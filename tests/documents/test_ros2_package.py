@@ -71,7 +71,10 @@ def test_play_accepts_what_is_launched(description: Any) -> None:
     assert len(processes) == 2
     for process in processes:
         words = [
-            declared[word.values[0]] if isinstance(word, Action) else word
+            "".join(
+                declared[part.values[0]] if isinstance(part, Action) else part
+                for part in (word if isinstance(word, list) else [word])
+            )
             for word in process.named["cmd"]
         ]
         assert words[:2] == ["stepaside", "play"]

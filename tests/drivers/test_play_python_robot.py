@@ -27,7 +27,10 @@ from stepaside.games.play_summary import PlaySummary
 ADAPTERS = Path(__file__).parents[2] / "examples" / "adapters"
 ROBOT = f"{ADAPTERS / 'walker_robot.py'}:WalkerRobot"
 PLAY = "from stepaside.cli.main import main; main()"
-TEMPLATE = "--role evader --speed 0.3 --gain 0.6 --safety-radius 5".split()
+TEMPLATE = (
+    "--role evader --set gait.speed=0.3 --set gait.gain=0.6 "
+    "--set strategy.safety_radius=5"
+).split()
 LONGEST = 60.0  # for what takes seconds on an idle machine, in [s]
 SLACK = 1.0  # of a busy machine, in [s]
 SEEING = f"{ADAPTERS / 'seeing_robot.py'}:SeeingRobot"

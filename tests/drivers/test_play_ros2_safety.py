@@ -44,7 +44,8 @@ SLACK = 1.0  # of a busy machine, in [s]
 ZERO = (0.0,) * 36
 PLAY = "from stepaside.cli.main import main; main()"
 WORDS = (
-    "play --role pursuer --robot ros2:/it --speed 0.3 --gain 0.6 "
+    "play --role pursuer --robot ros2:/it --set gait.speed=0.3 "
+    "--set gait.gain=0.6 "
     "--max-speed 0.4 --max-turn 0.8 --dead-man ros2:/hold"
 ).split()
 AHEAD = Quaternion(0.0, 0.0, 0.0, 1.0)

@@ -48,9 +48,9 @@ def test_a_head_at_1_m_looks_down_at_a_person_nearby(tmp_path: Path) -> None:
     )
     stepaside(
         *("duel", "--robot", tall, "--sensing", "cameras", "--seed", 1),
-        *("--pursuer", "person", "--person-path", "straight"),
-        *("--person-speed", 0.6, "--person-halt-after", 1.2),
-        *("--evader-strategy", "stand", "--distance", 2, "--duration", 2.6),
+        *("--pursuer", "person", "--set", "person.path=straight"),
+        *("--set", "person.speed=0.6", "--set", "person.halt_after=1.2"),
+        *("--strategy", "stand", "--distance", 2, "--duration", 2.6),
         *("--output", tmp_path / "run"),
     )
     run = sa.load_run(tmp_path / "run")
@@ -70,8 +70,15 @@ def test_trim_of_another_height_gives_the_right_distance(
     )
     summary = stepaside(
         *("duel", "--robot", robot, "--sensing", "cameras", "--json"),
-        *("--renderer", "raycast", "--distance", 1.5, "--duration", 0.6),
-        *("--pursuer-offset", 0, "--evader-offset", 0),
+        *(
+            "--set",
+            "cameras.colour.renderer=raycast",
+            "--distance",
+            1.5,
+            "--duration",
+            0.6,
+        ),
+        *("--set", "start.pursuer_offset=0", "--set", "start.evader_offset=0"),
     ).json
     assert summary["pursuer"]["sight"]["distance_error_m"]["median"] < 0.1
 

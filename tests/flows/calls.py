@@ -181,7 +181,7 @@ def duel_of(evader: object, *, distance: float, duration: float) -> Any:
     """Let NAO pursue a strategy from straight ahead; return the summary."""
     return stepaside(
         *("duel", "--strategy", evader, "--distance", distance, "--json"),
-        *("--pursuer-offset", 0, "--evader-offset", 0),
+        *("--set", "start.pursuer_offset=0", "--set", "start.evader_offset=0"),
         *("--duration", duration),
     ).json
 
@@ -192,7 +192,7 @@ def start_duel(
     """Start a duel into a run folder."""
     return start_stepaside(
         *("duel", "--strategy", evader, "--distance", 1, "--output", folder),
-        *("--pursuer-offset", 0, "--evader-offset", 0),
+        *("--set", "start.pursuer_offset=0", "--set", "start.evader_offset=0"),
         *("--duration", duration),
     )
 
@@ -203,8 +203,8 @@ def duel_with_person(
     """Let a person walk straight at a NAO with fast legs."""
     return stepaside(
         *("duel", "--gait", "fast", "--pursuer", "person", "--json"),
-        *("--person-path", "straight", "--person-speed", speed),
-        *("--pursuer-offset", 0, "--evader-offset", 0),
+        *("--set", "person.path=straight", "--set", f"person.speed={speed}"),
+        *("--set", "start.pursuer_offset=0", "--set", "start.evader_offset=0"),
         *("--distance", distance, "--duration", duration),
         *("--sensing", sensing),
     ).json
@@ -259,8 +259,15 @@ def robustness(kind: str, *words: object, seeds: int = 1) -> Any:
 def walk_on_uneven_floor(height: float, *, seed: int) -> Any:
     """Walk for 20 s on an uneven floor; return the summary."""
     return stepaside(
-        *("walk", "--unevenness", height, "--seed", seed, "--json"),
-        *("--duration", 20, "--open-loop"),
+        *(
+            "walk",
+            "--set",
+            f"physics.unevenness={height}",
+            "--seed",
+            seed,
+            "--json",
+        ),
+        *("--duration", 20, "--set", "control.feedback=false"),
     ).json
 
 
@@ -358,7 +365,9 @@ def play_ros2(
 ) -> subprocess.Popen[str]:
     """Start to control a robot on ROS 2 topics."""
     options: list[object] = ["--role", role, "--domain", domain]
-    options += ["--speed", speed, "--gain", gain, "--safety-radius", 5]
+    options += ["--set", f"gait.speed={speed}"]
+    options += ["--set", f"gait.gain={gain}"]
+    options += ["--set", "strategy.safety_radius=5"]
     if duration is not None:
         options += ["--duration", duration]
     if record is not None:
@@ -413,14 +422,16 @@ def play_own(
     """Start to control a robot by FILE.py:CLASS."""
     options: list[object] = ["--role", role]
     given: dict[str, object] = {
-        "speed": speed,
-        "gain": gain,
+        "set gait.speed": speed,
+        "set gait.gain": gain,
         "duration": duration,
     }
     given |= {"record": record, "dead-man": dead_man or None}
     for name, value in given.items():
+        option, _, path = name.partition(" ")
         if value is not None:
-            options += [f"--{name}", value]
+            word = f"{path}={value}" if path else value
+            options += [f"--{option}", word]
     return start_stepaside(
         "play", "--robot", robot, *options, *words, env=env, stdin=stdin
     )
@@ -447,7 +458,12 @@ def duel_of_robot(folder: Path, distance: float, *, duration: float) -> Any:
     """Play a duel of two robots of a description; return the summary."""
     return stepaside(
         *("duel", "--robot", folder, "--distance", distance, "--json"),
-        *("--pursuer-offset", 0, "--evader-offset", 0.2),
+        *(
+            "--set",
+            "start.pursuer_offset=0",
+            "--set",
+            "start.evader_offset=0.2",
+        ),
         *("--duration", duration),
     ).json
 
@@ -472,8 +488,23 @@ def duel_on_legs(
 ) -> Path:
     """Play a duel on learned legs into a run folder."""
     stepaside(
-        *("duel", "--robot", robot, "--speed", speed, "--gain", 0.2),
-        *("--distance", 0.75, "--pursuer-offset", 0, "--evader-offset", 0),
+        *(
+            "duel",
+            "--robot",
+            robot,
+            "--set",
+            f"gait.speed={speed}",
+            "--set",
+            "gait.gain=0.2",
+        ),
+        *(
+            "--distance",
+            0.75,
+            "--set",
+            "start.pursuer_offset=0",
+            "--set",
+            "start.evader_offset=0",
+        ),
         *("--duration", duration, "--output", folder),
     )
     return folder
@@ -485,9 +516,9 @@ def evade_person_on_legs(
     """Let a person walk past a robot on learned legs, into a run folder."""
     stepaside(
         *("duel", "--robot", robot, "--strategy", strategy),
-        *("--pursuer", "person", "--person-path", "straight"),
-        *("--person-speed", speed, "--person-miss", miss),
-        *("--pursuer-offset", 0, "--evader-offset", 0),
+        *("--pursuer", "person", "--set", "person.path=straight"),
+        *("--set", f"person.speed={speed}", "--set", f"person.miss={miss}"),
+        *("--set", "start.pursuer_offset=0", "--set", "start.evader_offset=0"),
         *("--distance", 7, "--duration", 7, "--output", folder),
     )
     return folder
@@ -497,12 +528,20 @@ def shielded_duel(*, contact: float, shield: bool) -> Any:
     """Let a slow person steer at a robot that would stand."""
     words: tuple[object, ...] = ("--duration", 20, "--json")
     if shield:
-        words += ("--shield", "--shield-speed", 0.09)
-        words += ("--shield-turning-radius", 6, "--shield-contact", contact)
+        words += ("--set", "shield.enabled=true", "--set", "shield.speed=0.09")
+        words += ("--set", "shield.turning_radius=6")
+        words += ("--set", f"shield.contact={contact}")
     return stepaside(
-        *("duel", "--pursuer", "person", "--person-speed", 0.09),
-        *("--person-gain", 10, "--person-turning-radius", 6),
-        *("--pursuer-offset", 0, "--distance", 1.3, "--strategy", "stand"),
+        *("duel", "--pursuer", "person", "--set", "person.speed=0.09"),
+        *("--set", "person.gain=10", "--set", "person.turning_radius=6"),
+        *(
+            "--set",
+            "start.pursuer_offset=0",
+            "--distance",
+            1.3,
+            "--strategy",
+            "stand",
+        ),
         *words,
     ).json
 
@@ -544,8 +583,13 @@ def keep_duel(
     """Play a duel of the paper's robots into a run folder."""
     stepaside(
         *("duel", "--seed", 7, "--duration", duration, "--output", folder),
-        *("--distance", distance, "--pursuer-offset", pursuer_offset),
-        *("--evader-offset", evader_offset),
+        *(
+            "--distance",
+            distance,
+            "--set",
+            f"start.pursuer_offset={pursuer_offset}",
+        ),
+        *("--set", f"start.evader_offset={evader_offset}"),
     )
     return folder
 

@@ -38,7 +38,7 @@ CASES = {  # of each line: what the message names
     "legs inspect junk.onnx": ("junk.onnx", "ONNX"),
     "replay run --html new.html": ("run", "summary.json"),
     "duel --duration 1 --figure new.bmp": ("--figure", ".png", "new.bmp"),
-    "duel --pursuer person --person-path table.csv": ("table.csv", "y"),
+    "duel --pursuer person --set person.path=table.csv": ("table.csv", "y"),
 }
 
 

@@ -20,9 +20,9 @@ from flows.circles import PACE, apart, arc, circle, start_on
 
 def options_of(start: tuple[float, float, float]) -> list[str]:
     """Options that give distance [m] and both offsets [rad]."""
-    names = ("--distance", "--pursuer-offset", "--evader-offset")
-    pairs = zip(names, map(str, start), strict=True)
-    return [*(word for pair in pairs for word in pair)]
+    names = ("distance", "pursuer_offset", "evader_offset")
+    pairs = zip(names, start, strict=True)
+    return [w for name, v in pairs for w in ("--set", f"start.{name}={v}")]
 
 
 def test_a_duel_ends_on_the_circle_of_theory(tmp_path: Path) -> None:
@@ -63,9 +63,9 @@ def test_each_law_and_angle_has_its_own_circle(
         "duel",
         tmp_path / "run",
         *options_of(start_on(goal)),
-        *("--angle", f"{angle}deg", "--duration", 22),
-        *("--safety-radius", 1.2),
-        "--saturated" if saturated else "--no-saturated",
+        *("--set", f"strategy.angle={angle}deg", "--duration", 22),
+        *("--set", "strategy.safety_radius=1.2"),
+        *("--set", f"strategy.saturated={str(saturated).lower()}"),
     )
     slides = saturated and radians(angle) < 1.0
     rel, around = (0.06, 9.0) if slides else (0.03, 3.0)
@@ -86,7 +86,14 @@ def test_a_hardware_body_walks_the_circle_by_feedback(tmp_path: Path) -> None:
         "duel",
         tmp_path / "run",
         *options_of(start_on(goal)),
-        *("--body", "hardware", "--safety-radius", 1.2, "--duration", 24),
+        *(
+            "--body",
+            "hardware",
+            "--set",
+            "strategy.safety_radius=1.2",
+            "--duration",
+            24,
+        ),
     )
     assert seen["outcome"] == "completed"
     assert seen["distance_m"] == pytest.approx(goal.distance, rel=0.06)
@@ -106,7 +113,14 @@ def test_cameras_see_where_the_other_is(tmp_path: Path) -> None:
         "duel",
         tmp_path / "run",
         *options_of(start_on(circle())),
-        *("--sensing", "cameras", "--duration", 3, "--safety-radius", 1.2),
+        *(
+            "--sensing",
+            "cameras",
+            "--duration",
+            3,
+            "--set",
+            "strategy.safety_radius=1.2",
+        ),
     )
     assert seen["sight"]["detection_rate"] > 0.95
     assert seen["sight"]["false_detections"] == 0
@@ -141,8 +155,8 @@ def test_an_evader_that_looks_ahead_touches_nobody(tmp_path: Path) -> None:
     """
     room = tmp_path / "room.toml"
     room.write_text(ROOM)
-    back = ("--room", room, "--angle", 0, "--duration", 6)
-    blind = summary("duel", *back, "--map", "none")
+    back = ("--room", room, "--set", "strategy.angle=0", "--duration", 6)
+    blind = summary("duel", *back, "--set", "map.source=none")
     assert blind["outcome"] == "contact"
     assert blind["touched"] == ["disc 1", "evader"]
     assert "disc 1" not in summary("duel", *back)["touched"]
@@ -166,7 +180,15 @@ def kept_duel(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A run of a body with noise, in which everything that is drawn counts."""
     folder = tmp_path_factory.mktemp("kept") / "run"
     stepaside(
-        *("duel", "--seed", 5, "--duration", 2, "--angle", "70deg"),
+        *(
+            "duel",
+            "--seed",
+            5,
+            "--duration",
+            2,
+            "--set",
+            "strategy.angle=70deg",
+        ),
         *("--body", "hardware", "--output", folder),
     )
     return folder

@@ -48,7 +48,9 @@ def test_a_push_beyond_the_bound_fells_it_and_the_run_says_so() -> None:
     """No foot within reach lands under the divergent component."""
     impulse = 6.0
     assert shift(impulse) > HALF_SOLE + SPACING
-    seen = pushed(impulse, "--feedback", "--method", "measured")
+    seen = pushed(
+        impulse, "--set", "control.feedback=true", "--method", "measured"
+    )
     assert seen["outcome"] == "fall"
     assert "walker fell at" in seen["message"]
     assert 3.0 < seen["duration_s"] < 5.0
@@ -59,7 +61,7 @@ def test_mpc_holds_a_push_that_fells_an_open_loop() -> None:
     impulse = 1.1
     blind = pushed(impulse)
     assert blind["outcome"] == "fall"
-    seen = pushed(impulse, "--feedback", "--method", "mpc")
+    seen = pushed(impulse, "--set", "control.feedback=true", "--method", "mpc")
     assert seen["outcome"] == "completed"
     assert seen["method"] == "mpc" and seen["feedback"] is True
     assert seen["qp"]["solves"] > 500 and seen["qp"]["infeasible"] == 0
@@ -96,7 +98,14 @@ def test_the_fast_gait_walks_at_its_pace() -> None:
 
 PERSON = (
     *("duel", "--gait", "fast", "--pursuer", "person"),
-    *("--person-path", "straight", "--person-speed", 1, "--duration", 9),
+    *(
+        "--set",
+        "person.path=straight",
+        "--set",
+        "person.speed=1",
+        "--duration",
+        9,
+    ),
 )
 
 

@@ -74,7 +74,7 @@ CASES: dict[str, tuple[str, DuelSettings, tuple[Any, ...]]] = {
         ("closed-form", False, "evasion", "distance"),
     ),
     "explicit control": (
-        "--gait fast --body hardware --open-loop",
+        "--gait fast --body hardware --set control.feedback=false",
         replace(FAST, body=BODIES["hardware"], control=OPEN_LOOP),
         ("closed-form", False, "evasion", "distance"),
     ),
@@ -84,7 +84,7 @@ CASES: dict[str, tuple[str, DuelSettings, tuple[Any, ...]]] = {
         ("measured", True, "evasion", "distance"),
     ),
     "explicit trigger": (
-        "--pursuer person --gait fast --trigger distance",
+        "--pursuer person --gait fast --set strategy.trigger=distance",
         replace(
             PERSON,
             gait=PRESETS["fast"],

@@ -94,7 +94,7 @@ def test_two_players_may_be_different_robots(tmp_path: Path) -> None:
         "itself",
     )
     assert again == made.resolved()
-    config = given("duel", "--pursuer-robot", robot)
+    config = given("duel", "--set", f"pursuer_robot={robot}")
     assert config["pursuer_robot"]["gait"]["speed"] == 0.08
     assert "evader_robot" not in config
 
@@ -144,7 +144,7 @@ def test_a_body_has_the_errors_of_its_robot(tmp_path: Path) -> None:
         assert body_of_robot("nao", name) == BODIES[name]
         expected = replace(BODIES[name], delay_cycles=1)
         assert body_of_robot(robot, name) == expected
-    for options, cycles in (([], 1), (["--delay-cycles", "2"], 2)):
+    for options, cycles in (([], 1), (["--set", "body.delay_cycles=2"], 2)):
         shown = CliRunner().invoke(
             main,
             ["walk", "--robot", robot, "--body", "hardware", *options]

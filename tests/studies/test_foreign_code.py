@@ -164,12 +164,13 @@ def test_a_model_without_the_robot_is_refused(
     tmp_path: Path, model: str, words: tuple[str, ...]
 ) -> None:
     if words[-1] == "ROBOT":
-        words = (*words[:-2], "--evader-robot")
+        words = (*words[:-2], "--set")
     folder = tmp_path / "robot"
     shutil.copytree(load_robot("nao").folder, folder)
     (folder / "tree.json").unlink()
     (folder / "model.xml").write_text(model)
-    result = CliRunner().invoke(main, [*words, str(folder)])
+    place = f"evader_robot={folder}" if words[-1] == "--set" else str(folder)
+    result = CliRunner().invoke(main, [*words, place])
     assert result.exit_code == 2, result.output
     assert result.output.startswith("stepaside: ")
 

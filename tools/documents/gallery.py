@@ -90,7 +90,7 @@ ENTRIES = (
         "measured motion ([Feedback](walking.md)).",
         (
             "python examples/change_gait.py 4",
-            "stepaside walk --push 1.2@5:90deg --feedback --duration 9 "
+            "stepaside walk --push 1.2@5:90deg --body delayed --duration 9 "
             "--output pushed",
             "stepaside replay pushed --gif push.gif --begin 4 --duration 4 "
             f"--speed 0.5 --camera follow {FILM}",
@@ -148,7 +148,8 @@ ENTRIES = (
         "A person walks straight at a NAO, which steps aside with the fast "
         "gait ([People](people.md)).",
         (
-            "stepaside duel --pursuer person --person-speed 0.3 --gait fast "
+            "stepaside duel --pursuer person --set person.speed=0.3 "
+            "--gait fast "
             "--distance 2.5 --duration 25 --output person",
         ),
         "person/duel.png",

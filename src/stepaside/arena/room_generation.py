@@ -37,35 +37,41 @@ class RoomRecipe:
     depth: float | None = setting(
         3.0, "Depth of the floor, along y; none for no walls", SIDE
     )
-    discs: int = setting(0, "Number of discs", COUNT, option="--discs")
-    boxes: int = setting(0, "Number of boxes", COUNT, option="--boxes")
+    discs: int = setting(
+        0,
+        "Number of discs",
+        COUNT,
+    )
+    boxes: int = setting(
+        0,
+        "Number of boxes",
+        COUNT,
+    )
     polygons: int = setting(
         0,
         "Number of polygons with three to six corners",
         COUNT,
-        option="--polygons",
     )
     doors: int = setting(
-        0, "Number of doors in the walls", COUNT, option="--doors"
+        0,
+        "Number of doors in the walls",
+        COUNT,
     )
     smallest: float = setting(
         0.1,
         "Minimum radius of an obstacle",
         RADIUS,
-        option="--smallest",
     )
     largest: float = setting(
         0.25,
         "Maximum radius of an obstacle, of its circumcircle for boxes and "
         "polygons",
         RADIUS,
-        option="--largest",
     )
     door_width: float = setting(
         0.6,
         "Width of a door",
         Range(SMALLEST / 2, LARGEST, "m", "from a body to the largest room"),
-        option="--door-width",
     )
 
     def __post_init__(self) -> None:

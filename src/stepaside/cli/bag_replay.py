@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
-from .options.setting_options import refuse_options
+from .options.settings_options import refuse_options
 from .output_files import attempt
 from .run_output import check_run_folder, save_run
 from .tables import print_table

@@ -15,7 +15,7 @@ from .bound_tables import (
 )
 from .options.common_options import figure_option, figure_width, json_option
 from .options.parameter_types import OutputFile
-from .options.setting_options import takes
+from .options.settings_options import takes
 from .output_files import attempt, writes_files
 from .progress import CELLS, announce_effort, show_progress
 from .terminal import print_json

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from ..core.ranges import Range
 from ..core.setting import check_settings, setting
 from .options.parameter_types import positive
-from .options.setting_options import refuse_options
+from .options.settings_options import refuse_options
 
 if TYPE_CHECKING:
     from ..theory.bound import BoundGame
@@ -39,49 +39,44 @@ class BoundOptions:
         "The pursuer of eqs. (1)-(2), any with a bounded turning rate, or a "
         "person whom an evader escapes that moves in any direction",
         names=AGAINST,
-        option="--against",
     )
     pursuer_speed: float = setting(
         1.0,
         "Speed of the pursuer",
         positive("m/s"),
-        option="--pursuer-speed",
     )
     evader_speed: float = setting(
-        1.0, "Speed of the evader", positive("m/s"), option="--evader-speed"
+        1.0,
+        "Speed of the evader",
+        positive("m/s"),
     )
     pursuer_gain: float = setting(
         0.5,
         "Steering gain k of eq. (2) {unit}, for --against pursuit",
         positive("1/s"),
-        option="--pursuer-gain",
     )
     pursuer_turn: float | None = setting(
         None,
         "Maximum turning rate of the pursuer {unit}, for --against any",
         positive("rad/s", None),
-        option="--pursuer-turn",
         default_text="pi k",
     )
     evader_turn: float | None = setting(
         None,
         "Maximum turning rate of the evader",
         positive("rad/s", None),
-        option="--evader-turn",
         default_text="the pursuer's",
     )
     person_turning_radius: float | None = setting(
         None,
         "Tightest turning radius of the person {unit}, for --against person",
         positive("m", None),
-        option="--person-turning-radius",
         default_text="2.5",
     )
     evader_forward: float | None = setting(
         None,
         "Speed of the evader towards the person {unit}, for --against person",
         positive("m/s", None),
-        option="--evader-forward",
         default_text="--evader-speed",
     )
     evader_sideways: float | None = setting(
@@ -89,7 +84,6 @@ class BoundOptions:
         "Speed of the evader across the line of sight {unit}, for --against "
         "person",
         positive("m/s", None),
-        option="--evader-sideways",
         default_text="--evader-speed",
     )
     response: float | None = setting(
@@ -97,55 +91,47 @@ class BoundOptions:
         "Time for which a standing evader still stands {unit}, for --against "
         "person",
         Range(0.0, 60.0, "s", "a robot starts sooner", also=(None,)),
-        option="--response",
         default_text="0.4",
     )
     capture: float | None = setting(
         None,
         "Capture distance of the barrier in the output",
         positive("m", None),
-        option="--capture",
         default_text="0.7 v/k",
     )
     nearest: float | None = setting(
         None,
         "Distance at which a game ends, the inner edge of the grid",
         positive("m", None),
-        option="--nearest",
         default_text="half of --capture",
     )
     farthest: float | None = setting(
         None,
         "Outer edge of the grid",
         positive("m", None),
-        option="--farthest",
         default_text="depends on the game",
     )
     grid: int = setting(
         64,
         "Grid cells along each axis",
         Range(16, 400, "1", "more do not fit in memory", whole=True),
-        option="--grid",
     )
     refine: int = setting(
         1,
         "Number of coarser grids, each with half the cells, for the error "
         "estimate",
         Range(0, 3, "1", "coarser ones say nothing", whole=True),
-        option="--refine",
     )
     horizon: float | None = setting(
         None,
         "Time horizon",
         positive("s", None),
-        option="--horizon",
         default_text="one full turn at the lowest rate",
     )
     games: int = setting(
         1000,
         "Number of random games simulated to check the table",
         Range(0, 1_000_000, "1", "more take hours", whole=True),
-        option="--games",
     )
 
     def __post_init__(self) -> None:

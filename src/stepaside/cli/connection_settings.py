@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
-from click.core import ParameterSource
 
 from ..core.ranges import Range
 from ..core.setting import REQUIRED, check_settings, setting
@@ -21,6 +20,7 @@ from ..games.play_settings import PYTHON
 from ..locomotion.zmp.control_settings import OPEN_LOOP, STABILISED
 from ..strategies import Strategy, load_strategy
 from .options.parameter_types import REASON, positive
+from .options.settings_options import CONTROL, GIVEN
 from .terminal import echo
 
 if TYPE_CHECKING:
@@ -41,40 +41,36 @@ class ConnectionSettings:
         "robot itself); naoqi:tcp://HOST:PORT; ros2:/NAMESPACE; "
         "rcss:HOST:PORT; or FILE.py:CLASS, a VelocityRobot or JointRobot in "
         "Python",
-        option="--robot",
     )
     role: str = setting(
-        EVADER, "Role of the robot", names=PLAYERS, option="--role"
+        EVADER,
+        "Role of the robot",
+        names=PLAYERS,
     )
     description: str = setting(
         "nao",
         "Name of a robot, or folder of its description",
-        option="--description",
     )
     delay_ticks: int = setting(
         3,
         "Delay from command to motion, in ticks of 12 ms",
         Range(0, 20, "ticks", "longer, balance is lost", whole=True),
-        option="--delay-ticks",
     )
     images: str | None = setting(
         None,
         "Source of images for --sensing cameras: v4l2:DEVICE, "
         "naoqi:tcp://HOST:PORT or ros2:/TOPIC; the camera of a robot on "
         "NAOqi by default",
-        option="--images",
     )
     max_speed: float | None = setting(
         None,
         "Maximum speed of a robot with velocity commands",
         positive("m/s", None),
-        option="--max-speed",
     )
     max_turn: float | None = setting(
         None,
         "Maximum turning rate of a robot with velocity commands",
         positive("rad/s", None),
-        option="--max-turn",
     )
     max_lateral: float | None = setting(
         None,
@@ -82,81 +78,68 @@ class ConnectionSettings:
         "--max-speed and --max-turn, and without it no lateral velocity is "
         "commanded",
         positive("m/s", None),
-        option="--max-lateral",
     )
     domain: int | None = setting(
         None,
         "ROS 2 domain; ROS_DOMAIN_ID by default, or 0 if that is not set",
         Range(0, 232, "1", "of ROS 2", whole=True, also=(None,)),
-        option="--domain",
     )
     network: bool = setting(
         False,
         "Make the ROS 2 topics visible to other machines. Without it, ROS 2 "
         "programs on this machine require "
         "ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST",
-        option="--network/--no-network",
     )
     remap: tuple[str, ...] = setting(
         (),
         "Another name of a topic of a ROS 2 robot, NAME:=/TOPIC, with NAME "
         "odom, cmd_vel, other, other_pose or detections; repeatable",
-        option="--remap",
     )
     opponent: str = setting(
         "",
         "Class of the detections (vision_msgs/Detection3DArray) that are "
         "the opponent; any by default",
-        option="--opponent",
     )
     sim_time: bool = setting(
         False,
         "The robot is simulated: its clock may pause or run at any rate",
-        option="--sim-time/--no-sim-time",
     )
     duration: float | None = setting(
         None,
         "Walk for this time, then rest",
         positive("s", None),
-        option="--duration",
     )
     wait: float = setting(
         10.0,
         "Maximum time to wait for the first connection",
         Range(1e-9, 1e9, "s", REASON, also=(0.0,)),
-        option="--wait",
     )
     reconnect: float | None = setting(
         None,
         "Try to reconnect for this time after a lost session {unit}; joint "
         "control only",
         positive("s", None),
-        option="--reconnect",
     )
     record: Path | None = setting(
         None,
         "Record all measurements, targets and state changes to a run folder "
         "for stepaside replay",
-        option="--record",
     )
     dry_run: bool = setting(
         False,
         "Connect, measure and plan, but do not move: only set LEDs",
-        option="--dry-run/--no-dry-run",
     )
     dead_man: str | None = setting(
         None,
         "Walk only while an operator holds a switch: key (any key of the "
         "terminal), gamepad or gamepad:DEVICE (any button), or ros2:/TOPIC "
         "(std_msgs/Bool, true at 4 Hz or more)",
-        option="--dead-man",
     )
     check: bool = setting(
         False,
         "Check a robot in Python instead of playing: rates, latency, units, "
         "signs and stopping. The robot moves, and must hang in the air if it "
         "is driven by its joints; the exit status is 1 if a check fails",
-        option="--check/--no-check",
     )
 
     def __post_init__(self) -> None:
@@ -238,11 +221,8 @@ def join_domain(domain: int | None, *, network: bool) -> "DdsParticipant":
 
 def with_feedback(settings: DuelSettings) -> DuelSettings:
     """Enable feedback unless options or settings choose the control."""
-    source = click.get_current_context().get_parameter_source
-    chosen = any(
-        source(name) is not ParameterSource.DEFAULT
-        for name in ("control__feedback", "control__method")
-    )
+    given = click.get_current_context().meta[GIVEN]
+    chosen = not given.isdisjoint(CONTROL)
     learns = settings.control.learn_turns
     if chosen or replace(settings.control, learn_turns=False) != OPEN_LOOP:
         return settings

@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING
 import click
 
 from ..core.constants import CAPTURE_DISTANCE
+from ..games.duel_settings import DuelSettings
 from .options.common_options import (
     figure_option,
     figure_width,
     folder_option,
     json_option,
 )
-from .options.duel_options import duel_options
-from .options.settings_command import SettingsCommand
+from .options.settings_options import DUEL, takes_settings
 from .output_files import attempt, writes_files
 from .progress import SIMULATED, announce_effort, show_progress
 from .run_output import save_run
@@ -21,14 +21,13 @@ from .tables import print_table
 from .terminal import echo, print_json
 
 if TYPE_CHECKING:
-    from ..games.duel_settings import DuelSettings
     from ..games.duel_summary import DuelSummary
     from ..games.run import DuelRun
     from ..games.sight_summary import PerceptionSummary
 
 
-@click.command("duel", cls=SettingsCommand)
-@duel_options()
+@click.command("duel")
+@takes_settings(DuelSettings, DUEL)
 @folder_option(
     help="Run folder; a new one in runs/ by default, none with --json."
 )
@@ -37,7 +36,7 @@ if TYPE_CHECKING:
 @json_option
 @writes_files
 def duel(
-    settings: "DuelSettings",
+    settings: DuelSettings,
     output: Path | None,
     figure: str | None,
     as_json: bool,
@@ -75,7 +74,7 @@ def duel(
     saved.exit_if_interrupted(run.outcome)
 
 
-def _warn_of_expected_end(settings: "DuelSettings") -> None:
+def _warn_of_expected_end(settings: DuelSettings) -> None:
     """Print a warning if two robots are not expected to reach a circle."""
     from ..games.forecast import ExpectedEnd, forecast
     from ..games.initial_poses import with_initial_poses
@@ -85,7 +84,7 @@ def _warn_of_expected_end(settings: "DuelSettings") -> None:
         echo(f"stepaside: expected outcome: {end.words}", err=True)
 
 
-def _play(settings: "DuelSettings") -> "DuelRun":
+def _play(settings: DuelSettings) -> "DuelRun":
     """Run the duel with a progress bar on standard error."""
     from ..games.duel import run_duel
     from ..games.match import Progress

@@ -3,10 +3,11 @@
 import re
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
+from ..games.duel_settings import DuelSettings
 from .campaign_options import CampaignOptions, campaign_options
 from .campaign_reports import finish_campaign, run_campaign
 from .options.common_options import (
@@ -14,16 +15,12 @@ from .options.common_options import (
     figure_width,
     json_option,
 )
-from .options.duel_options import duel_options
 from .options.parameter_types import TextType
-from .options.settings_command import SettingsCommand
+from .options.settings_options import DUEL, takes_settings
 from .output_files import attempt, writes_files
 from .progress import SIMULATED, announce_effort
 from .tables import interval, label_of, number, print_columns
 from .terminal import echo, print_json
-
-if TYPE_CHECKING:
-    from ..games.duel_settings import DuelSettings
 
 LARGEST = 10_000_000  # number of duels of one study
 SUMMARY = "summary.json"
@@ -63,9 +60,9 @@ seeds_option = partial(
 )
 
 
-@click.command("duels", cls=SettingsCommand)
+@click.command("duels")
 @seeds_option(default="0:40")
-@duel_options("seed")
+@takes_settings(DuelSettings, DUEL, without=("seed",))
 @campaign_options(
     "Folder of results; an interrupted study in it is continued. runs/duels "
     "by default, none with --json."
@@ -75,7 +72,7 @@ seeds_option = partial(
 @json_option
 @writes_files
 def duels(
-    settings: "DuelSettings",
+    settings: DuelSettings,
     seeds: range,
     campaign: CampaignOptions,
     figure: str | None,
@@ -129,7 +126,7 @@ def _draw(
 
 
 def _result(
-    settings: "DuelSettings", seeds: range, records: list[dict[str, Any]]
+    settings: DuelSettings, seeds: range, records: list[dict[str, Any]]
 ) -> dict[str, Any]:
     from ..games.configuration_file import json_settings
     from ..studies.duel_campaign import versions_of

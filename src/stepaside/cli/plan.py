@@ -10,16 +10,11 @@ import click
 from ..core.errors import PlanError
 from ..core.ranges import Range
 from ..core.setting import check_settings, setting
-from ..games.duel_settings import GAIT_HELP, DuelSettings
+from ..games.duel_settings import DuelSettings
 from ..games.walk_settings import WalkSettings
 from ..planning import PRESETS, Direction, Foot, GaitSettings
 from .options.common_options import figure_option, figure_width, json_option
-from .options.duel_options import GAIT
-from .options.settings_command import (
-    OptionGroup,
-    SettingsCommand,
-    takes_settings,
-)
+from .options.settings_options import takes_settings
 from .output_files import attempt, writes_files
 from .terminal import echo, print_json
 
@@ -38,36 +33,31 @@ class PlanSettings:
         None,
         "Role: the pursuer walks forward, the evader backward",
         names=ROLES,
-        option="--role",
     )
     bearing: float | None = setting(
         None,
         "Desired heading in the frame of the support foot {unit}; 0 is "
         "straight ahead",
         Range(-pi, pi, "rad", "half a turn", also=(None,)),
-        option="--bearing",
     )
     steps: int = setting(
         20,
         "Number of footsteps",
         Range(1, 200, "steps", "more cannot be drawn", whole=True),
-        option="--steps",
     )
     first_foot: str = setting(
-        "left", "Foot that lands first", names=FEET, option="--first-foot"
+        "left",
+        "Foot that lands first",
+        names=FEET,
     )
     saturated: bool = setting(
         False,
         "Turn by eq. (6) instead of eq. (8)",
-        option="--saturated/--no-saturated",
     )
     gait: GaitSettings = setting(
         GaitSettings(),
         "Gait",
         presets=PRESETS,
-        option="--gait",
-        aliases=("--preset",),
-        option_help=GAIT_HELP,
     )
 
     def __post_init__(self) -> None:
@@ -91,16 +81,20 @@ ENTRIES_OF_GAMES = frozenset(
     for field in fields(kind)
 )
 
-MANEUVER = OptionGroup(
-    "Maneuver", ("role", "bearing", "steps", "first_foot", "saturated")
-)
+MANEUVER = {
+    "--role": "role",
+    "--bearing": "bearing",
+    "--steps": "steps",
+    "--first-foot": "first_foot",
+    "--saturated": "saturated",
+    "--gait": "gait",
+}
 
 
-@click.command("plan", cls=SettingsCommand)
+@click.command("plan")
 @takes_settings(
     PlanSettings,
     MANEUVER,
-    GAIT,
     without=("gait.horizon",),
     ignored=ENTRIES_OF_GAMES,
 )

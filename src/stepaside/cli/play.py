@@ -13,11 +13,10 @@ from ..games.duel_settings import EVADER, PURSUER, DuelSettings
 from ..strategies.registry import OF_EVASION
 from .connection_settings import ROS2, ConnectionSettings, with_feedback
 from .options.common_options import json_option
-from .options.duel_options import CONTROL, GAIT, SHIELD, STRATEGY
-from .options.setting_options import entries_at, refuse_options, takes
-from .options.settings_command import (
-    OptionGroup,
-    SettingsCommand,
+from .options.settings_options import (
+    refuse_options,
+    refuse_settings,
+    takes,
     takes_settings,
 )
 
@@ -35,18 +34,25 @@ TIME_IS_UP = "played long enough"
 INTERRUPTED = "interrupted"
 
 
-@click.command("play", cls=SettingsCommand)
+OF_PLAY = {
+    "--strategy": "evader_strategy",
+    "--pursuer-strategy": "pursuer_strategy",
+    "--legs": "legs.network",
+    "--gait": "gait",
+    "--method": "control.method",
+    "--sensing": "sensing",
+}
+SECTIONS = (
+    *("evader_strategy", "pursuer_strategy", "strategy", "shield", "gait"),
+    *("legs", "control", "sensing", "cameras"),
+)
+
+
+@click.command("play")
 @takes_settings(
     DuelSettings,
-    STRATEGY,
-    SHIELD,
-    GAIT,
-    OptionGroup("Learned legs (docs/legs.md)", ("legs",)),
-    CONTROL,
-    OptionGroup(
-        "Sensing",
-        ("sensing", "cameras.added_latency", "cameras.colour.optics"),
-    ),
+    OF_PLAY,
+    sections=SECTIONS,
     robot_argument="description",
 )
 @takes(ConnectionSettings, "connection")
@@ -148,16 +154,16 @@ def _refuse_unused(
     """Refuse options that have no effect with this role and robot."""
     evades = connection.role == EVADER
     other = "pursuer_strategy" if evades else "evader_strategy"
-    refuse_options(
-        {other},
+    refuse_settings(
+        (other,),
         f"--role {PURSUER if evades else EVADER}, got {connection.role}",
     )
     strategy = (
         settings.evader_strategy if evades else settings.pursuer_strategy
     )
     if strategy not in OF_EVASION:
-        refuse_options(
-            {e.name for e in entries_at(DuelSettings, "strategy")},
+        refuse_settings(
+            ("strategy.",),
             f"the strategy {' or '.join(OF_EVASION)}, got {strategy}",
         )
     if joints:
@@ -167,12 +173,8 @@ def _refuse_unused(
         if connection.on_nao:
             refuse_options({"dead_man"}, "a robot without a chest button")
     else:
-        refuse_options(
-            {"delay_ticks", "reconnect"}
-            | {e.name for e in entries_at(DuelSettings, "legs")}
-            | {e.name for e in entries_at(DuelSettings, "control")},
-            "joint control",
-        )
+        refuse_options({"delay_ticks", "reconnect"}, "joint control")
+        refuse_settings(("legs.", "control."), "joint control")
     if settings.sensing != "cameras":
         refuse_options({"images"}, "--sensing cameras, got ideal")
     if not connection.robot.startswith(ROS2):

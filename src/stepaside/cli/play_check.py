@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from .options.setting_options import refuse_options
+from .options.settings_options import refuse_options
 from .terminal import echo, print_json
 
 if TYPE_CHECKING:

@@ -11,7 +11,7 @@ import click
 
 from ..core.atomic_output import reason_of
 from ..core.errors import OutputError
-from ..report.film_settings import AROUND, SLOWEST, FilmSettings
+from ..report.film_settings import FilmSettings
 from .bag_replay import ONLY_BAGS, BagOutputs, is_bag, replay_bag
 from .options.common_options import (
     browser_option,
@@ -19,7 +19,7 @@ from .options.common_options import (
     figure_width,
     json_option,
 )
-from .options.setting_options import refuse_options, takes
+from .options.settings_options import refuse_options, takes
 from .output_files import OutputFile, attempt, writes_files
 from .progress import IMAGES, announce_effort, show_progress
 from .terminal import echo, print_json
@@ -157,8 +157,7 @@ def _written(file: Path) -> dict[str, Any]:
 def _announce(film: FilmSettings, run: "Run") -> None:
     """Announce long rendering."""
     shown = min(float(run.times[-1]) - film.begin, film.duration)
-    slower = 2.0 * AROUND / SLOWEST if film.slow else 0.0
-    number = max(shown + slower, 0.0) * film.rate / film.speed
+    number = max(shown, 0.0) * film.rate / film.speed
     size = film.width * film.height / (640 * 480)
     announce_effort(
         f"a video of about {number:.0f} frames",

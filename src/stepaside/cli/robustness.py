@@ -17,10 +17,13 @@ from .options.common_options import (
     figure_width,
     json_option,
 )
-from .options.duel_options import WALK
 from .options.parameter_types import NameType
-from .options.setting_options import refuse_options, takes
-from .options.settings_command import SettingsCommand, takes_settings
+from .options.settings_options import (
+    WALK,
+    refuse_options,
+    takes,
+    takes_settings,
+)
 from .output_files import attempt, writes_files
 from .plan import ENTRIES_OF_GAMES
 from .robustness_people import (
@@ -100,13 +103,17 @@ def _print_limits(
 
 
 PERSON = "person"
-# Options of cameras that serve to study images.
-OF_IMAGES = (
-    "colour.optics",
-    "colour.renderer",
-    "drop_frames",
-    "added_latency",
-)
+OF_CAMERAS = {"--depth-camera": "depth", "--rear-camera": "rear_camera"}
+OF_SHIELD = {
+    "--shield": "enabled",
+    **{
+        f"--shield-{name.replace('_', '-')}": name
+        for name in (
+            *("speed", "turning_radius", "contact", "sighting_error"),
+            *("sighting_delay", "loss", "response"),
+        )
+    },
+}
 
 
 def _kinds() -> Collection[str]:
@@ -127,7 +134,7 @@ def _methods() -> Collection[str]:
     return METHODS
 
 
-@click.command("robustness", cls=SettingsCommand)
+@click.command("robustness")
 @click.option(
     "--kind",
     "kinds",
@@ -208,11 +215,11 @@ def _methods() -> Collection[str]:
 @figure_width
 @json_option
 @writes_files
-@takes(ShieldSettings, "shield")
-@takes(CameraSettings, "cameras", without=OF_IMAGES)
+@takes(ShieldSettings, "shield", OF_SHIELD)
+@takes(CameraSettings, "cameras", OF_CAMERAS)
 @takes_settings(
     WalkSettings,
-    *WALK,
+    WALK,
     without=("duration", "pushes", "control.method", "control.feedback"),
     ignored=ENTRIES_OF_GAMES,
     meanings={

@@ -13,10 +13,18 @@ from .options.common_options import (
     seed_option,
 )
 from .options.parameter_types import OutputFile, SizeType
-from .options.setting_options import refuse_options, takes
+from .options.settings_options import refuse_options, takes
 from .output_files import attempt, writes_files
 from .tables import print_table, scalar_rows
 from .terminal import print_json
+
+OF_RECIPE = {
+    f"--{name.replace('_', '-')}": name
+    for name in (
+        *("discs", "boxes", "polygons", "doors"),
+        *("smallest", "largest", "door_width"),
+    )
+}
 
 
 @click.command("room")
@@ -33,7 +41,7 @@ from .terminal import print_json
     show_default=True,
     help="Width and depth of the room [m]; open for a floor without walls.",
 )
-@takes(RoomRecipe, "recipe")
+@takes(RoomRecipe, "recipe", OF_RECIPE)
 @click.option(
     "--output",
     type=OutputFile(".toml", ".json"),

@@ -3,10 +3,11 @@
 from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
+from ..games.duel_settings import DuelSettings
 from .connection_settings import with_feedback
 from .options.common_options import (
     domain_option,
@@ -14,22 +15,17 @@ from .options.common_options import (
     json_option,
     network_option,
 )
-from .options.duel_options import duel_options
 from .options.parameter_types import SECONDS, NameType
-from .options.setting_options import refuse_options
-from .options.settings_command import SettingsCommand
+from .options.settings_options import DUEL, refuse_options, takes_settings
 from .run_output import check_run_folder, save_run
 from .tables import format_value, print_table, table_rows
 from .terminal import print_json
 
-if TYPE_CHECKING:
-    from ..games.duel_settings import DuelSettings
-
 SIGHTS = ("ideal", "none")
 
 
-@click.command("serve", cls=SettingsCommand)
-@duel_options()
+@click.command("serve")
+@takes_settings(DuelSettings, DUEL)
 @click.option(
     "--lola",
     "lola",
@@ -70,7 +66,7 @@ SIGHTS = ("ideal", "none")
 @folder_option(help="Run folder; the run is not saved by default.")
 @json_option
 def serve(
-    settings: "DuelSettings",
+    settings: DuelSettings,
     sight: str,
     lockstep: bool,
     wait: float,
@@ -135,7 +131,7 @@ def _radius(player: dict[str, Any]) -> str:
     return format_value("radius_m", player["radius_m"], 3)
 
 
-def _with_cycle(settings: "DuelSettings") -> "DuelSettings":
+def _with_cycle(settings: DuelSettings) -> DuelSettings:
     """Return settings whose bodies have the control period of LoLA."""
     from ..sim.body_settings import BODIES
 

@@ -25,7 +25,7 @@ from .options.parameter_types import (
     NameType,
     OutputFile,
 )
-from .options.setting_options import refuse_options, takes
+from .options.settings_options import refuse_options, takes
 from .output_files import attempt, writes_files
 from .progress import DECISIONS, SIMULATED, announce_effort
 from .tables import interval, number, percent, print_columns
@@ -88,8 +88,8 @@ SEARCHES = (
 )
 SUMMARY = "summary.json"
 FEW = 20  # games of unicycles that need no worker processes
-# Options of rooms that a tournament does not have.
-OF_ROOMS = ("doors", "smallest", "largest", "door_width")
+# Options of random rooms.
+OF_ROOMS = {f"--{name}": name for name in ("discs", "boxes", "polygons")}
 
 
 def _levels() -> tuple[str, ...]:
@@ -137,7 +137,7 @@ def _levels() -> tuple[str, ...]:
     help="Width and depth of the room [m], open for a floor without walls, "
     "or a room file.",
 )
-@takes(RoomRecipe, "recipe", without=OF_ROOMS)
+@takes(RoomRecipe, "recipe", OF_ROOMS)
 @game_time_option(
     default=180.0,
     show_default=True,

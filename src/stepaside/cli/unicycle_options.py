@@ -18,7 +18,7 @@ from ..theory.unicycle.unicycle_game import (
     make_game,
 )
 from .options.parameter_types import positive
-from .options.setting_options import refuse_options, takes
+from .options.settings_options import refuse_options, takes
 
 STRATEGIES = {"move-aside": pi / 2, "move-back": 0.0}
 SPEED = positive("m/s", None)
@@ -30,71 +30,62 @@ class UnicycleOptions:
     """Parameters of a game of unicycles, as options."""
 
     speed: float = setting(
-        1.0, "Speed v of both players", positive("m/s"), option="--speed"
+        1.0,
+        "Speed v of both players",
+        positive("m/s"),
     )
     gain: float = setting(
         0.5,
         "Steering gain k of both players",
         positive("1/s"),
-        option="--gain",
     )
     pursuer_speed: float | None = setting(
         None,
         "Speed of the pursuer, if different",
         SPEED,
-        option="--pursuer-speed",
     )
     evader_speed: float | None = setting(
         None,
         "Speed of the evader, if different",
         SPEED,
-        option="--evader-speed",
     )
     pursuer_gain: float | None = setting(
         None,
         "Steering gain of the pursuer, if different",
         GAIN,
-        option="--pursuer-gain",
     )
     evader_gain: float | None = setting(
         None,
         "Steering gain of the evader, if different",
         GAIN,
-        option="--evader-gain",
     )
     angle: float | None = setting(
         None,
         "Evasion angle {unit}, like 1.2, 1.2rad or 70deg",
         Range(0.0, pi, "rad", "the sign is given by the side", also=(None,)),
-        option="--angle",
         default_text="90deg",
     )
     strategy: str | None = setting(
         None,
         "Evasion angle by name: move-aside (90deg) or move-back (0)",
         names=tuple(STRATEGIES),
-        option="--strategy",
     )
     law: str = setting(
         TurningLaw.PROPORTIONAL.value,
         "Turning law of the evader: eq. (4) or eq. (6)",
         names=[law.value for law in TurningLaw],
-        option="--law",
     )
     side_rule: str = setting(
         SideRule.BEHIND.value,
         "Side of the line of sight to which the evader moves: the side "
         "behind it at every instant (behind), or its initial side (latched)",
         names=[rule.value for rule in SideRule],
-        option="--side-rule",
     )
     hysteresis: float = setting(
         0.0,
         "Angle beyond the evader's axis at which it changes side {unit}, "
         "with --side-rule behind",
         Range(0.0, pi / 2, "rad", "beyond, it never changes side"),
-        option="--hysteresis",
-        aliases=("--side-hysteresis",),
     )
 
     def __post_init__(self) -> None:

@@ -9,17 +9,16 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import click
 from click.core import ParameterSource
 
+from ..games.duel_settings import DuelSettings
 from .options.common_options import (
     browser_option,
     port_option,
     serve_for_option,
 )
-from .options.duel_options import duel_options
-from .options.settings_command import SettingsCommand
+from .options.settings_options import DUEL, takes_settings
 from .terminal import echo
 
 if TYPE_CHECKING:
-    from ..games.duel_settings import DuelSettings
     from ..games.game_settings import GameSettings
     from ..report.viewer.live_page import Page
 
@@ -47,7 +46,7 @@ class ViewOptions(NamedTuple):
 OWN = {*ViewOptions._fields, "seed"}
 
 
-@click.command("view", cls=SettingsCommand)
+@click.command("view")
 @click.argument(
     "file",
     required=False,
@@ -67,8 +66,8 @@ OWN = {*ViewOptions._fields, "seed"}
     "with the next seeds, for an audience.",
 )
 @serve_for_option("--duration")
-@duel_options("duration")
-def view(settings: "DuelSettings", **options: Any) -> None:
+@takes_settings(DuelSettings, DUEL, without=("duration",))
+def view(settings: DuelSettings, **options: Any) -> None:
     """Serve a page on which to watch a game, push and drive the robots.
 
     With FILE it is the game in physics of any number of players that FILE

@@ -7,8 +7,7 @@ import click
 
 from ..games.walk_settings import WalkSettings
 from .options.common_options import figure_option, folder_option, json_option
-from .options.duel_options import WALK
-from .options.settings_command import SettingsCommand, takes_settings
+from .options.settings_options import WALK, takes_settings
 from .output_files import attempt, writes_files
 from .progress import SIMULATED, announce_effort, show_progress
 from .run_output import check_run_folder, save_run
@@ -19,8 +18,8 @@ if TYPE_CHECKING:
     from ..games.run import WalkRun
 
 
-@click.command("walk", cls=SettingsCommand)
-@takes_settings(WalkSettings, *WALK)
+@click.command("walk")
+@takes_settings(WalkSettings, WALK)
 @folder_option(help="Run folder; the run is not saved by default.")
 @figure_option()
 @json_option

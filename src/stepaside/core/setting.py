@@ -29,14 +29,9 @@ class Setting:
             need none.
         range: Range of a number; None for any other value.
         names: Permitted texts; empty if any is.
-        presets: Values by the name that the option takes instead.
-        option: Name of the command-line option, ``--x`` or, for a flag,
-            ``--x/--no-x``; empty if there is none.
-        aliases: Further names of the option.
+        presets: Values by the name that an option takes instead.
         words: Special values by their word on the command line.
         default_text: What the help shows as default instead of the value.
-        option_help: Meaning of the option, where it takes something else
-            than the setting, like the name of a preset.
         needs: Path and value of another setting without which this one, or
             this section, has no effect; an empty value stands for any but
             None.
@@ -46,11 +41,8 @@ class Setting:
     range: Range | None = None
     names: tuple[str, ...] = ()
     presets: Mapping[Any, Any] | None = None
-    option: str = ""
-    aliases: tuple[str, ...] = ()
     words: Mapping[str, Any] | None = None
     default_text: str = ""
-    option_help: str = ""
     needs: tuple[str, str] | None = None
 
     @property
@@ -81,11 +73,8 @@ def setting(
     *,
     names: Collection[str] = (),
     presets: Mapping[Any, T] | None = None,
-    option: str = "",
-    aliases: tuple[str, ...] = (),
     words: Mapping[str, T] | None = None,
     default_text: str = "",
-    option_help: str = "",
     needs: tuple[str, str] | None = None,
 ) -> T:
     """Declare a field of a dataclass of settings.
@@ -96,11 +85,8 @@ def setting(
         range: Range of a number.
         names: Permitted texts; those of a ``Literal`` need not be given.
         presets: Values by name.
-        option: Command-line option.
-        aliases: Further names of the option.
         words: Words for special values.
         default_text: Default shown in the help.
-        option_help: Meaning of the option.
         needs: Condition.
     """
     described = Setting(
@@ -108,11 +94,8 @@ def setting(
         range,
         tuple(names),
         presets,
-        option,
-        aliases,
         words,
         default_text,
-        option_help,
         needs,
     )
     kind: dict[str, Any] = {"default": default}

@@ -52,13 +52,6 @@ STRATEGY_NAMES = (
     f"{', '.join(STRATEGIES)}, pursuit-xRATIO, FILE.py:NAME for your own, or "
     "FILE.onnx for a learned one"
 )
-GAIT_HELP = (
-    "Gait preset: the paper's, the paper's with durations as printed, or a "
-    "fast one (with feedback unless --open-loop). Other gait options modify it"
-)
-BODY_HELP = (
-    "Imperfections of the body: none, delays only, or those of real hardware"
-)
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +68,6 @@ class StartSettings:
             "at ``least``, or they touch; farther, they never meet",
             also=(None,),
         ),
-        option="--distance",
         words={"drawn": None},
     )
     pursuer_offset: float | None = setting(
@@ -83,7 +75,6 @@ class StartSettings:
         "Heading of the pursuer relative to its line of sight to the evader "
         "{unit}, drawn up to a right angle to either side",
         Range(-pi, pi, "rad", "half a turn", also=(None,)),
-        option="--pursuer-offset",
         words={"drawn": None},
     )
     evader_offset: float | None = setting(
@@ -91,7 +82,6 @@ class StartSettings:
         "Heading of the evader relative to its line of sight to the pursuer "
         "{unit}, drawn up to 30 degrees to either side",
         Range(-pi, pi, "rad", "half a turn", also=(None,)),
-        option="--evader-offset",
         words={"drawn": None},
     )
     least: float = setting(
@@ -144,14 +134,19 @@ class DuelSettings:
     game: ClassVar[str] = "duel"
     __repr__ = brief_repr
 
-    seed: int = setting(1, "Random seed", SEEDS, option="--seed")
+    seed: int = setting(
+        1,
+        "Random seed",
+        SEEDS,
+    )
     duration: float = setting(
-        120.0, "Simulated time", RUNTIME, option="--duration"
+        120.0,
+        "Simulated time",
+        RUNTIME,
     )
     robot: str = setting(
         "nao",
         "Name of a robot, or folder of its description",
-        option="--robot",
     )
     start: StartSettings = setting(StartSettings(), "Initial poses")
     strategy: Evasion = setting(
@@ -160,14 +155,11 @@ class DuelSettings:
     evader_strategy: str | Strategy = setting(
         "",
         f"Strategy of the evader: {STRATEGY_NAMES}",
-        option="--strategy",
-        aliases=("--evader-strategy",),
         default_text="evasion; step-aside on learned legs against a person",
     )
     pursuer_strategy: str | Strategy = setting(
         PURSUIT,
         f"Strategy of a robot pursuer: {STRATEGY_NAMES}",
-        option="--pursuer-strategy",
         default_text="pursuit",
     )
     shield: ShieldSettings = setting(
@@ -177,9 +169,6 @@ class DuelSettings:
         GaitSettings(),
         "Gait of each player without a robot of its own",
         presets=PRESETS,
-        option="--gait",
-        aliases=("--preset",),
-        option_help=GAIT_HELP,
     )
     sight: SightSettings = setting(
         SightSettings(), "Errors of ideal sensing", needs=("sensing", "ideal")
@@ -191,8 +180,6 @@ class DuelSettings:
         BodySettings(),
         "Deviations of the bodies from ideal ones",
         presets=BODIES,
-        option="--body",
-        option_help=BODY_HELP,
     )
     control: ControlSettings = setting(
         ControlSettings(),
@@ -207,7 +194,6 @@ class DuelSettings:
         "Sensing of opponents: true poses (ideal), or detection in simulated "
         "camera images, or of people in the scans of a simulated lidar",
         names=SENSING,
-        option="--sensing",
     )
     cameras: CameraSettings = setting(
         CameraSettings(),
@@ -228,7 +214,9 @@ class DuelSettings:
         needs=("room.plan", ""),
     )
     pursuer: str = setting(
-        "robot", "Kind of pursuer", names=PURSUERS, option="--pursuer"
+        "robot",
+        "Kind of pursuer",
+        names=PURSUERS,
     )
     person: PersonSettings = setting(
         PersonSettings(),
@@ -238,24 +226,14 @@ class DuelSettings:
     pursuer_robot: RobotSettings | None = setting(
         None,
         "Robot, gait and control of the pursuer, if it has a robot of its own",
-        option="--pursuer-robot",
-        option_help="Robot of the pursuer; that of --robot by default",
     )
     evader_robot: RobotSettings | None = setting(
         None,
         "Robot, gait and control of the evader, if it has a robot of its own",
-        option="--evader-robot",
-        option_help="Robot of the evader; that of --robot by default",
     )
     pushes: tuple[Push, ...] = setting(
         (),
         "Pushes on the robots",
-        option="--push",
-        option_help=(
-            "Push the torso of the evader; repeatable. "
-            "1.2@5:90deg is 1.2 N s at 5 s to the left; pursuer=1.2@5:90deg "
-            "pushes the pursuer. none removes those of the configuration"
-        ),
     )
 
     def __post_init__(self) -> None:

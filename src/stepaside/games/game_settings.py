@@ -30,7 +30,7 @@ from ..strategies.registry import (
     describe_strategy,
 )
 from ..strategies.shield_settings import ShieldSettings
-from .duel_settings import BODY_HELP, RobotSettings
+from .duel_settings import RobotSettings
 from .implied_settings import (
     implied_control,
     implied_evader,
@@ -205,16 +205,21 @@ class GameSettings:
     game: ClassVar[str] = "game"
     __repr__ = brief_repr
 
-    seed: int = setting(1, "Random seed", SEEDS, option="--seed")
+    seed: int = setting(
+        1,
+        "Random seed",
+        SEEDS,
+    )
     duration: float = setting(
-        120.0, "Simulated time", RUNTIME, option="--duration"
+        120.0,
+        "Simulated time",
+        RUNTIME,
     )
     level: str = setting(
         "physics",
         "Level of the game: bodies in physics, templates that decide at "
         "steps, or unicycles that decide continuously",
         names=GAME_LEVELS,
-        option="--level",
     )
     players: tuple[PlayerSettings, ...] = setting((), "The players")
     near: float = setting(
@@ -235,8 +240,6 @@ class GameSettings:
         BodySettings(),
         "Deviations of the bodies from ideal ones",
         presets=BODIES,
-        option="--body",
-        option_help=BODY_HELP,
     )
     room: Room | None = setting(
         None, "Room in which the game is played; an open floor without"

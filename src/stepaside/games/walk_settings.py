@@ -17,7 +17,7 @@ from ..planning import PRESETS, GaitSettings
 from ..sim.body_settings import BODIES, BodySettings
 from ..sim.physics_settings import PhysicsSettings
 from ..sim.push import MOST_PUSHES, Push, check_pushes
-from .duel_settings import BODY_HELP, GAIT_HELP, RobotSettings
+from .duel_settings import RobotSettings
 from .implied_settings import implied_control
 
 WALKER = "walker"
@@ -30,32 +30,34 @@ class WalkSettings:
     game: ClassVar[str] = "walk"
     __repr__ = brief_repr
 
-    seed: int = setting(1, "Random seed", SEEDS, option="--seed")
+    seed: int = setting(
+        1,
+        "Random seed",
+        SEEDS,
+    )
     duration: float = setting(
-        20.0, "Simulated time", RUNTIME, option="--duration"
+        20.0,
+        "Simulated time",
+        RUNTIME,
     )
     robot: str = setting(
         "nao",
         "Name of a robot, or folder of its description",
-        option="--robot",
     )
     bearing: float = setting(
         0.0,
         "Desired heading in the frame of the support foot {unit}; 0 is "
         "straight ahead, others walk a circle",
         Range(-pi, pi, "rad", "half a turn"),
-        option="--bearing",
     )
     backward: bool = setting(
-        False, "Walk backward", option="--backward/--forward"
+        False,
+        "Walk backward",
     )
     gait: GaitSettings = setting(
         GaitSettings(),
         "Gait",
         presets=PRESETS,
-        option="--gait",
-        aliases=("--preset",),
-        option_help=GAIT_HELP,
     )
     physics: PhysicsSettings = setting(
         PhysicsSettings(), "Physics, floor and clock"
@@ -64,18 +66,11 @@ class WalkSettings:
         BodySettings(),
         "Deviations of the body from an ideal one",
         presets=BODIES,
-        option="--body",
-        option_help=BODY_HELP,
     )
     control: ControlSettings = setting(ControlSettings(), "Walking control")
     pushes: tuple[Push, ...] = setting(
         (),
         "Pushes on the robot",
-        option="--push",
-        option_help=(
-            "Push the torso; repeatable. 1.2@5:90deg is 1.2 N s "
-            "at 5 s to the left. none removes those of the configuration"
-        ),
     )
 
     def __post_init__(self) -> None:

@@ -57,87 +57,72 @@ class GaitSettings:
         0.1,
         "Driving speed of the template",
         Range(1e-4, 10.0, "m/s", WIDE),
-        option="--speed",
     )
     gain: float = setting(
         0.2,
         "Steering gain k",
         Range(1e-4, 100.0, "1/s", WIDE),
-        option="--gain",
     )
     stride: float = setting(
         0.04,
         "Step size along the path",
         Range(1e-4, 10.0, "m", WIDE),
-        option="--stride",
     )
     outer_stride: float | None = setting(
         None,
         "Longest displacement of the outer foot in a turn {unit}; sharper "
         "turns shorten the stride; none never shortens it",
         Range(1e-4, 10.0, "m", WIDE, also=(None,)),
-        option="--outer-stride",
         words={"none": None},
     )
     foot_spacing: float = setting(
         0.1,
         "Lateral distance between the feet",
         Range(1e-3, 10.0, "m", WIDE),
-        option="--foot-spacing",
     )
     step_height: float = setting(
         0.02,
         "Maximum height of the swing foot",
         Range(0.0, 10.0, "m", "0 slides the foot"),
-        option="--step-height",
     )
     single_support: float = setting(
         0.425,
         "Duration of single support",
         Range(1e-3, 100.0, "s", WIDE),
-        option="--single-support",
     )
     double_support: float = setting(
         0.122,
         "Duration of double support between two steps",
         Range(1e-3, 100.0, "s", WIDE),
-        option="--double-support",
     )
     start_support: float = setting(
         0.8,
         "Duration of double support before the first step",
         Range(1e-3, 100.0, "s", WIDE),
-        option="--start-support",
     )
     com_height: float = setting(
         0.268,
         "Height of the CoM above the floor",
         Range(1e-2, 10.0, "m", WIDE),
-        option="--com-height",
     )
     zmp_forward: float = setting(
         0.02,
         "Forward offset of the ZMP reference from the ankle",
         Range(-10.0, 10.0, "m", "and within the sole"),
-        option="--zmp-forward",
     )
     zmp_profile: Literal["linear", "cubic"] = setting(
         "linear",
         "ZMP transfer between the feet in double support",
-        option="--profile",
-        aliases=("--zmp-profile",),
     )
     swing_profile: SwingProfile = setting(
         "minimum-jerk",
         "Time profile of the swing foot",
-        option="--swing-profile",
     )
     swing_reaction: float = setting(
         0.0,
         "ZMP shift per acceleration of the swing foot {unit}; 0 for massless "
         "legs",
         Range(0.0, 0.1, "s^2", "about ten times the NAO's"),
-        option="--swing-reaction",
     )
     horizon: int = setting(
         5,
@@ -150,7 +135,6 @@ class GaitSettings:
             "and the next one begins with it in a foot",
             whole=True,
         ),
-        option="--horizon",
     )
     gravity: float = setting(
         GRAVITY,

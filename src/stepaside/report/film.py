@@ -25,7 +25,7 @@ from ..sim.offscreen_rendering import (
     choose_renderer,
 )
 from .film_camera import FilmCamera
-from .film_captions import caption, draw_title
+from .film_captions import caption
 from .film_layers import add_layers, aim_light
 from .film_settings import FilmSettings
 from .landed_footsteps import footsteps_in
@@ -58,7 +58,6 @@ class FilmRenderer:
             backend,
             QUALITY._replace(reach=max(SHADOW_REACH, self._camera.reach)),
         )
-        self._closest = closest_time(run)
 
     def picture(self, time: float) -> Pixels:
         """Return the image of a time, in [s]. Shape (height, width, 3)."""
@@ -87,9 +86,9 @@ class FilmRenderer:
                 index,
                 view=view,
                 fovy=self._fovy,
-                speed=settings.speed_at(time, self._closest),
+                speed=settings.speed,
             )
-        return draw_title(image, settings.title)
+        return image
 
     def close(self) -> None:
         """Release the graphics."""
@@ -147,30 +146,6 @@ def hidden_walls(model: mujoco.MjModel, eye: Array) -> Iterator[None]:
         model.geom_rgba[walls, 3] = opacity
 
 
-def closest_time(run: Run) -> float | None:
-    """Return the time of the closest approach, in [s].
-
-    Args:
-        run: The run.
-
-    Returns:
-        The time; None for a run of one player.
-    """
-    if run.pair is None:
-        return None
-    return float(run.times[int(np.argmin(run.distance))])
-
-
-def frame_times_of(run: Run, settings: FilmSettings) -> list[float]:
-    """Return the times in a run at which a film has images, in [s].
-
-    Args:
-        run: The run.
-        settings: Settings of the film.
-    """
-    return settings.frame_times(float(run.times[-1]), closest_time(run))
-
-
 # One per process; workers reuse it for all chunks of a film.
 _renderers: dict[tuple[Path, FilmSettings, str], FilmRenderer] = {}
 
@@ -208,7 +183,7 @@ def render_images(
             "films need EGL or OSMesa, and neither works here: install "
             "libegl1 or libosmesa6"
         )
-    times = frame_times_of(load_run(folder), settings)
+    times = settings.frame_times(float(load_run(folder).times[-1]))
     if not times:
         raise ConfigurationError(
             f"film must begin before the run's end, got {settings.begin:g} [s]"
@@ -251,7 +226,8 @@ def write_video(
     """
     import av
 
-    number = len(frame_times_of(load_run(folder), settings))
+    last = float(load_run(folder).times[-1])
+    number = len(settings.frame_times(last))
     done = 0
     with atomic_draft(file) as draft:
         try:
@@ -300,7 +276,8 @@ def write_gif(
     """
     from PIL import Image
 
-    number = len(frame_times_of(load_run(folder), settings))
+    last = float(load_run(folder).times[-1])
+    number = len(settings.frame_times(last))
     frames = []
     for picture in render_images(folder, settings):
         image = Image.fromarray(picture)

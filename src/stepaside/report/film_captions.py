@@ -118,32 +118,6 @@ def ring_labels(run: Run, index: int) -> list[tuple[str, Array, str]]:
     return labels
 
 
-def draw_title(picture: Pixels, text: str) -> Pixels:
-    """Write a title into the upper left corner of an image.
-
-    Args:
-        picture: Shape (height, width, 3).
-        text: Untrusted text; empty for no title.
-
-    Returns:
-        Image with the title; unchanged if it is too small for text.
-    """
-    from PIL import Image, ImageDraw
-
-    height = picture.shape[0]
-    text = visible(text)
-    if height < MIN_HEIGHT or not text:
-        return picture
-    size = round(FONT_SIZE * height)
-    image = Image.fromarray(picture)
-    pen = ImageDraw.Draw(image, "RGBA")
-    length = pen.textlength(text, _font(size))
-    box = (0.6 * size, 0.6 * size, 1.8 * size + length, 2.4 * size)
-    pen.rounded_rectangle(box, 0.4 * size, (251, 251, 249, 215))
-    pen.text((1.2 * size, 1.5 * size), text, LIGHT.ink, _font(size), "lm")
-    return np.asarray(image)
-
-
 def draw_label(
     pen: Any, text: str, at: tuple[float, float], colour: str, size: int
 ) -> None:

@@ -22,48 +22,40 @@ class BodySettings:
         0.0,
         "Control period of the body {unit}; 0 for the tick of the physics",
         Range(0.0, 0.1, "s", "balance needs more than ten cycles a second"),
-        option="--cycle",
     )
     delay_cycles: int = setting(
         0,
         "Delay from command to motion, in control cycles",
         Range(0, 100, "cycles", "a second on NAO", whole=True),
-        option="--delay-cycles",
     )
     imu_delay_cycles: int = setting(
         0,
         "Delay of gyro and accelerometer, in control cycles",
         Range(0, 100, "cycles", "a second on NAO", whole=True),
-        option="--imu-delay-cycles",
     )
     torque_speed: bool = setting(
         False,
         "Reduce motor torque with speed, to zero at the no-load speed",
-        option="--torque-speed/--no-torque-speed",
     )
     efficiency: float = setting(
         1.0,
         "Joint stall torque, as a fraction of the ideal one",
         Range(0.01, 1.0, "1", "a fraction of the ideal torque"),
-        option="--efficiency",
     )
     stiffness: float = setting(
         1.0,
         "Stiffness setting: fraction of the stall torque allowed",
         Range(0.0, 1.0, "1", "a fraction; at 0 joints are limp"),
-        option="--stiffness",
     )
     servo_gain: float = setting(
         1.0,
         "Scale factor of the servo position gain",
         Range(0.01, 10.0, "1", "stiffer servos oscillate"),
-        option="--servo-gain",
     )
     backlash: float = setting(
         0.0,
         "Backlash of each leg joint",
         Range(0.0, 0.2, "rad", "more means a broken gear"),
-        option="--backlash",
     )
     encoder_step: float = setting(
         0.0,
@@ -71,57 +63,48 @@ class BodySettings:
         Range(
             1e-9, 0.1, "rad", "finer is the rounding of a double", also=(0.0,)
         ),
-        option="--encoder-step",
     )
     gyro_noise: float = setting(
         0.0,
         "Standard deviation of the gyro noise",
         Range(0.0, 10.0, "rad/s", SENSOR),
-        option="--gyro-noise",
     )
     gyro_bias: float = setting(
         0.0,
         "Maximum gyro bias",
         Range(0.0, 10.0, "rad/s", SENSOR),
-        option="--gyro-bias",
     )
     accelerometer_noise: float = setting(
         0.0,
         "Standard deviation of the accelerometer noise",
         Range(0.0, 100.0, "m/s^2", SENSOR),
-        option="--accelerometer-noise",
     )
     accelerometer_bias: float = setting(
         0.0,
         "Maximum accelerometer bias",
         Range(0.0, 100.0, "m/s^2", SENSOR),
-        option="--accelerometer-bias",
     )
     force_noise: float = setting(
         0.0,
         "Standard deviation of the foot force noise {unit} for a robot of "
         "NAO's weight, with which it scales",
         Range(0.0, 1000.0, "N", SENSOR),
-        option="--force-noise",
     )
     force_gain_error: float = setting(
         0.0,
         "Maximum relative gain error of a foot force sensor",
         Range(0.0, 1.0, "1", "a gain is not negative"),
-        option="--force-gain-error",
     )
     mass_error: float = setting(
         0.0,
         "Maximum relative error of a link mass",
         Range(0.0, 0.9, "1", "the mass of a link stays positive"),
-        option="--mass-error",
     )
     com_error: float = setting(
         0.0,
         "Maximum offset of the torso CoM along each axis {unit} for a robot "
         "of NAO's size, with which it scales",
         Range(0.0, 0.1, "m", "half the depth of the torso"),
-        option="--com-error",
     )
 
     def __post_init__(self) -> None:

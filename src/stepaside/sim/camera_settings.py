@@ -38,7 +38,6 @@ class ColourSettings:
         "v5",
         "NAO version whose top camera is simulated",
         names=OPTICS,
-        option="--optics",
     )
     width: int = setting(
         320,
@@ -61,7 +60,6 @@ class ColourSettings:
         "auto",
         "Renderer of the camera images",
         names=RENDERERS,
-        option="--renderer",
     )
 
     def __post_init__(self) -> None:
@@ -249,13 +247,10 @@ class CameraSettings:
         DepthSettings(),
         "Depth camera on the evader's head",
         presets=DEPTH_CAMERAS,
-        option="--depth-camera",
     )
     rear_camera: bool = setting(
         False,
         "Whether the evader uses the depth cameras on its torso",
-        option="--rear-camera/--no-rear-camera",
-        option_help="Use the depth cameras that look backward",
     )
     rear: RearSettings = setting(
         RearSettings(),
@@ -269,13 +264,11 @@ class CameraSettings:
         0.0,
         "Fraction of images that are lost",
         Range(0.0, 1.0, "1", "a fraction"),
-        option="--drop-frames",
     )
     added_latency: float = setting(
         0.0,
         "Latency in addition to that of the camera",
         Range(0.0, 0.5, "s", "in addition to a camera's latency"),
-        option="--camera-latency",
     )
 
     def __post_init__(self) -> None:
@@ -340,22 +333,15 @@ class SceneSettings:
             "nearer, no way past them; farther, out of sight",
             also=(0.0,),
         ),
-        option="--walls",
     )
     things: list[RoomObject] = setting(
         [],
         "Objects in view of the cameras",
-        presets={True: list(CLUTTER), False: []},
-        option="--clutter/--no-clutter",
-        option_help="Add boxes and a white mannequin as visual distractors",
+        presets={"clutter": list(CLUTTER), "none": []},
     )
     plan: Room | None = setting(
         None,
         "Room in which the game is played; an open floor without",
-        option="--room",
-        option_help=(
-            "Seed of a random room, or room file; an open floor by default"
-        ),
     )
 
     def __post_init__(self) -> None:

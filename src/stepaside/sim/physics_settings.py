@@ -18,45 +18,38 @@ class PhysicsSettings:
         0.002,
         "Integration step of the physics",
         Range(1e-5, 0.01, "s", "contacts fail above 10 ms; below, too slow"),
-        option="--time-step",
     )
     tick: float = setting(
         0.004,
         "Control period {unit}; an integer multiple of the time step",
         Range(1e-5, 0.1, "s", "balance needs more than ten cycles a second"),
-        option="--tick",
     )
     integrator: str = setting(
         "implicitfast",
         "Integrator of the physics; discrete allows twice the time step, "
         "at half the cost",
         names=INTEGRATORS,
-        option="--integrator",
     )
     friction: float = setting(
         0.8,
         "Coefficient of friction between soles and floor",
         Range(1e-6, 100.0, "1", "the minimum of MuJoCo"),
-        option="--friction",
     )
     unevenness: float = setting(
         0.0,
         "Height difference between the lowest and the highest point of the "
         "floor",
         Range(0.0, 0.1, "m", "a NAO cannot step over more"),
-        option="--unevenness",
     )
     slope: float = setting(
         0.0,
         "Slope of the floor",
         Range(0.0, 0.5, "rad", "soles slide on more"),
-        option="--slope",
     )
     slope_direction: float = setting(
         0.0,
         "Direction of steepest descent in the world",
         Range(-pi, pi, "rad", "half a turn"),
-        option="--slope-direction",
     )
 
     def __post_init__(self) -> None:
@@ -83,19 +76,16 @@ class SightSettings:
         0.0,
         "Standard deviation of the bearing of a sighting",
         Range(0.0, pi, "rad", "more is no measurement"),
-        option="--bearing-noise",
     )
     distance_noise: float = setting(
         0.0,
         "Standard deviation of the distance of a sighting",
         Range(0.0, 100.0, "m", "the largest initial distance"),
-        option="--distance-noise",
     )
     delay: float = setting(
         0.0,
         "Latency of a sighting",
         Range(0.0, 2.0, "s", "how long a robot stores its poses"),
-        option="--delay",
     )
     rate: float = setting(
         inf,
@@ -107,7 +97,6 @@ class SightSettings:
             "from one in a walk to many in a tick",
             also=(inf,),
         ),
-        option="--rate",
         words={"every-tick": inf},
     )
 

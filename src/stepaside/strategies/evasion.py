@@ -51,12 +51,10 @@ class Evasion:
         "Evasion angle alpha between the line of sight and the direction of "
         "walking {unit}: a right angle moves aside, 0 moves back",
         Range(0.0, pi, "rad", "the sign is given by the side"),
-        option="--angle",
     )
     saturated: bool = setting(
         False,
         "Turn the evader by eq. (6) instead of eq. (4)",
-        option="--saturated/--no-saturated",
     )
     safety_radius: float = setting(
         0.8,
@@ -67,14 +65,12 @@ class Evasion:
             "m",
             "below a millimetre there is contact; 1e9 m means always",
         ),
-        option="--safety-radius",
         needs=("strategy.trigger", "distance"),
     )
     release_distance: float = setting(
         inf,
         "Distance at which evasion ends",
         Range(1e-3, 1e9, "m", "and above safety_radius", also=(inf,)),
-        option="--release-distance",
         words={"never": inf},
         needs=("strategy.trigger", "distance"),
     )
@@ -84,8 +80,6 @@ class Evasion:
         "before the evader changes side {unit}; from a right angle on it "
         "never does",
         Range(0.0, pi, "rad", "half a turn"),
-        option="--side-hysteresis",
-        aliases=("--hysteresis",),
         needs=("strategy.trigger", "distance"),
     )
     trigger: Trigger | None = setting(
@@ -93,7 +87,6 @@ class Evasion:
         "Condition that triggers evasion: distance, or predicted time to "
         "contact",
         names=get_args(Trigger),
-        option="--trigger",
         default_text="time against a person with steps shorter than 0.4 s, "
         "else distance",
     )
@@ -102,14 +95,12 @@ class Evasion:
         "Predicted time to contact at which evasion begins {unit}, with the "
         "trigger time; 1.5 times as much ends it",
         Range(0.1, 60.0, "s", "a step takes longer than 0.1 s"),
-        option="--contact-time",
         needs=("strategy.trigger", "time"),
     )
     clearance: float = setting(
         0.7,
         "Distance that counts as contact {unit}, with the trigger time",
         Range(0.1, 10.0, "m", "the bodies have a width"),
-        option="--clearance",
         needs=("strategy.trigger", "time"),
     )
     calmest: float = setting(
@@ -117,7 +108,6 @@ class Evasion:
         "Minimum step rate, as a fraction of the gait's {unit}, with the "
         "trigger time: the slowest that leaves enough clearance is chosen",
         Range(0.5, 1.0, "1", "steps at a lower pace take too long"),
-        option="--calmest",
         needs=("strategy.trigger", "time"),
     )
 

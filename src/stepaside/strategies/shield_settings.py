@@ -17,48 +17,41 @@ class ShieldSettings:
     enabled: bool = setting(
         False,
         "Replace decisions after which contact could be forced",
-        option="--shield/--no-shield",
     )
     speed: float = setting(
         1.4,
         "Greatest speed of the opponent that the shield expects",
         Range(1e-3, 3.0, "m/s", "faster is running"),
-        option="--shield-speed",
         needs=("shield.enabled", ""),
     )
     turning_radius: float = setting(
         8.0,
         "Radius of the tightest turn of the opponent at that speed",
         Range(1e-2, 1000.0, "m", "beyond, hardly a turn"),
-        option="--shield-turning-radius",
         needs=("shield.enabled", ""),
     )
     contact: float = setting(
         0.45,
         "Distance between centres that counts as contact",
         Range(0.05, 5.0, "m", "of two bodies"),
-        option="--shield-contact",
         needs=("shield.enabled", ""),
     )
     sighting_error: float = setting(
         0.0,
         "Greatest error of the position of a sighting",
         Range(0.0, 1.0, "m", "beyond, there is no certificate"),
-        option="--shield-sighting-error",
         needs=("shield.enabled", ""),
     )
     sighting_delay: float = setting(
         0.0,
         "Greatest age of a sighting at a decision",
         Range(0.0, 2.0, "s", "beyond, there is no certificate"),
-        option="--shield-sighting-delay",
         needs=("shield.enabled", ""),
     )
     loss: float | None = setting(
         None,
         "Greatest departure of the body from its template per decision",
         Range(0.0, 0.5, "m", "beyond, it does not follow", also=(None,)),
-        option="--shield-loss",
         default_text="as measured",
         needs=("shield.enabled", ""),
     )
@@ -66,7 +59,6 @@ class ShieldSettings:
         None,
         "Time from a decision to start until a standing robot moves",
         Range(0.0, 5.0, "s", "beyond, it does not start", also=(None,)),
-        option="--shield-response",
         default_text="of the legs",
         needs=("shield.enabled", ""),
     )

@@ -9,7 +9,7 @@ import click
 
 from stepaside.cli.main import all_commands
 from stepaside.cli.options.parameter_types import NumberType
-from stepaside.cli.options.setting_options import SettingOption
+from stepaside.cli.options.settings_options import DUEL, WALK, SettingOption
 from stepaside.cli.plan import PlanSettings
 from stepaside.core.ranges import Range
 from stepaside.core.setting import Setting as Description
@@ -28,6 +28,7 @@ CONFIGURATIONS = (
     PlanSettings(),
     GameSettings(players=(PlayerSettings("one"),)),
 )
+OPTIONS = {path: option for option, path in (WALK | DUEL).items()}
 LISTS: Mapping[str, type[Any]] = {
     "players": PlayerSettings,
     "room.things": RoomObject,
@@ -79,7 +80,7 @@ def settings(_: Any) -> str:
     rows = []
     for path, setting in all_settings().items():
         known = settings_of(setting.kind)[setting.name]
-        option = known.option.partition("/")[0]
+        option = OPTIONS.get(path, "")
         if known.range is not None:
             values, why = known.range.words, known.range.why
         else:
@@ -99,9 +100,8 @@ def settings(_: Any) -> str:
 
 
 def _type(setting: Setting) -> str:
-    known = settings_of(setting.kind)[setting.name]
-    is_open = setting.default is None and "/" in known.option
-    if isinstance(setting.default, bool) or is_open:
+    kinds = {field.name: field.type for field in fields(setting.kind)}
+    if kinds[setting.name] in (bool, bool | None):
         return "true, false"
     return "a list" if setting.path in LISTS else "text"
 
@@ -151,5 +151,7 @@ def _options(command: click.Command) -> list[click.Option]:
         param
         for param in command.params
         if isinstance(param, click.Option)
-        and not (isinstance(param, SettingOption) and param.in_file)
+        and not (
+            isinstance(param, SettingOption) and param.entry.path in OPTIONS
+        )
     ]

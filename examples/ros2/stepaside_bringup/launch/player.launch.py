@@ -27,7 +27,11 @@ def generate_launch_description() -> LaunchDescription:
     network = DeclareLaunchArgument("network", default_value="false")
     command: list[object] = ["stepaside", "play"]
     for name in options:
-        command += [f"--{name}", LaunchConfiguration(name)]
+        value = LaunchConfiguration(name)
+        if "." in name:  # a setting, such as gait.speed
+            command += ["--set", [f"{name}=", value]]
+        else:
+            command += [f"--{name}", value]
     return LaunchDescription(
         [
             *arguments,

@@ -51,10 +51,9 @@ def with_room(given: Mapping[str, Any]) -> dict[str, Any]:
     source = values.get("room.plan")
     if recipe and not isinstance(source, int):
         name = next(iter(recipe)).replace("_", "-")
-        option = "--room-size" if name == "size" else f"--{name}"
         room = "no --room" if source is None else f"the file {source}"
         raise click.UsageError(
-            f"{option} requires a random room (--room SEED), got {room}"
+            f"{RECIPE}.{name} requires a random room (--room SEED), got {room}"
         )
     if isinstance(source, int):
         size = recipe.pop("size", (3.0, 3.0)) or (None, None)

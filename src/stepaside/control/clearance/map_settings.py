@@ -19,19 +19,16 @@ class MapSettings:
         "pose (given), a map built from its depth camera and odometry (seen, "
         "which implies camera sensing), or none",
         names=MAPS,
-        option="--map",
     )
     margin: float = setting(
         0.02,
         "Clearance that a body keeps from known obstacles",
         Range(0.0, 1.0, "m", "a larger margin leaves no free floor"),
-        option="--map-margin",
     )
     unseen: str = setting(
         "taken",
         "State of map cells that have not been observed",
         names=UNSEEN,
-        option="--unseen",
         needs=("map.source", "seen"),
     )
 

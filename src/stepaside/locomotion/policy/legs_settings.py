@@ -12,18 +12,15 @@ class LegsSettings:
     network: str = setting(
         "",
         "ONNX file of a walking policy; empty for the paper's walk",
-        option="--legs",
     )
     contract: str = setting(
         "",
         "Convention of the policy's trainer, as in docs/legs.md; empty to "
         "recognise it",
-        option="--legs-contract",
     )
     learn: bool = setting(
         True,
         "Correct the velocity of a walking policy by gyro and leg odometry",
-        option="--legs-learn/--no-legs-learn",
     )
 
     def __post_init__(self) -> None:

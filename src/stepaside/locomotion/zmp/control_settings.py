@@ -141,7 +141,6 @@ class MpcSettings:
             "the steps of a plan; more change less than a millimetre",
             whole=True,
         ),
-        option="--mpc-steps",
     )
     samples: int = setting(
         10,
@@ -153,12 +152,10 @@ class MpcSettings:
             "samples shorter than a tick have no effect",
             whole=True,
         ),
-        option="--mpc-samples",
     )
     tail: Tail = setting(
         "anticipative",
         "Assumed ZMP motion beyond the MPC horizon",
-        option="--mpc-tail",
     )
     pull: float = setting(
         100.0,
@@ -189,7 +186,6 @@ class ControlSettings:
         "the measured state with the intrinsically stable MPC in between "
         "(mpc); the last two need feedback",
         names=METHODS,
-        option="--method",
         default_text="closed-form; measured with feedback, unless steps are "
         "shorter than 0.4 s",
     )
@@ -197,8 +193,6 @@ class ControlSettings:
         None,
         "Estimate the state and stabilise the gait, or execute plans in open "
         "loop",
-        option="--feedback/--no-feedback",
-        aliases=(" /--open-loop",),
         default_text="feedback unless the body is ideal; always with steps "
         "shorter than 0.4 s or another method than closed-form",
     )
@@ -214,7 +208,6 @@ class ControlSettings:
         False,
         "Learn from the gyro which fraction of a commanded turn is achieved, "
         "and scale later turns to compensate",
-        option="--learn-turns/--no-learn-turns",
     )
 
     def __post_init__(self) -> None:
