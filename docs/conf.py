@@ -10,7 +10,9 @@ import stepaside
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
+from tools.documents.blocks import with_tables  # noqa: E402
 from tools.documents.notebooks import complaints  # noqa: E402
+from tools.documents.store import Store  # noqa: E402
 
 project = "stepaside"
 author = "The stepaside developers"
@@ -60,6 +62,12 @@ def refuse_old_outputs(app: Sphinx) -> None:
         raise ExtensionError("\n".join(found))
 
 
+def add_tables(app: Sphinx, name: str, source: list[str]) -> None:
+    """Add the tables that are made when the site is built."""
+    source[0] = with_tables(source[0], Store())
+
+
 def setup(app: Sphinx) -> None:
-    """Register the check of the tutorials."""
+    """Register the check of the tutorials and the tables."""
     app.connect("builder-inited", refuse_old_outputs)
+    app.connect("source-read", add_tables)

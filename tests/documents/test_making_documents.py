@@ -7,10 +7,10 @@ import pytest
 
 from stepaside.studies.result_files import header, write_result
 from tools.documents.__main__ import old_results
-from tools.documents.blocks import make
+from tools.documents.blocks import with_tables
 from tools.documents.document import complaints, remade
 from tools.documents.pictures import PICTURES, draw_picture, drawn_from
-from tools.documents.store import Store
+from tools.documents.store import ROOT, Store
 
 FOUND: dict[str, Any] = {
     "ratio": 0.98765,
@@ -130,9 +130,13 @@ def test_a_picture_is_drawn_again_only_when_results_change(
     assert sorted(f.suffix for f in tmp_path.iterdir()) == [".json", ".png"]
 
 
-def test_all_results_stand_in_the_index(store: Store) -> None:
-    row = make("all", "index", store).splitlines()[2]
-    assert row.startswith("| [run](run.json) | `none` | ")
+def test_tables_of_settings_are_made_when_the_site_is_built(
+    store: Store,
+) -> None:
+    page = (ROOT / "docs" / "settings.md").read_text(encoding="utf-8")
+    shown = with_tables(page, store)
+    assert "| `gait.stride` |  | Step size along the path [m] |" in shown
+    assert "| `seed` | `--seed` |" in shown and "built:" not in shown
 
 
 def test_results_of_other_code_are_told_with_what_renews_them(

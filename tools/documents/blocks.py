@@ -19,6 +19,18 @@ BLOCK = re.compile(
     re.DOTALL,
 )
 
+BUILT = re.compile(r"<!-- built: (?P<names>[\w+-]+)\.(?P<table>[\w-]+) -->")
+
+
+def with_tables(text: str, store: Store) -> str:
+    """Return a text with the tables that only the built site shows.
+
+    Args:
+        text: Text with marks like ``<!-- built: all.settings -->``.
+        store: Results that the marks name.
+    """
+    return BUILT.sub(lambda m: make(m["names"], m["table"], store), text)
+
 
 def block_parts(text: str, store: Store) -> Iterator[Part]:
     """Yield every generated block of a document.
