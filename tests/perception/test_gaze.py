@@ -24,7 +24,7 @@ from stepaside.robots.description import load_robot
 from stepaside.robots.head import load_head
 
 TICK = 0.004
-CAMERA_HEIGHT, ROBOT = 0.46, 0.54  # of a NAO, in [m]
+CAMERA_HEIGHT, ROBOT = 0.5, 0.5725  # of a NAO, in [m]
 COUPLING = load_head(load_robot("nao")).coupling
 
 
@@ -118,11 +118,11 @@ def test_it_looks_at_the_middle_of_a_body_and_keeps_the_crown_in_view() -> (
     for distance in (1.0, 1.5, 3.0):
         gaze = settled(0.2, distance)
         assert gaze.pitch == pytest.approx(
-            atan2(0.46 - ROBOT_MIDDLE * 0.54, distance)
+            atan2(0.5 - ROBOT_MIDDLE * 0.5725, distance)
         )
     # What trim there is stands 0.06 m nearer, and never nearer than 0.1 m.
     for distance, away in ((0.36, 0.3), (0.17, 0.11), (0.12, 0.1)):
-        crown = atan2(0.54 - 0.46, away)
+        crown = atan2(0.5725 - 0.5, away)
         near = settled(0.2, distance)
         assert near.pitch == pytest.approx(radians(20.0) - crown)
 

@@ -26,7 +26,7 @@ def looked(
     *, behind: bool, rate: float = RATE
 ) -> tuple[float, Array, RoomScan]:
     """Return the duration of a scan, in [s], and the directions."""
-    gaze, around = Gaze(HEAD.coupling, TICK, 0.54), RoomScan(behind=behind)
+    gaze, around = Gaze(HEAD.coupling, TICK, 0.5725), RoomScan(behind=behind)
     now, heading, turned = 0.0, 0.0, []
     while around.lasts(gaze):
         around.look(gaze, now, START + heading)
@@ -61,7 +61,7 @@ def test_a_turning_body_covers_all_directions() -> None:
 
 
 def test_after_turning_back_the_body_does_not_turn_again() -> None:
-    gaze, around = Gaze(HEAD.coupling, TICK, 0.54), RoomScan(behind=True)
+    gaze, around = Gaze(HEAD.coupling, TICK, 0.5725), RoomScan(behind=True)
     headings = np.array([0.0, -0.7, -1.4, -1.4, -0.7, 0.0, 0.1])
     turnings: list[float] = []
     for heading in START + np.repeat(headings, 100):
@@ -81,7 +81,7 @@ def test_a_scan_times_out_without_a_turn() -> None:
 @pytest.mark.parametrize("rate", [0.05, 0.1, 0.2, 0.26])
 def test_a_slow_turn_is_reversed_in_time(rate: float) -> None:
     """So that the game begins from its initial pose."""
-    gaze, around = Gaze(HEAD.coupling, TICK, 0.54), RoomScan(behind=True)
+    gaze, around = Gaze(HEAD.coupling, TICK, 0.5725), RoomScan(behind=True)
     now, heading = 0.0, START
     while around.lasts(gaze):
         around.look(gaze, now, heading)
@@ -103,7 +103,7 @@ def test_a_robot_that_is_ready_scans_on_until_the_start(
     awaits_start: bool,
 ) -> None:
     head = HeadControl(
-        Gaze(HEAD.coupling, TICK, 0.54),
+        Gaze(HEAD.coupling, TICK, 0.5725),
         scan=RoomScan(behind=False),
         awaits_start=awaits_start,
     )

@@ -11,9 +11,9 @@ FOLLOW_SPEED = 3.0  # of the head while it follows, in [rad/s]
 SCAN_SPEED = 3.0  # of the head during a scan, in [rad/s]
 SCAN_PITCH = radians(8.0)  # of the head during a scan, downward
 MAX_YAW = radians(115.0)  # of the head during a scan and a glance
-ROBOT_MIDDLE = 0.52  # of the height of a robot, at which the head looks
+ROBOT_MIDDLE = 0.56  # of the height of a robot, at which the head looks
 HALF_VIEW = radians(20.0)  # from the image centre to its usable upper edge
-PERSON_TOP = 1.05  # height up to which a person is held in view, in [m]
+PERSON_TOP = 1.09  # height up to which a person is held in view, in [m]
 MAX_UPWARD = radians(13.0)  # pitch for a person: the floor stays in view
 OFTEN = 2.0  # between glances of a robot that walks backward, in [s]
 SELDOM = 4.0  # between glances of a robot that walks forward, in [s]
@@ -56,16 +56,18 @@ class Gaze:
         reach: Greatest yaw to either side, in [rad].
     """
 
-    def __init__(self, coupling: Array, tick: float, robot_top: float) -> None:
+    def __init__(
+        self, coupling: Array, tick: float, robot_height: float
+    ) -> None:
         """Start straight ahead at the pitch of a scan.
 
         Args:
             coupling: Rows of yaw, minimum and maximum pitch, in [rad]. Shape
                 (3, n).
             tick: Control period, in [s].
-            robot_top: Height of the upper end of a robot's trim, in [m].
+            robot_height: Height of a robot that it looks at, in [m].
         """
-        self._robot_top = robot_top
+        self._robot_height = robot_height
         self._yaws, self._low, self._high = coupling.tolist()
         self.reach: float = self._yaws[-1]
         self._tick = tick
@@ -83,9 +85,9 @@ class Gaze:
         self._side = 1.0 if bearing >= self.yaw else -1.0
         # Nearby not all fits in the image: the head matters most.
         tall = height > TALL
-        top = PERSON_TOP if tall else self._robot_top
+        top = PERSON_TOP if tall else self._robot_height
         elevation_top = atan2(top - height_camera, max(distance - 0.06, 0.1))
-        middle = ROBOT_MIDDLE * self._robot_top
+        middle = ROBOT_MIDDLE * self._robot_height
         pitch = min(
             atan2(height_camera - middle, distance),
             HALF_VIEW - elevation_top,

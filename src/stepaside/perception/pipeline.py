@@ -542,7 +542,7 @@ def build_perception(
         detector,
         selection,
         HeadControl(
-            Gaze(head.coupling, tick, high),
+            Gaze(head.coupling, tick, size.height),
             glances=used.glances,
             scan=used.scan,
             awaits_start=used.awaits_start,
@@ -571,7 +571,7 @@ def build_posed_perception(
         tick: Period of the updates, in [s].
     """
     at_head = Mount(np.zeros(3), np.eye(3))
-    gaze = Gaze(coupling, tick, detector.appearance.top)
+    gaze = Gaze(coupling, tick, NAO_SIZE.height)
     selection = TargetSelection(Tracker(PERSON_MOTION))
     return Perception(
         detector, selection, HeadControl(gaze), at_head, [at_head]
