@@ -6,11 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from stepaside.control.maneuver_walk import ManeuverWalk
 from stepaside.control.scheme import ControlScheme
 from stepaside.control.sight_sources import MeasuredSight, SightSource
 from stepaside.control.strategy_runner import StrategyRunner
 from stepaside.core.poses import Array, Pose
+from stepaside.locomotion.maneuver_walk import ManeuverWalk
 from stepaside.locomotion.walk_snapshots import Phase, StepStarted
 from stepaside.locomotion.zmp.feedback_loop import ClosedLoop, OpenLoop
 from stepaside.perception.measurement import Measurement, Sighting

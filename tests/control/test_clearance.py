@@ -19,11 +19,12 @@ from stepaside.arena import (
     generate_room,
     hull,
 )
-from stepaside.control.clearance.guard import Guard, GuardDecision
+from stepaside.control.clearance.guard import Guard
 from stepaside.control.clearance.surroundings import KnownRoom
 from stepaside.control.clearance.swept_outline import BodyOutline
 from stepaside.control.scheme import ControlScheme
 from stepaside.core.poses import Array, Pose
+from stepaside.locomotion.maneuver_selection import GuardDecision
 from stepaside.locomotion.walk_snapshots import Phase
 from stepaside.perception.measurement import Measurement, Sighting
 from stepaside.planning import (

@@ -10,11 +10,11 @@ from stepaside.arena import Box, ObstacleSet, Room
 from stepaside.control.clearance.guard import (
     GAINED,
     Guard,
-    GuardDecision,
     ManeuverClearance,
 )
 from stepaside.control.clearance.surroundings import KnownRoom, MappedRoom
 from stepaside.core.poses import Pose
+from stepaside.locomotion.maneuver_selection import GuardDecision
 from stepaside.perception.floor_map import CELL, FloorMap
 from stepaside.planning import (
     Direction,

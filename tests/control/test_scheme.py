@@ -16,9 +16,9 @@ from fake_robot import (
     measure,
     walk_of,
 )
-from stepaside.control.maneuver_walk import RETRY_PERIOD, SETTLING
 from stepaside.control.sight_sources import MeasuredSight
 from stepaside.core.poses import Pose
+from stepaside.locomotion.maneuver_walk import RETRY_PERIOD, SETTLING
 from stepaside.locomotion.walk_snapshots import Phase
 from stepaside.perception.measurement import Sighting
 from stepaside.planning import Direction, Foot

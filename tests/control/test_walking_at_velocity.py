@@ -7,8 +7,8 @@ import pytest
 from stepaside.control.velocity_walk import (
     limit_velocity,
     request_at_velocity,
-    velocity_limits,
 )
+from stepaside.locomotion.maneuver_walk import velocity_limits
 from stepaside.planning import Direction, GaitSettings
 
 GAIT = GaitSettings()

@@ -8,12 +8,16 @@ import numpy as np
 import pytest
 
 from fake_robot import measure, walk_of
-from stepaside.control.scheme_builder import build_balance, build_scheme
+from stepaside.control.scheme_builder import build_scheme
 from stepaside.control.sight_sources import CameraSight, MeasuredSight
 from stepaside.control.turn_calibration import TurnCalibration
 from stepaside.core.poses import Pose
 from stepaside.locomotion.zmp.control_settings import OPEN_LOOP, STABILISED
-from stepaside.locomotion.zmp.feedback_loop import ClosedLoop, OpenLoop
+from stepaside.locomotion.zmp.feedback_loop import (
+    ClosedLoop,
+    OpenLoop,
+    build_balance,
+)
 from stepaside.locomotion.zmp.reference_table import (
     ReferenceTable,
     resting_sample,
@@ -150,8 +154,7 @@ def test_a_scheme_calibrates_turns_if_enabled() -> None:
 
 def test_a_scheme_uses_its_perception() -> None:
     kinematics = SimpleNamespace(forward=ForwardKinematics(NAO))
-    poses = SimpleNamespace(kinematics=kinematics)
-    eyes: Any = SimpleNamespace(poses=poses)
+    eyes: Any = SimpleNamespace(kinematics=kinematics)
     mind = build_scheme(
         *(Pursuit(), NAO, GAIT, STABILISED),
         tick=0.004,

@@ -29,10 +29,11 @@ from stepaside.arena import (
     generate_room,
 )
 from stepaside.arena.polygon_cover import cover
-from stepaside.control.clearance.guard import Guard, GuardDecision
+from stepaside.control.clearance.guard import Guard
 from stepaside.control.clearance.surroundings import HERE
 from stepaside.control.clearance.swept_outline import lateral_sway
 from stepaside.core.poses import Pose, wrap_angle
+from stepaside.locomotion.maneuver_selection import GuardDecision
 from stepaside.planning import (
     CenterState,
     Direction,

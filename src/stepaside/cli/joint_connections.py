@@ -13,7 +13,7 @@ from .connection_settings import (
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from ..control.scheme import LocomotionScheme
+    from ..control.scheme import ControlScheme
     from ..core.poses import Array
     from ..drivers.joint.adapter_link import AdapterLink
     from ..drivers.joint.frames import MotorGains
@@ -72,7 +72,7 @@ def _open_nao(
     sees = settings.sensing == "cameras"
     open_robot = _joints_of(settings, connection, sees=sees)
 
-    def open_body(scheme: "LocomotionScheme") -> "JointBody":
+    def open_body(scheme: "ControlScheme") -> "JointBody":
         assert isinstance(scheme, ControlScheme)  # as the factory makes it
         kinematics = scheme.kinematics
         return open_robot(kinematics.joint_names, scheme.joint_targets)
@@ -143,7 +143,7 @@ def _open_robot(
     )
     names = load_tree(description).motors
 
-    def open_body(scheme: "LocomotionScheme") -> "JointBody":
+    def open_body(scheme: "ControlScheme") -> "JointBody":
         guardian = None
         if not connection.dry_run and robot.keeps_targets and robot.paced:
             guardian = guard_release(lambda: connect_releaser(make))
@@ -203,7 +203,7 @@ def _scheme_factory(
     description: "RobotDescription",
     *,
     tick: float,
-) -> "Callable[..., LocomotionScheme]":
+) -> "Callable[..., ControlScheme]":
     """Return the factory of the controller, with or without learned legs."""
     from ..drivers.scheme_factory import (
         control_scheme_factory,

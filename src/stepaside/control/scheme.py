@@ -1,11 +1,8 @@
 """The control scheme of one robot (paper, Fig. 4)."""
 
 from ..core.poses import Array, Pose
-from ..locomotion.locomotion import (
-    Locomotion,
-    MotionRequest,
-    PlannedLocomotion,
-)
+from ..locomotion.locomotion import Locomotion, MotionRequest
+from ..locomotion.maneuver_walk import ManeuverWalk
 from ..locomotion.walk_snapshots import Phase, StepStarted, WalkState
 from ..perception.measurement import Measurement, Sighting
 from ..planning import Foot, GaitSettings
@@ -14,8 +11,8 @@ from .sight_sources import SightSource
 from .strategy_runner import StrategyRunner
 
 
-class LocomotionScheme:
-    """Control of one robot: sense, decide, walk.
+class ControlScheme:
+    """Control of one robot (paper, Fig. 4): sense, decide, walk.
 
     The locomotion asks for a decision when it can use one: at every tick
     while standing, at the end of each step while walking.
@@ -45,6 +42,8 @@ class LocomotionScheme:
         self.senses = senses
         self.sighting: Sighting | None = None
         decisions.templates.note(0.0, locomotion.pose)
+        self._delayed = locomotion.heading_delay > 0.0
+        self._coasted: float | None = None  # since the last update, until [s]
 
     def update(self, measurement: Measurement) -> Array:
         """Run one control tick.
@@ -59,11 +58,14 @@ class LocomotionScheme:
             ReachError: If the legs cannot follow the reference.
             StrategyError: If the strategy returns no intent.
         """
-        walk, decisions, now = (
-            self.locomotion,
-            self.decisions,
-            measurement.time,
-        )
+        walk, decisions = self.locomotion, self.decisions
+        now = measurement.time
+        if self._coasted is not None:
+            # Only the last of the poses in between can be asked for.
+            decisions.templates.note(
+                self._coasted + walk.pose_delay, walk.pose
+            )
+            self._coasted = None
         decisions.calibrate(measurement, stands=walk.phase is Phase.STANDING)
         decisions.headings.note(now + walk.heading_delay, walk.torso_heading)
         self.sighting = self.senses.see(measurement, walk.step, walk.tilt)
@@ -114,9 +116,9 @@ class LocomotionScheme:
         return self.locomotion.begun
 
     @property
-    def state(self) -> WalkState | None:
-        """Plan and references of the last tick; None without a plan."""
-        return None
+    def state(self) -> WalkState:
+        """Plan and references of a walk by maneuvers at the last tick."""
+        return self.walk.state
 
     @property
     def joint_targets(self) -> Array:
@@ -128,45 +130,16 @@ class LocomotionScheme:
         """Gait of the robot."""
         return self.locomotion.gait
 
-
-class ControlScheme(LocomotionScheme):
-    """Control of one robot that walks by maneuvers (paper, Fig. 4).
-
-    Attributes:
-        locomotion: Locomotion, from decisions to joint targets.
-    """
-
-    locomotion: PlannedLocomotion
-
-    def __init__(
-        self,
-        decisions: StrategyRunner,
-        locomotion: PlannedLocomotion,
-        senses: SightSource,
-    ) -> None:
-        """Begin standing; see :class:`LocomotionScheme`."""
-        super().__init__(decisions, locomotion, senses)
-        self._delayed = locomotion.heading_delay > 0.0
-        self._coasted: float | None = None  # since the last update, until [s]
-
-    def update(self, measurement: Measurement) -> Array:
-        """Run one control tick; see :class:`LocomotionScheme`."""
-        if self._coasted is not None:
-            # Only the last of the poses in between can be asked for.
-            walk, time = self.locomotion, self._coasted
-            self.decisions.templates.note(time + walk.pose_delay, walk.pose)
-            self._coasted = None
-        return super().update(measurement)
+    @property
+    def walk(self) -> ManeuverWalk:
+        """Locomotion of a robot that walks by maneuvers."""
+        assert isinstance(self.locomotion, ManeuverWalk)
+        return self.locomotion
 
     @property
     def kinematics(self) -> LegKinematics:
-        """Joints of the robot."""
-        return self.locomotion.kinematics
-
-    @property
-    def state(self) -> WalkState:
-        """Plan and references of the last tick."""
-        return self.locomotion.state
+        """Joints of a robot that walks by maneuvers."""
+        return self.walk.kinematics
 
     @property
     def feels(self) -> bool:

@@ -2,11 +2,9 @@
 
 from typing import NamedTuple
 
+from ..locomotion.maneuver_walk import ManeuverWalk
 from ..locomotion.zmp.control_settings import ControlSettings
-from ..locomotion.zmp.feedback_loop import Balance, ClosedLoop, OpenLoop
-from ..locomotion.zmp.feedforward import LoadFeedforward
-from ..locomotion.zmp.stabiliser import Stabiliser
-from ..locomotion.zmp.state_estimator import StateEstimator
+from ..locomotion.zmp.feedback_loop import build_balance
 from ..planning import GaitSettings, ManeuverPlanner
 from ..robots.description import RobotDescription
 from ..robots.forward_kinematics import ForwardKinematics
@@ -16,57 +14,10 @@ from .clearance.footstep_adjustment import FootstepAdjustment
 from .clearance.guard import Guard
 from .clearance.surroundings import Surroundings
 from .clearance.swept_outline import BodyOutline, lateral_sway
-from .maneuver_walk import ManeuverWalk
 from .scheme import ControlScheme
 from .sight_sources import CameraSight, MeasuredSight, SightSource
 from .strategy_runner import StrategyRunner
 from .turn_calibration import TurnCalibration
-
-
-def build_balance(
-    description: RobotDescription,
-    gait: GaitSettings,
-    control: ControlSettings,
-    *,
-    tick: float,
-    delay: float,
-    kinematics: LegKinematics,
-    forward: ForwardKinematics | None = None,
-) -> Balance:
-    """Build the balance control that the settings select.
-
-    Args:
-        description: Robot description.
-        gait: Gait.
-        control: Control settings.
-        tick: Control period, in [s].
-        delay: Time from a command to the motion, in [s].
-        kinematics: Joint motion generation of the robot.
-        forward: Kinematics of the measured body; built if not given.
-    """
-    loads = None
-    if not control.feedback or control.stabiliser.load_share > 0.0:
-        loads = LoadFeedforward(
-            kinematics, zmp_forward=gait.zmp_forward, tick=tick
-        )
-    if not control.feedback:
-        return OpenLoop(kinematics, loads)
-    forward = forward or ForwardKinematics(description)
-    estimator = StateEstimator(
-        forward, forward.force_sensors(), gait.eta, tick
-    )
-    return ClosedLoop(
-        Stabiliser(
-            control,
-            estimator,
-            gait,
-            tick=tick,
-            delay=delay,
-            lean=description.lean,
-        ),
-        kinematics,
-        loads,
-    )
 
 
 class ClearanceSetup(NamedTuple):

@@ -1,7 +1,7 @@
 """Sources of sightings of the opponent: measurements or camera."""
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Generic, NamedTuple, Protocol, TypeVar
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from ..core.player_identity import PlayerIdentity, Role
 from ..core.poses import ALL_AROUND, Array, Sector
@@ -72,13 +72,7 @@ class SightSource(Protocol):
 
 
 class MeasuredSight:
-    """Latest of the sightings that measurements contain.
-
-    Attributes:
-        turning: 0: it never scans.
-        in_sight: None: it knows one opponent.
-        views: All around.
-    """
+    """Latest of the sightings that measurements contain, from all around."""
 
     turning, views = 0.0, ALL_AROUND
     in_sight: PlayersInSight | None = None
@@ -102,18 +96,13 @@ class MeasuredSight:
         """Leave the head as it is."""
 
 
-class SightOfPlayers:
+class SightOfPlayers(MeasuredSight):
     """Latest sightings of several players, one of which is the opponent.
 
     See :func:`stepaside.strategies.opponent_choice.choose_opponent`.
-
-    Attributes:
-        turning: 0: it never scans.
-        in_sight: Own identity, and the latest sighting of each player.
-        views: All around.
     """
 
-    turning, views = 0.0, ALL_AROUND
+    in_sight: PlayersInSight
 
     def __init__(self, identity: PlayerIdentity, target: str = "") -> None:
         """Begin without sightings.
@@ -160,14 +149,8 @@ class SightOfPlayers:
             self._identity, tuple(self._latest.values())
         )
 
-    def aim(self, targets: Array) -> None:
-        """Leave the head as it is."""
 
-
-P = TypeVar("P", bound="Perception | LidarPerception")
-
-
-class _PerceivedSight(Generic[P]):
+class _PerceivedSight:
     """Sightings from exteroceptive sensors, relative to the support foot.
 
     The pose of a sensor uses the torso tilt that balance estimates; without
@@ -175,12 +158,13 @@ class _PerceivedSight(Generic[P]):
 
     Attributes:
         perception: Perception.
-        in_sight: None: it selects one opponent.
     """
 
-    in_sight: PlayersInSight | None = None
+    perception: "Perception | LidarPerception"
 
-    def __init__(self, perception: P, *, tick: float) -> None:
+    def __init__(
+        self, perception: "Perception | LidarPerception", *, tick: float
+    ) -> None:
         """Wrap a perception, at a control period in [s]."""
         self.perception = perception
         self._attitude = AttitudeFilter(CORRECTION, 0.0, calibration=0.0)
@@ -205,8 +189,10 @@ class _PerceivedSight(Generic[P]):
         )
 
 
-class CameraSight(_PerceivedSight["Perception"]):
+class CameraSight(_PerceivedSight):
     """Sightings from images, with a head that looks at the opponent."""
+
+    perception: "Perception"
 
     def __init__(
         self,
@@ -227,7 +213,7 @@ class CameraSight(_PerceivedSight["Perception"]):
         self._unnamed = unnamed
 
     @property
-    def in_sight(self) -> PlayersInSight | None:  # type: ignore[override]
+    def in_sight(self) -> PlayersInSight | None:
         """Recognised robots, named by the number of their track, if any."""
         if self._unnamed is None:
             return None
@@ -267,15 +253,11 @@ class CameraSight(_PerceivedSight["Perception"]):
         self.perception.aim(targets)
 
 
-class LidarSight(_PerceivedSight["LidarPerception"]):
-    """Sightings from scans of a lidar.
-
-    Attributes:
-        turning: 0: it sees all around.
-        views: All around.
-    """
+class LidarSight(_PerceivedSight):
+    """Sightings from scans of a lidar, from all around."""
 
     turning, views = 0.0, ALL_AROUND
+    in_sight: PlayersInSight | None = None
 
     def aim(self, targets: Array) -> None:
         """Leave the head as it is."""

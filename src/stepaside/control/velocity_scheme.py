@@ -2,7 +2,8 @@
 
 from ..core.history import History
 from ..core.poses import Array, Pose
-from ..locomotion.locomotion import MotionRequest, PlannedLocomotion
+from ..locomotion.locomotion import MotionRequest
+from ..locomotion.maneuver_walk import ManeuverWalk
 from ..locomotion.walk_snapshots import Phase
 from ..perception.measurement import Measurement
 from ..planning import Direction, Foot
@@ -22,7 +23,7 @@ class VelocityScheme:
         templates: Past poses of the template unicycle in odometry.
     """
 
-    def __init__(self, locomotion: PlannedLocomotion, tick: float) -> None:
+    def __init__(self, locomotion: ManeuverWalk, tick: float) -> None:
         """Begin standing.
 
         Args:

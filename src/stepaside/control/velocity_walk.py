@@ -3,21 +3,12 @@
 from math import pi
 
 from ..locomotion.locomotion import MotionRequest
+from ..locomotion.maneuver_walk import velocity_limits
 from ..planning import Direction, GaitSettings
 from ..strategies.knowledge import STAND, Intent
 
 STILL = 1e-3  # speed [m/s] or turning rate [rad/s] that counts as zero
 IN_PLACE = 1e-3  # speed factor of a turn on the spot
-
-
-def velocity_limits(gait: GaitSettings) -> tuple[float, float]:
-    """Return the greatest speed [m/s] and turning rate [rad/s] of a gait.
-
-    A stride takes a whole step, which is longer than the time that the
-    template takes for it. The largest desired heading is pi.
-    """
-    pace = gait.path_interval / gait.step_duration
-    return gait.speed * pace, gait.gain * pace * pi
 
 
 def limit_velocity(

@@ -5,8 +5,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..control import ControlScheme
-from ..control.scheme import LocomotionScheme
+from ..control.scheme import ControlScheme
 from ..control.scheme_builder import build_scheme
 from ..control.sight_sources import (
     CameraSight,
@@ -84,7 +83,7 @@ def policy_scheme_factory(
     *,
     tick: float,
     sees_as: str | None = None,
-) -> Callable[[Strategy], LocomotionScheme]:
+) -> Callable[[Strategy], ControlScheme]:
     """Return a factory of control schemes on learned legs.
 
     The robot must measure joint velocities and take the gains of
@@ -106,7 +105,7 @@ def policy_scheme_factory(
     perceive = None if sees_as is None else perception_factory(sees_as)
     load_legs(legs, description, tick=tick)  # refuses before the first walk
 
-    def make(strategy: Strategy) -> LocomotionScheme:
+    def make(strategy: Strategy) -> ControlScheme:
         walk = PolicyWalk(load_legs(legs, description, tick=tick), gait)
         runner = StrategyRunner(
             strategy, gait, tick, velocities=walk.velocities
@@ -114,7 +113,7 @@ def policy_scheme_factory(
         senses: SightSource = MeasuredSight()
         if perceive is not None:
             senses = CameraSight(perceive(description, tick), tick=tick)
-        return LocomotionScheme(runner, walk, senses)
+        return ControlScheme(runner, walk, senses)
 
     return make
 

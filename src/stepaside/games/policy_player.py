@@ -5,7 +5,7 @@ from dataclasses import replace
 
 from ..control.clearance.surroundings import OpenFloor, Surroundings
 from ..control.clearance.velocity_guard import VelocityGuard
-from ..control.scheme import LocomotionScheme
+from ..control.scheme import ControlScheme
 from ..control.scheme_builder import ClearanceSetup
 from ..control.strategy_runner import StrategyRunner
 from ..core.errors import PolicyError
@@ -42,7 +42,7 @@ class PolicyPlayer(RobotPlayer):
     def __init__(
         self,
         robot: SimulatedRobot,
-        scheme: LocomotionScheme,
+        scheme: ControlScheme,
         frame: Pose,
         networks: NetworkPool,
         surroundings: Surroundings,
@@ -211,7 +211,7 @@ def place_policy_player(
         around = clearance.surroundings
         distance = clearance.outline.radius + clearance.margin
         guard = VelocityGuard(around, policy.velocities, distance)
-    scheme = LocomotionScheme(
+    scheme = ControlScheme(
         StrategyRunner(
             with_body_radius(strategy, clearance, setup.gait),
             setup.gait,

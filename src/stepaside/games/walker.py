@@ -3,8 +3,7 @@
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from ..control import ControlScheme
-from ..control.scheme import LocomotionScheme
+from ..control.scheme import ControlScheme
 from ..control.sight_sources import CameraSight
 from ..core.poses import Pose
 from ..locomotion.walk_snapshots import Phase, StepStarted
@@ -24,10 +23,10 @@ class RobotPlayer(PhysicalPlayer):
         frame: Pose of its odometry in the world.
     """
 
-    scheme: LocomotionScheme
+    scheme: ControlScheme
 
     def __init__(
-        self, robot: SimulatedRobot, scheme: LocomotionScheme, frame: Pose
+        self, robot: SimulatedRobot, scheme: ControlScheme, frame: Pose
     ) -> None:
         """Combine a robot and its controller."""
         super().__init__(robot)
@@ -76,7 +75,7 @@ class RobotPlayer(PhysicalPlayer):
 
     def snapshot(self) -> Snapshot:
         """Return the state at this instant."""
-        walk = self.scheme.state
+        walk = self.scheme.locomotion.state
         return snapshot_of(self.robot, frame=self.frame, walk=walk)
 
 
@@ -112,5 +111,5 @@ class SimulatedPlayer(RobotPlayer):
     def motion_log(self, *, closely: bool) -> WalkerLog:
         """Return an empty log of its motion."""
         return WalkerLog(
-            self.robot, self.scheme.locomotion, self.frame, closely=closely
+            self.robot, self.scheme.walk, self.frame, closely=closely
         )

@@ -4,7 +4,7 @@ import numpy as np
 
 from ..core.poses import Array, Pose
 from ..core.row_table import RowTable
-from ..locomotion.locomotion import PlannedLocomotion
+from ..locomotion.maneuver_walk import ManeuverWalk
 from ..planning import Foot
 from ..sim.simulated_robot import SimulatedRobot
 
@@ -29,7 +29,7 @@ class WalkerLog:
     def __init__(
         self,
         robot: SimulatedRobot,
-        locomotion: PlannedLocomotion,
+        locomotion: ManeuverWalk,
         frame: Pose,
         *,
         closely: bool,

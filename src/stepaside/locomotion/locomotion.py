@@ -5,7 +5,6 @@ from typing import NamedTuple, Protocol
 from ..core.poses import Array, Pose
 from ..perception.measurement import Measurement
 from ..planning import Direction, Foot, GaitSettings
-from ..robots.leg_kinematics import LegKinematics
 from ..strategies.knowledge import Intent
 from ..strategies.velocity_set import STILL, BodyVelocity, VelocitySet
 from ..theory import laws
@@ -88,10 +87,6 @@ class Locomotion(Protocol):
         gait: Speed, steering gain and timing of its template.
         phase: Phase of motion.
         begun: Step that began at the last tick; None if none did.
-        heading_delay: Time from the last tick to the instant at which the
-            torso has ``torso_heading``, in [s].
-        pose: Pose of the template at the last tick, in odometry.
-        pose_delay: Likewise for ``pose``, from the tick that set it, in [s].
     """
 
     gait: GaitSettings
@@ -126,47 +121,16 @@ class Locomotion(Protocol):
     def tilt(self) -> tuple[float, float] | None:
         """Roll and pitch of the torso, in [rad]; None without an estimate."""
 
-    def step(self, now: float) -> CurrentStep:
-        """Return the step in progress at a time, in [s]."""
-
-    def update(
-        self, measurement: Measurement, decisions: IntentSource
-    ) -> Array:
-        """Run one control tick; decide if a decision is due.
-
-        Args:
-            measurement: Measurement of the tick.
-            decisions: Decisions of the player.
-
-        Returns:
-            Joint targets, in [rad]. Shape (joints,).
-
-        Raises:
-            ReachError: If the legs cannot follow the reference.
-            StrategyError: If the strategy returns no intent.
-        """
-
-
-class PlannedLocomotion(Locomotion, Protocol):
-    """Locomotion that plans maneuvers.
-
-    Attributes:
-        kinematics: Joints of the robot, in the standing posture at first.
-    """
-
-    kinematics: LegKinematics
-
     @property
-    def state(self) -> WalkState:
-        """Plan and references of the last tick."""
-
-    @property
-    def planned_centers(self) -> tuple[float, float, float, float]:
-        """CoM reference (x, y), then ZMP reference, in odometry, in [m]."""
+    def state(self) -> WalkState | None:
+        """Plan and references of the last tick; None without a plan."""
 
     @property
     def feels(self) -> bool:
-        """Whether balance uses joint angles, IMU or forces on the soles."""
+        """Whether it uses joint angles, IMU or forces on the soles."""
+
+    def step(self, now: float) -> CurrentStep:
+        """Return the step in progress at a time, in [s]."""
 
     def decides(self, now: float) -> bool:
         """Return whether a decision is due at a tick, at a time in [s]."""
@@ -183,4 +147,21 @@ class PlannedLocomotion(Locomotion, Protocol):
 
         Raises:
             ReachError: If the legs cannot follow the reference.
+        """
+
+    def update(
+        self, measurement: Measurement, decisions: IntentSource
+    ) -> Array:
+        """Run one control tick; decide if a decision is due.
+
+        Args:
+            measurement: Measurement of the tick.
+            decisions: Decisions of the player.
+
+        Returns:
+            Joint targets, in [rad]. Shape (joints,).
+
+        Raises:
+            ReachError: If the legs cannot follow the reference.
+            StrategyError: If the strategy returns no intent.
         """

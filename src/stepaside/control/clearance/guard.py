@@ -12,7 +12,7 @@ no maneuver with either foot is accepted, it executes the one that leads out
 of the margin with the least approach, at most one cell.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from math import pi
 from operator import itemgetter
 from typing import NamedTuple
@@ -20,6 +20,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ...core.poses import Pose
+from ...locomotion.maneuver_selection import GuardDecision, PlanFor
+from ...perception.measurement import Measurement
 from ...planning import ManeuverPlan, ManeuverPlanner
 from ...planning.steady_gait import landing_state
 from ...strategies.knowledge import Intent
@@ -33,25 +35,11 @@ NEARER = 1e-6  # approach tolerated inside the margin, in [m]
 GAINED = 0.004  # clearance that an escape gains at least, in [m]
 
 
-class GuardDecision(NamedTuple):
-    """Intent that the guard accepts in place of the requested one.
-
-    Attributes:
-        intent: Heading and speed.
-        back: Whether the driving direction is reversed: forward if the
-            strategy drives backward.
-    """
-
-    intent: Intent
-    back: bool = False
-
-
 ESCAPES = tuple(
     GuardDecision(Intent(heading), back)
     for heading in (pi, -pi)
     for back in (False, True)
 )
-PlanFor = Callable[[GuardDecision], ManeuverPlan]
 
 
 class ManeuverClearance(NamedTuple):
@@ -114,6 +102,15 @@ class Guard:
         self.surroundings, self.margin = surroundings, margin
         self._outline, self._planner = outline, planner
 
+    @property
+    def map_error(self) -> float:
+        """Largest position error of the obstacles, in [m]."""
+        return self.surroundings.map_error
+
+    def note(self, measurement: Measurement, pose: Pose) -> None:
+        """Update the obstacles; see :meth:`.Surroundings.note`."""
+        self.surroundings.note(measurement, pose)
+
     def choose(
         self,
         intent: Intent,
@@ -124,18 +121,9 @@ class Guard:
     ) -> GuardDecision | None:
         """Return the accepted decision that is closest to an intent.
 
-        Args:
-            intent: Requested intent.
-            plan_for: Function that plans a decision.
-            pose_plan_in_odometry: Pose of the support foot, the plan frame.
-            standing: Whether the robot stands; it may then also leave a
-                position within the margin.
-
-        Returns:
-            The first decision that keeps clear: the intent itself, then lower
-            speeds down to a turn on the spot, then a turn to the other side,
-            and from standing a step in the reversed direction; None if the
-            robot has to stand.
+        It is the intent itself, then one of lower speed down to a turn on the
+        spot, then a turn to the other side, and from standing a step in the
+        reversed direction; see :class:`.ManeuverGuard`.
         """
         for choice in _choices(intent, standing=standing):
             if self.accepts(
@@ -149,33 +137,20 @@ class Guard:
     ) -> GuardDecision | None:
         """Return the decision that leads a standing robot out of the margin.
 
-        Args:
-            intent: Requested intent.
-            plan_for: Function that plans a decision.
-            pose_plan_in_odometry: Pose of the support foot, the plan frame.
-
-        Returns:
-            The decision with the largest least clearance, which may fall below
-            the present one by no more than the error of the map; None if there
-            is none.
+        It is the one with the largest least clearance, which may fall below
+        the present one by no more than the error of the map.
         """
-        map_error = self.surroundings.map_error
         out = []
         for choice in (*_choices(intent, standing=True), *ESCAPES):
             clearance = self.evaluate(plan_for(choice), pose_plan_in_odometry)
-            if clearance.escapes(self.margin, map_error, GAINED):
+            if clearance.escapes(self.margin, self.map_error, GAINED):
                 out.append((clearance.least, choice))
         return max(out, key=itemgetter(0))[1] if out else None
 
     def adjust_footsteps(
         self, plan: ManeuverPlan, pose_plan_in_odometry: Pose
     ) -> ManeuverPlan:
-        """Return a plan with adjusted footsteps, if adjustment is enabled.
-
-        Args:
-            plan: The plan.
-            pose_plan_in_odometry: Pose of the plan frame, the support foot.
-        """
+        """Return a plan with adjusted footsteps, if adjustment is enabled."""
         if self._footholds is None:
             return plan
         pose_plan_in_map = self.surroundings.pose_odometry_in_map.compose(

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from ...control.scheme import LocomotionScheme
+from ...control.scheme import ControlScheme
 from ...core.errors import ReachError, StrategyError
 from ...core.poses import Array, Pose
 from ...locomotion.walk_snapshots import Phase, StepStarted, WalkState
@@ -13,7 +13,7 @@ from .joint_body import JointBody
 from .safety_state_machine import RobotState
 
 SETTLING = 1.0  # of learned legs that were told to stand, in [s]
-MakeScheme = Callable[[Strategy], LocomotionScheme]
+MakeScheme = Callable[[Strategy], ControlScheme]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -70,7 +70,7 @@ class JointLoop:
 
     def __init__(
         self,
-        open_body: Callable[[LocomotionScheme], JointBody],
+        open_body: Callable[[ControlScheme], JointBody],
         strategy: Strategy,
         make_scheme: MakeScheme,
         *,
@@ -89,7 +89,7 @@ class JointLoop:
             dry_run: Whether control runs without any joint command.
         """
         self._strategy, self._make_scheme = strategy, make_scheme
-        self._scheme: LocomotionScheme
+        self._scheme: ControlScheme
         self._schemes = 0
         self._renew_scheme()
         self._stood = 0  # ticks of a stop in which control has stood

@@ -8,7 +8,7 @@ from ...planning import Foot, GaitSettings
 from ...strategies.knowledge import Intent
 from ...strategies.velocity_set import STILL, BodyVelocity, VelocitySet
 from ..locomotion import IntentSource, template_velocity
-from ..walk_snapshots import Phase, StepStarted
+from ..walk_snapshots import Phase, StepStarted, WalkState
 from ..zmp.current_step import CurrentStep, resting_step
 from .policy_legs import PolicyLegs
 
@@ -53,13 +53,16 @@ class PolicyWalk:
         legs: Learned legs.
         phase: Phase of motion.
         begun: None: a policy plans no steps.
+        state: Likewise.
         heading_delay: 0: the heading is measured.
         pose_delay: 0: the pose is measured.
+        feels: True.
     """
 
     begun: StepStarted | None = None
-    heading_delay = 0.0
-    pose_delay = 0.0
+    state: WalkState | None = None
+    heading_delay = pose_delay = 0.0
+    feels = True
 
     def __init__(
         self,
@@ -121,6 +124,9 @@ class PolicyWalk:
         if self.phase is Phase.STANDING:
             return self.legs.ready
         return now >= self._next_decision - 1e-9
+
+    def coast(self, now: float) -> None:
+        """Return None: every tick needs a measurement."""
 
     def update(
         self, measurement: Measurement, decisions: IntentSource

@@ -7,14 +7,17 @@ import numpy as np
 
 from ...core.poses import Array, Pose
 from ...perception.measurement import Measurement
-from ...planning import CenterState, ManeuverPlan
+from ...planning import CenterState, GaitSettings, ManeuverPlan
+from ...robots.description import RobotDescription
+from ...robots.forward_kinematics import ForwardKinematics
 from ...robots.leg_kinematics import BodyReference, LegKinematics
+from .control_settings import ControlSettings
 from .current_step import CurrentStep
 from .feedforward import LoadFeedforward
 from .mpc import MpcResult
 from .reference_table import ReferenceTable
 from .stabiliser import Stabiliser
-from .state_estimator import BodyState
+from .state_estimator import BodyState, StateEstimator
 
 STANDING_TICKS = 64  # computed at once
 Vector = tuple[float, float]
@@ -23,14 +26,7 @@ StepAt = Callable[[float], CurrentStep]
 
 
 class Balance(Protocol):
-    """Joint targets that keep balance along the references of a plan.
-
-    Attributes:
-        state: Last estimate of the body's state, if any.
-        solved: Result of the MPC at this tick, if it ran.
-        adapted: Number of footsteps moved so far.
-        commanded: Body reference of the last tick, if feedback changes it.
-    """
+    """Joint targets that keep balance along the references of a plan."""
 
     @property
     def state(self) -> BodyState | None:
@@ -125,15 +121,6 @@ class OpenLoop:
 
     The targets of a whole step are computed at once. Where a joint limit
     acts, they are computed tick by tick.
-
-    Attributes:
-        state: None.
-        solved: None.
-        adapted: 0.
-        commanded: None.
-        ready: True.
-        tilt: None.
-        measured_heading: None.
     """
 
     state: BodyState | None = None
@@ -240,12 +227,7 @@ class OpenLoop:
 
 
 class ClosedLoop:
-    """Feedback by a stabiliser.
-
-    Attributes:
-        stabiliser: The stabiliser.
-        commanded: Body reference of the last tick.
-    """
+    """Feedback by a stabiliser."""
 
     def __init__(
         self,
@@ -337,3 +319,49 @@ class ClosedLoop:
     ) -> tuple[ManeuverPlan, CenterState]:
         """Plan with the correction inside the sole."""
         return self.stabiliser.fit(plan_from, state, support)
+
+
+def build_balance(
+    description: RobotDescription,
+    gait: GaitSettings,
+    control: ControlSettings,
+    *,
+    tick: float,
+    delay: float,
+    kinematics: LegKinematics,
+    forward: ForwardKinematics | None = None,
+) -> Balance:
+    """Build the balance control that the settings select.
+
+    Args:
+        description: Robot description.
+        gait: Gait.
+        control: Control settings.
+        tick: Control period, in [s].
+        delay: Time from a command to the motion, in [s].
+        kinematics: Joint motion generation of the robot.
+        forward: Kinematics of the measured body; built if not given.
+    """
+    loads = None
+    if not control.feedback or control.stabiliser.load_share > 0.0:
+        loads = LoadFeedforward(
+            kinematics, zmp_forward=gait.zmp_forward, tick=tick
+        )
+    if not control.feedback:
+        return OpenLoop(kinematics, loads)
+    forward = forward or ForwardKinematics(description)
+    estimator = StateEstimator(
+        forward, forward.force_sensors(), gait.eta, tick
+    )
+    return ClosedLoop(
+        Stabiliser(
+            control,
+            estimator,
+            gait,
+            tick=tick,
+            delay=delay,
+            lean=description.lean,
+        ),
+        kinematics,
+        loads,
+    )

@@ -1,25 +1,24 @@
 """Locomotion of the paper: a maneuver is planned for every step."""
 
+from math import pi
 from time import process_time
 
 from ..core.poses import Array, Pose
-from ..locomotion.locomotion import IntentSource
-from ..locomotion.walk_snapshots import Phase, StepStarted, WalkState
-from ..locomotion.zmp.current_step import (
-    CurrentStep,
-    first_step_of,
-    resting_step,
-)
-from ..locomotion.zmp.feedback_loop import Balance, OpenLoop
-from ..locomotion.zmp.reference_table import ReferenceTable, resting_sample
 from ..perception.measurement import Measurement
 from ..planning import CenterState, Foot, GaitSettings, ManeuverPlan
 from ..planning.steady_gait import landing_state
 from ..robots.leg_kinematics import BodyReference, LegKinematics
 from ..strategies.velocity_set import VelocitySet
-from .clearance.guard import Guard
-from .maneuver_selection import ManeuverSelection
-from .velocity_walk import velocity_limits
+from .locomotion import IntentSource
+from .maneuver_selection import ManeuverGuard, ManeuverSelection
+from .walk_snapshots import Phase, StepStarted, WalkState
+from .zmp.current_step import (
+    CurrentStep,
+    first_step_of,
+    resting_step,
+)
+from .zmp.feedback_loop import Balance, OpenLoop
+from .zmp.reference_table import ReferenceTable, resting_sample
 
 SETTLING = 1.0  # how long a halted robot takes to come to rest, in [s]
 RETRY_PERIOD = 0.2  # between attempts of a blocked robot, in [s]
@@ -56,7 +55,7 @@ class ManeuverWalk:
         tick: float,
         delay: float = 0.0,
         first_foot: Foot = Foot.LEFT,
-        guard: Guard | None = None,
+        guard: ManeuverGuard | None = None,
     ) -> None:
         """Take the standing posture.
 
@@ -185,10 +184,9 @@ class ManeuverWalk:
             return self.joint_targets
         now = measurement.time
         if self._maneuvers.guard is not None:
-            surroundings = self._maneuvers.guard.surroundings
             body = self.reference
             planned = Pose(*body.com[:2], body.heading)
-            surroundings.note(measurement, planned)
+            self._maneuvers.guard.note(measurement, planned)
         if self.plan is None:
             self._wait(now, decisions)
         elif self.decides(now):
@@ -332,3 +330,13 @@ class ManeuverWalk:
     def _support(self, swing: Foot) -> Pose:
         """Return the support foot while the other swings, in odometry."""
         return self.right_foot if swing is Foot.LEFT else self.left_foot
+
+
+def velocity_limits(gait: GaitSettings) -> tuple[float, float]:
+    """Return the greatest speed [m/s] and turning rate [rad/s] of a gait.
+
+    A stride takes a whole step, which is longer than the time that the
+    template takes for it. The largest desired heading is pi.
+    """
+    pace = gait.path_interval / gait.step_duration
+    return gait.speed * pace, gait.gain * pace * pi

@@ -1,10 +1,10 @@
 """Planning of the maneuver that an intent and the guard allow."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from typing import NamedTuple, Protocol
 
 from ..core.poses import Pose
-from ..locomotion.locomotion import MotionRequest
-from ..locomotion.zmp.feedback_loop import Balance
+from ..perception.measurement import Measurement
 from ..planning import (
     CenterState,
     Direction,
@@ -14,7 +14,78 @@ from ..planning import (
     ManeuverPlanner,
     TemplateDrive,
 )
-from .clearance.guard import Guard, GuardDecision
+from ..strategies.knowledge import Intent
+from .locomotion import MotionRequest
+from .zmp.feedback_loop import Balance
+
+
+class GuardDecision(NamedTuple):
+    """Intent that the guard accepts in place of the requested one.
+
+    Attributes:
+        intent: Heading and speed.
+        back: Whether the driving direction is reversed: forward if the
+            strategy drives backward.
+    """
+
+    intent: Intent
+    back: bool = False
+
+
+PlanFor = Callable[[GuardDecision], ManeuverPlan]
+
+
+class ManeuverGuard(Protocol):
+    """Filter of intents that keeps a robot clear of known obstacles.
+
+    Plans are in the frame of the support foot.
+    """
+
+    @property
+    def map_error(self) -> float:
+        """Largest position error of the obstacles, in [m]."""
+
+    def note(self, measurement: Measurement, pose: Pose) -> None:
+        """Update the obstacles.
+
+        Args:
+            measurement: Measurement of the tick.
+            pose: Place of the CoM and heading in odometry at the tick.
+        """
+
+    def choose(
+        self,
+        intent: Intent,
+        plan_for: PlanFor,
+        pose_plan_in_odometry: Pose,
+        *,
+        standing: bool,
+    ) -> GuardDecision | None:
+        """Return the accepted decision that is closest to an intent.
+
+        Args:
+            intent: Requested intent.
+            plan_for: Function that plans a decision.
+            pose_plan_in_odometry: Pose of the support foot.
+            standing: Whether the robot stands; it may then also leave a
+                position within the margin.
+
+        Returns:
+            The decision; None if the robot has to stand.
+        """
+
+    def choose_escape(
+        self, intent: Intent, plan_for: PlanFor, pose_plan_in_odometry: Pose
+    ) -> GuardDecision | None:
+        """Return the decision that leads a standing robot out of the margin.
+
+        Arguments are those of :meth:`choose`.
+        """
+
+    def adjust_footsteps(
+        self, plan: ManeuverPlan, pose_plan_in_odometry: Pose
+    ) -> ManeuverPlan:
+        """Return a plan with adjusted footsteps, if adjustment is enabled."""
 
 
 class ManeuverSelection:
@@ -26,7 +97,10 @@ class ManeuverSelection:
     """
 
     def __init__(
-        self, settings: GaitSettings, balance: Balance, guard: Guard | None
+        self,
+        settings: GaitSettings,
+        balance: Balance,
+        guard: ManeuverGuard | None,
     ) -> None:
         """Prepare a planner.
 
@@ -43,11 +117,9 @@ class ManeuverSelection:
         """Yield the start attempts of a standing robot: once with each foot.
 
         With a map that may be off, each foot then has a second attempt, with
-        relaxed clearance; see :meth:`Guard.choose_escape`.
+        relaxed clearance; see :meth:`ManeuverGuard.choose_escape`.
         """
-        blurred = (
-            self.guard is not None and self.guard.surroundings.map_error > 0.0
-        )
+        blurred = self.guard is not None and self.guard.map_error > 0.0
         try:
             for self._relaxed in (False, True)[: 1 + blurred]:
                 for _ in Foot:
