@@ -15,7 +15,7 @@ from stepaside.locomotion.walk_snapshots import Phase, StepStarted
 from stepaside.locomotion.zmp.feedback_loop import ClosedLoop, OpenLoop
 from stepaside.perception.measurement import Measurement, Sighting
 from stepaside.planning import Direction, Foot, GaitSettings
-from stepaside.robots.leg_kinematics import BodyReference, LegStates
+from stepaside.robots.leg_kinematics import BodyReference
 from stepaside.strategies import Intent, Knowledge
 
 GAIT = GaitSettings()
@@ -43,9 +43,17 @@ class FakeLegs:
         self.tracked.append(reference)
         return np.array(reference.com)
 
-    def track_rows(self, references: Array) -> LegStates:
-        """Follow nothing at once: a limit acts at every tick."""
-        return LegStates(np.zeros((1, 7)), np.zeros((0, 3)))
+    def track_rows(self, references: Array) -> Any:
+        """Follow the first; the heading is the one that is set by then."""
+        row = references[0].tolist()
+        targets = self.track(BodyReference.from_row(row))[None]
+        return SimpleNamespace(
+            rows=np.zeros((2, 6)), targets=targets, torso_headings=self
+        )
+
+    def __getitem__(self, tick: int) -> float:
+        """Return the heading of the torso after any tick."""
+        return self.torso_heading
 
 
 @dataclass

@@ -36,8 +36,8 @@ class DullLegs:
     track = stand
 
     def track_rows(self, references: Any) -> LegStates:
-        """Follow nothing at once."""
-        return LegStates(np.zeros((1, 7)), np.zeros((0, 3)))
+        """Follow the first."""
+        return LegStates(np.zeros((2, 6)), references[:1, :3])
 
 
 class Dull(FakeStrategy):

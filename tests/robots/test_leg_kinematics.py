@@ -10,7 +10,6 @@ from stepaside.core.errors import ReachError
 from stepaside.core.poses import Array
 from stepaside.robots.description import load_robot
 from stepaside.robots.head import rotation
-from stepaside.robots.ik_residuals import rotation_to_yaw
 from stepaside.robots.leg_kinematics import ROWS, BodyReference, LegKinematics
 
 NAO = load_robot("nao")
@@ -238,19 +237,6 @@ def test_the_greatest_height_is_the_last_that_is_reached() -> None:
     with pytest.raises(ReachError, match=f"at most {greatest:.3f} m"):
         kinematics.stand(above)
     assert kinematics.highest_com(above) == pytest.approx(greatest, abs=4e-4)
-
-
-@pytest.mark.parametrize("yaw", [0.0, 0.7, -2.0])
-def test_the_levelling_rotation_is_the_small_rotation_of_a_frame(
-    yaw: float,
-) -> None:
-    for axis in range(3):
-        vector = np.zeros(3)
-        vector[axis] = 1e-5
-        turn = rotation(*vector)
-        frame = turn @ rotation(0.0, 0.0, yaw)
-        back = rotation_to_yaw(frame.tolist(), (np.cos(yaw), np.sin(yaw)))
-        assert back == pytest.approx((-vector).tolist(), abs=1e-9)
 
 
 @pytest.mark.parametrize("yaw", [0.0, 0.7, -2.0])

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from stepaside.core.errors import ReachError
 from stepaside.core.poses import Array
 from stepaside.locomotion.zmp.feedforward import LoadFeedforward
 from stepaside.robots.description import load_robot
@@ -48,34 +49,20 @@ def tick_by_tick(bodies: list[BodyReference], zmp: Array) -> list[Array]:
 
 def row_by_row(
     bodies: list[BodyReference], zmp: Array, *, used: int
-) -> tuple[list[Array], int]:
-    """Targets of blocks, of which only the first ticks are used.
-
-    Returns:
-        The targets, and how many ticks met a limit.
-    """
+) -> list[Array]:
+    """Return targets of blocks, of which only the first ticks are used."""
     kinematics, loads = legs()
     rows = np.array([body.row() for body in bodies])
     found: list[Array] = []
-    limited = 0
     while len(found) < len(bodies):
-        at = len(found)
-        states = kinematics.track_rows(rows[at:])
-        count = len(states.targets)
-        if count == 0:
-            limited += 1
-            x, y = zmp[at].tolist()
-            targets = kinematics.track(bodies[at])
-            found.append(targets + loads.added(bodies[at], (x, y)))
-            continue
-        offsets = loads.offset_rows(
-            states.rows, rows[at : at + count], zmp[at : at + count]
-        )
-        kept = min(count, used)
-        found += list((states.targets + offsets)[:kept])
+        at = slice(len(found), None)
+        states = kinematics.track_rows(rows[at])
+        offsets = loads.offset_rows(states.rows, rows[at], zmp[at])
+        found += list((states.targets + offsets)[:used])
+        kept = min(len(states.targets), used)
         kinematics.rewind(kept)
         loads.rewind(kept)
-    return found, limited
+    return found
 
 
 @pytest.mark.parametrize("used", [TICKS, 7])
@@ -89,6 +76,17 @@ def test_rows_have_the_bits_of_single_ticks(
     zmp = np.array([body.com[:2] for body in bodies])
     zmp += 0.01 * generator.standard_normal(zmp.shape)
     expected = tick_by_tick(bodies, zmp)
-    found, limited = row_by_row(bodies, zmp, used=used)
+    found = row_by_row(bodies, zmp, used=used)
     np.testing.assert_array_equal(found, expected)
-    assert (limited > 0) is (jump != 0.0)
+    speeds = np.abs(np.diff(found, axis=0)).max() / TICK
+    assert (speeds > 6.0) == (jump != 0.0)  # a limit acts
+
+
+def test_rows_end_before_a_reference_that_is_out_of_reach() -> None:
+    bodies = references(1, 0.0)
+    kinematics, _ = legs()
+    rows = np.array([body.row() for body in bodies])
+    rows[5:, 0] += 1.0
+    assert len(kinematics.track_rows(rows).targets) == 5
+    with pytest.raises(ReachError, match="cannot follow: CoM x"):
+        kinematics.track_rows(rows[5:])

@@ -1,7 +1,8 @@
-"""Test the written-out step of the legs against a solve of all rows."""
+"""Test the steps of legs of any robot: rows, redundancy, refusals."""
 
 from functools import cache
 from pathlib import Path
+from tempfile import mkdtemp
 
 import mujoco
 import numpy as np
@@ -10,110 +11,163 @@ import pytest
 from stepaside.core.errors import ReachError
 from stepaside.core.poses import Array
 from stepaside.robots.description import RobotDescription, load_robot
-from stepaside.robots.ik_solver import move_within, solver_of
-from stepaside.robots.ik_step import trace_step
+from stepaside.robots.joint_tree import joint_tree
 from stepaside.robots.leg_kinematics import BodyReference, LegKinematics
+from stepaside.robots.newton_step import linearise, move_within
 from stepaside.robots.tree_cache import load_tree
 from synthetic_humanoid import synthetic_humanoid
 
 NAO = load_robot("nao")
 TICK = 0.004
-FREE = {"nao": 11, "synthetic": 12}  # leg joints that are unknown
-
-
-@cache
-def stranger() -> RobotDescription:
-    from tempfile import mkdtemp
-
-    return synthetic_humanoid(Path(mkdtemp()))
-
-
-@cache
-def seven() -> RobotDescription:
-    from tempfile import mkdtemp
-
-    return synthetic_humanoid(Path(mkdtemp()), twists=True)
-
-
-def robot(name: str) -> RobotDescription:
-    return NAO if name == "nao" else stranger()
-
-
+ROBOTS = ["nao", "synthetic", "seven"]
 STANCE = BodyReference(
     (0.03, 0.0, 0.6), (0.02, 0.1, 0.0, 0.1), (-0.02, -0.1, 0.0, -0.05)
 )
 
 
-def anywhere(name: str, seed: int) -> tuple[float, ...]:
-    """Arguments of the solver near a bent posture, and a request."""
-    random = np.random.default_rng(seed)
-    description = robot(name)
-    solver = solver_of(description, load_tree(description))
-    bent = [description.standing.get(n, 0.0) for n in solver.legs.free]
-    angles = np.array(bent) + random.uniform(-0.2, 0.2, len(bent))
-    torso = random.uniform(-1.0, 1.0, 4)
-    asked = random.uniform(-0.5, 0.5, 15)
-    return (*angles.tolist(), *torso.tolist(), *asked.tolist())
-
-
-@pytest.mark.parametrize("seed", range(5))
-@pytest.mark.parametrize("name", FREE)
-def test_the_step_solves_all_rows(name: str, seed: int) -> None:
-    description = robot(name)
-    solver = solver_of(description, load_tree(description))
-    arguments = anywhere(name, seed)
-    error, jacobian = solver.linearise(*arguments)
-    count = 4 + FREE[name]
-    assert jacobian.shape == (count, count)
-    formula = trace_step(solver.legs, description.standing)
-    step = np.array(formula.function()(*arguments))
-    np.testing.assert_allclose(jacobian @ step[:count], error, atol=1e-9)
-    free = np.array(arguments[: FREE[name]])
-    after = free + step[4:count]
-    np.testing.assert_allclose(step[count + 4 :], after, atol=1e-15)
-    x, y, z, heading = arguments[FREE[name] : FREE[name] + 4]
-    c, s = np.cos(heading), np.sin(heading)
-    u, v, w, turn = step[:4]
-    torso = (x + c * u - s * v, y + s * u + c * v, z + w, heading + turn)
-    assert step[count : count + 4] == pytest.approx(torso)
-
-
-@pytest.mark.parametrize("name", FREE)
-def test_the_rows_are_the_derivative_of_their_errors(name: str) -> None:
-    """By central differences in every unknown, where all errors are 0."""
-    description = robot(name)
-    legs = LegKinematics(description, tick=TICK)
-    z = 0.26 if name == "nao" else 0.6
-    stance = STANCE._replace(com=(0.01, 0.01, z))
+@cache
+def robot(name: str) -> RobotDescription:
     if name == "nao":
-        stance = stance._replace(
-            left_foot=(0.01, 0.05, 0.0, 0.1),
-            right_foot=(-0.01, -0.05, 0.0, -0.05),
-        )
-    legs.stand(stance)
-    legs.track(stance)
-    posture = legs.state[: FREE[name] + 4]
-    arguments = np.array([*posture, *stance.row()])
-    solver = solver_of(description, load_tree(description))
-    error, jacobian = solver.linearise(*arguments.tolist())
-    assert np.abs(error).max() < 1e-8
-    count = FREE[name]
-    heading = arguments[count + 3]
-    c, s = np.cos(heading), np.sin(heading)
-    turn = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
-    for unknown in range(4 + count):
-        change = np.zeros(arguments.size)
-        if unknown < 3:
-            change[count : count + 3] = turn[:, unknown]
-        else:
-            at = count + 3 if unknown == 3 else unknown - 4
-            change[at] = 1.0
+        return NAO
+    return synthetic_humanoid(Path(mkdtemp()), twists=name == "seven")
+
+
+@pytest.mark.parametrize("roll", [0.0, 0.2])
+@pytest.mark.parametrize("name", ROBOTS)
+def test_the_rows_are_the_derivative_of_their_errors(
+    name: str, roll: float
+) -> None:
+    """By central differences in every unknown, joints that slide included.
+
+    All joints move here, those of head and arms, too; the errors of rotation
+    are those of a level sole.
+    """
+    description = robot(name)
+    tree = load_tree(description)
+    columns = {joint: i for i, joint in enumerate(tree.joints)}
+    soles = [
+        tree.sites[description.left_foot],
+        tree.sites[description.right_foot],
+    ]
+    if name != "nao":
+        soles[1] = tree.sites["eye"]  # on a mast, which slides
+    links, count = joint_tree(tree, columns, {}, soles), len(columns)
+    random = np.random.default_rng(5)
+    state = np.zeros(count + 6)
+    state[: count + 4] = random.uniform(-0.3, 0.3, count + 4)
+    rows = 16
+    errors, jacobian = np.empty(rows), np.empty((rows, count + 4))
+
+    def errors_at(reference: Array, at: Array) -> Array:
+        found = np.empty(rows)
+        unused = np.empty_like(jacobian)
+        linearise(links, reference, at, roll, found, unused)
+        return found
+
+    reference = random.uniform(-0.3, 0.3, 15)
+    linearise(links, reference, state, roll, errors, jacobian)
+    changes = np.eye(count + 6)[: count + 4]
+    for unknown, change in enumerate(changes):
         ahead, behind = (
-            solver.linearise(*(arguments + h * change).tolist())[0]
-            for h in (1e-6, -1e-6)
+            errors_at(reference, state + h * change) for h in (1e-6, -1e-6)
         )
         slope = (behind - ahead) / 2e-6
+        for part in (slice(0, 3), slice(6, 9), slice(12, 15)):
+            np.testing.assert_allclose(
+                slope[part], jacobian[part, unknown], atol=1e-7
+            )
+    np.testing.assert_array_equal(jacobian[15, :-1], 0.0)
+    assert jacobian[15, -1] == 1.0
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_rotations_are_the_derivative_of_their_errors(name: str) -> None:
+    """Where these are 0: on level soles with the yaw that is asked for."""
+    legs = LegKinematics(robot(name), tick=TICK)
+    stance = STANCE
+    if name == "nao":
+        stance = BodyReference(
+            *((0.01, 0.01, 0.26), (0.01, 0.05, 0.0, 0.1)),
+            (-0.01, -0.05, 0.0, -0.05),
+        )
+    legs.stand(stance)
+    for _ in range(3):
+        legs.track(stance)
+    assert np.abs(legs.error).max() < 1e-7
+    rows, state = legs.error.size, legs.state
+    reference = np.array(stance.row())
+    jacobian, unused = np.empty((2, rows, state.size - 2))
+    found = np.empty((3, rows))
+    links = legs.legs.links
+    linearise(links, reference, state, 0.0, found[0], jacobian)
+    for unknown in range(state.size - 2):
+        for i, h in ((1, 1e-6), (2, -1e-6)):
+            moved = state.copy()
+            moved[unknown] += h
+            linearise(links, reference, moved, 0.0, found[i], unused)
+        slope = (found[2] - found[1]) / 2e-6
         np.testing.assert_allclose(slope, jacobian[:, unknown], atol=1e-7)
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_steps_converge_to_feet_and_com_in_mujoco_s_eyes(name: str) -> None:
+    """Six joints a leg, seven, or two of eleven that share a motor."""
+    description = robot(name)
+    legs = LegKinematics(description, tick=TICK)
+    stance = STANCE
+    if name == "nao":
+        stance = BodyReference(
+            *((0.01, 0.0, 0.26), (0.01, 0.05, 0.0, 0.1)),
+            (-0.01, -0.05, 0.0, -0.05),
+        )
+    targets = legs.stand(stance)
+    assert targets.size == len(legs.joint_names)
+    x, y, z = stance.com
+    near = stance._replace(com=(x + 1e-3, y + 1e-3, z - 1e-3))
+    sizes = []
+    for _ in range(6):
+        legs.track(near)
+        sizes.append(float(np.abs(legs.error).max()))
+    assert sizes[0] == pytest.approx(1e-3, rel=0.1)
+    assert sizes[1] < 0.03 * sizes[0] and sizes[2] < 0.03 * sizes[1]
+    assert sizes[-1] < 1e-12
+    model = description.compile()
+    data = mujoco.MjData(model)
+    data.qpos[: legs.posture.size] = legs.posture
+    mujoco.mj_forward(model, data)
+    torso = data.body(description.torso).id
+    assert data.subtree_com[torso] == pytest.approx(near.com, abs=1e-9)
+    for site, foot in (
+        (description.left_foot, near.left_foot),
+        (description.right_foot, near.right_foot),
+    ):
+        assert data.site(site).xpos == pytest.approx(foot[:3], abs=1e-9)
+        axes = data.site(site).xmat.reshape(3, 3)
+        assert np.arctan2(axes[1, 0], axes[0, 0]) == pytest.approx(foot[3])
+        assert axes[2, 2] == pytest.approx(1.0)
+
+
+def test_mirrored_references_have_mirrored_targets() -> None:
+    left, right = (0.01, 0.05, 0.0, 0.1), (-0.02, -0.05, 0.01, -0.04)
+    found = []
+    for side in (1.0, -1.0):
+        feet, tilts = [left, right], [(0.01, 0.02), (-0.02, 0.01)]
+        if side < 0.0:
+            feet = [(x, -y, z, -yaw) for x, y, z, yaw in (right, left)]
+            tilts = [(-roll, pitch) for roll, pitch in tilts[::-1]]
+        asked = BodyReference((0.02, 0.01 * side, 0.26), *feet, *tilts)
+        legs = LegKinematics(NAO, tick=TICK)
+        legs.stand(asked)
+        for _ in range(5):
+            targets = legs.track(asked)
+        found.append(dict(zip(legs.joint_names, targets, strict=True)))
+    first, second = found
+    assert first["LHipRoll"] != pytest.approx(second["LHipRoll"], abs=1e-3)
+    for name in NAO.legs:
+        if "YawPitch" not in name:  # it is one of both legs
+            twin = {"L": "R", "R": "L"}[name[0]] + name[1:]
+            sign = -1.0 if "Roll" in name else 1.0
+            assert second[twin] == pytest.approx(sign * first[name], abs=1e-6)
 
 
 def heading_of(legs: LegKinematics) -> float:
@@ -139,13 +193,12 @@ def turning(turns: int) -> list[BodyReference]:
     return requests
 
 
-@pytest.mark.parametrize("joints", [6, 7])
+@pytest.mark.parametrize("name", ["synthetic", "seven"])
 def test_with_independent_hip_yaws_the_torso_heading_is_the_mean_of_the_feet(
-    joints: int,
+    name: str,
 ) -> None:
     """It does not drift, however far they turn: more than once round."""
-    description = stranger() if joints == 6 else seven()
-    legs = LegKinematics(description, tick=0.02)
+    legs = LegKinematics(robot(name), tick=0.02)
     requests = turning(33)
     legs.stand(requests[0])
     for request in requests:
@@ -154,44 +207,6 @@ def test_with_independent_hip_yaws_the_torso_heading_is_the_mean_of_the_feet(
         gap = np.remainder(heading_of(legs) - middle + np.pi, 2 * np.pi)
         assert gap - np.pi == pytest.approx(0.0, abs=1e-3)
     assert requests[-1].left_foot[3] > 2.0 * np.pi
-
-
-def test_with_a_heading_row_feet_and_com_are_reached() -> None:
-    """In MuJoCo's eyes."""
-    description = stranger()
-    legs = LegKinematics(description, tick=TICK)
-    legs.stand(STANCE)
-    legs.track(STANCE)
-    model = description.compile()
-    data = mujoco.MjData(model)
-    posture = legs.posture
-    data.qpos[: posture.size] = posture
-    mujoco.mj_forward(model, data)
-    torso = data.body("trunk").id
-    assert data.subtree_com[torso] == pytest.approx(STANCE.com, abs=1e-7)
-    for site, foot in (
-        ("l_sole", STANCE.left_foot),
-        ("r_sole", STANCE.right_foot),
-    ):
-        assert data.site(site).xpos == pytest.approx(foot[:3], abs=1e-7)
-        axes = data.site(site).xmat.reshape(3, 3)
-        assert np.arctan2(axes[1, 0], axes[0, 0]) == pytest.approx(foot[3])
-        assert axes[2, 2] == pytest.approx(1.0)
-
-
-def test_legs_that_are_not_plain_use_the_damped_step() -> None:
-    """Seven joints a leg: no step is written out, the solve has to do."""
-    description = seven()
-    solver = solver_of(description, load_tree(description))
-    assert solver.track_rows is None
-    assert not solver.legs.is_plain and solver.legs.holds_heading
-    legs = LegKinematics(description, tick=TICK)
-    targets = legs.stand(STANCE)
-    assert targets.size == len(legs.joint_names) == 16
-    near = STANCE._replace(com=(0.031, 0.001, 0.599))
-    for _ in range(3):
-        legs.track(near)
-    assert np.abs(legs.error).max() < 1e-6
 
 
 def test_a_jump_of_the_whole_body_is_refused() -> None:
@@ -221,21 +236,31 @@ def test_nan_and_inf_in_a_reference_are_refused() -> None:
 LIMITS = np.array([0.1, 0.1])
 
 
-def bounded(error: tuple[float, ...], low: Array, high: Array) -> Array:
-    """Two joints that lift the torso together, and a row for each unknown."""
-    jacobian = np.eye(6)
-    jacobian[2, 4:] = 1.0
-    return move_within(jacobian, np.array(error), low, high, np.ones(2))
+def bounded(error: tuple[float, ...]) -> Array:
+    """Two joints that lift the torso together, and a row for each unknown.
+
+    Returns:
+        Moves of both joints, then of the torso.
+    """
+    jacobian = np.roll(np.eye(6), 2, axis=1)  # rows of the torso first
+    jacobian[2, :2] = 1.0
+    limits = np.array([(-1.0, 1.0, 1.0, 0.1)] * 2)
+    step = np.empty(6)
+    move_within(
+        *(jacobian, np.array(error, float), np.zeros(8), limits),
+        *(np.empty((6, 6)), step),
+    )
+    return step
 
 
 def test_within_its_limits_a_move_is_the_solution() -> None:
-    move = bounded((0, 0, 0.2, 0, 0.05, 0.02), -LIMITS, LIMITS)
-    assert move == pytest.approx([0, 0, 0.13, 0, 0.05, 0.02])
+    move = bounded((0, 0, 0.2, 0, 0.05, 0.02))
+    assert move == pytest.approx([0.05, 0.02, 0, 0, 0.13, 0])
 
 
 def test_other_joints_are_optimal_with_one_at_its_limit() -> None:
     """The torso moves as far as it then has to, not as if it had moved."""
-    move = bounded((0, 0, 0.2, 0, 0.3, 0.02), -LIMITS, LIMITS)
-    assert move == pytest.approx([0, 0, 0.08, 0, 0.1, 0.02])
-    move = bounded((0, 0, 0.2, 0, 0.3, -0.4), -LIMITS, LIMITS)
-    assert move == pytest.approx([0, 0, 0.2, 0, 0.1, -0.1])
+    move = bounded((0, 0, 0.2, 0, 0.3, 0.02))
+    assert move == pytest.approx([0.1, 0.02, 0, 0, 0.08, 0])
+    move = bounded((0, 0, 0.2, 0, 0.3, -0.4))
+    assert move == pytest.approx([0.1, -0.1, 0, 0, 0.2, 0])

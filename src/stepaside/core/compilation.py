@@ -94,8 +94,9 @@ def bound(function: Callable[..., R], *arguments: Any) -> Callable[[], R]:
     if not isinstance(function, _Compiled):
         return partial(function, *arguments)
     typeof = load_numba().typeof
-    function.dispatcher.compile(tuple(map(typeof, arguments)))
-    return partial(function.dispatcher, *arguments)
+    types = tuple(map(typeof, arguments))
+    # Not the dispatcher, which looks at the types at every call.
+    return partial(function.dispatcher.compile(types), *arguments)
 
 
 class _Compiled:

@@ -181,13 +181,6 @@ def _reach(description: RobotDescription) -> Iterator[RequirementCheck]:
     feet = Pose(0.0, half, 0.0), Pose(0.0, -half, 0.0)
     stance = standing_reference(*feet, gait)
     legs = LegKinematics(description, tick=TICK)
-    plain = legs.legs.is_plain
-    yield RequirementCheck(
-        "legs",
-        "pass" if plain else "warn",
-        "six hinges each" if plain else "not six hinges each",
-        "" if plain else "the slower solver is used; see docs/robots.md",
-    )
     legs.stand(stance)
     highest = legs.highest_com(stance)
     margin = highest - gait.com_height

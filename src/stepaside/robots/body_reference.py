@@ -4,6 +4,20 @@ from collections.abc import Sequence
 from math import cos, remainder, sin, tau
 from typing import NamedTuple
 
+from ..core.compilation import inlined
+from ..core.poses import Array
+
+
+@inlined
+def torso_roll(row: Sequence[float] | Array, lean: float) -> float:
+    """Return the roll of a torso; see :meth:`BodyReference.roll`."""
+    if lean == 0.0:
+        return 0.0
+    c, s = cos(row[6]) + cos(row[10]), sin(row[6]) + sin(row[10])
+    x, y = row[0] - 0.5 * (row[3] + row[7]), row[1] - 0.5 * (row[4] + row[8])
+    apart = c * (row[4] - row[8]) - s * (row[3] - row[7])
+    return -2.0 * lean * (c * y - s * x) / apart
+
 
 class BodyReference(NamedTuple):
     """Desired CoM and feet at one instant, all in one level frame.
@@ -58,10 +72,4 @@ class BodyReference(NamedTuple):
         Returns:
             Roll, in [rad].
         """
-        if lean == 0.0:
-            return 0.0
-        (x, y, _), (u, v, *_), (p, q, *_) = self[:3]
-        c, s = cos(self.heading), sin(self.heading)
-        aside = c * (y - 0.5 * (v + q)) - s * (x - 0.5 * (u + p))
-        apart = c * (v - q) - s * (u - p)
-        return -2.0 * lean * aside / apart
+        return torso_roll(self.row(), lean)

@@ -1,7 +1,5 @@
 """Forward kinematics of CoM, feet and head from measured joint angles."""
 
-from collections.abc import Callable
-from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -10,18 +8,8 @@ from ..core.compilation import bound
 from ..core.errors import ModelError
 from ..core.poses import Array
 from .description import REMEDY, RobotDescription
-from .expression_tracing import ExpressionTrace, Number
-from .link_poses import gather_moments, place_links
-from .robot_tree import RobotTree
+from .joint_tree import joint_tree, place_frames
 from .tree_cache import load_tree
-
-LOOP = """\
-def posture_row(angles, numbers):
-    found = posture({})
-    for i in range(numbers.shape[0]):
-        numbers[i] = found[i]
-"""
-HEAD_OFFSET = 27  # index of the head in the results: after CoM and feet
 
 
 class MeasuredPosture(NamedTuple):
@@ -56,17 +44,18 @@ class ForwardKinematics:
         description: Robot description.
         tree: Kinematic tree of the robot.
         mass: Mass of the robot, in [kg].
-        angles: Arguments of the compiled formulas: angles of the actuated
-            joints, in [rad]. Shape (joints,).
-        numbers: Their results: position of the CoM, positions, then rotation
-            matrices of the feet, by rows; then those of the head.
-        run: Function that evaluates the formulas.
+        angles: Angles of the actuated joints, in [rad]. Shape (joints,).
+        com: CoM at these angles in the torso frame, in [m]. Shape (3,).
+        places: Positions of left foot, right foot and head, if that is
+            known, in [m]. Shape (2 or 3, 3).
+        axes: Their axes as columns. Shape (2 or 3, 3, 3).
+        run: Function that sets the results at :attr:`angles`.
     """
 
     def __init__(
         self, description: RobotDescription, head: str | None = None
     ) -> None:
-        """Load the kinematic tree and generate its formulas.
+        """Load the kinematic tree.
 
         Args:
             description: Robot description.
@@ -76,12 +65,24 @@ class ForwardKinematics:
         self.tree = tree = load_tree(description)
         self.mass = tree.mass
         feet = (description.left_foot, description.right_foot)
-        standing = tuple(sorted(description.standing.items()))
-        posture_row = _trace_posture(tree, feet, head, standing)
-        self.numbers = np.empty(HEAD_OFFSET + (0 if head is None else 12))
-        self.angles = np.empty(len(tree.motors))
-        self.run = bound(posture_row, self.angles, self.numbers)
-        self._feet = [tree.sites[name] for name in feet]
+        self._feet = frames = [tree.sites[name] for name in feet]
+        if head is not None:
+            frames = [*frames, tree.bodies[head]]
+        columns = {name: i for i, name in enumerate(tree.motors)}
+        fixed = {k: float(v) for k, v in description.standing.items()}
+        for follower, leader in tree.followers.items():
+            if leader in columns:
+                columns[follower] = columns[leader]
+            else:
+                fixed[follower] = fixed.get(leader, 0.0)
+        self.angles = np.zeros(len(tree.motors))
+        self.com = np.empty(3)
+        self.places = np.empty((len(frames), 3))
+        self.axes = np.empty((len(frames), 3, 3))
+        self.run = bound(
+            *(place_frames, joint_tree(tree, columns, fixed, frames)),
+            *(self.angles, self.com, self.places, self.axes),
+        )
         self._cache_key = b""
         self._posture: MeasuredPosture
 
@@ -95,27 +96,16 @@ class ForwardKinematics:
         key = joint_positions.tobytes()
         if key != self._cache_key:
             self.evaluate(joint_positions)
-            numbers = self.numbers.copy()
-            posture = MeasuredPosture(
-                numbers[:3],
-                numbers[3:9].reshape(2, 3),
-                numbers[9:27].reshape(2, 3, 3),
+            places, axes = self.places.copy(), self.axes.copy()
+            self._posture = MeasuredPosture(
+                *(self.com.copy(), places[:2], axes[:2]),
+                *((places[2], axes[2]) if len(places) > 2 else ()),
             )
-            if numbers.size > HEAD_OFFSET:
-                posture = posture._replace(
-                    position_head_in_torso=numbers[
-                        HEAD_OFFSET : HEAD_OFFSET + 3
-                    ],
-                    axes_head_in_torso=numbers[HEAD_OFFSET + 3 :].reshape(
-                        3, 3
-                    ),
-                )
-            self._posture = posture
             self._cache_key = key
         return self._posture
 
     def evaluate(self, angles: Array) -> None:
-        """Set :attr:`numbers` to the results at angles, in [rad]."""
+        """Set the results at angles, in [rad]."""
         self.angles[:] = angles
         self.run()
 
@@ -141,46 +131,3 @@ class ForwardKinematics:
             offset = np.subtract(self.tree.sites[name].place, foot.place)
             corners.append((np.array(foot.axes).T @ offset)[:2])
         return np.array(corners)
-
-
-@lru_cache(maxsize=16)
-def _trace_posture(
-    tree: RobotTree,
-    feet: tuple[str, str],
-    head: str | None,
-    standing: tuple[tuple[str, float], ...],
-) -> Callable[[Array, Array], None]:
-    """Generate the formulas of CoM, feet and head.
-
-    Args:
-        tree: Kinematic tree.
-        feet: Sites of the soles, left and right.
-        head: Body that carries the cameras, if any.
-        standing: Angles of joints without a motor, by name, in [rad].
-    """
-    trace = ExpressionTrace()
-    angles: dict[str, Number] = dict(standing)
-    for i, name in enumerate(tree.motors):
-        angles[name] = trace.variable(f"q{i}")
-    for follower, leader in tree.followers.items():
-        angles[follower] = angles.get(leader, 0.0)
-    links = place_links(tree, [angles.get(n, 0.0) for n in tree.joints])
-    moments = gather_moments(links)
-    inverse_mass = 1.0 / moments.masses[0]
-    results = [inverse_mass * moment for moment in moments.firsts[0]]
-
-    frames = [tree.sites[name] for name in feet]
-    results += [x for frame in frames for x in links.position_of(frame)]
-    if head is not None:
-        frames.append(tree.bodies[head])
-    axes = [links.axes_of(frame) for frame in frames]
-    results += [x for rows in axes[:2] for row in rows for x in row]
-    if head is not None:
-        results += links.position_of(frames[2])
-        results += [x for row in axes[2] for x in row]
-    formula = trace.formula("posture", results)
-    arguments = ", ".join(f"angles[{i}]" for i in range(len(tree.motors)))
-    run: Callable[[Array, Array], None] = formula.loop(
-        "posture_row", LOOP.format(arguments)
-    )
-    return run

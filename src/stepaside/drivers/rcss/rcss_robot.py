@@ -15,7 +15,7 @@ import numpy as np
 
 from ...core.errors import ConfigurationError, ModelError
 from ...perception.measurement import Sighting
-from ...robots.scalar_algebra import rotation_about
+from ...robots.head import rotation
 from ..joint.joint_robot import JointReport, JointRobot, JointTarget
 from .league_messages import Expression, MessageSocket, parse_expressions
 
@@ -37,7 +37,6 @@ LEG = (
 # with ankles as stiff as the other joints of a leg, to land upright.
 GAINS = {"he": (20.0, 0.2), "ae": (20.0, 0.5), "te": (200.0, 5.0),
          "le": (200.0, 5.0)}  # fmt: skip
-ROLL, PITCH, YAW = (1, 0, 0), (0, 1, 0), (0, 0, 1)  # axes
 
 
 class LeagueModel(NamedTuple):
@@ -262,13 +261,8 @@ class LeagueRobot(JointRobot):
                 distance * sin(elevation),
             ]
         )
-        head_yaw, head_pitch = angles[HEAD], angles["Head_pitch"]
-        level = in_camera
-        for axis, angle in (
-            *((PITCH, head_pitch), (YAW, head_yaw)),
-            *((ROLL, tilt[0]), (PITCH, tilt[1])),
-        ):
-            level = np.array(rotation_about(axis, angle)) @ level
+        head = rotation(0.0, angles["Head_pitch"], angles[HEAD])
+        level = rotation(*tilt, 0.0) @ head @ in_camera
         return float(level[0]) + self._camera, float(level[1])
 
 

@@ -45,9 +45,9 @@ def note(
         if k < 8:
             i = 0 if k < 4 else 1
             a, b = corners[k, 0], corners[k, 1]
-            x = feet[i, 0] + axes[3 * i, 0] * a + axes[3 * i, 1] * b
-            y = feet[i, 1] + axes[3 * i + 1, 0] * a + axes[3 * i + 1, 1] * b
-            z = feet[i, 2] + axes[3 * i + 2, 0] * a + axes[3 * i + 2, 1] * b
+            x = feet[i, 0] + axes[i, 0, 0] * a + axes[i, 0, 1] * b
+            y = feet[i, 1] + axes[i, 1, 0] * a + axes[i, 1, 1] * b
+            z = feet[i, 2] + axes[i, 2, 0] * a + axes[i, 2, 1] * b
         xl = cp * x + sp * sr * y + sp * cr * z
         yl = cr * y - sr * z
         zl = cp * sr * y - sp * x + cp * cr * z
@@ -127,9 +127,8 @@ class LegOdometry:
         self.moved: Array = np.zeros(3)
         self.velocity: Array = np.zeros(3)
         self._pose, self._loads = np.zeros(3), np.zeros((2, 8))
-        numbers = forward.numbers  # whose views follow
-        self._com, self._feet = numbers[:3], numbers[3:9].reshape(2, 3)
-        self._axes, self._forces = numbers[9:27].reshape(6, 3), np.zeros(8)
+        self._com, self._forces = forward.com, np.zeros(8)
+        self._feet, self._axes = forward.places[:2], forward.axes[:2]
         # Roll, pitch, turn, duration, smoothing of the velocity, ratio.
         self._given = np.array([0.0, 0.0, 0.0, 0.0, SMOOTHING, *ratio])
         self._corners = np.ascontiguousarray(forward.force_sensors())
@@ -156,7 +155,7 @@ class LegOdometry:
         side = Foot.LEFT if left >= right else Foot.RIGHT
         i = 0 if side is Foot.LEFT else 1
         level = _tilted(*self._tilt)
-        ahead = level @ self._axes[3 * i : 3 * i + 3, 0]
+        ahead = level @ self._axes[i, :, 0]
         place = level @ (self._feet[i] - self._com)
         yaw = atan2(ahead[1], ahead[0])
         return self.pose.compose(Pose(place[0], place[1], yaw)), side
@@ -191,7 +190,7 @@ class LegOdometry:
         up = _tilted(*self._tilt)[2]
         height = self._feet @ up
         corners = self._corners.reshape(2, 4, 2)
-        slopes = up @ self._axes.reshape(2, 3, 3)[:, :, :2]
+        slopes = up @ self._axes[:, :, :2]
         heights = height[:, None] + (corners @ slopes[:, :, None])[..., 0]
         above = heights.reshape(8) - heights.min()
         weights: Array = np.exp(-above / CONTACT)

@@ -60,7 +60,9 @@ def _follow_attitude(
 @compiled
 def estimate(
     values: Array,
-    numbers: Array,
+    com: Array,
+    feet: Array,
+    axes: Array,
     sensors: Array,
     state: Array,
     tick: float,
@@ -77,7 +79,9 @@ def estimate(
 
     Args:
         values: See :data:`VALUES`.
-        numbers: Results of :class:`.ForwardKinematics`.
+        com: CoM in the torso frame, in [m]. Shape (3,).
+        feet: Positions of left and right foot there, in [m]. Shape (..., 3).
+        axes: Axes of the feet there, as columns. Shape (..., 3, 3).
         sensors: Positions of the force sensors in the foot frames, in [m].
             Shape (8, 2).
         state: See :data:`STATE`; changed in place.
@@ -119,8 +123,7 @@ def estimate(
             x = values[at]
             y = values[at + 1]
             yaw = values[at + 3]
-            k = 9 + 9 * side
-            a, b, h = numbers[k], numbers[k + 3], numbers[k + 6]
+            a, b, h = axes[side, 0, 0], axes[side, 1, 0], axes[side, 2, 0]
             across = cr * b - sr * h
             along = cp * a + sp * (sr * b + cr * h)
             turn = yaw - atan2(across, along)
@@ -128,10 +131,9 @@ def estimate(
                 state[15] = turn
             c = cos(turn)
             s = sin(turn)
-            k = 3 + 3 * side
-            a = numbers[0] - numbers[k]
-            b = numbers[1] - numbers[k + 1]
-            h = numbers[2] - numbers[k + 2]
+            a = com[0] - feet[side, 0]
+            b = com[1] - feet[side, 1]
+            h = com[2] - feet[side, 2]
             u = cp * a + sp * (sr * b + cr * h)
             v = cr * b - sr * h
             com_x += load * (x + c * u - s * v)

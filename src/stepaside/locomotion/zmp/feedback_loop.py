@@ -119,8 +119,7 @@ class Balance(Protocol):
 class OpenLoop:
     """Open loop: the plan as it is, on stiff joints.
 
-    The targets of a whole step are computed at once. Where a joint limit
-    acts, they are computed tick by tick.
+    The targets of a whole step are computed at once.
     """
 
     state: BodyState | None = None
@@ -176,7 +175,7 @@ class OpenLoop:
         return self._headings[self._used - 1]
 
     def _compute(self, table: ReferenceTable, index: int) -> None:
-        """Compute the targets from a tick on, up to one that meets a limit."""
+        """Compute the targets from a tick on, up to one out of reach."""
         kinematics, feedforward = self._kinematics, self.feedforward
         if self._used < len(self._targets):
             kinematics.rewind(self._used)
@@ -190,24 +189,13 @@ class OpenLoop:
             references = np.repeat(references, STANDING_TICKS, axis=0)
             zmp = np.repeat(zmp, STANDING_TICKS, axis=0)
         states = kinematics.track_rows(references)
-        count = len(states.targets)
-        if count > 0:
-            targets = states.targets
-            self._headings = states.torso_headings
-        else:
-            body = BodyReference.from_row(references[0].tolist())
-            self._headings = []
-            targets = kinematics.track(body)[None]
-        if feedforward is None:
-            self._targets = list(targets)
-        elif count > 0:
-            offsets = feedforward.offset_rows(
+        targets, count = states.targets, len(states.targets)
+        self._headings = states.torso_headings
+        if feedforward is not None:
+            targets = targets + feedforward.offset_rows(
                 states.rows, references[:count], zmp[:count]
             )
-            self._targets = list(targets + offsets)
-        else:
-            x, y = zmp[0].tolist()
-            self._targets = list(targets + feedforward.added(body, (x, y)))
+        self._targets = list(targets)
 
     def land(
         self,

@@ -93,7 +93,7 @@ class StateEstimator:
         self._estimate = bound(
             estimate,
             self._values,
-            kinematics.numbers,
+            *(kinematics.com, kinematics.places, kinematics.axes),
             np.ascontiguousarray(force_sensors, dtype=np.float64),
             self._state,
             *(tick, eta, *self._attitude.gains, GRAVITY),

@@ -1,0 +1,215 @@
+"""Moving links of a robot as arrays, and the loops that place them."""
+
+from collections.abc import Mapping, Sequence
+from math import cos, sin
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..core.compilation import compiled, inlined
+from ..core.poses import Array
+from ..core.rotations import rotation_about
+from .robot_tree import HINGE, LinkFrame, RobotTree
+
+
+class JointTree(NamedTuple):
+    """Links that some joints move: the torso, then parents first.
+
+    Links that they do not move belong to the link that carries them.
+
+    Attributes:
+        parents: Index of each parent; -1 for the torso. Shape (links,).
+        columns: Which of the angles moves each link; -1 for the torso, and
+            for a link at a fixed angle that carries moving ones. Shape
+            (links,).
+        hinges: Whether each joint is a hinge; else it slides. Shape (links,).
+        axes: Unit axis of each joint. Shape (links, 3).
+        origins: Position of each joint in its parent, in [m]. Shape
+            (links, 3).
+        zeros: Angle [rad] or length [m] at which a link is parallel to the
+            torso; the fixed angle is subtracted. Shape (links,).
+        masses: Mass of each link, in [kg]. Shape (links,).
+        moments: Mass times CoM in the frame of the link, in [kg m]. Shape
+            (links, 3).
+        carriers: Link of each frame. Shape (frames,).
+        frame_places: Origin of each frame in its link, in [m]. Shape
+            (frames, 3).
+        frame_axes: Axes of each frame in its link, as columns. Shape
+            (frames, 3, 3).
+    """
+
+    parents: NDArray[np.int64]
+    columns: NDArray[np.int64]
+    hinges: NDArray[np.bool_]
+    axes: Array
+    origins: Array
+    zeros: Array
+    masses: Array
+    moments: Array
+    carriers: NDArray[np.int64]
+    frame_places: Array
+    frame_axes: Array
+
+
+def joint_tree(
+    tree: RobotTree,
+    columns: Mapping[str, int],
+    fixed: Mapping[str, float],
+    frames: Sequence[LinkFrame],
+) -> JointTree:
+    """Return the links that some joints of a robot move.
+
+    Args:
+        tree: Kinematic tree of the robot.
+        columns: Index among the angles, by moving joint.
+        fixed: Angles of other joints, in [rad] or [m]; 0 by default.
+        frames: Frames to be placed.
+    """
+    links = tree.links
+    moving = [i for i, link in enumerate(links) if link.joint in columns]
+    kept = sorted({0, *(above for i in moving for above in tree.chain(i))})
+    number = {link: i for i, link in enumerate(kept)}
+    # Link that carries each link, and its axes and place in that one.
+    carried: list[tuple[int, Array, Array]] = []
+    masses, moments = np.zeros(len(kept)), np.zeros((len(kept), 3))
+    for i, link in enumerate(links):
+        if i in number:
+            carried.append((number[i], np.eye(3), np.zeros(3)))
+        else:
+            carrier, axes, place = carried[link.parent]
+            moved = fixed.get(link.joint, 0.0) - link.zero
+            offset = np.array(link.origin)
+            if link.kind == HINGE:
+                turned = axes @ rotation_about(link.axis, moved)
+            else:
+                turned, offset = axes, offset + moved * np.array(link.axis)
+            carried.append((carrier, turned, place + axes @ offset))
+        carrier, axes, place = carried[i]
+        masses[carrier] += link.mass
+        moments[carrier] += link.mass * (place + axes @ link.com)
+    placed = []
+    for frame in frames:
+        carrier, axes, place = carried[frame.link]
+        origin = place + axes @ frame.place
+        placed.append((carrier, origin, axes @ np.array(frame.axes)))
+    of_kept = [links[i] for i in kept]
+    return JointTree(
+        np.array([-1, *(number[x.parent] for x in of_kept[1:])]),
+        np.array([columns.get(x.joint, -1) for x in of_kept]),
+        np.array([x.kind == HINGE for x in of_kept]),
+        np.array([x.axis for x in of_kept]),
+        np.array([x.origin for x in of_kept]),
+        np.array([x.zero - _fixed(x.joint, columns, fixed) for x in of_kept]),
+        masses,
+        moments,
+        np.array([carrier for carrier, _, _ in placed]),
+        np.array([origin for _, origin, _ in placed]),
+        np.array([axes for _, _, axes in placed]),
+    )
+
+
+def _fixed(
+    joint: str, columns: Mapping[str, int], fixed: Mapping[str, float]
+) -> float:
+    return 0.0 if joint in columns else fixed.get(joint, 0.0)
+
+
+@compiled
+def place_links(
+    tree: JointTree, angles: Array, axes: Array, places: Array
+) -> None:
+    """Set the poses of all links from that of the torso.
+
+    Args:
+        tree: Moving links.
+        angles: Angles of the joints, in [rad] or [m].
+        axes: Axes of the links, as columns; those of the torso are given.
+            Shape (links, 3, 3).
+        places: Origins of the links, in [m]; that of the torso is given.
+            Shape (links, 3).
+    """
+    for link in range(1, tree.parents.shape[0]):
+        parent = tree.parents[link]
+        moved = -tree.zeros[link]
+        if tree.columns[link] >= 0:
+            moved += angles[tree.columns[link]]
+        x, y, z = tree.axes[link, 0], tree.axes[link, 1], tree.axes[link, 2]
+        u = tree.origins[link, 0]
+        v = tree.origins[link, 1]
+        w = tree.origins[link, 2]
+        c, s = 1.0, 0.0
+        if tree.hinges[link]:
+            c, s = cos(moved), sin(moved)
+        else:
+            u, v, w = u + moved * x, v + moved * y, w + moved * z
+        rest = 1.0 - c
+        for k in range(3):  # rows of the parent's axes times the rotation
+            p, q, r = (
+                axes[parent, k, 0],
+                axes[parent, k, 1],
+                axes[parent, k, 2],
+            )
+            along = rest * (p * x + q * y + r * z)
+            axes[link, k, 0] = c * p + along * x + s * (q * z - r * y)
+            axes[link, k, 1] = c * q + along * y + s * (r * x - p * z)
+            axes[link, k, 2] = c * r + along * z + s * (p * y - q * x)
+            places[link, k] = places[parent, k] + p * u + q * v + r * w
+
+
+@inlined
+def turned(
+    axes: Array, link: int, vectors: Array, i: int
+) -> tuple[float, float, float]:
+    """Return a vector of a link's frame in the frame of the torso's pose."""
+    x, y, z = vectors[i, 0], vectors[i, 1], vectors[i, 2]
+    return (
+        axes[link, 0, 0] * x + axes[link, 0, 1] * y + axes[link, 0, 2] * z,
+        axes[link, 1, 0] * x + axes[link, 1, 1] * y + axes[link, 1, 2] * z,
+        axes[link, 2, 0] * x + axes[link, 2, 1] * y + axes[link, 2, 2] * z,
+    )
+
+
+@compiled
+def place_frames(
+    tree: JointTree,
+    angles: Array,
+    com: Array,
+    frame_places: Array,
+    frame_axes: Array,
+) -> None:
+    """Set the CoM and the poses of all frames in the torso frame.
+
+    Args:
+        tree: Moving links.
+        angles: Angles of the joints, in [rad] or [m].
+        com: CoM, in [m]. Shape (3,).
+        frame_places: Origins of the frames, in [m]. Shape (frames, 3).
+        frame_axes: Their axes, as columns. Shape (frames, 3, 3).
+    """
+    links = tree.parents.shape[0]
+    axes, places = np.empty((links, 3, 3)), np.empty((links, 3))
+    for j in range(3):
+        com[j] = 0.0
+        places[0, j] = 0.0
+        for k in range(3):
+            axes[0, j, k] = 1.0 if j == k else 0.0
+    place_links(tree, angles, axes, places)
+    mass = 0.0
+    for link in range(links):
+        moment = turned(axes, link, tree.moments, link)
+        mass += tree.masses[link]
+        for k in range(3):
+            com[k] += moment[k] + tree.masses[link] * places[link, k]
+    for k in range(3):
+        com[k] /= mass
+    for i in range(tree.carriers.shape[0]):
+        link = tree.carriers[i]
+        offset = turned(axes, link, tree.frame_places, i)
+        for j in range(3):
+            frame_places[i, j] = places[link, j] + offset[j]
+            for k in range(3):
+                total = 0.0
+                for m in range(3):
+                    total += axes[link, j, m] * tree.frame_axes[i, m, k]
+                frame_axes[i, j, k] = total
