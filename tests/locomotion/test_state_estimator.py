@@ -32,7 +32,8 @@ class FakeKinematics:
     """
 
     def __init__(self) -> None:
-        self.mass, self.numbers = 5.1, np.zeros(27)
+        self.mass, self.com = 5.1, np.zeros(3)
+        self.places, self.axes = np.zeros((2, 3)), np.zeros((2, 3, 3))
         self.lever = LEVER.copy()
         self.apart = np.array([0.0, -0.1, 0.0])
         self.yaws = (0.5, 0.0)  # of the feet, as the reference has them
@@ -42,12 +43,9 @@ class FakeKinematics:
         """Set the posture, whatever the joints say."""
         back = self.torso.T
         left = np.array([0.01, 0.05, -0.3])
-        self.numbers[:9] = (
-            *(left + back @ self.lever),
-            *(*left, *(left + back @ self.apart)),
-        )
-        axes = [back @ rotation(0.0, 0.0, yaw) for yaw in self.yaws]
-        self.numbers[9:] = np.ravel(axes)
+        self.com[:] = left + back @ self.lever
+        self.places[:] = left, left + back @ self.apart
+        self.axes[:] = [back @ rotation(0.0, 0.0, yaw) for yaw in self.yaws]
 
 
 def estimator(body: Any = None, **changes: Any) -> StateEstimator:

@@ -151,11 +151,13 @@ def test_mirrored_references_have_mirrored_targets() -> None:
     left, right = (0.01, 0.05, 0.0, 0.1), (-0.02, -0.05, 0.01, -0.04)
     found = []
     for side in (1.0, -1.0):
-        feet, tilts = [left, right], [(0.01, 0.02), (-0.02, 0.01)]
+        one, other = left, right
         if side < 0.0:
-            feet = [(x, -y, z, -yaw) for x, y, z, yaw in (right, left)]
-            tilts = [(-roll, pitch) for roll, pitch in tilts[::-1]]
-        asked = BodyReference((0.02, 0.01 * side, 0.26), *feet, *tilts)
+            one, other = ((x, -y, z, -yaw) for x, y, z, yaw in (right, left))
+        tilts = (0.01, 0.02), (-0.02, 0.01)
+        if side < 0.0:
+            tilts = (0.02, 0.01), (-0.01, 0.02)
+        asked = BodyReference((0.02, 0.01 * side, 0.26), one, other, *tilts)
         legs = LegKinematics(NAO, tick=TICK)
         legs.stand(asked)
         for _ in range(5):

@@ -4,6 +4,7 @@ from math import cos, remainder, sin, tau
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..core.compilation import bound
 from ..core.errors import ModelError, ReachError
@@ -13,7 +14,14 @@ from .com_reach import ReachableHeights
 from .description import RobotDescription
 from .joint_tree import place_frames
 from .leg_joints import LegJoints
-from .newton_step import BASE, FIXED_ROWS, STATE, linearise, track_rows
+from .newton_step import (
+    BASE,
+    FIXED_ROWS,
+    SINGULAR,
+    STATE,
+    linearise,
+    track_rows,
+)
 from .tree_cache import load_tree
 
 __all__ = ["ROWS", "BodyReference", "LegKinematics"]
@@ -80,10 +88,11 @@ class LegKinematics:
         motors = [tree.joints.index(name) for name in tree.motors]
         self._fixed_targets = legs.fixed[motors]
         columns = legs.columns[motors]
-        self._leg_motors: slice | Array = np.flatnonzero(columns >= 0)
-        self._leg_columns = columns[self._leg_motors]
-        first, last = self._leg_motors[[0, -1]].tolist()
-        if last - first + 1 == len(self._leg_motors):
+        (moved,) = np.nonzero(columns >= 0)
+        self._leg_motors: slice | NDArray[np.int64] = moved
+        self._leg_columns = columns[moved]
+        first, last = moved[[0, -1]].tolist()
+        if last - first + 1 == len(moved):
             self._leg_motors = slice(first, last + 1)  # much faster
         speeds = legs.limits[:, 2:]
         self._limits = np.hstack([legs.limits, speeds * tick])
@@ -104,16 +113,15 @@ class LegKinematics:
         )
 
     def _check_rank(self) -> None:
-        """Refuse joints that cannot move all rows, in any posture."""
-        state, rows = self.state.copy(), self.error.size
+        """Refuse joints that cannot move all rows at the standing angles."""
+        state, rows = self.state, self.error.size
         jacobian = np.empty((rows, state.size - STATE + BASE))
-        if rows != jacobian.shape[1]:
-            return
-        # Bent a little, lest straight legs are taken for such joints.
-        state += 0.1 * np.sin(np.arange(state.size))
-        reference, errors = np.zeros(15), np.empty(rows)
-        linearise(self.legs.links, reference, state, 0.0, errors, jacobian)
-        if np.linalg.matrix_rank(jacobian, tol=1e-9) < rows:
+        linearise(
+            *(self.legs.links, np.zeros(15), state, 0.0),
+            *(np.empty(rows), jacobian),
+        )
+        least = min(jacobian.shape)
+        if np.linalg.matrix_rank(jacobian, tol=SINGULAR) < least:
             raise ModelError(
                 f"the legs of {self.description.name} cannot place both feet: "
                 "joints that follow each other must not turn about parallel "

@@ -370,4 +370,4 @@ def track_rows(
         for j in range(n, n + BASE):
             after[j] = state[j] + step[j]
         after[n + 4], after[n + 5] = state[n + 3], roll
-    return references.shape[0]
+    return len(references)

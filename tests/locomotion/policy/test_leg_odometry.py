@@ -29,8 +29,8 @@ class FeetInTorso:
     """Kinematics whose joint angles are the feet themselves."""
 
     def __init__(self) -> None:
-        self.angles, self.numbers = np.zeros(24), np.zeros(27)
-        self.numbers[2] = 0.1  # height of the CoM
+        self.angles, self.com = np.zeros(24), np.array([0.0, 0.0, 0.1])
+        self.places, self.axes = np.zeros((2, 3)), np.zeros((2, 3, 3))
 
     def force_sensors(self) -> Array:
         """Corners of both soles."""
@@ -44,8 +44,7 @@ class FeetInTorso:
     def run(self) -> None:
         """Evaluate at the angles."""
         rows = self.angles.reshape(2, 4, 3)
-        self.numbers[3:9] = rows[:, 0].ravel()
-        self.numbers[9:] = rows[:, 1:].ravel()
+        self.places[:], self.axes[:] = rows[:, 0], rows[:, 1:]
 
 
 def begun_with(
