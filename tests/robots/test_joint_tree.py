@@ -9,7 +9,6 @@ import pytest
 from stepaside.robots.description import RobotDescription, load_robot
 from stepaside.robots.joint_tree import joint_tree, place_frames
 from stepaside.robots.tree_cache import load_tree
-from stepaside.robots.tree_compiler import compile_tree
 from synthetic_humanoid import synthetic_humanoid
 
 ROBOTS = ["nao", "synthetic", "synthetic, seven joints a leg"]
@@ -53,19 +52,3 @@ def test_frames_and_com_are_those_of_mujoco(
         np.testing.assert_allclose(places[i], frame.xpos, atol=1e-9)
         turned = frame.xmat.reshape(3, 3)
         np.testing.assert_allclose(axes[i], turned, atol=1e-9)
-
-
-@pytest.mark.parametrize("name", ROBOTS)
-def test_a_tree_knows_masses_motors_and_ranges(
-    name: str, tmp_path: Path
-) -> None:
-    description = robot(name, tmp_path)
-    model, tree = description.compile(), compile_tree(description)
-    torso = model.body(description.torso).id
-    assert tree.mass == pytest.approx(model.body_subtreemass[torso])
-    assert len(tree.links) == model.njnt
-    for motor, joint in enumerate(tree.motors):
-        assert model.joint(model.actuator_trnid[motor, 0]).name == joint
-    for joint in tree.joints:
-        link = tree.links[tree.link_of(joint)]
-        assert (link.low, link.high) == tuple(model.joint(joint).range)

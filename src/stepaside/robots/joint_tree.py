@@ -103,9 +103,9 @@ def joint_tree(
         np.array([x.zero - _fixed(x.joint, columns, fixed) for x in of_kept]),
         masses,
         moments,
-        np.array([carrier for carrier, _, _ in placed]),
-        np.array([origin for _, origin, _ in placed]),
-        np.array([axes for _, _, axes in placed]),
+        np.array([carrier for carrier, _, _ in placed], dtype=np.int64),
+        np.array([origin for _, origin, _ in placed]).reshape(-1, 3),
+        np.array([axes for _, _, axes in placed]).reshape(-1, 3, 3),
     )
 
 
