@@ -21,7 +21,7 @@ from stepaside.strategies.velocity_set import (
     BodyVelocity,
     VelocitySet,
 )
-from stepaside.theory.shield import ShieldTable, sub_poses
+from stepaside.theory.value import ShieldTable, sub_poses
 
 STEP, STRIDE = 0.5, 0.04  # of the paper's walk, in [s] and [m]
 WALK = Limits(0.1, 0.2, STRIDE, STEP)

@@ -8,8 +8,7 @@ import pytest
 
 from stepaside.core.errors import PlanError
 from stepaside.core.poses import Array
-from stepaside.theory.chauffeur.chauffeur_game import guaranteed_distance
-from stepaside.theory.shield import (
+from stepaside.theory.value import (
     PersonModel,
     PoseGrid,
     ShieldGame,
@@ -17,6 +16,7 @@ from stepaside.theory.shield import (
     solve_shield,
     sub_poses,
 )
+from stepaside.theory.value.closed_forms import guaranteed_distance
 
 SPEED = 0.6  # of the robot, by that of the person
 PERIOD = 0.25  # in turning radii per speed of the person

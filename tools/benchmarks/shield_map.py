@@ -38,7 +38,7 @@ from stepaside.strategies.shield_settings import ShieldSettings
 from stepaside.strategies.velocity_set import BodyVelocity, VelocitySet
 from stepaside.studies.result_files import header, write_result
 
-MODULES = ("theory/shield", "strategies/shield", "games/template_game")
+MODULES = ("theory/value", "strategies/shield", "games/template_game")
 STEP = 0.04  # of the integration, in [s]; a part of a step
 SLOW_STEP = 0.547 / 7  # likewise, for the paper's gait
 LEGS_GAIT = GaitSettings(speed=0.5, gain=0.4, stride=0.2)

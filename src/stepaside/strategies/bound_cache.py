@@ -9,7 +9,7 @@ import numpy as np
 
 from ..core.compilation import cache_folder
 from ..core.errors import PlanError, StepAsideError
-from .search.value_lookup import ValueTable
+from .search.value_lookup import PursuitValues
 
 if TYPE_CHECKING:  # the solver imports Numba
     from ..theory.bound import Bound, BoundGame
@@ -53,7 +53,7 @@ def cars_bound(cells: int) -> "Bound":
 
 
 @lru_cache(maxsize=8)
-def pursuit_table(cells: int, unit: float) -> ValueTable:
+def pursuit_table(cells: int, unit: float) -> PursuitValues:
     """Return the table of :func:`pursuit_bound` for compiled loops.
 
     Args:
@@ -63,7 +63,7 @@ def pursuit_table(cells: int, unit: float) -> ValueTable:
     return value_table(pursuit_bound(cells), unit)
 
 
-def value_table(bound: "Bound", unit: float) -> ValueTable:
+def value_table(bound: "Bound", unit: float) -> PursuitValues:
     """Return the table of a bound in scaled units.
 
     Args:
@@ -72,7 +72,7 @@ def value_table(bound: "Bound", unit: float) -> ValueTable:
     """
     whole = np.concatenate([bound.values[::-1, :, ::-1], bound.values])
     around = np.pad(whole, ((1, 1), (0, 0), (1, 1)), mode="wrap")
-    return ValueTable(
+    return PursuitValues(
         np.ascontiguousarray(around, dtype=np.float32),
         bound.grid.near,
         bound.grid.spacings[0],

@@ -20,7 +20,7 @@ from .shield_template import LEGS_LOSS, LEGS_PERIOD
 from .velocity_set import STILL, BodyVelocity, VelocitySet
 
 if TYPE_CHECKING:  # the solver imports Numba
-    from ..theory.shield import ShieldGame, ShieldTable
+    from ..theory.value import ShieldGame, ShieldTable
 
 LOG = logging.getLogger(__name__)
 
@@ -180,7 +180,7 @@ class ShieldModel:
 
     def motion_of(self, intent: Intent) -> Motion:
         """Return the motion to which an intent commits."""
-        from ..theory.shield import sub_poses
+        from ..theory.value import sub_poses
 
         if not intent.walks:
             return Motion(sub_poses([STILL], LEGS_INTERVAL)[0], LEGS_INTERVAL)
@@ -239,7 +239,7 @@ class ShieldModel:
 
         Legs hold a velocity over the floor while they turn.
         """
-        from ..theory.shield import sub_poses
+        from ..theory.value import sub_poses
 
         choices = self.choices()
         if self.velocities is None:
@@ -250,7 +250,7 @@ class ShieldModel:
 
     def game(self) -> "ShieldGame":
         """Return the game, with losses per decision."""
-        from ..theory.shield import PersonModel, ShieldGame
+        from ..theory.value import PersonModel, ShieldGame
 
         settings = self.settings
         return ShieldGame(
@@ -293,7 +293,7 @@ def _table(model: ShieldModel) -> "ShieldTable":
 
 def _load_table(model: ShieldModel) -> "ShieldTable":
     """Load a table from the cache of compiled code, or solve the game."""
-    from ..theory.shield import PoseGrid, ShieldTable, solve_shield
+    from ..theory.value import PoseGrid, ShieldTable, solve_shield
 
     game = model.game()
     solved = (

@@ -6,7 +6,7 @@ from .candidate_maneuvers import (
     ManeuverObjective,
 )
 from .step_motion import PlayerPair, StepRules
-from .value_lookup import NO_VALUE, ValueTable
+from .value_lookup import NO_VALUE, PursuitValues
 
 __all__ = [
     "NO_VALUE",
@@ -15,5 +15,5 @@ __all__ = [
     "BestManeuver",
     "CandidateManeuvers",
     "StepRules",
-    "ValueTable",
+    "PursuitValues",
 ]

@@ -7,7 +7,7 @@ from ...core.compilation import compiled, inlined
 from .candidate_maneuvers import CandidateManeuvers, ManeuverObjective
 from .distance_field import DistanceField, field_clearance
 from .step_motion import PlayerPair, StepRules, half_turn, step_both
-from .value_lookup import ValueTable, value_at
+from .value_lookup import PursuitValues, value_at
 
 
 class SearchProblem(NamedTuple):
@@ -27,7 +27,7 @@ class SearchProblem(NamedTuple):
     rules: StepRules
     spot_rules: StepRules
     field: DistanceField
-    table: ValueTable
+    table: PursuitValues
 
 
 @inlined

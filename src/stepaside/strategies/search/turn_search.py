@@ -25,7 +25,7 @@ from .candidate_maneuvers import (
 from .distance_field import distance_field
 from .maneuver_rollout import SearchProblem, follow, judge
 from .step_motion import PlayerPair, StepRules, half_turn, step_both
-from .value_lookup import ValueTable
+from .value_lookup import PursuitValues
 
 NO_STEPS: Any = np.int64(0)
 """Zero steps; a literal zero would compile a version of its own."""
@@ -166,7 +166,7 @@ def search(
     rules: StepRules,
     objective: ManeuverObjective,
     packed: PackedObstacles,
-    table: ValueTable,
+    table: PursuitValues,
 ) -> tuple[float, int, int, Any]:
     """Find the best maneuver; see :func:`look_ahead`.
 
@@ -225,7 +225,7 @@ def look_ahead(
     rules: StepRules,
     objective: ManeuverObjective,
     packed: PackedObstacles,
-    table: ValueTable,
+    table: PursuitValues,
     *,
     planned: int = 0,
 ) -> BestManeuver:

@@ -9,7 +9,7 @@ from ...core.compilation import inlined
 from .step_motion import PlayerPair
 
 
-class ValueTable(NamedTuple):
+class PursuitValues(NamedTuple):
     """Optimal closest approach on an open floor, by relative state.
 
     Attributes:
@@ -26,12 +26,12 @@ class ValueTable(NamedTuple):
     unit: float
 
 
-NO_VALUE = ValueTable(np.zeros((0, 0, 0), dtype=np.float32), 0.0, 1.0, 1.0)
+NO_VALUE = PursuitValues(np.zeros((0, 0, 0), dtype=np.float32), 0.0, 1.0, 1.0)
 """No value table after the horizon."""
 
 
 @inlined
-def value_at(table: ValueTable, both: PlayerPair) -> float:
+def value_at(table: PursuitValues, both: PlayerPair) -> float:
     """Return the optimal closest approach from a state, in [m]."""
     values = table.values
     dx, dy = both.ex - both.px, both.ey - both.py

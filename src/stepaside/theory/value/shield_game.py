@@ -1,27 +1,23 @@
-r"""Game of a person and a robot that commits to a motion for a period.
+r"""Game of a person and a robot that must never be touched.
 
 The state is the pose of the robot in the frame of the person (x ahead, y to
-the left, both in [m]; heading in [rad]). At each decision the robot commits
-to a motion for a period; the person then walks at any speed up to
-:math:`V` and turns at any rate up to :math:`V / R`; and at the end the state
-is displaced by up to a disturbance. See docs/shield.md.
+the left). At each decision the robot commits to a motion for a period; the
+person then walks at any speed up to :math:`V` and turns at any rate up to
+:math:`V / R`; and at the end the state is displaced by up to a disturbance.
+See docs/shield.md.
 """
 
 from dataclasses import dataclass
-from math import tau
-from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from ...core.errors import check_positive, check_within
-from ...core.poses import Array, arc
+from ...core.poses import Array
+from .pose_grid import PARTS, sub_poses
 
-PARTS = 4  # of a period, in which the distance is measured
 TURNS = 11  # of a person who walks at full speed
-CELLS = 10  # in the required distance
-SEGMENTS = 2  # of a response, between which the person changes its walk
 SLOW_TURNS = 3  # of one who walks at half speed, or turns on the spot
+SEGMENTS = 2  # of a response, between which the person changes its walk
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,29 +61,13 @@ class PersonModel:
         return sub_poses(twists, duration)
 
 
-def sub_poses(twists: ArrayLike, duration: float) -> Array:
-    """Return poses along arcs at the ends of the parts of a duration.
-
-    Args:
-        twists: Velocities ahead [m/s], to the left [m/s] and turning [rad/s],
-            held in the frame of the body. Shape (n, 3).
-        duration: Duration, in [s].
-
-    Returns:
-        Poses in the initial frame, in [m] and [rad]. Shape (n, PARTS, 3).
-    """
-    rates = np.atleast_2d(np.asarray(twists, dtype=np.float64))
-    times = duration * np.arange(1, PARTS + 1) / PARTS
-    return arc(*(rates.T[:, :, None] * times))
-
-
 @dataclass(frozen=True, slots=True, eq=False)
 class ShieldGame:
     """Person, motions of the robot, and disturbance of a sampled game.
 
     Attributes:
         person: What the person may do.
-        motions: Poses in the frame of the robot, see :func:`sub_poses`; with
+        motions: Poses in the frame of the robot, see :func:`.sub_poses`; with
             each its mirror image. Shape (n, PARTS, 3).
         period: Time between two decisions of the robot, in [s].
         loss: Radius of the disturbance of the position per period, in [m].
@@ -117,6 +97,11 @@ class ShieldGame:
         """Greatest turning rate of the robot, in [rad/s]."""
         return float(np.abs(self.motions[:, -1, 2]).max()) / self.period
 
+    @property
+    def slowest(self) -> float:
+        """Speed that losses leave the robot at least, in [m/s]."""
+        return self.speed - self.disturbance / self.period
+
     def sag(self, duration: float) -> float:
         """Return the greatest deviation from the chord of a part, in [m].
 
@@ -135,59 +120,3 @@ class ShieldGame:
     def loss_in(self, duration: float) -> float:
         """Return the disturbance within a duration, in [m]."""
         return self.loss * duration / self.period
-
-
-class PoseGrid(NamedTuple):
-    """Grid over the poses of a robot in the frame of a person.
-
-    Attributes:
-        left: x of the first node, in [m].
-        spacing: Spacing of positions, in [m].
-        shape: Nodes along x, y and the heading.
-        right: y of the first node, in [m]; from 0 on the values of the other
-            half are those of the mirror image.
-    """
-
-    left: float
-    spacing: float
-    shape: tuple[int, int, int]
-    right: float = 0.0
-
-    def whole(self) -> "PoseGrid":
-        """Return the grid of both halves."""
-        i, j, k = self.shape
-        right = -self.spacing * (j - 1)
-        return PoseGrid(self.left, self.spacing, (i, 2 * j - 1, k), right)
-
-    def axes(self) -> tuple[Array, Array, Array]:
-        """Return the coordinates of the nodes, in [m], [m] and [rad]."""
-        i, j, k = (np.arange(n, dtype=np.float64) for n in self.shape)
-        x: Array = self.left + self.spacing * i
-        y: Array = self.right + self.spacing * j
-        theta: Array = tau / self.shape[2] * k
-        return x, y, theta
-
-
-class OutcomeRules(NamedTuple):
-    """How the outcome of a motion is read from the values after it.
-
-    Attributes:
-        grid: Grid of the values.
-        outside: Value outside the grid, in [m].
-        sag: Deviation of the distance from that of chords, in [m].
-    """
-
-    grid: PoseGrid
-    outside: float
-    sag: float
-
-
-def mirrored(values: Array) -> Array:
-    """Return the values of mirrored poses, at nodes of a whole grid."""
-    headings = -np.arange(values.shape[2]) % values.shape[2]
-    return values[:, ::-1, headings]
-
-
-def whole_values(values: Array) -> Array:
-    """Return the values at the nodes of both halves of a grid."""
-    return np.concatenate([mirrored(values)[:, :-1], values], axis=1)

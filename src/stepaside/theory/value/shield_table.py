@@ -9,9 +9,11 @@ from numpy.typing import ArrayLike
 
 from ...core.brief_repr import brief_repr
 from ...core.poses import Array
-from .shield_erosion import eroded_values
-from .shield_game import SEGMENTS, OutcomeRules, PoseGrid, ShieldGame
-from .shield_outcomes import evaluate_motions, look_up_all
+from .outcomes import evaluate_motions
+from .pose_grid import PoseGrid, least_within
+from .shield_game import SEGMENTS, ShieldGame
+from .solver import make_rules
+from .table import interpolated
 
 NEAR = 1.1  # value over that outside, from which starts are not looked at
 DISPLACED = 8  # directions of a displacement
@@ -179,7 +181,7 @@ class ShieldTable:
     def _eroded_at_start(self) -> Array:
         """Least values within the disturbance of response and period."""
         loss = self.game.loss_in(self.response)
-        return eroded_values(self.eroded, self.grid, loss)
+        return least_within(self.eroded, self.grid, loss)
 
     def _stood(self, poses: ArrayLike, duration: float) -> tuple[Array, float]:
         """Return all poses after standing, and the least distance till then.
@@ -211,7 +213,7 @@ class ShieldTable:
             poses: Poses of the robot in the frame of the person, of which the
                 worst counts. Shape (m, 3).
             motions: Motions of the robot; see
-                :func:`.shield_game.sub_poses`. Shape (n, parts, 3).
+                :func:`.sub_poses`. Shape (n, parts, 3).
             duration: Their duration, in [s].
 
         Returns:
@@ -233,14 +235,13 @@ class ShieldTable:
         A loss before the begin reduces distances on the way.
         """
         found = np.full(len(motions), np.inf)
+        sag = self.game.sag(duration) + loss
         evaluate_motions(
             values,
             np.atleast_2d(np.asarray(poses, dtype=np.float64)),
             motions,
             self.game.person.walks(duration),
-            OutcomeRules(
-                self.grid, self.outside, self.game.sag(duration) + loss
-            ),
+            make_rules(self.grid, self.outside, sag=sag),
             found,
         )
         return found
@@ -248,7 +249,5 @@ class ShieldTable:
     def _look_up(
         self, table: Array, poses: ArrayLike, grid: PoseGrid | None = None
     ) -> Array:
-        states = np.atleast_2d(np.asarray(poses, dtype=np.float64))
-        out = np.empty(len(states))
-        look_up_all(table, states, grid or self.grid, self.outside, out)
-        return out
+        rules = make_rules(grid or self.grid, self.outside)
+        return interpolated(table, np.atleast_2d(poses), rules)

@@ -1,0 +1,20 @@
+"""Games on a grid: the distance that a robot can keep from an opponent."""
+
+from .pose_grid import PoseGrid, sub_poses
+from .shield_game import PersonModel, ShieldGame
+from .shield_solver import solve_shield
+from .shield_table import ShieldTable
+from .solver import PursuerLaw, solve_game
+from .table import ValueTable
+
+__all__ = [
+    "PersonModel",
+    "PoseGrid",
+    "PursuerLaw",
+    "ShieldGame",
+    "ShieldTable",
+    "ValueTable",
+    "solve_game",
+    "solve_shield",
+    "sub_poses",
+]
