@@ -12,8 +12,8 @@ from pathlib import Path
 SHORT = "--duration 0.1 --json"
 STATUS = {  # of each command line
     f"duel {SHORT} --output run": 0,
-    "replay run --html page.html": 0,
-    "compare run": 0,
+    "show run -o page.html": 0,
+    "show run -o run.png": 0,
     f"walk {SHORT}": 0,
     "plan --role evader --bearing 0.1 --json": 0,
     "unicycles --duration 1 --json": 0,
@@ -27,7 +27,7 @@ STATUS = {  # of each command line
     f"duel {SHORT} --sensing cameras": 2,
     f"duel {SHORT} --method mpc": 2,
     "view --no-open --serve-for 0.1": 2,
-    "replay run --video film.mp4": 2,
+    "show run -o film.mp4": 2,
     "play --role evader --robot lola:none --wait 0": 2,
     "serve --lola evader=socket --wait 0.1": 2,
 }

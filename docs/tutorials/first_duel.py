@@ -86,7 +86,7 @@ plt.legend()
 # ## Keep it
 #
 # `write_run` makes a folder with everything that is needed to play the game
-# again, bit by bit; `stepaside replay FOLDER` shows it in the browser.
+# again, bit by bit; `stepaside show FOLDER` shows it in the browser.
 
 # %%
 from pathlib import Path

@@ -32,7 +32,7 @@ for key in ("outcome", "duration_s", "distance_m", "min_distance_m"):
 
 # %% language="bash"
 # ls evader
-# stepaside compare pursuer evader --output plays.png
+# stepaside show pursuer evader -o plays.png
 
 # %%
 from IPython.display import Image

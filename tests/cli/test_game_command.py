@@ -97,11 +97,11 @@ def test_games_are_compared_and_have_no_robot_models_without_robots(
         run(file, "--seed", seed, "--output", folders[-1])
     figure = tmp_path / "both.png"
     done = CliRunner().invoke(
-        main, ["compare", *map(str, folders), "--output", str(figure)]
+        main, ["show", *map(str, folders), "-o", str(figure)]
     )
     assert done.exit_code == 0, done.output
     assert "closest" in done.output and figure.is_file()
-    models = ["export", str(folders[0]), "--to", "urdf"]
+    models = ["show", str(folders[0]), "-o", f"{folders[0]}.urdf"]
     refused = CliRunner().invoke(main, models)
     assert refused.exit_code != 0
     assert "urdf needs a run with a robot" in refused.output

@@ -110,8 +110,8 @@ def test_campaigns_announce_their_size(
         "unicycles --duration 1e9 --evader-strategy look-ahead",
         "tournament --seeds 0:100000 --duration 1e6 --workers 1",
         "rate look-ahead --games 10000 --duration 1e6 --workers 1",
-        "replay RUN --video film.mp4 --rate 1e9",
-        "replay RUN --gif film.gif --speed 1e-9",
+        "show RUN -o film.mp4 --rate 1e9",
+        "show RUN -o film.gif --speed 1e-9",
     ],
 )
 def test_endless_work_is_refused(
@@ -133,7 +133,7 @@ def test_endless_work_is_refused(
         ("unicycles --duration 3e5", "a game of 300000 s"),
         ("unicycles --sample-time .01 --duration 3e4", "a game of 30000 s"),
         ("tournament --seeds 0:10000 --workers 1", "games of 180 s"),
-        ("replay RUN --video film.mp4 --speed 1e-4", "a video of about"),
+        ("show RUN -o film.mp4 --speed 1e-4", "a video of about"),
     ],
 )
 def test_long_work_is_announced_before_it_begins(

@@ -16,5 +16,6 @@ def test_no_signal_is_missing_in_a_model(tmp_path: Path) -> None:
     )
     folder = tmp_path / "run"
     sa.write_run(folder, sa.run_duel(settings))
-    exported = answer("export", folder, "--to", "urdf")
+    output = f"{folder}.urdf"
+    exported = answer("show", folder, "-o", output)["files"][output]
     assert exported["absent"] == ["pursuer: no joints, as it is no robot"]

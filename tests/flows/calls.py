@@ -556,20 +556,21 @@ def load_run(folder: Path) -> Any:
 
 def write_page_of(run: Path, page: Path) -> Path:
     """Write one page that plays a run."""
-    stepaside("replay", run, "--html", page)
+    stepaside("show", run, "-o", page)
     return page
 
 
 def export_run(run: Path, to: str, folder: Path) -> Path:
     """Write a run in the format of other programs."""
-    stepaside("export", run, "--to", to, "--output", folder)
-    return folder
+    output = folder.with_suffix(f".{to}")
+    stepaside("show", run, "-o", output)
+    return output
 
 
 def measure_bag(bag: Path, output: Path, **frames: str) -> Any:
     """Measure players whose motion a bag holds; return the summary."""
     words = [f"--frame={name}={frame}" for name, frame in frames.items()]
-    return stepaside("replay", bag, *words, "--output", output, "--json").json
+    return stepaside("show", bag, *words, "-o", output, "--json").json
 
 
 def keep_duel(
@@ -599,7 +600,7 @@ def film_run(
 ) -> Path:
     """Write a film of the beginning of a run."""
     stepaside(
-        *("replay", run, "--video", film, "--width", width),
+        *("show", run, "-o", film, "--width", width),
         *("--height", height, "--rate", rate, "--duration", seconds),
     )
     return film
@@ -607,13 +608,13 @@ def film_run(
 
 def draw_comparison(figure: Path, *runs: Path) -> Path:
     """Draw runs in one figure."""
-    stepaside("compare", *runs, "--output", figure)
+    stepaside("show", *runs, "-o", figure)
     return figure
 
 
 def draw_saved_run(run: Path, figure: Path) -> Path:
     """Draw the figure of a saved run."""
-    stepaside("replay", run, "--figure", figure)
+    stepaside("show", run, "-o", figure)
     return figure
 
 

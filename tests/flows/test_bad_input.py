@@ -36,7 +36,7 @@ CASES = {  # of each line: what the message names
     "tournament --seeds 5:2 --output new": ("--seeds", "5:2"),
     "robot init robot.urdf --output new": ("robot.urdf", "XML"),
     "legs inspect junk.onnx": ("junk.onnx", "ONNX"),
-    "replay run --html new.html": ("run", "summary.json"),
+    "show run -o new.html": ("run", "summary.json"),
     "duel --duration 1 --figure new.bmp": ("--figure", ".png", "new.bmp"),
     "duel --pursuer person --set person.path=table.csv": ("table.csv", "y"),
 }

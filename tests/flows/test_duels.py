@@ -232,14 +232,14 @@ def test_a_run_opens_from_another_folder(
     np.testing.assert_array_equal(
         run.tracks["evader"].place, trajectories(kept_duel)["evader_place"]
     )
-    stepaside("compare", moved, kept_duel, "--output", "both.svg")
+    stepaside("show", moved, kept_duel, "-o", "both.svg")
     drawn = Path("both.svg").read_text()
     assert drawn.lstrip().startswith("<?xml") and "renamed" in drawn
     summed = (moved / "summary.json").read_text()
     (moved / "summary.json").write_text(
         summed.replace('"min_distance_m": ', '"min_distance_m": 1')
     )
-    refused = stepaside("compare", moved, status=2)
+    refused = stepaside("show", moved, "-o", "moved.svg", status=2)
     assert len(refused.err.splitlines()) == 1 and "renamed" in refused.err
 
 
@@ -259,5 +259,5 @@ def test_a_run_of_an_own_humanoid_opens_from_another_folder(
     )
     elsewhere = tmp_path / "elsewhere"
     elsewhere.mkdir()
-    stepaside("replay", "../run", "--html", "run.html", cwd=elsewhere)
+    stepaside("show", "../run", "-o", "run.html", cwd=elsewhere)
     assert "own" in (elsewhere / "run.html").read_text()

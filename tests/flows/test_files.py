@@ -167,7 +167,7 @@ def test_references_and_footsteps_are_in_the_world(
     planned = table.of(f"{player}/com_reference", "x_m", "y_m")
     off = np.hypot(*(com - planned).T)
     assert np.nanmax(off) < 0.03
-    tables = folder.with_name("csv")
+    tables = folder.with_name("csv.csv")
     feet = {}
     for kind in ("planned", "landed"):
         name = f"{player}-footsteps-{kind}.csv"
@@ -376,7 +376,7 @@ def test_a_film_shows_the_duel(folder: Path, tmp_path: Path) -> None:
 def test_a_comparison_draws_the_paths_to_scale(
     folder: Path, run: Any, tmp_path: Path
 ) -> None:
-    figure = draw_comparison(tmp_path / "runs.svg", folder)
+    figure = draw_comparison(tmp_path / "runs.svg", folder, folder)
     text = figure.read_text(encoding="utf-8")
     lines = [
         np.array([p.split() for p in re.findall(r"[ML] (\S+ \S+)", d)], float)
@@ -393,10 +393,6 @@ def test_a_comparison_draws_the_paths_to_scale(
     np.testing.assert_allclose(ends - ends[0], expected, atol=0.5)
 
 
-@pytest.mark.xfail(
-    strict=True,
-    reason="the figure of a saved run cannot be drawn by the command line",
-)
 def test_the_figure_of_a_saved_run_is_drawn_again(
     folder: Path, tmp_path: Path
 ) -> None:

@@ -239,7 +239,7 @@ def test_a_damaged_folder_is_refused(folder: Path, kind: str) -> None:
 
 
 @pytest.mark.parametrize("kind", ["terabytes", "summary 'null'", "no archive"])
-@pytest.mark.parametrize("command", ["replay --html x", "compare --output x"])
+@pytest.mark.parametrize("command", ["show -o x.html", "show -o x.png"])
 def test_commands_refuse_a_damaged_folder_in_one_line(
     folder: Path, kind: str, command: str
 ) -> None:

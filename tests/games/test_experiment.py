@@ -129,7 +129,7 @@ def circling(tmp_path: Path) -> Path:
 
 
 def replay(*words: object) -> Result:
-    return CliRunner().invoke(main, ["replay", *map(str, words)])
+    return CliRunner().invoke(main, ["show", *map(str, words)])
 
 
 @pytest.mark.parametrize(
@@ -166,10 +166,10 @@ def test_a_duel_that_is_exported_and_imported_has_the_same_circle(
     folder = tmp_path / "duel"
     folder.mkdir()
     write_run_files(folder, run)
-    words = ["export", str(folder), "--to", "mcap", "--no-repeat"]
+    words = ["show", str(folder), "-o", f"{folder}.mcap", "--no-repeat"]
     assert CliRunner().invoke(main, words).exit_code == 0
     frames = [f"--frame={n}={n}/base_footprint" for n in run.players]
-    result = replay(folder.with_name("duel-mcap"), *frames, "--json")
+    result = replay(folder.with_name("duel.mcap"), *frames, "--json")
     assert result.exit_code == 0, result.output
     found = json.loads(result.stdout)
     for key in ("distance_m", "relative_orientation_deg"):
@@ -179,7 +179,7 @@ def test_a_duel_that_is_exported_and_imported_has_the_same_circle(
         assert found["measured"][name]["radius_m"] == pytest.approx(
             radius, rel=1e-9
         )
-    file = folder.with_name("duel-mcap") / "duel.mcap"
+    file = folder.with_name("duel.mcap") / "duel.mcap"
     again = import_experiment(
         file, ("pursuer=/pursuer/pose", "evader=/evader/pose")
     )
@@ -190,8 +190,8 @@ def test_a_bag_becomes_a_run_folder_a_figure_and_a_page(
     circling: Path, tmp_path: Path
 ) -> None:
     output = tmp_path / "run"
-    outputs = [f"--output={output}", f"--figure={tmp_path}/f.png"]
-    outputs.append(f"--html={tmp_path}/page.html")
+    outputs = ["-o", str(output), "-o", f"{tmp_path}/f.png"]
+    outputs += ["-o", f"{tmp_path}/page.html"]
     result = replay(
         circling, "--frame=pursuer=a", "--frame=evader=b", *outputs
     )
@@ -202,8 +202,8 @@ def test_a_bag_becomes_a_run_folder_a_figure_and_a_page(
     assert run.summary.notes == []  # type: ignore[union-attr]
     assert (tmp_path / "f.png").is_file()
     assert "circling" in (tmp_path / "page.html").read_text()
-    both = ["compare", str(output), str(output)]
-    words = [*both, "--output", str(tmp_path / "both.png")]
+    both = ["show", str(output), str(output)]
+    words = [*both, "-o", str(tmp_path / "both.png")]
     compared = CliRunner().invoke(main, words)
     assert compared.exit_code == 0 and "90.0°" in compared.output
 
@@ -352,7 +352,7 @@ def test_options_of_bags_and_of_runs_are_told_apart(circling: Path) -> None:
     result = replay(circling)
     assert result.exit_code == 2 and "--frame NAME=FRAME" in result.stderr
     both = "--frame=pursuer=a", "--frame=evader=b"
-    result = replay(circling, *both, "--video=film.mp4")
+    result = replay(circling, *both, "-o", "film.mp4")
     assert result.exit_code == 2 and "requires a run folder" in result.stderr
     result = replay(circling.parent, *both)
     assert result.exit_code == 2 and "requires a ROS 2 bag" in result.stderr

@@ -83,15 +83,15 @@ def test_a_walk_can_be_stored_compared_and_replayed(tmp_path: Path) -> None:
     wanted = json.loads(told.stdout)["push_impulse_n_s"]
     assert json.loads(again.stdout)["push_impulse_n_s"] == wanted
     page = str(tmp_path / "walk.html")
-    assert call("replay", one, "--html", page).exit_code == 0
+    assert call("show", one, "-o", page).exit_code == 0
     text = Path(page).read_text(encoding="utf-8")
     assert '"distance":null' in text and '"pushes":[[0.1,' in text
-    compared = call("compare", one, other, "--output", f"{tmp_path}/c.png")
+    compared = call("show", one, other, "-o", f"{tmp_path}/c.png")
     assert compared.exit_code == 0 and "speed" in compared.stdout
     duel = tmp_path / "duel"
     duel.mkdir()
     write_run_files(duel, run_duel(DuelSettings(duration=0.04)))
-    mixed = call("compare", one, str(duel), "--output", f"{tmp_path}/d.png")
+    mixed = call("show", one, str(duel), "-o", f"{tmp_path}/d.png")
     assert mixed.exit_code == 2 and mixed.output.count("\n") == 1
     assert "must be of the same game, got duel and walk" in mixed.output
     assert not (tmp_path / "d.png").exists()

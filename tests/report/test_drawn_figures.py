@@ -132,7 +132,7 @@ def test_runs_are_compared_in_one_figure(
         done = CliRunner().invoke(main, [*words, "--output", str(folder)])
         assert done.exit_code == 0
     drawn.clear()
-    words = ["compare", *map(str, folders), "--output"]
+    words = ["show", *map(str, folders), "-o"]
     done = CliRunner().invoke(main, [*words, str(tmp_path / "a.png")])
     assert done.exit_code == 0, done.output
     assert all(name in named(drawn[-1]) for name in ("one", "two"))

@@ -35,8 +35,8 @@ class Bag(NamedTuple):
 
 def export(run: Path, name: str, *words: str) -> Path:
     """Export a run by the command line; return the folder."""
-    folder = run.with_name(f"{run.name}-{name}")
-    words = ("export", str(run), "--to", name, *words)
+    folder = run.with_name(f"{run.name}.{name}")
+    words = ("show", str(run), "-o", str(folder), *words)
     result = CliRunner().invoke(main, words)
     assert result.exit_code == 0, result.output
     return folder
@@ -314,13 +314,13 @@ def test_tables_hold_the_samples(folder: Path, run: Run) -> None:
 def test_without_a_repeated_game_channels_are_absent_and_said_to_be(
     folder: Path,
 ) -> None:
-    words = ["export", str(folder), "--to", "csv", "--no-repeat", "--json"]
-    words += ["--output", str(folder.with_name("recorded"))]
+    output = folder.with_name("recorded.csv")
+    words = ["show", str(folder), "-o", str(output), "--no-repeat", "--json"]
     result = CliRunner().invoke(main, words)
     assert result.exit_code == 0, result.output
     plain = json.loads(result.stdout)
-    assert "IMU" in plain["absent"][0]
-    header = (folder.with_name("recorded") / "samples.csv").read_text()
+    assert "IMU" in plain["files"][str(output)]["absent"][0]
+    header = (output / "samples.csv").read_text()
     columns = header.partition("\n")[0].split(",")
     assert "evader/com/x_m" in columns
     assert not any("effort" in column for column in columns)
@@ -329,15 +329,15 @@ def test_without_a_repeated_game_channels_are_absent_and_said_to_be(
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (["--to", "ulog"], "'ulog' is not one of"),
-        (["--to", "csv", "--output", "."], "must be a new or an empty folder"),
+        (["-o", "run.ulog"], "-o must end in .html"),
+        (["-o", "a.csv", "-o", "./a.csv"], "must name another file"),
     ],
 )
 def test_bad_words_are_refused_in_one_line(
     folder: Path, words: list[str], message: str
 ) -> None:
     before = sorted(folder.parent.iterdir())
-    result = CliRunner().invoke(main, ["export", str(folder), *words])
+    result = CliRunner().invoke(main, ["show", str(folder), *words])
     assert result.exit_code == 2
     assert message in result.stderr and result.stderr.count("\n") == 1
     assert sorted(folder.parent.iterdir()) == before
@@ -350,7 +350,7 @@ def test_an_incomplete_run_is_refused_and_leaves_nothing(
     broken.mkdir()
     for name in ("configuration.toml", "summary.json"):
         (broken / name).write_bytes((folder / name).read_bytes())
-    words = ["export", str(broken), "--to", "csv"]
+    words = ["show", str(broken), "-o", f"{tmp_path}/x.csv"]
     result = CliRunner().invoke(main, words)
     assert result.exit_code == 2 and "trajectories.npz" in result.stderr
     assert list(tmp_path.iterdir()) == [broken]

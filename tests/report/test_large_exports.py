@@ -31,7 +31,7 @@ def export(run: Path, name: str) -> Path:
     folder = run.with_name(f"{run.name}-{name}")
     if folder.exists():
         return folder
-    words = ["export", str(run), "--to", name]
+    words = ["show", str(run), "-o", f"{run}.{name}"]
     result = CliRunner().invoke(main, words)
     assert result.exit_code == 0, result.output
     return folder

@@ -70,11 +70,11 @@ def test_a_film_has_the_requested_size_and_number_of_frames(
     av = pytest.importorskip("av")
     file = tmp_path / "run.mp4"
     code, out, _ = invoke(
-        *("replay", str(run), "--video", str(file), "--duration", "1"),
+        *("show", str(run), "-o", str(file), "--duration", "1"),
         *("--width", "160", "--height", "120", "--rate", "10", "--json"),
     )
     assert code == 0
-    assert json.loads(out)["video"]["pictures"] == 11
+    assert json.loads(out)["files"][str(file)]["pictures"] == 11
     with av.open(str(file)) as film:
         frames = list(film.decode(video=0))
         assert film.streams.video[0].codec_context.name == "h264"
@@ -90,7 +90,7 @@ def test_a_gif_moves(run: Path, tmp_path: Path) -> None:
     image = pytest.importorskip("PIL.Image")
     file = tmp_path / "run.gif"
     code, _, _ = invoke(
-        *("replay", str(run), "--gif", str(file), "--duration", "0.5"),
+        *("show", str(run), "-o", str(file), "--duration", "0.5"),
         *("--width", "96", "--height", "72", "--camera", "follow"),
     )
     assert code == 0
@@ -110,16 +110,16 @@ def test_a_comparison_is_drawn_and_its_file_reported(
 ) -> None:
     file = tmp_path / "both.png"
     code, out, _ = invoke(
-        "compare", str(run), str(run), "--output", str(file), "--json"
+        "show", str(run), str(run), "-o", str(file), "--json"
     )
     assert code == 0 and file.is_file()
-    assert json.loads(out)["figure"] == str(file)
+    assert str(file) in json.loads(out)["files"]
 
 
 def test_a_folder_without_a_run_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ConfigurationError, match="has no configuration"):
         load_run(tmp_path)
-    code, out, err = invoke("replay", str(tmp_path))
+    code, out, err = invoke("show", str(tmp_path))
     assert code == 2 and out == "" and err.count("\n") == 1
 
 

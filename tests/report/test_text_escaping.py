@@ -123,7 +123,7 @@ def test_runs_of_any_name_are_compared(tmp_path: Path, text: str) -> None:
     folder.mkdir()
     write_run_files(folder, small_run(message=text))
     output = tmp_path / "c.png"
-    arguments = ["compare", str(folder), "--output", str(output)]
+    arguments = ["show", str(folder), str(folder), "-o", str(output)]
     result = CliRunner().invoke(main, arguments)
     assert result.exit_code == 0, result.output
     assert output.stat().st_size > 1000
@@ -132,7 +132,7 @@ def test_runs_of_any_name_are_compared(tmp_path: Path, text: str) -> None:
 
 
 def test_a_refusal_writes_escape_sequences_out() -> None:
-    result = CliRunner().invoke(main, ["replay", "\x1b[2Jx\x9b"])
+    result = CliRunner().invoke(main, ["show", "\x1b[2Jx\x9b"])
     assert result.exit_code == 2
     assert "\x1b" not in result.output and "\x9b" not in result.output
     assert "\\x1b[2Jx\\x9b" in result.output

@@ -25,9 +25,9 @@ GIF = (
     "--width 480 --height 270"
 )
 FILES = {
-    "html": ("--html", "run.html", ""),
-    "video": ("--video", "run.mp4", "--duration 60 --width 1280 --height 720"),
-    "gif": ("--gif", "run.gif", GIF),
+    "html": ("run.html", ""),
+    "video": ("run.mp4", "--duration 60 --width 1280 --height 720"),
+    "gif": ("run.gif", GIF),
 }
 
 
@@ -47,10 +47,10 @@ def main() -> None:
     with TemporaryDirectory() as folder:
         run = str(Path(folder) / "run")
         call("duel", "--seed", str(arguments.seed), "--output", run)
-        for kind, (option, name, more) in FILES.items():
+        for kind, (name, more) in FILES.items():
             file = Path(folder) / name
             began = perf_counter()
-            call("replay", run, option, str(file), *more.split())
+            call("show", run, "-o", str(file), *more.split())
             files[kind] = {
                 "wall_s": perf_counter() - began,
                 "bytes": file.stat().st_size,

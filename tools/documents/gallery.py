@@ -92,7 +92,7 @@ ENTRIES = (
             "python examples/change_gait.py 4",
             "stepaside walk --push 1.2@5:90deg --body delayed --duration 9 "
             "--output pushed",
-            "stepaside replay pushed --gif push.gif --begin 4 --duration 4 "
+            "stepaside show pushed -o push.gif --begin 4 --duration 4 "
             f"--speed 0.5 --camera follow {FILM}",
         ),
         "push.gif",
@@ -114,7 +114,7 @@ ENTRIES = (
         (
             "stepaside duel --room examples/rooms/narrow-door.toml "
             "--strategy look-ahead --duration 40 --output door",
-            "stepaside replay door --gif door.gif --camera fixed --begin 0 "
+            "stepaside show door -o door.gif --camera fixed --begin 0 "
             "--duration 40 --speed 4 --rate 5 --width 400 --height 260",
         ),
         "door.gif",

@@ -123,7 +123,7 @@ class ConnectionSettings:
     record: Path | None = setting(
         None,
         "Record all measurements, targets and state changes to a run folder "
-        "for stepaside replay",
+        "for stepaside show",
     )
     dry_run: bool = setting(
         False,

@@ -66,7 +66,7 @@ def game(
 
     FILE is TOML with a table [[players]] for each player: a robot, its
     template unicycle, a person, or a recorded player. Prints the closest
-    approach of each pair, and writes a run folder, which `stepaside replay`
+    approach of each pair, and writes a run folder, which `stepaside show`
     shows.
     """
     from ..games.game_file import load_game

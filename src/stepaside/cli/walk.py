@@ -34,7 +34,7 @@ def walk(
 
     Speed, turning, slip, tracking error and estimation error are measured
     after the first three seconds, in the frame of the support foot.
-    `stepaside replay` replays the run folder.
+    `stepaside show` replays the run folder.
     """
     from ..games.outcome import Outcome
     from ..games.run_archive import results_of

@@ -257,7 +257,7 @@ class Page:
         except StepAsideError as error:
             self._notify(str(error))
         else:
-            self._notify(f"saved; to show it: stepaside replay {folder}")
+            self._notify(f"saved; to show it: stepaside show {folder}")
 
     def _add_layers(self) -> None:
         for layer in LAYERS:

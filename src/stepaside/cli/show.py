@@ -1,0 +1,416 @@
+"""``stepaside show``: runs as pages, films, figures, tables and bags."""
+
+import webbrowser
+from collections.abc import Callable
+from dataclasses import fields, replace
+from pathlib import Path
+from tempfile import mkdtemp
+from typing import TYPE_CHECKING, Any, cast
+
+import click
+
+from ..core.atomic_output import FIGURES, check_file, check_folder, reason_of
+from ..core.errors import ConfigurationError, OutputError
+from ..report.film_settings import FilmSettings
+from ..report.text_escaping import visible
+from .options.common_options import browser_option, figure_width, json_option
+from .options.settings_options import refuse_options, takes
+from .output_files import overwrite_option
+from .progress import IMAGES, announce_effort, show_progress
+from .run_output import check_run_folder, save_run
+from .tables import print_columns, print_table
+from .terminal import NOTHING_SAVED, echo, exit_interrupted, print_json
+
+if TYPE_CHECKING:
+    from ..games.match import Progress
+    from ..games.run import ExperimentRun, Run
+    from ..report.export.recording import Recording
+
+PAGES, FILMS = (".html", ".htm"), (".mp4", ".gif")
+FORMATS = (".mcap", ".csv", ".parquet", ".urdf")
+SUFFIXES = (*PAGES, *FILMS, *FIGURES, *FORMATS)
+FILM = {
+    ".mp4": FilmSettings(),
+    ".gif": FilmSettings(480, 270, rate=10.0, duration=12.0),
+}
+# Columns by game: header, entry of the summary, and format.
+COLUMNS = {
+    "duel": (
+        ("distance", "distance_m", "{:.3f} m"),
+        ("angle", "relative_orientation_deg", "{:.1f}\u00b0"),
+        ("closest", "min_distance_m", "{:.3f} m"),
+        ("settled", "converged_at_s", "{:.1f} s"),
+    ),
+    "experiment": (
+        ("distance", "distance_m", "{:.3f} m"),
+        ("angle", "relative_orientation_deg", "{:.1f}\u00b0"),
+        ("closest", "min_distance_m", "{:.3f} m"),
+        ("rate", "rate_hz", "{:.1f} Hz"),
+    ),
+    "game": (
+        ("players", "players", "{}"),
+        ("closest", "closest_m", "{:.3f} m"),
+        ("captured", "captured_at_s", "{:.1f} s"),
+        ("path", "mean_path_m", "{:.2f} m"),
+    ),
+    "play": (
+        ("distance", "distance_m", "{:.3f} m"),
+        ("radius", "radius_m", "{:.3f} m"),
+        ("closest", "closest_m", "{:.3f} m"),
+        ("walked", "walking_s", "{:.1f} s"),
+    ),
+    "walk": (
+        ("speed", "speed_m_s", "{:.4f} m/s"),
+        ("planned", "speed_ratio", "x {:.3f}"),
+        ("turned", "yaw_ratio", "x {:.3f}"),
+        ("tilt", "tilt_max_deg", "{:.1f}\u00b0"),
+    ),
+}
+
+
+@click.command("show")
+@click.argument(
+    "runs",
+    nargs=-1,
+    required=True,
+    type=click.Path(exists=True, path_type=Path),
+)
+@click.option(
+    "-o",
+    "--output",
+    "outputs",
+    multiple=True,
+    type=click.Path(path_type=Path),
+    help="Write a page (.html), film (.mp4, .gif), figure (.png, .svg, "
+    ".pdf), ROS 2 bag (.mcap), tables (.csv, .parquet) or robot models "
+    "(.urdf); repeatable. Of a bag also a run folder (no suffix).",
+)
+@click.option(
+    "--frame",
+    "frames",
+    multiple=True,
+    metavar="NAME=FRAME",
+    help="Of a bag: frame of tf, or topic (/odom), of a player; one option "
+    "for each.",
+)
+@click.option(
+    "--repeat/--no-repeat",
+    default=True,
+    help="Play the game again for what a run folder does not hold: efforts, "
+    "IMU, foot forces, plans, strategy, images (.mcap, .csv, .parquet).",
+)
+@takes(FilmSettings, "film", build=dict)
+@figure_width
+@browser_option()
+@overwrite_option
+@json_option
+def show(
+    runs: tuple[Path, ...],
+    outputs: tuple[Path, ...],
+    frames: tuple[str, ...],
+    repeat: bool,
+    film: dict[str, Any],
+    opens: bool,
+    overwrite: bool,
+    as_json: bool,
+) -> None:
+    """Show the runs in the folders RUNS, or write them as files.
+
+    One run opens as a page with a time slider; several are drawn in one
+    figure by -o NAME.png, beside a table of their values. Where RUNS is a
+    ROS 2 bag (a folder with metadata.yaml, a .mcap or a .db3 file), players
+    whose motion was recorded elsewhere are measured, as --frame names them.
+    """
+    from ..games.run_archive import load_run, results_of
+
+    if not {".mp4", ".gif"} & {path.suffix for path in outputs}:
+        names = {field.name for field in fields(FilmSettings)}
+        refuse_options(names, "-o NAME.mp4 or NAME.gif")
+    is_bag = runs[0].is_file() or (runs[0] / "metadata.yaml").is_file()
+    if not is_bag:
+        refuse_options({"frames"}, "a ROS 2 bag")
+    _check_outputs(outputs, overwrite=overwrite, is_bag=is_bag)
+    bag: dict[str, Any] = {}
+    if is_bag:
+        loaded: list[Run] = [_measure(runs, frames)]
+        bag = results_of(loaded[0])
+    else:
+        loaded = [load_run(folder) for folder in runs]
+    kinds = sorted({run.game for run in loaded})
+    if len(kinds) > 1:
+        raise click.UsageError(
+            f"all runs must be of the same game, got {' and '.join(kinds)}"
+        )
+    single = len(loaded) == 1
+    shown = single and not is_bag and not outputs
+    if shown:
+        folder = Path(mkdtemp(prefix="stepaside-"))
+        outputs = (folder / f"{loaded[0].name}.html",)
+    elif outputs or not single:
+        refuse_options(("opens",), "one run without -o")
+    written: dict[str, Any] = {}
+    failed: list[OutputError] = []
+    try:
+        for path in outputs:
+            try:
+                written[str(path)] = _write(
+                    path, runs, loaded, film, repeat=repeat
+                )
+            except OutputError as error:
+                failed.append(error)
+    except KeyboardInterrupt:
+        names_written = ", ".join(written)
+        exit_interrupted(
+            f"saved: {names_written}" if written else NOTHING_SAVED
+        )
+    if shown and opens:
+        webbrowser.open(outputs[0].absolute().as_uri())
+    if as_json:
+        results = {
+            str(path): results_of(run)
+            for path, run in zip(runs, loaded, strict=True)
+        }
+        print_json(bag | {"files": written, "runs": results})
+    else:
+        _print(loaded, written, is_bag=is_bag)
+    for error in failed[:1]:
+        raise error
+
+
+def _check_outputs(
+    outputs: tuple[Path, ...], *, overwrite: bool, is_bag: bool
+) -> None:
+    """Refuse outputs that cannot be written, or that coincide."""
+    if len({path.resolve() for path in outputs}) < len(outputs):
+        raise ConfigurationError("each -o must name another file")
+    for path in outputs:
+        if is_bag and path.suffix in (*FILMS, *FORMATS):
+            raise click.UsageError(
+                f"-o {path} requires a run folder, which -o NAME writes of a "
+                "bag"
+            )
+        if not path.suffix and is_bag:
+            check_run_folder(path)
+        elif path.suffix in FORMATS:
+            check_folder(path, "-o", new=True)
+        else:
+            check_file(path, "-o", suffixes=SUFFIXES, overwrite=overwrite)
+
+
+def _measure(bags: tuple[Path, ...], frames: tuple[str, ...]) -> Any:
+    """Read the motion of players from a bag."""
+    from ..games.experiment import import_experiment
+
+    if len(bags) > 1:
+        raise click.UsageError(f"one bag at a time, got {len(bags)}")
+    if not frames:
+        raise click.UsageError(
+            f"{bags[0].name} is a bag: give each player as --frame NAME=FRAME"
+        )
+    return import_experiment(bags[0], frames)
+
+
+def _write(
+    path: Path,
+    folders: tuple[Path, ...],
+    runs: "list[Run]",
+    film: dict[str, Any],
+    *,
+    repeat: bool,
+) -> dict[str, Any]:
+    """Write one output; return what JSON says of it.
+
+    Raises:
+        OutputError: If it cannot be written.
+        UsageError: If there are several runs and it is no figure.
+    """
+    suffix, more = path.suffix, dict[str, Any]()
+    if suffix not in FIGURES and len(runs) > 1:
+        raise click.UsageError(
+            f"several runs are drawn in a figure ({', '.join(FIGURES)}), got "
+            f"-o {path}"
+        )
+    if not suffix:
+        saved = save_run(path, runs[0])
+        saved.raise_failure()
+    elif suffix in FIGURES:
+        _draw(runs, path)
+    elif suffix in PAGES:
+        from ..report.replay_page import write_page
+
+        write_page(runs[0], path)
+    elif suffix in FILMS:
+        chosen = _even(replace(FILM[suffix], **film))
+        _announce(chosen, runs[0])
+        more["pictures"] = _render(folders[0], path, chosen)
+    else:
+        more["absent"] = _export(folders[0], path, repeat=repeat)
+    try:
+        files = (
+            [file for file in path.rglob("*") if file.is_file()]
+            if path.is_dir()
+            else [path]
+        )
+        return {"bytes": sum(file.stat().st_size for file in files)} | more
+    except OSError as error:
+        raise OutputError(
+            f"{path} was removed after it was written: {reason_of(error)}"
+        ) from error
+
+
+def _draw(runs: "list[Run]", file: Path) -> None:
+    """Draw the figure of one run, or several runs in one figure."""
+    from ..games.run import is_play
+
+    if len(runs) == 1:
+        from ..report.run_folder import draw_run
+
+        draw_run(runs[0], file)
+    elif runs[0].pair is None and not is_play(runs[0]):
+        from ..report.walks_figure import draw_walks
+
+        draw_walks(runs, file)
+    else:
+        from ..report.compare_figure import draw_comparison
+
+        draw_comparison(runs, file)
+
+
+def _even(film: FilmSettings) -> FilmSettings:
+    """Return settings with even sides: H.264 halves the colour's."""
+    return replace(
+        film,
+        width=film.width - film.width % 2,
+        height=film.height - film.height % 2,
+    )
+
+
+def _announce(film: FilmSettings, run: "Run") -> None:
+    """Announce long rendering."""
+    shown = min(float(run.times[-1]) - film.begin, film.duration)
+    number = max(shown, 0.0) * film.rate / film.speed
+    size = film.width * film.height / (640 * 480)
+    announce_effort(
+        f"a video of about {number:.0f} frames",
+        number * size / IMAGES,
+        workers=None,
+    )
+
+
+def _render(run: Path, file: Path, film: FilmSettings) -> int:
+    """Render a film with a progress bar; return the number of images."""
+    from ..report.film import write_gif, write_video
+
+    write = write_video if file.suffix == ".mp4" else write_gif
+    with show_progress("film", unit="frames") as bar:
+        return write(run, file, film, _counter(bar))
+
+
+def _counter(bar: Any) -> Callable[[int, int], None]:
+    """Return a function that shows what is done of a number."""
+
+    def report(done: int, number: int) -> None:
+        bar.total, bar.n = number, done
+        bar.refresh()
+
+    return report
+
+
+def _export(run: Path, folder: Path, *, repeat: bool) -> list[str]:
+    """Write a run for other programs; return what is absent."""
+    from ..report.export.export_formats import (
+        FORMATS,
+        check_format,
+        export_recording,
+    )
+
+    name = folder.suffix[1:]
+    check_format(name)
+    repeats = repeat and FORMATS[name].repeats
+    recording = _recording(run.resolve(), repeats=repeats)
+    with show_progress("export", unit="samples") as bar:
+        export_recording(folder, name, recording, _counter(bar))
+    absent = recording.absent
+    if not FORMATS[name].repeats:  # it has no signals at all
+        players = tuple(f"{name}:" for name in recording.run.players)
+        absent = tuple(each for each in absent if each.startswith(players))
+    for sentence in absent:
+        echo(f"absent: {sentence}", err=True)
+    return list(absent)
+
+
+def _recording(run: Path, *, repeats: bool) -> "Recording":
+    """Read a run, and play its game again with a progress bar."""
+    from ..report.export.recording import load_recording
+
+    look = "{desc} {bar} {n:.0f} s simulated"
+    with show_progress("repeat", None, "s simulated", bar_format=look) as bar:
+
+        def report(progress: "Progress") -> None:
+            bar.n = progress.time
+            bar.refresh()
+
+        return load_recording(run, repeats=repeats, report=report)
+
+
+def _print(
+    runs: "list[Run]", written: dict[str, Any], *, is_bag: bool
+) -> None:
+    """Print values of a bag or of several runs, and what was written."""
+    if is_bag:
+        _print_measured(cast("ExperimentRun", runs[0]))
+    elif len(runs) > 1:
+        columns = COLUMNS[runs[0].game]
+        print_columns(
+            ("run", "outcome", *(head for head, _, _ in columns)),
+            [
+                (
+                    visible(run.name),
+                    run.outcome.value,
+                    *(
+                        _number(getattr(run.summary, name), text)
+                        for _, name, text in columns
+                    ),
+                )
+                for run in runs
+            ],
+            left=(0, 1),
+        )
+    for path, entry in written.items():
+        echo(f"{visible(path)} ({entry['bytes'] / 1e6:.2f} MB)")
+
+
+def _number(value: float | None, text: str) -> str:
+    return "-" if value is None else text.format(value)
+
+
+def _print_measured(run: "ExperimentRun") -> None:
+    """Print what was measured of the motion in a bag."""
+    summary = run.summary
+    rows: list[tuple[str, Any]] = [
+        (
+            "recording",
+            f"{summary.source}: {run.duration:.2f} s, "
+            f"{summary.rate_hz:.1f} samples per second",
+        ),
+        ("start distance", f"{summary.start_distance_m:.3f} m"),
+    ]
+    for name, player in summary.measured.items():
+        radius = player.radius_m
+        text = "-" if radius is None else f"{radius:.3f} m"
+        rows.append((f"{name} radius", text))
+        rows.append((f"{name} mean speed", f"{player.mean_speed_m_s:.3f} m/s"))
+    rows += [
+        ("distance", f"{summary.distance_m:.3f} m"),
+        (
+            "angle between headings",
+            f"{summary.relative_orientation_deg:.3f} deg",
+        ),
+        (
+            "closest approach",
+            f"{summary.min_distance_m:.3f} m at "
+            f"{summary.min_distance_at_s:.2f} s",
+        ),
+    ]
+    rows += [("note", note) for note in summary.notes]
+    print_table(rows)
