@@ -173,8 +173,8 @@ def show(
         print_json(bag | {"files": written, "runs": results})
     else:
         _print(loaded, written, is_bag=is_bag)
-    for error in failed[:1]:
-        raise error
+    if failed:
+        raise failed[0]
 
 
 def _check_outputs(
