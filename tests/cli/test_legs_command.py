@@ -31,7 +31,7 @@ def test_inspect_prints_the_contract_with_its_sources(
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        (["--legs-contract", "none"], "must be one of holosoma"),
+        (["--legs-contract", "none"], "must be one of bhuman"),
         (["--robot", "nao"], "default_posture is missing"),
     ],
 )

@@ -74,7 +74,7 @@ class FakeMind:
         self.fails: Exception | None = None
         self.begun = None
         self.sighting: Sighting | None = None
-        self.state = standing_still()
+        self.locomotion, self.state = self, standing_still()
         self.pose = Pose(0.0, 0.0, 0.0)
 
     def update(self, measurement: Any) -> Any:

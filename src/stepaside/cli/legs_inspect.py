@@ -34,8 +34,7 @@ def inspect(
     not fit the network or the robot, or is implausible. The exit status is 2
     if the network cannot run.
     """
-    from ..locomotion.policy.contract_checks import examine
-    from ..locomotion.policy.contract_reader import read_contract
+    from ..locomotion.policy.contract_reader import examine, read_contract
     from ..locomotion.policy.network import PolicyNetwork
 
     loaded = PolicyNetwork(network)

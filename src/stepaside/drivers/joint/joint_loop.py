@@ -130,7 +130,7 @@ class JointLoop:
             scheme.sighting if is_controlled else body.sighting,
             body.refused,
             self._schemes,
-            scheme.state,
+            scheme.locomotion.state,
             scheme.begun if is_controlled else None,
             scheme.pose,
         )
@@ -146,7 +146,7 @@ class JointLoop:
             self._stood = (
                 self._stood + 1 if scheme.phase is Phase.STANDING else 0
             )
-            settling = 0.0 if scheme.state is not None else SETTLING
+            settling = 0.0 if scheme.locomotion.state is not None else SETTLING
             if self._stood * body.tick > settling:
                 body.halted()
         try:

@@ -96,8 +96,7 @@ class PolicyContract:
     the torque :math:`k_p (q^* - q) - k_d \dot q`.
 
     Attributes:
-        convention: Name of the convention, see
-            :mod:`~stepaside.locomotion.policy.trainer_conventions`.
+        convention: Name of the convention, a file of ``conventions``.
         joints: Joints in the order of actions and observations.
         terms: Terms of the observation, in order.
         default_posture: Joint angles at action zero, in [rad].

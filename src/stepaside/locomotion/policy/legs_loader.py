@@ -5,8 +5,7 @@ from pathlib import Path
 from ...robots.description import RobotDescription
 from ...robots.tree_cache import load_tree
 from .contract import PolicyContract
-from .contract_checks import check_contract
-from .contract_reader import read_contract
+from .contract_reader import check_contract, read_contract
 from .legs_settings import LegsSettings
 from .network import PolicyNetwork
 from .network_pool import NetworkPool

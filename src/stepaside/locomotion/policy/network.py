@@ -14,7 +14,12 @@ from ...core.errors import PolicyError
 from ...core.poses import Array
 from ...core.regular_files import check_regular
 
-Memory = tuple[NDArray[np.float32], ...]  # recurrent states of one walker
+Memory = tuple[NDArray[np.floating[Any]], ...]  # states of one walker
+KINDS: Mapping[str, type[np.floating[Any]]] = {
+    "tensor(float16)": np.float16,
+    "tensor(float)": np.float32,
+    "tensor(double)": np.float64,
+}
 LARGEST_ACTION = 1e4  # beyond, a simulation becomes unstable
 DIRECTIONS = {"in", "out", "input", "output", "prev", "next", "new", "old"}
 BATCHES = 2, 5, 16, 33  # numbers of rows in which bits are compared
@@ -26,10 +31,12 @@ class TensorShape(NamedTuple):
     Attributes:
         name: Its name.
         shape: Its shape; None for a size that the network leaves open.
+        kind: Type of its numbers, as ONNX Runtime writes it.
     """
 
     name: str
     shape: tuple[int | None, ...]
+    kind: str = "tensor(float)"
 
     @property
     def width(self) -> int | None:
@@ -40,6 +47,24 @@ class TensorShape(NamedTuple):
         """Return name and shape, as in a message."""
         sizes = ("any" if size is None else str(size) for size in self.shape)
         return f"{self.name} [{', '.join(sizes)}]"
+
+    @property
+    def batch_axis(self) -> int | None:
+        """Axis of the walkers: one left open, else the last but one.
+
+        None for a single row of values.
+        """
+        leading = self.shape[:-1]
+        if None in leading:
+            return leading.index(None)
+        return len(leading) - 1 if leading else None
+
+    def zeros(self, count: int) -> NDArray[np.floating[Any]]:
+        """Return zeros for a number of walkers."""
+        sizes = [size or 1 for size in self.shape]
+        if self.batch_axis is not None:
+            sizes[self.batch_axis] = count
+        return np.zeros(sizes, KINDS[self.kind])
 
 
 class PolicyNetwork:
@@ -59,6 +84,7 @@ class PolicyNetwork:
         action: First output that is none.
         states: Recurrent states, as pairs of input and output.
         metadata: Text entries that the exporter wrote.
+        draws: Whether outputs differ for the same input.
     """
 
     def __init__(self, path: Path) -> None:
@@ -93,27 +119,46 @@ class PolicyNetwork:
         pairs = _pair_ports(path, *([_shape_of(x) for x in p] for p in ports))
         (self.observation, self.action), *self.states = pairs
         self._outputs = [out.name for _, out in pairs]
-        named = {name for pair in pairs for name, _ in pair}
-        for port in (*ports[0], *ports[1]):
-            if port.name in named and port.type != "tensor(float)":
+        self._inputs = [given for given, _ in pairs]
+        for port in (port for pair in pairs for port in pair):
+            if port.kind not in KINDS:
                 raise PolicyError(
-                    f"legs: {port.name} of {path} must be a tensor(float), "
-                    f"got a {port.type}"
+                    f"legs: {port.name} of {path} must be of "
+                    f"{', '.join(KINDS)}, got {port.kind}"
                 )
-        for shape in (self.observation, self.action):
-            if len(shape.shape) != 2:
+            if not 1 <= len(port.shape) <= 3:
                 raise PolicyError(
-                    f"legs: {shape} of {path} must have one row of values for "
-                    "each walker"
+                    f"legs: {port} of {path} must have one to three axes"
                 )
         self._bindings: dict[int, _BoundArrays] = {}
+        self.draws = self._try()
+
+    def _try(self) -> bool:
+        """Evaluate once, and again to see whether outputs repeat."""
+        draw = np.random.default_rng(0).standard_normal
+        feed = {}
+        for port in self._inputs:
+            zeros = port.zeros(1)
+            feed[port.name] = draw(zeros.shape).astype(zeros.dtype)
+        try:
+            once, again = (
+                self._session.run(self._outputs, feed) for _ in range(2)
+            )
+        except Exception as error:  # no common base in ONNX Runtime
+            raise PolicyError(
+                f"legs: {self.path} cannot run for one walker: "
+                + " ".join(str(error).split())
+            ) from error
+        width = once[0].size
+        self.action = self.action._replace(shape=(1, width))
+        return any(
+            not np.array_equal(*both, equal_nan=True)
+            for both in zip(once, again, strict=True)
+        )
 
     def initial_memory(self) -> Memory:
         """Return recurrent states of zero, for one walker."""
-        return tuple(
-            np.zeros([size or 1 for size in given.shape], np.float32)
-            for given, _ in self.states
-        )
+        return tuple(given.zeros(1) for given, _ in self.states)
 
     def evaluate(
         self, observations: Sequence[Array], memories: Sequence[Memory]
@@ -155,31 +200,30 @@ class PolicyNetwork:
         count = len(observations)
         bound = self._bindings.get(count)
         if bound is None:
-            width = len(observations[0])
-            shapes = [self.observation._replace(shape=(None, width))]
-            shapes += [given for given, _ in self.states]
-            bound = _BoundArrays(session, shapes, self._outputs, count)
+            bound = _BoundArrays(session, self._inputs, self._outputs, count)
             self._bindings[count] = bound
-        for row, observation in zip(
-            bound.inputs[0], observations, strict=True
-        ):
+        rows = bound.inputs[0].reshape(count, -1)  # a view
+        for row, observation in zip(rows, observations, strict=True):
             row[:] = observation
         for i, (given, _) in enumerate(self.states):
+            if given.batch_axis is None:
+                bound.inputs[1 + i][:] = memories[0][i]
+                continue
             np.concatenate(
                 [memory[i] for memory in memories],
-                axis=_batch_axis(given),
+                axis=given.batch_axis,
                 out=bound.inputs[1 + i],
             )
         session.run_with_iobinding(bound.binding)
         found = bound.outputs
-        actions: Array = found[0].astype(np.float64)
+        actions: Array = found[0].astype(np.float64).reshape(count, -1)
         flat = actions.ravel()
         if not flat @ flat < 0.5 * LARGEST_ACTION**2:  # faster than for each
             self._check(actions)
         if not self.states:
             return [(action, ()) for action in actions]
         split = [
-            np.split(value.copy(), count, axis=_batch_axis(given))
+            np.split(value.copy(), count, axis=given.batch_axis or 0)
             for (given, _), value in zip(self.states, found[1:], strict=True)
         ]
         return list(zip(actions, zip(*split, strict=True), strict=True))
@@ -196,27 +240,21 @@ class PolicyNetwork:
 
     def _gives_equal_bits(self, batched: Any) -> bool:
         """Compare a session with a free batch axis to that for one walker."""
-        shapes = [self.observation, *(given for given, _ in self.states)]
-        names = [shape.name for shape in shapes]
         draw = np.random.default_rng(0).standard_normal
-        axes = [_batch_axis(shape) for shape in shapes]
         for count in BATCHES:
-            rows = [
-                draw(_sizes(shape, count)).astype(np.float32)
-                for shape in shapes
-            ]
-            together = batched.run(
-                self._outputs, dict(zip(names, rows, strict=True))
-            )
+            together = {}
+            for port in self._inputs:
+                zeros = port.zeros(count)
+                together[port.name] = draw(zeros.shape).astype(zeros.dtype)
+            outputs = batched.run(self._outputs, together)
+            axes = [port.batch_axis for port in self._inputs]
             for k in range(count):
                 feed = {
-                    name: np.take(value, [k], axis=axis)
-                    for name, value, axis in zip(
-                        names, rows, axes, strict=True
-                    )
+                    port.name: np.take(together[port.name], [k], axis=axis)
+                    for port, axis in zip(self._inputs, axes, strict=True)
                 }
                 alone = self._session.run(self._outputs, feed)
-                for one, all_, axis in zip(alone, together, axes, strict=True):
+                for one, all_, axis in zip(alone, outputs, axes, strict=True):
                     if not np.array_equal(one, np.take(all_, [k], axis=axis)):
                         return False
         return True
@@ -241,10 +279,10 @@ class _BoundArrays:
         count: int,
     ) -> None:
         """Bind new arrays for a number of walkers."""
-        self.inputs = [np.zeros(_sizes(x, count), np.float32) for x in shapes]
+        self.inputs = [shape.zeros(count) for shape in shapes]
         names = [shape.name for shape in shapes]
         # Networks may leave sizes of outputs open: a run shows them.
-        self.outputs: list[NDArray[np.float32]] = session.run(
+        self.outputs: list[NDArray[np.floating[Any]]] = session.run(
             outputs, dict(zip(names, self.inputs, strict=True))
         )
         self.binding = session.io_binding()
@@ -255,13 +293,6 @@ class _BoundArrays:
             for key, array in zip(keys, arrays, strict=True):
                 place = array.__array_interface__["data"][0]
                 bind(key, "cpu", 0, array.dtype.type, array.shape, place)
-
-
-def _sizes(shape: TensorShape, count: int) -> list[int]:
-    """Return the sizes of a tensor of a number of walkers."""
-    sizes = [size or 1 for size in shape.shape]
-    sizes[_batch_axis(shape)] = count
-    return sizes
 
 
 def _session_of(network: str | bytes) -> Any:
@@ -280,11 +311,6 @@ def _session_of(network: str | bytes) -> Any:
     )
 
 
-def _batch_axis(shape: TensorShape) -> int:
-    """Return the axis of the walkers; recurrent layers have it second."""
-    return 1 if len(shape.shape) == 3 else 0
-
-
 def _with_free_batch(path: Path) -> bytes:
     """Return an ONNX network whose inputs may have any number of rows."""
     import onnx
@@ -292,9 +318,9 @@ def _with_free_batch(path: Path) -> bytes:
     model = onnx.load(path)
     for node in (*model.graph.input, *model.graph.output):
         sizes = node.type.tensor_type.shape.dim
-        size = sizes[1 if len(sizes) == 3 else 0]
-        size.ClearField("dim_value")
-        size.dim_param = "walkers"
+        if all(size.HasField("dim_value") for size in sizes[:-1]):
+            sizes[-2].ClearField("dim_value")
+            sizes[-2].dim_param = "walkers"
     del model.graph.value_info[:]
     freed: bytes = model.SerializeToString()
     return freed
@@ -302,7 +328,7 @@ def _with_free_batch(path: Path) -> bytes:
 
 def _shape_of(node: Any) -> TensorShape:
     sizes = (s if isinstance(s, int) else None for s in node.shape)
-    return TensorShape(node.name, tuple(sizes))
+    return TensorShape(node.name, tuple(sizes), node.type)
 
 
 def _stem(port: TensorShape) -> str:
