@@ -14,6 +14,7 @@ from stepaside.planning import GaitSettings
 from stepaside.robots.description import load_robot
 from stepaside.robots.joint_loads import LegLoads
 from stepaside.robots.leg_kinematics import BodyReference, LegKinematics
+from stepaside.robots.tree_cache import load_tree
 from stepaside.robots.tree_compiler import compile_tree
 
 NAO = load_robot("nao")
@@ -31,6 +32,11 @@ def standing(sway: float = 0.0, lift: float = 0.0) -> BodyReference:
     )
 
 
+STILL = BodyReference(
+    (AHEAD, 0.0, 0.26), (0.0, 0.05, 0.0, 0.0), (0.0, -0.05, 0.0, 0.0)
+)
+
+
 def loads_of(reference: BodyReference) -> tuple[LegKinematics, LegLoads]:
     """Joint motion that stands, and what it bears."""
     kinematics = LegKinematics(NAO, tick=TICK)
@@ -39,17 +45,29 @@ def loads_of(reference: BodyReference) -> tuple[LegKinematics, LegLoads]:
 
 
 def by_mujoco(
-    kinematics: LegKinematics, reference: BodyReference, share: float
+    postures: list[Array], reference: BodyReference, share: float
 ) -> Array:
-    """Torques at rest, with forces on the anchors by share of the left."""
+    """Return torques by inverse dynamics, of links that are point masses.
+
+    Args:
+        postures: Posture a tick before, the one in question, a tick after.
+        reference: Its reference.
+        share: Share of the force at the anchor of the left foot.
+    """
     model = NAO.compile()
+    model.body_inertia[:], model.dof_damping[:] = 0.0, 0.0
+    model.dof_armature[:], model.dof_frictionloss[:] = 0.0, 0.0
+    model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONSTRAINT
     data = mujoco.MjData(model)
-    data.qpos[:] = kinematics.posture
-    mujoco.mj_kinematics(model, data)
-    mujoco.mj_comPos(model, data)
-    torques = np.zeros(model.nv)
-    mujoco.mj_rne(model, data, 0, torques)
-    weight = np.array([0.0, 0.0, GRAVITY * model.body_subtreemass[0]])
+    before, data.qpos[:], after = postures
+    speeds = np.zeros((2, model.nv))
+    mujoco.mj_differentiatePos(model, speeds[0], TICK, before, data.qpos)
+    mujoco.mj_differentiatePos(model, speeds[1], TICK, data.qpos, after)
+    data.qvel[:] = speeds.mean(axis=0)
+    data.qacc[:] = (speeds[1] - speeds[0]) / TICK
+    mujoco.mj_inverse(model, data)
+    torques = data.qfrc_inverse
+    weight = torques[:3].copy()  # and what accelerates the body
     jacobian, turning = np.zeros((3, model.nv)), np.zeros((3, model.nv))
     pressed = np.zeros(model.nv)
     rows = []
@@ -73,7 +91,7 @@ def by_mujoco(
     borne = torques - pressed
     np.testing.assert_allclose(borne[:6], 0.0, atol=1e-9)
     found = []
-    for name in kinematics.joint_names:
+    for name in load_tree(NAO).motors:
         total = borne[model.joint(name).dofadr[0]]
         for follower, leader in NAO.coupled_joints(model).items():
             if leader == name:
@@ -95,9 +113,33 @@ def test_at_rest_the_torques_are_those_of_mujoco() -> None:
         )
         line = left - right
         share = (zmp - right) @ line / (line @ line) if lift == 0.0 else 1.0
-        wanted = by_mujoco(kinematics, reference, share)
+        wanted = by_mujoco(3 * [kinematics.posture], reference, share)
         np.testing.assert_allclose(found, wanted, atol=2e-4)
         assert 0.5 < np.abs(found).max() < 6.0
+
+
+def test_in_motion_the_torques_are_those_of_mujoco() -> None:
+    """While the CoM sways by 0.5 m/s^2 and rises: links as point masses."""
+    kinematics, loads = loads_of(STILL)
+    zmp, share = (AHEAD, 0.01), 0.6
+    postures, torques, at_rest = [], [], []
+    for i in range(200):
+        phase = 8.0 * TICK * i
+        x, _, z = STILL.com
+        com = (x, 0.008 * np.sin(phase), z - 0.005 * (1.0 - np.cos(phase)))
+        reference = STILL._replace(com=com)
+        kinematics.track(reference)
+        postures.append(kinematics.posture)
+        torques.append(loads.torques(reference, zmp))
+        if i == 150:
+            wanted_of = reference
+            rest = LegLoads(kinematics, zmp_forward=AHEAD, tick=TICK)
+            at_rest = rest.torques(reference, zmp)
+    wanted = by_mujoco(postures[149:152], wanted_of, share)
+    # Accelerations are those of a tick before.
+    gap = np.abs(torques[151] - wanted).max()
+    assert gap < 0.02
+    assert np.abs(at_rest - wanted).max() > 10.0 * gap
 
 
 def test_the_stance_hip_carries_the_body() -> None:

@@ -80,7 +80,7 @@ def reachable_heights(
         (forward, 0.0, 1.0), (0.0, half, 0.0, 0.0), (0.0, -half, 0.0, 0.0)
     )
     kinematics = LegKinematics(description, tick=TICK)
-    highest = kinematics.highest_com(stance)
+    lowest, highest = kinematics.com_heights(stance)
     if highest == 0.0:
         try:
             kinematics.stand(stance)
@@ -93,4 +93,4 @@ def reachable_heights(
                 f"{description.name} can stand at no height with its feet "
                 f"{spacing:.3f} m apart: {reason}"
             ) from error
-    return kinematics.lowest_com(stance), highest
+    return lowest, highest

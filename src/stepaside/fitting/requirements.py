@@ -182,7 +182,7 @@ def _reach(description: RobotDescription) -> Iterator[RequirementCheck]:
     stance = standing_reference(*feet, gait)
     legs = LegKinematics(description, tick=TICK)
     legs.stand(stance)
-    highest = legs.highest_com(stance)
+    _, highest = legs.com_heights(stance)
     margin = highest - gait.com_height
     near = margin < LEAST_REACH_MARGIN * highest
     yield RequirementCheck(

@@ -39,19 +39,18 @@ class Configuration:
             )
         self.tree = tree
         self.joints = np.array(joints, dtype=np.float64)
+        self.place = np.zeros(3) if place is None else np.array(place)
+        self.axes = np.eye(3) if axes is None else np.array(axes)
         links = len(tree.links)
-        self._places, self._axes = (
-            np.zeros((links, 3)),
-            np.zeros((links, 3, 3)),
-        )
-        self._places[0] = 0.0 if place is None else place
-        self._axes[0] = np.eye(3) if axes is None else axes
+        axes, places = np.empty((links, 3, 3)), np.empty((links, 3))
         columns = {name: i for i, name in enumerate(tree.joints)}
         moved = joint_tree(tree, columns, {}, [])
-        place_links(moved, self.joints, self._axes, self._places)
-        self.place, self.axes = self._places[0], self._axes[0]
+        place_links(moved, self.joints, np.zeros(3), 0.0, 0.0, axes, places)
+        self._axes = self.axes @ axes
+        self._places = self.place + places @ self.axes.T
         for values in (self.joints, self.place, self.axes):
             values.setflags(write=False)
+        self._masses = [link.mass for link in tree.links]
         self._coms = [
             self._places[i] + self._axes[i] @ link.com
             for i, link in enumerate(tree.links)
@@ -60,24 +59,15 @@ class Configuration:
     @property
     def com(self) -> Array:
         """CoM of the robot in the world, in [m]. Shape (3,)."""
-        masses = [link.mass for link in self.tree.links]
-        return np.average(self._coms, axis=0, weights=masses)
+        return np.average(self._coms, axis=0, weights=self._masses)
 
-    def position_body_in_world(self, name: str) -> Array:
-        """Return the origin of a body in the world, in [m]. Shape (3,)."""
-        return self._position_of(self._find("body", name))
+    def body_in_world(self, name: str) -> tuple[Array, Array]:
+        """Return the origin of a body, in [m], and its axes as columns."""
+        return self._pose_of(self._find("body", name))
 
-    def axes_body_in_world(self, name: str) -> Array:
-        """Return the axes of a body in the world. Shape (3, 3)."""
-        return self._axes_of(self._find("body", name))
-
-    def position_site_in_world(self, name: str) -> Array:
-        """Return the origin of a site in the world, in [m]. Shape (3,)."""
-        return self._position_of(self._find("site", name))
-
-    def axes_site_in_world(self, name: str) -> Array:
-        """Return the axes of a site in the world. Shape (3, 3)."""
-        return self._axes_of(self._find("site", name))
+    def site_in_world(self, name: str) -> tuple[Array, Array]:
+        """Return the origin of a site, in [m], and its axes as columns."""
+        return self._pose_of(self._find("site", name))
 
     def jacobian_of_site(self, name: str) -> Array:
         """Return the Jacobian of a site in the world.
@@ -88,7 +78,7 @@ class Configuration:
             then velocities of all joints. Shape (6, 6 + joints).
         """
         frame = self._find("site", name)
-        return self._jacobian(frame.link, self._position_of(frame))
+        return self._jacobian(frame.link, self._pose_of(frame)[0])
 
     def jacobian_of_com(self) -> Array:
         """Return the Jacobian of the CoM in the world.
@@ -125,11 +115,6 @@ class Configuration:
             )
         return frames[name]
 
-    def _position_of(self, frame: LinkFrame) -> Array:
-        offset: Array = self._axes[frame.link] @ frame.place
-        position: Array = self._places[frame.link] + offset
-        return position
-
-    def _axes_of(self, frame: LinkFrame) -> Array:
-        axes: Array = self._axes[frame.link] @ np.array(frame.axes)
-        return axes
+    def _pose_of(self, frame: LinkFrame) -> tuple[Array, Array]:
+        place, axes = self._places[frame.link], self._axes[frame.link]
+        return place + axes @ frame.place, axes @ np.array(frame.axes)

@@ -14,7 +14,7 @@ from ..core.poses import Array
 from .body_reference import BodyReference
 from .joint_tree import JointTree, place_links, turned
 from .leg_kinematics import LegKinematics
-from .newton_step import place_torso
+from .newton_step import STATE
 
 LIFTED = 1e-6  # height above which a foot carries no load, in [m]
 
@@ -43,14 +43,14 @@ def load_rows(
         calls: Number of ticks before.
         torques: Torques, in [N m]; zero before. Shape (ticks, motors).
     """
-    links = tree.parents.shape[0]
+    links, n = tree.parents.shape[0], states.shape[1] - STATE
     axes, places = np.empty((links, 3, 3)), np.empty((links, 3))
     forces, moments = np.empty((links, 3)), np.empty((links, 3))
     total, spin = np.empty(3), np.empty(3)
     for tick in range(torques.shape[0]):
         state, contact = states[tick + 1], contacts[tick]
-        place_torso(state, state[state.shape[0] - 1], axes, places)
-        place_links(tree, state, axes, places)
+        position, heading, roll = state[n : n + 3], state[n + 3], state[n + 5]
+        place_links(tree, state, position, heading, roll, axes, places)
         factor = rate if calls + tick > 1 else 0.0
         for k in range(3):
             total[k], spin[k] = 0.0, 0.0

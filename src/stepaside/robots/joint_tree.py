@@ -117,18 +117,31 @@ def _fixed(
 
 @compiled
 def place_links(
-    tree: JointTree, angles: Array, axes: Array, places: Array
+    tree: JointTree,
+    angles: Array,
+    position: Array,
+    heading: float,
+    roll: float,
+    axes: Array,
+    places: Array,
 ) -> None:
-    """Set the poses of all links from that of the torso.
+    """Set the poses of all links.
 
     Args:
         tree: Moving links.
         angles: Angles of the joints, in [rad] or [m].
-        axes: Axes of the links, as columns; those of the torso are given.
-            Shape (links, 3, 3).
-        places: Origins of the links, in [m]; that of the torso is given.
-            Shape (links, 3).
+        position: Origin of the torso, in [m]. Shape (3,).
+        heading: Heading of the torso, in [rad].
+        roll: Roll of the torso about its heading, in [rad].
+        axes: Axes of the links, as columns. Shape (links, 3, 3).
+        places: Origins of the links, in [m]. Shape (links, 3).
     """
+    c, s, cr, sr = cos(heading), sin(heading), cos(roll), sin(roll)
+    axes[0, 0, 0], axes[0, 0, 1], axes[0, 0, 2] = c, -s * cr, s * sr
+    axes[0, 1, 0], axes[0, 1, 1], axes[0, 1, 2] = s, c * cr, -c * sr
+    axes[0, 2, 0], axes[0, 2, 1], axes[0, 2, 2] = 0.0, sr, cr
+    for k in range(3):
+        places[0, k] = position[k]
     for link in range(1, tree.parents.shape[0]):
         parent = tree.parents[link]
         moved = -tree.zeros[link]
@@ -171,6 +184,27 @@ def turned(
 
 
 @compiled
+def place_frame(
+    tree: JointTree,
+    i: int,
+    axes: Array,
+    places: Array,
+    frame_axes: Array,
+    frame_place: Array,
+) -> None:
+    """Set axes, shape (3, 3), and origin, shape (3,), of a frame."""
+    link = tree.carriers[i]
+    offset = turned(axes, link, tree.frame_places, i)
+    for j in range(3):
+        frame_place[j] = places[link, j] + offset[j]
+        for k in range(3):
+            frame_axes[j, k] = 0.0
+            for m in range(3):
+                part = axes[link, j, m] * tree.frame_axes[i, m, k]
+                frame_axes[j, k] += part
+
+
+@compiled
 def place_frames(
     tree: JointTree,
     angles: Array,
@@ -187,15 +221,11 @@ def place_frames(
         frame_places: Origins of the frames, in [m]. Shape (frames, 3).
         frame_axes: Their axes, as columns. Shape (frames, 3, 3).
     """
-    links = tree.parents.shape[0]
+    links, mass = tree.parents.shape[0], 0.0
     axes, places = np.empty((links, 3, 3)), np.empty((links, 3))
-    for j in range(3):
-        com[j] = 0.0
-        places[0, j] = 0.0
-        for k in range(3):
-            axes[0, j, k] = 1.0 if j == k else 0.0
-    place_links(tree, angles, axes, places)
-    mass = 0.0
+    for k in range(3):
+        com[k] = 0.0
+    place_links(tree, angles, com, 0.0, 0.0, axes, places)
     for link in range(links):
         moment = turned(axes, link, tree.moments, link)
         mass += tree.masses[link]
@@ -204,12 +234,4 @@ def place_frames(
     for k in range(3):
         com[k] /= mass
     for i in range(tree.carriers.shape[0]):
-        link = tree.carriers[i]
-        offset = turned(axes, link, tree.frame_places, i)
-        for j in range(3):
-            frame_places[i, j] = places[link, j] + offset[j]
-            for k in range(3):
-                total = 0.0
-                for m in range(3):
-                    total += axes[link, j, m] * tree.frame_axes[i, m, k]
-                frame_axes[i, j, k] = total
+        place_frame(tree, i, axes, places, frame_axes[i], frame_places[i])

@@ -10,7 +10,6 @@ from ..core.compilation import bound
 from ..core.errors import ModelError, ReachError
 from ..core.poses import Array
 from .body_reference import BodyReference
-from .com_reach import ReachableHeights
 from .description import RobotDescription
 from .joint_tree import place_frames
 from .leg_joints import LegJoints
@@ -30,6 +29,9 @@ STAND_STEP = 0.3  # joint motion per iteration while standing, in [rad]
 ITERATIONS = 60  # of a standing posture
 TOLERANCE = 1e-4  # residual at which a posture counts as reached
 GREATEST_ERROR = 0.5  # residual that is refused, in [m] or [rad]
+# Search of CoM heights: relative step before bisection, resolution of the ends
+# [m], and least height that is tried, relative to the standing angles.
+HEIGHT_STEP, RESOLUTION, LEAST_HEIGHT = 0.05, 2e-4, 0.1
 ROWS = (
     *(f"left foot {c}" for c in ("x", "y", "z", "roll", "pitch", "yaw")),
     *(f"right foot {c}" for c in ("x", "y", "z", "roll", "pitch", "yaw")),
@@ -172,7 +174,12 @@ class LegKinematics:
         state, self.error[:] = self._posture_of(reference)
         if state is None:
             worst = int(np.argmax(np.abs(self.error)))
-            heights = self._heights(reference).describe(reference.com[2])
+            least, greatest = self.com_heights(reference)
+            heights = f"{least:.3f} m to {greatest:.3f} m"
+            if greatest == 0.0:
+                heights = "no height at all"
+            elif reference.com[2] > greatest:
+                heights = f"at most {greatest:.3f} m"
             raise ReachError(
                 f"{self.description.name} cannot reach {ROWS[worst]} with a "
                 f"CoM height of {reference.com[2]:g} m; "
@@ -181,23 +188,12 @@ class LegKinematics:
         self.state = state
         return self.joint_targets
 
-    def highest_com(self, reference: BodyReference) -> float:
-        """Return the greatest CoM height with the feet of ``reference``.
+    def com_heights(self, reference: BodyReference) -> tuple[float, float]:
+        """Return least and greatest CoM height with the feet of a reference.
 
         Returns:
-            The height, in [m]; 0 if there is none.
+            The heights, in [m]; both 0 if no height is in reach.
         """
-        return self._heights(reference).greatest
-
-    def lowest_com(self, reference: BodyReference) -> float:
-        """Return the least CoM height with the feet of ``reference``.
-
-        Returns:
-            The height, in [m]; 0 if there is none.
-        """
-        return self._heights(reference).least
-
-    def _heights(self, reference: BodyReference) -> ReachableHeights:
         x, y, _ = reference.com
 
         def reaches(height: float) -> bool:
@@ -207,7 +203,25 @@ class LegKinematics:
         # Height of the CoM over the soles at the standing angles.
         com, soles, axes = np.empty(3), np.empty((2, 3)), np.empty((2, 3, 3))
         place_frames(self.legs.links, self.legs.standing, com, soles, axes)
-        return ReachableHeights(reaches, float(com[2] - soles[:, 2].max()))
+        natural = float(com[2] - soles[:, 2].max())
+        begin = natural
+        while not reaches(begin):
+            begin *= 1.0 - HEIGHT_STEP
+            if begin < LEAST_HEIGHT * natural:
+                return 0.0, 0.0
+        ends = []
+        for factor in (1.0 - HEIGHT_STEP, 1.0 + HEIGHT_STEP):
+            inside, outside = begin, factor * begin
+            while reaches(outside) and outside > LEAST_HEIGHT * natural:
+                inside, outside = outside, factor * outside
+            while abs(outside - inside) > RESOLUTION:
+                middle = 0.5 * (inside + outside)
+                if reaches(middle):
+                    inside = middle
+                else:
+                    outside = middle
+            ends.append(inside)
+        return ends[0], ends[1]
 
     def _posture_of(
         self, reference: BodyReference

@@ -13,7 +13,7 @@ import numpy as np
 from ..core.compilation import compiled, inlined
 from ..core.poses import Array
 from .body_reference import torso_roll
-from .joint_tree import JointTree, place_links, turned
+from .joint_tree import JointTree, place_frame, place_links, turned
 
 FIXED_ROWS = 15  # of two feet and the CoM
 BASE = 4  # unknowns of the torso
@@ -54,25 +54,6 @@ def motion_by(
 
 
 @compiled
-def place_torso(state: Array, roll: float, axes: Array, places: Array) -> None:
-    """Set the pose of the torso in the first of all poses.
-
-    Args:
-        state: Row of :class:`.LegStates`.
-        roll: Roll of the torso, in [rad].
-        axes: Axes of the links. Shape (links, 3, 3).
-        places: Origins of the links, in [m]. Shape (links, 3).
-    """
-    n = state.shape[0] - STATE
-    c, s, cr, sr = cos(state[n + 3]), sin(state[n + 3]), cos(roll), sin(roll)
-    axes[0, 0, 0], axes[0, 0, 1], axes[0, 0, 2] = c, -s * cr, s * sr
-    axes[0, 1, 0], axes[0, 1, 1], axes[0, 1, 2] = s, c * cr, -c * sr
-    axes[0, 2, 0], axes[0, 2, 1], axes[0, 2, 2] = 0.0, sr, cr
-    for k in range(3):
-        places[0, k] = state[n + k]
-
-
-@compiled
 def linearise(
     tree: JointTree,
     reference: Array,
@@ -94,8 +75,8 @@ def linearise(
     """
     n, links = state.shape[0] - STATE, tree.parents.shape[0]
     axes, places = np.empty((links, 3, 3)), np.empty((links, 3))
-    place_torso(state, roll, axes, places)
-    place_links(tree, state, axes, places)
+    position, heading = state[n : n + 3], state[n + 3]
+    place_links(tree, state, position, heading, roll, axes, places)
     for row in range(jacobian.shape[0]):
         for column in range(jacobian.shape[1]):
             jacobian[row, column] = 0.0
@@ -134,7 +115,7 @@ def linearise(
             jacobian[14, j] += share * w
     if errors.shape[0] > FIXED_ROWS:
         # Tangent of the way to the mean heading, whatever full turns.
-        left, right = reference[6] - state[n + 3], reference[10] - state[n + 3]
+        left, right = reference[6] - heading, reference[10] - heading
         errors[15] = (sin(left) + sin(right)) / (cos(left) + cos(right))
         jacobian[15, n + 3] = 1.0
 
@@ -151,16 +132,9 @@ def _add_foot(
 ) -> None:
     """Set the six rows of the left (0) or right (1) foot."""
     at, n = 6 * side, jacobian.shape[1] - BASE
-    link = tree.carriers[side]
-    offset = turned(axes, link, tree.frame_places, side)
-    x, y = places[link, 0] + offset[0], places[link, 1] + offset[1]
-    z = places[link, 2] + offset[2]
-    frame = np.empty((3, 3))
-    for j in range(3):
-        for k in range(3):
-            frame[j, k] = 0.0
-            for m in range(3):
-                frame[j, k] += axes[link, j, m] * tree.frame_axes[side, m, k]
+    frame, place = np.empty((3, 3)), np.empty(3)
+    place_frame(tree, side, axes, places, frame, place)
+    x, y, z = place[0], place[1], place[2]
     goal, tilt = 3 + 4 * side, 11 + 2 * side
     errors[at] = reference[goal] - x
     errors[at + 1] = reference[goal + 1] - y
@@ -180,6 +154,7 @@ def _add_foot(
     jacobian[at, n + 3] = places[0, 1] - y
     jacobian[at + 1, n + 3] = x - places[0, 0]
     jacobian[at + 5, n + 3] = 1.0
+    link = tree.carriers[side]
     while link > 0:
         j = tree.columns[link]
         if j >= 0:
